@@ -1,0 +1,3 @@
+//! Exact geometry: expressions with roots and rational-degree cosines, and their images in a prime field.
+
+pub mod expr;

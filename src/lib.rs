@@ -1,0 +1,6 @@
+//! ozols finds the redundant constraints of a mechanism, contour by contour, and every way of
+//! removing them without changing the working motion.
+
+pub mod geom;
+pub mod linalg;
+pub mod model;

@@ -1,0 +1,3 @@
+//! Linear algebra over a prime field: exact zero tests at machine speed.
+
+pub mod modp;

@@ -1,0 +1,2 @@
+//! The `ozols` command.
+fn main() {}

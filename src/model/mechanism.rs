@@ -1,0 +1,198 @@
+//! The validated mechanism and its parts.
+
+use crate::geom::expr::Expr;
+use crate::model::joint_type::JointType;
+
+/// Index of a link in [`Mechanism::links`].
+pub type LinkId = usize;
+/// Index of a joint in [`Mechanism::joints`].
+pub type JointId = usize;
+/// Index of a state in [`Mechanism::states`]; 0 is the free state.
+pub type StateId = usize;
+
+/// What a link is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Role {
+    /// Fixed to the ground; exactly one link.
+    Frame,
+    /// Its motion is the working motion.
+    Output,
+    /// A body handled from outside, such as the clamped part.
+    Object,
+    /// Any other link.
+    Inner,
+}
+
+/// A rigid body.
+#[derive(Debug, Clone)]
+pub struct Link {
+    /// The name used in the file.
+    pub id: String,
+    /// What the link is for.
+    pub role: Role,
+}
+
+/// Where a joint is and how it is turned: z = `axis`, x = `reference` made perpendicular to it, y = z × x.
+#[derive(Debug, Clone)]
+pub struct Frame {
+    /// Origin of the joint, in the file's length unit, global axes.
+    pub point: [Expr; 3],
+    /// Direction of z; nonzero, of any length.
+    pub axis: [Expr; 3],
+    /// Direction that x is made from; nonzero and not parallel to the axis.
+    pub reference: [Expr; 3],
+    /// Translation along z per radian, for helical joints, in the file's length unit.
+    pub pitch: Expr,
+}
+
+/// A realizable joint that a search may put at a place.
+#[derive(Debug, Clone)]
+pub struct JointOption {
+    /// The word shown in results; unique among the options of one joint.
+    pub name: String,
+    /// The type.
+    pub joint_type: JointType,
+    /// The frame at this joint's place (its own `reference` or `pitch` may differ from the present joint's).
+    pub frame: Frame,
+    /// The option's own cost in thousandths, where the file states one.
+    pub cost_milli: Option<i64>,
+}
+
+/// A joint between two links. Its twist is the motion of `links[1]` relative to `links[0]`.
+#[derive(Debug, Clone)]
+pub struct Joint {
+    /// The name used in the file.
+    pub id: String,
+    /// The two links.
+    pub links: [LinkId; 2],
+    /// The present type.
+    pub joint_type: JointType,
+    /// Place and orientation.
+    pub frame: Frame,
+    /// Whether the mechanism is driven here.
+    pub drive: bool,
+    /// The states the joint is present in; `None` for all of them.
+    pub states: Option<Vec<StateId>>,
+    /// What a search may put here, the present joint first; only the present joint when it must stay.
+    pub options: Vec<JointOption>,
+    /// Unloading joints that a search may insert in series here, with an extra link; empty where not allowed.
+    pub unloading: Vec<JointOption>,
+}
+
+/// Whether motions are spatial or confined to a plane.
+#[derive(Debug, Clone)]
+pub enum Mode {
+    /// Six rows per contour.
+    Spatial,
+    /// Three rows per contour: rotation about `normal` and the two translations across it.
+    Planar {
+        /// Normal of the plane of motion.
+        normal: [Expr; 3],
+    },
+}
+
+/// A unit of length, for labels; calculations are done in the file's own unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LengthUnit {
+    /// The symbol, such as `mm`.
+    pub symbol: &'static str,
+    /// Metres in one unit.
+    pub metres: f64,
+}
+
+/// What a file says a mechanism's figures are, with where that is published.
+#[derive(Debug, Clone, Default)]
+pub struct Expected {
+    /// Name of the state.
+    pub state: String,
+    /// W.
+    pub mobility: Option<i64>,
+    /// Dimension of the output links' motion.
+    pub working_mobility: Option<i64>,
+    /// W less the working mobility.
+    pub local_mobility: Option<i64>,
+    /// σ of the whole.
+    pub redundant: Option<i64>,
+    /// σ that the state adds to the free one.
+    pub external_redundant: Option<i64>,
+    /// Publication or derivation.
+    pub source: String,
+}
+
+/// Costs that the search adds up, in thousandths; see `score::cost` for the defaults.
+#[derive(Debug, Clone, Default)]
+pub struct CostSpec {
+    /// Cost of a joint type by its name.
+    pub by_type_milli: Vec<(String, i64)>,
+    /// Cost of changing a joint at all.
+    pub change_milli: Option<i64>,
+    /// Cost of the extra link of an unloading joint.
+    pub link_milli: Option<i64>,
+}
+
+/// What the file asks of a search.
+#[derive(Debug, Clone, Default)]
+pub struct SearchSpec {
+    /// Links besides the outputs that must not gain a motion.
+    pub hold: Vec<LinkId>,
+    /// Pairs of joints that are mirror images of each other.
+    pub mirror: Vec<(JointId, JointId)>,
+    /// Costs.
+    pub costs: CostSpec,
+}
+
+/// A validated mechanism.
+#[derive(Debug, Clone)]
+pub struct Mechanism {
+    /// Short name.
+    pub name: String,
+    /// One or two sentences for people.
+    pub description: String,
+    /// Where the mechanism and its figures come from.
+    pub sources: Vec<String>,
+    /// Unit of all lengths.
+    pub length_unit: LengthUnit,
+    /// Spatial or planar.
+    pub mode: Mode,
+    /// The links.
+    pub links: Vec<Link>,
+    /// The joints.
+    pub joints: Vec<Joint>,
+    /// Names of the states; the first is `free`.
+    pub states: Vec<String>,
+    /// The contour basis the file names, as lists of joints, if any.
+    pub contours: Vec<Vec<JointId>>,
+    /// What the file asks of a search.
+    pub search: SearchSpec,
+    /// Known figures.
+    pub expected: Vec<Expected>,
+}
+
+impl Mechanism {
+    /// The joints present in a state, in file order.
+    pub fn joints_in(&self, state: StateId) -> impl Iterator<Item = JointId> + '_ {
+        (0..self.joints.len())
+            .filter(move |&j| self.joints[j].states.as_ref().is_none_or(|s| s.contains(&state)))
+    }
+
+    /// The frame link.
+    ///
+    /// # Panics
+    /// Never: a validated mechanism has one.
+    #[must_use]
+    pub fn frame(&self) -> LinkId {
+        self.links.iter().position(|l| l.role == Role::Frame).expect("a validated mechanism has a frame")
+    }
+
+    /// The link with this id.
+    #[must_use]
+    pub fn link(&self, id: &str) -> Option<LinkId> {
+        self.links.iter().position(|l| l.id == id)
+    }
+
+    /// The joint with this id.
+    #[must_use]
+    pub fn joint(&self, id: &str) -> Option<JointId> {
+        self.joints.iter().position(|j| j.id == id)
+    }
+}
