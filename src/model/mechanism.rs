@@ -92,7 +92,7 @@ pub enum Mode {
 }
 
 /// A unit of length, for labels; calculations are done in the file's own unit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LengthUnit {
     /// The symbol, such as `mm`.
     pub symbol: &'static str,
