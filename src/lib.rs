@@ -1,6 +1,10 @@
 //! ozols finds the redundant constraints of a mechanism, contour by contour, and every way of
 //! removing them without changing the working motion.
 
+pub mod closure;
 pub mod geom;
 pub mod linalg;
 pub mod model;
+pub mod rank;
+pub mod redundancy;
+pub mod search;

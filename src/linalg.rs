@@ -1,3 +1,4 @@
 //! Linear algebra over a prime field: exact zero tests at machine speed.
 
+pub mod echelon;
 pub mod modp;

@@ -85,6 +85,28 @@ impl Field {
         if a >= b { a - b } else { a + self.p - b }
     }
 
+    /// `x -= x[0]·y`, for `y[0] = 1`: clears the first entry of `x`.
+    #[inline]
+    pub fn subtract_multiple(self, x: &mut [Residue], y: &[Residue]) {
+        let a = x[0];
+        if a != 0 {
+            for (x, &y) in x.iter_mut().zip(y) {
+                // Rows are sparse; a product costs more than the test.
+                if y != 0 {
+                    *x = self.sub(*x, self.mul(a, y));
+                }
+            }
+        }
+    }
+
+    /// `x += y` or `x -= y`.
+    #[inline]
+    pub fn accumulate(self, x: &mut [Residue], y: &[Residue], plus: bool) {
+        for (x, &y) in x.iter_mut().zip(y) {
+            *x = if plus { self.add(*x, y) } else { self.sub(*x, y) };
+        }
+    }
+
     /// The negative of a residue.
     #[inline(always)]
     #[must_use]

@@ -1,0 +1,5 @@
+//! Loop closure: which contours a mechanism has, and the matrix that says how joint speeds must agree round them.
+
+pub mod contour;
+pub mod matrix;
+pub mod twist;

@@ -1,0 +1,122 @@
+//! The loop-closure matrix J: rows of closed contours, one column per joint freedom.
+
+use crate::closure::contour::{Contour, contour_basis};
+use crate::closure::twist::{MotionSpace, joint_twists};
+use crate::geom::exact::ExactError;
+use crate::geom::scalars::Scalars;
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+
+/// One column of J: a freedom of a joint.
+#[derive(Debug, Clone)]
+pub struct Column<N> {
+    /// The joint.
+    pub joint: JointId,
+    /// The freedom, in the joint's frame.
+    pub freedom: Freedom,
+    /// Its unit twist, 6 or 3 components.
+    pub twist: Vec<N>,
+}
+
+/// J of a state, kept as its columns and contours: entry blocks are ± the twist where the contour passes the joint.
+#[derive(Debug, Clone)]
+pub struct Closure<N> {
+    /// The state.
+    pub state: StateId,
+    /// Rows per contour.
+    pub dim: usize,
+    /// The contours, in order; those of the free state first.
+    pub contours: Vec<Contour>,
+    /// The columns, grouped by joint in file order.
+    pub columns: Vec<Column<N>>,
+    /// Joints whose freedoms out of the plane were left out, with how many (planar mode only).
+    pub left_out: Vec<(JointId, usize)>,
+}
+
+impl<N: Copy + Default + PartialEq> Closure<N> {
+    /// Builds J of a state in a number system.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the number system.
+    pub fn new<S: Scalars<Number = N>>(s: &S, mechanism: &Mechanism, state: StateId) -> Result<Self, ExactError> {
+        let space = MotionSpace::new(s, &mechanism.mode)?;
+        let (mut columns, mut left_out) = (Vec::new(), Vec::new());
+        for j in mechanism.joints_in(state) {
+            let joint = &mechanism.joints[j];
+            let twists = joint_twists(s, &space, &joint.frame, &joint.joint_type)?;
+            let missing = joint.joint_type.freedoms().len() - twists.len();
+            if missing > 0 {
+                left_out.push((j, missing));
+            }
+            columns.extend(twists.into_iter().map(|(freedom, twist)| Column { joint: j, freedom, twist }));
+        }
+        Ok(Closure { state, dim: space.dim(), contours: contour_basis(mechanism, state), columns, left_out })
+    }
+
+    /// Number of rows, 6k (3k in a plane).
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.dim * self.contours.len()
+    }
+
+    /// Column `c` written out in full, for the chosen contours in the given order.
+    pub fn dense_column<S: Scalars<Number = N>>(&self, s: &S, c: usize, contours: &[usize]) -> Vec<N> {
+        let column = &self.columns[c];
+        let mut out = vec![N::default(); self.dim * contours.len()];
+        for (row, &k) in contours.iter().enumerate() {
+            if let Some(forward) = self.contours[k].direction(column.joint) {
+                for (o, &t) in out[row * self.dim..].iter_mut().zip(&column.twist) {
+                    *o = if forward { t } else { s.sub(N::default(), t) };
+                }
+            }
+        }
+        out
+    }
+
+    /// J written out, as a list of columns.
+    pub fn dense<S: Scalars<Number = N>>(&self, s: &S) -> Vec<Vec<N>> {
+        let all: Vec<usize> = (0..self.contours.len()).collect();
+        (0..self.columns.len()).map(|c| self.dense_column(s, c, &all)).collect()
+    }
+
+    /// For each column, the twist it gives a link when the joint moves at unit speed along the path from the frame:
+    /// rows of "the motion of `link`", one list of `dim` numbers a column.
+    pub fn link_motion<S: Scalars<Number = N>>(&self, s: &S, mechanism: &Mechanism, link: LinkId) -> Vec<Vec<N>> {
+        let path = path_from_frame(mechanism, self.state, link);
+        self.columns
+            .iter()
+            .map(|c| match path.iter().find(|(j, _)| *j == c.joint) {
+                Some((_, true)) => c.twist.clone(),
+                Some((_, false)) => c.twist.iter().map(|&t| s.sub(N::default(), t)).collect(),
+                None => vec![N::default(); self.dim],
+            })
+            .collect()
+    }
+}
+
+/// Joints on a shortest path from the frame to a link, with the direction they are passed in; empty where there is none.
+#[must_use]
+pub fn path_from_frame(mechanism: &Mechanism, state: StateId, link: LinkId) -> Vec<(JointId, bool)> {
+    let frame = mechanism.frame();
+    let mut came: Vec<Option<(JointId, bool)>> = vec![None; mechanism.links.len()];
+    let mut queue = std::collections::VecDeque::from([frame]);
+    while let Some(at) = queue.pop_front() {
+        for j in mechanism.joints_in(state) {
+            let [a, b] = mechanism.joints[j].links;
+            for (from, to, forward) in [(a, b, true), (b, a, false)] {
+                if from == at && to != frame && came[to].is_none() {
+                    came[to] = Some((j, forward));
+                    queue.push_back(to);
+                }
+            }
+        }
+    }
+    let mut path = Vec::new();
+    let mut at = link;
+    while let Some((j, forward)) = came[at] {
+        path.push((j, forward));
+        at = mechanism.joints[j].links[usize::from(!forward)];
+    }
+    path.reverse();
+    path
+}

@@ -1,0 +1,90 @@
+//! The two number systems a mechanism is evaluated in: residues modulo a prime (exact) and `f64` (measured).
+
+use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::expr::Expr;
+use crate::linalg::modp::Residue;
+use std::fmt::Debug;
+
+/// A commutative ring that expressions can be evaluated in. Division is left out on purpose: joint frames need none.
+pub trait Scalars: Sync {
+    /// A number.
+    type Number: Copy + PartialEq + Debug + Default + Send + Sync;
+
+    /// The value of an expression.
+    ///
+    /// # Errors
+    /// Where the number system has no such value.
+    fn eval(&self, expr: &Expr) -> Result<Self::Number, ExactError>;
+    /// Sum.
+    fn add(&self, a: Self::Number, b: Self::Number) -> Self::Number;
+    /// Difference.
+    fn sub(&self, a: Self::Number, b: Self::Number) -> Self::Number;
+    /// Product.
+    fn mul(&self, a: Self::Number, b: Self::Number) -> Self::Number;
+
+    /// The value of a vector of expressions.
+    ///
+    /// # Errors
+    /// As [`Scalars::eval`].
+    fn eval3(&self, v: &[Expr; 3]) -> Result<[Self::Number; 3], ExactError> {
+        Ok([self.eval(&v[0])?, self.eval(&v[1])?, self.eval(&v[2])?])
+    }
+
+    /// Scalar product.
+    fn dot(&self, a: [Self::Number; 3], b: [Self::Number; 3]) -> Self::Number {
+        let s = self.add(self.mul(a[0], b[0]), self.mul(a[1], b[1]));
+        self.add(s, self.mul(a[2], b[2]))
+    }
+
+    /// Vector product.
+    fn cross(&self, a: [Self::Number; 3], b: [Self::Number; 3]) -> [Self::Number; 3] {
+        let minor = |i: usize, j: usize| self.sub(self.mul(a[i], b[j]), self.mul(a[j], b[i]));
+        [minor(1, 2), minor(2, 0), minor(0, 1)]
+    }
+
+    /// `s·a + b`.
+    fn scaled_sum(&self, s: Self::Number, a: [Self::Number; 3], b: [Self::Number; 3]) -> [Self::Number; 3] {
+        [0, 1, 2].map(|i| self.add(self.mul(s, a[i]), b[i]))
+    }
+}
+
+impl Scalars for ExactField {
+    type Number = Residue;
+
+    fn eval(&self, expr: &Expr) -> Result<Residue, ExactError> {
+        ExactField::eval(self, expr)
+    }
+    #[inline]
+    fn add(&self, a: Residue, b: Residue) -> Residue {
+        self.field().add(a, b)
+    }
+    #[inline]
+    fn sub(&self, a: Residue, b: Residue) -> Residue {
+        self.field().sub(a, b)
+    }
+    #[inline]
+    fn mul(&self, a: Residue, b: Residue) -> Residue {
+        self.field().mul(a, b)
+    }
+}
+
+/// Real numbers in double precision.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Reals;
+
+impl Scalars for Reals {
+    type Number = f64;
+
+    fn eval(&self, expr: &Expr) -> Result<f64, ExactError> {
+        Ok(expr.to_f64())
+    }
+    fn add(&self, a: f64, b: f64) -> f64 {
+        a + b
+    }
+    fn sub(&self, a: f64, b: f64) -> f64 {
+        a - b
+    }
+    fn mul(&self, a: f64, b: f64) -> f64 {
+        a * b
+    }
+}

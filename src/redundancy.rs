@@ -1,0 +1,4 @@
+//! Mobility and redundant constraints: of the whole, contour by contour, and of the clamped object; which links idle;
+//! what an over-constrained assembly is stressed with.
+
+pub mod motion;

@@ -1,0 +1,53 @@
+//! What can move: the kernel of the closure matrix, and the motions of links it gives.
+
+use crate::closure::matrix::Closure;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::linalg::echelon::{self, Echelon};
+use crate::linalg::modp::Residue;
+use crate::model::mechanism::{LinkId, Mechanism, StateId};
+
+/// A motion of the whole mechanism: a speed for each column of J.
+pub type Speeds = Vec<Residue>;
+
+/// The motions a mechanism has in its reference pose: a basis of the kernel of J, reduced.
+#[must_use]
+pub fn motions(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Speeds> {
+    let mut columns = closure.dense(exact);
+    // Without contours J has no rows; one row of zeros gives every column its own motion.
+    columns.iter_mut().filter(|c| c.is_empty()).for_each(|c| c.push(0));
+    echelon::relations(exact.field(), &columns)
+}
+
+/// The twist of a link under a motion.
+#[must_use]
+pub fn twist(exact: &ExactField, link_motion: &[Vec<Residue>], speeds: &[Residue]) -> Vec<Residue> {
+    let f = exact.field();
+    let mut out = vec![0; link_motion.first().map_or(0, Vec::len)];
+    for (column, &speed) in link_motion.iter().zip(speeds).filter(|(_, s)| **s != 0) {
+        for (o, &t) in out.iter_mut().zip(column) {
+            *o = f.add(*o, f.mul(speed, t));
+        }
+    }
+    out
+}
+
+/// Dimension of the joint motion of some links in a state.
+///
+/// # Errors
+/// Where a coordinate has no value in the field.
+pub fn motion_dimension(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    state: StateId,
+    links: &[LinkId],
+) -> Result<usize, ExactError> {
+    let closure = Closure::new(exact, mechanism, state)?;
+    let kernel = motions(exact, &closure);
+    let of_links: Vec<_> = links.iter().map(|&l| closure.link_motion(exact, mechanism, l)).collect();
+    let mut span = Echelon::new(exact.field());
+    for speeds in &kernel {
+        let whole: Vec<Residue> = of_links.iter().flat_map(|m| twist(exact, m, speeds)).collect();
+        span.insert(&whole);
+    }
+    Ok(span.rank())
+}

@@ -1,0 +1,129 @@
+//! From an order of joints to the linear maps that carry a diagram node over each of them.
+//!
+//! The chosen joints join links into components. A node's space holds, for each component, the twists of its *live*
+//! links (those with joints to come, and those pinned) relative to the component's root. Adding a joint merges two
+//! components, or closes a contour within one; a link with no joints to come is forgotten. All three are one block map
+//! of twists with entries 0, +1, -1, so a step is a list of blocks.
+
+use crate::model::mechanism::{JointId, LinkId, Mechanism};
+use std::collections::BTreeMap;
+
+/// Where a block of the new coordinates comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Source {
+    /// A block of the old coordinates.
+    Block(usize),
+    /// The twist of the joint being added.
+    Joint,
+}
+
+/// One joint added to the chosen part.
+#[derive(Debug, Clone)]
+pub struct Step {
+    /// The joint.
+    pub joint: JointId,
+    /// Whether it closes a contour: then new block 0 is the gap that must vanish.
+    pub closing: bool,
+    /// New coordinates from old ones: (new block, old block, plus).
+    pub blocks: Vec<(usize, usize, bool)>,
+    /// New coordinates from the joint's twist: (new block, plus).
+    pub twist: Vec<(usize, bool)>,
+    /// Number of old blocks.
+    pub old_width: usize,
+    /// Number of new blocks, the gap included.
+    pub width: usize,
+    /// Blocks of live links after the step, as (root, link), gap excluded.
+    pub live: Vec<(LinkId, LinkId)>,
+}
+
+/// The steps for an order of joints.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// One step a joint.
+    pub steps: Vec<Step>,
+}
+
+type Combination = BTreeMap<Source, i8>;
+
+fn plus(a: &Combination, sign: i8, b: &Combination) -> Combination {
+    let mut out = a.clone();
+    for (&s, &c) in b {
+        *out.entry(s).or_insert(0) += sign * c;
+    }
+    out.retain(|_, c| *c != 0);
+    out
+}
+
+/// Makes the steps for joints in a given order. Links in `pinned` stay live to the end of the plan; `later` are joints
+/// that a following plan adds, whose links stay live as well. `start` are the live links (component by component, root
+/// first) of the node the plan starts from.
+///
+/// # Panics
+/// Never for joints of the mechanism.
+#[must_use]
+pub fn plan(mechanism: &Mechanism, order: &[JointId], pinned: &[LinkId], start: &[Vec<LinkId>]) -> Plan {
+    let mut components: Vec<Vec<LinkId>> = start.to_vec();
+    let mut steps = Vec::with_capacity(order.len());
+    for (at, &joint) in order.iter().enumerate() {
+        let [u, v] = mechanism.joints[joint].links;
+        // Every live link's twist relative to its root, in the old coordinates.
+        let mut relative: BTreeMap<LinkId, Combination> = BTreeMap::new();
+        let mut next = 0;
+        for c in &components {
+            relative.insert(c[0], Combination::new());
+            for &l in &c[1..] {
+                relative.insert(l, Combination::from([(Source::Block(next), 1)]));
+                next += 1;
+            }
+        }
+        for l in [u, v] {
+            if !components.iter().any(|c| c.contains(&l)) {
+                components.push(vec![l]);
+                relative.insert(l, Combination::new());
+            }
+        }
+        let home = |l: LinkId, cs: &[Vec<LinkId>]| cs.iter().position(|c| c.contains(&l)).expect("both links have one");
+        let (a, b) = (home(u, &components), home(v, &components));
+        let twist = Combination::from([(Source::Joint, 1)]);
+        let closing = a == b;
+        let mut rows: Vec<Combination> = Vec::new();
+        if closing {
+            let across = plus(&relative[&v], -1, &relative[&u]);
+            rows.push(plus(&across, -1, &twist));
+        } else {
+            // Old root of b relative to the root of a: out to u, over the joint, back from v.
+            let shift = plus(&plus(&relative[&u], 1, &twist), -1, &relative[&v]);
+            let moved = components[b].clone();
+            for l in &moved {
+                let r = plus(&shift, 1, &relative[l]);
+                relative.insert(*l, r);
+            }
+            components[a].extend(moved);
+            components.remove(b);
+        }
+        let live = |l: &LinkId| {
+            pinned.contains(l) || order[at + 1..].iter().any(|&j| mechanism.joints[j].links.contains(l))
+        };
+        components.iter_mut().for_each(|c| c.retain(live));
+        components.retain(|c| !c.is_empty());
+        let mut names = Vec::new();
+        for c in &components {
+            let root = relative[&c[0]].clone();
+            for l in &c[1..] {
+                rows.push(plus(&relative[l], -1, &root));
+                names.push((c[0], *l));
+            }
+        }
+        let (mut blocks, mut from_joint) = (Vec::new(), Vec::new());
+        for (new, row) in rows.iter().enumerate() {
+            for (source, sign) in row {
+                match source {
+                    Source::Block(old) => blocks.push((new, *old, *sign > 0)),
+                    Source::Joint => from_joint.push((new, *sign > 0)),
+                }
+            }
+        }
+        steps.push(Step { joint, closing, blocks, twist: from_joint, old_width: next, width: rows.len(), live: names });
+    }
+    Plan { steps }
+}

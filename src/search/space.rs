@@ -1,0 +1,150 @@
+//! The space of variants: for each joint, or each mirrored pair of joints, the choices and what they do.
+
+use crate::closure::twist::{MotionSpace, joint_twists};
+use crate::geom::exact::{ExactError, ExactField};
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::Residue;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
+use crate::search::cost::CostTable;
+use num_bigint::BigUint;
+
+/// What a choice puts at the joints of its variable.
+#[derive(Debug, Clone)]
+pub struct Choice {
+    /// Index into the joint's options; 0 is the present joint.
+    pub option: usize,
+    /// Index into the joint's unloading joints, where one is inserted.
+    pub unloading: Option<usize>,
+    /// For each joint of the variable, independent twists that span its motion.
+    pub spans: Vec<Vec<Vec<Residue>>>,
+    /// Freedoms of the joints put here, those of an unloading joint included.
+    pub freedoms: u32,
+    /// Number of changed joints and inserted unloading joints.
+    pub changes: u32,
+    /// Cost above the present joint's, in thousandths.
+    pub cost_milli: i64,
+}
+
+/// A joint to choose for, or joints that must be chosen alike.
+#[derive(Debug, Clone)]
+pub struct Variable {
+    /// The joints.
+    pub joints: Vec<JointId>,
+    /// The choices; the first is the present joint.
+    pub choices: Vec<Choice>,
+    /// Whether the joints are present only in the searched state beyond the free one (contacts).
+    pub external: bool,
+}
+
+/// Everything a search chooses from.
+#[derive(Debug, Clone)]
+pub struct Space {
+    /// Components of a twist: 6, or 3 in a plane.
+    pub dim: usize,
+    /// The state whose additional joints take part, where external redundancy is searched too.
+    pub state: Option<StateId>,
+    /// The variables, in file order of their first joints.
+    pub variables: Vec<Variable>,
+}
+
+impl Space {
+    /// The space of a mechanism: all joints of the free state, and those that `state` adds where one is given.
+    /// With `symmetric`, mirrored pairs of joints become one variable.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    pub fn new(
+        exact: &ExactField,
+        mechanism: &Mechanism,
+        state: Option<StateId>,
+        symmetric: bool,
+        costs: &CostTable,
+    ) -> Result<Space, ExactError> {
+        let motion = MotionSpace::new(exact, &mechanism.mode)?;
+        let free: Vec<JointId> = mechanism.joints_in(0).collect();
+        let added = state.into_iter().flat_map(|s| mechanism.joints_in(s)).filter(|j| !free.contains(j));
+        let mut groups: Vec<(Vec<JointId>, bool)> = Vec::new();
+        for (j, external) in free.iter().map(|&j| (j, false)).chain(added.map(|j| (j, true)).collect::<Vec<_>>()) {
+            let mirror = mechanism.search.mirror.iter().find_map(|&(a, b)| {
+                if j == a { Some(b) } else { (j == b).then_some(a) }
+            });
+            match groups.iter_mut().find(|(g, _)| symmetric && mirror.is_some_and(|m| m != j && g.contains(&m))) {
+                Some((group, _)) => group.push(j),
+                None => groups.push((vec![j], external)),
+            }
+        }
+        let mut variables = Vec::new();
+        for (joints, external) in groups {
+            let per_joint: Vec<Vec<Choice>> = joints
+                .iter()
+                .map(|&j| choices(exact, &motion, mechanism, j, costs))
+                .collect::<Result<_, _>>()?;
+            let mut merged = per_joint[0].clone();
+            for other in &per_joint[1..] {
+                for (a, b) in merged.iter_mut().zip(other) {
+                    a.spans.extend(b.spans.iter().cloned());
+                    a.freedoms += b.freedoms;
+                    a.changes += b.changes;
+                    a.cost_milli += b.cost_milli;
+                }
+            }
+            variables.push(Variable { joints, choices: merged, external });
+        }
+        Ok(Space { dim: motion.dim(), state, variables })
+    }
+
+    /// The number of variants.
+    #[must_use]
+    pub fn size(&self) -> BigUint {
+        self.variables.iter().map(|v| BigUint::from(v.choices.len())).product()
+    }
+}
+
+fn choices(
+    exact: &ExactField,
+    motion: &MotionSpace<Residue>,
+    mechanism: &Mechanism,
+    joint: JointId,
+    costs: &CostTable,
+) -> Result<Vec<Choice>, ExactError> {
+    let joint = &mechanism.joints[joint];
+    let twists = |o: &JointOption| joint_twists(exact, motion, &o.frame, &o.joint_type);
+    let mut out = Vec::new();
+    let inserted = std::iter::once(None).chain((0..joint.unloading.len()).map(Some));
+    for unloading in inserted {
+        for (i, option) in joint.options.iter().enumerate() {
+            let mut columns: Vec<Vec<Residue>> = twists(option)?.into_iter().map(|(_, t)| t).collect();
+            let mut cost_milli = if i == 0 { 0 } else { costs.option(option) - costs.option(&joint.options[0]) + costs.change };
+            if let Some(u) = unloading {
+                columns.extend(twists(&joint.unloading[u])?.into_iter().map(|(_, t)| t));
+                cost_milli += costs.option(&joint.unloading[u]) + costs.link + costs.change;
+            }
+            let freedoms = u32::try_from(columns.len()).unwrap_or(u32::MAX);
+            let mut span = Echelon::new(exact.field());
+            columns.iter().for_each(|c| {
+                span.insert(c);
+            });
+            out.push(Choice {
+                option: i,
+                unloading,
+                spans: vec![span.reduced()],
+                freedoms,
+                changes: u32::from(i != 0) + u32::from(unloading.is_some()),
+                cost_milli,
+            });
+        }
+    }
+    Ok(out)
+}
+
+/// The name of what a choice puts at a joint, for people and programs.
+#[must_use]
+pub fn choice_name(mechanism: &Mechanism, joint: JointId, choice: &Choice) -> String {
+    let joint = &mechanism.joints[joint];
+    let base = joint.options.get(choice.option).map_or(JointType::Fixed.name(), |o| o.name.as_str());
+    match choice.unloading.and_then(|u| joint.unloading.get(u)) {
+        Some(u) => format!("{base} + unloading {}", u.name),
+        None => base.to_owned(),
+    }
+}

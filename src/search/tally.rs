@@ -1,0 +1,192 @@
+//! Exact counts on a diagram: for every node, how many completions there are of each kind.
+
+use crate::search::diagram::{DEAD, Diagram};
+use crate::search::space::Space;
+use num_bigint::BigUint;
+use std::ops::AddAssign;
+
+/// A number of variants.
+pub trait Count: Clone + Send + Sync + for<'a> AddAssign<&'a Self> {
+    /// One variant.
+    fn one() -> Self;
+    /// As a number of any size.
+    fn big(&self) -> BigUint;
+}
+
+impl Count for u128 {
+    fn one() -> Self {
+        1
+    }
+    fn big(&self) -> BigUint {
+        BigUint::from(*self)
+    }
+}
+
+impl Count for BigUint {
+    fn one() -> Self {
+        BigUint::from(1u8)
+    }
+    fn big(&self) -> BigUint {
+        self.clone()
+    }
+}
+
+/// Which properties of variants a tally tells apart.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Kinds {
+    /// Freedoms f.
+    pub freedoms: bool,
+    /// Number of changes.
+    pub changes: bool,
+    /// Cost.
+    pub cost: bool,
+}
+
+/// Properties of a variant, or of the rest of one: cost (above the cheapest possible, in steps of
+/// [`Steps::unit_milli`]), then freedoms, changes, and redundancy, packed so that keys add as properties do and sort by
+/// cost first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub struct Key(pub u128);
+
+impl Key {
+    /// Packs.
+    #[must_use]
+    pub fn new(cost: u64, freedoms: u32, changes: u32, internal: u32, external: u32) -> Key {
+        Key(u128::from(cost) << 80
+            | u128::from(freedoms) << 60
+            | u128::from(changes) << 40
+            | u128::from(internal) << 20
+            | u128::from(external))
+    }
+    /// Cost steps.
+    #[must_use]
+    pub fn cost(self) -> u64 {
+        (self.0 >> 80) as u64
+    }
+    /// Freedoms.
+    #[must_use]
+    pub fn freedoms(self) -> u32 {
+        (self.0 >> 60) as u32 & 0xf_ffff
+    }
+    /// Changes.
+    #[must_use]
+    pub fn changes(self) -> u32 {
+        (self.0 >> 40) as u32 & 0xf_ffff
+    }
+    /// Redundant constraints within the mechanism.
+    #[must_use]
+    pub fn internal(self) -> u32 {
+        (self.0 >> 20) as u32 & 0xf_ffff
+    }
+    /// Redundant constraints of the state's additional joints.
+    #[must_use]
+    pub fn external(self) -> u32 {
+        self.0 as u32 & 0xf_ffff
+    }
+}
+
+/// Costs as whole steps above the cheapest choice of each variable.
+#[derive(Debug, Clone)]
+pub struct Steps {
+    /// Thousandths of a cost unit in one step.
+    pub unit_milli: i64,
+    /// Cost of the cheapest conceivable variant, in thousandths.
+    pub base_milli: i64,
+    /// `key[variable][choice]`, all kinds included.
+    pub keys: Vec<Vec<Key>>,
+}
+
+impl Steps {
+    /// The steps of a space: the unit is the greatest common divisor of all cost differences.
+    #[must_use]
+    pub fn new(space: &Space) -> Steps {
+        let least: Vec<i64> =
+            space.variables.iter().map(|v| v.choices.iter().map(|c| c.cost_milli).min().unwrap_or(0)).collect();
+        let above = space.variables.iter().zip(&least).flat_map(|(v, l)| v.choices.iter().map(move |c| c.cost_milli - l));
+        let unit = above.fold(0, num_integer::gcd).max(1);
+        let keys = space.variables.iter().zip(&least).map(|(v, l)| {
+            let key = |c: &crate::search::space::Choice| {
+                let cost = u64::try_from((c.cost_milli - l) / unit).unwrap_or(0);
+                Key::new(cost, c.freedoms, c.changes, 0, 0)
+            };
+            v.choices.iter().map(key).collect()
+        });
+        Steps { unit_milli: unit, base_milli: least.iter().sum(), keys: keys.collect() }
+    }
+
+    /// The keys with only the wanted kinds left.
+    #[must_use]
+    pub fn only(&self, kinds: Kinds) -> Vec<Vec<Key>> {
+        let keep = |k: &Key| {
+            Key::new(
+                if kinds.cost { k.cost() } else { 0 },
+                if kinds.freedoms { k.freedoms() } else { 0 },
+                if kinds.changes { k.changes() } else { 0 },
+                0,
+                0,
+            )
+        };
+        self.keys.iter().map(|v| v.iter().map(keep).collect()).collect()
+    }
+
+    /// A cost in thousandths from the cost part of a key.
+    #[must_use]
+    pub fn milli(&self, cost: u64) -> i64 {
+        self.base_milli + i64::try_from(cost).unwrap_or(i64::MAX / 2) * self.unit_milli
+    }
+}
+
+/// For every node, its completions by key, keys ascending.
+#[derive(Debug, Clone)]
+pub struct Tally<C> {
+    /// `tables[layer][node]`; the last layer holds the terminals.
+    pub tables: Vec<Vec<Vec<(Key, C)>>>,
+}
+
+impl<C: Count> Tally<C> {
+    /// Counts backwards from the terminals. With a `bound` per node, completions whose cost exceeds it are left out:
+    /// `bound(layer, node)` is the largest cost of interest.
+    ///
+    /// # Complexity
+    /// O(edges · table size · log), with table sizes given by the kinds told apart.
+    #[must_use]
+    pub fn new(diagram: &Diagram, keys: &[Vec<Key>], bound: Option<&[Vec<u64>]>) -> Tally<C> {
+        let last = diagram.terminals.iter().map(|&(i, e)| vec![(Key::new(0, 0, 0, i, e), C::one())]);
+        let mut tables: Vec<Vec<Vec<(Key, C)>>> = vec![last.collect()];
+        for (l, layer) in diagram.layers.iter().enumerate().rev() {
+            let below = tables.last().expect("there is a last layer");
+            let keys = &keys[layer.variable];
+            let mut here = Vec::with_capacity(layer.nodes);
+            let mut gathered: Vec<(Key, &C)> = Vec::new();
+            for node in 0..layer.nodes {
+                let limit = bound.map_or(u64::MAX, |b| b[l][node]);
+                gathered.clear();
+                for (choice, &to) in layer.edges[node * layer.choices..(node + 1) * layer.choices].iter().enumerate() {
+                    if to != DEAD {
+                        let edge = keys[choice].0;
+                        let table = below[to as usize].iter().map(|(k, c)| (Key(k.0 + edge), c));
+                        gathered.extend(table.take_while(|(k, _)| k.cost() <= limit));
+                    }
+                }
+                gathered.sort_unstable_by_key(|(k, _)| *k);
+                let mut table: Vec<(Key, C)> = Vec::new();
+                for (k, c) in &gathered {
+                    match table.last_mut() {
+                        Some((known, sum)) if known == k => *sum += c,
+                        _ => table.push((*k, (*c).clone())),
+                    }
+                }
+                here.push(table);
+            }
+            tables.push(here);
+        }
+        tables.reverse();
+        Tally { tables }
+    }
+
+    /// Counts of whole variants by key.
+    #[must_use]
+    pub fn totals(&self) -> &[(Key, C)] {
+        self.tables.first().and_then(|l| l.first()).map_or(&[], Vec::as_slice)
+    }
+}
