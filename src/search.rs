@@ -9,6 +9,7 @@ pub mod best;
 pub mod brute;
 pub mod cost;
 pub mod diagram;
+pub mod lookahead;
 pub mod order;
 pub mod plan;
 pub mod request;

@@ -31,16 +31,16 @@ pub fn twist(exact: &ExactField, link_motion: &[Vec<Residue>], speeds: &[Residue
     out
 }
 
-/// Dimension of the joint motion of some links in a state.
+/// The joint motion of some links in a state: the span of their twists, one after the other, reduced.
 ///
 /// # Errors
 /// Where a coordinate has no value in the field.
-pub fn motion_dimension(
+pub fn joint_motion(
     exact: &ExactField,
     mechanism: &Mechanism,
     state: StateId,
     links: &[LinkId],
-) -> Result<usize, ExactError> {
+) -> Result<Vec<Vec<Residue>>, ExactError> {
     let closure = Closure::new(exact, mechanism, state)?;
     let kernel = motions(exact, &closure);
     let of_links: Vec<_> = links.iter().map(|&l| closure.link_motion(exact, mechanism, l)).collect();
@@ -49,5 +49,5 @@ pub fn motion_dimension(
         let whole: Vec<Residue> = of_links.iter().flat_map(|m| twist(exact, m, speeds)).collect();
         span.insert(&whole);
     }
-    Ok(span.rank())
+    Ok(span.reduced())
 }

@@ -5,6 +5,7 @@
 
 use crate::geom::exact::ExactField;
 use crate::linalg::modp::{Field, Residue};
+use crate::search::lookahead::Lookahead;
 use crate::search::plan::{Plan, Step};
 use crate::search::space::Space;
 use hashbrown::HashTable;
@@ -24,14 +25,18 @@ pub struct Limits {
     pub nodes: usize,
 }
 
-/// A condition on the motions of the pinned links once all joints of the free state are chosen.
+/// Folds away how exactly a finished kept link goes wrong.
+///
+/// Once all joints of a kept link are chosen, its twist matters only to the question whether the kept motions at the
+/// end are the present ones. That question does not change under a linear map of the twist that leaves the present
+/// motions fixed, so a motion either gives the link a present twist, which is kept, or it does not, and then all that
+/// counts is which motions of the live links do so. Nodes that differ in nothing else become equal.
 #[derive(Debug, Clone)]
-pub struct MotionCheck {
-    /// Blocks (in the coordinates after the last free joint) that hold the motions to be kept, with signs:
-    /// each kept motion is a signed sum of blocks.
-    pub motions: Vec<Vec<(usize, bool)>>,
-    /// The dimension their span must have.
-    pub dimension: usize,
+pub struct Collapse {
+    /// Blocks that hold the finished links' twists relative to the frame.
+    pub blocks: Vec<usize>,
+    /// Reduced basis of their present motions, in the coordinates of the blocks in that order.
+    pub present: Vec<Vec<Residue>>,
 }
 
 /// Building progress, for whoever shows it.
@@ -79,8 +84,10 @@ pub struct Stage {
     pub steps: Vec<(usize, Step)>,
     /// Whether contours closed here count as external.
     pub external: bool,
-    /// Condition checked after this stage.
-    pub check: Option<MotionCheck>,
+    /// Simplification of finished kept links after this stage.
+    pub collapse: Option<Collapse>,
+    /// Test that nodes must pass after this stage.
+    pub lookahead: Option<Lookahead>,
 }
 
 /// Edges of one layer: `edges[node * choices + choice]`, an index into the next layer or [`DEAD`].
@@ -198,6 +205,10 @@ pub fn build(
         }
         let Merge { stop: now, mut next, mut edges, .. } = merge;
         stop = now;
+        if let Some(test) = &stage.lookahead {
+            let passed = passing(exact.field(), space.dim, test, &next);
+            next = retain(&next, &passed, &mut edges);
+        }
         let keep = match stop {
             Stop::Exhausted => usize::MAX,
             // Share what is left of the budget among the layers to come.
@@ -296,15 +307,34 @@ impl Merge {
     }
 }
 
+/// The nodes of a layer that pass a test, ascending.
+fn passing(field: Field, dim: usize, test: &Lookahead, nodes: &Nodes) -> Vec<usize> {
+    let chunk = if nodes.len() < PARALLEL { nodes.len().max(1) } else { PARALLEL / 4 };
+    let starts: Vec<usize> = (0..nodes.len()).step_by(chunk).collect();
+    let some = |start: usize| {
+        let mut worker = Worker::new(field, dim);
+        (start..(start + chunk).min(nodes.len())).filter(|&i| worker.passes(test, nodes.matrix(i))).collect::<Vec<_>>()
+    };
+    if starts.len() <= 1 {
+        return starts.into_iter().flat_map(some).collect();
+    }
+    starts.into_par_iter().map(some).collect::<Vec<_>>().concat()
+}
+
 /// Keeps the cheapest nodes of a layer, first come first kept among equals.
 fn cut(nodes: &Nodes, keep: usize, edges: &mut [u32]) -> Nodes {
     let mut by_cost: Vec<usize> = (0..nodes.len()).collect();
     by_cost.sort_by_key(|&i| (nodes.least[i], i));
     by_cost.truncate(keep);
     by_cost.sort_unstable();
+    retain(nodes, &by_cost, edges)
+}
+
+/// Keeps the nodes listed, ascending, and renames the edges that lead to them.
+fn retain(nodes: &Nodes, kept: &[usize], edges: &mut [u32]) -> Nodes {
     let mut renamed = vec![DEAD; nodes.len()];
     let mut out = Nodes::empty();
-    for &i in &by_cost {
+    for &i in kept {
         renamed[i] = u32::try_from(out.len()).expect("fewer than before");
         out.push(nodes.spent[i], nodes.matrix(i), nodes.least[i]);
     }
@@ -371,7 +401,7 @@ struct Worker {
     base: Rows,
     /// Those, with the joint's twists.
     work: Rows,
-    /// Kept motions of `work`.
+    /// Images of a node's rows under a lookahead.
     kept: Rows,
     vector: Vec<Residue>,
 }
@@ -461,12 +491,12 @@ impl Worker {
                 redundant += self.finish(step, &choice.spans[*member]);
             }
             let spent = if stage.external { (spent.0, spent.1 + redundant) } else { (spent.0 + redundant, spent.1) };
-            if spent.0 > limits.internal
-                || spent.1 > limits.external
-                || stage.check.as_ref().is_some_and(|c| self.motions(c) != c.dimension)
-            {
+            if spent.0 > limits.internal || spent.1 > limits.external {
                 out.found.push(None);
                 continue;
+            }
+            if let Some(collapse) = &stage.collapse {
+                self.collapse(collapse);
             }
             let start = out.data.len();
             out.data.extend_from_slice(&self.work.data);
@@ -474,21 +504,79 @@ impl Worker {
         }
     }
 
-    /// Dimension of the kept motions in `work`.
-    fn motions(&mut self, check: &MotionCheck) -> usize {
-        let (f, d) = (self.arithmetic.field, self.dim);
-        self.kept.clear(check.motions.len() * d);
-        for row in self.work.data.chunks_exact(self.work.width.max(1)) {
+    /// Brings `work` into the form that [`Collapse`] describes.
+    fn collapse(&mut self, collapse: &Collapse) {
+        let (f, d, width) = (self.arithmetic.field, self.dim, self.work.width);
+        let places: Vec<usize> = collapse.blocks.iter().flat_map(|b| b * d..(b + 1) * d).collect();
+        let pivot = |row: &[Residue]| row.iter().position(|&x| x != 0);
+        let fixed: Vec<usize> = collapse.present.iter().filter_map(|r| pivot(r)).collect();
+        let open: Vec<usize> = (0..places.len()).filter(|i| !fixed.contains(i)).collect();
+        // Rows with what is wrong about them in front.
+        self.kept.clear(open.len() + width);
+        let mut right = true;
+        for row in self.work.data.chunks_exact(width.max(1)) {
+            let mut twist: Vec<Residue> = places.iter().map(|&p| row[p]).collect();
+            for (known, &p) in collapse.present.iter().zip(&fixed) {
+                f.subtract_multiple(&mut twist[p..], &known[p..]);
+            }
+            right &= twist.iter().all(|&x| x == 0);
             self.vector.clear();
-            self.vector.resize(check.motions.len() * d, 0);
-            for (m, sum) in check.motions.iter().enumerate() {
-                for &(block, plus) in sum {
-                    f.accumulate(&mut self.vector[m * d..(m + 1) * d], &row[block * d..(block + 1) * d], plus);
+            self.vector.extend(open.iter().map(|&i| twist[i]));
+            self.vector.extend_from_slice(row);
+            self.kept.insert(&mut self.arithmetic, &mut self.vector);
+        }
+        if right {
+            return;
+        }
+        let wrong = self.kept.pivots.partition_point(|&p| p < open.len());
+        // The motions that go wrong, without their wrong twists, modulo those that do not.
+        let mut rest = Rows::default();
+        rest.clear(width);
+        let mut number = 0;
+        self.work.clear(width);
+        for row in self.kept.data.chunks_exact(self.kept.width).skip(wrong) {
+            self.vector.clear();
+            self.vector.extend_from_slice(&row[open.len()..]);
+            self.work.insert(&mut self.arithmetic, &mut self.vector);
+        }
+        for row in self.kept.data.chunks_exact(self.kept.width).take(wrong) {
+            self.vector.clear();
+            self.vector.extend_from_slice(&row[open.len()..]);
+            places.iter().for_each(|&p| self.vector[p] = 0);
+            rest.insert(&mut self.arithmetic, &mut self.vector);
+        }
+        // Each goes wrong in a way of its own; so do motions of the finished links alone.
+        for i in 0..wrong {
+            self.vector.clear();
+            match rest.data.chunks_exact(width).nth(i) {
+                Some(row) => self.vector.extend_from_slice(row),
+                None => self.vector.resize(width, 0),
+            }
+            self.vector[places[open[number]]] = f.one();
+            number += 1;
+            self.work.insert(&mut self.arithmetic, &mut self.vector);
+        }
+    }
+
+    /// Whether a node may still keep the motions that must be kept.
+    fn passes(&mut self, test: &Lookahead, matrix: &[Residue]) -> bool {
+        let f = self.arithmetic.field;
+        let width = test.map.first().map_or(0, Vec::len);
+        self.kept.clear(width);
+        for row in matrix.chunks_exact(test.map.len().max(1)) {
+            self.vector.clear();
+            self.vector.resize(width, 0);
+            for (&x, image) in row.iter().zip(&test.map).filter(|(x, _)| **x != 0) {
+                for (v, &y) in self.vector.iter_mut().zip(image) {
+                    if y != 0 {
+                        *v = f.add(*v, f.mul(x, y));
+                    }
                 }
             }
             self.kept.insert(&mut self.arithmetic, &mut self.vector);
         }
-        self.kept.pivots.len()
+        let loose = self.kept.pivots.iter().filter(|&&p| p >= test.locks).count();
+        test.base + loose <= test.allowed
     }
 }
 
@@ -516,7 +604,8 @@ pub fn stages(space: &Space, order: &[usize], plan: &Plan) -> Vec<Stage> {
                 variable,
                 steps: (0..v.joints.len()).zip(steps.by_ref()).map(|(i, s)| (i, s.clone())).collect(),
                 external: v.external,
-                check: None,
+                collapse: None,
+                lookahead: None,
             }
         })
         .collect()

@@ -114,6 +114,7 @@ fn grow(
         let (outside, inside) = (others(&p, a), p.components[a].1);
         p.work += (outside + inside).exp2();
         let live = |l: LinkId| {
+            // A finished output adds next to nothing: its motion is collapsed to good or bad.
             pinned.contains(&l) || {
                 let used = p.done.iter().flat_map(|&v| &space.variables[v].joints);
                 used.filter(|&&j| mechanism.joints[j].links.contains(&l)).count() < degree.get(&l).copied().unwrap_or(0)

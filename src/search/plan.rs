@@ -85,6 +85,10 @@ pub fn plan(mechanism: &Mechanism, order: &[JointId], pinned: &[LinkId], start: 
         let home = |l: LinkId, cs: &[Vec<LinkId>]| cs.iter().position(|c| c.contains(&l)).expect("both links have one");
         let (a, b) = (home(u, &components), home(v, &components));
         let twist = Combination::from([(Source::Joint, 1)]);
+        // The frame stays the root wherever it is, so that its component's coordinates are absolute.
+        let frame = mechanism.frame();
+        let (u, v, a, b, forward) = if components[b].contains(&frame) { (v, u, b, a, false) } else { (u, v, a, b, true) };
+        let twist = if forward { twist } else { plus(&Combination::new(), -1, &twist) };
         let closing = a == b;
         let mut rows: Vec<Combination> = Vec::new();
         if closing {
@@ -104,7 +108,12 @@ pub fn plan(mechanism: &Mechanism, order: &[JointId], pinned: &[LinkId], start: 
         let live = |l: &LinkId| {
             pinned.contains(l) || order[at + 1..].iter().any(|&j| mechanism.joints[j].links.contains(l))
         };
-        components.iter_mut().for_each(|c| c.retain(live));
+        for c in &mut components {
+            if let Some(i) = c.iter().position(|&l| l == frame) {
+                c.swap(0, i);
+            }
+            c.retain(live);
+        }
         components.retain(|c| !c.is_empty());
         let mut names = Vec::new();
         for c in &components {

@@ -2,12 +2,15 @@
 
 use crate::closure::contour::contour_basis;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::model::mechanism::{LinkId, Mechanism, Role, StateId};
-use crate::redundancy::motion::motion_dimension;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::Residue;
+use crate::redundancy::motion::joint_motion;
 use crate::search::cost::CostTable;
 use crate::search::best::{self, Variant};
 use crate::search::brute::{self, Matrices};
-use crate::search::diagram::{self, Diagram, Limits, MotionCheck, Progress, Stage, Stop};
+use crate::search::diagram::{self, Collapse, Diagram, Limits, Progress, Stage, Stop};
+use crate::search::lookahead::lookahead;
 use crate::search::order::variable_order;
 use crate::search::plan::plan;
 use crate::search::space::Space;
@@ -144,8 +147,8 @@ pub struct Search<'m> {
     exact: ExactField,
     /// Rows of J in the free state.
     rows: i64,
-    /// Links whose motion is kept, with the dimension of their present motion.
-    kept: (Vec<LinkId>, usize),
+    /// Links whose motion is kept, with their present joint motion.
+    kept: (Vec<LinkId>, Vec<Vec<Residue>>),
 }
 
 /// Diagrams of one search.
@@ -195,9 +198,9 @@ impl<'m> Search<'m> {
         let mut kept: Vec<LinkId> = outputs.chain(mechanism.search.hold.iter().copied()).collect();
         kept.sort_unstable();
         kept.dedup();
-        let dimension = motion_dimension(&exact, mechanism, 0, &kept)?;
+        let present = joint_motion(&exact, mechanism, 0, &kept)?;
         let rows = i64::try_from(space.dim * contour_basis(mechanism, 0).len()).unwrap_or(i64::MAX);
-        Ok(Search { mechanism, request, space, steps, exact, rows, kept: (kept, dimension) })
+        Ok(Search { mechanism, request, space, steps, exact, rows, kept: (kept, present) })
     }
 
     /// Number of variants asked about: of orbits, where one of each is wanted.
@@ -221,7 +224,7 @@ impl<'m> Search<'m> {
         let joints = |order: &[usize]| -> Vec<usize> {
             order.iter().flat_map(|&v| self.space.variables[v].joints.iter().copied()).collect()
         };
-        let idle = added.iter().map(|&variable| Stage { variable, steps: Vec::new(), external: true, check: None });
+        let idle = added.iter().map(|&variable| Stage { variable, steps: Vec::new(), external: true, collapse: None, lookahead: None });
         let mut stages = diagram::stages(&self.space, &order, &plan(self.mechanism, &joints(&order), &[], &[]));
         stages.extend(idle);
         let determinate = diagram::build(&self.exact, &self.space, &stages, &limits(u32::MAX), cancelled, progress);
@@ -236,12 +239,12 @@ impl<'m> Search<'m> {
         pinned.extend(contacts.filter(|l| free_links.contains(l)));
         pinned.sort_unstable();
         pinned.dedup();
-        let mut order = variable_order(self.mechanism, &self.space, &free, &pinned);
+        let mut order = variable_order(self.mechanism, &self.space, &free, &[self.mechanism.frame()]);
         let first = plan(self.mechanism, &joints(&order), &pinned, &[]);
         let mut stages = diagram::stages(&self.space, &order, &first);
         let live = first.steps.last().map(|s| s.live.clone()).unwrap_or_default();
-        if let (true, Some(stage)) = (self.request.keep_output, stages.last_mut()) {
-            stage.check = Some(self.motion_check(&live));
+        if self.request.keep_output {
+            self.look_ahead(&mut stages);
         }
         let start: Vec<Vec<LinkId>> = match live.first() {
             Some((root, _)) => vec![std::iter::once(*root).chain(live.iter().map(|(_, l)| *l)).collect()],
@@ -255,14 +258,41 @@ impl<'m> Search<'m> {
         Diagrams { determinate, admissible, order }
     }
 
-    /// The motions of the kept links relative to the frame, in the coordinates of the given live links.
-    fn motion_check(&self, live: &[(LinkId, LinkId)]) -> MotionCheck {
-        let block = |l: LinkId| live.iter().position(|(_, x)| *x == l);
-        let frame = block(self.mechanism.frame());
-        let motion = |&l: &LinkId| {
-            block(l).map(|b| (b, true)).into_iter().chain(frame.map(|b| (b, false))).collect::<Vec<_>>()
+    /// Gives each stage of the free state the test that its nodes must pass.
+    fn look_ahead(&self, stages: &mut [Stage]) {
+        let present = |v: usize| {
+            let variable = &self.space.variables[v];
+            variable.joints.iter().copied().zip(variable.choices[0].spans.iter().cloned())
         };
-        MotionCheck { motions: self.kept.0.iter().map(motion).collect(), dimension: self.kept.1 }
+        for i in 0..stages.len() {
+            let left: Vec<_> = stages[i + 1..].iter().flat_map(|s| present(s.variable)).collect();
+            let Some((_, last)) = stages[i].steps.last() else { continue };
+            let (kept, allowed) = (&self.kept.0, self.kept.1.len());
+            let last = last.clone();
+            let test = lookahead(&self.exact, self.mechanism, self.space.dim, &last.live, &left, kept, allowed);
+            stages[i].lookahead = Some(test);
+            stages[i].collapse = self.collapse(&last.live, &left);
+        }
+    }
+
+    /// The kept links in the frame's component that no joint to come touches.
+    fn collapse(&self, live: &[(LinkId, LinkId)], left: &[(JointId, Vec<Vec<Residue>>)]) -> Option<Collapse> {
+        let (frame, dim) = (self.mechanism.frame(), self.space.dim);
+        let contact = |l: LinkId| {
+            let external = self.space.variables.iter().filter(|v| v.external).flat_map(|v| &v.joints);
+            left.iter().map(|(j, _)| j).chain(external).any(|&j| self.mechanism.joints[j].links.contains(&l))
+        };
+        let finished = |&(i, l): &(usize, &LinkId)| {
+            let here = live.iter().position(|x| *x == (frame, *l));
+            here.filter(|_| !contact(*l)).map(|block| (i, block))
+        };
+        let (places, blocks): (Vec<usize>, Vec<usize>) = self.kept.0.iter().enumerate().filter_map(|x| finished(&x)).unzip();
+        let mut present = Echelon::new(self.exact.field());
+        for row in &self.kept.1 {
+            let part: Vec<Residue> = places.iter().flat_map(|p| row[p * dim..(p + 1) * dim].iter().copied()).collect();
+            present.insert(&part);
+        }
+        (!blocks.is_empty()).then(|| Collapse { blocks, present: present.reduced() })
     }
 
     /// Whether a variant's key meets the conditions on mobility and changes.
@@ -414,7 +444,7 @@ impl<'m> Search<'m> {
         let determinate = |seen: brute::Seen| seen.internal <= self.request.max_redundant;
         let admissible = |seen: brute::Seen| {
             determinate(seen)
-                && (!self.request.keep_output || seen.motion == self.kept.1)
+                && (!self.request.keep_output || seen.motion == self.kept.1.len())
                 && self.request.state.is_none_or(|(_, e)| seen.external <= e)
         };
         (
