@@ -1,4 +1,7 @@
 //! Mobility and redundant constraints: of the whole, contour by contour, and of the clamped object; which links idle;
 //! what an over-constrained assembly is stressed with.
 
+pub mod analysis;
+pub mod idle;
 pub mod motion;
+pub mod stress;

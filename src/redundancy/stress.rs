@@ -1,0 +1,173 @@
+//! Self-stresses: the wrenches that an over-constrained mechanism carries with no load at all, once a part is a little
+//! out of true. They are the left null vectors of the closure matrix; each row block is the wrench that a contour
+//! passes round.
+
+use crate::closure::matrix::Closure;
+use crate::closure::twist::FrameValues;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::scalars::Scalars;
+use crate::linalg::echelon::{Echelon, relations, transpose};
+use crate::linalg::modp::Residue;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{JointId, Mechanism};
+use itertools::Itertools;
+
+/// What a self-stress does to the parts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// Only friction at the faces of shared-load contacts: forces along them, or a moment about their normal.
+    Harmless,
+    /// Moments that faces or bearings must carry, or forces that press parts together.
+    Harmful,
+}
+
+/// Components of a wrench at a joint, as moments and forces along the global axes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct JointWrench {
+    /// The joint.
+    pub joint: JointId,
+    /// Which of the moments about x, y, z through the joint's point are not zero.
+    pub moments: [bool; 3],
+    /// Which of the forces along x, y, z are not zero.
+    pub forces: [bool; 3],
+}
+
+/// One self-stress of a basis.
+#[derive(Debug, Clone)]
+pub struct SelfStress {
+    /// Indices of the contours that pass a wrench round.
+    pub contours: Vec<usize>,
+    /// What each joint of those contours carries.
+    pub joints: Vec<JointWrench>,
+    /// Whether the self-stress exists only with the state's additional joints.
+    pub external: bool,
+    /// Harmless or harmful.
+    pub verdict: Verdict,
+}
+
+/// A sparse basis of the self-stresses of a state: those of the free state's contours first, then those that need the
+/// additional ones; among the latter, friction at the contacts first.
+///
+/// # Errors
+/// Where a coordinate has no value in the field.
+///
+/// # Complexity
+/// One elimination of J, O((6k)² f), and one per joint and stress.
+pub fn self_stresses(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+) -> Result<Vec<SelfStress>, ExactError> {
+    let f = exact.field();
+    let columns = closure.dense(exact);
+    let rows = if columns.is_empty() { vec![vec![0]; closure.rows()] } else { transpose(&columns) };
+    // Reversing the order of coordinates makes the reduced form keep to the earliest contours it can.
+    let mut all = relations(f, &rows);
+    all.iter_mut().for_each(|v| v.reverse());
+    let mut sparse = Echelon::new(f);
+    all.iter().for_each(|v| {
+        sparse.insert(v);
+    });
+    let mut stresses = sparse.reduced();
+    stresses.iter_mut().for_each(|v| v.reverse());
+    stresses.reverse();
+    let own: Vec<JointId> = mechanism.joints_in(0).collect();
+    let added: Vec<JointId> = mechanism.joints_in(closure.state).filter(|j| !own.contains(j)).collect();
+    let frames: Vec<FrameValues<Residue>> =
+        mechanism.joints.iter().map(|j| FrameValues::new(exact, &j.frame)).collect::<Result<_, _>>()?;
+    let wrench = |stress: &[Residue], j: JointId| -> Vec<Residue> {
+        let mut out = vec![0; closure.dim];
+        for (i, c) in closure.contours.iter().enumerate() {
+            if let Some(forward) = c.direction(j) {
+                f.accumulate(&mut out, &stress[i * closure.dim..(i + 1) * closure.dim], forward);
+            }
+        }
+        out
+    };
+    let needs_contacts = |s: &[Residue]| added.iter().any(|&j| wrench(s, j).iter().any(|&x| x != 0));
+    let (external, internal): (Vec<_>, Vec<_>) = stresses.into_iter().partition(|s| needs_contacts(s));
+    let faces: Vec<JointId> =
+        added.iter().copied().filter(|&j| mechanism.joints[j].joint_type == JointType::Fixed).collect();
+    let harm = |s: &[Residue]| -> Vec<Residue> {
+        faces.iter().flat_map(|&j| harmful_part(exact, &frames[j], &wrench(s, j))).collect()
+    };
+    let external = friction_first(exact, external, &harm);
+    let describe = |s: &Vec<Residue>, is_external: bool| {
+        let contours = (0..closure.contours.len())
+            .filter(|i| s[i * closure.dim..(i + 1) * closure.dim].iter().any(|&x| x != 0))
+            .collect_vec();
+        let joints = mechanism.joints_in(closure.state).filter_map(|j| at_joint(exact, &frames[j], j, &wrench(s, j)));
+        let friction = is_external && closure.dim == 6 && !faces.is_empty() && harm(s).iter().all(|&x| x == 0);
+        SelfStress {
+            contours,
+            joints: joints.collect(),
+            external: is_external,
+            verdict: if friction { Verdict::Harmless } else { Verdict::Harmful },
+        }
+    };
+    Ok(internal.iter().map(|s| describe(s, false)).chain(external.iter().map(|s| describe(s, true))).collect())
+}
+
+/// A basis of the same space that begins with a basis of the stresses without harm.
+fn friction_first(
+    exact: &ExactField,
+    stresses: Vec<Vec<Residue>>,
+    harm: &dyn Fn(&[Residue]) -> Vec<Residue>,
+) -> Vec<Vec<Residue>> {
+    let f = exact.field();
+    let images: Vec<Vec<Residue>> = stresses.iter().map(|s| harm(s)).collect();
+    if images.iter().all(Vec::is_empty) {
+        return stresses;
+    }
+    let mut span = Echelon::new(f);
+    let mut out = Vec::new();
+    let harmless = relations(f, &images).into_iter().map(|combination| {
+        let mut sum = vec![0; stresses[0].len()];
+        for (&a, s) in combination.iter().zip(&stresses).filter(|(a, _)| **a != 0) {
+            sum.iter_mut().zip(s).for_each(|(o, &x)| *o = f.add(*o, f.mul(a, x)));
+        }
+        sum
+    });
+    for s in harmless.collect_vec().into_iter().chain(stresses.iter().cloned()) {
+        if span.insert(&s) {
+            out.push(s);
+        }
+    }
+    out
+}
+
+/// Moment of a wrench about a frame's origin: m - p × f.
+fn moment_at(exact: &ExactField, frame: &FrameValues<Residue>, w: &[Residue]) -> [Residue; 3] {
+    let arm = exact.cross(frame.point, [w[3], w[4], w[5]]);
+    [0, 1, 2].map(|i| exact.field().sub(w[i], arm[i]))
+}
+
+/// What a wrench at a face (z its normal) has beyond friction: moments along the face and a force across it.
+fn harmful_part(exact: &ExactField, frame: &FrameValues<Residue>, w: &[Residue]) -> Vec<Residue> {
+    if w.len() < 6 {
+        return Vec::new();
+    }
+    let m = moment_at(exact, frame, w);
+    let [x, y, z] = frame.axes;
+    vec![exact.dot(m, x), exact.dot(m, y), exact.dot([w[3], w[4], w[5]], z)]
+}
+
+fn at_joint(exact: &ExactField, frame: &FrameValues<Residue>, joint: JointId, w: &[Residue]) -> Option<JointWrench> {
+    if w.iter().all(|&x| x == 0) {
+        return None;
+    }
+    let nonzero = |v: [Residue; 3]| v.map(|x| x != 0);
+    Some(match w {
+        &[_, _, _, f0, f1, f2] => JointWrench {
+            joint,
+            moments: nonzero(moment_at(exact, frame, w)),
+            forces: nonzero([f0, f1, f2]),
+        },
+        // In a plane: a moment about its normal and a force in it.
+        _ => JointWrench {
+            joint,
+            moments: [false, false, w.first().is_some_and(|&x| x != 0)],
+            forces: [w.get(1).is_some_and(|&x| x != 0), w.get(2).is_some_and(|&x| x != 0), false],
+        },
+    })
+}
