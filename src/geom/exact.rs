@@ -376,9 +376,10 @@ impl Plan {
             }
             roots.insert(q, root);
         }
-        let zeta = (2..).take(1 << 16).map(|g| f.pow(f.from_i64(g), (p - 1) / self.order)).find(|&z| {
-            self.order_primes.iter().all(|r| f.pow(z, self.order / r) != f.one())
-        })?;
+        let zeta = (2..)
+            .take(1 << 16)
+            .map(|g| f.pow(f.from_i64(g), (p - 1) / self.order))
+            .find(|&z| self.order_primes.iter().all(|r| f.pow(z, self.order / r) != f.one()))?;
         let inverse_i = f.pow(zeta, self.order / 4 * 3);
         for &q in &self.inner_roots {
             let root = if q == 2 {
@@ -683,17 +684,11 @@ mod tests {
             ("tan(15deg)-(2-sqrt(3))", "tan(15deg)-(2+sqrt(3))"),
             ("cot(75deg)-(2-sqrt(3))", "cot(75deg)+(2-sqrt(3))"),
             ("sqrt(7)*sqrt(7)-7", "sqrt(7)*sqrt(7)+7"),
-            (
-                "cos(360deg/7)+cos(720deg/7)+cos(1080deg/7)+1/2",
-                "cos(360deg/7)+cos(720deg/7)-cos(1080deg/7)+1/2",
-            ),
+            ("cos(360deg/7)+cos(720deg/7)+cos(1080deg/7)+1/2", "cos(360deg/7)+cos(720deg/7)-cos(1080deg/7)+1/2"),
             ("sqrt(3+2*sqrt(2))-1-sqrt(2)", "sqrt(3+2*sqrt(2))-1+sqrt(2)"),
             ("sqrt(3-2*sqrt(2))+1-sqrt(2)", "sqrt(3-2*sqrt(2))-1+sqrt(2)"),
             ("4*sin(18deg)+1-sqrt(5)", "4*sin(18deg)+1+sqrt(5)"),
-            (
-                "0*cos(360deg/7)+cos(360deg/7)*(sqrt(21)-sqrt(3)*sqrt(7))",
-                "cos(360deg/7)*(sqrt(21)+sqrt(3)*sqrt(7))",
-            ),
+            ("0*cos(360deg/7)+cos(360deg/7)*(sqrt(21)-sqrt(3)*sqrt(7))", "cos(360deg/7)*(sqrt(21)+sqrt(3)*sqrt(7))"),
             ("sqrt(10-2*sqrt(5))-4*sin(36deg)", "sqrt(10-2*sqrt(5))+4*sin(36deg)"),
             ("sqrt(2+sqrt(2))*sqrt(2-sqrt(2))-sqrt(2)", "sqrt(2+sqrt(2))*sqrt(2-sqrt(2))+sqrt(2)"),
             ("sqrt(1+sqrt(3))^2-1-sqrt(3)", "sqrt(1+sqrt(3))^2-1+sqrt(3)"),
@@ -717,12 +712,12 @@ mod tests {
     #[test]
     fn limits_are_errors() {
         let make = |text: &str| ExactField::for_expressions([&text.parse::<Expr>().unwrap()], 0);
-        assert!(matches!(
-            make("sqrt(3+sqrt(3))*sqrt(3-sqrt(3))-sqrt(6)"),
-            Err(ExactError::AmbiguousNestedRoot { .. })
-        ));
+        assert!(matches!(make("sqrt(3+sqrt(3))*sqrt(3-sqrt(3))-sqrt(6)"), Err(ExactError::AmbiguousNestedRoot { .. })));
         assert!(make("sqrt(0.7853981633974483)+sqrt(18446744073709551557)").is_ok());
-        assert!(matches!(make("sqrt(1234567890123456789012345678901234567891)"), Err(ExactError::RadicandTooLarge { .. })));
+        assert!(matches!(
+            make("sqrt(1234567890123456789012345678901234567891)"),
+            Err(ExactError::RadicandTooLarge { .. })
+        ));
         let roots: Vec<String> = (2..60).map(|q| format!("sqrt({q})")).collect();
         assert!(make(&roots.join("+")).is_ok());
         let field = make("sqrt(2)").unwrap();

@@ -556,7 +556,11 @@ impl fmt::Display for Expr {
             let (strength, mut parts) = match &e.0.kind {
                 Kind::Rational(r) => {
                     let (text, strength) = show_rational(r);
-                    if strength < least { write!(f, "({text})")? } else { f.write_str(&text)? }
+                    if strength < least {
+                        write!(f, "({text})")?
+                    } else {
+                        f.write_str(&text)?
+                    }
                     continue;
                 }
                 Kind::Trig(function, k, n) => {
@@ -566,7 +570,11 @@ impl fmt::Display for Expr {
                         Function::Tan => "tan",
                     };
                     let (angle, strength) = show_rational(&BigRational::new(BigInt::from(*k) * 360, (*n).into()));
-                    if strength == ATOM { write!(f, "{name}({angle}deg)")? } else { write!(f, "{name}(({angle})deg)")? }
+                    if strength == ATOM {
+                        write!(f, "{name}({angle}deg)")?
+                    } else {
+                        write!(f, "{name}(({angle})deg)")?
+                    }
                     continue;
                 }
                 Kind::Add(a, b) => (SUM, vec![Tree(b, PRODUCT), Text("+"), Tree(a, SUM)]),
@@ -724,9 +732,7 @@ impl<'a> Parser<'a> {
                     return Err(ExprError::DivisionByZero { at });
                 }
                 match left {
-                    Value::Number(a) => {
-                        Value::Number(finite(a.div(&b).ok_or(ExprError::DivisionByZero { at })?, at)?)
-                    }
+                    Value::Number(a) => Value::Number(finite(a.div(&b).ok_or(ExprError::DivisionByZero { at })?, at)?),
                     Value::Angle(a) => angle(a / b.rational_ref().ok_or_else(outside)?, at)?,
                 }
             };
@@ -983,11 +989,7 @@ impl Enclosure {
         Enclosure::hull(products.iter(), products.iter(), self.e + other.e)
     }
 
-    fn hull<'a>(
-        lows: impl Iterator<Item = &'a BigInt>,
-        highs: impl Iterator<Item = &'a BigInt>,
-        e: i64,
-    ) -> Enclosure {
+    fn hull<'a>(lows: impl Iterator<Item = &'a BigInt>, highs: impl Iterator<Item = &'a BigInt>, e: i64) -> Enclosure {
         Enclosure::new(lows.min().cloned().unwrap_or_default(), highs.max().cloned().unwrap_or_default(), e)
     }
 
@@ -1138,8 +1140,27 @@ mod tests {
     #[test]
     fn mistakes_are_told() {
         for text in [
-            "", "pi", "sin(1)", "foo(1)", "1/0", "sqrt(-1)", "tan(90deg)", "cot(0)", "1e401", "2^65", "10^64^2", "1e400",
-            "(", "2pi", "36deg", "1/(sqrt(2)*sqrt(3)-sqrt(6))", "cos(60deg", "sqrt(1-sqrt(2))", "1e", ".", "cos(pi*sqrt(2))",
+            "",
+            "pi",
+            "sin(1)",
+            "foo(1)",
+            "1/0",
+            "sqrt(-1)",
+            "tan(90deg)",
+            "cot(0)",
+            "1e401",
+            "2^65",
+            "10^64^2",
+            "1e400",
+            "(",
+            "2pi",
+            "36deg",
+            "1/(sqrt(2)*sqrt(3)-sqrt(6))",
+            "cos(60deg",
+            "sqrt(1-sqrt(2))",
+            "1e",
+            ".",
+            "cos(pi*sqrt(2))",
         ] {
             let error = text.parse::<Expr>().unwrap_err();
             assert!(!error.to_string().is_empty(), "{text}");
@@ -1161,10 +1182,8 @@ mod tests {
     fn text() -> impl Strategy<Value = (String, f64)> {
         let leaf = prop_oneof![
             (1i64..50).prop_map(|x| (x.to_string(), x as f64)),
-            (1i64..50, 2i64..9).prop_map(|(k, n)| (
-                format!("cos({k}*pi/{n})"),
-                (k as f64 * std::f64::consts::PI / n as f64).cos()
-            )),
+            (1i64..50, 2i64..9)
+                .prop_map(|(k, n)| (format!("cos({k}*pi/{n})"), (k as f64 * std::f64::consts::PI / n as f64).cos())),
             (1i64..359).prop_map(|k| (format!("sin({k}deg)"), (k as f64).to_radians().sin())),
         ];
         leaf.prop_recursive(4, 24, 2, |inner| {
