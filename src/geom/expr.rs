@@ -1087,6 +1087,10 @@ impl Enclosure {
         if top > 1030 {
             return if mid.sign() == Sign::Minus { f64::NEG_INFINITY } else { f64::INFINITY };
         }
+        // Below all subnormals; aligning such a number would take memory in proportion to its exponent.
+        if top < -1080 {
+            return 0.0;
+        }
         // The last bit a double of this size has; subnormals stop at -1074.
         let last = (top - 53).max(-1074);
         let shift = last - e;
@@ -1177,6 +1181,9 @@ mod tests {
         let _ = sum.to_string();
         let square = (0..80).fold(root, |s, _| &s * &s);
         let _ = square.to_string();
+        let tiny: Expr = "((((((sqrt(2)*1e-300)^64)^64)^64)^64)^64)^64".parse().unwrap();
+        assert_eq!(tiny.to_f64(), 0.0);
+        assert_eq!((&tiny + &Expr::from(1)).to_f64(), 1.0);
     }
 
     fn text() -> impl Strategy<Value = (String, f64)> {
