@@ -1,0 +1,60 @@
+//! The command line: arguments as data, one file per command, three exit codes.
+
+mod analyze;
+mod args;
+mod check;
+mod load;
+mod output;
+mod progress;
+mod search;
+
+use clap::Parser;
+use std::process::ExitCode;
+
+/// How a command ended without failing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Done {
+    /// It did what was asked.
+    Found,
+    /// There was nothing to be found.
+    Nothing,
+}
+
+/// Runs the program. Exit codes: 0 done, 1 nothing found, 2 bad input or failure.
+#[must_use]
+pub fn run() -> ExitCode {
+    let args = match args::Args::try_parse() {
+        Ok(args) => args,
+        Err(e) => {
+            // Help and version are no failures; a closed pipe is not one either.
+            let code = if e.use_stderr() { 2 } else { 0 };
+            let _ = e.print();
+            return ExitCode::from(code);
+        }
+    };
+    let result = prepare(&args).and_then(|()| match &args.command {
+        args::Command::Analyze(a) => analyze::run(&args, a),
+        args::Command::Search(a) => search::run(&args, a),
+        args::Command::Check(a) => check::run(&args, a),
+        args::Command::List => check::list(),
+        args::Command::Show(a) => check::show(a),
+        args::Command::Schema => check::schema(),
+    });
+    match result {
+        Ok(Done::Found) => ExitCode::SUCCESS,
+        Ok(Done::Nothing) => ExitCode::from(1),
+        Err(e) if output::is_broken_pipe(&e) => ExitCode::SUCCESS,
+        Err(e) => {
+            output::complain(&e);
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn prepare(args: &args::Args) -> anyhow::Result<()> {
+    if let Some(threads) = args.threads {
+        anyhow::ensure!(threads > 0, "--threads must be at least 1");
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?;
+    }
+    Ok(())
+}

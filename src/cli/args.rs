@@ -1,0 +1,185 @@
+//! The arguments, as data.
+
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// A search engine for statically determinate mechanisms.
+///
+/// FILE is a path to a mechanism file (TOML, or JSON with the ending .json), `-` for standard input, or the name of a
+/// built-in mechanism (see `ozols list`).
+#[derive(Debug, Parser)]
+#[command(name = "ozols", version, max_term_width = 100, after_help = "\
+Examples:
+  ozols list                                  the built-in mechanisms
+  ozols analyze gripper-10                    mobility and redundant constraints, contour by contour
+  ozols search gripper-10                     the best statically determinate redesigns
+  ozols search gripper-10 --max-mobility 1    only those without idle links
+  ozols show four-bar > mine.toml             a file to start from
+  ozols check mine.toml                       what is wrong with it, if anything")]
+pub(super) struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub(super) command: Command,
+    /// No progress bar.
+    #[arg(long, short, global = true)]
+    pub(super) quiet: bool,
+    /// Threads to use; all processors by default. Results do not depend on it.
+    #[arg(long, global = true, value_name = "N")]
+    pub(super) threads: Option<usize>,
+    /// Seed of random samples.
+    #[arg(long, global = true, value_name = "N", default_value_t = 1)]
+    pub(super) seed: u64,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Mobility and redundant constraints in each state.
+    Analyze(Analyze),
+    /// Every redesign that removes the redundant constraints: exact counts and the best ones.
+    Search(Search),
+    /// Validate a file.
+    Check(File),
+    /// The built-in mechanisms.
+    List,
+    /// Print the file of a built-in mechanism.
+    Show(File),
+    /// Print the JSON Schema of the mechanism file.
+    Schema,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct File {
+    /// A path, `-`, or the name of a built-in mechanism.
+    #[arg(value_name = "FILE")]
+    pub(super) file: String,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum RankMethod {
+    /// The surest that fits the file: exact geometry, so `modular`.
+    Auto,
+    /// Modulo two primes near 2^61, on exact geometry.
+    Modular,
+    /// Singular values in double precision, with the gap.
+    Svd,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Analyze {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// A state named in the file, such as free or clamped, or all.
+    #[arg(long, default_value = "all")]
+    pub(super) state: String,
+    /// How the rank is found.
+    #[arg(long, value_enum, default_value = "auto")]
+    pub(super) method: RankMethod,
+    /// Relative tolerance of `--method svd`.
+    #[arg(long, value_name = "T", default_value_t = ozols_tolerance())]
+    pub(super) tolerance: f64,
+    /// Model the mechanism in its plane (normal z) with 3 rows per contour, whatever the file says.
+    #[arg(long)]
+    pub(super) planar: bool,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    pub(super) format: AnalyzeFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
+
+fn ozols_tolerance() -> f64 {
+    crate::rank::numeric::DEFAULT_TOLERANCE
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum AnalyzeFormat {
+    Text,
+    Json,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum SearchFormat {
+    Text,
+    Json,
+    /// One variant a line.
+    Jsonl,
+    /// One variant a line.
+    Csv,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum SearchMethod {
+    /// The span diagram.
+    Diagram,
+    /// Look at every variant; counts only. For checking and comparison.
+    Brute,
+}
+
+#[derive(Debug, ClapArgs)]
+#[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
+pub(super) struct Search {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// How many of the best variants to give.
+    #[arg(long, value_name = "K", default_value_t = 10)]
+    pub(super) top: usize,
+    /// Give every admissible variant, cheapest first.
+    #[arg(long, conflicts_with_all = ["top", "sample", "count"])]
+    pub(super) all: bool,
+    /// Give N admissible variants drawn at random, each with the same chance, instead of the best.
+    #[arg(long, value_name = "N", conflicts_with_all = ["top", "count"])]
+    pub(super) sample: Option<usize>,
+    /// Counts only.
+    #[arg(long)]
+    pub(super) count: bool,
+    /// Redundant constraints allowed within the mechanism.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(super) max_redundant: u32,
+    /// Redundant constraints allowed from the clamped object; takes the joints of `--state` (and their unloading
+    /// places) into the search.
+    #[arg(long, value_name = "N")]
+    pub(super) max_external: Option<u32>,
+    /// The state meant by --max-external; the file's first besides free by default.
+    #[arg(long, value_name = "STATE")]
+    pub(super) state: Option<String>,
+    /// Largest mobility W allowed.
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub(super) max_mobility: Option<i64>,
+    /// Most changes allowed.
+    #[arg(long, value_name = "N")]
+    pub(super) max_changes: Option<u32>,
+    /// Also give variants whose outputs move in other ways than now.
+    #[arg(long)]
+    pub(super) allow_output_change: bool,
+    /// Another link that must not gain a motion (repeatable).
+    #[arg(long, value_name = "LINK")]
+    pub(super) hold: Vec<String>,
+    /// Use these of the file's options everywhere, by name: revolute,spherical.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(super) options: Vec<String>,
+    /// Options allowed at a joint: 2-3=revolute,spherical (repeatable). The present joint always is.
+    #[arg(long, value_name = "JOINT=NAMES")]
+    pub(super) allow: Vec<String>,
+    /// Options forbidden at a joint: 2-3=spherical; all changes with 2-3 alone (repeatable).
+    #[arg(long, value_name = "JOINT[=NAMES]")]
+    pub(super) forbid: Vec<String>,
+    /// Only variants that are their own mirror image.
+    #[arg(long)]
+    pub(super) symmetric: bool,
+    /// Of a variant and its mirror image, only one.
+    #[arg(long, conflicts_with = "symmetric")]
+    pub(super) one_per_orbit: bool,
+    /// Diagram, or brute force for checking.
+    #[arg(long, value_enum, default_value = "diagram")]
+    pub(super) method: SearchMethod,
+    /// Node budget of each diagram, about 1 KB of memory a node.
+    #[arg(long, value_name = "N", default_value_t = 4_000_000)]
+    pub(super) nodes: usize,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    pub(super) format: SearchFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}

@@ -1,0 +1,37 @@
+//! FILE arguments: paths, standard input, and built-in names.
+
+use crate::builtin;
+use crate::import::text::{MAX_BYTES, mechanism_from_bytes};
+use crate::model::mechanism::Mechanism;
+use anyhow::{Context, bail};
+use std::io::Read;
+
+/// Reads the mechanism that an argument names. A file wins over a built-in mechanism of the same name.
+pub(super) fn mechanism(file: &str) -> anyhow::Result<Mechanism> {
+    if file == "-" {
+        return Ok(mechanism_from_bytes("standard input", &read(std::io::stdin().lock())?)?);
+    }
+    let path = std::path::Path::new(file);
+    if path.is_file() {
+        let open = std::fs::File::open(path).with_context(|| format!("cannot read {file}"))?;
+        let bytes = read(open).with_context(|| format!("cannot read {file}"))?;
+        return Ok(mechanism_from_bytes(file, &bytes)?);
+    }
+    let Some(text) = builtin::text(file) else { bail!(unknown(file)) };
+    Ok(mechanism_from_bytes(&format!("{file}.toml"), text.as_bytes())?)
+}
+
+/// The message for a name that is neither a file nor built in.
+pub(super) fn unknown(file: &str) -> String {
+    let names = builtin::names();
+    let near = names.iter().filter(|n| n.contains(file) || file.contains(**n)).copied().collect::<Vec<_>>();
+    let hint = if near.is_empty() { String::new() } else { format!("; did you mean {}?", near.join(", ")) };
+    format!("{file} is neither a file nor a built-in mechanism{hint} (`ozols list` shows those built in)")
+}
+
+fn read(from: impl Read) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    // One byte more than allowed, so that the reader can say that there are too many.
+    from.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}

@@ -1,0 +1,8 @@
+//! From text to a validated mechanism, with every problem found pointed at.
+
+pub mod build;
+pub mod locate;
+pub mod problem;
+pub mod schema;
+pub mod text;
+mod resolve;

@@ -1,0 +1,7 @@
+//! Finished values as JSON and as text for people.
+
+pub mod analysis_json;
+pub mod analysis_text;
+pub mod search_json;
+pub mod search_text;
+pub mod words;

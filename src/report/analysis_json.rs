@@ -1,0 +1,85 @@
+//! An analysis as JSON; the keys are a stable contract.
+
+use crate::model::mechanism::Mechanism;
+use crate::rank::Certainty;
+use crate::redundancy::analysis::StateAnalysis;
+use crate::redundancy::stress::Verdict;
+use crate::report::words;
+use serde_json::{Value, json};
+
+/// The whole analysis.
+#[must_use]
+pub fn analysis(mechanism: &Mechanism, states: &[StateAnalysis]) -> Value {
+    json!({
+        "mechanism": mechanism.name,
+        "length_unit": mechanism.length_unit.symbol,
+        "states": states.iter().map(|s| state(mechanism, s)).collect::<Vec<_>>(),
+    })
+}
+
+fn state(mechanism: &Mechanism, s: &StateAnalysis) -> Value {
+    let joint = |j: usize| mechanism.joints[j].id.as_str();
+    let per_contour = s.per_contour.iter().map(|c| {
+        json!({
+            "contour": c.contour.name(mechanism),
+            "joints": c.contour.joints.iter().map(|(j, _)| joint(*j)).collect::<Vec<_>>(),
+            "redundant": c.redundant,
+            "least": c.range.0,
+            "greatest": c.range.1,
+        })
+    });
+    let external = s.external.as_ref().map(|e| {
+        json!({
+            "constraints": e.constraints,
+            "actual_mobility": e.actual_mobility,
+            "working_mobility": e.working_mobility,
+            "lost_mobility": e.lost_mobility,
+            "redundant": e.redundant,
+            "redundant_by_rank": e.by_rank,
+            "agree": e.redundant == e.by_rank,
+        })
+    });
+    let idle = s.idle.iter().map(|i| {
+        json!({
+            "links": i.links.iter().map(|&l| mechanism.links[l].id.as_str()).collect::<Vec<_>>(),
+            "through": i.through.iter().map(|&j| joint(j)).collect::<Vec<_>>(),
+            "text": words::idle(mechanism, i),
+        })
+    });
+    let stresses = s.self_stresses.iter().map(|t| {
+        json!({
+            "contours": t.contours.iter().map(|&c| s.per_contour[c].contour.name(mechanism)).collect::<Vec<_>>(),
+            "external": t.external,
+            "verdict": if t.verdict == Verdict::Harmless { "harmless" } else { "harmful" },
+            "joints": t.joints.iter().map(|w| json!({
+                "joint": joint(w.joint),
+                "moments": axes(w.moments),
+                "forces": axes(w.forces),
+            })).collect::<Vec<_>>(),
+        })
+    });
+    json!({
+        "state": s.state,
+        "links": s.links,
+        "joints": s.joints,
+        "contours": s.contours,
+        "freedoms": s.freedoms,
+        "rank": s.rank,
+        "mobility": s.mobility,
+        "working_mobility": s.working_mobility,
+        "local_mobility": s.local_mobility,
+        "redundant": s.redundant,
+        "formula_mobility": s.formula_mobility,
+        "per_contour": per_contour.collect::<Vec<_>>(),
+        "external": external,
+        "idle": idle.collect::<Vec<_>>(),
+        "self_stresses": stresses.collect::<Vec<_>>(),
+        "left_out": s.left_out.iter().map(|&(j, n)| json!({"joint": joint(j), "freedoms": n})).collect::<Vec<_>>(),
+        "method": match s.certainty { Certainty::Modular { .. } => "modular", Certainty::Numeric { .. } => "svd" },
+        "certainty": s.certainty.describe(),
+    })
+}
+
+fn axes(flags: [bool; 3]) -> Vec<&'static str> {
+    ["x", "y", "z"].into_iter().zip(flags).filter(|(_, f)| *f).map(|(a, _)| a).collect()
+}

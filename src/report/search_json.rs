@@ -1,0 +1,107 @@
+//! A search as JSON; the keys are a stable contract. Counts are strings, since they outgrow 2^53.
+
+use crate::search::best::Variant;
+use crate::search::diagram::Diagram;
+use crate::search::request::{Counts, Search};
+use crate::search::space::choice_name;
+use num_bigint::BigUint;
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+
+/// What a search found.
+#[derive(Debug)]
+pub struct Found<'a> {
+    /// The search.
+    pub search: &'a Search<'a>,
+    /// Counts by the redundancy condition of the free state.
+    pub determinate: Counts,
+    /// Counts by every condition.
+    pub admissible: Counts,
+    /// Counts of the admissible by cost in thousandths; empty where not asked for.
+    pub by_cost: BTreeMap<i64, BigUint>,
+    /// The diagrams, determinate and admissible; `None` for brute force.
+    pub diagrams: Option<(&'a Diagram, &'a Diagram)>,
+    /// Why the search ended.
+    pub stop: &'static str,
+}
+
+fn counts<K: ToString>(of: &BTreeMap<K, BigUint>) -> Map<String, Value> {
+    of.iter().map(|(k, n)| (k.to_string(), Value::String(n.to_string()))).collect()
+}
+
+/// Everything but the variants.
+#[must_use]
+pub fn header(found: &Found<'_>) -> Map<String, Value> {
+    let nested = |of: &BTreeMap<(i64, u32), BigUint>| {
+        let mut out: Map<String, Value> = Map::new();
+        for ((w, c), n) in of {
+            let by = out.entry(w.to_string()).or_insert_with(|| Value::Object(Map::new()));
+            if let Value::Object(by) = by {
+                by.insert(c.to_string(), Value::String(n.to_string()));
+            }
+        }
+        out
+    };
+    let mut out = Map::new();
+    let mut put = |k: &str, v: Value| out.insert(k.to_owned(), v);
+    put("mechanism", json!(found.search.mechanism.name));
+    put("space", json!(found.search.size().to_string()));
+    put("determinate", json!(found.determinate.total.to_string()));
+    put("by_mobility", Value::Object(counts(&found.determinate.by_mobility)));
+    put("by_mobility_and_changes", Value::Object(nested(&found.determinate.by_mobility_and_changes)));
+    put("by_redundant", Value::Object(counts(&found.determinate.by_redundant)));
+    put("by_changes", Value::Object(counts(&found.determinate.by_changes)));
+    put("by_freedoms", Value::Object(counts(&found.determinate.by_freedoms)));
+    put("admissible", json!(found.admissible.total.to_string()));
+    put("admissible_by_mobility", Value::Object(counts(&found.admissible.by_mobility)));
+    put("admissible_by_mobility_and_changes", Value::Object(nested(&found.admissible.by_mobility_and_changes)));
+    put("admissible_by_redundant", Value::Object(counts(&found.admissible.by_redundant)));
+    put("admissible_by_changes", Value::Object(counts(&found.admissible.by_changes)));
+    put("admissible_by_freedoms", Value::Object(counts(&found.admissible.by_freedoms)));
+    let by_cost = found.by_cost.iter().map(|(c, n)| (crate::report::words::cost(*c), json!(n.to_string())));
+    put("admissible_by_cost", Value::Object(by_cost.collect()));
+    let sizes = |f: fn(&Diagram) -> usize| found.diagrams.map(|(d, a)| (f(d), f(a)));
+    let largest = sizes(|d| d.largest_layer);
+    let nodes = sizes(|d| d.nodes);
+    put("largest_layer", json!(largest.map(|(d, a)| d.max(a))));
+    put("nodes", json!(nodes.map(|(d, a)| d + a)));
+    put("determinate_diagram", json!({"largest_layer": largest.map(|x| x.0), "nodes": nodes.map(|x| x.0)}));
+    put("admissible_diagram", json!({"largest_layer": largest.map(|x| x.1), "nodes": nodes.map(|x| x.1)}));
+    put("stop", json!(found.stop));
+    put("exact", json!(found.stop == "exhausted"));
+    out
+}
+
+/// One variant; `position` counts from 1.
+#[must_use]
+pub fn variant(search: &Search<'_>, variant: &Variant, position: usize) -> Value {
+    json!({
+        "position": position,
+        "cost": cost_number(search.steps.milli(variant.key.cost())),
+        "mobility": search.mobility(variant.key),
+        "redundant": variant.key.internal(),
+        "external_redundant": search.request.state.map(|_| variant.key.external()),
+        "changes": changes(search, variant).into_iter()
+            .map(|(joint, from, to)| json!({"joint": joint, "from": from, "to": to})).collect::<Vec<_>>(),
+        "scores": {},
+    })
+}
+
+fn cost_number(milli: i64) -> Value {
+    if milli % 1000 == 0 { json!(milli / 1000) } else { json!(crate::report::words::cost(milli).parse::<f64>().unwrap_or(0.0)) }
+}
+
+/// The changed joints of a variant: (joint, present type, new type), in file order.
+#[must_use]
+pub fn changes(search: &Search<'_>, variant: &Variant) -> Vec<(String, String, String)> {
+    let mut out = Vec::new();
+    for (v, &choice) in search.space.variables.iter().zip(&variant.choices).filter(|(_, c)| **c != 0) {
+        for &j in &v.joints {
+            let joint = &search.mechanism.joints[j];
+            let to = choice_name(search.mechanism, j, &v.choices[choice]);
+            out.push((j, (joint.id.clone(), choice_name(search.mechanism, j, &v.choices[0]), to)));
+        }
+    }
+    out.sort_by_key(|(j, _)| *j);
+    out.into_iter().map(|(_, change)| change).collect()
+}
