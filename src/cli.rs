@@ -54,7 +54,9 @@ pub fn run() -> ExitCode {
 fn prepare(args: &args::Args) -> anyhow::Result<()> {
     if let Some(threads) = args.threads {
         anyhow::ensure!(threads > 0, "--threads must be at least 1");
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?;
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build_global()?;
     }
     Ok(())
 }

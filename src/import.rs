@@ -3,6 +3,6 @@
 pub mod build;
 pub mod locate;
 pub mod problem;
+mod resolve;
 pub mod schema;
 pub mod text;
-mod resolve;

@@ -32,7 +32,11 @@ impl Certainty {
             Certainty::Modular { primes: [p, q] } => {
                 format!("exact geometry; ranks modulo {p} and {q} agree")
             }
-            Certainty::Numeric { tolerance, kept, dropped } => format!(
+            Certainty::Numeric {
+                tolerance,
+                kept,
+                dropped,
+            } => format!(
                 "f64 singular values, tolerance {tolerance:.0e}: smallest kept {kept:.1e}, largest dropped {dropped:.1e}"
             ),
         }

@@ -11,24 +11,41 @@ use anyhow::bail;
 pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file.file)?;
     if a.planar {
-        mechanism.mode = Mode::Planar { normal: [0, 0, 1].map(Expr::from) };
+        mechanism.mode = Mode::Planar {
+            normal: [0, 0, 1].map(Expr::from),
+        };
     }
-    let states: Vec<usize> = match (a.state.as_str(), mechanism.states.iter().position(|s| *s == a.state)) {
+    let states: Vec<usize> = match (
+        a.state.as_str(),
+        mechanism.states.iter().position(|s| *s == a.state),
+    ) {
         (_, Some(s)) => vec![s],
         ("all", None) => (0..mechanism.states.len()).collect(),
-        (other, None) => bail!("{} has no state {other}; it has: {}", mechanism.name, mechanism.states.join(", ")),
+        (other, None) => bail!(
+            "{} has no state {other}; it has: {}",
+            mechanism.name,
+            mechanism.states.join(", ")
+        ),
     };
     let method = match a.method {
         RankMethod::Auto | RankMethod::Modular => Method::Modular,
-        RankMethod::Svd if a.tolerance > 0.0 && a.tolerance < 1.0 => Method::Svd { tolerance: a.tolerance },
+        RankMethod::Svd if a.tolerance > 0.0 && a.tolerance < 1.0 => Method::Svd {
+            tolerance: a.tolerance,
+        },
         RankMethod::Svd => bail!("--tolerance must be between 0 and 1"),
     };
     let found = analyse(&mechanism, &states, method)?;
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            AnalyzeFormat::Json => writeln!(out, "{:#}", analysis_json::analysis(&mechanism, &found))?,
+            AnalyzeFormat::Json => {
+                writeln!(out, "{:#}", analysis_json::analysis(&mechanism, &found))?
+            }
             AnalyzeFormat::Text => {
-                write!(out, "{}", analysis_text::analysis(&mechanism, &found, output::width(a.output.as_deref())))?;
+                write!(
+                    out,
+                    "{}",
+                    analysis_text::analysis(&mechanism, &found, output::width(a.output.as_deref()))
+                )?;
             }
         }
         Ok(Done::Found)

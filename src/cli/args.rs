@@ -8,14 +8,19 @@ use std::path::PathBuf;
 /// FILE is a path to a mechanism file (TOML, or JSON with the ending .json), `-` for standard input, or the name of a
 /// built-in mechanism (see `ozols list`).
 #[derive(Debug, Parser)]
-#[command(name = "ozols", version, max_term_width = 100, after_help = "\
+#[command(
+    name = "ozols",
+    version,
+    max_term_width = 100,
+    after_help = "\
 Examples:
   ozols list                                  the built-in mechanisms
   ozols analyze gripper-10                    mobility and redundant constraints, contour by contour
   ozols search gripper-10                     the best statically determinate redesigns
   ozols search gripper-10 --max-mobility 1    only those without idle links
   ozols show four-bar > mine.toml             a file to start from
-  ozols check mine.toml                       what is wrong with it, if anything")]
+  ozols check mine.toml                       what is wrong with it, if anything"
+)]
 pub(super) struct Args {
     /// What to do.
     #[command(subcommand)]

@@ -10,7 +10,14 @@ use anyhow::{Context, bail};
 pub(super) fn run(_: &Args, a: &File) -> anyhow::Result<Done> {
     let m = load::mechanism(&a.file)?;
     output::to(None, |out| {
-        writeln!(out, "{}: {} links, {} joints, states {}: valid", m.name, m.links.len(), m.joints.len(), m.states.join(", "))?;
+        writeln!(
+            out,
+            "{}: {} links, {} joints, states {}: valid",
+            m.name,
+            m.links.len(),
+            m.joints.len(),
+            m.states.join(", ")
+        )?;
         Ok(Done::Found)
     })
 }
@@ -21,20 +28,44 @@ pub(super) fn list() -> anyhow::Result<Done> {
         let m = load::mechanism(name).with_context(|| format!("built-in mechanism {name}"))?;
         let states: Vec<usize> = (0..m.states.len()).collect();
         for s in analyse(&m, &states, Method::Modular)? {
-            let numbers = [s.links, s.joints, s.contours, s.freedoms, s.mobility, s.redundant];
-            let mut row = vec![if s.state == "free" { name.to_owned() } else { String::new() }, s.state];
+            let numbers = [
+                s.links,
+                s.joints,
+                s.contours,
+                s.freedoms,
+                s.mobility,
+                s.redundant,
+            ];
+            let mut row = vec![
+                if s.state == "free" {
+                    name.to_owned()
+                } else {
+                    String::new()
+                },
+                s.state,
+            ];
             row.extend(numbers.map(|n| n.to_string()));
             rows.push(row);
         }
     }
     output::to(None, |out| {
-        writeln!(out, "{}", words::table(&["mechanism", "state", "n", "p", "k", "f", "W", "σ"], rows, output::width(None)))?;
+        writeln!(
+            out,
+            "{}",
+            words::table(
+                &["mechanism", "state", "n", "p", "k", "f", "W", "σ"],
+                rows,
+                output::width(None)
+            )
+        )?;
         Ok(Done::Found)
     })
 }
 
 pub(super) fn show(a: &File) -> anyhow::Result<Done> {
-    let Some(text) = builtin::text(&a.file) else { bail!(load::unknown(&a.file)) };
+    let Some(text) = builtin::text(&a.file) else {
+        bail!(load::unknown(&a.file))
+    };
     output::to(None, |out| {
         write!(out, "{text}")?;
         Ok(Done::Found)

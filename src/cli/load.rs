@@ -9,7 +9,10 @@ use std::io::Read;
 /// Reads the mechanism that an argument names. A file wins over a built-in mechanism of the same name.
 pub(super) fn mechanism(file: &str) -> anyhow::Result<Mechanism> {
     if file == "-" {
-        return Ok(mechanism_from_bytes("standard input", &read(std::io::stdin().lock())?)?);
+        return Ok(mechanism_from_bytes(
+            "standard input",
+            &read(std::io::stdin().lock())?,
+        )?);
     }
     let path = std::path::Path::new(file);
     if path.is_file() {
@@ -17,16 +20,31 @@ pub(super) fn mechanism(file: &str) -> anyhow::Result<Mechanism> {
         let bytes = read(open).with_context(|| format!("cannot read {file}"))?;
         return Ok(mechanism_from_bytes(file, &bytes)?);
     }
-    let Some(text) = builtin::text(file) else { bail!(unknown(file)) };
-    Ok(mechanism_from_bytes(&format!("{file}.toml"), text.as_bytes())?)
+    let Some(text) = builtin::text(file) else {
+        bail!(unknown(file))
+    };
+    Ok(mechanism_from_bytes(
+        &format!("{file}.toml"),
+        text.as_bytes(),
+    )?)
 }
 
 /// The message for a name that is neither a file nor built in.
 pub(super) fn unknown(file: &str) -> String {
     let names = builtin::names();
-    let near = names.iter().filter(|n| n.contains(file) || file.contains(**n)).copied().collect::<Vec<_>>();
-    let hint = if near.is_empty() { String::new() } else { format!("; did you mean {}?", near.join(", ")) };
-    format!("{file} is neither a file nor a built-in mechanism{hint} (`ozols list` shows those built in)")
+    let near = names
+        .iter()
+        .filter(|n| n.contains(file) || file.contains(**n))
+        .copied()
+        .collect::<Vec<_>>();
+    let hint = if near.is_empty() {
+        String::new()
+    } else {
+        format!("; did you mean {}?", near.join(", "))
+    };
+    format!(
+        "{file} is neither a file nor a built-in mechanism{hint} (`ozols list` shows those built in)"
+    )
 }
 
 fn read(from: impl Read) -> std::io::Result<Vec<u8>> {

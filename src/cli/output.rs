@@ -16,7 +16,10 @@ pub(super) fn to(
         out.flush()?;
         return Ok(done);
     };
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = path
+        .parent()
+        .filter(|p| !p.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
     let whole = || format!("cannot write {}", path.display());
     let mut beside = tempfile::NamedTempFile::new_in(folder).with_context(whole)?;
     let done = {
@@ -29,7 +32,10 @@ pub(super) fn to(
     {
         use std::os::unix::fs::PermissionsExt;
         // Temporary files are private; results are ordinary files.
-        beside.as_file().set_permissions(std::fs::Permissions::from_mode(0o644)).with_context(whole)?;
+        beside
+            .as_file()
+            .set_permissions(std::fs::Permissions::from_mode(0o644))
+            .with_context(whole)?;
     }
     beside.persist(path).with_context(whole)?;
     Ok(done)
@@ -37,12 +43,16 @@ pub(super) fn to(
 
 /// Width of the terminal that standard output is, if it is one.
 pub(super) fn width(path: Option<&Path>) -> Option<u16> {
-    (path.is_none() && std::io::stdout().is_terminal()).then(|| console::Term::stdout().size().1.max(60))
+    (path.is_none() && std::io::stdout().is_terminal())
+        .then(|| console::Term::stdout().size().1.max(60))
 }
 
 /// Whether the reader of our output has gone away.
 pub(super) fn is_broken_pipe(e: &anyhow::Error) -> bool {
-    e.chain().any(|c| c.downcast_ref::<std::io::Error>().is_some_and(|io| io.kind() == std::io::ErrorKind::BrokenPipe))
+    e.chain().any(|c| {
+        c.downcast_ref::<std::io::Error>()
+            .is_some_and(|io| io.kind() == std::io::ErrorKind::BrokenPipe)
+    })
 }
 
 /// Says what went wrong.

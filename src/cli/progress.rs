@@ -14,7 +14,11 @@ pub(super) struct Bar {
 
 impl Bar {
     pub(super) fn new(quiet: bool) -> Self {
-        Bar { bar: None, begun: Instant::now(), wanted: !quiet && std::io::stderr().is_terminal() }
+        Bar {
+            bar: None,
+            begun: Instant::now(),
+            wanted: !quiet && std::io::stderr().is_terminal(),
+        }
     }
 
     pub(super) fn show(&mut self, p: Progress) {
@@ -22,8 +26,11 @@ impl Bar {
             return;
         }
         let bar = self.bar.get_or_insert_with(|| {
-            let bar = ProgressBar::with_draw_target(Some(p.of as u64), ProgressDrawTarget::stderr());
-            let style = ProgressStyle::with_template("{elapsed_precise} [{bar:30}] joint {pos}/{len} {msg} (about {eta} left)");
+            let bar =
+                ProgressBar::with_draw_target(Some(p.of as u64), ProgressDrawTarget::stderr());
+            let style = ProgressStyle::with_template(
+                "{elapsed_precise} [{bar:30}] joint {pos}/{len} {msg} (about {eta} left)",
+            );
             bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
             bar
         });

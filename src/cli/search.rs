@@ -61,41 +61,56 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
     };
     output::to(a.output.as_deref(), |out| {
         let mut given = 0;
-        let mut give = |write: &mut dyn FnMut(usize, Variant) -> anyhow::Result<()>| -> anyhow::Result<bool> {
-            let mut failed = None;
-            let mut visit = |v: Variant| {
-                given += 1;
-                match write(given, v) {
-                    Ok(()) if cancelled() => ControlFlow::Break(()),
-                    Ok(()) => ControlFlow::Continue(()),
-                    Err(e) => {
-                        failed = Some(e);
-                        ControlFlow::Break(())
-                    }
-                }
-            };
-            match a.sample {
-                Some(n) => {
-                    for v in search.sample(&diagrams, n, args.seed) {
-                        if visit(v).is_break() {
-                            break;
+        let mut give =
+            |write: &mut dyn FnMut(usize, Variant) -> anyhow::Result<()>| -> anyhow::Result<bool> {
+                let mut failed = None;
+                let mut visit = |v: Variant| {
+                    given += 1;
+                    match write(given, v) {
+                        Ok(()) if cancelled() => ControlFlow::Break(()),
+                        Ok(()) => ControlFlow::Continue(()),
+                        Err(e) => {
+                            failed = Some(e);
+                            ControlFlow::Break(())
                         }
                     }
+                };
+                match a.sample {
+                    Some(n) => {
+                        for v in search.sample(&diagrams, n, args.seed) {
+                            if visit(v).is_break() {
+                                break;
+                            }
+                        }
+                    }
+                    None if a.count => {}
+                    None => search.cheapest(
+                        &diagrams,
+                        if a.all { usize::MAX / 4 } else { a.top },
+                        visit,
+                    ),
                 }
-                None if a.count => {}
-                None => search.cheapest(&diagrams, if a.all { usize::MAX / 4 } else { a.top }, visit),
-            }
-            failed.map_or(Ok(cancelled()), Err)
-        };
+                failed.map_or(Ok(cancelled()), Err)
+            };
         write_found(out, a, &found, &mut give)?;
-        Ok(if found.admissible.total.is_zero() { Done::Nothing } else { Done::Found })
+        Ok(if found.admissible.total.is_zero() {
+            Done::Nothing
+        } else {
+            Done::Found
+        })
     })
 }
 
 /// Calls a writer with each variant and its position; true where it was interrupted.
-type Giver<'a> = dyn FnMut(&mut dyn FnMut(usize, Variant) -> anyhow::Result<()>) -> anyhow::Result<bool> + 'a;
+type Giver<'a> =
+    dyn FnMut(&mut dyn FnMut(usize, Variant) -> anyhow::Result<()>) -> anyhow::Result<bool> + 'a;
 
-fn write_found(out: &mut dyn Write, a: &SearchArgs, found: &Found<'_>, give: &mut Giver<'_>) -> anyhow::Result<()> {
+fn write_found(
+    out: &mut dyn Write,
+    a: &SearchArgs,
+    found: &Found<'_>,
+    give: &mut Giver<'_>,
+) -> anyhow::Result<()> {
     let search = found.search;
     match a.format {
         SearchFormat::Text => {
@@ -108,8 +123,16 @@ fn write_found(out: &mut dyn Write, a: &SearchArgs, found: &Found<'_>, give: &mu
                 Ok(())
             })?;
             if !block.is_empty() {
-                let what = if a.sample.is_some() { "drawn at random" } else { "cheapest first" };
-                writeln!(out, "\n  {what}:\n{}", search_text::variants(search, &block, width))?;
+                let what = if a.sample.is_some() {
+                    "drawn at random"
+                } else {
+                    "cheapest first"
+                };
+                writeln!(
+                    out,
+                    "\n  {what}:\n{}",
+                    search_text::variants(search, &block, width)
+                )?;
             }
             if interrupted {
                 writeln!(out, "\n  interrupted after {} variants", block.len())?;
@@ -133,20 +156,43 @@ fn write_found(out: &mut dyn Write, a: &SearchArgs, found: &Found<'_>, give: &mu
         }
         SearchFormat::Csv => {
             let joints: Vec<(usize, usize, JointId)> = columns(search);
-            let names: Vec<String> =
-                joints.iter().map(|&(_, _, j)| quoted(&search.mechanism.joints[j].id)).collect();
-            let heads = ["position", "cost", "mobility", "redundant", "external_redundant", "changes"];
+            let names: Vec<String> = joints
+                .iter()
+                .map(|&(_, _, j)| quoted(&search.mechanism.joints[j].id))
+                .collect();
+            let heads = [
+                "position",
+                "cost",
+                "mobility",
+                "redundant",
+                "external_redundant",
+                "changes",
+            ];
             writeln!(out, "{},{}", heads.join(","), names.join(","))?;
             give(&mut |i, v| {
                 let k = v.key;
-                write!(out, "{i},{},{},{},", cost(search.steps.milli(k.cost())), search.mobility(k), k.internal())?;
+                write!(
+                    out,
+                    "{i},{},{},{},",
+                    cost(search.steps.milli(k.cost())),
+                    search.mobility(k),
+                    k.internal()
+                )?;
                 if search.request.state.is_some() {
                     write!(out, "{}", k.external())?;
                 }
                 write!(out, ",{}", k.changes())?;
                 for &(variable, _, j) in &joints {
                     let choice = &search.space.variables[variable].choices[v.choices[variable]];
-                    write!(out, ",{}", quoted(&crate::search::space::choice_name(search.mechanism, j, choice)))?;
+                    write!(
+                        out,
+                        ",{}",
+                        quoted(&crate::search::space::choice_name(
+                            search.mechanism,
+                            j,
+                            choice
+                        ))
+                    )?;
                 }
                 Ok(writeln!(out)?)
             })?;
@@ -158,7 +204,13 @@ fn write_found(out: &mut dyn Write, a: &SearchArgs, found: &Found<'_>, give: &mu
 /// The joints that have a choice, in file order: (variable, place in it, joint).
 fn columns(search: &Search<'_>) -> Vec<(usize, usize, JointId)> {
     let mut out = Vec::new();
-    for (v, variable) in search.space.variables.iter().enumerate().filter(|(_, v)| v.choices.len() > 1) {
+    for (v, variable) in search
+        .space
+        .variables
+        .iter()
+        .enumerate()
+        .filter(|(_, v)| v.choices.len() > 1)
+    {
         out.extend(variable.joints.iter().enumerate().map(|(i, &j)| (v, i, j)));
     }
     out.sort_by_key(|&(_, _, j)| j);
@@ -166,7 +218,11 @@ fn columns(search: &Search<'_>) -> Vec<(usize, usize, JointId)> {
 }
 
 fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
 }
 
 fn brute(search: &Search<'_>, a: &SearchArgs) -> anyhow::Result<Done> {
@@ -176,11 +232,21 @@ fn brute(search: &Search<'_>, a: &SearchArgs) -> anyhow::Result<Done> {
         "{size} variants are too many for brute force; use --method diagram, or fewer --options"
     );
     let (determinate, admissible) = search.brute();
-    let found =
-        Found { search, determinate, admissible, by_cost: BTreeMap::new(), diagrams: None, stop: "exhausted" };
+    let found = Found {
+        search,
+        determinate,
+        admissible,
+        by_cost: BTreeMap::new(),
+        diagrams: None,
+        stop: "exhausted",
+    };
     output::to(a.output.as_deref(), |out| {
         write_found(out, a, &found, &mut |_| Ok(false))?;
-        Ok(if found.admissible.total.is_zero() { Done::Nothing } else { Done::Found })
+        Ok(if found.admissible.total.is_zero() {
+            Done::Nothing
+        } else {
+            Done::Found
+        })
     })
 }
 
@@ -188,12 +254,20 @@ fn request(mechanism: &Mechanism, a: &SearchArgs) -> anyhow::Result<Request> {
     let state = match (&a.state, a.max_external) {
         (None, None) => None,
         (None, Some(external)) => {
-            ensure!(mechanism.states.len() > 1, "{} has no state besides free", mechanism.name);
+            ensure!(
+                mechanism.states.len() > 1,
+                "{} has no state besides free",
+                mechanism.name
+            );
             Some((1, external))
         }
         (Some(name), external) => {
             let Some(s) = mechanism.states.iter().position(|s| s == name) else {
-                bail!("{} has no state {name}; it has: {}", mechanism.name, mechanism.states.join(", "));
+                bail!(
+                    "{} has no state {name}; it has: {}",
+                    mechanism.name,
+                    mechanism.states.join(", ")
+                );
             };
             (s > 0).then_some((s, external.unwrap_or(u32::MAX)))
         }
@@ -216,18 +290,28 @@ fn request(mechanism: &Mechanism, a: &SearchArgs) -> anyhow::Result<Request> {
 /// Applies --hold, --options, --allow and --forbid.
 fn restrict(mechanism: &mut Mechanism, a: &SearchArgs) -> anyhow::Result<()> {
     for id in &a.hold {
-        let Some(link) = mechanism.link(id) else { bail!("--hold: {} has no link {id}", mechanism.name) };
+        let Some(link) = mechanism.link(id) else {
+            bail!("--hold: {} has no link {id}", mechanism.name)
+        };
         mechanism.search.hold.push(link);
     }
-    let known: Vec<String> =
-        mechanism.joints.iter().flat_map(|j| &j.options).map(|o| o.name.clone()).collect();
+    let known: Vec<String> = mechanism
+        .joints
+        .iter()
+        .flat_map(|j| &j.options)
+        .map(|o| o.name.clone())
+        .collect();
     let check = |names: &[String], flag: &str| {
         for n in names {
             if !known.contains(n) {
                 let mut all = known.clone();
                 all.sort();
                 all.dedup();
-                bail!("{flag}: no joint of {} has an option named {n}; there are: {}", mechanism.name, all.join(", "));
+                bail!(
+                    "{flag}: no joint of {} has an option named {n}; there are: {}",
+                    mechanism.name,
+                    all.join(", ")
+                );
             }
         }
         Ok(())
@@ -241,8 +325,13 @@ fn restrict(mechanism: &mut Mechanism, a: &SearchArgs) -> anyhow::Result<()> {
                 Some((j, n)) => (j, Some(n.split(',').map(str::to_owned).collect::<Vec<_>>())),
                 None => (rule.as_str(), None),
             };
-            let Some(id) = mechanism.joint(joint) else { bail!("{flag}: {} has no joint {joint}", mechanism.name) };
-            ensure!(!(allow && names.is_none()), "--allow needs names of options: --allow {joint}=revolute,spherical");
+            let Some(id) = mechanism.joint(joint) else {
+                bail!("{flag}: {} has no joint {joint}", mechanism.name)
+            };
+            ensure!(
+                !(allow && names.is_none()),
+                "--allow needs names of options: --allow {joint}=revolute,spherical"
+            );
             check(names.as_deref().unwrap_or(&[]), flag)?;
             rules.push((id, names, allow));
         }
@@ -254,9 +343,14 @@ fn restrict(mechanism: &mut Mechanism, a: &SearchArgs) -> anyhow::Result<()> {
             // The present joint stays.
             place == 1
                 || (a.options.is_empty() || a.options.contains(&o.name))
-                    && rules.iter().filter(|(j, ..)| *j == id).all(|(_, names, allow)| {
-                        names.as_ref().is_some_and(|n| n.contains(&o.name) == *allow)
-                    })
+                    && rules
+                        .iter()
+                        .filter(|(j, ..)| *j == id)
+                        .all(|(_, names, allow)| {
+                            names
+                                .as_ref()
+                                .is_some_and(|n| n.contains(&o.name) == *allow)
+                        })
         });
     }
     Ok(())

@@ -38,7 +38,11 @@ impl<N: Copy + Default + PartialEq> Closure<N> {
     ///
     /// # Errors
     /// Where a coordinate has no value in the number system.
-    pub fn new<S: Scalars<Number = N>>(s: &S, mechanism: &Mechanism, state: StateId) -> Result<Self, ExactError> {
+    pub fn new<S: Scalars<Number = N>>(
+        s: &S,
+        mechanism: &Mechanism,
+        state: StateId,
+    ) -> Result<Self, ExactError> {
         let space = MotionSpace::new(s, &mechanism.mode)?;
         let (mut columns, mut left_out) = (Vec::new(), Vec::new());
         for j in mechanism.joints_in(state) {
@@ -48,9 +52,19 @@ impl<N: Copy + Default + PartialEq> Closure<N> {
             if missing > 0 {
                 left_out.push((j, missing));
             }
-            columns.extend(twists.into_iter().map(|(freedom, twist)| Column { joint: j, freedom, twist }));
+            columns.extend(twists.into_iter().map(|(freedom, twist)| Column {
+                joint: j,
+                freedom,
+                twist,
+            }));
         }
-        Ok(Closure { state, dim: space.dim(), contours: contour_basis(mechanism, state), columns, left_out })
+        Ok(Closure {
+            state,
+            dim: space.dim(),
+            contours: contour_basis(mechanism, state),
+            columns,
+            left_out,
+        })
     }
 
     /// Number of rows, 6k (3k in a plane).
@@ -60,7 +74,12 @@ impl<N: Copy + Default + PartialEq> Closure<N> {
     }
 
     /// Column `c` written out in full, for the chosen contours in the given order.
-    pub fn dense_column<S: Scalars<Number = N>>(&self, s: &S, c: usize, contours: &[usize]) -> Vec<N> {
+    pub fn dense_column<S: Scalars<Number = N>>(
+        &self,
+        s: &S,
+        c: usize,
+        contours: &[usize],
+    ) -> Vec<N> {
         let column = &self.columns[c];
         let mut out = vec![N::default(); self.dim * contours.len()];
         for (row, &k) in contours.iter().enumerate() {
@@ -76,12 +95,19 @@ impl<N: Copy + Default + PartialEq> Closure<N> {
     /// J written out, as a list of columns.
     pub fn dense<S: Scalars<Number = N>>(&self, s: &S) -> Vec<Vec<N>> {
         let all: Vec<usize> = (0..self.contours.len()).collect();
-        (0..self.columns.len()).map(|c| self.dense_column(s, c, &all)).collect()
+        (0..self.columns.len())
+            .map(|c| self.dense_column(s, c, &all))
+            .collect()
     }
 
     /// For each column, the twist it gives a link when the joint moves at unit speed along the path from the frame:
     /// rows of "the motion of `link`", one list of `dim` numbers a column.
-    pub fn link_motion<S: Scalars<Number = N>>(&self, s: &S, mechanism: &Mechanism, link: LinkId) -> Vec<Vec<N>> {
+    pub fn link_motion<S: Scalars<Number = N>>(
+        &self,
+        s: &S,
+        mechanism: &Mechanism,
+        link: LinkId,
+    ) -> Vec<Vec<N>> {
         let path = path_from_frame(mechanism, self.state, link);
         self.columns
             .iter()
@@ -96,7 +122,11 @@ impl<N: Copy + Default + PartialEq> Closure<N> {
 
 /// Joints on a shortest path from the frame to a link, with the direction they are passed in; empty where there is none.
 #[must_use]
-pub fn path_from_frame(mechanism: &Mechanism, state: StateId, link: LinkId) -> Vec<(JointId, bool)> {
+pub fn path_from_frame(
+    mechanism: &Mechanism,
+    state: StateId,
+    link: LinkId,
+) -> Vec<(JointId, bool)> {
     let frame = mechanism.frame();
     let mut came: Vec<Option<(JointId, bool)>> = vec![None; mechanism.links.len()];
     let mut queue = std::collections::VecDeque::from([frame]);

@@ -42,7 +42,9 @@ impl<N: Copy + PartialEq + Default> MotionSpace<N> {
                     .map(|x| s.cross(n, x))
                     .find(|e| e.iter().any(|&c| c != zero))
                     .unwrap_or([one, zero, zero]);
-                MotionSpace::Planar { axes: [n, e1, s.cross(n, e1)] }
+                MotionSpace::Planar {
+                    axes: [n, e1, s.cross(n, e1)],
+                }
             }
         })
     }
@@ -92,7 +94,11 @@ impl<N: Copy> FrameValues<N> {
         let minus = s.sub(s.sub(z[0], z[0]), s.dot(z, r));
         let zz = s.dot(z, z);
         let x = s.scaled_sum(minus, z, r.map(|c| s.mul(zz, c)));
-        Ok(FrameValues { axes: [x, s.cross(z, x), z], point: s.eval3(&frame.point)?, pitch: s.eval(&frame.pitch)? })
+        Ok(FrameValues {
+            axes: [x, s.cross(z, x), z],
+            point: s.eval3(&frame.point)?,
+            pitch: s.eval(&frame.pitch)?,
+        })
     }
 
     /// The twist of one freedom.
@@ -120,6 +126,9 @@ impl<N: Copy> FrameValues<N> {
     }
 }
 
+/// Freedoms, each with its twist.
+pub type FreedomTwists<N> = Vec<(Freedom, Vec<N>)>;
+
 /// The freedoms of a joint as twists in a motion space, each with the freedom it comes from. In a plane, a joint whose
 /// rotations are complete (spherical and its kin) turns about the plane's normal whatever its own axis.
 ///
@@ -130,12 +139,18 @@ pub fn joint_twists<S: Scalars>(
     space: &MotionSpace<S::Number>,
     frame: &Frame,
     joint_type: &JointType,
-) -> Result<Vec<(Freedom, Vec<S::Number>)>, ExactError> {
+) -> Result<FreedomTwists<S::Number>, ExactError> {
     let mut values = FrameValues::new(s, frame)?;
     let freedoms = joint_type.freedoms();
     if let MotionSpace::Planar { axes: [n, e1, e2] } = space {
-        let all_turns = [Freedom::Rx, Freedom::Ry, Freedom::Rz].iter().all(|r| freedoms.contains(r));
-        if all_turns && !freedoms.iter().any(|f| matches!(f, Freedom::Tx | Freedom::Ty | Freedom::Tz)) {
+        let all_turns = [Freedom::Rx, Freedom::Ry, Freedom::Rz]
+            .iter()
+            .all(|r| freedoms.contains(r));
+        if all_turns
+            && !freedoms
+                .iter()
+                .any(|f| matches!(f, Freedom::Tx | Freedom::Ty | Freedom::Tz))
+        {
             values.axes = [*e1, *e2, *n];
         }
     }

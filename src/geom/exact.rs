@@ -52,7 +52,9 @@ pub enum ExactError {
         expression: String,
     },
     /// A radicand could not be factored.
-    #[error("the number under sqrt({radicand}) is too large to factor; write it with fewer digits, or give a decimal")]
+    #[error(
+        "the number under sqrt({radicand}) is too large to factor; write it with fewer digits, or give a decimal"
+    )]
     RadicandTooLarge {
         /// What stands under the root.
         radicand: String,
@@ -61,7 +63,9 @@ pub enum ExactError {
     #[error("the angles have no common denominator below 2^44; round them to fewer decimals")]
     AnglesTooFine,
     /// Too many independent square roots.
-    #[error("{count} independent square roots exceed the limit of {limit}; give some of them as decimals")]
+    #[error(
+        "{count} independent square roots exceed the limit of {limit}; give some of them as decimals"
+    )]
     TooManyRoots {
         /// How many there are.
         count: usize,
@@ -69,13 +73,17 @@ pub enum ExactError {
         limit: usize,
     },
     /// No more primes of the size wanted.
-    #[error("no suitable prime number {nth} below 2^62; ask for fewer, or simplify roots and angles")]
+    #[error(
+        "no suitable prime number {nth} below 2^62; ask for fewer, or simplify roots and angles"
+    )]
     NoPrime {
         /// Which prime was asked for.
         nth: usize,
     },
     /// The expression was not among those the field was made for.
-    #[error("`{expression}` lies outside the field; include it among the expressions the field is made for")]
+    #[error(
+        "`{expression}` lies outside the field; include it among the expressions the field is made for"
+    )]
     NotInField {
         /// The expression.
         expression: String,
@@ -116,7 +124,10 @@ impl ExactField {
         nth: usize,
     ) -> Result<ExactField, ExactError> {
         let exprs: Vec<&Expr> = exprs.into_iter().collect();
-        let mut plan = Plan { order: 4, ..Plan::default() };
+        let mut plan = Plan {
+            order: 4,
+            ..Plan::default()
+        };
         let mut candidates = Vec::new();
         for e in &exprs {
             plan.collect(e, &mut candidates)?;
@@ -174,7 +185,13 @@ impl ExactField {
         let mut memo: HashMap<usize, Residue> = HashMap::new();
         for e in expr.post_order() {
             let at = |c: &Expr| memo.get(&c.id()).copied().unwrap_or(f.zero());
-            let inverse = |x: Residue| if x == 0 { Err(division(expr)) } else { Ok(f.inv(x)) };
+            let inverse = |x: Residue| {
+                if x == 0 {
+                    Err(division(expr))
+                } else {
+                    Ok(f.inv(x))
+                }
+            };
             let value = match e.kind() {
                 Kind::Rational(r) => f.from_rational(r).ok_or_else(|| division(expr))?,
                 Kind::Add(a, b) => f.add(at(a), at(b)),
@@ -221,9 +238,14 @@ impl ExactField {
                     &made
                 }
             };
-            let coef = f.from_rational(&radical.coef).ok_or_else(|| division(inner))?;
+            let coef = f
+                .from_rational(&radical.coef)
+                .ok_or_else(|| division(inner))?;
             return radical.primes.iter().try_fold(coef, |product, q| {
-                self.roots.get(q).map(|&root| f.mul(product, root)).ok_or_else(|| outside(inner))
+                self.roots
+                    .get(q)
+                    .map(|&root| f.mul(product, root))
+                    .ok_or_else(|| outside(inner))
             });
         }
         // Rewritten roots have rational radicands only, so this recursion ends at depth one.
@@ -234,16 +256,24 @@ impl ExactField {
             return Ok(0);
         }
         // Equal radicands have equal images, however they are written.
-        self.nested.iter().find(|(a, _)| *a == value).map(|&(_, root)| root).ok_or_else(|| outside(inner))
+        self.nested
+            .iter()
+            .find(|(a, _)| *a == value)
+            .map(|&(_, root)| root)
+            .ok_or_else(|| outside(inner))
     }
 }
 
 fn division(e: &Expr) -> ExactError {
-    ExactError::DivisionByZero { expression: e.to_string() }
+    ExactError::DivisionByZero {
+        expression: e.to_string(),
+    }
 }
 
 fn outside(e: &Expr) -> ExactError {
-    ExactError::NotInField { expression: e.to_string() }
+    ExactError::NotInField {
+        expression: e.to_string(),
+    }
 }
 
 /// What a prime has to provide.
@@ -290,17 +320,27 @@ impl Plan {
 
     /// Sorts the roots into those of Q(zeta_N) and the free ones, once all angles are known.
     fn finish(&mut self, flat: bool) -> Result<(), ExactError> {
-        let mut primes: Vec<u64> = self.radicals.values().flat_map(|r| r.primes.iter().copied()).collect();
+        let mut primes: Vec<u64> = self
+            .radicals
+            .values()
+            .flat_map(|r| r.primes.iter().copied())
+            .collect();
         primes.sort_unstable();
         primes.dedup();
         self.order_primes = factor(self.order).into_iter().map(|(q, _)| q).collect();
         self.modulus = self.order;
         let mut rejected = 0;
         for q in primes {
-            let inside = if q == 2 { self.order.is_multiple_of(8) } else { self.order.is_multiple_of(q) };
+            let inside = if q == 2 {
+                self.order.is_multiple_of(8)
+            } else {
+                self.order.is_multiple_of(q)
+            };
             if inside {
                 if q > TRIAL_LIMIT {
-                    return Err(ExactError::RadicandTooLarge { radicand: q.to_string() });
+                    return Err(ExactError::RadicandTooLarge {
+                        radicand: q.to_string(),
+                    });
                 }
                 self.inner_roots.push(q);
                 continue;
@@ -315,7 +355,10 @@ impl Plan {
             }
         }
         if rejected > MAX_FREE {
-            return Err(ExactError::TooManyRoots { count: rejected, limit: MAX_FREE });
+            return Err(ExactError::TooManyRoots {
+                count: rejected,
+                limit: MAX_FREE,
+            });
         }
         Ok(())
     }
@@ -339,7 +382,10 @@ impl Plan {
                 return Ok(false);
             } else if field.field.sqrt(value).is_none() {
                 if self.nested.len() == MAX_NESTED {
-                    return Err(ExactError::TooManyRoots { count: MAX_NESTED + 1, limit: MAX_NESTED });
+                    return Err(ExactError::TooManyRoots {
+                        count: MAX_NESTED + 1,
+                        limit: MAX_NESTED,
+                    });
                 }
                 return Ok(true);
             } else {
@@ -349,7 +395,9 @@ impl Plan {
                 return Ok(false);
             }
             if squares >= WITNESSES {
-                return Err(ExactError::AmbiguousNestedRoot { radicand: inner.to_string() });
+                return Err(ExactError::AmbiguousNestedRoot {
+                    radicand: inner.to_string(),
+                });
             }
         }
         Err(ExactError::NoPrime { nth: 0 })
@@ -360,7 +408,8 @@ impl Plan {
         let modulus = self.modulus.max(4);
         let start = (1u64 << 61) / modulus + 1;
         let end = ((1u64 << 62) - 1) / modulus;
-        (start..end.min(start.saturating_add(MAX_CANDIDATES))).filter_map(move |k| self.at(k * modulus + 1))
+        (start..end.min(start.saturating_add(MAX_CANDIDATES)))
+            .filter_map(move |k| self.at(k * modulus + 1))
     }
 
     fn at(&self, p: u64) -> Option<ExactField> {
@@ -379,7 +428,11 @@ impl Plan {
         let zeta = (2..)
             .take(1 << 16)
             .map(|g| f.pow(f.from_i64(g), (p - 1) / self.order))
-            .find(|&z| self.order_primes.iter().all(|r| f.pow(z, self.order / r) != f.one()))?;
+            .find(|&z| {
+                self.order_primes
+                    .iter()
+                    .all(|r| f.pow(z, self.order / r) != f.one())
+            })?;
         let inverse_i = f.pow(zeta, self.order / 4 * 3);
         for &q in &self.inner_roots {
             let root = if q == 2 {
@@ -395,12 +448,23 @@ impl Plan {
                     term = f.mul(term, step);
                     step = f.mul(step, square);
                 }
-                if q % 4 == 1 { sum } else { f.mul(sum, inverse_i) }
+                if q % 4 == 1 {
+                    sum
+                } else {
+                    f.mul(sum, inverse_i)
+                }
             };
             roots.insert(q, root);
         }
         let radicals = self.radicals.clone();
-        let mut field = ExactField { field: f, order: self.order, zeta, roots, radicals, nested: Vec::new() };
+        let mut field = ExactField {
+            field: f,
+            order: self.order,
+            zeta,
+            roots,
+            radicals,
+            nested: Vec::new(),
+        };
         for inner in &self.nested {
             let value = field.eval(inner).ok().filter(|&v| v != 0)?;
             let root = f.sqrt(value)?;
@@ -413,9 +477,14 @@ impl Plan {
 /// The root of a nonnegative rational as a rational times roots of distinct primes. Prime factors up to 10^6 are found
 /// by division, and those of a cofactor below 2^64 by Pollard's rho; beyond that only squares are recognised.
 fn radical(r: &BigRational) -> Result<Radical, ExactError> {
-    let too_large = || ExactError::RadicandTooLarge { radicand: Expr::rational(r.clone()).to_string() };
+    let too_large = || ExactError::RadicandTooLarge {
+        radicand: Expr::rational(r.clone()).to_string(),
+    };
     if r.is_zero() {
-        return Ok(Radical { coef: BigRational::zero(), primes: Vec::new() });
+        return Ok(Radical {
+            coef: BigRational::zero(),
+            primes: Vec::new(),
+        });
     }
     if r.is_negative() || r.numer().bits() + r.denom().bits() > 1 << 12 {
         return Err(too_large());
@@ -426,7 +495,10 @@ fn radical(r: &BigRational) -> Result<Radical, ExactError> {
     let below = under.iter().fold(b, |product, q| product * q);
     primes.extend(under);
     primes.sort_unstable();
-    Ok(Radical { coef: BigRational::new(a, below), primes })
+    Ok(Radical {
+        coef: BigRational::new(a, below),
+        primes,
+    })
 }
 
 /// `x = s^2 * product of primes` as `(s, primes)`.
@@ -499,7 +571,8 @@ fn split(n: u64) -> u64 {
         return root;
     }
     for c in 1..n {
-        let step = |x: u64| ((u128::from(x) * u128::from(x) + u128::from(c)) % u128::from(n)) as u64;
+        let step =
+            |x: u64| ((u128::from(x) * u128::from(x) + u128::from(c)) % u128::from(n)) as u64;
         let (mut x, mut y, mut d) = (2, 2, 1);
         while d == 1 {
             x = step(x);
@@ -524,11 +597,17 @@ struct Quadratic {
 impl Quadratic {
     fn new(u: BigRational, v: BigRational, d: BigInt) -> Option<Quadratic> {
         // Denesting is worth a try for what a designer writes, not for towers of digits.
-        if u.numer().bits().max(v.numer().bits()) > 2048 || u.denom().bits().max(v.denom().bits()) > 2048 {
+        if u.numer().bits().max(v.numer().bits()) > 2048
+            || u.denom().bits().max(v.denom().bits()) > 2048
+        {
             return None;
         }
         if d.is_one() {
-            return Some(Quadratic { u: u + v, v: BigRational::zero(), d });
+            return Some(Quadratic {
+                u: u + v,
+                v: BigRational::zero(),
+                d,
+            });
         }
         let d = if v.is_zero() { BigInt::one() } else { d };
         Some(Quadratic { u, v, d })
@@ -536,7 +615,10 @@ impl Quadratic {
 
     fn root(r: &BigRational) -> Option<Quadratic> {
         let radical = radical(r).ok()?;
-        let d = radical.primes.iter().fold(BigInt::one(), |product, q| product * q);
+        let d = radical
+            .primes
+            .iter()
+            .fold(BigInt::one(), |product, q| product * q);
         Quadratic::new(BigRational::zero(), radical.coef, d)
     }
 
@@ -553,7 +635,11 @@ impl Quadratic {
     }
 
     fn neg(&self) -> Quadratic {
-        Quadratic { u: -&self.u, v: -&self.v, d: self.d.clone() }
+        Quadratic {
+            u: -&self.u,
+            v: -&self.v,
+            d: self.d.clone(),
+        }
     }
 
     fn mul(&self, other: &Quadratic) -> Option<Quadratic> {
@@ -620,8 +706,13 @@ fn quadratic(expr: &Expr) -> Option<Quadratic> {
             Kind::Div(a, b) => at(a)?.mul(&at(b)?.inverse()?)?,
             Kind::Neg(a) => at(a)?.neg(),
             Kind::Pow(a, n) => {
-                let base = if *n < 0 { at(a)?.inverse()? } else { at(a)?.clone() };
-                let mut product = Quadratic::new(BigRational::one(), BigRational::zero(), BigInt::one())?;
+                let base = if *n < 0 {
+                    at(a)?.inverse()?
+                } else {
+                    at(a)?.clone()
+                };
+                let mut product =
+                    Quadratic::new(BigRational::one(), BigRational::zero(), BigInt::one())?;
                 for _ in 0..n.unsigned_abs() {
                     product = product.mul(&base)?;
                 }
@@ -653,13 +744,19 @@ fn denested(inner: &Expr) -> Option<Expr> {
     if let Some(flat) = a.denested() {
         return Some(flat);
     }
-    [(1, 16), (3, 16), (1, 20), (3, 20)].into_iter().find_map(|(k, n)| {
-        // cos^2 x = (1 + cos 2x) / 2
-        let one = Quadratic::new(BigRational::one(), BigRational::zero(), BigInt::one())?;
-        let half = Quadratic::new(BigRational::new(1.into(), 2.into()), BigRational::zero(), BigInt::one())?;
-        let square = one.add(&Quadratic::cos(k, n / 2)?)?.mul(&half)?;
-        Some(Expr::trig(Function::Cos, k, n)? * a.mul(&square.inverse()?)?.denested()?)
-    })
+    [(1, 16), (3, 16), (1, 20), (3, 20)]
+        .into_iter()
+        .find_map(|(k, n)| {
+            // cos^2 x = (1 + cos 2x) / 2
+            let one = Quadratic::new(BigRational::one(), BigRational::zero(), BigInt::one())?;
+            let half = Quadratic::new(
+                BigRational::new(1.into(), 2.into()),
+                BigRational::zero(),
+                BigInt::one(),
+            )?;
+            let square = one.add(&Quadratic::cos(k, n / 2)?)?.mul(&half)?;
+            Some(Expr::trig(Function::Cos, k, n)? * a.mul(&square.inverse()?)?.denested()?)
+        })
 }
 
 #[cfg(test)]
@@ -684,15 +781,30 @@ mod tests {
             ("tan(15deg)-(2-sqrt(3))", "tan(15deg)-(2+sqrt(3))"),
             ("cot(75deg)-(2-sqrt(3))", "cot(75deg)+(2-sqrt(3))"),
             ("sqrt(7)*sqrt(7)-7", "sqrt(7)*sqrt(7)+7"),
-            ("cos(360deg/7)+cos(720deg/7)+cos(1080deg/7)+1/2", "cos(360deg/7)+cos(720deg/7)-cos(1080deg/7)+1/2"),
+            (
+                "cos(360deg/7)+cos(720deg/7)+cos(1080deg/7)+1/2",
+                "cos(360deg/7)+cos(720deg/7)-cos(1080deg/7)+1/2",
+            ),
             ("sqrt(3+2*sqrt(2))-1-sqrt(2)", "sqrt(3+2*sqrt(2))-1+sqrt(2)"),
             ("sqrt(3-2*sqrt(2))+1-sqrt(2)", "sqrt(3-2*sqrt(2))-1+sqrt(2)"),
             ("4*sin(18deg)+1-sqrt(5)", "4*sin(18deg)+1+sqrt(5)"),
-            ("0*cos(360deg/7)+cos(360deg/7)*(sqrt(21)-sqrt(3)*sqrt(7))", "cos(360deg/7)*(sqrt(21)+sqrt(3)*sqrt(7))"),
-            ("sqrt(10-2*sqrt(5))-4*sin(36deg)", "sqrt(10-2*sqrt(5))+4*sin(36deg)"),
-            ("sqrt(2+sqrt(2))*sqrt(2-sqrt(2))-sqrt(2)", "sqrt(2+sqrt(2))*sqrt(2-sqrt(2))+sqrt(2)"),
+            (
+                "0*cos(360deg/7)+cos(360deg/7)*(sqrt(21)-sqrt(3)*sqrt(7))",
+                "cos(360deg/7)*(sqrt(21)+sqrt(3)*sqrt(7))",
+            ),
+            (
+                "sqrt(10-2*sqrt(5))-4*sin(36deg)",
+                "sqrt(10-2*sqrt(5))+4*sin(36deg)",
+            ),
+            (
+                "sqrt(2+sqrt(2))*sqrt(2-sqrt(2))-sqrt(2)",
+                "sqrt(2+sqrt(2))*sqrt(2-sqrt(2))+sqrt(2)",
+            ),
             ("sqrt(1+sqrt(3))^2-1-sqrt(3)", "sqrt(1+sqrt(3))^2-1+sqrt(3)"),
-            ("sqrt(1+sqrt(3))-sqrt(sqrt(3)+1)", "sqrt(1+sqrt(3))+sqrt(sqrt(3)+1)"),
+            (
+                "sqrt(1+sqrt(3))-sqrt(sqrt(3)+1)",
+                "sqrt(1+sqrt(3))+sqrt(sqrt(3)+1)",
+            ),
             ("sqrt(0.75)-sin(120deg)", "sqrt(0.75)-sin(240deg)"),
             (
                 "2*sin(360deg/7)+2*sin(720deg/7)-2*sin(1080deg/7)-sqrt(7)+4*sin(1080deg/7)*0",
@@ -702,9 +814,16 @@ mod tests {
         for nth in [0, 1, 5] {
             for (zero, nonzero) in pairs {
                 let value = zero.parse::<Expr>().unwrap().to_f64();
-                assert_eq!(value == 0.0, at(zero, nth), "{zero}, nth {nth}, f64 {value}");
+                assert_eq!(
+                    value == 0.0,
+                    at(zero, nth),
+                    "{zero}, nth {nth}, f64 {value}"
+                );
                 let value = nonzero.parse::<Expr>().unwrap().to_f64();
-                assert!(value != 0.0 && !at(nonzero, nth), "{nonzero}, nth {nth}, f64 {value}");
+                assert!(
+                    value != 0.0 && !at(nonzero, nth),
+                    "{nonzero}, nth {nth}, f64 {value}"
+                );
             }
         }
     }
@@ -712,7 +831,10 @@ mod tests {
     #[test]
     fn limits_are_errors() {
         let make = |text: &str| ExactField::for_expressions([&text.parse::<Expr>().unwrap()], 0);
-        assert!(matches!(make("sqrt(3+sqrt(3))*sqrt(3-sqrt(3))-sqrt(6)"), Err(ExactError::AmbiguousNestedRoot { .. })));
+        assert!(matches!(
+            make("sqrt(3+sqrt(3))*sqrt(3-sqrt(3))-sqrt(6)"),
+            Err(ExactError::AmbiguousNestedRoot { .. })
+        ));
         assert!(make("sqrt(0.7853981633974483)+sqrt(18446744073709551557)").is_ok());
         assert!(matches!(
             make("sqrt(1234567890123456789012345678901234567891)"),
@@ -721,7 +843,10 @@ mod tests {
         let roots: Vec<String> = (2..60).map(|q| format!("sqrt({q})")).collect();
         assert!(make(&roots.join("+")).is_ok());
         let field = make("sqrt(2)").unwrap();
-        assert!(matches!(field.eval(&"sqrt(3)".parse().unwrap()), Err(ExactError::NotInField { .. })));
+        assert!(matches!(
+            field.eval(&"sqrt(3)".parse().unwrap()),
+            Err(ExactError::NotInField { .. })
+        ));
     }
 
     proptest! {

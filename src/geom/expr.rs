@@ -50,7 +50,9 @@ pub enum ExprError {
         at: usize,
     },
     /// A character that cannot stand here.
-    #[error("found {found} at byte {at} where {expected} should stand; correct the expression there")]
+    #[error(
+        "found {found} at byte {at} where {expected} should stand; correct the expression there"
+    )]
     Unexpected {
         /// Byte offset.
         at: usize,
@@ -89,13 +91,17 @@ pub enum ExprError {
         at: usize,
     },
     /// A divisor that is zero.
-    #[error("division by zero at byte {at}: the divisor vanishes (to 60 digits at least); correct the divisor")]
+    #[error(
+        "division by zero at byte {at}: the divisor vanishes (to 60 digits at least); correct the divisor"
+    )]
     DivisionByZero {
         /// Byte offset.
         at: usize,
     },
     /// The square root of a negative number.
-    #[error("square root of a negative number at byte {at}; coordinates are real, check the sign of the radicand")]
+    #[error(
+        "square root of a negative number at byte {at}; coordinates are real, check the sign of the radicand"
+    )]
     NegativeRoot {
         /// Byte offset.
         at: usize,
@@ -129,19 +135,25 @@ pub enum ExprError {
         function: &'static str,
     },
     /// An angle with a denominator beyond [`MAX_ANGLE_DENOMINATOR`].
-    #[error("the angle at byte {at} is too finely divided to be kept exact; write it with at most ten decimals")]
+    #[error(
+        "the angle at byte {at} is too finely divided to be kept exact; write it with at most ten decimals"
+    )]
     AngleTooFine {
         /// Byte offset.
         at: usize,
     },
     /// The value exceeds the range of `f64`.
-    #[error("the value at byte {at} exceeds the range of floating-point numbers; choose other units")]
+    #[error(
+        "the value at byte {at} exceeds the range of floating-point numbers; choose other units"
+    )]
     NotFinite {
         /// Byte offset.
         at: usize,
     },
     /// An exact rational with too many digits.
-    #[error("the exact value at byte {at} has thousands of digits; lower the powers or round the numbers")]
+    #[error(
+        "the exact value at byte {at} has thousands of digits; lower the powers or round the numbers"
+    )]
     TooManyDigits {
         /// Byte offset.
         at: usize,
@@ -191,7 +203,9 @@ impl Kind {
     fn children(&self) -> [Option<&Expr>; 2] {
         match self {
             Kind::Rational(_) | Kind::Trig(..) => [None, None],
-            Kind::Add(a, b) | Kind::Sub(a, b) | Kind::Mul(a, b) | Kind::Div(a, b) => [Some(a), Some(b)],
+            Kind::Add(a, b) | Kind::Sub(a, b) | Kind::Mul(a, b) | Kind::Div(a, b) => {
+                [Some(a), Some(b)]
+            }
             Kind::Neg(a) | Kind::Pow(a, _) | Kind::Sqrt(a) => [Some(a), None],
         }
     }
@@ -203,7 +217,9 @@ impl Kind {
         }
         match std::mem::replace(self, Kind::Trig(Function::Cos, 0, 1)) {
             Kind::Rational(_) | Kind::Trig(..) => {}
-            Kind::Add(a, b) | Kind::Sub(a, b) | Kind::Mul(a, b) | Kind::Div(a, b) => into.extend([a, b]),
+            Kind::Add(a, b) | Kind::Sub(a, b) | Kind::Mul(a, b) | Kind::Div(a, b) => {
+                into.extend([a, b])
+            }
             Kind::Neg(a) | Kind::Pow(a, _) | Kind::Sqrt(a) => into.push(a),
         }
     }
@@ -241,8 +257,16 @@ impl Expr {
             Kind::Trig(Function::Sin, k, n) => Enclosure::sin(*k, *n),
             Kind::Trig(Function::Tan, k, n) => Enclosure::sin(*k, *n).div(&Enclosure::cos(*k, *n)),
         };
-        let size = kind.children().into_iter().flatten().fold(1u64, |s, c| s.saturating_add(c.0.size));
-        Expr(Arc::new(Node { kind, enclosure, size }))
+        let size = kind
+            .children()
+            .into_iter()
+            .flatten()
+            .fold(1u64, |s, c| s.saturating_add(c.0.size));
+        Expr(Arc::new(Node {
+            kind,
+            enclosure,
+            size,
+        }))
     }
 
     /// The expression of a rational number. O(1).
@@ -256,7 +280,9 @@ impl Expr {
     /// # Errors
     /// [`ExprError::NonFiniteFloat`] for infinities and NaN.
     pub fn from_f64(x: f64) -> Result<Expr, ExprError> {
-        let bad = || ExprError::NonFiniteFloat { value: x.to_string() };
+        let bad = || ExprError::NonFiniteFloat {
+            value: x.to_string(),
+        };
         if !x.is_finite() {
             return Err(bad());
         }
@@ -373,7 +399,11 @@ impl Expr {
         }
     }
 
-    fn combine(a: &Expr, b: &Expr, fold: impl Fn(&BigRational, &BigRational) -> BigRational) -> Option<Expr> {
+    fn combine(
+        a: &Expr,
+        b: &Expr,
+        fold: impl Fn(&BigRational, &BigRational) -> BigRational,
+    ) -> Option<Expr> {
         let (x, y) = (a.rational_ref()?, b.rational_ref()?);
         (bits(x) + bits(y) <= MAX_BITS).then(|| Expr::rational(fold(x, y)))
     }
@@ -492,7 +522,11 @@ fn decimal(whole: &str, fraction: &str, exponent: i64) -> Option<BigRational> {
     let digits = BigInt::parse_bytes(format!("0{whole}{fraction}").as_bytes(), 10)?;
     let exponent = exponent.checked_sub(i64::try_from(fraction.len()).ok()?)?;
     let scale = BigInt::from(10).pow(u32::try_from(exponent.unsigned_abs()).ok()?);
-    Some(if exponent < 0 { BigRational::new(digits, scale) } else { BigRational::from_integer(digits * scale) })
+    Some(if exponent < 0 {
+        BigRational::new(digits, scale)
+    } else {
+        BigRational::from_integer(digits * scale)
+    })
 }
 
 // Binding strengths in the written form.
@@ -509,7 +543,10 @@ fn show_rational(r: &BigRational) -> (String, u8) {
     if d.is_one() {
         return (format!("{sign}{n}"), strength);
     }
-    let (twos, mut rest) = (d.trailing_zeros().unwrap_or(0), d >> d.trailing_zeros().unwrap_or(0));
+    let (twos, mut rest) = (
+        d.trailing_zeros().unwrap_or(0),
+        d >> d.trailing_zeros().unwrap_or(0),
+    );
     let mut fives = 0u64;
     let five = BigInt::from(5);
     while fives <= 20 && rest.is_multiple_of(&five) {
@@ -521,7 +558,11 @@ fn show_rational(r: &BigRational) -> (String, u8) {
         return (format!("{sign}{n}/{d}"), PRODUCT);
     }
     let scaled = n * BigInt::from(10).pow(places as u32) / d;
-    let digits = format!("{scaled:0>width$}", scaled = scaled.to_string(), width = places + 1);
+    let digits = format!(
+        "{scaled:0>width$}",
+        scaled = scaled.to_string(),
+        width = places + 1
+    );
     let (whole, fraction) = digits.split_at(digits.len() - places);
     (format!("{sign}{whole}.{fraction}"), strength)
 }
@@ -569,7 +610,8 @@ impl fmt::Display for Expr {
                         Function::Sin => "sin",
                         Function::Tan => "tan",
                     };
-                    let (angle, strength) = show_rational(&BigRational::new(BigInt::from(*k) * 360, (*n).into()));
+                    let (angle, strength) =
+                        show_rational(&BigRational::new(BigInt::from(*k) * 360, (*n).into()));
                     if strength == ATOM {
                         write!(f, "{name}({angle}deg)")?
                     } else {
@@ -614,7 +656,11 @@ impl FromStr for Expr {
         if text.len() > MAX_TEXT {
             return Err(ExprError::TooLong { len: text.len() });
         }
-        let mut parser = Parser { text, pos: 0, depth: 0 };
+        let mut parser = Parser {
+            text,
+            pos: 0,
+            depth: 0,
+        };
         if parser.peek().is_none() {
             return Err(ExprError::Empty);
         }
@@ -642,11 +688,19 @@ fn number(value: Value, at: usize) -> Result<Expr, ExprError> {
 }
 
 fn finite(e: Expr, at: usize) -> Result<Expr, ExprError> {
-    if e.to_f64().is_finite() { Ok(e) } else { Err(ExprError::NotFinite { at }) }
+    if e.to_f64().is_finite() {
+        Ok(e)
+    } else {
+        Err(ExprError::NotFinite { at })
+    }
 }
 
 fn angle(turns: BigRational, at: usize) -> Result<Value, ExprError> {
-    if bits(&turns) > MAX_BITS { Err(ExprError::TooManyDigits { at }) } else { Ok(Value::Angle(turns)) }
+    if bits(&turns) > MAX_BITS {
+        Err(ExprError::TooManyDigits { at })
+    } else {
+        Ok(Value::Angle(turns))
+    }
 }
 
 struct Parser<'a> {
@@ -682,7 +736,11 @@ impl<'a> Parser<'a> {
             Some(c) => format!("`{}`", c.escape_debug()),
             None => "the end of the text".to_owned(),
         };
-        ExprError::Unexpected { at: self.pos, found, expected }
+        ExprError::Unexpected {
+            at: self.pos,
+            found,
+            expected,
+        }
     }
 
     fn expect(&mut self, byte: u8, expected: &'static str) -> Result<(), ExprError> {
@@ -704,7 +762,9 @@ impl<'a> Parser<'a> {
                 (Value::Number(a), Value::Number(b)) => {
                     Value::Number(finite(if op == b'+' { a + b } else { a - b }, at)?)
                 }
-                (Value::Angle(a), Value::Angle(b)) => angle(if op == b'+' { a + b } else { a - b }, at)?,
+                (Value::Angle(a), Value::Angle(b)) => {
+                    angle(if op == b'+' { a + b } else { a - b }, at)?
+                }
                 _ => return Err(ExprError::AngleOutside { at }),
             };
         }
@@ -727,12 +787,17 @@ impl<'a> Parser<'a> {
                     (Value::Angle(_), Value::Angle(_)) => return Err(outside()),
                 }
             } else {
-                let Value::Number(b) = right else { return Err(outside()) };
+                let Value::Number(b) = right else {
+                    return Err(outside());
+                };
                 if b.0.enclosure.has_zero() {
                     return Err(ExprError::DivisionByZero { at });
                 }
                 match left {
-                    Value::Number(a) => Value::Number(finite(a.div(&b).ok_or(ExprError::DivisionByZero { at })?, at)?),
+                    Value::Number(a) => Value::Number(finite(
+                        a.div(&b).ok_or(ExprError::DivisionByZero { at })?,
+                        at,
+                    )?),
                     Value::Angle(a) => angle(a / b.rational_ref().ok_or_else(outside)?, at)?,
                 }
             };
@@ -773,7 +838,10 @@ impl<'a> Parser<'a> {
             return Err(self.unexpected("an integer power"));
         }
         let out_of_range = ExprError::PowerOutOfRange { at };
-        let n: i64 = self.take_while(|b| b.is_ascii_digit()).parse().map_err(|_| out_of_range.clone())?;
+        let n: i64 = self
+            .take_while(|b| b.is_ascii_digit())
+            .parse()
+            .map_err(|_| out_of_range.clone())?;
         if n > MAX_POWER {
             return Err(out_of_range);
         }
@@ -812,7 +880,10 @@ impl<'a> Parser<'a> {
                 match value {
                     Value::Number(e) => match e.rational_ref() {
                         Some(_) => self.degrees(e),
-                        None if self.word_is_deg() => Err(ExprError::NotAnAngle { at, function: "deg" }),
+                        None if self.word_is_deg() => Err(ExprError::NotAnAngle {
+                            at,
+                            function: "deg",
+                        }),
                         None => Ok(Value::Number(e)),
                     },
                     other => Ok(other),
@@ -838,7 +909,11 @@ impl<'a> Parser<'a> {
     fn word_is_deg(&mut self) -> bool {
         let _ = self.peek();
         let rest = self.text.get(self.pos..).unwrap_or("");
-        rest.starts_with("deg") && !rest.as_bytes().get(3).is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_')
+        rest.starts_with("deg")
+            && !rest
+                .as_bytes()
+                .get(3)
+                .is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_')
     }
 
     /// Turns a rational into an angle where the suffix `deg` follows.
@@ -850,7 +925,10 @@ impl<'a> Parser<'a> {
         self.pos += 3;
         match e.rational_ref() {
             Some(r) => angle(r / BigInt::from(360), at),
-            None => Err(ExprError::NotAnAngle { at, function: "deg" }),
+            None => Err(ExprError::NotAnAngle {
+                at,
+                function: "deg",
+            }),
         }
     }
 
@@ -895,13 +973,21 @@ impl<'a> Parser<'a> {
             "pi" => return Ok(Value::Angle(BigRational::new(1.into(), 2.into()))),
             "sqrt" => {
                 let inner = number(self.parentheses()?, at)?;
-                return inner.sqrt().map(Value::Number).ok_or(ExprError::NegativeRoot { at });
+                return inner
+                    .sqrt()
+                    .map(Value::Number)
+                    .ok_or(ExprError::NegativeRoot { at });
             }
             "cos" => (Function::Cos, "cos"),
             "sin" => (Function::Sin, "sin"),
             "tan" => (Function::Tan, "tan"),
             "cot" => (Function::Tan, "cot"),
-            _ => return Err(ExprError::UnknownWord { at, word: word.to_owned() }),
+            _ => {
+                return Err(ExprError::UnknownWord {
+                    at,
+                    word: word.to_owned(),
+                });
+            }
         };
         let turns = match self.parentheses()? {
             Value::Angle(t) => t,
@@ -909,7 +995,11 @@ impl<'a> Parser<'a> {
             Value::Number(_) => return Err(ExprError::NotAnAngle { at, function: name }),
         };
         // cot a = tan(90deg - a)
-        let turns = if name == "cot" { BigRational::new(1.into(), 4.into()) - turns } else { turns };
+        let turns = if name == "cot" {
+            BigRational::new(1.into(), 4.into()) - turns
+        } else {
+            turns
+        };
         let turns = &turns - turns.floor();
         let (Some(k), Some(n)) = (turns.numer().to_u64(), turns.denom().to_u64()) else {
             return Err(ExprError::AngleTooFine { at });
@@ -917,7 +1007,9 @@ impl<'a> Parser<'a> {
         if n > MAX_ANGLE_DENOMINATOR {
             return Err(ExprError::AngleTooFine { at });
         }
-        Expr::trig(function, k, n).map(Value::Number).ok_or(ExprError::Pole { at, function: name })
+        Expr::trig(function, k, n)
+            .map(Value::Number)
+            .ok_or(ExprError::Pole { at, function: name })
     }
 }
 
@@ -936,7 +1028,11 @@ struct Enclosure {
 }
 
 fn floor_shift(x: &BigInt, s: i64) -> BigInt {
-    if s >= 0 { x >> s } else { x << s.unsigned_abs() }
+    if s >= 0 {
+        x >> s
+    } else {
+        x << s.unsigned_abs()
+    }
 }
 
 fn ceil_shift(x: &BigInt, s: i64) -> BigInt {
@@ -950,14 +1046,31 @@ fn ceil_div(a: &BigInt, b: &BigInt) -> BigInt {
 impl Enclosure {
     fn new(lo: BigInt, hi: BigInt, e: i64) -> Enclosure {
         let excess = lo.bits().max(hi.bits()).saturating_sub(PRECISION) as i64;
-        let (lo, hi) = if excess > 0 { (floor_shift(&lo, excess), ceil_shift(&hi, excess)) } else { (lo, hi) };
-        Enclosure { lo, hi, e: e.saturating_add(excess).clamp(-EXPONENT_LIMIT, EXPONENT_LIMIT) }
+        let (lo, hi) = if excess > 0 {
+            (floor_shift(&lo, excess), ceil_shift(&hi, excess))
+        } else {
+            (lo, hi)
+        };
+        Enclosure {
+            lo,
+            hi,
+            e: e.saturating_add(excess)
+                .clamp(-EXPONENT_LIMIT, EXPONENT_LIMIT),
+        }
     }
 
     fn rational(r: &BigRational) -> Enclosure {
-        let shift = if r.is_integer() { 0 } else { (PRECISION + r.denom().bits()).saturating_sub(r.numer().bits()) };
+        let shift = if r.is_integer() {
+            0
+        } else {
+            (PRECISION + r.denom().bits()).saturating_sub(r.numer().bits())
+        };
         let n = r.numer() << shift;
-        Enclosure::new(n.div_floor(r.denom()), ceil_div(&n, r.denom()), -(shift as i64))
+        Enclosure::new(
+            n.div_floor(r.denom()),
+            ceil_div(&n, r.denom()),
+            -(shift as i64),
+        )
     }
 
     fn has_zero(&self) -> bool {
@@ -969,28 +1082,52 @@ impl Enclosure {
     }
 
     fn neg(&self) -> Enclosure {
-        Enclosure { lo: -&self.hi, hi: -&self.lo, e: self.e }
+        Enclosure {
+            lo: -&self.hi,
+            hi: -&self.lo,
+            e: self.e,
+        }
     }
 
     fn add(&self, other: &Enclosure) -> Enclosure {
         if self.is_zero() || other.is_zero() {
             let x = if self.is_zero() { other } else { self };
-            return Enclosure { lo: x.lo.clone(), hi: x.hi.clone(), e: x.e };
+            return Enclosure {
+                lo: x.lo.clone(),
+                hi: x.hi.clone(),
+                e: x.e,
+            };
         }
         // A term that lies far below the other is rounded away rather than aligned, whatever the exponents.
-        let e = self.e.min(other.e).max(self.e.max(other.e) - 2 * PRECISION as i64);
+        let e = self
+            .e
+            .min(other.e)
+            .max(self.e.max(other.e) - 2 * PRECISION as i64);
         let lo = floor_shift(&self.lo, e - self.e) + floor_shift(&other.lo, e - other.e);
         let hi = ceil_shift(&self.hi, e - self.e) + ceil_shift(&other.hi, e - other.e);
         Enclosure::new(lo, hi, e)
     }
 
     fn mul(&self, other: &Enclosure) -> Enclosure {
-        let products = [&self.lo * &other.lo, &self.lo * &other.hi, &self.hi * &other.lo, &self.hi * &other.hi];
+        let products = [
+            &self.lo * &other.lo,
+            &self.lo * &other.hi,
+            &self.hi * &other.lo,
+            &self.hi * &other.hi,
+        ];
         Enclosure::hull(products.iter(), products.iter(), self.e + other.e)
     }
 
-    fn hull<'a>(lows: impl Iterator<Item = &'a BigInt>, highs: impl Iterator<Item = &'a BigInt>, e: i64) -> Enclosure {
-        Enclosure::new(lows.min().cloned().unwrap_or_default(), highs.max().cloned().unwrap_or_default(), e)
+    fn hull<'a>(
+        lows: impl Iterator<Item = &'a BigInt>,
+        highs: impl Iterator<Item = &'a BigInt>,
+        e: i64,
+    ) -> Enclosure {
+        Enclosure::new(
+            lows.min().cloned().unwrap_or_default(),
+            highs.max().cloned().unwrap_or_default(),
+            e,
+        )
     }
 
     /// Quotient; a divisor that contains zero (which callers exclude) yields zero.
@@ -1000,8 +1137,16 @@ impl Enclosure {
         }
         let shift = PRECISION + other.lo.bits().max(other.hi.bits());
         let (lo, hi) = (&self.lo << shift, &self.hi << shift);
-        let pairs = [(&lo, &other.lo), (&lo, &other.hi), (&hi, &other.lo), (&hi, &other.hi)];
-        let (lows, highs) = (pairs.map(|(a, b)| a.div_floor(b)), pairs.map(|(a, b)| ceil_div(a, b)));
+        let pairs = [
+            (&lo, &other.lo),
+            (&lo, &other.hi),
+            (&hi, &other.lo),
+            (&hi, &other.hi),
+        ];
+        let (lows, highs) = (
+            pairs.map(|(a, b)| a.div_floor(b)),
+            pairs.map(|(a, b)| ceil_div(a, b)),
+        );
         Enclosure::hull(lows.iter(), highs.iter(), self.e - other.e - shift as i64)
     }
 
@@ -1013,7 +1158,11 @@ impl Enclosure {
                 result = result.mul(self);
             }
         }
-        if n < 0 { Enclosure::new(BigInt::one(), BigInt::one(), 0).div(&result) } else { result }
+        if n < 0 {
+            Enclosure::new(BigInt::one(), BigInt::one(), 0).div(&result)
+        } else {
+            result
+        }
     }
 
     fn sqrt(&self) -> Enclosure {
@@ -1021,7 +1170,13 @@ impl Enclosure {
         if (self.e - shift as i64).rem_euclid(2) == 1 {
             shift += 1;
         }
-        let positive = |x: &BigInt| if x.is_negative() { BigInt::zero() } else { x << shift };
+        let positive = |x: &BigInt| {
+            if x.is_negative() {
+                BigInt::zero()
+            } else {
+                x << shift
+            }
+        };
         let (lo, hi) = (positive(&self.lo), positive(&self.hi));
         let root = hi.sqrt();
         let root = if &root * &root == hi { root } else { root + 1 };
@@ -1085,7 +1240,11 @@ impl Enclosure {
         }
         let top = e + magnitude.bits() as i64;
         if top > 1030 {
-            return if mid.sign() == Sign::Minus { f64::NEG_INFINITY } else { f64::INFINITY };
+            return if mid.sign() == Sign::Minus {
+                f64::NEG_INFINITY
+            } else {
+                f64::INFINITY
+            };
         }
         // Below all subnormals; aligning such a number would take memory in proportion to its exponent.
         if top < -1080 {
@@ -1100,13 +1259,21 @@ impl Enclosure {
             let kept = magnitude >> shift;
             let rest = magnitude - (&kept << shift);
             let half = num_bigint::BigUint::one() << (shift - 1);
-            if rest > half || (rest == half && kept.is_odd()) { kept + 1u32 } else { kept }
+            if rest > half || (rest == half && kept.is_odd()) {
+                kept + 1u32
+            } else {
+                kept
+            }
         };
         // In two steps, because 2^-1074 alone is subnormal and 2^1023 the largest power.
         let m = rounded.to_u64().unwrap_or(0) as f64;
         let half = (last / 2) as i32;
         let value = m * 2f64.powi(half) * 2f64.powi(last as i32 - half);
-        if mid.sign() == Sign::Minus { -value } else { value }
+        if mid.sign() == Sign::Minus {
+            -value
+        } else {
+            value
+        }
     }
 }
 
@@ -1136,7 +1303,11 @@ mod tests {
             ("cos(0)", 1, 1),
             ("sqrt(0.25)*-8/2", -2, 1),
         ] {
-            assert_eq!(rational(text), Some(BigRational::new(n.into(), d.into())), "{text}");
+            assert_eq!(
+                rational(text),
+                Some(BigRational::new(n.into(), d.into())),
+                "{text}"
+            );
         }
         assert_eq!(rational("sqrt(2)"), None);
     }
@@ -1181,7 +1352,9 @@ mod tests {
         let _ = sum.to_string();
         let square = (0..80).fold(root, |s, _| &s * &s);
         let _ = square.to_string();
-        let tiny: Expr = "((((((sqrt(2)*1e-300)^64)^64)^64)^64)^64)^64".parse().unwrap();
+        let tiny: Expr = "((((((sqrt(2)*1e-300)^64)^64)^64)^64)^64)^64"
+            .parse()
+            .unwrap();
         assert_eq!(tiny.to_f64(), 0.0);
         assert_eq!((&tiny + &Expr::from(1)).to_f64(), 1.0);
     }
@@ -1189,15 +1362,21 @@ mod tests {
     fn text() -> impl Strategy<Value = (String, f64)> {
         let leaf = prop_oneof![
             (1i64..50).prop_map(|x| (x.to_string(), x as f64)),
-            (1i64..50, 2i64..9)
-                .prop_map(|(k, n)| (format!("cos({k}*pi/{n})"), (k as f64 * std::f64::consts::PI / n as f64).cos())),
+            (1i64..50, 2i64..9).prop_map(|(k, n)| (
+                format!("cos({k}*pi/{n})"),
+                (k as f64 * std::f64::consts::PI / n as f64).cos()
+            )),
             (1i64..359).prop_map(|k| (format!("sin({k}deg)"), (k as f64).to_radians().sin())),
         ];
         leaf.prop_recursive(4, 24, 2, |inner| {
             prop_oneof![
-                (inner.clone(), inner.clone()).prop_map(|((s, a), (t, b))| (format!("({s})+({t})"), a + b)),
-                (inner.clone(), inner.clone()).prop_map(|((s, a), (t, b))| (format!("({s})*-({t})"), a * -b)),
-                inner.clone().prop_map(|(s, a)| (format!("sqrt(({s})^2+1)"), (a * a + 1.0).sqrt())),
+                (inner.clone(), inner.clone())
+                    .prop_map(|((s, a), (t, b))| (format!("({s})+({t})"), a + b)),
+                (inner.clone(), inner.clone())
+                    .prop_map(|((s, a), (t, b))| (format!("({s})*-({t})"), a * -b)),
+                inner
+                    .clone()
+                    .prop_map(|(s, a)| (format!("sqrt(({s})^2+1)"), (a * a + 1.0).sqrt())),
                 inner.prop_map(|(s, a)| (format!("3/(({s})^2+2)"), 3.0 / (a * a + 2.0))),
             ]
         })

@@ -43,7 +43,12 @@ pub trait Scalars: Sync {
     }
 
     /// `s·a + b`.
-    fn scaled_sum(&self, s: Self::Number, a: [Self::Number; 3], b: [Self::Number; 3]) -> [Self::Number; 3] {
+    fn scaled_sum(
+        &self,
+        s: Self::Number,
+        a: [Self::Number; 3],
+        b: [Self::Number; 3],
+    ) -> [Self::Number; 3] {
         [0, 1, 2].map(|i| self.add(self.mul(s, a[i]), b[i]))
     }
 }

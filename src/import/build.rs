@@ -4,11 +4,14 @@ use crate::closure::contour::closed_walk;
 use crate::geom::expr::Expr;
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
-use crate::import::resolve::{Findings, contains, cost, frame, index, joint_type, key, number, option, vector, zero3};
+use crate::import::resolve::{
+    Findings, contains, cost, frame, index, joint_type, key, number, option, vector, zero3,
+};
 use crate::import::schema::{JointEntry, MechanismFile, OptionEntry, Unloading, Words};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{
-    Expected, Joint, JointId, JointOption, LengthUnit, Link, LinkId, Mechanism, Mode, Role, SearchSpec,
+    Expected, Joint, JointId, JointOption, LengthUnit, Link, LinkId, Mechanism, Mode, Role,
+    SearchSpec,
 };
 use itertools::Itertools;
 
@@ -19,11 +22,26 @@ pub type Finding = (Vec<Step>, ProblemKind);
 pub const LIMITS: (usize, usize, usize) = (2000, 4000, 64);
 
 const UNITS: [LengthUnit; 5] = [
-    LengthUnit { symbol: "m", metres: 1.0 },
-    LengthUnit { symbol: "mm", metres: 1e-3 },
-    LengthUnit { symbol: "cm", metres: 1e-2 },
-    LengthUnit { symbol: "um", metres: 1e-6 },
-    LengthUnit { symbol: "in", metres: 0.0254 },
+    LengthUnit {
+        symbol: "m",
+        metres: 1.0,
+    },
+    LengthUnit {
+        symbol: "mm",
+        metres: 1e-3,
+    },
+    LengthUnit {
+        symbol: "cm",
+        metres: 1e-2,
+    },
+    LengthUnit {
+        symbol: "um",
+        metres: 1e-6,
+    },
+    LengthUnit {
+        symbol: "in",
+        metres: 0.0254,
+    },
 ];
 
 /// Builds a mechanism.
@@ -33,31 +51,60 @@ const UNITS: [LengthUnit; 5] = [
 pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     let mut out = Findings::default();
     let root = |k: &str| vec![Step::Key(k.to_owned())];
-    for (what, count, limit) in [("links", file.link.len(), LIMITS.0), ("joints", file.joint.len(), LIMITS.1)] {
+    for (what, count, limit) in [
+        ("links", file.link.len(), LIMITS.0),
+        ("joints", file.joint.len(), LIMITS.1),
+    ] {
         if count > limit {
-            return Err(vec![(root(&what[..what.len() - 1]), ProblemKind::TooMany { what, count, limit })]);
+            return Err(vec![(
+                root(&what[..what.len() - 1]),
+                ProblemKind::TooMany { what, count, limit },
+            )]);
         }
     }
     let symbol = file.length_unit.as_deref().unwrap_or("m");
-    let length_unit = UNITS.into_iter().find(|u| u.symbol == symbol).unwrap_or_else(|| {
-        let known = UNITS.iter().map(|u| u.symbol).join(", ");
-        out.add(&root("length_unit"), ProblemKind::UnknownWord { what: "length unit", word: symbol.to_owned(), known });
-        UNITS[0]
-    });
+    let length_unit = UNITS
+        .into_iter()
+        .find(|u| u.symbol == symbol)
+        .unwrap_or_else(|| {
+            let known = UNITS.iter().map(|u| u.symbol).join(", ");
+            out.add(
+                &root("length_unit"),
+                ProblemKind::UnknownWord {
+                    what: "length unit",
+                    word: symbol.to_owned(),
+                    known,
+                },
+            );
+            UNITS[0]
+        });
     let mode = match file.mode.as_deref().unwrap_or("spatial") {
         "planar" => {
             let at = root("plane_normal");
             let given = file.plane_normal.as_ref().map(|v| vector(v, &at, &mut out));
             let normal = given.unwrap_or_else(|| [0, 0, 1].map(Expr::from));
             if normal.iter().all(|c| c.to_f64() == 0.0) {
-                out.add(&at, ProblemKind::ZeroVector { joint: "of the plane".to_owned(), what: "normal" });
+                out.add(
+                    &at,
+                    ProblemKind::ZeroVector {
+                        joint: "of the plane".to_owned(),
+                        what: "normal",
+                    },
+                );
             }
             Mode::Planar { normal }
         }
         other => {
             if other != "spatial" {
                 let known = "spatial, planar".to_owned();
-                out.add(&root("mode"), ProblemKind::UnknownWord { what: "mode", word: other.to_owned(), known });
+                out.add(
+                    &root("mode"),
+                    ProblemKind::UnknownWord {
+                        what: "mode",
+                        word: other.to_owned(),
+                        known,
+                    },
+                );
             }
             Mode::Spatial
         }
@@ -68,8 +115,9 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
         states.extend(words(j.state.as_ref()));
     }
     let states: Vec<String> = states.into_iter().unique().collect();
-    let joints: Vec<Joint> =
-        (0..file.joint.len()).filter_map(|i| joint(file, i, &links, &states, &mut out)).collect();
+    let joints: Vec<Joint> = (0..file.joint.len())
+        .filter_map(|i| joint(file, i, &links, &states, &mut out))
+        .collect();
     if !out.found.is_empty() {
         return Err(out.found);
     }
@@ -90,7 +138,11 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     mechanism.contours = contours(file, &mechanism, &mut out);
     mechanism.search = search(file, &mechanism, &mut out);
     mechanism.expected = expected(file, &mechanism, &mut out);
-    if out.found.is_empty() { Ok(mechanism) } else { Err(out.found) }
+    if out.found.is_empty() {
+        Ok(mechanism)
+    } else {
+        Err(out.found)
+    }
 }
 
 fn words(w: Option<&Words>) -> Vec<String> {
@@ -106,7 +158,13 @@ fn check_id(what: &'static str, id: &str, earlier: bool, path: &[Step], out: &mu
         out.add(path, ProblemKind::BadId { id: id.to_owned() });
     }
     if earlier {
-        out.add(path, ProblemKind::Duplicate { what, id: id.to_owned() });
+        out.add(
+            path,
+            ProblemKind::Duplicate {
+                what,
+                id: id.to_owned(),
+            },
+        );
     }
 }
 
@@ -114,7 +172,13 @@ fn links(file: &MechanismFile, out: &mut Findings) -> Vec<Link> {
     let mut links: Vec<Link> = Vec::new();
     for (i, entry) in file.link.iter().enumerate() {
         let at = [Step::Key("link".to_owned()), Step::Index(i)];
-        check_id("link", &entry.id, links.iter().any(|l| l.id == entry.id), &key(&at, "id"), out);
+        check_id(
+            "link",
+            &entry.id,
+            links.iter().any(|l| l.id == entry.id),
+            &key(&at, "id"),
+            out,
+        );
         let role = match entry.role.as_deref() {
             None => Role::Inner,
             Some("frame") => Role::Frame,
@@ -122,14 +186,30 @@ fn links(file: &MechanismFile, out: &mut Findings) -> Vec<Link> {
             Some("object") => Role::Object,
             Some(word) => {
                 let known = "frame, output, object".to_owned();
-                out.add(&key(&at, "role"), ProblemKind::UnknownWord { what: "role", word: word.to_owned(), known });
+                out.add(
+                    &key(&at, "role"),
+                    ProblemKind::UnknownWord {
+                        what: "role",
+                        word: word.to_owned(),
+                        known,
+                    },
+                );
                 Role::Inner
             }
         };
         if let (Role::Frame, Some(first)) = (role, links.iter().find(|l| l.role == Role::Frame)) {
-            out.add(&key(&at, "role"), ProblemKind::SecondFrame { first: first.id.clone(), second: entry.id.clone() });
+            out.add(
+                &key(&at, "role"),
+                ProblemKind::SecondFrame {
+                    first: first.id.clone(),
+                    second: entry.id.clone(),
+                },
+            );
         }
-        links.push(Link { id: entry.id.clone(), role });
+        links.push(Link {
+            id: entry.id.clone(),
+            role,
+        });
     }
     let has = |role| links.iter().any(|l| l.role == role);
     if !has(Role::Frame) {
@@ -141,17 +221,35 @@ fn links(file: &MechanismFile, out: &mut Findings) -> Vec<Link> {
     links
 }
 
-fn joint(file: &MechanismFile, i: usize, links: &[Link], states: &[String], out: &mut Findings) -> Option<Joint> {
+fn joint(
+    file: &MechanismFile,
+    i: usize,
+    links: &[Link],
+    states: &[String],
+    out: &mut Findings,
+) -> Option<Joint> {
     let entry = &file.joint[i];
     let at = [Step::Key("joint".to_owned()), Step::Index(i)];
-    check_id("joint", &entry.id, file.joint[..i].iter().any(|j| j.id == entry.id), &key(&at, "id"), out);
+    check_id(
+        "joint",
+        &entry.id,
+        file.joint[..i].iter().any(|j| j.id == entry.id),
+        &key(&at, "id"),
+        out,
+    );
     let mut ends = [0; 2];
     for (e, id) in entry.links.iter().enumerate() {
         match links.iter().position(|l| l.id == *id) {
             Some(l) => ends[e] = l,
             None => {
                 let known = links.iter().take(30).map(|l| l.id.as_str()).join(", ");
-                out.add(&index(&key(&at, "links"), e), ProblemKind::UnknownLink { id: id.clone(), known });
+                out.add(
+                    &index(&key(&at, "links"), e),
+                    ProblemKind::UnknownLink {
+                        id: id.clone(),
+                        known,
+                    },
+                );
             }
         }
     }
@@ -161,9 +259,17 @@ fn joint(file: &MechanismFile, i: usize, links: &[Link], states: &[String], out:
     }
     let joint_type = joint_type(&entry.id, &entry.kind, entry.freedoms.as_ref(), &at, out)?;
     let frame = place(entry, &joint_type, &at, out);
-    let present = JointOption { name: present_name(&joint_type), joint_type: joint_type.clone(), frame: frame.clone(), cost_milli: None };
+    let present = JointOption {
+        name: present_name(&joint_type),
+        joint_type: joint_type.clone(),
+        frame: frame.clone(),
+        cost_milli: None,
+    };
     let states_of = entry.state.as_ref().map(|w| {
-        words(Some(w)).iter().filter_map(|w| states.iter().position(|s| s == w)).collect::<Vec<_>>()
+        words(Some(w))
+            .iter()
+            .filter_map(|w| states.iter().position(|s| s == w))
+            .collect::<Vec<_>>()
     });
     let in_free = states_of.as_ref().is_none_or(|s| s.contains(&0));
     let changeable = in_free && !entry.drive && joint_type != JointType::Fixed;
@@ -172,14 +278,31 @@ fn joint(file: &MechanismFile, i: usize, links: &[Link], states: &[String], out:
         None | Some(Unloading::Allowed(false)) => Vec::new(),
         Some(Unloading::Allowed(true)) => {
             let from = key(&[Step::Key("search".to_owned())], "unloading");
-            file.search.unloading.iter().enumerate().filter_map(|(n, e)| option(&entry.id, &frame, e, &index(&from, n), out)).collect()
+            file.search
+                .unloading
+                .iter()
+                .enumerate()
+                .filter_map(|(n, e)| option(&entry.id, &frame, e, &index(&from, n), out))
+                .collect()
         }
         Some(Unloading::List(list)) => {
             let from = key(&at, "unloading");
-            list.iter().enumerate().filter_map(|(n, e)| option(&entry.id, &frame, e, &index(&from, n), out)).collect()
+            list.iter()
+                .enumerate()
+                .filter_map(|(n, e)| option(&entry.id, &frame, e, &index(&from, n), out))
+                .collect()
         }
     };
-    Some(Joint { id: entry.id.clone(), links: ends, joint_type, frame, drive: entry.drive, states: states_of, options, unloading })
+    Some(Joint {
+        id: entry.id.clone(),
+        links: ends,
+        joint_type,
+        frame,
+        drive: entry.drive,
+        states: states_of,
+        options,
+        unloading,
+    })
 }
 
 fn present_name(joint_type: &JointType) -> String {
@@ -189,31 +312,65 @@ fn present_name(joint_type: &JointType) -> String {
     }
 }
 
-fn place(entry: &JointEntry, joint_type: &JointType, at: &[Step], out: &mut Findings) -> crate::model::mechanism::Frame {
+fn place(
+    entry: &JointEntry,
+    joint_type: &JointType,
+    at: &[Step],
+    out: &mut Findings,
+) -> crate::model::mechanism::Frame {
     let point = vector(&entry.point, &key(at, "point"), out);
     let axis = match (&entry.axis, joint_type) {
         (Some(v), _) => vector(v, &key(at, "axis"), out),
         (None, JointType::Spherical | JointType::Fixed) => [0, 0, 1].map(Expr::from),
         (None, _) => {
             let what = "an axis, such as axis = [0, 0, 1]";
-            out.add(at, ProblemKind::Missing { joint: entry.id.clone(), kind: entry.kind.clone(), what });
+            out.add(
+                at,
+                ProblemKind::Missing {
+                    joint: entry.id.clone(),
+                    kind: entry.kind.clone(),
+                    what,
+                },
+            );
             [0, 0, 1].map(Expr::from)
         }
     };
-    let reference = entry.reference.as_ref().map(|v| vector(v, &key(at, "reference"), out));
-    let screws = joint_type.freedoms().contains(&crate::model::joint_type::Freedom::Screw);
+    let reference = entry
+        .reference
+        .as_ref()
+        .map(|v| vector(v, &key(at, "reference"), out));
+    let screws = joint_type
+        .freedoms()
+        .contains(&crate::model::joint_type::Freedom::Screw);
     match (&entry.pitch, screws) {
         (None, true) => {
             let what = "a pitch, the translation per radian";
-            out.add(at, ProblemKind::Missing { joint: entry.id.clone(), kind: entry.kind.clone(), what });
+            out.add(
+                at,
+                ProblemKind::Missing {
+                    joint: entry.id.clone(),
+                    kind: entry.kind.clone(),
+                    what,
+                },
+            );
         }
         (Some(_), false) => {
             let (joint, kind) = (entry.id.clone(), entry.kind.clone());
-            out.add(&key(at, "pitch"), ProblemKind::Superfluous { joint, kind, what: "pitch" });
+            out.add(
+                &key(at, "pitch"),
+                ProblemKind::Superfluous {
+                    joint,
+                    kind,
+                    what: "pitch",
+                },
+            );
         }
         _ => {}
     }
-    let pitch = entry.pitch.as_ref().map_or_else(|| zero3()[0].clone(), |c| number(c, &key(at, "pitch"), out));
+    let pitch = entry
+        .pitch
+        .as_ref()
+        .map_or_else(|| zero3()[0].clone(), |c| number(c, &key(at, "pitch"), out));
     frame(&entry.id, point, axis, reference, pitch, at, out)
 }
 
@@ -229,22 +386,39 @@ fn options(
 ) -> Vec<JointOption> {
     let (list, from, own): (&[OptionEntry], Vec<Step>, bool) = match &entry.options {
         Some(list) => (list, key(at, "options"), true),
-        None if changeable => (&file.search.options, key(&[Step::Key("search".to_owned())], "options"), false),
+        None if changeable => (
+            &file.search.options,
+            key(&[Step::Key("search".to_owned())], "options"),
+            false,
+        ),
         None => (&[], Vec::new(), false),
     };
     let mut options = vec![present.clone()];
     if list.len() > LIMITS.2 {
-        out.add(&from, ProblemKind::TooMany { what: "options", count: list.len(), limit: LIMITS.2 });
+        out.add(
+            &from,
+            ProblemKind::TooMany {
+                what: "options",
+                count: list.len(),
+                limit: LIMITS.2,
+            },
+        );
         return options;
     }
     for (n, item) in list.iter().enumerate() {
         let path = index(&from, n);
         // A bad entry of the common list would be reported once per joint.
-        let (before, Some(option)) = (out.found.len(), option(&entry.id, &present.frame, item, &path, out)) else { continue };
+        let (before, Some(option)) = (
+            out.found.len(),
+            option(&entry.id, &present.frame, item, &path, out),
+        ) else {
+            continue;
+        };
         if out.found.len() > before || entry.forbid.contains(&option.name) {
             continue;
         }
-        let same = option.joint_type == present.joint_type && contains(&option, present) == Some(true);
+        let same =
+            option.joint_type == present.joint_type && contains(&option, present) == Some(true);
         if same && options.len() == 1 + n {
             // The present joint, listed: keep its name and cost.
             options[0].cost_milli = option.cost_milli.or(options[0].cost_milli);
@@ -256,14 +430,28 @@ fn options(
         match contains(&option, present) {
             Some(true) => {}
             Some(false) if own => {
-                let (joint, option, present) = (entry.id.clone(), option.name, present.name.clone());
-                out.add(&path, ProblemKind::LosesMotion { joint, option, present });
+                let (joint, option, present) =
+                    (entry.id.clone(), option.name, present.name.clone());
+                out.add(
+                    &path,
+                    ProblemKind::LosesMotion {
+                        joint,
+                        option,
+                        present,
+                    },
+                );
                 continue;
             }
             _ => continue,
         }
         if options.iter().any(|o| o.name == option.name) {
-            out.add(&path, ProblemKind::RepeatedOption { joint: entry.id.clone(), option: option.name });
+            out.add(
+                &path,
+                ProblemKind::RepeatedOption {
+                    joint: entry.id.clone(),
+                    option: option.name,
+                },
+            );
             continue;
         }
         options.push(option);
@@ -273,10 +461,21 @@ fn options(
 
 /// Every link must hang on the frame in each state it has joints in.
 fn connected(mechanism: &Mechanism, out: &mut Findings) {
-    let at = |l: LinkId| [Step::Key("link".to_owned()), Step::Index(l), Step::Key("id".to_owned())];
+    let at = |l: LinkId| {
+        [
+            Step::Key("link".to_owned()),
+            Step::Index(l),
+            Step::Key("id".to_owned()),
+        ]
+    };
     for (l, link) in mechanism.links.iter().enumerate() {
         if !mechanism.joints.iter().any(|j| j.links.contains(&l)) {
-            out.add(&at(l), ProblemKind::Unused { link: link.id.clone() });
+            out.add(
+                &at(l),
+                ProblemKind::Unused {
+                    link: link.id.clone(),
+                },
+            );
         }
     }
     for (s, state) in mechanism.states.iter().enumerate() {
@@ -294,20 +493,49 @@ fn connected(mechanism: &Mechanism, out: &mut Findings) {
                 }
             }
         }
-        for (l, link) in mechanism.links.iter().enumerate().filter(|(l, _)| !reached.contains(l)) {
-            let here = joints.iter().any(|&j| mechanism.joints[j].links.contains(&l));
+        for (l, link) in mechanism
+            .links
+            .iter()
+            .enumerate()
+            .filter(|(l, _)| !reached.contains(l))
+        {
+            let here = joints
+                .iter()
+                .any(|&j| mechanism.joints[j].links.contains(&l));
             if here || (s == 0 && link.role == Role::Output) {
-                out.add(&at(l), ProblemKind::Disconnected { link: link.id.clone(), state: state.clone() });
+                out.add(
+                    &at(l),
+                    ProblemKind::Disconnected {
+                        link: link.id.clone(),
+                        state: state.clone(),
+                    },
+                );
             }
         }
     }
 }
 
-fn joint_by_id(mechanism: &Mechanism, id: &str, path: &[Step], out: &mut Findings) -> Option<JointId> {
+fn joint_by_id(
+    mechanism: &Mechanism,
+    id: &str,
+    path: &[Step],
+    out: &mut Findings,
+) -> Option<JointId> {
     let found = mechanism.joint(id);
     if found.is_none() {
-        let known = mechanism.joints.iter().take(30).map(|j| j.id.as_str()).join(", ");
-        out.add(path, ProblemKind::UnknownJoint { id: id.to_owned(), known });
+        let known = mechanism
+            .joints
+            .iter()
+            .take(30)
+            .map(|j| j.id.as_str())
+            .join(", ");
+        out.add(
+            path,
+            ProblemKind::UnknownJoint {
+                id: id.to_owned(),
+                known,
+            },
+        );
     }
     found
 }
@@ -315,9 +543,17 @@ fn joint_by_id(mechanism: &Mechanism, id: &str, path: &[Step], out: &mut Finding
 fn contours(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findings) -> Vec<Vec<JointId>> {
     let mut contours = Vec::new();
     for (i, entry) in file.contour.iter().enumerate() {
-        let at = [Step::Key("contour".to_owned()), Step::Index(i), Step::Key("joints".to_owned())];
-        let joints: Vec<JointId> =
-            entry.joints.iter().enumerate().filter_map(|(n, id)| joint_by_id(mechanism, id, &index(&at, n), out)).collect();
+        let at = [
+            Step::Key("contour".to_owned()),
+            Step::Index(i),
+            Step::Key("joints".to_owned()),
+        ];
+        let joints: Vec<JointId> = entry
+            .joints
+            .iter()
+            .enumerate()
+            .filter_map(|(n, id)| joint_by_id(mechanism, id, &index(&at, n), out))
+            .collect();
         if joints.len() == entry.joints.len() && closed_walk(mechanism, &joints).is_none() {
             out.add(&at, ProblemKind::OpenContour);
         }
@@ -333,18 +569,37 @@ fn search(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findings) -> Se
         match mechanism.link(id) {
             Some(l) => spec.hold.push(l),
             None => {
-                let known = mechanism.links.iter().take(30).map(|l| l.id.as_str()).join(", ");
-                out.add(&index(&key(&at, "hold"), i), ProblemKind::UnknownLink { id: id.clone(), known });
+                let known = mechanism
+                    .links
+                    .iter()
+                    .take(30)
+                    .map(|l| l.id.as_str())
+                    .join(", ");
+                out.add(
+                    &index(&key(&at, "hold"), i),
+                    ProblemKind::UnknownLink {
+                        id: id.clone(),
+                        known,
+                    },
+                );
             }
         }
     }
     let mut paired = Vec::new();
     for (i, pair) in file.search.mirror.iter().enumerate() {
         let path = index(&key(&at, "mirror"), i);
-        let joints = pair.iter().filter_map(|id| joint_by_id(mechanism, id, &path, out)).collect_vec();
+        let joints = pair
+            .iter()
+            .filter_map(|id| joint_by_id(mechanism, id, &path, out))
+            .collect_vec();
         for &j in &joints {
             if paired.contains(&j) {
-                out.add(&path, ProblemKind::RepeatedMirror { joint: mechanism.joints[j].id.clone() });
+                out.add(
+                    &path,
+                    ProblemKind::RepeatedMirror {
+                        joint: mechanism.joints[j].id.clone(),
+                    },
+                );
             }
             paired.push(j);
         }
@@ -354,8 +609,16 @@ fn search(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findings) -> Se
     }
     for (name, &value) in &file.search.costs {
         let path = key(&key(&at, "costs"), name);
-        let Some(milli) = cost(value, &path, out) else { continue };
-        let option_names = || mechanism.joints.iter().flat_map(|j| j.options.iter().chain(&j.unloading)).map(|o| &o.name);
+        let Some(milli) = cost(value, &path, out) else {
+            continue;
+        };
+        let option_names = || {
+            mechanism
+                .joints
+                .iter()
+                .flat_map(|j| j.options.iter().chain(&j.unloading))
+                .map(|o| &o.name)
+        };
         match name.as_str() {
             "change" => spec.costs.change_milli = Some(milli),
             "link" => spec.costs.link_milli = Some(milli),
@@ -363,8 +626,18 @@ fn search(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findings) -> Se
                 spec.costs.by_type_milli.push((name.clone(), milli));
             }
             _ => {
-                let known = ["change", "link"].into_iter().chain(JointType::NAMED.iter().map(JointType::name)).join(", ");
-                out.add(&path, ProblemKind::UnknownWord { what: "cost", word: name.clone(), known });
+                let known = ["change", "link"]
+                    .into_iter()
+                    .chain(JointType::NAMED.iter().map(JointType::name))
+                    .join(", ");
+                out.add(
+                    &path,
+                    ProblemKind::UnknownWord {
+                        what: "cost",
+                        word: name.clone(),
+                        known,
+                    },
+                );
             }
         }
     }
@@ -376,9 +649,20 @@ fn expected(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findings) -> 
     for (i, e) in file.expected.iter().enumerate() {
         let state = e.state.clone().unwrap_or_else(|| "free".to_owned());
         if !mechanism.states.contains(&state) {
-            let path = [Step::Key("expected".to_owned()), Step::Index(i), Step::Key("state".to_owned())];
+            let path = [
+                Step::Key("expected".to_owned()),
+                Step::Index(i),
+                Step::Key("state".to_owned()),
+            ];
             let known = mechanism.states.join(", ");
-            out.add(&path, ProblemKind::UnknownWord { what: "state", word: state.clone(), known });
+            out.add(
+                &path,
+                ProblemKind::UnknownWord {
+                    what: "state",
+                    word: state.clone(),
+                    known,
+                },
+            );
         }
         list.push(Expected {
             state,

@@ -16,7 +16,11 @@ pub enum Step {
 /// Bytes of the item at a path, or of the deepest part of the path that exists.
 #[must_use]
 pub fn locate(text: &str, json: bool, path: &[Step]) -> Option<Range<usize>> {
-    if json { in_json(text, path) } else { in_toml(text, path) }
+    if json {
+        in_json(text, path)
+    } else {
+        in_toml(text, path)
+    }
 }
 
 fn in_toml(text: &str, path: &[Step]) -> Option<Range<usize>> {
@@ -36,7 +40,12 @@ fn in_toml(text: &str, path: &[Step]) -> Option<Range<usize>> {
 }
 
 fn in_json(text: &str, path: &[Step]) -> Option<Range<usize>> {
-    let parsed = jsonc_parser::parse_to_ast(text, &jsonc_parser::CollectOptions::default(), &Default::default()).ok()?;
+    let parsed = jsonc_parser::parse_to_ast(
+        text,
+        &jsonc_parser::CollectOptions::default(),
+        &Default::default(),
+    )
+    .ok()?;
     let root = parsed.value?;
     let mut at: &ast::Value = &root;
     let mut found = None;

@@ -8,9 +8,14 @@ use thiserror::Error;
 /// What is wrong.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
-#[allow(missing_docs, reason = "the wording of each variant says what its fields are")]
+#[allow(
+    missing_docs,
+    reason = "the wording of each variant says what its fields are"
+)]
 pub enum ProblemKind {
-    #[error("the file has {bytes} bytes, more than the {limit} allowed; split it or remove what is not a mechanism")]
+    #[error(
+        "the file has {bytes} bytes, more than the {limit} allowed; split it or remove what is not a mechanism"
+    )]
     TooLarge { bytes: usize, limit: usize },
     #[error("the file is empty; `ozols schema` describes what goes into it")]
     Empty,
@@ -27,10 +32,16 @@ pub enum ProblemKind {
     #[error("unknown joint \"{id}\"; known joints: {known}")]
     UnknownJoint { id: String, known: String },
     #[error("unknown {what} \"{word}\"; known: {known}")]
-    UnknownWord { what: &'static str, word: String, known: String },
+    UnknownWord {
+        what: &'static str,
+        word: String,
+        known: String,
+    },
     #[error("joint \"{joint}\" connects link \"{link}\" to itself; name two different links")]
     SelfLoop { joint: String, link: String },
-    #[error("link \"{link}\" is not connected to the frame in state {state}; add the joint that holds it, or remove it")]
+    #[error(
+        "link \"{link}\" is not connected to the frame in state {state}; add the joint that holds it, or remove it"
+    )]
     Disconnected { link: String, state: String },
     #[error("link \"{link}\" has no joint in any state; connect it or remove it")]
     Unused { link: String },
@@ -39,17 +50,33 @@ pub enum ProblemKind {
     #[error("the reference of joint \"{joint}\" is parallel to its axis; give another direction")]
     ParallelReference { joint: String },
     #[error("joint \"{joint}\" of type {kind} needs {what}")]
-    Missing { joint: String, kind: String, what: &'static str },
+    Missing {
+        joint: String,
+        kind: String,
+        what: &'static str,
+    },
     #[error("joint \"{joint}\" of type {kind} takes no {what}; remove it")]
-    Superfluous { joint: String, kind: String, what: &'static str },
+    Superfluous {
+        joint: String,
+        kind: String,
+        what: &'static str,
+    },
     #[error("joint \"{joint}\" names the freedom {freedom} twice; name each once")]
     RepeatedFreedom { joint: String, freedom: String },
     #[error("{message}")]
     BadNumber { message: String },
-    #[error("coordinate {value} is out of range; lengths may be 1e-12 to 1e12 in size: choose another length_unit")]
+    #[error(
+        "coordinate {value} is out of range; lengths may be 1e-12 to 1e12 in size: choose another length_unit"
+    )]
     OutOfRange { value: String },
-    #[error("option \"{option}\" of joint \"{joint}\" does not contain the motion of the present {present} joint; every option must allow at least the present motion")]
-    LosesMotion { joint: String, option: String, present: String },
+    #[error(
+        "option \"{option}\" of joint \"{joint}\" does not contain the motion of the present {present} joint; every option must allow at least the present motion"
+    )]
+    LosesMotion {
+        joint: String,
+        option: String,
+        present: String,
+    },
     #[error("joint \"{joint}\" has two options named \"{option}\"; give one of them another name")]
     RepeatedOption { joint: String, option: String },
     #[error("no link has the role \"frame\"; mark the fixed link: role = \"frame\"")]
@@ -58,14 +85,20 @@ pub enum ProblemKind {
     SecondFrame { first: String, second: String },
     #[error("no link has the role \"output\"; mark the working link: role = \"output\"")]
     NoOutput,
-    #[error("the joints of this contour do not form one closed walk; list them in order round the contour")]
+    #[error(
+        "the joints of this contour do not form one closed walk; list them in order round the contour"
+    )]
     OpenContour,
     #[error("joint \"{joint}\" is in more than one mirror pair; pair each joint once")]
     RepeatedMirror { joint: String },
     #[error("cost {value} must be a finite number from 0 to 1e6")]
     BadCost { value: String },
     #[error("the file has {count} {what}, more than the {limit} allowed")]
-    TooMany { what: &'static str, count: usize, limit: usize },
+    TooMany {
+        what: &'static str,
+        count: usize,
+        limit: usize,
+    },
 }
 
 /// A problem and where it stands.
@@ -94,22 +127,35 @@ impl ImportError {
     pub fn line_and_column(&self, at: usize) -> (usize, usize) {
         let before = self.text.get(..at.min(self.text.len())).unwrap_or("");
         let line = before.matches('\n').count() + 1;
-        (line, before.rsplit('\n').next().unwrap_or("").chars().count() + 1)
+        (
+            line,
+            before.rsplit('\n').next().unwrap_or("").chars().count() + 1,
+        )
     }
 
     /// The problems with the lines they stand on, for a terminal.
     #[must_use]
     pub fn render(&self, colour: bool) -> String {
-        let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
+        let renderer = if colour {
+            Renderer::styled()
+        } else {
+            Renderer::plain()
+        };
         let mut out = Vec::new();
         for p in &self.problems {
             let message = p.kind.to_string();
-            let Some(span) = p.span.clone().filter(|s| !self.text.is_empty() && self.text.get(s.clone()).is_some()) else {
+            let Some(span) = p
+                .span
+                .clone()
+                .filter(|s| !self.text.is_empty() && self.text.get(s.clone()).is_some())
+            else {
                 out.push(format!("error: {}: {message}", self.file));
                 continue;
             };
             // A table reaches over many lines; its first is enough to find it.
-            let end = self.text[span.clone()].find('\n').map_or(span.end, |n| span.start + n);
+            let end = self.text[span.clone()]
+                .find('\n')
+                .map_or(span.end, |n| span.start + n);
             let (message, help) = match message.split_once("; ") {
                 Some((m, h)) => (m.to_owned(), Some(h.to_owned())),
                 None => (message, None),

@@ -21,7 +21,10 @@ impl Findings {
 }
 
 pub(super) fn key(path: &[Step], k: &str) -> Vec<Step> {
-    path.iter().cloned().chain([Step::Key(k.to_owned())]).collect()
+    path.iter()
+        .cloned()
+        .chain([Step::Key(k.to_owned())])
+        .collect()
 }
 
 pub(super) fn index(path: &[Step], i: usize) -> Vec<Step> {
@@ -45,13 +48,23 @@ pub(super) fn number(c: &Coordinate, path: &[Step], out: &mut Findings) -> Expr 
         Ok(e) => {
             let size = e.to_f64().abs();
             if !e.is_zero_rational() && size != 0.0 && !(RANGE.0..=RANGE.1).contains(&size) {
-                out.add(path, ProblemKind::OutOfRange { value: e.to_string() });
+                out.add(
+                    path,
+                    ProblemKind::OutOfRange {
+                        value: e.to_string(),
+                    },
+                );
                 return Expr::from(0);
             }
             e
         }
         Err(e) => {
-            out.add(path, ProblemKind::BadNumber { message: e.to_string() });
+            out.add(
+                path,
+                ProblemKind::BadNumber {
+                    message: e.to_string(),
+                },
+            );
             Expr::from(0)
         }
     }
@@ -72,11 +85,14 @@ fn is_zero(v: &[Expr; 3]) -> bool {
 /// Whether two directions are parallel: exactly for rationals, to 1e-12 of their lengths otherwise.
 fn parallel(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
     let cross = |i: usize, j: usize| &a[i] * &b[j] - &a[j] * &b[i];
-    let scale = real(a).iter().map(|x| x.abs()).fold(0.0, f64::max) * real(b).iter().map(|x| x.abs()).fold(0.0, f64::max);
-    [cross(1, 2), cross(2, 0), cross(0, 1)].iter().all(|e| match e.as_rational() {
-        Some(_) => e.is_zero_rational(),
-        None => e.to_f64().abs() <= 1e-12 * scale,
-    })
+    let scale = real(a).iter().map(|x| x.abs()).fold(0.0, f64::max)
+        * real(b).iter().map(|x| x.abs()).fold(0.0, f64::max);
+    [cross(1, 2), cross(2, 0), cross(0, 1)]
+        .iter()
+        .all(|e| match e.as_rational() {
+            Some(_) => e.is_zero_rational(),
+            None => e.to_f64().abs() <= 1e-12 * scale,
+        })
 }
 
 /// The frame with these parts; problems are reported at `path`.
@@ -91,24 +107,49 @@ pub(super) fn frame(
 ) -> Frame {
     let mut axis = axis;
     if is_zero(&axis) {
-        out.add(&key(path, "axis"), ProblemKind::ZeroVector { joint: joint.to_owned(), what: "axis" });
+        out.add(
+            &key(path, "axis"),
+            ProblemKind::ZeroVector {
+                joint: joint.to_owned(),
+                what: "axis",
+            },
+        );
         axis = [0, 0, 1].map(Expr::from);
     }
     let globals = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(|v| v.map(Expr::from));
-    let default = globals.into_iter().find(|g| !parallel(g, &axis)).unwrap_or_else(zero3);
+    let default = globals
+        .into_iter()
+        .find(|g| !parallel(g, &axis))
+        .unwrap_or_else(zero3);
     let reference = match reference {
         Some(r) if is_zero(&r) => {
-            out.add(&key(path, "reference"), ProblemKind::ZeroVector { joint: joint.to_owned(), what: "reference" });
+            out.add(
+                &key(path, "reference"),
+                ProblemKind::ZeroVector {
+                    joint: joint.to_owned(),
+                    what: "reference",
+                },
+            );
             default
         }
         Some(r) if parallel(&r, &axis) => {
-            out.add(&key(path, "reference"), ProblemKind::ParallelReference { joint: joint.to_owned() });
+            out.add(
+                &key(path, "reference"),
+                ProblemKind::ParallelReference {
+                    joint: joint.to_owned(),
+                },
+            );
             default
         }
         Some(r) => r,
         None => default,
     };
-    Frame { point, axis, reference, pitch }
+    Frame {
+        point,
+        axis,
+        reference,
+        pitch,
+    }
 }
 
 /// The type a word and a list of freedoms stand for.
@@ -129,12 +170,25 @@ pub(super) fn joint_type(
             for (i, w) in words.iter().enumerate() {
                 match Freedom::from_name(w) {
                     Some(f) if list.contains(&f) => {
-                        out.add(&index(&at, i), ProblemKind::RepeatedFreedom { joint: joint.to_owned(), freedom: w.clone() });
+                        out.add(
+                            &index(&at, i),
+                            ProblemKind::RepeatedFreedom {
+                                joint: joint.to_owned(),
+                                freedom: w.clone(),
+                            },
+                        );
                     }
                     Some(f) => list.push(f),
                     None => {
                         let known = Freedom::ALL.iter().map(|(_, n)| *n).join(", ");
-                        out.add(&index(&at, i), ProblemKind::UnknownWord { what: "freedom", word: w.clone(), known });
+                        out.add(
+                            &index(&at, i),
+                            ProblemKind::UnknownWord {
+                                what: "freedom",
+                                word: w.clone(),
+                                known,
+                            },
+                        );
                     }
                 }
             }
@@ -142,17 +196,42 @@ pub(super) fn joint_type(
         }
         ("custom", None) => {
             let what = "freedoms, such as freedoms = [\"rz\", \"tx\"]";
-            out.add(path, ProblemKind::Missing { joint: joint.to_owned(), kind: kind.to_owned(), what });
+            out.add(
+                path,
+                ProblemKind::Missing {
+                    joint: joint.to_owned(),
+                    kind: kind.to_owned(),
+                    what,
+                },
+            );
             None
         }
         (known, Some(_)) if JointType::from_name(known).is_some() => {
             let (joint, kind) = (joint.to_owned(), kind.to_owned());
-            out.add(&key(path, "freedoms"), ProblemKind::Superfluous { joint, kind, what: "freedoms" });
+            out.add(
+                &key(path, "freedoms"),
+                ProblemKind::Superfluous {
+                    joint,
+                    kind,
+                    what: "freedoms",
+                },
+            );
             None
         }
         _ => {
-            let known = JointType::NAMED.iter().map(JointType::name).chain(["custom"]).join(", ");
-            out.add(&key(path, "type"), ProblemKind::UnknownWord { what: "joint type", word: kind.to_owned(), known });
+            let known = JointType::NAMED
+                .iter()
+                .map(JointType::name)
+                .chain(["custom"])
+                .join(", ");
+            out.add(
+                &key(path, "type"),
+                ProblemKind::UnknownWord {
+                    what: "joint type",
+                    word: kind.to_owned(),
+                    known,
+                },
+            );
             None
         }
     }
@@ -161,7 +240,12 @@ pub(super) fn joint_type(
 /// A cost in thousandths.
 pub(super) fn cost(value: f64, path: &[Step], out: &mut Findings) -> Option<i64> {
     if !(0.0..=1e6).contains(&value) {
-        out.add(path, ProblemKind::BadCost { value: value.to_string() });
+        out.add(
+            path,
+            ProblemKind::BadCost {
+                value: value.to_string(),
+            },
+        );
         return None;
     }
     #[allow(clippy::cast_possible_truncation, reason = "at most 1e9")]
@@ -169,31 +253,59 @@ pub(super) fn cost(value: f64, path: &[Step], out: &mut Findings) -> Option<i64>
 }
 
 /// An option at a joint's place.
-pub(super) fn option(joint: &str, present: &Frame, entry: &OptionEntry, path: &[Step], out: &mut Findings) -> Option<JointOption> {
+pub(super) fn option(
+    joint: &str,
+    present: &Frame,
+    entry: &OptionEntry,
+    path: &[Step],
+    out: &mut Findings,
+) -> Option<JointOption> {
     let word;
     let (table, at) = match entry {
-        OptionEntry::Table(t) => (t, path.to_vec()),
+        OptionEntry::Table(t) => (t.as_ref(), path.to_vec()),
         OptionEntry::Word(w) => {
-            word = OptionTable { kind: Some(w.clone()), ..OptionTable::default() };
+            word = OptionTable {
+                kind: Some(w.clone()),
+                ..OptionTable::default()
+            };
             (&word, path.to_vec())
         }
     };
     let kind = table.kind.as_deref().unwrap_or("custom");
     let joint_type = joint_type(joint, kind, table.freedoms.as_ref(), &at, out)?;
-    let axis = table.axis.as_ref().map_or_else(|| present.axis.clone(), |v| vector(v, &key(&at, "axis"), out));
+    let axis = table.axis.as_ref().map_or_else(
+        || present.axis.clone(),
+        |v| vector(v, &key(&at, "axis"), out),
+    );
     let reference = match (&table.reference, &table.axis) {
         (Some(v), _) => Some(vector(v, &key(&at, "reference"), out)),
         (None, None) => Some(present.reference.clone()),
         (None, Some(_)) => None,
     };
-    let pitch = table.pitch.as_ref().map_or_else(|| present.pitch.clone(), |c| number(c, &key(&at, "pitch"), out));
-    let frame = frame(joint, present.point.clone(), axis, reference, pitch, &at, out);
+    let pitch = table.pitch.as_ref().map_or_else(
+        || present.pitch.clone(),
+        |c| number(c, &key(&at, "pitch"), out),
+    );
+    let frame = frame(
+        joint,
+        present.point.clone(),
+        axis,
+        reference,
+        pitch,
+        &at,
+        out,
+    );
     let name = table.name.clone().unwrap_or_else(|| match &joint_type {
         JointType::Custom(list) => list.iter().map(|f| f.name()).join("+"),
         other => other.name().to_owned(),
     });
     let cost_milli = table.cost.and_then(|c| cost(c, &key(&at, "cost"), out));
-    Some(JointOption { name, joint_type, frame, cost_milli })
+    Some(JointOption {
+        name,
+        joint_type,
+        frame,
+        cost_milli,
+    })
 }
 
 /// Whether one joint allows every motion of another at the same place: exactly, over a prime field; `None` where the
@@ -207,11 +319,18 @@ pub(super) fn contains(wide: &JointOption, narrow: &JointOption) -> Option<bool>
     }
     let parts = |o: &JointOption| {
         let f = &o.frame;
-        f.point.iter().chain(&f.axis).chain(&f.reference).chain([&f.pitch]).cloned().collect_vec()
+        f.point
+            .iter()
+            .chain(&f.axis)
+            .chain(&f.reference)
+            .chain([&f.pitch])
+            .cloned()
+            .collect_vec()
     };
     let all = parts(wide).into_iter().chain(parts(narrow)).collect_vec();
     let exact = ExactField::for_expressions(&all, 0).ok()?;
-    let twists = |o: &JointOption| joint_twists(&exact, &MotionSpace::Spatial, &o.frame, &o.joint_type).ok();
+    let twists =
+        |o: &JointOption| joint_twists(&exact, &MotionSpace::Spatial, &o.frame, &o.joint_type).ok();
     let mut span = Echelon::new(exact.field());
     twists(wide)?.iter().for_each(|(_, t)| {
         span.insert(t);

@@ -44,7 +44,10 @@ pub struct MechanismFile {
 
 /// A number, or an exact expression in quotes: "sqrt(3)/2", "cos(36deg)", "tan(pi/8)", "1/3".
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
-#[serde(untagged, expecting = "expected a number, or an expression in quotes such as \"sqrt(3)/2\"")]
+#[serde(
+    untagged,
+    expecting = "expected a number, or an expression in quotes such as \"sqrt(3)/2\""
+)]
 pub enum Coordinate {
     /// A whole number.
     Integer(i64),
@@ -120,7 +123,10 @@ pub enum Words {
 
 /// Whether and what unloading joints may be inserted.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
-#[serde(untagged, expecting = "expected true, false or a list of joint options")]
+#[serde(
+    untagged,
+    expecting = "expected true, false or a list of joint options"
+)]
 pub enum Unloading {
     /// True: those of [search].
     Allowed(bool),
@@ -138,7 +144,7 @@ pub enum OptionEntry {
     /// A type name.
     Word(String),
     /// A table.
-    Table(OptionTable),
+    Table(Box<OptionTable>),
 }
 
 /// A joint option spelt out.

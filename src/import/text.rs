@@ -14,13 +14,22 @@ pub const MAX_BYTES: usize = 4 << 20;
 /// # Errors
 /// Every problem found, each with its place.
 pub fn mechanism_from_bytes(name: &str, bytes: &[u8]) -> Result<Mechanism, ImportError> {
-    let fail = |kind| ImportError { file: name.to_owned(), text: String::new(), problems: vec![Problem { kind, span: None }] };
+    let fail = |kind| ImportError {
+        file: name.to_owned(),
+        text: String::new(),
+        problems: vec![Problem { kind, span: None }],
+    };
     if bytes.len() > MAX_BYTES {
-        return Err(fail(ProblemKind::TooLarge { bytes: bytes.len(), limit: MAX_BYTES }));
+        return Err(fail(ProblemKind::TooLarge {
+            bytes: bytes.len(),
+            limit: MAX_BYTES,
+        }));
     }
     match std::str::from_utf8(bytes) {
         Ok(text) => mechanism_from_str(name, text),
-        Err(e) => Err(fail(ProblemKind::NotUtf8 { at: e.valid_up_to() })),
+        Err(e) => Err(fail(ProblemKind::NotUtf8 {
+            at: e.valid_up_to(),
+        })),
     }
 }
 
@@ -29,17 +38,33 @@ pub fn mechanism_from_bytes(name: &str, bytes: &[u8]) -> Result<Mechanism, Impor
 /// # Errors
 /// Every problem found, each with its place.
 pub fn mechanism_from_str(name: &str, text: &str) -> Result<Mechanism, ImportError> {
-    let fail = |problems| ImportError { file: name.to_owned(), text: text.to_owned(), problems };
+    let fail = |problems| ImportError {
+        file: name.to_owned(),
+        text: text.to_owned(),
+        problems,
+    };
     if text.trim().is_empty() {
-        return Err(fail(vec![Problem { kind: ProblemKind::Empty, span: None }]));
+        return Err(fail(vec![Problem {
+            kind: ProblemKind::Empty,
+            span: None,
+        }]));
     }
-    let json = std::path::Path::new(name).extension().is_some_and(|e| e.eq_ignore_ascii_case("json"));
-    let file = if json { from_json(text) } else { from_toml(text) };
+    let json = std::path::Path::new(name)
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("json"));
+    let file = if json {
+        from_json(text)
+    } else {
+        from_toml(text)
+    };
     let file = file.map_err(|p| fail(vec![p]))?;
     build(&file).map_err(|found| {
         let mut problems: Vec<Problem> = found
             .into_iter()
-            .map(|(path, kind)| Problem { kind, span: locate(text, json, &path) })
+            .map(|(path, kind)| Problem {
+                kind,
+                span: locate(text, json, &path),
+            })
             .collect();
         problems.sort_by_key(|p| p.span.as_ref().map_or(usize::MAX, |s| s.start));
         fail(problems)
@@ -48,22 +73,39 @@ pub fn mechanism_from_str(name: &str, text: &str) -> Result<Mechanism, ImportErr
 
 fn from_toml(text: &str) -> Result<MechanismFile, Problem> {
     toml::from_str(text).map_err(|e| Problem {
-        kind: ProblemKind::Syntax { message: e.message().trim().replace('\n', ", ") },
+        kind: ProblemKind::Syntax {
+            message: e.message().trim().replace('\n', ", "),
+        },
         span: e.span(),
     })
 }
 
 fn from_json(text: &str) -> Result<MechanismFile, Problem> {
     serde_json::from_str(text).map_err(|e| {
-        let line_start: usize = text.split_inclusive('\n').take(e.line().saturating_sub(1)).map(str::len).sum();
-        let line = text.get(line_start..).and_then(|t| t.lines().next()).unwrap_or("");
+        let line_start: usize = text
+            .split_inclusive('\n')
+            .take(e.line().saturating_sub(1))
+            .map(str::len)
+            .sum();
+        let line = text
+            .get(line_start..)
+            .and_then(|t| t.lines().next())
+            .unwrap_or("");
         let mut at = e.column().saturating_sub(1).min(line.len());
         while !line.is_char_boundary(at) {
             at -= 1;
         }
         let full = e.to_string();
-        let message = full.rsplit_once(" at line ").map_or(full.as_str(), |(m, _)| m).to_owned();
-        let end = (at + 1..=line.len()).find(|&i| line.is_char_boundary(i)).unwrap_or(line.len());
-        Problem { kind: ProblemKind::Syntax { message }, span: Some(line_start + at..line_start + end) }
+        let message = full
+            .rsplit_once(" at line ")
+            .map_or(full.as_str(), |(m, _)| m)
+            .to_owned();
+        let end = (at + 1..=line.len())
+            .find(|&i| line.is_char_boundary(i))
+            .unwrap_or(line.len());
+        Problem {
+            kind: ProblemKind::Syntax { message },
+            span: Some(line_start + at..line_start + end),
+        }
     })
 }

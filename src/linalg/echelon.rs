@@ -13,7 +13,10 @@ impl Echelon {
     /// The zero span.
     #[must_use]
     pub fn new(field: Field) -> Self {
-        Echelon { field, rows: Vec::new() }
+        Echelon {
+            field,
+            rows: Vec::new(),
+        }
     }
 
     /// Dimension of the span.
@@ -36,7 +39,9 @@ impl Echelon {
         let f = self.field;
         let mut v = v.to_vec();
         self.reduce(&mut v);
-        let Some(pivot) = v.iter().position(|&x| x != 0) else { return false };
+        let Some(pivot) = v.iter().position(|&x| x != 0) else {
+            return false;
+        };
         let scale = f.inv(v[pivot]);
         v[pivot..].iter_mut().for_each(|x| *x = f.mul(*x, scale));
         let at = self.rows.partition_point(|(p, _)| *p < pivot);
@@ -81,7 +86,9 @@ pub fn rank<'a>(field: Field, vectors: impl IntoIterator<Item = &'a [Residue]>) 
 /// columns, in reduced row echelon form, so that each relation has a vector of its own.
 #[must_use]
 pub fn relations(field: Field, vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
-    let Some(width) = vectors.first().map(Vec::len) else { return Vec::new() };
+    let Some(width) = vectors.first().map(Vec::len) else {
+        return Vec::new();
+    };
     let mut e = Echelon::new(field);
     for (i, v) in vectors.iter().enumerate() {
         let mut tagged = v.clone();
@@ -90,7 +97,11 @@ pub fn relations(field: Field, vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
         e.insert(&tagged);
     }
     let mut kernel = Echelon::new(field);
-    for row in e.reduced().into_iter().filter(|r| r[..width].iter().all(|&x| x == 0)) {
+    for row in e
+        .reduced()
+        .into_iter()
+        .filter(|r| r[..width].iter().all(|&x| x == 0))
+    {
         kernel.insert(&row[width..]);
     }
     kernel.reduced()
@@ -100,5 +111,7 @@ pub fn relations(field: Field, vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
 #[must_use]
 pub fn transpose(vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
     let width = vectors.first().map_or(0, Vec::len);
-    (0..width).map(|i| vectors.iter().map(|v| v[i]).collect()).collect()
+    (0..width)
+        .map(|i| vectors.iter().map(|v| v[i]).collect())
+        .collect()
 }

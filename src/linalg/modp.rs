@@ -31,7 +31,10 @@ impl Field {
     /// If `p` is even or not between 2^32 and 2^62. That `p` is prime is the caller's promise; see [`is_prime`].
     #[must_use]
     pub fn new(p: u64) -> Self {
-        assert!(p & 1 == 1 && (1 << 32..1 << 62).contains(&p), "modulus out of range");
+        assert!(
+            p & 1 == 1 && (1 << 32..1 << 62).contains(&p),
+            "modulus out of range"
+        );
         // Newton's iteration doubles the number of correct low bits each time.
         let mut inv = p;
         for _ in 0..6 {
@@ -39,7 +42,12 @@ impl Field {
         }
         let one = ((1u128 << 64) % u128::from(p)) as u64;
         let r2 = ((u128::from(one) * u128::from(one)) % u128::from(p)) as u64;
-        Field { p, neg_inv: inv.wrapping_neg(), one, r2 }
+        Field {
+            p,
+            neg_inv: inv.wrapping_neg(),
+            one,
+            r2,
+        }
     }
 
     /// The modulus.
@@ -103,7 +111,11 @@ impl Field {
     #[inline]
     pub fn accumulate(self, x: &mut [Residue], y: &[Residue], plus: bool) {
         for (x, &y) in x.iter_mut().zip(y) {
-            *x = if plus { self.add(*x, y) } else { self.sub(*x, y) };
+            *x = if plus {
+                self.add(*x, y)
+            } else {
+                self.sub(*x, y)
+            };
         }
     }
 
@@ -158,7 +170,10 @@ impl Field {
     /// The residue of an integer of any size.
     #[must_use]
     pub fn from_bigint(self, x: &BigInt) -> Residue {
-        let m = x.mod_floor(&BigInt::from(self.p)).to_u64().expect("a residue is below p");
+        let m = x
+            .mod_floor(&BigInt::from(self.p))
+            .to_u64()
+            .expect("a residue is below p");
         self.mul(m, self.r2)
     }
 
@@ -188,8 +203,15 @@ impl Field {
         let s = (self.p - 1).trailing_zeros();
         let q = (self.p - 1) >> s;
         let minus_one = self.neg(self.one);
-        let z = (2..).map(|i| self.from_i64(i)).find(|&z| self.pow(z, half) == minus_one)?;
-        let (mut m, mut c, mut t, mut r) = (s, self.pow(z, q), self.pow(a, q), self.pow(a, q.div_ceil(2)));
+        let z = (2..)
+            .map(|i| self.from_i64(i))
+            .find(|&z| self.pow(z, half) == minus_one)?;
+        let (mut m, mut c, mut t, mut r) = (
+            s,
+            self.pow(z, q),
+            self.pow(a, q),
+            self.pow(a, q.div_ceil(2)),
+        );
         while t != self.one {
             let mut i = 0;
             let mut t2 = t;
@@ -204,7 +226,11 @@ impl Field {
             r = self.mul(r, b);
         }
         let other = self.neg(r);
-        Some(if self.to_u64(r) <= self.to_u64(other) { r } else { other })
+        Some(if self.to_u64(r) <= self.to_u64(other) {
+            r
+        } else {
+            other
+        })
     }
 }
 
@@ -219,7 +245,7 @@ pub fn is_prime(n: u64) -> bool {
         return false;
     }
     for b in BASES {
-        if n % b == 0 {
+        if n.is_multiple_of(b) {
             return n == b;
         }
     }
@@ -255,7 +281,10 @@ mod tests {
     use proptest::prelude::*;
 
     fn field() -> Field {
-        let p = (1..).map(|i| (1u64 << 61) + 2 * i + 1).find(|&n| is_prime(n)).unwrap();
+        let p = (1..)
+            .map(|i| (1u64 << 61) + 2 * i + 1)
+            .find(|&n| is_prime(n))
+            .unwrap();
         Field::new(p)
     }
 

@@ -42,7 +42,10 @@ impl Freedom {
     /// The freedom a word names, if any.
     #[must_use]
     pub fn from_name(word: &str) -> Option<Freedom> {
-        Freedom::ALL.iter().find(|(_, w)| *w == word).map(|(f, _)| *f)
+        Freedom::ALL
+            .iter()
+            .find(|(_, w)| *w == word)
+            .map(|(f, _)| *f)
     }
 }
 

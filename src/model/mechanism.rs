@@ -171,8 +171,12 @@ pub struct Mechanism {
 impl Mechanism {
     /// The joints present in a state, in file order.
     pub fn joints_in(&self, state: StateId) -> impl Iterator<Item = JointId> + '_ {
-        (0..self.joints.len())
-            .filter(move |&j| self.joints[j].states.as_ref().is_none_or(|s| s.contains(&state)))
+        (0..self.joints.len()).filter(move |&j| {
+            self.joints[j]
+                .states
+                .as_ref()
+                .is_none_or(|s| s.contains(&state))
+        })
     }
 
     /// The frame link.
@@ -181,7 +185,10 @@ impl Mechanism {
     /// Never: a validated mechanism has one.
     #[must_use]
     pub fn frame(&self) -> LinkId {
-        self.links.iter().position(|l| l.role == Role::Frame).expect("a validated mechanism has a frame")
+        self.links
+            .iter()
+            .position(|l| l.role == Role::Frame)
+            .expect("a validated mechanism has a frame")
     }
 
     /// The link with this id.

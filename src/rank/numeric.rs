@@ -13,7 +13,9 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 #[non_exhaustive]
 pub enum NumericError {
     /// The decomposition did not converge, or an entry is not finite.
-    #[error("the singular values did not converge; check the coordinates for extreme values or use the exact method")]
+    #[error(
+        "the singular values did not converge; check the coordinates for extreme values or use the exact method"
+    )]
     NoConvergence,
 }
 
@@ -44,13 +46,22 @@ pub fn rank(closure: &Closure<f64>) -> Result<NumericRank, NumericError> {
 ///
 /// # Complexity
 /// O(6k · f · min(6k, f)).
-pub fn rank_with_tolerance(closure: &Closure<f64>, tolerance: f64) -> Result<NumericRank, NumericError> {
+pub fn rank_with_tolerance(
+    closure: &Closure<f64>,
+    tolerance: f64,
+) -> Result<NumericRank, NumericError> {
     let mut columns = closure.dense(&Reals);
     let (dim, turns) = (closure.dim, closure.dim / 2);
     let is_velocity = |row: usize| row % dim >= turns;
     // Unit turns first, so that the velocity entries are lever arms, whatever the length of the axes in the file.
     let normalise = |column: &mut Vec<f64>| {
-        let turn = column.iter().enumerate().filter(|(r, _)| !is_velocity(*r)).map(|(_, x)| x * x).sum::<f64>().sqrt();
+        let turn = column
+            .iter()
+            .enumerate()
+            .filter(|(r, _)| !is_velocity(*r))
+            .map(|(_, x)| x * x)
+            .sum::<f64>()
+            .sqrt();
         if turn > 0.0 {
             column.iter_mut().for_each(|x| *x /= turn);
         }
@@ -61,11 +72,20 @@ pub fn rank_with_tolerance(closure: &Closure<f64>, tolerance: f64) -> Result<Num
         .iter()
         .zip(&turning)
         .filter(|(_, t)| **t)
-        .flat_map(|(c, _)| c.iter().enumerate().filter(|(r, _)| is_velocity(*r)).map(|(_, x)| x.abs()))
+        .flat_map(|(c, _)| {
+            c.iter()
+                .enumerate()
+                .filter(|(r, _)| is_velocity(*r))
+                .map(|(_, x)| x.abs())
+        })
         .fold(0.0, f64::max);
     for column in &mut columns {
         if arm > 0.0 {
-            column.iter_mut().enumerate().filter(|(r, _)| is_velocity(*r)).for_each(|(_, x)| *x /= arm);
+            column
+                .iter_mut()
+                .enumerate()
+                .filter(|(r, _)| is_velocity(*r))
+                .for_each(|(_, x)| *x /= arm);
         }
         let length = column.iter().map(|x| x * x).sum::<f64>().sqrt();
         if length > 0.0 {
@@ -73,10 +93,16 @@ pub fn rank_with_tolerance(closure: &Closure<f64>, tolerance: f64) -> Result<Num
         }
     }
     if columns.is_empty() || closure.rows() == 0 {
-        return Ok(NumericRank { rank: 0, kept: 1.0, dropped: 0.0 });
+        return Ok(NumericRank {
+            rank: 0,
+            kept: 1.0,
+            dropped: 0.0,
+        });
     }
     let matrix = Mat::from_fn(closure.rows(), columns.len(), |r, c| columns[c][r]);
-    let mut values = matrix.singular_values().map_err(|_| NumericError::NoConvergence)?;
+    let mut values = matrix
+        .singular_values()
+        .map_err(|_| NumericError::NoConvergence)?;
     if values.iter().any(|v| !v.is_finite()) {
         return Err(NumericError::NoConvergence);
     }

@@ -38,7 +38,9 @@ pub enum AnalysisError {
     #[error(transparent)]
     Numeric(#[from] NumericError),
     /// Two primes gave different ranks.
-    #[error("ranks modulo {first} and {second} differ in state {state}: {ranks:?}; report this with the file")]
+    #[error(
+        "ranks modulo {first} and {second} differ in state {state}: {ranks:?}; report this with the file"
+    )]
     Disagree {
         /// The state.
         state: String,
@@ -126,9 +128,17 @@ pub struct StateAnalysis {
 /// Where no prime suits, see [`ExactField`].
 pub fn exact_field(mechanism: &Mechanism, nth: usize) -> Result<ExactField, ExactError> {
     let frames = mechanism.joints.iter().flat_map(|j| {
-        std::iter::once(&j.frame).chain(j.options.iter().map(|o| &o.frame)).chain(j.unloading.iter().map(|o| &o.frame))
+        std::iter::once(&j.frame)
+            .chain(j.options.iter().map(|o| &o.frame))
+            .chain(j.unloading.iter().map(|o| &o.frame))
     });
-    let of_frames = frames.flat_map(|f| f.point.iter().chain(&f.axis).chain(&f.reference).chain([&f.pitch]));
+    let of_frames = frames.flat_map(|f| {
+        f.point
+            .iter()
+            .chain(&f.axis)
+            .chain(&f.reference)
+            .chain([&f.pitch])
+    });
     let normal: &[Expr] = match &mechanism.mode {
         Mode::Spatial => &[],
         Mode::Planar { normal } => normal,
@@ -140,9 +150,16 @@ pub fn exact_field(mechanism: &Mechanism, nth: usize) -> Result<ExactField, Exac
 ///
 /// # Errors
 /// Where the geometry has no exact image, the singular values fail, or two primes disagree.
-pub fn analyse(mechanism: &Mechanism, states: &[StateId], method: Method) -> Result<Vec<StateAnalysis>, AnalysisError> {
+pub fn analyse(
+    mechanism: &Mechanism,
+    states: &[StateId],
+    method: Method,
+) -> Result<Vec<StateAnalysis>, AnalysisError> {
     let fields = [exact_field(mechanism, 0)?, exact_field(mechanism, 1)?];
-    states.iter().map(|&s| analyse_state(mechanism, s, method, &fields)).collect()
+    states
+        .iter()
+        .map(|&s| analyse_state(mechanism, s, method, &fields))
+        .collect()
 }
 
 fn analyse_state(
@@ -153,27 +170,47 @@ fn analyse_state(
 ) -> Result<StateAnalysis, AnalysisError> {
     let exact = &fields[0];
     let closure = Closure::new(exact, mechanism, state)?;
-    let ranks = [modular::rank(exact, &closure), modular::rank(&fields[1], &Closure::new(&fields[1], mechanism, state)?)];
+    let ranks = [
+        modular::rank(exact, &closure),
+        modular::rank(&fields[1], &Closure::new(&fields[1], mechanism, state)?),
+    ];
     let primes = [exact.field().modulus(), fields[1].field().modulus()];
     if ranks[0] != ranks[1] {
         let state = mechanism.states[state].clone();
-        return Err(AnalysisError::Disagree { state, first: primes[0], second: primes[1], ranks });
+        return Err(AnalysisError::Disagree {
+            state,
+            first: primes[0],
+            second: primes[1],
+            ranks,
+        });
     }
     let (rank, certainty) = match method {
         Method::Modular => (ranks[0], Certainty::Modular { primes }),
         Method::Svd { tolerance } => {
             let real = Closure::new(&Reals, mechanism, state)?;
             let r = numeric::rank_with_tolerance(&real, tolerance)?;
-            (r.rank, Certainty::Numeric { tolerance, kept: r.kept, dropped: r.dropped })
+            (
+                r.rank,
+                Certainty::Numeric {
+                    tolerance,
+                    kept: r.kept,
+                    dropped: r.dropped,
+                },
+            )
         }
     };
     let kernel = motions(exact, &closure);
-    let outputs: Vec<LinkId> = (0..mechanism.links.len()).filter(|&l| mechanism.links[l].role == Role::Output).collect();
+    let outputs: Vec<LinkId> = (0..mechanism.links.len())
+        .filter(|&l| mechanism.links[l].role == Role::Output)
+        .collect();
     let working_mobility = span_of_links(exact, mechanism, &closure, &kernel, &outputs);
     let freedoms = closure.columns.len();
     let joints: Vec<JointId> = mechanism.joints_in(state).collect();
     let links = present_links(mechanism, &joints);
-    let constraints: i64 = joints.iter().map(|&j| int(closure.dim) - int(freedoms_of(&closure, j))).sum();
+    let constraints: i64 = joints
+        .iter()
+        .map(|&j| int(closure.dim) - int(freedoms_of(&closure, j)))
+        .sum();
     let idle = idle_motions(exact, mechanism, &closure, &kernel, &outputs);
     Ok(StateAnalysis {
         state: mechanism.states[state].clone(),
@@ -189,7 +226,11 @@ fn analyse_state(
         redundant: closure.rows() - rank,
         formula_mobility: int(closure.dim) * (int(links.len()) - 1) - constraints,
         per_contour: shares(exact, &closure),
-        external: if state == 0 { None } else { Some(external(exact, mechanism, &closure, &kernel)?) },
+        external: if state == 0 {
+            None
+        } else {
+            Some(external(exact, mechanism, &closure, &kernel)?)
+        },
         idle,
         self_stresses: self_stresses(exact, mechanism, &closure)?,
         left_out: closure.left_out.clone(),
@@ -206,7 +247,10 @@ fn freedoms_of(closure: &Closure<Residue>, joint: JointId) -> usize {
 }
 
 fn present_links(mechanism: &Mechanism, joints: &[JointId]) -> Vec<LinkId> {
-    let mut links: Vec<LinkId> = joints.iter().flat_map(|&j| mechanism.joints[j].links).collect();
+    let mut links: Vec<LinkId> = joints
+        .iter()
+        .flat_map(|&j| mechanism.joints[j].links)
+        .collect();
     links.sort_unstable();
     links.dedup();
     links
@@ -220,7 +264,10 @@ fn span_of_links(
     kernel: &[Speeds],
     links: &[LinkId],
 ) -> usize {
-    let paths: Vec<_> = links.iter().map(|&l| closure.link_motion(exact, mechanism, l)).collect();
+    let paths: Vec<_> = links
+        .iter()
+        .map(|&l| closure.link_motion(exact, mechanism, l))
+        .collect();
     let mut span = Echelon::new(exact.field());
     for speeds in kernel {
         let all: Vec<Residue> = paths.iter().flat_map(|p| twist(exact, p, speeds)).collect();
@@ -235,8 +282,9 @@ fn span_of_links(
 /// added first and greatest when it is added last: no order need be tried.
 fn shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShare> {
     let rank_of = |contours: &[usize]| {
-        let columns: Vec<Vec<Residue>> =
-            (0..closure.columns.len()).map(|c| closure.dense_column(exact, c, contours)).collect();
+        let columns: Vec<Vec<Residue>> = (0..closure.columns.len())
+            .map(|c| closure.dense_column(exact, c, contours))
+            .collect();
         echelon::rank(exact.field(), columns.iter().map(Vec::as_slice))
     };
     let all: Vec<usize> = (0..closure.contours.len()).collect();
@@ -248,7 +296,10 @@ fn shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShare> {
             ContourShare {
                 contour: closure.contours[i].clone(),
                 redundant: closure.dim + prefix[i] - prefix[i + 1],
-                range: (closure.dim - rank_of(&[i]), closure.dim + rank_of(&others) - whole),
+                range: (
+                    closure.dim - rank_of(&[i]),
+                    closure.dim + rank_of(&others) - whole,
+                ),
             }
         })
         .collect()
@@ -266,13 +317,18 @@ fn external(
     let own: Vec<JointId> = mechanism.joints_in(0).collect();
     let all: Vec<JointId> = mechanism.joints_in(closure.state).collect();
     let added = || all.iter().filter(|j| !own.contains(j));
-    let constraints = added().map(|&j| int(closure.dim) - int(freedoms_of(closure, j))).sum();
+    let constraints = added()
+        .map(|&j| int(closure.dim) - int(freedoms_of(closure, j)))
+        .sum();
     let bodies = present_links(mechanism, &all).len() - present_links(mechanism, &own).len();
     // The mechanism's own part of each motion.
     let mut span = Echelon::new(exact.field());
     for speeds in kernel {
-        let part: Vec<Residue> =
-            speeds.iter().zip(&closure.columns).map(|(&s, c)| if own.contains(&c.joint) { s } else { 0 }).collect();
+        let part: Vec<Residue> = speeds
+            .iter()
+            .zip(&closure.columns)
+            .map(|(&s, c)| if own.contains(&c.joint) { s } else { 0 })
+            .collect();
         span.insert(&part);
     }
     let (actual, working) = (int(free.columns.len() - free_rank), int(span.rank()));

@@ -33,9 +33,16 @@ pub fn idle_motions(
 ) -> Vec<Idle> {
     let f = exact.field();
     let links: Vec<LinkId> = (0..mechanism.links.len())
-        .filter(|&l| mechanism.joints_in(closure.state).any(|j| mechanism.joints[j].links.contains(&l)))
+        .filter(|&l| {
+            mechanism
+                .joints_in(closure.state)
+                .any(|j| mechanism.joints[j].links.contains(&l))
+        })
         .collect();
-    let motion: Vec<Vec<Vec<Residue>>> = links.iter().map(|&l| closure.link_motion(exact, mechanism, l)).collect();
+    let motion: Vec<Vec<Vec<Residue>>> = links
+        .iter()
+        .map(|&l| closure.link_motion(exact, mechanism, l))
+        .collect();
     // Motions (as combinations of the kernel's) under which the given links rest.
     let resting = |rest: &dyn Fn(LinkId) -> bool| -> Vec<Speeds> {
         let images: Vec<Vec<Residue>> = kernel
@@ -50,7 +57,9 @@ pub fn idle_motions(
         let combine = |combination: Vec<Residue>| {
             let mut out = vec![0; closure.columns.len()];
             for (&a, k) in combination.iter().zip(kernel).filter(|(a, _)| **a != 0) {
-                out.iter_mut().zip(k).for_each(|(o, &x)| *o = f.add(*o, f.mul(a, x)));
+                out.iter_mut()
+                    .zip(k)
+                    .for_each(|(o, &x)| *o = f.add(*o, f.mul(a, x)));
             }
             out
         };
@@ -66,17 +75,31 @@ pub fn idle_motions(
                 let own = twist(exact, &motion[at], &speeds);
                 let through = mechanism
                     .joints_in(closure.state)
-                    .filter(|&j| mechanism.joints[j].links.contains(&l) && rests_at(exact, mechanism, j, &own))
+                    .filter(|&j| {
+                        mechanism.joints[j].links.contains(&l)
+                            && rests_at(exact, mechanism, j, &own)
+                    })
                     .collect();
                 let turns = own.len() == 6 && own[..3].iter().any(|&x| x != 0);
-                found.push(Idle { links: vec![l], through, turns });
+                found.push(Idle {
+                    links: vec![l],
+                    through,
+                    turns,
+                });
             }
         }
     }
     for speeds in all {
         if span.insert(&speeds) {
-            let moving = links.iter().zip(&motion).filter(|(_, m)| twist(exact, m, &speeds).iter().any(|&x| x != 0));
-            found.push(Idle { links: moving.map(|(l, _)| *l).collect(), through: Vec::new(), turns: false });
+            let moving = links
+                .iter()
+                .zip(&motion)
+                .filter(|(_, m)| twist(exact, m, &speeds).iter().any(|&x| x != 0));
+            found.push(Idle {
+                links: moving.map(|(l, _)| *l).collect(),
+                through: Vec::new(),
+                turns: false,
+            });
         }
     }
     found
@@ -84,9 +107,13 @@ pub fn idle_motions(
 
 /// Whether a twist leaves a joint's point at rest: v + ω × p = 0.
 fn rests_at(exact: &ExactField, mechanism: &Mechanism, joint: JointId, t: &[Residue]) -> bool {
-    let (&[w0, w1, w2, v0, v1, v2], Ok(p)) = (t, exact.eval3(&mechanism.joints[joint].frame.point)) else {
+    let (&[w0, w1, w2, v0, v1, v2], Ok(p)) = (t, exact.eval3(&mechanism.joints[joint].frame.point))
+    else {
         return false;
     };
     let turn = exact.cross([w0, w1, w2], p);
-    [v0, v1, v2].iter().zip(turn).all(|(&v, t)| exact.field().add(v, t) == 0)
+    [v0, v1, v2]
+        .iter()
+        .zip(turn)
+        .all(|(&v, t)| exact.field().add(v, t) == 0)
 }

@@ -14,7 +14,10 @@ pub type Speeds = Vec<Residue>;
 pub fn motions(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Speeds> {
     let mut columns = closure.dense(exact);
     // Without contours J has no rows; one row of zeros gives every column its own motion.
-    columns.iter_mut().filter(|c| c.is_empty()).for_each(|c| c.push(0));
+    columns
+        .iter_mut()
+        .filter(|c| c.is_empty())
+        .for_each(|c| c.push(0));
     echelon::relations(exact.field(), &columns)
 }
 
@@ -43,10 +46,16 @@ pub fn joint_motion(
 ) -> Result<Vec<Vec<Residue>>, ExactError> {
     let closure = Closure::new(exact, mechanism, state)?;
     let kernel = motions(exact, &closure);
-    let of_links: Vec<_> = links.iter().map(|&l| closure.link_motion(exact, mechanism, l)).collect();
+    let of_links: Vec<_> = links
+        .iter()
+        .map(|&l| closure.link_motion(exact, mechanism, l))
+        .collect();
     let mut span = Echelon::new(exact.field());
     for speeds in &kernel {
-        let whole: Vec<Residue> = of_links.iter().flat_map(|m| twist(exact, m, speeds)).collect();
+        let whole: Vec<Residue> = of_links
+            .iter()
+            .flat_map(|m| twist(exact, m, speeds))
+            .collect();
         span.insert(&whole);
     }
     Ok(span.reduced())

@@ -60,7 +60,11 @@ pub fn self_stresses(
 ) -> Result<Vec<SelfStress>, ExactError> {
     let f = exact.field();
     let columns = closure.dense(exact);
-    let rows = if columns.is_empty() { vec![vec![0]; closure.rows()] } else { transpose(&columns) };
+    let rows = if columns.is_empty() {
+        vec![vec![0]; closure.rows()]
+    } else {
+        transpose(&columns)
+    };
     // Reversing the order of coordinates makes the reduced form keep to the earliest contours it can.
     let mut all = relations(f, &rows);
     all.iter_mut().for_each(|v| v.reverse());
@@ -72,40 +76,84 @@ pub fn self_stresses(
     stresses.iter_mut().for_each(|v| v.reverse());
     stresses.reverse();
     let own: Vec<JointId> = mechanism.joints_in(0).collect();
-    let added: Vec<JointId> = mechanism.joints_in(closure.state).filter(|j| !own.contains(j)).collect();
-    let frames: Vec<FrameValues<Residue>> =
-        mechanism.joints.iter().map(|j| FrameValues::new(exact, &j.frame)).collect::<Result<_, _>>()?;
+    let added: Vec<JointId> = mechanism
+        .joints_in(closure.state)
+        .filter(|j| !own.contains(j))
+        .collect();
+    let frames: Vec<FrameValues<Residue>> = mechanism
+        .joints
+        .iter()
+        .map(|j| FrameValues::new(exact, &j.frame))
+        .collect::<Result<_, _>>()?;
     let wrench = |stress: &[Residue], j: JointId| -> Vec<Residue> {
         let mut out = vec![0; closure.dim];
         for (i, c) in closure.contours.iter().enumerate() {
             if let Some(forward) = c.direction(j) {
-                f.accumulate(&mut out, &stress[i * closure.dim..(i + 1) * closure.dim], forward);
+                f.accumulate(
+                    &mut out,
+                    &stress[i * closure.dim..(i + 1) * closure.dim],
+                    forward,
+                );
             }
         }
         out
     };
-    let needs_contacts = |s: &[Residue]| added.iter().any(|&j| wrench(s, j).iter().any(|&x| x != 0));
-    let (external, internal): (Vec<_>, Vec<_>) = stresses.into_iter().partition(|s| needs_contacts(s));
-    let faces: Vec<JointId> =
-        added.iter().copied().filter(|&j| mechanism.joints[j].joint_type == JointType::Fixed).collect();
-    let harm = |s: &[Residue]| -> Vec<Residue> {
-        faces.iter().flat_map(|&j| harmful_part(exact, &frames[j], &wrench(s, j))).collect()
+    let needs_contacts =
+        |s: &[Residue]| added.iter().any(|&j| wrench(s, j).iter().any(|&x| x != 0));
+    let (external, internal): (Vec<_>, Vec<_>) =
+        stresses.into_iter().partition(|s| needs_contacts(s));
+    let faces: Vec<JointId> = added
+        .iter()
+        .copied()
+        .filter(|&j| mechanism.joints[j].joint_type == JointType::Fixed)
+        .collect();
+    // Forces along two faces apart are a couple that one of them must take up as a shift of pressure, so moments are
+    // judged at one face: the one that shows most friction.
+    let harm_at = |s: &[Residue], reference: Option<JointId>| -> Vec<Residue> {
+        let part =
+            |&j: &JointId| harmful_part(exact, &frames[j], &wrench(s, j), Some(j) == reference);
+        faces.iter().flat_map(part).collect()
     };
+    let friction = |reference: Option<JointId>| {
+        let images: Vec<Vec<Residue>> = external.iter().map(|s| harm_at(s, reference)).collect();
+        relations(f, &images).len()
+    };
+    let reference = faces
+        .iter()
+        .copied()
+        .rev()
+        .max_by_key(|&j| friction(Some(j)));
+    let harm = |s: &[Residue]| harm_at(s, reference);
     let external = friction_first(exact, external, &harm);
     let describe = |s: &Vec<Residue>, is_external: bool| {
         let contours = (0..closure.contours.len())
-            .filter(|i| s[i * closure.dim..(i + 1) * closure.dim].iter().any(|&x| x != 0))
+            .filter(|i| {
+                s[i * closure.dim..(i + 1) * closure.dim]
+                    .iter()
+                    .any(|&x| x != 0)
+            })
             .collect_vec();
-        let joints = mechanism.joints_in(closure.state).filter_map(|j| at_joint(exact, &frames[j], j, &wrench(s, j)));
-        let friction = is_external && closure.dim == 6 && !faces.is_empty() && harm(s).iter().all(|&x| x == 0);
+        let joints = mechanism
+            .joints_in(closure.state)
+            .filter_map(|j| at_joint(exact, &frames[j], j, &wrench(s, j)));
+        let friction =
+            is_external && closure.dim == 6 && !faces.is_empty() && harm(s).iter().all(|&x| x == 0);
         SelfStress {
             contours,
             joints: joints.collect(),
             external: is_external,
-            verdict: if friction { Verdict::Harmless } else { Verdict::Harmful },
+            verdict: if friction {
+                Verdict::Harmless
+            } else {
+                Verdict::Harmful
+            },
         }
     };
-    Ok(internal.iter().map(|s| describe(s, false)).chain(external.iter().map(|s| describe(s, true))).collect())
+    Ok(internal
+        .iter()
+        .map(|s| describe(s, false))
+        .chain(external.iter().map(|s| describe(s, true)))
+        .collect())
 }
 
 /// A basis of the same space that begins with a basis of the stresses without harm.
@@ -124,11 +172,17 @@ fn friction_first(
     let harmless = relations(f, &images).into_iter().map(|combination| {
         let mut sum = vec![0; stresses[0].len()];
         for (&a, s) in combination.iter().zip(&stresses).filter(|(a, _)| **a != 0) {
-            sum.iter_mut().zip(s).for_each(|(o, &x)| *o = f.add(*o, f.mul(a, x)));
+            sum.iter_mut()
+                .zip(s)
+                .for_each(|(o, &x)| *o = f.add(*o, f.mul(a, x)));
         }
         sum
     });
-    for s in harmless.collect_vec().into_iter().chain(stresses.iter().cloned()) {
+    for s in harmless
+        .collect_vec()
+        .into_iter()
+        .chain(stresses.iter().cloned())
+    {
         if span.insert(&s) {
             out.push(s);
         }
@@ -142,17 +196,32 @@ fn moment_at(exact: &ExactField, frame: &FrameValues<Residue>, w: &[Residue]) ->
     [0, 1, 2].map(|i| exact.field().sub(w[i], arm[i]))
 }
 
-/// What a wrench at a face (z its normal) has beyond friction: moments along the face and a force across it.
-fn harmful_part(exact: &ExactField, frame: &FrameValues<Residue>, w: &[Residue]) -> Vec<Residue> {
+/// What a wrench at a face (z its normal) has beyond friction: a force across it and, where asked, moments along it.
+fn harmful_part(
+    exact: &ExactField,
+    frame: &FrameValues<Residue>,
+    w: &[Residue],
+    moments: bool,
+) -> Vec<Residue> {
     if w.len() < 6 {
         return Vec::new();
     }
     let m = moment_at(exact, frame, w);
     let [x, y, z] = frame.axes;
-    vec![exact.dot(m, x), exact.dot(m, y), exact.dot([w[3], w[4], w[5]], z)]
+    let across = exact.dot([w[3], w[4], w[5]], z);
+    if moments {
+        vec![across, exact.dot(m, x), exact.dot(m, y)]
+    } else {
+        vec![across]
+    }
 }
 
-fn at_joint(exact: &ExactField, frame: &FrameValues<Residue>, joint: JointId, w: &[Residue]) -> Option<JointWrench> {
+fn at_joint(
+    exact: &ExactField,
+    frame: &FrameValues<Residue>,
+    joint: JointId,
+    w: &[Residue],
+) -> Option<JointWrench> {
     if w.iter().all(|&x| x == 0) {
         return None;
     }
@@ -167,7 +236,11 @@ fn at_joint(exact: &ExactField, frame: &FrameValues<Residue>, joint: JointId, w:
         _ => JointWrench {
             joint,
             moments: [false, false, w.first().is_some_and(|&x| x != 0)],
-            forces: [w.get(1).is_some_and(|&x| x != 0), w.get(2).is_some_and(|&x| x != 0), false],
+            forces: [
+                w.get(1).is_some_and(|&x| x != 0),
+                w.get(2).is_some_and(|&x| x != 0),
+                false,
+            ],
         },
     })
 }

@@ -81,5 +81,10 @@ fn state(mechanism: &Mechanism, s: &StateAnalysis) -> Value {
 }
 
 fn axes(flags: [bool; 3]) -> Vec<&'static str> {
-    ["x", "y", "z"].into_iter().zip(flags).filter(|(_, f)| *f).map(|(a, _)| a).collect()
+    ["x", "y", "z"]
+        .into_iter()
+        .zip(flags)
+        .filter(|(_, f)| *f)
+        .map(|(a, _)| a)
+        .collect()
 }

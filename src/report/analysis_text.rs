@@ -21,55 +21,129 @@ pub fn analysis(mechanism: &Mechanism, states: &[StateAnalysis], width: Option<u
     out
 }
 
-fn state(out: &mut String, mechanism: &Mechanism, s: &StateAnalysis, width: Option<u16>) -> std::fmt::Result {
+fn state(
+    out: &mut String,
+    mechanism: &Mechanism,
+    s: &StateAnalysis,
+    width: Option<u16>,
+) -> std::fmt::Result {
     let verdict = match s.redundant {
         0 => "statically determinate".to_owned(),
         n => plural(n, "redundant constraint"),
     };
-    writeln!(out, "{}, state {}: {verdict}, mobility {}", mechanism.name, s.state, s.mobility)?;
+    writeln!(
+        out,
+        "{}, state {}: {verdict}, mobility {}",
+        mechanism.name, s.state, s.mobility
+    )?;
     writeln!(out)?;
     let rows = s.rows;
-    writeln!(out, "  n = {} links, p = {} joints, k = {} contours, f = {} freedoms", s.links, s.joints, s.contours, s.freedoms)?;
-    writeln!(out, "  rank of the {rows} x {} closure matrix: {}", s.freedoms, s.rank)?;
-    writeln!(out, "  W = f - rank = {} (in this pose): working {}, local {}", s.mobility, s.working_mobility, s.local_mobility)?;
-    writeln!(out, "  σ = {rows} - rank = {}  (= W + {rows} - f)", s.redundant)?;
+    writeln!(
+        out,
+        "  n = {} links, p = {} joints, k = {} contours, f = {} freedoms",
+        s.links, s.joints, s.contours, s.freedoms
+    )?;
+    writeln!(
+        out,
+        "  rank of the {rows} x {} closure matrix: {}",
+        s.freedoms, s.rank
+    )?;
+    writeln!(
+        out,
+        "  W = f - rank = {} (in this pose): working {}, local {}",
+        s.mobility, s.working_mobility, s.local_mobility
+    )?;
+    writeln!(
+        out,
+        "  σ = {rows} - rank = {}  (= W + {rows} - f)",
+        s.redundant
+    )?;
     if s.formula_mobility != i64::try_from(s.mobility).unwrap_or(-1) {
-        writeln!(out, "  Counting alone (Malyshev) would say W = {}: it is short by σ", s.formula_mobility)?;
+        writeln!(
+            out,
+            "  counting alone (Malyshev's formula) says {}, wrong by the redundant constraints",
+            s.formula_mobility
+        )?;
     }
-    for motion in &s.idle {
-        writeln!(out, "  idle: {}", words::idle(mechanism, motion))?;
+    for motion in words::idle_list(mechanism, &s.idle) {
+        writeln!(out, "  idle: {motion}")?;
     }
     for (j, n) in &s.left_out {
-        writeln!(out, "  left out in the plane: {} of joint {}", plural(*n, "freedom"), mechanism.joints[*j].id)?;
+        writeln!(
+            out,
+            "  left out in the plane: {} of joint {}",
+            plural(*n, "freedom"),
+            mechanism.joints[*j].id
+        )?;
     }
     writeln!(out, "  {}", s.certainty.describe())?;
     if !s.per_contour.is_empty() {
         let rows = s.per_contour.iter().map(|c| {
             let (least, greatest) = c.range;
-            let range = if least == greatest { least.to_string() } else { format!("{least} to {greatest}") };
+            let range = if least == greatest {
+                least.to_string()
+            } else {
+                format!("{least} to {greatest}")
+            };
             vec![
                 c.contour.name(mechanism),
-                c.contour.joints.iter().map(|(j, _)| mechanism.joints[*j].id.as_str()).join(", "),
+                c.contour
+                    .joints
+                    .iter()
+                    .map(|(j, _)| mechanism.joints[*j].id.as_str())
+                    .join(", "),
                 c.redundant.to_string(),
                 range,
             ]
         });
-        writeln!(out, "\n{}", table(&["contour", "joints", "σ in this order", "σ over all orders"], rows.collect(), width))?;
+        writeln!(
+            out,
+            "\n{}",
+            table(
+                &["contour", "joints", "σ in this order", "σ over all orders"],
+                rows.collect(),
+                width
+            )
+        )?;
     }
     if let Some(e) = &s.external {
-        writeln!(out, "\n  External: σ = {} constraints - ({} - {}) - {} lost mobilities = {}; by rank {}{}",
-            e.constraints, e.actual_mobility, e.working_mobility, e.lost_mobility, e.redundant, e.by_rank,
-            if e.redundant == e.by_rank { "" } else { "  -- THESE DISAGREE" })?;
+        writeln!(
+            out,
+            "\n  External: σ = {} constraints - ({} - {}) - {} lost mobilities = {}; by rank {}{}",
+            e.constraints,
+            e.actual_mobility,
+            e.working_mobility,
+            e.lost_mobility,
+            e.redundant,
+            e.by_rank,
+            if e.redundant == e.by_rank {
+                ""
+            } else {
+                "  -- THESE DISAGREE"
+            }
+        )?;
     }
     if !s.self_stresses.is_empty() {
         let rows = s.self_stresses.iter().map(|t| stress_row(mechanism, s, t));
-        writeln!(out, "\n{}", table(&["self-stress in contour", "carried at", "as", ""], rows.collect(), width))?;
+        writeln!(
+            out,
+            "\n{}",
+            table(
+                &["self-stress in contour", "carried at", "as", ""],
+                rows.collect(),
+                width
+            )
+        )?;
     }
     Ok(())
 }
 
 fn stress_row(mechanism: &Mechanism, s: &StateAnalysis, stress: &SelfStress) -> Vec<String> {
-    let contours = stress.contours.iter().map(|&c| s.per_contour[c].contour.name(mechanism)).join(" + ");
+    let contours = stress
+        .contours
+        .iter()
+        .map(|&c| s.per_contour[c].contour.name(mechanism))
+        .join(" + ");
     // At the contacts, where there are any, since that is where external redundancy is felt.
     let shown = stress
         .joints
@@ -82,7 +156,7 @@ fn stress_row(mechanism: &Mechanism, s: &StateAnalysis, stress: &SelfStress) -> 
     let verdict = match (stress.external, stress.verdict) {
         (true, Verdict::Harmless) => "harmless: friction shared by the contacts",
         (true, Verdict::Harmful) => "harmful",
-        (false, _) => "",
+        (false, _) => "harmful: loads joints when parts are out of true",
     };
     vec![contours, joint, what, verdict.to_owned()]
 }

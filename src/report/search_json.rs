@@ -26,7 +26,9 @@ pub struct Found<'a> {
 }
 
 fn counts<K: ToString>(of: &BTreeMap<K, BigUint>) -> Map<String, Value> {
-    of.iter().map(|(k, n)| (k.to_string(), Value::String(n.to_string()))).collect()
+    of.iter()
+        .map(|(k, n)| (k.to_string(), Value::String(n.to_string())))
+        .collect()
 }
 
 /// Everything but the variants.
@@ -35,7 +37,9 @@ pub fn header(found: &Found<'_>) -> Map<String, Value> {
     let nested = |of: &BTreeMap<(i64, u32), BigUint>| {
         let mut out: Map<String, Value> = Map::new();
         for ((w, c), n) in of {
-            let by = out.entry(w.to_string()).or_insert_with(|| Value::Object(Map::new()));
+            let by = out
+                .entry(w.to_string())
+                .or_insert_with(|| Value::Object(Map::new()));
             if let Value::Object(by) = by {
                 by.insert(c.to_string(), Value::String(n.to_string()));
             }
@@ -47,26 +51,65 @@ pub fn header(found: &Found<'_>) -> Map<String, Value> {
     put("mechanism", json!(found.search.mechanism.name));
     put("space", json!(found.search.size().to_string()));
     put("determinate", json!(found.determinate.total.to_string()));
-    put("by_mobility", Value::Object(counts(&found.determinate.by_mobility)));
-    put("by_mobility_and_changes", Value::Object(nested(&found.determinate.by_mobility_and_changes)));
-    put("by_redundant", Value::Object(counts(&found.determinate.by_redundant)));
-    put("by_changes", Value::Object(counts(&found.determinate.by_changes)));
-    put("by_freedoms", Value::Object(counts(&found.determinate.by_freedoms)));
+    put(
+        "by_mobility",
+        Value::Object(counts(&found.determinate.by_mobility)),
+    );
+    put(
+        "by_mobility_and_changes",
+        Value::Object(nested(&found.determinate.by_mobility_and_changes)),
+    );
+    put(
+        "by_redundant",
+        Value::Object(counts(&found.determinate.by_redundant)),
+    );
+    put(
+        "by_changes",
+        Value::Object(counts(&found.determinate.by_changes)),
+    );
+    put(
+        "by_freedoms",
+        Value::Object(counts(&found.determinate.by_freedoms)),
+    );
     put("admissible", json!(found.admissible.total.to_string()));
-    put("admissible_by_mobility", Value::Object(counts(&found.admissible.by_mobility)));
-    put("admissible_by_mobility_and_changes", Value::Object(nested(&found.admissible.by_mobility_and_changes)));
-    put("admissible_by_redundant", Value::Object(counts(&found.admissible.by_redundant)));
-    put("admissible_by_changes", Value::Object(counts(&found.admissible.by_changes)));
-    put("admissible_by_freedoms", Value::Object(counts(&found.admissible.by_freedoms)));
-    let by_cost = found.by_cost.iter().map(|(c, n)| (crate::report::words::cost(*c), json!(n.to_string())));
+    put(
+        "admissible_by_mobility",
+        Value::Object(counts(&found.admissible.by_mobility)),
+    );
+    put(
+        "admissible_by_mobility_and_changes",
+        Value::Object(nested(&found.admissible.by_mobility_and_changes)),
+    );
+    put(
+        "admissible_by_redundant",
+        Value::Object(counts(&found.admissible.by_redundant)),
+    );
+    put(
+        "admissible_by_changes",
+        Value::Object(counts(&found.admissible.by_changes)),
+    );
+    put(
+        "admissible_by_freedoms",
+        Value::Object(counts(&found.admissible.by_freedoms)),
+    );
+    let by_cost = found
+        .by_cost
+        .iter()
+        .map(|(c, n)| (crate::report::words::cost(*c), json!(n.to_string())));
     put("admissible_by_cost", Value::Object(by_cost.collect()));
     let sizes = |f: fn(&Diagram) -> usize| found.diagrams.map(|(d, a)| (f(d), f(a)));
     let largest = sizes(|d| d.largest_layer);
     let nodes = sizes(|d| d.nodes);
     put("largest_layer", json!(largest.map(|(d, a)| d.max(a))));
     put("nodes", json!(nodes.map(|(d, a)| d + a)));
-    put("determinate_diagram", json!({"largest_layer": largest.map(|x| x.0), "nodes": nodes.map(|x| x.0)}));
-    put("admissible_diagram", json!({"largest_layer": largest.map(|x| x.1), "nodes": nodes.map(|x| x.1)}));
+    put(
+        "determinate_diagram",
+        json!({"largest_layer": largest.map(|x| x.0), "nodes": nodes.map(|x| x.0)}),
+    );
+    put(
+        "admissible_diagram",
+        json!({"largest_layer": largest.map(|x| x.1), "nodes": nodes.map(|x| x.1)}),
+    );
     put("stop", json!(found.stop));
     put("exact", json!(found.stop == "exhausted"));
     out
@@ -88,18 +131,39 @@ pub fn variant(search: &Search<'_>, variant: &Variant, position: usize) -> Value
 }
 
 fn cost_number(milli: i64) -> Value {
-    if milli % 1000 == 0 { json!(milli / 1000) } else { json!(crate::report::words::cost(milli).parse::<f64>().unwrap_or(0.0)) }
+    if milli % 1000 == 0 {
+        json!(milli / 1000)
+    } else {
+        json!(
+            crate::report::words::cost(milli)
+                .parse::<f64>()
+                .unwrap_or(0.0)
+        )
+    }
 }
 
 /// The changed joints of a variant: (joint, present type, new type), in file order.
 #[must_use]
 pub fn changes(search: &Search<'_>, variant: &Variant) -> Vec<(String, String, String)> {
     let mut out = Vec::new();
-    for (v, &choice) in search.space.variables.iter().zip(&variant.choices).filter(|(_, c)| **c != 0) {
+    for (v, &choice) in search
+        .space
+        .variables
+        .iter()
+        .zip(&variant.choices)
+        .filter(|(_, c)| **c != 0)
+    {
         for &j in &v.joints {
             let joint = &search.mechanism.joints[j];
             let to = choice_name(search.mechanism, j, &v.choices[choice]);
-            out.push((j, (joint.id.clone(), choice_name(search.mechanism, j, &v.choices[0]), to)));
+            out.push((
+                j,
+                (
+                    joint.id.clone(),
+                    choice_name(search.mechanism, j, &v.choices[0]),
+                    to,
+                ),
+            ));
         }
     }
     out.sort_by_key(|(j, _)| *j);

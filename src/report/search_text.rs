@@ -5,6 +5,7 @@ use crate::report::words::{cost, grouped, table};
 use crate::search::best::Variant;
 use crate::search::request::Search;
 use itertools::Itertools;
+use num_traits::Zero;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -13,32 +14,88 @@ use std::fmt::Write;
 pub fn counts(found: &Found<'_>, width: Option<u16>) -> String {
     let mut out = String::new();
     let big = |n: &num_bigint::BigUint| grouped(&n.to_string());
-    let (least, request) = (if found.stop == "exhausted" { "" } else { "at least " }, &found.search.request);
-    let condition = if request.max_redundant == 0 { "σ = 0".to_owned() } else { format!("σ ≤ {}", request.max_redundant) };
+    let (least, request) = (
+        if found.stop == "exhausted" {
+            ""
+        } else {
+            "at least "
+        },
+        &found.search.request,
+    );
+    let condition = if request.max_redundant == 0 {
+        "σ = 0".to_owned()
+    } else {
+        format!("σ ≤ {}", request.max_redundant)
+    };
     // Writing to a string cannot fail.
-    let _ = writeln!(out, "{}: {} variants", found.search.mechanism.name, big(&found.search.size()));
-    let _ = writeln!(out, "  {least}{} with {condition}", big(&found.determinate.total));
+    let _ = writeln!(
+        out,
+        "{}: {} variants",
+        found.search.mechanism.name,
+        big(&found.search.size())
+    );
+    let _ = writeln!(
+        out,
+        "  {least}{} with {condition}",
+        big(&found.determinate.total)
+    );
     let more = [
-        request.keep_output.then_some("keep the output motion".to_owned()),
+        request
+            .keep_output
+            .then_some("keep the output motion".to_owned()),
         request.max_mobility.map(|w| format!("have W ≤ {w}")),
-        request.max_changes.map(|c| format!("change at most {c} joints")),
-        request.state.map(|(s, e)| format!("have external σ ≤ {e} in state {}", found.search.mechanism.states[s])),
+        request
+            .max_changes
+            .map(|c| format!("change at most {c} joints")),
+        request.state.map(|(s, e)| {
+            format!(
+                "have external σ ≤ {e} in state {}",
+                found.search.mechanism.states[s]
+            )
+        }),
     ];
     let more = more.into_iter().flatten().join(" and ");
     if !more.is_empty() {
-        let _ = writeln!(out, "  {least}{} of them {more}", big(&found.admissible.total));
+        let _ = writeln!(
+            out,
+            "  {least}{} of them {more}",
+            big(&found.admissible.total)
+        );
     }
     if found.stop != "exhausted" {
-        let _ = writeln!(out, "  Stopped early ({}): counts are lower bounds, variants are valid but may not be the cheapest", found.stop);
+        let _ = writeln!(
+            out,
+            "  Stopped early ({}): counts are lower bounds, variants are valid but may not be the cheapest",
+            found.stop
+        );
     }
-    let mobilities: BTreeSet<i64> =
-        found.determinate.by_mobility.keys().chain(found.admissible.by_mobility.keys()).copied().collect();
-    let rows = mobilities.iter().map(|w| {
-        let of = |m: &std::collections::BTreeMap<i64, num_bigint::BigUint>| m.get(w).map_or("0".into(), big);
-        vec![w.to_string(), of(&found.determinate.by_mobility), of(&found.admissible.by_mobility)]
+    let mobilities: BTreeSet<i64> = found
+        .determinate
+        .by_mobility
+        .keys()
+        .chain(found.admissible.by_mobility.keys())
+        .copied()
+        .collect();
+    // Mobilities that no admissible variant has are of no use to a designer.
+    let shown = mobilities.iter().filter(|w| {
+        found.admissible.total.is_zero() || found.admissible.by_mobility.contains_key(w)
+    });
+    let rows = shown.map(|w| {
+        let of = |m: &std::collections::BTreeMap<i64, num_bigint::BigUint>| {
+            m.get(w).map_or("0".into(), big)
+        };
+        vec![
+            w.to_string(),
+            of(&found.determinate.by_mobility),
+            of(&found.admissible.by_mobility),
+        ]
     });
     if !mobilities.is_empty() {
-        let _ = writeln!(out, "\n{}", table(&["W", &condition, "admissible"], rows.collect(), width));
+        let _ = writeln!(
+            out,
+            "\n{}",
+            table(&["W", &condition, "admissible"], rows.collect(), width)
+        );
     }
     out
 }
@@ -54,7 +111,10 @@ pub fn variants(search: &Search<'_>, best: &[Variant], width: Option<u16>) -> St
                 None => changed.push((to, vec![joint])),
             }
         }
-        let changed = changed.iter().map(|(to, joints)| format!("{} -> {to}", joints.join(", "))).join("; ");
+        let changed = changed
+            .iter()
+            .map(|(to, joints)| format!("{} -> {to}", joints.join(", ")))
+            .join("; ");
         let sigma = match search.request.state {
             Some(_) => format!("{} + {}", v.key.internal(), v.key.external()),
             None => v.key.internal().to_string(),
@@ -64,7 +124,11 @@ pub fn variants(search: &Search<'_>, best: &[Variant], width: Option<u16>) -> St
             cost(search.steps.milli(v.key.cost())),
             search.mobility(v.key).to_string(),
             sigma,
-            if changed.is_empty() { "none: the mechanism as it is".to_owned() } else { changed },
+            if changed.is_empty() {
+                "none: the mechanism as it is".to_owned()
+            } else {
+                changed
+            },
         ]
     });
     table(&["", "cost", "W", "σ", "changes"], rows.collect(), width)

@@ -3,7 +3,7 @@
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::idle::Idle;
 use crate::redundancy::stress::JointWrench;
-use comfy_table::{ContentArrangement, Table};
+use comfy_table::{ContentArrangement, Table, TableComponent, presets};
 use itertools::Itertools;
 
 /// A whole number with thin groups of three: 13,841,287,201.
@@ -13,14 +13,23 @@ pub fn grouped(number: &str) -> String {
     let head = digits.len() % 3;
     let groups = std::iter::once(&digits[..head])
         .filter(|h| !h.is_empty())
-        .chain(digits.as_bytes()[head..].chunks(3).map(|c| std::str::from_utf8(c).unwrap_or("")));
+        .chain(
+            digits.as_bytes()[head..]
+                .chunks(3)
+                .map(|c| std::str::from_utf8(c).unwrap_or("")),
+        );
     format!("{sign}{}", groups.collect_vec().join(","))
 }
 
 /// A cost in thousandths as a decimal: 11.5.
 #[must_use]
 pub fn cost(milli: i64) -> String {
-    let text = format!("{}{}.{:03}", if milli < 0 { "-" } else { "" }, milli.abs() / 1000, milli.abs() % 1000);
+    let text = format!(
+        "{}{}.{:03}",
+        if milli < 0 { "-" } else { "" },
+        milli.abs() / 1000,
+        milli.abs() % 1000
+    );
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
@@ -28,14 +37,20 @@ pub fn cost(milli: i64) -> String {
 #[must_use]
 pub fn table(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> String {
     let mut table = Table::new();
-    table.load_preset("  -- --            ").set_content_arrangement(ContentArrangement::Dynamic);
+    table
+        .load_preset(presets::NOTHING)
+        .set_style(TableComponent::HeaderLines, '-')
+        .set_style(TableComponent::MiddleHeaderIntersections, ' ')
+        .set_content_arrangement(ContentArrangement::Dynamic);
     if let Some(width) = width {
         table.set_width(width);
     }
     table.set_header(header.to_vec());
     table.add_rows(rows);
     let text = table.to_string();
-    text.lines().map(|l| format!("  {}", l.trim())).join("\n").lines().map(str::trim_end).join("\n")
+    text.lines()
+        .map(|l| format!(" {}", l.trim_end()))
+        .join("\n")
 }
 
 /// "1 redundant constraint", "2 redundant constraints".
@@ -47,7 +62,14 @@ pub fn plural(n: usize, what: &str) -> String {
 /// Which components a wrench has: "moments about x and y, force along z".
 #[must_use]
 pub fn wrench(w: &JointWrench) -> String {
-    let axes = |flags: [bool; 3]| ["x", "y", "z"].into_iter().zip(flags).filter(|(_, f)| *f).map(|(a, _)| a).collect_vec();
+    let axes = |flags: [bool; 3]| {
+        ["x", "y", "z"]
+            .into_iter()
+            .zip(flags)
+            .filter(|(_, f)| *f)
+            .map(|(a, _)| a)
+            .collect_vec()
+    };
     let part = |one: &str, many: &str, flags: [bool; 3]| {
         let names = axes(flags);
         match names.as_slice() {
@@ -62,16 +84,47 @@ pub fn wrench(w: &JointWrench) -> String {
         .join(", ")
 }
 
+/// Idle motions in words, those that read alike told once.
+#[must_use]
+pub fn idle_list(mechanism: &Mechanism, motions: &[Idle]) -> Vec<String> {
+    let alike = motions
+        .iter()
+        .map(|m| idle(mechanism, m))
+        .dedup_with_count();
+    alike
+        .map(|(n, text)| {
+            if n == 1 {
+                text
+            } else {
+                format!("{text}, in {n} independent ways")
+            }
+        })
+        .collect()
+}
+
 /// What an idle motion is: "link 5 spins about the line through 4-5 and 5-1".
 #[must_use]
 pub fn idle(mechanism: &Mechanism, motion: &Idle) -> String {
-    let names = motion.links.iter().map(|&l| mechanism.links[l].id.as_str()).join(", ");
-    let joints = motion.through.iter().map(|&j| mechanism.joints[j].id.as_str()).collect_vec();
+    let names = motion
+        .links
+        .iter()
+        .map(|&l| mechanism.links[l].id.as_str())
+        .join(", ");
+    let joints = motion
+        .through
+        .iter()
+        .map(|&j| mechanism.joints[j].id.as_str())
+        .collect_vec();
     match (motion.links.len(), joints.as_slice()) {
-        (1, []) if motion.turns => format!("link {names} turns about a line through none of its joints"),
+        (1, []) if motion.turns => {
+            format!("link {names} turns about a line through none of its joints")
+        }
         (1, []) => format!("link {names} slides"),
         (1, [one]) => format!("link {names} spins about a line through {one}"),
-        (1, many) => format!("link {names} spins about the line through {}", many.join(" and ")),
+        (1, many) => format!(
+            "link {names} spins about the line through {}",
+            many.join(" and ")
+        ),
         _ => format!("links {names} move together"),
     }
 }

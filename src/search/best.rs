@@ -35,19 +35,42 @@ pub fn cheapest<C: Count, R: Ord>(
     mut visit: impl FnMut(Variant) -> ControlFlow<()>,
 ) {
     let least = least_costs(diagram, &steps.keys);
-    let Some(floor) = least.completion[0][0] else { return };
-    let ceiling = steps.keys.iter().flatten().map(|k| k.cost()).max().unwrap_or(0) * steps.keys.len() as u64;
+    let Some(floor) = least.completion[0][0] else {
+        return;
+    };
+    let ceiling = steps
+        .keys
+        .iter()
+        .flatten()
+        .map(|k| k.cost())
+        .max()
+        .unwrap_or(0)
+        * steps.keys.len() as u64;
     let mut slack = 0;
     let (tally, mut keys) = loop {
         let limit = floor.saturating_add(slack).min(ceiling);
         let bound: Vec<Vec<u64>> = least
             .prefix
             .iter()
-            .map(|l| l.iter().map(|p| p.map_or(0, |p| limit.saturating_sub(p))).collect())
+            .map(|l| {
+                l.iter()
+                    .map(|p| p.map_or(0, |p| limit.saturating_sub(p)))
+                    .collect()
+            })
             .collect();
         let tally: Tally<C> = Tally::new(diagram, &steps.keys, Some(&bound));
-        let found: Vec<Key> = tally.totals().iter().map(|(k, _)| *k).filter(|&k| wanted(k)).collect();
-        let count: BigUint = tally.totals().iter().filter(|(k, _)| wanted(*k)).map(|(_, c)| c.big()).sum();
+        let found: Vec<Key> = tally
+            .totals()
+            .iter()
+            .map(|(k, _)| *k)
+            .filter(|&k| wanted(k))
+            .collect();
+        let count: BigUint = tally
+            .totals()
+            .iter()
+            .filter(|(k, _)| wanted(*k))
+            .map(|(_, c)| c.big())
+            .sum();
         if count >= BigUint::from(top) || limit >= ceiling {
             break (tally, found);
         }
@@ -62,7 +85,10 @@ pub fn cheapest<C: Count, R: Ord>(
                 return ControlFlow::Break(());
             }
             left -= 1;
-            visit(Variant { choices: choices.to_vec(), key })
+            visit(Variant {
+                choices: choices.to_vec(),
+                key,
+            })
         };
         if descend(diagram, steps, &tally, 0, 0, key, &mut choices, &mut give).is_break() {
             return;
@@ -70,7 +96,10 @@ pub fn cheapest<C: Count, R: Ord>(
     }
 }
 
-#[allow(clippy::too_many_arguments, reason = "a recursive walk with its fixed surroundings")]
+#[allow(
+    clippy::too_many_arguments,
+    reason = "a recursive walk with its fixed surroundings"
+)]
 fn descend<C: Count>(
     diagram: &Diagram,
     steps: &Steps,
@@ -81,14 +110,38 @@ fn descend<C: Count>(
     choices: &mut Vec<usize>,
     give: &mut impl FnMut(&[usize]) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
-    let Some(here) = diagram.layers.get(layer) else { return give(choices) };
-    for (choice, &to) in here.edges[node * here.choices..(node + 1) * here.choices].iter().enumerate() {
-        let Some(rest) = key.0.checked_sub(steps.keys[here.variable][choice].0).map(Key) else { continue };
-        if to == DEAD || tally.tables[layer + 1][to as usize].binary_search_by_key(&rest, |(k, _)| *k).is_err() {
+    let Some(here) = diagram.layers.get(layer) else {
+        return give(choices);
+    };
+    for (choice, &to) in here.edges[node * here.choices..(node + 1) * here.choices]
+        .iter()
+        .enumerate()
+    {
+        let Some(rest) = key
+            .0
+            .checked_sub(steps.keys[here.variable][choice].0)
+            .map(Key)
+        else {
+            continue;
+        };
+        if to == DEAD
+            || tally.tables[layer + 1][to as usize]
+                .binary_search_by_key(&rest, |(k, _)| *k)
+                .is_err()
+        {
             continue;
         }
         choices[here.variable] = choice;
-        descend(diagram, steps, tally, layer + 1, to as usize, rest, choices, give)?;
+        descend(
+            diagram,
+            steps,
+            tally,
+            layer + 1,
+            to as usize,
+            rest,
+            choices,
+            give,
+        )?;
     }
     ControlFlow::Continue(())
 }
@@ -100,7 +153,13 @@ struct Least {
 }
 
 fn least_costs(diagram: &Diagram, keys: &[Vec<Key>]) -> Least {
-    let sizes = || diagram.layers.iter().map(|l| l.nodes).chain([diagram.terminals.len()]);
+    let sizes = || {
+        diagram
+            .layers
+            .iter()
+            .map(|l| l.nodes)
+            .chain([diagram.terminals.len()])
+    };
     let mut prefix: Vec<Vec<Option<u64>>> = sizes().map(|n| vec![None; n]).collect();
     let mut completion = prefix.clone();
     prefix[0][0] = Some(0);
@@ -109,16 +168,32 @@ fn least_costs(diagram: &Diagram, keys: &[Vec<Key>]) -> Least {
     }
     let lower = |slot: &mut Option<u64>, x: u64| *slot = Some(slot.map_or(x, |s| s.min(x)));
     for (l, layer) in diagram.layers.iter().enumerate() {
-        for (e, &to) in layer.edges.iter().enumerate().filter(|(_, to)| **to != DEAD) {
+        for (e, &to) in layer
+            .edges
+            .iter()
+            .enumerate()
+            .filter(|(_, to)| **to != DEAD)
+        {
             if let Some(p) = prefix[l][e / layer.choices] {
-                lower(&mut prefix[l + 1][to as usize], p + keys[layer.variable][e % layer.choices].cost());
+                lower(
+                    &mut prefix[l + 1][to as usize],
+                    p + keys[layer.variable][e % layer.choices].cost(),
+                );
             }
         }
     }
     for (l, layer) in diagram.layers.iter().enumerate().rev() {
-        for (e, &to) in layer.edges.iter().enumerate().filter(|(_, to)| **to != DEAD) {
+        for (e, &to) in layer
+            .edges
+            .iter()
+            .enumerate()
+            .filter(|(_, to)| **to != DEAD)
+        {
             if let Some(c) = completion[l + 1][to as usize] {
-                lower(&mut completion[l][e / layer.choices], c + keys[layer.variable][e % layer.choices].cost());
+                lower(
+                    &mut completion[l][e / layer.choices],
+                    c + keys[layer.variable][e % layer.choices].cost(),
+                );
             }
         }
     }
@@ -138,8 +213,12 @@ pub fn sample<C: Count>(
     wanted: impl Fn(Key) -> bool,
 ) -> Vec<Variant> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let totals: Vec<(Key, BigUint)> =
-        tally.totals().iter().filter(|(k, _)| wanted(*k)).map(|(k, c)| (*k, c.big())).collect();
+    let totals: Vec<(Key, BigUint)> = tally
+        .totals()
+        .iter()
+        .filter(|(k, _)| wanted(*k))
+        .map(|(k, c)| (*k, c.big()))
+        .collect();
     let all: BigUint = totals.iter().map(|(_, c)| c).sum();
     if all.is_zero() {
         return Vec::new();
@@ -157,14 +236,18 @@ pub fn sample<C: Count>(
         let mut choices = vec![0; steps.keys.len()];
         let (mut node, mut whole) = (0usize, 0u128);
         for (l, layer) in diagram.layers.iter().enumerate() {
-            for choice in 0..layer.choices {
+            for (choice, edge) in keys[layer.variable].iter().enumerate() {
                 let to = layer.edges[node * layer.choices + choice];
-                let Some(rest) = key.0.checked_sub(keys[layer.variable][choice].0).map(Key) else { continue };
+                let Some(rest) = key.0.checked_sub(edge.0).map(Key) else {
+                    continue;
+                };
                 if to == DEAD {
                     continue;
                 }
                 let table = &tally.tables[l + 1][to as usize];
-                let Ok(i) = table.binary_search_by_key(&rest, |(k, _)| *k) else { continue };
+                let Ok(i) = table.binary_search_by_key(&rest, |(k, _)| *k) else {
+                    continue;
+                };
                 let size = table[i].1.big();
                 if ticket < size {
                     choices[layer.variable] = choice;
@@ -177,7 +260,10 @@ pub fn sample<C: Count>(
         }
         let (internal, external) = diagram.terminals[node];
         whole += Key::new(0, 0, 0, internal, external).0;
-        Variant { choices, key: Key(whole) }
+        Variant {
+            choices,
+            key: Key(whole),
+        }
     };
     (0..count).map(|_| draw()).collect()
 }

@@ -35,15 +35,25 @@ pub struct Matrices {
 impl Matrices {
     /// Writes the columns of a space out; `kept` are the links whose motion matters.
     #[must_use]
-    pub fn new(exact: &ExactField, mechanism: &Mechanism, space: &Space, kept: &[LinkId]) -> Matrices {
+    pub fn new(
+        exact: &ExactField,
+        mechanism: &Mechanism,
+        space: &Space,
+        kept: &[LinkId],
+    ) -> Matrices {
         let (f, d) = (exact.field(), space.dim);
         let free = contour_basis(mechanism, 0);
         let state: StateId = space.state.unwrap_or(0);
         let all = contour_basis(mechanism, state);
-        let paths: Vec<Vec<(JointId, bool)>> = kept.iter().map(|&l| path_from_frame(mechanism, 0, l)).collect();
+        let paths: Vec<Vec<(JointId, bool)>> = kept
+            .iter()
+            .map(|&l| path_from_frame(mechanism, 0, l))
+            .collect();
         let signs = |j: JointId| {
             let contours = free.iter().map(move |c| c.direction(j));
-            let links = paths.iter().map(move |p| p.iter().find(|(q, _)| *q == j).map(|(_, s)| *s));
+            let links = paths
+                .iter()
+                .map(move |p| p.iter().find(|(q, _)| *q == j).map(|(_, s)| *s));
             let added = all[free.len()..].iter().map(move |c| c.direction(j));
             contours.chain(links).chain(added).collect::<Vec<_>>()
         };
@@ -62,7 +72,11 @@ impl Matrices {
             .map(|v| {
                 let signs: Vec<_> = v.joints.iter().map(|&j| signs(j)).collect();
                 let of_choice = |spans: &[Vec<Vec<Residue>>]| {
-                    spans.iter().zip(&signs).flat_map(|(span, s)| span.iter().map(|t| column(s, t))).collect()
+                    spans
+                        .iter()
+                        .zip(&signs)
+                        .flat_map(|(span, s)| span.iter().map(|t| column(s, t)))
+                        .collect()
                 };
                 v.choices.iter().map(|c| of_choice(&c.spans)).collect()
             })
@@ -79,9 +93,17 @@ impl Matrices {
     /// Looks at one variant.
     #[must_use]
     pub fn look(&self, choices: &[usize]) -> Seen {
-        let chosen = || choices.iter().enumerate().flat_map(|(v, &c)| &self.columns[v][c]);
+        let chosen = || {
+            choices
+                .iter()
+                .enumerate()
+                .flat_map(|(v, &c)| &self.columns[v][c])
+        };
         let kept_end = self.free_rows + self.kept_rows;
-        let pivots = eliminate(self.field, chosen().map(|c| c[..kept_end].to_vec()).collect());
+        let pivots = eliminate(
+            self.field,
+            chosen().map(|c| c[..kept_end].to_vec()).collect(),
+        );
         let rank = pivots.iter().filter(|&&p| p < self.free_rows).count();
         let mut external = 0;
         if self.state_rows > 0 {
@@ -102,7 +124,9 @@ fn eliminate(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> {
     let width = vectors.first().map_or(0, Vec::len);
     let (mut pivots, mut done) = (Vec::new(), 0);
     for c in 0..width {
-        let Some(i) = (done..vectors.len()).find(|&i| vectors[i][c] != 0) else { continue };
+        let Some(i) = (done..vectors.len()).find(|&i| vectors[i][c] != 0) else {
+            continue;
+        };
         vectors.swap(done, i);
         let (above, below) = vectors.split_at_mut(done + 1);
         let pivot = &above[done];
@@ -124,9 +148,20 @@ fn eliminate(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> {
 /// # Complexity
 /// One elimination a variant, in parallel over the choices of the first variables.
 #[must_use]
-pub fn count(matrices: &Matrices, steps: &Steps, wanted: impl Fn(Seen) -> bool + Sync) -> BTreeMap<Key, u128> {
+pub fn count(
+    matrices: &Matrices,
+    steps: &Steps,
+    wanted: impl Fn(Seen) -> bool + Sync,
+) -> BTreeMap<Key, u128> {
     let radix: Vec<usize> = steps.keys.iter().map(Vec::len).collect();
-    let head = radix.iter().scan(1usize, |p, &r| { *p = p.saturating_mul(r); Some(*p) }).take_while(|&p| p <= 4096).count();
+    let head = radix
+        .iter()
+        .scan(1usize, |p, &r| {
+            *p = p.saturating_mul(r);
+            Some(*p)
+        })
+        .take_while(|&p| p <= 4096)
+        .count();
     let heads: usize = radix[..head].iter().product();
     (0..heads)
         .into_par_iter()
@@ -140,11 +175,17 @@ pub fn count(matrices: &Matrices, steps: &Steps, wanted: impl Fn(Seen) -> bool +
             loop {
                 let seen = matrices.look(&choices);
                 if wanted(seen) {
-                    let sum: u128 = choices.iter().enumerate().map(|(v, &c)| steps.keys[v][c].0).sum();
+                    let sum: u128 = choices
+                        .iter()
+                        .enumerate()
+                        .map(|(v, &c)| steps.keys[v][c].0)
+                        .sum();
                     let key = Key(sum + Key::new(0, 0, 0, seen.internal, seen.external).0);
                     *counts.entry(key).or_insert(0) += 1;
                 }
-                let Some(v) = (head..radix.len()).find(|&v| choices[v] + 1 < radix[v]) else { break };
+                let Some(v) = (head..radix.len()).find(|&v| choices[v] + 1 < radix[v]) else {
+                    break;
+                };
                 choices[head..v].fill(0);
                 choices[v] += 1;
             }

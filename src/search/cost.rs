@@ -48,19 +48,31 @@ impl CostTable {
     pub fn new(spec: &CostSpec) -> Self {
         let mut by_type = spec.by_type_milli.clone();
         by_type.extend(DEFAULTS.iter().map(|(n, c)| ((*n).to_owned(), *c)));
-        CostTable { by_type, change: spec.change_milli.unwrap_or(CHANGE), link: spec.link_milli.unwrap_or(LINK) }
+        CostTable {
+            by_type,
+            change: spec.change_milli.unwrap_or(CHANGE),
+            link: spec.link_milli.unwrap_or(LINK),
+        }
     }
 
     /// The cost of a joint: the option's own, its name's, its type's, or by freedoms for a custom type.
     #[must_use]
     pub fn option(&self, option: &JointOption) -> i64 {
-        let named = |n: &str| self.by_type.iter().find(|(name, _)| name == n).map(|(_, c)| *c);
-        option.cost_milli.or_else(|| named(&option.name)).unwrap_or_else(|| match &option.joint_type {
-            JointType::Custom(list) => {
-                let more = i64::try_from(list.len()).unwrap_or(0) - 1;
-                named("revolute").unwrap_or(1000) + CUSTOM_FREEDOM * more
-            }
-            other => named(other.name()).unwrap_or(1000),
-        })
+        let named = |n: &str| {
+            self.by_type
+                .iter()
+                .find(|(name, _)| name == n)
+                .map(|(_, c)| *c)
+        };
+        option
+            .cost_milli
+            .or_else(|| named(&option.name))
+            .unwrap_or_else(|| match &option.joint_type {
+                JointType::Custom(list) => {
+                    let more = i64::try_from(list.len()).unwrap_or(0) - 1;
+                    named("revolute").unwrap_or(1000) + CUSTOM_FREEDOM * more
+                }
+                other => named(other.name()).unwrap_or(1000),
+            })
     }
 }

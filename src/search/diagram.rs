@@ -131,11 +131,21 @@ struct Nodes {
 
 impl Nodes {
     fn root() -> Self {
-        Nodes { spent: vec![(0, 0)], start: vec![0, 0], data: Vec::new(), least: vec![0] }
+        Nodes {
+            spent: vec![(0, 0)],
+            start: vec![0, 0],
+            data: Vec::new(),
+            least: vec![0],
+        }
     }
 
     fn empty() -> Self {
-        Nodes { spent: Vec::new(), start: vec![0], data: Vec::new(), least: Vec::new() }
+        Nodes {
+            spent: Vec::new(),
+            start: vec![0],
+            data: Vec::new(),
+            least: Vec::new(),
+        }
     }
 
     fn len(&self) -> usize {
@@ -154,12 +164,15 @@ impl Nodes {
     }
 }
 
+/// A child: its hash, the redundancy spent, and where its matrix starts and ends.
+type Child = (u64, (u32, u32), usize, usize);
+
 /// The children of some consecutive nodes, before equal ones are merged.
 struct Children {
     /// Choices a node has.
     choices: usize,
-    /// (hash, redundancy spent, start and end in `data`) of each child in order of (node, choice); `None` if dead.
-    found: Vec<Option<(u64, (u32, u32), usize, usize)>>,
+    /// The children in order of (node, choice); `None` if dead.
+    found: Vec<Option<Child>>,
     data: Vec<Residue>,
 }
 
@@ -201,9 +214,19 @@ pub fn build(
                 merge.stop = Stop::Interrupted;
                 merge.room = merge.room.min(CUT);
             }
-            progress(Progress { done, of: stages.len(), nodes: total + merge.next.len(), layer: merge.next.len() });
+            progress(Progress {
+                done,
+                of: stages.len(),
+                nodes: total + merge.next.len(),
+                layer: merge.next.len(),
+            });
         }
-        let Merge { stop: now, mut next, mut edges, .. } = merge;
+        let Merge {
+            stop: now,
+            mut next,
+            mut edges,
+            ..
+        } = merge;
         stop = now;
         if let Some(test) = &stage.lookahead {
             let passed = passing(exact.field(), space.dim, test, &next);
@@ -212,7 +235,9 @@ pub fn build(
         let keep = match stop {
             Stop::Exhausted => usize::MAX,
             // Share what is left of the budget among the layers to come.
-            Stop::NodeBudget => (limits.nodes.saturating_sub(total) / (stages.len() - done)).max(CUT),
+            Stop::NodeBudget => {
+                (limits.nodes.saturating_sub(total) / (stages.len() - done)).max(CUT)
+            }
             Stop::Interrupted => CUT,
         };
         if next.len() > keep {
@@ -220,10 +245,21 @@ pub fn build(
         }
         total += next.len();
         largest = largest.max(next.len());
-        layers.push(Layer { variable: stage.variable, nodes: nodes.len(), choices: choices.len(), edges });
+        layers.push(Layer {
+            variable: stage.variable,
+            nodes: nodes.len(),
+            choices: choices.len(),
+            edges,
+        });
         nodes = next;
     }
-    Diagram { layers, terminals: nodes.spent, stop, nodes: total, largest_layer: largest }
+    Diagram {
+        layers,
+        terminals: nodes.spent,
+        stop,
+        nodes: total,
+        largest_layer: largest,
+    }
 }
 
 /// Nodes a layer keeps at least, however small the budget, so that a search always reaches the end.
@@ -245,18 +281,35 @@ fn expand(
     let choices = space.variables[stage.variable].choices.len();
     let some = |range: std::ops::Range<usize>| {
         let mut worker = Worker::new(field, space.dim);
-        let mut out = Children { choices, found: Vec::with_capacity(range.len() * choices), data: Vec::new() };
+        let mut out = Children {
+            choices,
+            found: Vec::with_capacity(range.len() * choices),
+            data: Vec::new(),
+        };
         for i in range {
-            worker.children(space, stage, nodes.matrix(i), nodes.spent[i], limits, &mut out);
+            worker.children(
+                space,
+                stage,
+                nodes.matrix(i),
+                nodes.spent[i],
+                limits,
+                &mut out,
+            );
         }
         out
     };
     if range.len() * choices < PARALLEL {
         return vec![some(range)];
     }
-    let chunk = range.len().div_ceil(rayon::current_num_threads() * 4).max(16);
+    let chunk = range
+        .len()
+        .div_ceil(rayon::current_num_threads() * 4)
+        .max(16);
     let starts: Vec<usize> = range.clone().step_by(chunk).collect();
-    starts.into_par_iter().map(|s| some(s..(s + chunk).min(range.end))).collect()
+    starts
+        .into_par_iter()
+        .map(|s| some(s..(s + chunk).min(range.end)))
+        .collect()
 }
 
 /// A layer being put together.
@@ -309,16 +362,26 @@ impl Merge {
 
 /// The nodes of a layer that pass a test, ascending.
 fn passing(field: Field, dim: usize, test: &Lookahead, nodes: &Nodes) -> Vec<usize> {
-    let chunk = if nodes.len() < PARALLEL { nodes.len().max(1) } else { PARALLEL / 4 };
+    let chunk = if nodes.len() < PARALLEL {
+        nodes.len().max(1)
+    } else {
+        PARALLEL / 4
+    };
     let starts: Vec<usize> = (0..nodes.len()).step_by(chunk).collect();
     let some = |start: usize| {
         let mut worker = Worker::new(field, dim);
-        (start..(start + chunk).min(nodes.len())).filter(|&i| worker.passes(test, nodes.matrix(i))).collect::<Vec<_>>()
+        (start..(start + chunk).min(nodes.len()))
+            .filter(|&i| worker.passes(test, nodes.matrix(i)))
+            .collect::<Vec<_>>()
     };
     if starts.len() <= 1 {
         return starts.into_iter().flat_map(some).collect();
     }
-    starts.into_par_iter().map(some).collect::<Vec<_>>().concat()
+    starts
+        .into_par_iter()
+        .map(some)
+        .collect::<Vec<_>>()
+        .concat()
 }
 
 /// Keeps the cheapest nodes of a layer, first come first kept among equals.
@@ -338,7 +401,10 @@ fn retain(nodes: &Nodes, kept: &[usize], edges: &mut [u32]) -> Nodes {
         renamed[i] = u32::try_from(out.len()).expect("fewer than before");
         out.push(nodes.spent[i], nodes.matrix(i), nodes.least[i]);
     }
-    edges.iter_mut().filter(|e| **e != DEAD).for_each(|e| *e = renamed[*e as usize]);
+    edges
+        .iter_mut()
+        .filter(|e| **e != DEAD)
+        .for_each(|e| *e = renamed[*e as usize]);
     out
 }
 
@@ -363,17 +429,23 @@ impl Rows {
         for (row, &p) in self.data.chunks_exact(width.max(1)).zip(&self.pivots) {
             f.subtract_multiple(&mut vector[p..], &row[p..]);
         }
-        let Some(pivot) = vector.iter().position(|&x| x != 0) else { return };
+        let Some(pivot) = vector.iter().position(|&x| x != 0) else {
+            return;
+        };
         if vector[pivot] != f.one() {
             let scale = arithmetic.inverse(vector[pivot]);
-            vector[pivot..].iter_mut().filter(|x| **x != 0).for_each(|x| *x = f.mul(*x, scale));
+            vector[pivot..]
+                .iter_mut()
+                .filter(|x| **x != 0)
+                .for_each(|x| *x = f.mul(*x, scale));
         }
         for row in self.data.chunks_exact_mut(width) {
             f.subtract_multiple(&mut row[pivot..], &vector[pivot..]);
         }
         let at = self.pivots.partition_point(|&p| p < pivot);
         self.pivots.insert(at, pivot);
-        self.data.splice(at * width..at * width, vector.iter().copied());
+        self.data
+            .splice(at * width..at * width, vector.iter().copied());
     }
 }
 
@@ -409,7 +481,10 @@ struct Worker {
 impl Worker {
     fn new(field: Field, dim: usize) -> Self {
         Worker {
-            arithmetic: Arithmetic { field, inverses: vec![(0, 0); 1024] },
+            arithmetic: Arithmetic {
+                field,
+                inverses: vec![(0, 0); 1024],
+            },
             dim,
             base: Rows::default(),
             work: Rows::default(),
@@ -426,7 +501,11 @@ impl Worker {
             self.vector.clear();
             self.vector.resize(step.width * d, 0);
             for &(new, old, plus) in &step.blocks {
-                f.accumulate(&mut self.vector[new * d..(new + 1) * d], &row[old * d..(old + 1) * d], plus);
+                f.accumulate(
+                    &mut self.vector[new * d..(new + 1) * d],
+                    &row[old * d..(old + 1) * d],
+                    plus,
+                );
             }
             self.base.insert(&mut self.arithmetic, &mut self.vector);
         }
@@ -451,9 +530,13 @@ impl Worker {
         let bridged = self.work.pivots.partition_point(|&p| p < d);
         let (width, narrow) = (self.work.width, self.work.width - d);
         for r in bridged..self.work.pivots.len() {
-            self.work.data.copy_within(r * width + d..(r + 1) * width, (r - bridged) * narrow);
+            self.work
+                .data
+                .copy_within(r * width + d..(r + 1) * width, (r - bridged) * narrow);
         }
-        self.work.data.truncate((self.work.pivots.len() - bridged) * narrow);
+        self.work
+            .data
+            .truncate((self.work.pivots.len() - bridged) * narrow);
         self.work.pivots.drain(..bridged);
         self.work.pivots.iter_mut().for_each(|p| *p -= d);
         self.work.width = narrow;
@@ -475,7 +558,10 @@ impl Worker {
             // The variable does not matter here: every choice leads to the same node.
             let start = out.data.len();
             out.data.extend_from_slice(matrix);
-            out.found.resize(out.found.len() + choices.len(), Some((hash(matrix, spent), spent, start, out.data.len())));
+            out.found.resize(
+                out.found.len() + choices.len(),
+                Some((hash(matrix, spent), spent, start, out.data.len())),
+            );
             return;
         };
         self.begin(first, matrix);
@@ -490,7 +576,11 @@ impl Worker {
                 self.begin(step, &old);
                 redundant += self.finish(step, &choice.spans[*member]);
             }
-            let spent = if stage.external { (spent.0, spent.1 + redundant) } else { (spent.0 + redundant, spent.1) };
+            let spent = if stage.external {
+                (spent.0, spent.1 + redundant)
+            } else {
+                (spent.0 + redundant, spent.1)
+            };
             if spent.0 > limits.internal || spent.1 > limits.external {
                 out.found.push(None);
                 continue;
@@ -500,14 +590,23 @@ impl Worker {
             }
             let start = out.data.len();
             out.data.extend_from_slice(&self.work.data);
-            out.found.push(Some((hash(&self.work.data, spent), spent, start, out.data.len())));
+            out.found.push(Some((
+                hash(&self.work.data, spent),
+                spent,
+                start,
+                out.data.len(),
+            )));
         }
     }
 
     /// Brings `work` into the form that [`Collapse`] describes.
     fn collapse(&mut self, collapse: &Collapse) {
         let (f, d, width) = (self.arithmetic.field, self.dim, self.work.width);
-        let places: Vec<usize> = collapse.blocks.iter().flat_map(|b| b * d..(b + 1) * d).collect();
+        let places: Vec<usize> = collapse
+            .blocks
+            .iter()
+            .flat_map(|b| b * d..(b + 1) * d)
+            .collect();
         let pivot = |row: &[Residue]| row.iter().position(|&x| x != 0);
         let fixed: Vec<usize> = collapse.present.iter().filter_map(|r| pivot(r)).collect();
         let open: Vec<usize> = (0..places.len()).filter(|i| !fixed.contains(i)).collect();
@@ -575,7 +674,12 @@ impl Worker {
             }
             self.kept.insert(&mut self.arithmetic, &mut self.vector);
         }
-        let loose = self.kept.pivots.iter().filter(|&&p| p >= test.locks).count();
+        let loose = self
+            .kept
+            .pivots
+            .iter()
+            .filter(|&&p| p >= test.locks)
+            .count();
         test.base + loose <= test.allowed
     }
 }
@@ -602,7 +706,10 @@ pub fn stages(space: &Space, order: &[usize], plan: &Plan) -> Vec<Stage> {
             let v = &space.variables[variable];
             Stage {
                 variable,
-                steps: (0..v.joints.len()).zip(steps.by_ref()).map(|(i, s)| (i, s.clone())).collect(),
+                steps: (0..v.joints.len())
+                    .zip(steps.by_ref())
+                    .map(|(i, s)| (i, s.clone()))
+                    .collect(),
                 external: v.external,
                 collapse: None,
                 lookahead: None,

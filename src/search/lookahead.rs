@@ -51,20 +51,37 @@ pub fn lookahead(
             components.push(vec![l]);
         }
     };
-    kept.iter().chain([&frame]).for_each(|&l| single(l, &mut components));
-    let outer: Vec<LinkId> = components.iter().flatten().copied().filter(|&l| l != frame).collect();
-    let mut inner: Vec<LinkId> = left.iter().flat_map(|(j, _)| mechanism.joints[*j].links).collect();
+    kept.iter()
+        .chain([&frame])
+        .for_each(|&l| single(l, &mut components));
+    let outer: Vec<LinkId> = components
+        .iter()
+        .flatten()
+        .copied()
+        .filter(|&l| l != frame)
+        .collect();
+    let mut inner: Vec<LinkId> = left
+        .iter()
+        .flat_map(|(j, _)| mechanism.joints[*j].links)
+        .collect();
     inner.retain(|l| !outer.contains(l) && *l != frame);
     inner.sort_unstable();
     inner.dedup();
     // Inner links first, so that elimination leaves constraints on outer links alone at the end.
-    let place: BTreeMap<LinkId, usize> = inner.iter().chain(&outer).enumerate().map(|(i, &l)| (l, i * dim)).collect();
+    let place: BTreeMap<LinkId, usize> = inner
+        .iter()
+        .chain(&outer)
+        .enumerate()
+        .map(|(i, &l)| (l, i * dim))
+        .collect();
     let width = place.len() * dim;
     let mut constraints = Echelon::new(f);
     for (j, span) in left {
         let [u, v] = mechanism.joints[*j].links;
         let annihilator = if span.is_empty() {
-            (0..dim).map(|c| (0..dim).map(|i| if i == c { f.one() } else { 0 }).collect()).collect()
+            (0..dim)
+                .map(|c| (0..dim).map(|i| if i == c { f.one() } else { 0 }).collect())
+                .collect()
         } else {
             relations(f, &transpose(span))
         };
@@ -89,11 +106,19 @@ pub fn lookahead(
         for &(l, plus) in links {
             let Some(&at) = place.get(&l) else { continue };
             for (o, lock) in out.iter_mut().zip(&locks) {
-                *o = if plus { f.add(*o, lock[at + c]) } else { f.sub(*o, lock[at + c]) };
+                *o = if plus {
+                    f.add(*o, lock[at + c])
+                } else {
+                    f.sub(*o, lock[at + c])
+                };
             }
             for (k, _) in kept.iter().enumerate().filter(|(_, k)| **k == l) {
                 let o = &mut out[locks.len() + k * dim + c];
-                *o = if plus { f.add(*o, f.one()) } else { f.sub(*o, f.one()) };
+                *o = if plus {
+                    f.add(*o, f.one())
+                } else {
+                    f.sub(*o, f.one())
+                };
             }
         }
         out
@@ -106,12 +131,19 @@ pub fn lookahead(
             free.insert(&image(&together, c));
         });
     }
-    let taken: Vec<usize> = free.reduced().iter().filter_map(|r| r.iter().position(|&x| x != 0)).collect();
+    let taken: Vec<usize> = free
+        .reduced()
+        .iter()
+        .filter_map(|r| r.iter().position(|&x| x != 0))
+        .collect();
     let total = locks.len() + kept.len() * dim;
     let open: Vec<usize> = (0..total).filter(|i| !taken.contains(i)).collect();
     let mut map = Vec::new();
     for &(root, link) in live {
-        let component = components.iter().find(|c| c[0] == root).expect("live links are in components");
+        let component = components
+            .iter()
+            .find(|c| c[0] == root)
+            .expect("live links are in components");
         let mut moved = vec![(link, true)];
         if link == frame {
             // Coordinates are relative to the root; the frame itself rests.

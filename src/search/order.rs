@@ -29,15 +29,28 @@ struct Partial {
 /// # Complexity
 /// O(v · b · BEAM) trial steps for v variables and b of them adjacent to the chosen part.
 #[must_use]
-pub fn variable_order(mechanism: &Mechanism, space: &Space, variables: &[usize], pinned: &[LinkId]) -> Vec<usize> {
-    let joints: Vec<JointId> = variables.iter().flat_map(|&v| space.variables[v].joints.iter().copied()).collect();
+pub fn variable_order(
+    mechanism: &Mechanism,
+    space: &Space,
+    variables: &[usize],
+    pinned: &[LinkId],
+) -> Vec<usize> {
+    let joints: Vec<JointId> = variables
+        .iter()
+        .flat_map(|&v| space.variables[v].joints.iter().copied())
+        .collect();
     let mut degree: BTreeMap<LinkId, usize> = BTreeMap::new();
     for &j in &joints {
         for l in mechanism.joints[j].links {
             *degree.entry(l).or_insert(0) += 1;
         }
     }
-    let start = Partial { order: Vec::new(), done: BTreeSet::new(), components: Vec::new(), work: 0.0 };
+    let start = Partial {
+        order: Vec::new(),
+        done: BTreeSet::new(),
+        components: Vec::new(),
+        work: 0.0,
+    };
     let mut beam = vec![start];
     for _ in 0..variables.len() {
         let mut next: BTreeMap<BTreeSet<usize>, Partial> = BTreeMap::new();
@@ -53,20 +66,38 @@ pub fn variable_order(mechanism: &Mechanism, space: &Space, variables: &[usize],
             }
         }
         beam = next.into_values().collect();
-        beam.sort_by(|a, b| a.work.total_cmp(&b.work).then_with(|| a.order.cmp(&b.order)));
+        beam.sort_by(|a, b| {
+            a.work
+                .total_cmp(&b.work)
+                .then_with(|| a.order.cmp(&b.order))
+        });
         beam.truncate(BEAM);
     }
-    beam.into_iter().next().map_or_else(|| variables.to_vec(), |p| p.order)
+    beam.into_iter()
+        .next()
+        .map_or_else(|| variables.to_vec(), |p| p.order)
 }
 
 /// Variables that touch a live link; all of them where none does.
-fn candidates(mechanism: &Mechanism, space: &Space, variables: &[usize], partial: &Partial) -> Vec<usize> {
-    let left: Vec<usize> = variables.iter().copied().filter(|v| !partial.done.contains(v)).collect();
+fn candidates(
+    mechanism: &Mechanism,
+    space: &Space,
+    variables: &[usize],
+    partial: &Partial,
+) -> Vec<usize> {
+    let left: Vec<usize> = variables
+        .iter()
+        .copied()
+        .filter(|v| !partial.done.contains(v))
+        .collect();
     let near: Vec<usize> = left
         .iter()
         .copied()
         .filter(|&v| {
-            let mut links = space.variables[v].joints.iter().flat_map(|&j| mechanism.joints[j].links);
+            let mut links = space.variables[v]
+                .joints
+                .iter()
+                .flat_map(|&j| mechanism.joints[j].links);
             links.any(|l| partial.components.iter().any(|(c, _)| c.contains(&l)))
         })
         .collect();
@@ -89,15 +120,23 @@ fn grow(
     let mut choices = (variable.choices.len() as f64).log2();
     // States of the other components multiply the work.
     let others = |p: &Partial, but: usize| -> f64 {
-        p.components.iter().enumerate().filter(|(i, _)| *i != but).map(|(_, (_, s))| s).sum()
+        p.components
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| *i != but)
+            .map(|(_, (_, s))| s)
+            .sum()
     };
     for &j in &variable.joints {
         let links = mechanism.joints[j].links;
         let home = |p: &mut Partial, l: LinkId| {
-            p.components.iter().position(|(c, _)| c.contains(&l)).unwrap_or_else(|| {
-                p.components.push((vec![l], 0.0));
-                p.components.len() - 1
-            })
+            p.components
+                .iter()
+                .position(|(c, _)| c.contains(&l))
+                .unwrap_or_else(|| {
+                    p.components.push((vec![l], 0.0));
+                    p.components.len() - 1
+                })
         };
         let (a, b) = (home(&mut p, links[0]), home(&mut p, links[1]));
         let closing = a == b;
@@ -117,10 +156,17 @@ fn grow(
             // A finished output adds next to nothing: its motion is collapsed to good or bad.
             pinned.contains(&l) || {
                 let used = p.done.iter().flat_map(|&v| &space.variables[v].joints);
-                used.filter(|&&j| mechanism.joints[j].links.contains(&l)).count() < degree.get(&l).copied().unwrap_or(0)
+                used.filter(|&&j| mechanism.joints[j].links.contains(&l))
+                    .count()
+                    < degree.get(&l).copied().unwrap_or(0)
             }
         };
-        let links: Vec<LinkId> = p.components[a].0.iter().copied().filter(|&l| live(l)).collect();
+        let links: Vec<LinkId> = p.components[a]
+            .0
+            .iter()
+            .copied()
+            .filter(|&l| live(l))
+            .collect();
         #[allow(clippy::cast_precision_loss, reason = "a guess of a logarithm")]
         let pairs = links.len().saturating_sub(1) as f64;
         let cap = pairs * if closing { CLOSED } else { OPEN };

@@ -61,7 +61,12 @@ fn plus(a: &Combination, sign: i8, b: &Combination) -> Combination {
 /// # Panics
 /// Never for joints of the mechanism.
 #[must_use]
-pub fn plan(mechanism: &Mechanism, order: &[JointId], pinned: &[LinkId], start: &[Vec<LinkId>]) -> Plan {
+pub fn plan(
+    mechanism: &Mechanism,
+    order: &[JointId],
+    pinned: &[LinkId],
+    start: &[Vec<LinkId>],
+) -> Plan {
     let mut components: Vec<Vec<LinkId>> = start.to_vec();
     let mut steps = Vec::with_capacity(order.len());
     for (at, &joint) in order.iter().enumerate() {
@@ -82,13 +87,25 @@ pub fn plan(mechanism: &Mechanism, order: &[JointId], pinned: &[LinkId], start: 
                 relative.insert(l, Combination::new());
             }
         }
-        let home = |l: LinkId, cs: &[Vec<LinkId>]| cs.iter().position(|c| c.contains(&l)).expect("both links have one");
+        let home = |l: LinkId, cs: &[Vec<LinkId>]| {
+            cs.iter()
+                .position(|c| c.contains(&l))
+                .expect("both links have one")
+        };
         let (a, b) = (home(u, &components), home(v, &components));
         let twist = Combination::from([(Source::Joint, 1)]);
         // The frame stays the root wherever it is, so that its component's coordinates are absolute.
         let frame = mechanism.frame();
-        let (u, v, a, b, forward) = if components[b].contains(&frame) { (v, u, b, a, false) } else { (u, v, a, b, true) };
-        let twist = if forward { twist } else { plus(&Combination::new(), -1, &twist) };
+        let (u, v, a, b, forward) = if components[b].contains(&frame) {
+            (v, u, b, a, false)
+        } else {
+            (u, v, a, b, true)
+        };
+        let twist = if forward {
+            twist
+        } else {
+            plus(&Combination::new(), -1, &twist)
+        };
         let closing = a == b;
         let mut rows: Vec<Combination> = Vec::new();
         if closing {
@@ -106,7 +123,10 @@ pub fn plan(mechanism: &Mechanism, order: &[JointId], pinned: &[LinkId], start: 
             components.remove(b);
         }
         let live = |l: &LinkId| {
-            pinned.contains(l) || order[at + 1..].iter().any(|&j| mechanism.joints[j].links.contains(l))
+            pinned.contains(l)
+                || order[at + 1..]
+                    .iter()
+                    .any(|&j| mechanism.joints[j].links.contains(l))
         };
         for c in &mut components {
             if let Some(i) = c.iter().position(|&l| l == frame) {
@@ -132,7 +152,15 @@ pub fn plan(mechanism: &Mechanism, order: &[JointId], pinned: &[LinkId], start: 
                 }
             }
         }
-        steps.push(Step { joint, closing, blocks, twist: from_joint, old_width: next, width: rows.len(), live: names });
+        steps.push(Step {
+            joint,
+            closing,
+            blocks,
+            twist: from_joint,
+            old_width: next,
+            width: rows.len(),
+            live: names,
+        });
     }
     Plan { steps }
 }

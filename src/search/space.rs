@@ -63,13 +63,27 @@ impl Space {
     ) -> Result<Space, ExactError> {
         let motion = MotionSpace::new(exact, &mechanism.mode)?;
         let free: Vec<JointId> = mechanism.joints_in(0).collect();
-        let added = state.into_iter().flat_map(|s| mechanism.joints_in(s)).filter(|j| !free.contains(j));
+        let added = state
+            .into_iter()
+            .flat_map(|s| mechanism.joints_in(s))
+            .filter(|j| !free.contains(j));
         let mut groups: Vec<(Vec<JointId>, bool)> = Vec::new();
-        for (j, external) in free.iter().map(|&j| (j, false)).chain(added.map(|j| (j, true)).collect::<Vec<_>>()) {
+        for (j, external) in free
+            .iter()
+            .map(|&j| (j, false))
+            .chain(added.map(|j| (j, true)).collect::<Vec<_>>())
+        {
             let mirror = mechanism.search.mirror.iter().find_map(|&(a, b)| {
-                if j == a { Some(b) } else { (j == b).then_some(a) }
+                if j == a {
+                    Some(b)
+                } else {
+                    (j == b).then_some(a)
+                }
             });
-            match groups.iter_mut().find(|(g, _)| symmetric && mirror.is_some_and(|m| m != j && g.contains(&m))) {
+            match groups
+                .iter_mut()
+                .find(|(g, _)| symmetric && mirror.is_some_and(|m| m != j && g.contains(&m)))
+            {
                 Some((group, _)) => group.push(j),
                 None => groups.push((vec![j], external)),
             }
@@ -89,15 +103,26 @@ impl Space {
                     a.cost_milli += b.cost_milli;
                 }
             }
-            variables.push(Variable { joints, choices: merged, external });
+            variables.push(Variable {
+                joints,
+                choices: merged,
+                external,
+            });
         }
-        Ok(Space { dim: motion.dim(), state, variables })
+        Ok(Space {
+            dim: motion.dim(),
+            state,
+            variables,
+        })
     }
 
     /// The number of variants.
     #[must_use]
     pub fn size(&self) -> BigUint {
-        self.variables.iter().map(|v| BigUint::from(v.choices.len())).product()
+        self.variables
+            .iter()
+            .map(|v| BigUint::from(v.choices.len()))
+            .product()
     }
 }
 
@@ -114,8 +139,13 @@ fn choices(
     let inserted = std::iter::once(None).chain((0..joint.unloading.len()).map(Some));
     for unloading in inserted {
         for (i, option) in joint.options.iter().enumerate() {
-            let mut columns: Vec<Vec<Residue>> = twists(option)?.into_iter().map(|(_, t)| t).collect();
-            let mut cost_milli = if i == 0 { 0 } else { costs.option(option) - costs.option(&joint.options[0]) + costs.change };
+            let mut columns: Vec<Vec<Residue>> =
+                twists(option)?.into_iter().map(|(_, t)| t).collect();
+            let mut cost_milli = if i == 0 {
+                0
+            } else {
+                costs.option(option) - costs.option(&joint.options[0]) + costs.change
+            };
             if let Some(u) = unloading {
                 columns.extend(twists(&joint.unloading[u])?.into_iter().map(|(_, t)| t));
                 cost_milli += costs.option(&joint.unloading[u]) + costs.link + costs.change;
@@ -142,7 +172,10 @@ fn choices(
 #[must_use]
 pub fn choice_name(mechanism: &Mechanism, joint: JointId, choice: &Choice) -> String {
     let joint = &mechanism.joints[joint];
-    let base = joint.options.get(choice.option).map_or(JointType::Fixed.name(), |o| o.name.as_str());
+    let base = joint
+        .options
+        .get(choice.option)
+        .map_or(JointType::Fixed.name(), |o| o.name.as_str());
     match choice.unloading.and_then(|u| joint.unloading.get(u)) {
         Some(u) => format!("{base} + unloading {}", u.name),
         None => base.to_owned(),

@@ -100,9 +100,16 @@ impl Steps {
     /// The steps of a space: the unit is the greatest common divisor of all cost differences.
     #[must_use]
     pub fn new(space: &Space) -> Steps {
-        let least: Vec<i64> =
-            space.variables.iter().map(|v| v.choices.iter().map(|c| c.cost_milli).min().unwrap_or(0)).collect();
-        let above = space.variables.iter().zip(&least).flat_map(|(v, l)| v.choices.iter().map(move |c| c.cost_milli - l));
+        let least: Vec<i64> = space
+            .variables
+            .iter()
+            .map(|v| v.choices.iter().map(|c| c.cost_milli).min().unwrap_or(0))
+            .collect();
+        let above = space
+            .variables
+            .iter()
+            .zip(&least)
+            .flat_map(|(v, l)| v.choices.iter().map(move |c| c.cost_milli - l));
         let unit = above.fold(0, num_integer::gcd).max(1);
         let keys = space.variables.iter().zip(&least).map(|(v, l)| {
             let key = |c: &crate::search::space::Choice| {
@@ -111,7 +118,11 @@ impl Steps {
             };
             v.choices.iter().map(key).collect()
         });
-        Steps { unit_milli: unit, base_milli: least.iter().sum(), keys: keys.collect() }
+        Steps {
+            unit_milli: unit,
+            base_milli: least.iter().sum(),
+            keys: keys.collect(),
+        }
     }
 
     /// The keys with only the wanted kinds left.
@@ -126,7 +137,10 @@ impl Steps {
                 0,
             )
         };
-        self.keys.iter().map(|v| v.iter().map(keep).collect()).collect()
+        self.keys
+            .iter()
+            .map(|v| v.iter().map(keep).collect())
+            .collect()
     }
 
     /// A cost in thousandths from the cost part of a key.
@@ -151,7 +165,10 @@ impl<C: Count> Tally<C> {
     /// O(edges · table size · log), with table sizes given by the kinds told apart.
     #[must_use]
     pub fn new(diagram: &Diagram, keys: &[Vec<Key>], bound: Option<&[Vec<u64>]>) -> Tally<C> {
-        let last = diagram.terminals.iter().map(|&(i, e)| vec![(Key::new(0, 0, 0, i, e), C::one())]);
+        let last = diagram
+            .terminals
+            .iter()
+            .map(|&(i, e)| vec![(Key::new(0, 0, 0, i, e), C::one())]);
         let mut tables: Vec<Vec<Vec<(Key, C)>>> = vec![last.collect()];
         for (l, layer) in diagram.layers.iter().enumerate().rev() {
             let below = tables.last().expect("there is a last layer");
@@ -161,7 +178,10 @@ impl<C: Count> Tally<C> {
             for node in 0..layer.nodes {
                 let limit = bound.map_or(u64::MAX, |b| b[l][node]);
                 gathered.clear();
-                for (choice, &to) in layer.edges[node * layer.choices..(node + 1) * layer.choices].iter().enumerate() {
+                for (choice, &to) in layer.edges[node * layer.choices..(node + 1) * layer.choices]
+                    .iter()
+                    .enumerate()
+                {
                     if to != DEAD {
                         let edge = keys[choice].0;
                         let table = below[to as usize].iter().map(|(k, c)| (Key(k.0 + edge), c));
@@ -187,6 +207,9 @@ impl<C: Count> Tally<C> {
     /// Counts of whole variants by key.
     #[must_use]
     pub fn totals(&self) -> &[(Key, C)] {
-        self.tables.first().and_then(|l| l.first()).map_or(&[], Vec::as_slice)
+        self.tables
+            .first()
+            .and_then(|l| l.first())
+            .map_or(&[], Vec::as_slice)
     }
 }

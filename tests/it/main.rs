@@ -1,1 +1,5 @@
-fn main(){}
+//! Integration tests.
+#![allow(clippy::unwrap_used, missing_docs, reason = "tests")]
+
+mod catalogs;
+mod layering;

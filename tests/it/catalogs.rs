@@ -1,0 +1,114 @@
+//! Every built-in mechanism has the figures its file states, with their sources.
+
+use ozols::builtin;
+use ozols::import::text::mechanism_from_str;
+use ozols::redundancy::analysis::{Method, analyse};
+
+#[test]
+fn every_built_in_mechanism_has_the_figures_it_states() {
+    let mut wrong = Vec::new();
+    for name in builtin::names() {
+        let m = mechanism_from_str(&format!("{name}.toml"), builtin::text(name).unwrap())
+            .unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(m.name, name, "a file is named for its mechanism");
+        assert!(!m.sources.is_empty(), "{name} states no source");
+        assert!(
+            m.expected.iter().any(|e| e.redundant.is_some()),
+            "{name} states no redundancy"
+        );
+        for method in [Method::Modular, Method::Svd { tolerance: 1e-9 }] {
+            let states: Vec<usize> = (0..m.states.len()).collect();
+            for s in analyse(&m, &states, method).unwrap() {
+                // σ = W + 6k - f holds identically, p = n + k - 1 for a connected mechanism.
+                assert_eq!(
+                    s.redundant + s.freedoms,
+                    s.mobility + s.rows,
+                    "{name} {}",
+                    s.state
+                );
+                assert_eq!(s.joints + 1, s.links + s.contours, "{name} {}", s.state);
+                assert_eq!(
+                    s.per_contour.iter().map(|c| c.redundant).sum::<usize>(),
+                    s.rows - s.rank,
+                    "{name}"
+                );
+                assert!(
+                    s.per_contour
+                        .iter()
+                        .all(|c| (c.range.0..=c.range.1).contains(&c.redundant)),
+                    "{name}"
+                );
+                assert_eq!(s.self_stresses.len(), s.redundant, "{name} {}", s.state);
+                assert_eq!(s.idle.len(), s.local_mobility, "{name} {}", s.state);
+                if let Some(e) = s.external {
+                    assert_eq!(
+                        e.redundant, e.by_rank,
+                        "{name} {}: external formula against ranks",
+                        s.state
+                    );
+                }
+                for e in m.expected.iter().filter(|e| e.state == s.state) {
+                    let is = [
+                        (e.mobility, s.mobility as i64, "W"),
+                        (e.working_mobility, s.working_mobility as i64, "working"),
+                        (e.local_mobility, s.local_mobility as i64, "local"),
+                        (e.redundant, s.redundant as i64, "σ"),
+                        (
+                            e.external_redundant,
+                            s.external.map_or(0, |x| x.redundant),
+                            "external σ",
+                        ),
+                    ];
+                    for (stated, found, what) in is {
+                        if stated.is_some_and(|x| x != found) {
+                            wrong.push(format!(
+                                "{name} {} {what}: stated {stated:?}, found {found}",
+                                s.state
+                            ));
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn there_are_enough_mechanisms_and_the_gripper_is_among_them() {
+    let names = builtin::names();
+    assert!(names.len() >= 14, "{names:?}");
+    assert!(names.contains(&"gripper-10") && names.contains(&"gripper-10-redesign"));
+}
+
+/// [Pogrebnyak 2018]: three of the five external constraints are friction doubled by the two jaws, two demand parallel
+/// faces; with an unloading joint two are left, both harmless.
+#[test]
+fn friction_shared_by_the_jaws_is_told_from_harm() {
+    use ozols::redundancy::stress::Verdict;
+    for (name, harmless, harmful) in [
+        ("gripper-10", 3, 2),
+        ("gripper-10-unloaded", 2, 0),
+        ("gripper-10-redesign-unloaded", 2, 0),
+    ] {
+        let m = mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap();
+        let clamped = m.states.iter().position(|s| s == "clamped").unwrap();
+        let s = &analyse(&m, &[clamped], Method::Modular).unwrap()[0];
+        let external: Vec<Verdict> = s
+            .self_stresses
+            .iter()
+            .filter(|t| t.external)
+            .map(|t| t.verdict)
+            .collect();
+        assert_eq!(
+            external.iter().filter(|v| **v == Verdict::Harmless).count(),
+            harmless,
+            "{name}"
+        );
+        assert_eq!(
+            external.iter().filter(|v| **v == Verdict::Harmful).count(),
+            harmful,
+            "{name}"
+        );
+    }
+}
