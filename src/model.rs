@@ -1,6 +1,6 @@
 //! The mechanism: links, joints with their types and frames, named states, contours, and what a search may change.
 //!
-//! Values here are validated: a [`Mechanism`] is connected in every state, its ids are unique, its axes are nonzero.
+//! Values here are validated: a [`Mechanism`](mechanism::Mechanism) is connected in every state, its ids are unique, its axes are nonzero.
 //! Text formats live in `import`; nothing here reads a file.
 
 pub mod joint_type;

@@ -179,7 +179,7 @@ pub(super) struct Search {
     #[arg(long, value_enum, default_value = "diagram")]
     pub(super) method: SearchMethod,
     /// Node budget of each diagram, about 1 KB of memory a node.
-    #[arg(long, value_name = "N", default_value_t = 4_000_000)]
+    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     pub(super) nodes: usize,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]

@@ -100,13 +100,13 @@ pub struct JointEntry {
     /// The state, or list of states, in which the joint is present; all where left out.
     #[serde(default)]
     pub state: Option<Words>,
-    /// What a search may put here instead of the [search] list.
+    /// What a search may put here instead of the `[search]` list.
     #[serde(default)]
     pub options: Option<Vec<OptionEntry>>,
     /// Names of options never put here.
     #[serde(default)]
     pub forbid: Vec<String>,
-    /// Joints that may be inserted here in series: true for those of [search], or a list.
+    /// Joints that may be inserted here in series: true for those of `[search]`, or a list.
     #[serde(default)]
     pub unloading: Option<Unloading>,
 }
@@ -128,7 +128,7 @@ pub enum Words {
     expecting = "expected true, false or a list of joint options"
 )]
 pub enum Unloading {
-    /// True: those of [search].
+    /// True: those of `[search]`.
     Allowed(bool),
     /// These.
     List(Vec<OptionEntry>),

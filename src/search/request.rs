@@ -61,7 +61,7 @@ impl Default for Request {
             max_changes: None,
             keep_output: true,
             symmetry: Symmetry::All,
-            nodes: 4_000_000,
+            nodes: 1_000_000,
         }
     }
 }
