@@ -41,6 +41,8 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
     let mut bar = progress::Bar::new(args.quiet);
     let diagrams = search.build(&cancelled, &mut |p| bar.show(p));
     bar.clear();
+    // What was found so far is still given; another Ctrl-C stops the giving.
+    stop.store(false, Ordering::SeqCst);
     let mut determinate = search.counts(&diagrams.determinate, false);
     let mut admissible = search.counts(&diagrams.admissible, true);
     if a.one_per_orbit {

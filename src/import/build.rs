@@ -257,7 +257,12 @@ fn joint(
         let (joint, link) = (entry.id.clone(), entry.links[0].clone());
         out.add(&key(&at, "links"), ProblemKind::SelfLoop { joint, link });
     }
-    let joint_type = joint_type(&entry.id, &entry.kind, entry.freedoms.as_ref(), &at, out)?;
+    let found = joint_type(&entry.id, &entry.kind, entry.freedoms.as_ref(), &at, out);
+    let Some(joint_type) = found else {
+        // The rest depends on the type, but a bad point is worth telling in the same run.
+        vector(&entry.point, &key(&at, "point"), out);
+        return None;
+    };
     let frame = place(entry, &joint_type, &at, out);
     let present = JointOption {
         name: present_name(&joint_type),

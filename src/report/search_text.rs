@@ -39,6 +39,12 @@ pub fn counts(found: &Found<'_>, width: Option<u16>) -> String {
         "  {least}{} with {condition}",
         big(&found.determinate.total)
     );
+    if found.search.size() == num_bigint::BigUint::from(1u8) {
+        let _ = writeln!(
+            out,
+            "  no joint has a choice: list some under [search], such as options = [\"revolute\", \"spherical\"]"
+        );
+    }
     let more = [
         request
             .keep_output
