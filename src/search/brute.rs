@@ -143,7 +143,7 @@ fn eliminate(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> {
     pivots
 }
 
-/// Counts every variant of a space by its properties; `wanted` decides which are counted.
+/// Counts every variant of a space by its properties and by the class that `class` puts it in; those without are left out.
 ///
 /// # Complexity
 /// One elimination a variant, in parallel over the choices of the first variables.
@@ -151,8 +151,8 @@ fn eliminate(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> {
 pub fn count(
     matrices: &Matrices,
     steps: &Steps,
-    wanted: impl Fn(Seen) -> bool + Sync,
-) -> BTreeMap<Key, u128> {
+    class: impl Fn(Seen) -> Option<bool> + Sync,
+) -> BTreeMap<(Key, bool), u128> {
     let radix: Vec<usize> = steps.keys.iter().map(Vec::len).collect();
     let head = radix
         .iter()
@@ -166,7 +166,7 @@ pub fn count(
     (0..heads)
         .into_par_iter()
         .map(|h| {
-            let mut counts: BTreeMap<Key, u128> = BTreeMap::new();
+            let mut counts: BTreeMap<(Key, bool), u128> = BTreeMap::new();
             let mut choices = vec![0; radix.len()];
             let mut rest = h;
             for (c, r) in choices.iter_mut().zip(&radix[..head]) {
@@ -174,14 +174,14 @@ pub fn count(
             }
             loop {
                 let seen = matrices.look(&choices);
-                if wanted(seen) {
+                if let Some(class) = class(seen) {
                     let sum: u128 = choices
                         .iter()
                         .enumerate()
                         .map(|(v, &c)| steps.keys[v][c].0)
                         .sum();
                     let key = Key(sum + Key::new(0, 0, 0, seen.internal, seen.external).0);
-                    *counts.entry(key).or_insert(0) += 1;
+                    *counts.entry((key, class)).or_insert(0) += 1;
                 }
                 let Some(v) = (head..radix.len()).find(|&v| choices[v] + 1 < radix[v]) else {
                     break;

@@ -616,24 +616,21 @@ impl<'m> Search<'m> {
     #[must_use]
     pub fn brute(&self) -> (Counts, Counts) {
         let matrices = Matrices::new(&self.exact, self.mechanism, &self.space, &self.kept.0);
-        let of = |keys: BTreeMap<Key, u128>, filter: bool| {
-            let mut counts = Counts::default();
-            for (key, count) in keys {
-                if !filter || self.wanted(key) {
-                    counts.add(self.mobility(key), key, &BigUint::from(count));
-                }
-            }
-            counts
-        };
-        let determinate = |seen: brute::Seen| seen.internal <= self.request.max_redundant;
         let admissible = |seen: brute::Seen| {
-            determinate(seen)
-                && (!self.request.keep_output || seen.motion == self.kept.1.len())
+            (!self.request.keep_output || seen.motion == self.kept.1.len())
                 && self.request.state.is_none_or(|(_, e)| seen.external <= e)
         };
-        (
-            of(brute::count(&matrices, &self.steps, determinate), false),
-            of(brute::count(&matrices, &self.steps, admissible), true),
-        )
+        let class = |seen: brute::Seen| {
+            (seen.internal <= self.request.max_redundant).then(|| admissible(seen))
+        };
+        let (mut all, mut good) = (Counts::default(), Counts::default());
+        for ((key, admissible), count) in brute::count(&matrices, &self.steps, class) {
+            let count = BigUint::from(count);
+            all.add(self.mobility(key), key, &count);
+            if admissible && self.wanted(key) {
+                good.add(self.mobility(key), key, &count);
+            }
+        }
+        (all, good)
     }
 }

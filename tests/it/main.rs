@@ -1,6 +1,9 @@
 //! Integration tests.
 #![allow(clippy::unwrap_used, missing_docs, reason = "tests")]
 
+mod bytes;
 mod catalogs;
 mod contours;
 mod layering;
+mod published;
+mod twin;

@@ -1,0 +1,207 @@
+//! Where the time goes: one candidate, the diagram against brute force, big spaces, the k best, and growth.
+//!
+//! `cargo bench`; node counts are printed beside the times.
+
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use ozols::builtin;
+use ozols::closure::matrix::Closure;
+use ozols::geom::scalars::Reals;
+use ozols::import::text::mechanism_from_str;
+use ozols::model::joint_type::{Freedom, JointType};
+use ozols::model::mechanism::{JointOption, Mechanism};
+use ozols::rank::{modular, numeric};
+use ozols::redundancy::analysis::exact_field;
+use ozols::search::request::{Request, Search};
+use std::fmt::Write;
+use std::hint::black_box;
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+fn gripper() -> Mechanism {
+    let text = builtin::text("gripper-10").expect("built in");
+    mechanism_from_str("gripper-10.toml", text).expect("valid")
+}
+
+/// The gripper with these options only, at the first `joints` joints that have any.
+fn with_options(names: &[&str], joints: usize) -> Mechanism {
+    let mut m = gripper();
+    let changeable = m.joints.iter_mut().filter(|j| j.options.len() > 1);
+    for (i, j) in changeable.enumerate() {
+        let mut place = 0;
+        j.options.retain(|o| {
+            place += 1;
+            place == 1 || i < joints && names.contains(&o.name.as_str())
+        });
+    }
+    m
+}
+
+fn search(m: &Mechanism) -> Search<'_> {
+    Search::new(exact_field(m, 0).expect("exact"), m, Request::default()).expect("valid")
+}
+
+/// Both counts and the `top` best; returns nodes and the largest layer.
+fn whole(m: &Mechanism, top: usize) -> (usize, usize) {
+    let s = search(m);
+    let d = s.build(&|| false, &mut |_| {});
+    black_box((
+        s.counts(&d.determinate, false),
+        s.counts(&d.admissible, true),
+    ));
+    s.cheapest(&d, top, |v| {
+        black_box(v);
+        ControlFlow::Continue(())
+    });
+    let largest = d.determinate.largest_layer.max(d.admissible.largest_layer);
+    (d.determinate.nodes + d.admissible.nodes, largest)
+}
+
+fn rank(c: &mut Criterion) {
+    let m = gripper();
+    let exact = exact_field(&m, 0).expect("exact");
+    let closure = Closure::new(&exact, &m, 0).expect("exact");
+    let real = Closure::new(&Reals, &m, 0).expect("real");
+    let mut group = c.benchmark_group("rank of one candidate, 24 x 14");
+    group.bench_function("modulo a prime", |b| {
+        b.iter(|| modular::rank(&exact, black_box(&closure)))
+    });
+    group.bench_function("singular values", |b| {
+        b.iter(|| numeric::rank(black_box(&real)))
+    });
+    group.finish();
+}
+
+fn twins(c: &mut Criterion) {
+    let rs = with_options(&["spherical"], 12);
+    let rcus = with_options(&["cylindrical", "universal", "spherical"], 12);
+    // The same four options at 6 of the 12 joints: 1 / 4096 of the space, so brute force of the whole takes 4096 times
+    // as long.
+    let part = with_options(&["cylindrical", "universal", "spherical"], 6);
+    let mut group = c.benchmark_group("diagram against brute force");
+    group.bench_function("R S, 4096 variants, diagram", |b| b.iter(|| whole(&rs, 0)));
+    group.bench_function("R S, 4096 variants, brute force", |b| {
+        b.iter(|| search(&rs).brute())
+    });
+    group.bench_function("R C U S, 16777216 variants, diagram", |b| {
+        b.iter(|| whole(&rcus, 0))
+    });
+    group.bench_function("R C U S, 4096 of 16777216 variants, brute force", |b| {
+        b.iter(|| search(&part).brute())
+    });
+    group.finish();
+}
+
+fn spaces(c: &mut Criterion) {
+    let seven = gripper();
+    let mut thirteen = with_options(&[], 0);
+    // Every way of adding up to two of five freedoms to the revolute joint, less the four commonest triples.
+    let more = [
+        Freedom::Rx,
+        Freedom::Ry,
+        Freedom::Tx,
+        Freedom::Ty,
+        Freedom::Tz,
+    ];
+    let mut sets: Vec<Vec<Freedom>> = more.iter().map(|&f| vec![Freedom::Rz, f]).collect();
+    for i in 0..more.len() {
+        sets.extend(more[i + 1..].iter().map(|&g| vec![Freedom::Rz, more[i], g]));
+    }
+    sets.truncate(12);
+    for j in thirteen
+        .joints
+        .iter_mut()
+        .filter(|j| j.joint_type == JointType::Revolute)
+    {
+        for set in &sets {
+            let name: Vec<&str> = set.iter().map(|f| f.name()).collect();
+            let (name, joint_type) = (name.join("+"), JointType::Custom(set.clone()));
+            j.options.push(JointOption {
+                name,
+                joint_type,
+                frame: j.frame.clone(),
+                cost_milli: None,
+            });
+        }
+    }
+    let mut group = c.benchmark_group("gripper-10");
+    for (name, m) in [("7 options", &seven), ("13 options", &thirteen)] {
+        println!(
+            "{name}: {} variants, (nodes, largest layer) = {:?}",
+            search(m).size(),
+            whole(m, 100)
+        );
+        group.bench_function(BenchmarkId::new("counts and 100 best", name), |b| {
+            b.iter(|| whole(m, 100))
+        });
+    }
+    group.finish();
+    let mut group = c.benchmark_group("k best of 7 options");
+    for k in [100, 10_000, 1_000_000] {
+        group.bench_function(BenchmarkId::from_parameter(k), |b| {
+            b.iter(|| whole(&seven, k))
+        });
+    }
+    group.finish();
+}
+
+/// A slider 1 that drives `m` fingers, each a contour 0-1-rod-finger with all revolute joints: m coupled contours.
+fn fingers(m: usize) -> Mechanism {
+    let mut out = String::from(
+        "name = \"fingers\"\n[search]\noptions = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]\n\
+         [[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n\
+         [[joint]]\nid = \"0-1\"\nlinks = [\"0\", \"1\"]\ntype = \"cylindrical\"\npoint = [0, 0, 0]\naxis = [1, 0, 0]\ndrive = true\n",
+    );
+    for i in 0..m {
+        let _ = write!(
+            out,
+            "[[link]]\nid = \"r{i}\"\n[[link]]\nid = \"f{i}\"\nrole = \"output\"\n"
+        );
+        let (x, ends) = (
+            2 * i,
+            [
+                ("1", format!("r{i}")),
+                ("f", format!("r{i}")),
+                ("0", format!("f{i}")),
+            ],
+        );
+        let points = [(i, 1 + i % 5), (3 + x, 3 + i % 7), (4 + i, i % 3)];
+        for (n, ((a, b), (px, py))) in ends.iter().zip(points).enumerate() {
+            let a = if *a == "f" {
+                format!("f{i}")
+            } else {
+                (*a).to_owned()
+            };
+            let _ = write!(
+                out,
+                "[[joint]]\nid = \"{i}-{n}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = [{px}, {py}, 0]\naxis = [0, 0, 1]\n"
+            );
+        }
+    }
+    mechanism_from_str("fingers.toml", &out).expect("valid")
+}
+
+fn growth(c: &mut Criterion) {
+    let mut group = c.benchmark_group("growth: m coupled contours, 4 options a joint");
+    for m in [2, 4, 8, 12, 20, 40] {
+        let mechanism = fingers(m);
+        println!(
+            "m = {m}: {} variants, (nodes, largest layer) = {:?}",
+            search(&mechanism).size(),
+            whole(&mechanism, 0)
+        );
+        group.bench_function(BenchmarkId::from_parameter(m), |b| {
+            b.iter(|| whole(&mechanism, 0))
+        });
+    }
+    group.finish();
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_millis(1500));
+    targets = rank, twins, spaces, growth
+}
+criterion_main!(benches);

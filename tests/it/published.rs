@@ -1,0 +1,260 @@
+//! The reference figures, by the program itself.
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn json(args: &[&str]) -> Value {
+    let out = Command::new(env!("CARGO_BIN_EXE_ozols"))
+        .args(args)
+        .args(["--format", "json"])
+        .output()
+        .unwrap();
+    // 1 says that there is nothing to be found, which some counts are about.
+    assert!(
+        out.status.code().is_some_and(|c| c < 2),
+        "{}",
+        String::from_utf8_lossy(&out.stderr)
+    );
+    assert!(
+        out.stderr.is_empty(),
+        "no progress where standard error is no terminal"
+    );
+    serde_json::from_slice(&out.stdout).unwrap()
+}
+
+fn row(options: &str) -> Value {
+    json(&["search", "gripper-10", "--count", "--options", options])
+}
+
+/// Options R S: determinate variants by W, a brute force of the reference agreeing.
+#[test]
+fn the_first_row_of_the_reference_table() {
+    let row = row("revolute,spherical");
+    assert_eq!(row["space"], "4096");
+    let want = [
+        ("2", "125"),
+        ("4", "390"),
+        ("6", "396"),
+        ("8", "210"),
+        ("10", "66"),
+        ("12", "12"),
+        ("14", "1"),
+    ];
+    for (w, n) in want {
+        assert_eq!(row["by_mobility"][w], n, "W = {w}");
+    }
+    assert_eq!(row["by_mobility"].as_object().unwrap().len(), want.len());
+    assert!(row["largest_layer"].as_u64().unwrap() <= 80);
+    let brute = json(&[
+        "search",
+        "gripper-10",
+        "--count",
+        "--options",
+        "revolute,spherical",
+        "--method",
+        "brute",
+    ]);
+    for key in [
+        "determinate",
+        "by_mobility_and_changes",
+        "admissible",
+        "admissible_by_mobility_and_changes",
+    ] {
+        assert_eq!(row[key], brute[key], "{key}");
+    }
+}
+
+/// Options R C U S.
+#[test]
+fn the_second_row_of_the_reference_table() {
+    let row = row("revolute,cylindrical,universal,spherical");
+    assert_eq!(
+        (&row["space"], &row["determinate"]),
+        (&"16777216".into(), &"2309229".into())
+    );
+    for (w, n) in [("1", "32256"), ("2", "139040"), ("3", "317732")] {
+        assert_eq!(row["by_mobility"][w], n, "W = {w}");
+    }
+    assert_eq!(
+        row["by_mobility_and_changes"]["1"],
+        serde_json::json!({"6": "720", "7": "31536"})
+    );
+    assert!(row["largest_layer"].as_u64().unwrap() <= 840);
+}
+
+/// Brute force over the second row, 16,777,216 eliminations.
+#[test]
+#[ignore = "a minute in release: cargo test --release -- --ignored brute_force"]
+fn brute_force_agrees_on_the_second_row() {
+    let names = "revolute,cylindrical,universal,spherical";
+    let (row, brute) = (
+        row(names),
+        json(&[
+            "search",
+            "gripper-10",
+            "--count",
+            "--options",
+            names,
+            "--method",
+            "brute",
+        ]),
+    );
+    for key in [
+        "determinate",
+        "by_mobility_and_changes",
+        "admissible",
+        "admissible_by_mobility_and_changes",
+    ] {
+        assert_eq!(row[key], brute[key], "{key}");
+    }
+}
+
+/// Options R C U V S H N.
+#[test]
+fn the_third_row_of_the_reference_table() {
+    let row = json(&["search", "gripper-10", "--count"]);
+    assert_eq!(
+        (&row["space"], &row["determinate"]),
+        (&"13841287201".into(), &"6340592477".into())
+    );
+    for (w, n) in [("1", "7150020"), ("2", "37484794"), ("3", "112727256")] {
+        assert_eq!(row["by_mobility"][w], n, "W = {w}");
+    }
+    assert!(row["largest_layer"].as_u64().unwrap() <= 313);
+    assert_eq!(row["stop"], "exhausted");
+}
+
+/// [Pogrebnyak 2018]: every figure of the ten-link gripper, before clamping and clamped, as built and redesigned.
+#[test]
+fn the_figures_of_the_ten_link_gripper() {
+    let state = |v: &Value, i: usize| v["states"][i].clone();
+    let built = json(&["analyze", "gripper-10"]);
+    let free = state(&built, 0);
+    let want = [
+        ("links", 10),
+        ("joints", 13),
+        ("contours", 4),
+        ("freedoms", 14),
+        ("mobility", 1),
+        ("redundant", 11),
+    ];
+    for (key, n) in want {
+        assert_eq!(free[key], n, "{key}");
+    }
+    let shares: Vec<i64> = free["per_contour"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|c| c["redundant"].as_i64().unwrap())
+        .collect();
+    assert_eq!(shares, [2, 3, 3, 3]);
+    let external = &state(&built, 1)["external"];
+    let want = [
+        ("constraints", 12),
+        ("actual_mobility", 1),
+        ("working_mobility", 0),
+        ("lost_mobility", 6),
+        ("redundant", 5),
+    ];
+    for (key, n) in want {
+        assert_eq!(external[key], n, "{key}");
+    }
+    assert_eq!(
+        state(
+            &json(&["analyze", "gripper-10", "--planar", "--state", "free"]),
+            0
+        )["mobility"],
+        1
+    );
+    let redesign = state(&json(&["analyze", "gripper-10-redesign"]), 0);
+    let want = [
+        ("freedoms", 26),
+        ("mobility", 3),
+        ("local_mobility", 2),
+        ("redundant", 1),
+    ];
+    for (key, n) in want {
+        assert_eq!(redesign[key], n, "{key}");
+    }
+    let idle: Vec<&str> = redesign["idle"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|i| i["links"][0].as_str().unwrap())
+        .collect();
+    assert_eq!(idle, ["5", "9"]);
+    let pad = &state(&json(&["analyze", "gripper-10-unloaded"]), 1)["external"];
+    assert_eq!(
+        (&pad["actual_mobility"], &pad["redundant"]),
+        (&4.into(), &2.into())
+    );
+    let all = state(&json(&["analyze", "gripper-10-redesign-unloaded"]), 1);
+    let want = [
+        ("contours", 5),
+        ("freedoms", 29),
+        ("mobility", 2),
+        ("redundant", 3),
+    ];
+    for (key, n) in want {
+        assert_eq!(all[key], n, "{key}");
+    }
+    assert_eq!(all["external"]["redundant"], 2);
+}
+
+/// The same bytes for any number of threads.
+#[test]
+fn threads_do_not_matter() {
+    let run = |threads: &str, format: &str| {
+        let args = [
+            "search",
+            "gripper-10",
+            "--top",
+            "200",
+            "--threads",
+            threads,
+            "--format",
+            format,
+        ];
+        Command::new(env!("CARGO_BIN_EXE_ozols"))
+            .args(args)
+            .output()
+            .unwrap()
+            .stdout
+    };
+    for format in ["text", "json", "csv", "jsonl"] {
+        let one = run("1", format);
+        assert!(!one.is_empty());
+        assert!(
+            one == run("2", format) && one == run("8", format),
+            "{format}"
+        );
+    }
+}
+
+/// Orbits of the mirror symmetry: Burnside's lemma against a listing.
+#[test]
+fn one_of_each_mirror_pair_is_listed() {
+    let args = [
+        "search",
+        "gripper-10",
+        "--options",
+        "revolute,spherical",
+        "--max-redundant",
+        "1",
+    ];
+    let total = |more: &[&str]| -> u64 {
+        json(&[&args[..], more, &["--count"]].concat())["admissible"]
+            .as_str()
+            .unwrap()
+            .parse()
+            .unwrap()
+    };
+    let (all, symmetric, orbits) = (
+        total(&[]),
+        total(&["--symmetric"]),
+        total(&["--one-per-orbit"]),
+    );
+    assert_eq!(orbits, (all + symmetric) / 2);
+    let listed = json(&[&args[..], &["--one-per-orbit", "--all"]].concat());
+    assert_eq!(listed["variants"].as_array().unwrap().len() as u64, orbits);
+}

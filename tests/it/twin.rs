@@ -1,0 +1,396 @@
+//! The search against a slow twin in rational arithmetic that shares no code with it, on random mechanisms.
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+use ozols::import::text::mechanism_from_str;
+use ozols::model::joint_type::{Freedom, JointType};
+use ozols::model::mechanism::{Frame, JointId, LinkId, Mechanism, Role};
+use ozols::redundancy::analysis::{Method, analyse, exact_field};
+use ozols::search::request::{Request, Search, Symmetry};
+use proptest::prelude::*;
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+type Q = BigRational;
+
+fn cross(a: &[Q], b: &[Q]) -> Vec<Q> {
+    let m = |i: usize, j: usize| &a[i] * &b[j] - &a[j] * &b[i];
+    vec![m(1, 2), m(2, 0), m(0, 1)]
+}
+
+fn dot(a: &[Q], b: &[Q]) -> Q {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+/// Twists of a joint, from the conventions of the design: z the axis, x the reference made perpendicular, y = z × x.
+fn twists(frame: &Frame, kind: &JointType) -> Vec<Vec<Q>> {
+    let value = |v: &[ozols::geom::expr::Expr; 3]| {
+        v.iter()
+            .map(|e| e.as_rational().unwrap())
+            .collect::<Vec<Q>>()
+    };
+    let (p, z, r) = (
+        value(&frame.point),
+        value(&frame.axis),
+        value(&frame.reference),
+    );
+    let (zz, zr) = (dot(&z, &z), dot(&z, &r));
+    let x: Vec<Q> = (0..3).map(|i| &r[i] * &zz - &z[i] * &zr).collect();
+    let y = cross(&z, &x);
+    let turn = |u: &Vec<Q>| [u.clone(), cross(&p, u)].concat();
+    let slide = |u: &Vec<Q>| [vec![Q::zero(); 3], u.clone()].concat();
+    let one = |f: &Freedom| match f {
+        Freedom::Rx => turn(&x),
+        Freedom::Ry => turn(&y),
+        Freedom::Rz => turn(&z),
+        Freedom::Tx => slide(&x),
+        Freedom::Ty => slide(&y),
+        Freedom::Tz => slide(&z),
+        Freedom::Screw => unreachable!("no random mechanism has one"),
+    };
+    kind.freedoms().iter().map(one).collect()
+}
+
+/// Reduced row echelon form of rows, with its pivots.
+fn reduce(mut rows: Vec<Vec<Q>>) -> (Vec<Vec<Q>>, Vec<usize>) {
+    let (width, mut pivots) = (rows.first().map_or(0, Vec::len), Vec::new());
+    for c in 0..width {
+        let r = pivots.len();
+        let Some(i) = (r..rows.len()).find(|&i| !rows[i][c].is_zero()) else {
+            continue;
+        };
+        rows.swap(r, i);
+        let inverse = Q::one() / &rows[r][c];
+        rows[r].iter_mut().for_each(|x| *x *= &inverse);
+        for j in (0..rows.len()).filter(|&j| j != r) {
+            let a = rows[j][c].clone();
+            if !a.is_zero() {
+                let pivot = rows[r].clone();
+                rows[j]
+                    .iter_mut()
+                    .zip(&pivot)
+                    .for_each(|(x, y)| *x -= &a * y);
+            }
+        }
+        pivots.push(c);
+    }
+    (rows, pivots)
+}
+
+/// Joint motion written out with a twist for every link: unknowns are link twists and joint speeds; each joint demands
+/// t_b - t_a = Σ speeds · twists, and the frame rests. No contours, no spanning tree.
+struct Figures {
+    mobility: usize,
+    freedoms: usize,
+    motion: usize,
+}
+
+fn figures(
+    links: usize,
+    frame: LinkId,
+    joints: &[([LinkId; 2], Vec<Vec<Q>>)],
+    outputs: &[LinkId],
+) -> Figures {
+    let freedoms: usize = joints.iter().map(|(_, t)| t.len()).sum();
+    let width = links * 6 + freedoms;
+    let mut rows = Vec::new();
+    let mut at = links * 6;
+    for ([a, b], columns) in joints {
+        for c in 0..6 {
+            let mut row = vec![Q::zero(); width];
+            row[b * 6 + c] += Q::one();
+            row[a * 6 + c] -= Q::one();
+            for (i, t) in columns.iter().enumerate() {
+                row[at + i] -= &t[c];
+            }
+            rows.push(row);
+        }
+        at += columns.len();
+    }
+    let rest = |l: LinkId, c: usize| {
+        let mut row = vec![Q::zero(); width];
+        row[l * 6 + c] = Q::one();
+        row
+    };
+    rows.extend((0..6).map(|c| rest(frame, c)));
+    // Links that no joint holds in this state rest too.
+    let held = |l: LinkId| joints.iter().any(|(ends, _)| ends.contains(&l));
+    rows.extend(
+        (0..links)
+            .filter(|&l| l != frame && !held(l))
+            .flat_map(|l| (0..6).map(move |c| (l, c)))
+            .map(|(l, c)| rest(l, c)),
+    );
+    let all = reduce(rows.clone()).1.len();
+    rows.extend(
+        outputs
+            .iter()
+            .flat_map(|&l| (0..6).map(move |c| (l, c)))
+            .map(|(l, c)| rest(l, c)),
+    );
+    let resting = reduce(rows).1.len();
+    Figures {
+        mobility: width - all,
+        freedoms,
+        motion: resting - all,
+    }
+}
+
+struct Twin {
+    internal: u32,
+    external: u32,
+    mobility: i64,
+    motion: usize,
+    changes: u32,
+}
+
+/// Looks at one variant: `choice[j]` is (option, unloading) of joint j.
+fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>)]) -> Twin {
+    let outputs: Vec<LinkId> = (0..m.links.len())
+        .filter(|&l| m.links[l].role == Role::Output)
+        .collect();
+    let of = |state: usize| {
+        // An unloading joint is a joint in series with an extra link at the end of the list.
+        let mut links = m.links.len();
+        let mut joints = Vec::new();
+        for (j, joint) in m.joints.iter().enumerate() {
+            let present = m.joints_in(state).any(|x| x == j);
+            let (option, unloading) = choice[j];
+            let span = twists(
+                &joint.options[option].frame,
+                &joint.options[option].joint_type,
+            );
+            match unloading {
+                Some(u) => {
+                    let pad = links;
+                    links += 1;
+                    let extra = twists(&joint.unloading[u].frame, &joint.unloading[u].joint_type);
+                    joints.push(([joint.links[0], pad], extra));
+                    if present {
+                        joints.push(([pad, joint.links[1]], span));
+                    }
+                }
+                None if present => joints.push((joint.links, span)),
+                None => {}
+            }
+        }
+        let used: std::collections::BTreeSet<usize> = joints.iter().flat_map(|(l, _)| *l).collect();
+        let contours = joints.len() + 1 - used.len();
+        let f = figures(links, m.frame(), &joints, &outputs);
+        let sigma = f.mobility + 6 * contours - f.freedoms;
+        (f, sigma)
+    };
+    let (free, internal) = of(0);
+    let external = if clamped { of(1).1 - internal } else { 0 };
+    let changes = choice
+        .iter()
+        .map(|(o, u)| u32::from(*o != 0) + u32::from(u.is_some()))
+        .sum();
+    Twin {
+        internal: internal as u32,
+        external: external as u32,
+        mobility: free.mobility as i64,
+        motion: free.motion,
+        changes,
+    }
+}
+
+fn variants(m: &Mechanism, clamped: bool) -> Vec<Vec<(usize, Option<usize>)>> {
+    let mut out = vec![Vec::new()];
+    for (j, joint) in m.joints.iter().enumerate() {
+        let free = m.joints_in(0).any(|x: JointId| x == j);
+        let choices: Vec<(usize, Option<usize>)> = if free || clamped {
+            std::iter::once(None)
+                .chain((0..joint.unloading.len()).map(Some))
+                .flat_map(|u| (0..joint.options.len()).map(move |o| (o, u)))
+                .collect()
+        } else {
+            vec![(0, None)]
+        };
+        out = out
+            .into_iter()
+            .flat_map(|v| choices.iter().map(move |&c| [v.clone(), vec![c]].concat()))
+            .collect();
+    }
+    out
+}
+
+const TYPES: [&str; 6] = [
+    "revolute",
+    "prismatic",
+    "cylindrical",
+    "universal",
+    "spherical",
+    "slotted",
+];
+const AXES: [[i32; 3]; 6] = [
+    [0, 0, 1],
+    [0, 0, 1],
+    [0, 0, 1],
+    [1, 0, 0],
+    [0, 1, 0],
+    [1, 2, -1],
+];
+
+/// A random mechanism file with a few contours, sometimes with a clamped object.
+fn random() -> impl Strategy<Value = String> {
+    let joint = (
+        0usize..6,
+        prop::array::uniform3(-3i32..4),
+        0usize..6,
+        0usize..4,
+    );
+    (
+        3usize..6,
+        prop::collection::vec((any::<prop::sample::Index>(), joint.clone()), 6),
+        prop::collection::vec((any::<prop::sample::Index>(), any::<prop::sample::Index>(), joint), 1..4),
+        any::<bool>(),
+    )
+        .prop_map(|(links, tree, more, clamped)| {
+            let mut out = String::from("name = \"random\"\n");
+            for l in 0..links {
+                let role = if l == 0 { "role = \"frame\"" } else if l == links - 1 { "role = \"output\"" } else { "" };
+                out += &format!("[[link]]\nid = \"{l}\"\n{role}\n");
+            }
+            let mut edges: Vec<_> = (1..links).map(|l| (tree[l - 1].0.index(l), l, tree[l - 1].1)).collect();
+            edges.extend(
+                more.iter().map(|(a, b, j)| (a.index(links), b.index(links), *j)).filter(|(a, b, _)| a != b),
+            );
+            for (i, (a, b, (kind, point, axis, changes))) in edges.iter().enumerate() {
+                let options = match (TYPES[*kind], changes) {
+                    ("revolute", 1) => "options = [\"revolute\", \"cylindrical\"]",
+                    ("revolute", 2) => "options = [\"universal\", \"spherical\"]",
+                    ("prismatic", 1) => "options = [\"cylindrical\"]",
+                    ("universal", 1) => "options = [\"spherical\"]\nunloading = [\"revolute\"]",
+                    _ => "",
+                };
+                out += &format!(
+                    "[[joint]]\nid = \"j{i}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"{}\"\npoint = {point:?}\naxis = {:?}\n{options}\n",
+                    TYPES[*kind], AXES[*axis]
+                );
+            }
+            if clamped {
+                out += "[[link]]\nid = \"part\"\nrole = \"object\"\n";
+                for (i, l) in [0, links - 1].iter().enumerate() {
+                    let unloading = if i == 0 { "" } else { "unloading = [\"spherical\"]" };
+                    out += &format!(
+                        "[[joint]]\nid = \"c{i}\"\nlinks = [\"{l}\", \"part\"]\ntype = \"fixed\"\npoint = [4, {i}, 1]\nstate = \"clamped\"\n{unloading}\n"
+                    );
+                }
+            }
+            out
+        })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, max_shrink_iters: 200, ..ProptestConfig::default() })]
+    #[test]
+    fn the_search_agrees_with_its_twins(text in random(), allowed in 0u32..3, keep in any::<bool>()) {
+        let m = mechanism_from_str("random.toml", &text).unwrap();
+        let clamped = m.states.len() > 1;
+        let all = variants(&m, clamped);
+        prop_assume!(all.len() <= 64);
+        let present = look(&m, clamped, &vec![(0, None); m.joints.len()]);
+        // The analysis of the mechanism as it is.
+        let states: Vec<usize> = (0..m.states.len()).collect();
+        let found = analyse(&m, &states, Method::Modular).unwrap();
+        prop_assert_eq!(found[0].redundant, present.internal as usize);
+        prop_assert_eq!(found[0].mobility as i64, present.mobility);
+        prop_assert_eq!(found[0].working_mobility, present.motion);
+        if clamped {
+            let e = found[1].external.unwrap();
+            prop_assert_eq!(e.redundant, i64::from(present.external));
+            prop_assert_eq!(e.by_rank, i64::from(present.external));
+        }
+        // Every variant.
+        let external = if clamped { allowed * 2 } else { 0 };
+        let request = Request {
+            max_redundant: allowed,
+            state: clamped.then_some((1, external)),
+            keep_output: keep,
+            symmetry: Symmetry::All,
+            ..Request::default()
+        };
+        let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
+        let diagrams = search.build(&|| false, &mut |_| {});
+        let determinate = search.counts(&diagrams.determinate, false);
+        let admissible = search.counts(&diagrams.admissible, true);
+        prop_assert_eq!(search.size(), all.len().into());
+        let seen: Vec<Twin> = all.iter().map(|c| look(&m, clamped, c)).collect();
+        let good = |t: &&Twin| t.internal <= allowed;
+        let better = |t: &&Twin| good(t) && t.external <= external && (!keep || t.motion == present.motion);
+        let tally = |list: Vec<&Twin>| {
+            let mut out: BTreeMap<(i64, u32), num_bigint::BigUint> = BTreeMap::new();
+            for t in list {
+                *out.entry((t.mobility, t.changes)).or_default() += 1u8;
+            }
+            out
+        };
+        prop_assert_eq!(&determinate.by_mobility_and_changes, &tally(seen.iter().filter(good).collect()));
+        prop_assert_eq!(&admissible.by_mobility_and_changes, &tally(seen.iter().filter(better).collect()));
+        prop_assert_eq!((determinate, admissible.clone()), search.brute());
+        // The k best: all of them, each once, cheapest first; a shorter list is a prefix of a longer one.
+        let mut list = Vec::new();
+        search.cheapest(&diagrams, usize::MAX / 4, |v| { list.push(v); ControlFlow::Continue(()) });
+        prop_assert_eq!(admissible.total, list.len().into());
+        let mut distinct: Vec<_> = list.iter().map(|v| v.choices.clone()).collect();
+        distinct.sort();
+        distinct.dedup();
+        prop_assert_eq!(distinct.len(), list.len());
+        prop_assert!(list.windows(2).all(|w| w[0].key.cost() <= w[1].key.cost()));
+        let mut three = Vec::new();
+        search.cheapest(&diagrams, 3, |v| { three.push(v); ControlFlow::Continue(()) });
+        prop_assert_eq!(&three[..], &list[..list.len().min(3)]);
+        for v in search.sample(&diagrams, 5, 7) {
+            prop_assert!(list.contains(&v));
+        }
+    }
+
+    #[test]
+    fn adding_freedoms_never_raises_redundancy_and_the_frame_does_not_matter(text in random(), move_by in -5i32..6) {
+        let m = mechanism_from_str("random.toml", &text).unwrap();
+        let before = &analyse(&m, &[0], Method::Modular).unwrap()[0];
+        // Turn the whole about z by a right angle and shift it.
+        let mut moved = m.clone();
+        let shift = ozols::geom::expr::Expr::from(i64::from(move_by));
+        for j in &mut moved.joints {
+            let turn = |v: &[ozols::geom::expr::Expr; 3]| [-&v[1], v[0].clone(), v[2].clone()];
+            let f = &j.frame;
+            let point = turn(&f.point);
+            let frame = Frame {
+                point: [&point[0] + &shift, &point[1] - &shift, point[2].clone()],
+                axis: turn(&f.axis),
+                reference: turn(&f.reference),
+                pitch: f.pitch.clone(),
+            };
+            j.frame = frame;
+        }
+        moved.joints.reverse();
+        for j in &mut moved.joints {
+            j.links.reverse();
+        }
+        let after = &analyse(&moved, &[0], Method::Modular).unwrap()[0];
+        prop_assert_eq!((before.redundant, before.mobility), (after.redundant, after.mobility));
+        prop_assert_eq!(before.working_mobility, after.working_mobility);
+        for j in 0..m.joints.len() {
+            for option in m.joints[j].options.clone() {
+                let mut freed = m.clone();
+                (freed.joints[j].joint_type, freed.joints[j].frame) = (option.joint_type, option.frame);
+                let s = &analyse(&freed, &[0], Method::Modular).unwrap()[0];
+                prop_assert!(s.redundant <= before.redundant);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_rational_elimination_is_right_on_a_known_matrix() {
+    let q = |n: i64| Q::from_integer(BigInt::from(n));
+    let (_, pivots) = reduce(vec![
+        vec![q(1), q(2), q(3)],
+        vec![q(2), q(4), q(7)],
+        vec![q(3), q(6), q(10)],
+    ]);
+    assert_eq!(pivots, vec![0, 2]);
+}
