@@ -15,3 +15,4 @@ pub mod plan;
 pub mod request;
 pub mod space;
 pub mod tally;
+mod transition;

@@ -1,0 +1,371 @@
+//! From text to an expression: a recursive descent with limits on size and depth.
+
+use super::*;
+
+impl FromStr for Expr {
+    type Err = ExprError;
+
+    /// Reads decimals, `+ - * /`, `^integer`, parentheses, `sqrt`, and `cos sin tan cot` of rational angles.
+    ///
+    /// # Errors
+    /// An [`ExprError`] naming the byte where the text is malformed, out of limits, or has no real value.
+    fn from_str(text: &str) -> Result<Expr, ExprError> {
+        if text.len() > MAX_TEXT {
+            return Err(ExprError::TooLong { len: text.len() });
+        }
+        let mut parser = Parser {
+            text,
+            pos: 0,
+            depth: 0,
+        };
+        if parser.peek().is_none() {
+            return Err(ExprError::Empty);
+        }
+        let start = parser.pos;
+        let value = parser.sum()?;
+        if parser.peek().is_some() {
+            return Err(parser.unexpected("an operator or the end"));
+        }
+        number(value, start)
+    }
+}
+
+/// What a part of the text stands for.
+enum Value {
+    Number(Expr),
+    /// An angle in turns.
+    Angle(BigRational),
+}
+
+fn number(value: Value, at: usize) -> Result<Expr, ExprError> {
+    match value {
+        Value::Number(e) => finite(e, at),
+        Value::Angle(_) => Err(ExprError::AngleOutside { at }),
+    }
+}
+
+fn finite(e: Expr, at: usize) -> Result<Expr, ExprError> {
+    if e.to_f64().is_finite() {
+        Ok(e)
+    } else {
+        Err(ExprError::NotFinite { at })
+    }
+}
+
+fn angle(turns: BigRational, at: usize) -> Result<Value, ExprError> {
+    if bits(&turns) > MAX_BITS {
+        Err(ExprError::TooManyDigits { at })
+    } else {
+        Ok(Value::Angle(turns))
+    }
+}
+
+struct Parser<'a> {
+    text: &'a str,
+    /// Always on a character boundary: only ASCII is ever consumed.
+    pos: usize,
+    depth: usize,
+}
+
+impl<'a> Parser<'a> {
+    /// The next byte that is not white space.
+    fn peek(&mut self) -> Option<u8> {
+        while self.here().is_some_and(|b| b.is_ascii_whitespace()) {
+            self.pos += 1;
+        }
+        self.here()
+    }
+
+    fn here(&self) -> Option<u8> {
+        self.text.as_bytes().get(self.pos).copied()
+    }
+
+    fn take_while(&mut self, keep: impl Fn(u8) -> bool) -> &'a str {
+        let start = self.pos;
+        while self.here().is_some_and(&keep) {
+            self.pos += 1;
+        }
+        self.text.get(start..self.pos).unwrap_or("")
+    }
+
+    fn unexpected(&self, expected: &'static str) -> ExprError {
+        let found = match self.text.get(self.pos..).and_then(|t| t.chars().next()) {
+            Some(c) => format!("`{}`", c.escape_debug()),
+            None => "the end of the text".to_owned(),
+        };
+        ExprError::Unexpected {
+            at: self.pos,
+            found,
+            expected,
+        }
+    }
+
+    fn expect(&mut self, byte: u8, expected: &'static str) -> Result<(), ExprError> {
+        if self.peek() == Some(byte) {
+            self.pos += 1;
+            Ok(())
+        } else {
+            Err(self.unexpected(expected))
+        }
+    }
+
+    fn sum(&mut self) -> Result<Value, ExprError> {
+        let mut left = self.product()?;
+        while let Some(op @ (b'+' | b'-')) = self.peek() {
+            let at = self.pos;
+            self.pos += 1;
+            let right = self.product()?;
+            left = match (left, right) {
+                (Value::Number(a), Value::Number(b)) => {
+                    Value::Number(finite(if op == b'+' { a + b } else { a - b }, at)?)
+                }
+                (Value::Angle(a), Value::Angle(b)) => {
+                    angle(if op == b'+' { a + b } else { a - b }, at)?
+                }
+                _ => return Err(ExprError::AngleOutside { at }),
+            };
+        }
+        Ok(left)
+    }
+
+    fn product(&mut self) -> Result<Value, ExprError> {
+        let mut left = self.unary()?;
+        while let Some(op @ (b'*' | b'/')) = self.peek() {
+            let at = self.pos;
+            self.pos += 1;
+            let right = self.unary()?;
+            let outside = || ExprError::AngleOutside { at };
+            left = if op == b'*' {
+                match (left, right) {
+                    (Value::Number(a), Value::Number(b)) => Value::Number(finite(a * b, at)?),
+                    (Value::Angle(a), Value::Number(b)) | (Value::Number(b), Value::Angle(a)) => {
+                        angle(a * b.rational_ref().ok_or_else(outside)?, at)?
+                    }
+                    (Value::Angle(_), Value::Angle(_)) => return Err(outside()),
+                }
+            } else {
+                let Value::Number(b) = right else {
+                    return Err(outside());
+                };
+                if b.0.enclosure.has_zero() {
+                    return Err(ExprError::DivisionByZero { at });
+                }
+                match left {
+                    Value::Number(a) => Value::Number(finite(
+                        a.div(&b).ok_or(ExprError::DivisionByZero { at })?,
+                        at,
+                    )?),
+                    Value::Angle(a) => angle(a / b.rational_ref().ok_or_else(outside)?, at)?,
+                }
+            };
+        }
+        Ok(left)
+    }
+
+    fn unary(&mut self) -> Result<Value, ExprError> {
+        let mut negative = false;
+        while let Some(sign @ (b'-' | b'+')) = self.peek() {
+            negative ^= sign == b'-';
+            self.pos += 1;
+        }
+        let value = self.power()?;
+        Ok(match value {
+            Value::Number(e) if negative => Value::Number(-e),
+            Value::Angle(t) if negative => Value::Angle(-t),
+            other => other,
+        })
+    }
+
+    fn power(&mut self) -> Result<Value, ExprError> {
+        let base = self.atom()?;
+        if self.peek() != Some(b'^') {
+            return Ok(base);
+        }
+        let at = self.pos;
+        self.pos += 1;
+        let base = number(base, at)?;
+        let sign = match self.peek() {
+            Some(b'-') => -1,
+            _ => 1,
+        };
+        if matches!(self.here(), Some(b'-' | b'+')) {
+            self.pos += 1;
+        }
+        if !self.peek().is_some_and(|b| b.is_ascii_digit()) {
+            return Err(self.unexpected("an integer power"));
+        }
+        let out_of_range = ExprError::PowerOutOfRange { at };
+        let n: i64 = self
+            .take_while(|b| b.is_ascii_digit())
+            .parse()
+            .map_err(|_| out_of_range.clone())?;
+        if n > MAX_POWER {
+            return Err(out_of_range);
+        }
+        if matches!(self.peek(), Some(b'^' | b'.')) {
+            return Err(self.unexpected("parentheses around the power, or an integer power"));
+        }
+        let n = sign * n;
+        if n < 0 && base.0.enclosure.has_zero() {
+            return Err(ExprError::DivisionByZero { at });
+        }
+        let result = match base.rational_ref() {
+            _ if n == 0 => Expr::from(1),
+            _ if n == 1 => base,
+            Some(r) => {
+                // Checked on the enclosure first: the exact power of a large number is the costly part.
+                finite(Expr::new(Kind::Pow(base.clone(), n)), at)?;
+                if bits(r).saturating_mul(n.unsigned_abs()) > MAX_BITS {
+                    return Err(ExprError::TooManyDigits { at });
+                }
+                Expr::rational(num_traits::Pow::pow(r, n as i32))
+            }
+            None => Expr::new(Kind::Pow(base, n)),
+        };
+        Ok(Value::Number(finite(result, at)?))
+    }
+
+    fn atom(&mut self) -> Result<Value, ExprError> {
+        match self.peek() {
+            Some(b'0'..=b'9' | b'.') => {
+                let value = self.decimal()?;
+                self.degrees(value)
+            }
+            Some(b'(') => {
+                let at = self.pos;
+                let value = self.parentheses()?;
+                match value {
+                    Value::Number(e) => match e.rational_ref() {
+                        Some(_) => self.degrees(e),
+                        None if self.word_is_deg() => Err(ExprError::NotAnAngle {
+                            at,
+                            function: "deg",
+                        }),
+                        None => Ok(Value::Number(e)),
+                    },
+                    other => Ok(other),
+                }
+            }
+            Some(b) if b.is_ascii_alphabetic() => self.word(),
+            _ => Err(self.unexpected("a number, a function or `(`")),
+        }
+    }
+
+    fn parentheses(&mut self) -> Result<Value, ExprError> {
+        if self.depth >= MAX_NESTING {
+            return Err(ExprError::TooDeep { at: self.pos });
+        }
+        self.depth += 1;
+        self.expect(b'(', "`(`")?;
+        let value = self.sum()?;
+        self.expect(b')', "an operator or `)`")?;
+        self.depth -= 1;
+        Ok(value)
+    }
+
+    fn word_is_deg(&mut self) -> bool {
+        let _ = self.peek();
+        let rest = self.text.get(self.pos..).unwrap_or("");
+        rest.starts_with("deg")
+            && !rest
+                .as_bytes()
+                .get(3)
+                .is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_')
+    }
+
+    /// Turns a rational into an angle where the suffix `deg` follows.
+    fn degrees(&mut self, e: Expr) -> Result<Value, ExprError> {
+        if !self.word_is_deg() {
+            return Ok(Value::Number(e));
+        }
+        let at = self.pos;
+        self.pos += 3;
+        match e.rational_ref() {
+            Some(r) => angle(r / BigInt::from(360), at),
+            None => Err(ExprError::NotAnAngle {
+                at,
+                function: "deg",
+            }),
+        }
+    }
+
+    fn decimal(&mut self) -> Result<Expr, ExprError> {
+        let at = self.pos;
+        let whole = self.take_while(|b| b.is_ascii_digit());
+        let mut fraction = "";
+        if self.here() == Some(b'.') {
+            self.pos += 1;
+            fraction = self.take_while(|b| b.is_ascii_digit());
+        }
+        if whole.is_empty() && fraction.is_empty() {
+            return Err(ExprError::BadNumber { at });
+        }
+        let mut exponent = 0i64;
+        if let Some(b'e' | b'E') = self.here() {
+            self.pos += 1;
+            let negative = self.here() == Some(b'-');
+            if let Some(b'-' | b'+') = self.here() {
+                self.pos += 1;
+            }
+            let digits = self.take_while(|b| b.is_ascii_digit());
+            if digits.is_empty() {
+                return Err(ExprError::BadNumber { at });
+            }
+            exponent = digits.parse().unwrap_or(i64::MAX);
+            if exponent > MAX_EXPONENT {
+                return Err(ExprError::ExponentOutOfRange { at });
+            }
+            if negative {
+                exponent = -exponent;
+            }
+        }
+        let value = decimal(whole, fraction, exponent).ok_or(ExprError::BadNumber { at })?;
+        finite(Expr::rational(value), at)
+    }
+
+    fn word(&mut self) -> Result<Value, ExprError> {
+        let at = self.pos;
+        let word = self.take_while(|b| b.is_ascii_alphanumeric() || b == b'_');
+        let (function, name) = match word {
+            "pi" => return Ok(Value::Angle(BigRational::new(1.into(), 2.into()))),
+            "sqrt" => {
+                let inner = number(self.parentheses()?, at)?;
+                return inner
+                    .sqrt()
+                    .map(Value::Number)
+                    .ok_or(ExprError::NegativeRoot { at });
+            }
+            "cos" => (Function::Cos, "cos"),
+            "sin" => (Function::Sin, "sin"),
+            "tan" => (Function::Tan, "tan"),
+            "cot" => (Function::Tan, "cot"),
+            _ => {
+                return Err(ExprError::UnknownWord {
+                    at,
+                    word: word.to_owned(),
+                });
+            }
+        };
+        let turns = match self.parentheses()? {
+            Value::Angle(t) => t,
+            Value::Number(e) if e.is_zero_rational() => BigRational::zero(),
+            Value::Number(_) => return Err(ExprError::NotAnAngle { at, function: name }),
+        };
+        // cot a = tan(90deg - a)
+        let turns = if name == "cot" {
+            BigRational::new(1.into(), 4.into()) - turns
+        } else {
+            turns
+        };
+        let turns = &turns - turns.floor();
+        let (Some(k), Some(n)) = (turns.numer().to_u64(), turns.denom().to_u64()) else {
+            return Err(ExprError::AngleTooFine { at });
+        };
+        if n > MAX_ANGLE_DENOMINATOR {
+            return Err(ExprError::AngleTooFine { at });
+        }
+        Expr::trig(function, k, n)
+            .map(Value::Number)
+            .ok_or(ExprError::Pole { at, function: name })
+    }
+}

@@ -1,0 +1,307 @@
+//! One transition of the diagram: a node's matrix carried over the joints of a variable, for each of its choices.
+//!
+//! Everything here works on flat scratch space that a thread keeps, in a field with a memory of inverses.
+
+use crate::linalg::modp::{Field, Residue};
+use crate::search::diagram::{Collapse, Limits, Stage};
+use crate::search::lookahead::Lookahead;
+use crate::search::plan::Step;
+use crate::search::space::Space;
+
+/// A child: its hash, the redundancy spent, and where its matrix starts and ends.
+pub(super) type Child = (u64, (u32, u32), usize, usize);
+
+/// The children of some consecutive nodes, before equal ones are merged.
+pub(super) struct Children {
+    /// Choices a node has.
+    pub(super) choices: usize,
+    /// The children in order of (node, choice); `None` if dead.
+    pub(super) found: Vec<Option<Child>>,
+    pub(super) data: Vec<Residue>,
+}
+
+/// Rows of a matrix in reduced row echelon form: each pivot is one and alone in its column.
+#[derive(Default, Clone)]
+struct Rows {
+    width: usize,
+    pivots: Vec<usize>,
+    pub(super) data: Vec<Residue>,
+}
+
+impl Rows {
+    fn clear(&mut self, width: usize) {
+        self.width = width;
+        self.pivots.clear();
+        self.data.clear();
+    }
+
+    /// Adds a vector, keeping the form; `vector` is used up.
+    fn insert(&mut self, arithmetic: &mut Arithmetic, vector: &mut [Residue]) {
+        let (f, width) = (arithmetic.field, self.width);
+        for (row, &p) in self.data.chunks_exact(width.max(1)).zip(&self.pivots) {
+            f.subtract_multiple(&mut vector[p..], &row[p..]);
+        }
+        let Some(pivot) = vector.iter().position(|&x| x != 0) else {
+            return;
+        };
+        if vector[pivot] != f.one() {
+            let scale = arithmetic.inverse(vector[pivot]);
+            vector[pivot..]
+                .iter_mut()
+                .filter(|x| **x != 0)
+                .for_each(|x| *x = f.mul(*x, scale));
+        }
+        for row in self.data.chunks_exact_mut(width) {
+            f.subtract_multiple(&mut row[pivot..], &vector[pivot..]);
+        }
+        let at = self.pivots.partition_point(|&p| p < pivot);
+        self.pivots.insert(at, pivot);
+        self.data
+            .splice(at * width..at * width, vector.iter().copied());
+    }
+}
+
+/// The field with a memory of inverses: one takes as long as a hundred products, and the same few come again and again.
+struct Arithmetic {
+    field: Field,
+    inverses: Vec<(Residue, Residue)>,
+}
+
+impl Arithmetic {
+    fn inverse(&mut self, a: Residue) -> Residue {
+        let slot = (a.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 54) as usize;
+        if self.inverses[slot].0 != a {
+            self.inverses[slot] = (a, self.field.inv(a));
+        }
+        self.inverses[slot].1
+    }
+}
+
+/// Scratch space of one thread.
+pub(super) struct Worker {
+    arithmetic: Arithmetic,
+    dim: usize,
+    /// Images of a node's rows under the step.
+    base: Rows,
+    /// Those, with the joint's twists.
+    work: Rows,
+    /// Images of a node's rows under a lookahead.
+    kept: Rows,
+    vector: Vec<Residue>,
+}
+
+impl Worker {
+    pub(super) fn new(field: Field, dim: usize) -> Self {
+        Worker {
+            arithmetic: Arithmetic {
+                field,
+                inverses: vec![(0, 0); 1024],
+            },
+            dim,
+            base: Rows::default(),
+            work: Rows::default(),
+            kept: Rows::default(),
+            vector: Vec::new(),
+        }
+    }
+
+    /// Starts a step: `base` becomes the image of the old rows.
+    fn begin(&mut self, step: &Step, old: &[Residue]) {
+        let (f, d) = (self.arithmetic.field, self.dim);
+        self.base.clear(step.width * d);
+        for row in old.chunks_exact((step.old_width * d).max(1)) {
+            self.vector.clear();
+            self.vector.resize(step.width * d, 0);
+            for &(new, old, plus) in &step.blocks {
+                f.accumulate(
+                    &mut self.vector[new * d..(new + 1) * d],
+                    &row[old * d..(old + 1) * d],
+                    plus,
+                );
+            }
+            self.base.insert(&mut self.arithmetic, &mut self.vector);
+        }
+    }
+
+    /// Ends a step: adds the joint's twists and drops the gap. The result is in `work`; returns the redundancy.
+    fn finish(&mut self, step: &Step, span: &[Vec<Residue>]) -> u32 {
+        let (f, d) = (self.arithmetic.field, self.dim);
+        self.work.clone_from(&self.base);
+        for twist in span {
+            self.vector.clear();
+            self.vector.resize(step.width * d, 0);
+            for &(new, plus) in &step.twist {
+                f.accumulate(&mut self.vector[new * d..(new + 1) * d], twist, plus);
+            }
+            self.work.insert(&mut self.arithmetic, &mut self.vector);
+        }
+        if !step.closing {
+            return 0;
+        }
+        // Rows that bridge the gap are motions the contour forbids; directions that no row bridges are redundant.
+        let bridged = self.work.pivots.partition_point(|&p| p < d);
+        let (width, narrow) = (self.work.width, self.work.width - d);
+        for r in bridged..self.work.pivots.len() {
+            self.work
+                .data
+                .copy_within(r * width + d..(r + 1) * width, (r - bridged) * narrow);
+        }
+        self.work
+            .data
+            .truncate((self.work.pivots.len() - bridged) * narrow);
+        self.work.pivots.drain(..bridged);
+        self.work.pivots.iter_mut().for_each(|p| *p -= d);
+        self.work.width = narrow;
+        u32::try_from(d - bridged).expect("at most six")
+    }
+
+    /// All children of a node, in order of choices.
+    pub(super) fn children(
+        &mut self,
+        space: &Space,
+        stage: &Stage,
+        matrix: &[Residue],
+        spent: (u32, u32),
+        limits: &Limits,
+        out: &mut Children,
+    ) {
+        let choices = &space.variables[stage.variable].choices;
+        let Some(((member, first), rest)) = stage.steps.split_first() else {
+            // The variable does not matter here: every choice leads to the same node.
+            let start = out.data.len();
+            out.data.extend_from_slice(matrix);
+            out.found.resize(
+                out.found.len() + choices.len(),
+                Some((hash(matrix, spent), spent, start, out.data.len())),
+            );
+            return;
+        };
+        self.begin(first, matrix);
+        let base = (!rest.is_empty()).then(|| self.base.clone());
+        for choice in choices {
+            if let Some(base) = &base {
+                self.base.clone_from(base);
+            }
+            let mut redundant = self.finish(first, &choice.spans[*member]);
+            for (member, step) in rest {
+                let old = std::mem::take(&mut self.work.data);
+                self.begin(step, &old);
+                redundant += self.finish(step, &choice.spans[*member]);
+            }
+            let spent = if stage.external {
+                (spent.0, spent.1 + redundant)
+            } else {
+                (spent.0 + redundant, spent.1)
+            };
+            if spent.0 > limits.internal || spent.1 > limits.external {
+                out.found.push(None);
+                continue;
+            }
+            if let Some(collapse) = &stage.collapse {
+                self.collapse(collapse);
+            }
+            let start = out.data.len();
+            out.data.extend_from_slice(&self.work.data);
+            out.found.push(Some((
+                hash(&self.work.data, spent),
+                spent,
+                start,
+                out.data.len(),
+            )));
+        }
+    }
+
+    /// Brings `work` into the form that [`Collapse`] describes.
+    fn collapse(&mut self, collapse: &Collapse) {
+        let (f, d, width) = (self.arithmetic.field, self.dim, self.work.width);
+        let places: Vec<usize> = collapse
+            .blocks
+            .iter()
+            .flat_map(|b| b * d..(b + 1) * d)
+            .collect();
+        let pivot = |row: &[Residue]| row.iter().position(|&x| x != 0);
+        let fixed: Vec<usize> = collapse.present.iter().filter_map(|r| pivot(r)).collect();
+        let open: Vec<usize> = (0..places.len()).filter(|i| !fixed.contains(i)).collect();
+        // Rows with what is wrong about them in front.
+        self.kept.clear(open.len() + width);
+        let mut right = true;
+        for row in self.work.data.chunks_exact(width.max(1)) {
+            let mut twist: Vec<Residue> = places.iter().map(|&p| row[p]).collect();
+            for (known, &p) in collapse.present.iter().zip(&fixed) {
+                f.subtract_multiple(&mut twist[p..], &known[p..]);
+            }
+            right &= twist.iter().all(|&x| x == 0);
+            self.vector.clear();
+            self.vector.extend(open.iter().map(|&i| twist[i]));
+            self.vector.extend_from_slice(row);
+            self.kept.insert(&mut self.arithmetic, &mut self.vector);
+        }
+        if right {
+            return;
+        }
+        let wrong = self.kept.pivots.partition_point(|&p| p < open.len());
+        // The motions that go wrong, without their wrong twists, modulo those that do not.
+        let mut rest = Rows::default();
+        rest.clear(width);
+        let mut number = 0;
+        self.work.clear(width);
+        for row in self.kept.data.chunks_exact(self.kept.width).skip(wrong) {
+            self.vector.clear();
+            self.vector.extend_from_slice(&row[open.len()..]);
+            self.work.insert(&mut self.arithmetic, &mut self.vector);
+        }
+        for row in self.kept.data.chunks_exact(self.kept.width).take(wrong) {
+            self.vector.clear();
+            self.vector.extend_from_slice(&row[open.len()..]);
+            places.iter().for_each(|&p| self.vector[p] = 0);
+            rest.insert(&mut self.arithmetic, &mut self.vector);
+        }
+        // Each goes wrong in a way of its own; so do motions of the finished links alone.
+        for i in 0..wrong {
+            self.vector.clear();
+            match rest.data.chunks_exact(width).nth(i) {
+                Some(row) => self.vector.extend_from_slice(row),
+                None => self.vector.resize(width, 0),
+            }
+            self.vector[places[open[number]]] = f.one();
+            number += 1;
+            self.work.insert(&mut self.arithmetic, &mut self.vector);
+        }
+    }
+
+    /// Whether a node may still keep the motions that must be kept.
+    pub(super) fn passes(&mut self, test: &Lookahead, matrix: &[Residue]) -> bool {
+        let f = self.arithmetic.field;
+        let width = test.map.first().map_or(0, Vec::len);
+        self.kept.clear(width);
+        for row in matrix.chunks_exact(test.map.len().max(1)) {
+            self.vector.clear();
+            self.vector.resize(width, 0);
+            for (&x, image) in row.iter().zip(&test.map).filter(|(x, _)| **x != 0) {
+                for (v, &y) in self.vector.iter_mut().zip(image) {
+                    if y != 0 {
+                        *v = f.add(*v, f.mul(x, y));
+                    }
+                }
+            }
+            self.kept.insert(&mut self.arithmetic, &mut self.vector);
+        }
+        let loose = self
+            .kept
+            .pivots
+            .iter()
+            .filter(|&&p| p >= test.locks)
+            .count();
+        test.base + loose <= test.allowed
+    }
+}
+
+/// A fixed hash: the same on every machine and run, so that nothing depends on a random seed.
+fn hash(matrix: &[Residue], spent: (u32, u32)) -> u64 {
+    let mut h = 0x517c_c1b7_2722_0a95_u64 ^ (u64::from(spent.0) << 32 | u64::from(spent.1));
+    for &x in matrix {
+        let wide = u128::from(h ^ x) * 0x9e37_79b9_7f4a_7c15_u128;
+        h = (wide >> 64) as u64 ^ wide as u64;
+    }
+    h
+}
