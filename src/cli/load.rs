@@ -34,7 +34,7 @@ pub(super) fn unknown(file: &str) -> String {
     let names = builtin::names();
     let near = names
         .iter()
-        .filter(|n| n.contains(file) || file.contains(**n))
+        .filter(|n| !file.is_empty() && (n.contains(file) || file.contains(**n)))
         .copied()
         .collect::<Vec<_>>();
     let hint = if near.is_empty() {

@@ -16,11 +16,23 @@ pub(super) fn to(
         out.flush()?;
         return Ok(done);
     };
+    let whole = || format!("cannot write {}", path.display());
+    // A link is followed, so that its target gets the data; a device or pipe has no beside and is written to directly.
+    let path = &std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+    if path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir()) {
+        let file = std::fs::OpenOptions::new()
+            .write(true)
+            .open(path)
+            .with_context(whole)?;
+        let mut out = BufWriter::new(file);
+        let done = write(&mut out)?;
+        out.flush().with_context(whole)?;
+        return Ok(done);
+    }
     let folder = path
         .parent()
         .filter(|p| !p.as_os_str().is_empty())
         .unwrap_or(Path::new("."));
-    let whole = || format!("cannot write {}", path.display());
     let mut beside = tempfile::NamedTempFile::new_in(folder).with_context(whole)?;
     let done = {
         let mut out = BufWriter::new(beside.as_file_mut());

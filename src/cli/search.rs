@@ -17,6 +17,8 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+/// Variants a table holds at most.
+const BLOCK: usize = 1000;
 /// Brute force looks at no more variants than this.
 const BRUTE_LIMIT: u64 = 1 << 32;
 
@@ -118,26 +120,41 @@ fn write_found(
         SearchFormat::Text => {
             let width = output::width(a.output.as_deref());
             write!(out, "{}", search_text::counts(found, width))?;
-            // Tables are laid out as a whole, in blocks so that a million variants stream.
-            let mut block: Vec<Variant> = Vec::new();
-            let interrupted = give(&mut |_, v| {
-                block.push(v);
-                Ok(())
-            })?;
-            if !block.is_empty() {
-                let what = if a.sample.is_some() {
-                    "drawn at random"
+            let what = if a.sample.is_some() {
+                "drawn at random"
+            } else {
+                "cheapest first"
+            };
+            // A table is laid out as a whole, so a long list is given as several.
+            let (mut block, mut given): (Vec<Variant>, usize) = (Vec::new(), 0);
+            let mut put = |out: &mut dyn Write, block: &mut Vec<Variant>| -> anyhow::Result<()> {
+                let head = if given == 0 {
+                    format!("\n  {what}:\n")
                 } else {
-                    "cheapest first"
+                    String::new()
                 };
                 writeln!(
                     out,
-                    "\n  {what}:\n{}",
-                    search_text::variants(search, &block, width)
+                    "{head}{}",
+                    search_text::variants(search, block, given + 1, width)
                 )?;
+                given += block.len();
+                block.clear();
+                Ok(())
+            };
+            let interrupted = give(&mut |_, v| {
+                block.push(v);
+                if block.len() == BLOCK {
+                    put(out, &mut block)
+                } else {
+                    Ok(())
+                }
+            })?;
+            if !block.is_empty() {
+                put(out, &mut block)?;
             }
             if interrupted {
-                writeln!(out, "\n  interrupted after {} variants", block.len())?;
+                writeln!(out, "\n  interrupted after {given} variants")?;
             }
         }
         SearchFormat::Json => {

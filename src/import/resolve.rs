@@ -47,7 +47,12 @@ pub(super) fn number(c: &Coordinate, path: &[Step], out: &mut Findings) -> Expr 
     match parsed {
         Ok(e) => {
             let size = e.to_f64().abs();
-            if !e.is_zero_rational() && size != 0.0 && !(RANGE.0..=RANGE.1).contains(&size) {
+            // An irrational expression may cancel to zero, and is then zero.
+            let zero = match e.as_rational() {
+                Some(_) => e.is_zero_rational(),
+                None => size == 0.0,
+            };
+            if !zero && !(RANGE.0..=RANGE.1).contains(&size) {
                 out.add(
                     path,
                     ProblemKind::OutOfRange {

@@ -72,11 +72,14 @@ pub fn mechanism_from_str(name: &str, text: &str) -> Result<Mechanism, ImportErr
 }
 
 fn from_toml(text: &str) -> Result<MechanismFile, Problem> {
-    toml::from_str(text).map_err(|e| Problem {
-        kind: ProblemKind::Syntax {
-            message: e.message().trim().replace('\n', ", "),
-        },
-        span: e.span(),
+    toml::from_str(text).map_err(|e| {
+        let message = if e.message().contains("as i128") {
+            // The deserializer's own words speak of its types.
+            "this whole number is beyond 64 bits; choose another length_unit, or write it as a decimal".to_owned()
+        } else {
+            e.message().trim().replace('\n', ", ")
+        };
+        Problem { kind: ProblemKind::Syntax { message }, span: e.span() }
     })
 }
 

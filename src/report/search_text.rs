@@ -106,9 +106,9 @@ pub fn counts(found: &Found<'_>, width: Option<u16>) -> String {
     out
 }
 
-/// The best variants.
+/// Some variants, numbered on from `first`.
 #[must_use]
-pub fn variants(search: &Search<'_>, best: &[Variant], width: Option<u16>) -> String {
+pub fn variants(search: &Search<'_>, best: &[Variant], first: usize, width: Option<u16>) -> String {
     let rows = best.iter().enumerate().map(|(i, v)| {
         let mut changed: Vec<(String, Vec<String>)> = Vec::new();
         for (joint, _, to) in changes(search, v) {
@@ -126,7 +126,7 @@ pub fn variants(search: &Search<'_>, best: &[Variant], width: Option<u16>) -> St
             None => v.key.internal().to_string(),
         };
         vec![
-            (i + 1).to_string(),
+            (i + first).to_string(),
             cost(search.steps.milli(v.key.cost())),
             search.mobility(v.key).to_string(),
             sigma,

@@ -881,3 +881,72 @@ fn a_closed_pipe_is_quiet() {
         assert!(child.wait().unwrap().success());
     }
 }
+
+// Once wrong: the temporary file is renamed over whatever PATH is. As root, `-o /dev/null` replaces the
+// device by an ordinary file; a FIFO stands for it here. Never try this with a real device.
+#[cfg(unix)]
+#[test]
+fn output_to_a_special_file_keeps_it() {
+    use std::os::unix::fs::FileTypeExt;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("fifo");
+    assert!(
+        std::process::Command::new("mkfifo")
+            .arg(&path)
+            .status()
+            .unwrap()
+            .success()
+    );
+    // Open at both ends, so that neither side waits.
+    let _both = fs::OpenOptions::new()
+        .read(true)
+        .write(true)
+        .open(&path)
+        .unwrap();
+    out(&["analyze", "four-bar", "-o", path.to_str().unwrap()]);
+    assert!(fs::symlink_metadata(&path).unwrap().file_type().is_fifo());
+}
+
+// Once wrong: the same with a symbolic link: the link is replaced, its target keeps the old content.
+#[cfg(unix)]
+#[test]
+fn output_through_a_symbolic_link() {
+    let folder = tempfile::tempdir().unwrap();
+    let (real, link) = (folder.path().join("real"), folder.path().join("link"));
+    fs::write(&real, "old").unwrap();
+    std::os::unix::fs::symlink(&real, &link).unwrap();
+    out(&["analyze", "four-bar", "-o", link.to_str().unwrap()]);
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(
+        fs::read_to_string(&real).unwrap(),
+        out(&["analyze", "four-bar"])
+    );
+}
+
+// Once wrong: a nonzero value that underflows to 0.0 as f64 passes the range check.
+#[test]
+fn error_coordinate_underflow() {
+    bad_file(
+        "bad.toml",
+        &with("[80, 90, 0]", "[80, \"1e-9^60\", 0]"),
+        "[80, ",
+        &["out of range"],
+    );
+}
+
+// BUG (toml through the untagged Coordinate): "invalid type: integer `...` as i128, expected any value".
+#[test]
+fn error_coordinate_overflow_in_words() {
+    bad_file(
+        "bad.toml",
+        &with("[80, 90, 0]", "[80, 99999999999999999999, 0]"),
+        "[80, ",
+        &["number"],
+    );
+}
+
+// Once wrong: every name contains the empty one, so all are "near".
+#[test]
+fn error_empty_name() {
+    assert!(!refused(&["check", ""], &["neither a file"]).contains("did you mean"));
+}
