@@ -250,7 +250,7 @@ fn random() -> impl Strategy<Value = String> {
         .prop_map(|(links, tree, more, clamped)| {
             let mut out = String::from("name = \"random\"\n");
             for l in 0..links {
-                let role = if l == 0 { "role = \"frame\"" } else if l == links - 1 { "role = \"output\"" } else { "" };
+                let role = if l == 0 { "role = \"frame\"" } else if l == links - 1 || l == 1 && links > 3 { "role = \"output\"" } else { "" };
                 out += &format!("[[link]]\nid = \"{l}\"\n{role}\n");
             }
             let mut edges: Vec<_> = (1..links).map(|l| (tree[l - 1].0.index(l), l, tree[l - 1].1)).collect();
