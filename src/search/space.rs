@@ -18,7 +18,7 @@ pub struct Choice {
     pub unloading: Option<usize>,
     /// For each joint of the variable, independent twists that span its motion.
     pub spans: Vec<Vec<Vec<Residue>>>,
-    /// Freedoms of the joints put here, those of an unloading joint included.
+    /// Freedoms the joints put here have in the free state, those of an unloading joint included.
     pub freedoms: u32,
     /// Number of changed joints and inserted unloading joints.
     pub changes: u32,
@@ -92,7 +92,7 @@ impl Space {
         for (joints, external) in groups {
             let per_joint: Vec<Vec<Choice>> = joints
                 .iter()
-                .map(|&j| choices(exact, &motion, mechanism, j, costs))
+                .map(|&j| choices(exact, &motion, mechanism, j, external, costs))
                 .collect::<Result<_, _>>()?;
             let mut merged = per_joint[0].clone();
             for other in &per_joint[1..] {
@@ -131,6 +131,7 @@ fn choices(
     motion: &MotionSpace<Residue>,
     mechanism: &Mechanism,
     joint: JointId,
+    external: bool,
     costs: &CostTable,
 ) -> Result<Vec<Choice>, ExactError> {
     let joint = &mechanism.joints[joint];
@@ -141,6 +142,8 @@ fn choices(
         for (i, option) in joint.options.iter().enumerate() {
             let mut columns: Vec<Vec<Residue>> =
                 twists(option)?.into_iter().map(|(_, t)| t).collect();
+            // W is the free state's: a contact is absent there, its unloading joint is not.
+            let absent = if external { columns.len() } else { 0 };
             let mut cost_milli = if i == 0 {
                 0
             } else {
@@ -150,7 +153,7 @@ fn choices(
                 columns.extend(twists(&joint.unloading[u])?.into_iter().map(|(_, t)| t));
                 cost_milli += costs.option(&joint.unloading[u]) + costs.link + costs.change;
             }
-            let freedoms = u32::try_from(columns.len()).unwrap_or(u32::MAX);
+            let freedoms = u32::try_from(columns.len() - absent).unwrap_or(u32::MAX);
             let mut span = Echelon::new(exact.field());
             columns.iter().for_each(|c| {
                 span.insert(c);

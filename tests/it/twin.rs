@@ -274,8 +274,14 @@ fn random() -> impl Strategy<Value = String> {
                 out += "[[link]]\nid = \"part\"\nrole = \"object\"\n";
                 for (i, l) in [0, links - 1].iter().enumerate() {
                     let unloading = if i == 0 { "" } else { "unloading = [\"spherical\"]" };
+                    // Contacts with freedoms of their own, which are not the free state's.
+                    let kind = if links % 2 == 1 && i == 1 {
+                        "type = \"revolute\"\naxis = [1, 0, 0]\noptions = [\"spherical\"]"
+                    } else {
+                        "type = \"fixed\""
+                    };
                     out += &format!(
-                        "[[joint]]\nid = \"c{i}\"\nlinks = [\"{l}\", \"part\"]\ntype = \"fixed\"\npoint = [4, {i}, 1]\nstate = \"clamped\"\n{unloading}\n"
+                        "[[joint]]\nid = \"c{i}\"\nlinks = [\"{l}\", \"part\"]\n{kind}\npoint = [4, {i}, 1]\nstate = \"clamped\"\n{unloading}\n"
                     );
                 }
             }
