@@ -672,6 +672,7 @@ fn expected(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findings) -> 
         list.push(Expected {
             state,
             mobility: e.mobility,
+            finite_mobility: e.finite_mobility,
             working_mobility: e.working_mobility,
             local_mobility: e.local_mobility,
             redundant: e.redundant,

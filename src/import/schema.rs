@@ -213,6 +213,9 @@ pub struct ExpectedEntry {
     /// W, instantaneous, idle freedoms included.
     #[serde(default)]
     pub mobility: Option<i64>,
+    /// W of the motion that is really there; smaller than `mobility` at singular and shaky poses.
+    #[serde(default)]
+    pub finite_mobility: Option<i64>,
     /// Dimension of the output links' motion.
     #[serde(default)]
     pub working_mobility: Option<i64>,

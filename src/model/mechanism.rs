@@ -105,8 +105,10 @@ pub struct LengthUnit {
 pub struct Expected {
     /// Name of the state.
     pub state: String,
-    /// W.
+    /// W at the pose of the file.
     pub mobility: Option<i64>,
+    /// W of the motion that is really there; smaller than at the pose where the pose is singular or shaky.
+    pub finite_mobility: Option<i64>,
     /// Dimension of the output links' motion.
     pub working_mobility: Option<i64>,
     /// W less the working mobility.
