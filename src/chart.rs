@@ -1,4 +1,4 @@
-//! Charts as self-contained SVG: lines on linear or log axes, verdict matrices, bands.
+//! Charts as self-contained SVG: lines on linear or log axes, verdict matrices, bands, and a page that gathers them.
 //!
 //! The SVG is written by a helper of our own (`chart/xml.rs`), since the charting crates looked at (plotters, charming, poloto,
 //! charts-rs) fix colours in attributes or need a JavaScript engine, and none gives decades, gaps, tooltips, labels that
@@ -17,7 +17,10 @@ mod labels;
 mod line;
 mod look;
 mod matrix;
+mod page;
 mod xml;
+
+pub use page::page;
 
 #[cfg(test)]
 mod tests;

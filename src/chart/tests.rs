@@ -213,6 +213,22 @@ fn a_cell_says_its_row_and_column() {
     assert!(svg.contains("0 good, 0 bad, 2 in doubt"), "{svg}");
 }
 
+#[test]
+fn a_page_escapes_all_but_the_pictures() {
+    let part = |n: u8| {
+        (
+            format!("<{n}>"),
+            "a & b".to_owned(),
+            "<svg></svg>".to_owned(),
+        )
+    };
+    let html = page("<t>", &[part(1), part(2), part(3)]);
+    assert!(html.contains("<title>&lt;t&gt;</title>") && html.contains("<h2>&lt;3&gt;</h2>"));
+    assert!(html.contains("<p>a &amp; b</p>") && html.contains("<svg></svg>"));
+    assert!(!html.contains("<nav"));
+    assert!(page("t", &[part(1), part(2), part(3), part(4)]).contains("<a href=\"#part-4\">"));
+}
+
 fn any_value() -> impl Strategy<Value = f64> {
     let odd = [
         f64::NAN,
