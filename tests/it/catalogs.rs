@@ -87,7 +87,7 @@ fn every_built_in_mechanism_has_the_figures_it_states() {
 #[test]
 fn there_are_enough_mechanisms_and_the_gripper_is_among_them() {
     let names = builtin::names();
-    assert!(names.len() >= 80, "{names:?}");
+    assert!(names.len() >= 106, "{names:?}");
     assert!(names.contains(&"gripper-10") && names.contains(&"gripper-10-redesign"));
 }
 
