@@ -2,4 +2,5 @@
 
 pub mod exact;
 pub mod expr;
+pub mod number_field;
 pub mod scalars;

@@ -9,18 +9,19 @@
 //! # Sources
 //! Ireland & Rosen, "A Classical Introduction to Modern Number Theory", ch. 6 (quadratic Gauss sums).
 
+pub(crate) mod eval;
 pub(crate) mod plan;
 pub(crate) mod quadratic;
 pub(crate) mod radical;
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use num_rational::BigRational;
 
+use self::eval::Target;
 use self::plan::{MAX_FAILURES, Plan};
-use self::quadratic::denested;
-use self::radical::{Radical, radical};
-use super::expr::{Expr, Function, Kind};
+use self::radical::Radical;
+use super::expr::Expr;
 use crate::linalg::modp::{Field, Residue};
 
 /// Why expressions have no image in a prime field.
@@ -149,101 +150,47 @@ impl ExactField {
     /// [`ExactError::NotInField`] for roots or angles beyond those the field was made for, and
     /// [`ExactError::DivisionByZero`] where a divisor vanishes in F_p.
     pub fn eval(&self, expr: &Expr) -> Result<Residue, ExactError> {
-        let f = self.field;
-        if let Some(r) = expr.rational_ref() {
-            return f.from_rational(r).ok_or_else(|| division(expr));
-        }
-        let mut memo: HashMap<usize, Residue> = HashMap::new();
-        for e in expr.post_order() {
-            let at = |c: &Expr| memo.get(&c.id()).copied().unwrap_or(f.zero());
-            let inverse = |x: Residue| {
-                if x == 0 {
-                    Err(division(expr))
-                } else {
-                    Ok(f.inv(x))
-                }
-            };
-            let value = match e.kind() {
-                Kind::Rational(r) => f.from_rational(r).ok_or_else(|| division(expr))?,
-                Kind::Add(a, b) => f.add(at(a), at(b)),
-                Kind::Sub(a, b) => f.sub(at(a), at(b)),
-                Kind::Mul(a, b) => f.mul(at(a), at(b)),
-                Kind::Div(a, b) => f.mul(at(a), inverse(at(b))?),
-                Kind::Neg(a) => f.neg(at(a)),
-                Kind::Pow(a, n) => {
-                    let power = f.pow(at(a), n.unsigned_abs());
-                    if *n < 0 { inverse(power)? } else { power }
-                }
-                Kind::Sqrt(a) => self.sqrt(a, at(a))?,
-                Kind::Trig(function, k, n) => {
-                    if !self.order.is_multiple_of(*n) {
-                        return Err(outside(e));
-                    }
-                    let z = f.pow(self.zeta, self.order / n * k);
-                    let w = inverse(z)?;
-                    let i = f.pow(self.zeta, self.order / 4);
-                    // 2 cos and 2 i sin
-                    let (c, s) = (f.add(z, w), f.sub(z, w));
-                    let two = f.from_i64(2);
-                    match function {
-                        Function::Cos => f.mul(c, inverse(two)?),
-                        Function::Sin => f.mul(s, inverse(f.mul(two, i))?),
-                        Function::Tan => f.mul(s, inverse(f.mul(c, i))?),
-                    }
-                }
-            };
-            memo.insert(e.id(), value);
-        }
-        Ok(memo.get(&expr.id()).copied().unwrap_or(f.zero()))
-    }
-
-    /// The root of `inner`, whose image is `value`.
-    fn sqrt(&self, inner: &Expr, value: Residue) -> Result<Residue, ExactError> {
-        let f = self.field;
-        if let Some(r) = inner.rational_ref() {
-            let made;
-            let radical = match self.radicals.get(r) {
-                Some(radical) => radical,
-                None => {
-                    made = radical(r)?;
-                    &made
-                }
-            };
-            let coef = f
-                .from_rational(&radical.coef)
-                .ok_or_else(|| division(inner))?;
-            return radical.primes.iter().try_fold(coef, |product, q| {
-                self.roots
-                    .get(q)
-                    .map(|&root| f.mul(product, root))
-                    .ok_or_else(|| outside(inner))
-            });
-        }
-        // Rewritten roots have rational radicands only, so this recursion ends at depth one.
-        if let Some(flat) = denested(inner) {
-            return self.eval(&flat);
-        }
-        if value == 0 {
-            return Ok(0);
-        }
-        // Equal radicands have equal images, however they are written.
-        self.nested
-            .iter()
-            .find(|(a, _)| *a == value)
-            .map(|&(_, root)| root)
-            .ok_or_else(|| outside(inner))
+        eval::eval(self, expr)
     }
 }
 
-fn division(e: &Expr) -> ExactError {
-    ExactError::DivisionByZero {
-        expression: e.to_string(),
-    }
-}
+impl Target for ExactField {
+    type Number = Residue;
 
-fn outside(e: &Expr) -> ExactError {
-    ExactError::NotInField {
-        expression: e.to_string(),
+    fn rational(&self, r: &BigRational) -> Option<Residue> {
+        self.field.from_rational(r)
+    }
+    fn sum(&self, a: &Residue, b: &Residue) -> Residue {
+        self.field.add(*a, *b)
+    }
+    fn difference(&self, a: &Residue, b: &Residue) -> Residue {
+        self.field.sub(*a, *b)
+    }
+    fn product(&self, a: &Residue, b: &Residue) -> Residue {
+        self.field.mul(*a, *b)
+    }
+    fn inverse(&self, a: &Residue) -> Option<Residue> {
+        (*a != 0).then(|| self.field.inv(*a))
+    }
+    fn twice_cos_sin(&self, k: u64, n: u64) -> Option<[Residue; 2]> {
+        if !self.order.is_multiple_of(n) {
+            return None;
+        }
+        let f = self.field;
+        let z = f.pow(self.zeta, self.order / n * k);
+        let w = f.inv(z);
+        let inverse_i = f.pow(self.zeta, self.order / 4 * 3);
+        Some([f.add(z, w), f.mul(f.sub(z, w), inverse_i)])
+    }
+    fn prime_root(&self, q: u64) -> Option<Residue> {
+        self.roots.get(&q).copied()
+    }
+    fn nested_root(&self, radicand: &Residue) -> Option<Residue> {
+        let mut known = self.nested.iter();
+        known.find(|(a, _)| a == radicand).map(|&(_, root)| root)
+    }
+    fn radicals(&self) -> &BTreeMap<BigRational, Radical> {
+        &self.radicals
     }
 }
 
