@@ -1,7 +1,11 @@
 //! Rank of the closure matrix, with what each method knows about its answer.
 
+pub mod certificate;
+mod kernel;
 pub mod modular;
 pub mod numeric;
+pub mod rational;
+pub mod reconstruct;
 
 /// How sure an answer is.
 #[derive(Debug, Clone, Copy, PartialEq)]
