@@ -241,6 +241,7 @@ mod tests {
     use super::*;
     use crate::geom::exact::ExactField;
     use crate::linalg::modp::Residue;
+    use proptest::prelude::*;
 
     fn field(texts: &[&str]) -> (NumberField, Vec<Expr>) {
         let exprs: Vec<Expr> = texts.iter().map(|t| t.parse().unwrap()).collect();
@@ -293,6 +294,56 @@ mod tests {
                 rest.as_rational(),
                 Some(BigRational::new(1.into(), 1000.into()))
             );
+        }
+    }
+
+    /// The real values of the generators.
+    fn values(f: &NumberField) -> Vec<f64> {
+        let mut out = Vec::new();
+        if f.cosine_order().is_some() {
+            out.push(2.0 * (std::f64::consts::TAU / f.order as f64).cos());
+        }
+        while out.len() < f.ring().generators() {
+            let radicand = -real(f, &f.ring().relation(out.len())[0], &out);
+            out.push(radicand.sqrt());
+        }
+        out
+    }
+
+    fn real(f: &NumberField, a: &Element, generators: &[f64]) -> f64 {
+        use num_traits::ToPrimitive;
+        let mut monomials = vec![1.0];
+        for (g, x) in generators.iter().enumerate() {
+            let below = monomials.clone();
+            for k in 1..f.ring().relation(g).len() {
+                monomials.extend(below.iter().map(|m| m * x.powi(k as i32)));
+            }
+        }
+        let terms = a.coordinates().iter().zip(&monomials);
+        terms.map(|(q, m)| q.to_f64().unwrap() * m).sum()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(48))]
+        #[test]
+        fn numbers_are_what_the_expressions_say(
+            n in prop::sample::select(vec![1u64, 3, 5, 7, 8, 9, 12, 15, 16, 20]),
+            k in 1i64..20,
+            q in 2i64..30,
+            nested in any::<bool>(),
+            d in 1i64..9,
+        ) {
+            let under = if nested { format!("sqrt(37+sqrt({q}))") } else { format!("sqrt({q})") };
+            let text = format!(
+                "({d}/7-sin({k}*360deg/{n})*{under})^3/(2*sqrt({d})+cos({k}*360deg/{n})+{under})-cos(360deg/{n})*sqrt(5)"
+            );
+            let e: Expr = text.parse().unwrap();
+            // Degrees over the limit, and nested roots that lie in the field already, are not the matter here.
+            if let Ok(f) = NumberField::for_expressions([&e]) {
+                let value = Scalars::eval(&f, &e).unwrap();
+                let (is, should) = (real(&f, &value, &values(&f)), e.to_f64());
+                prop_assert!((is - should).abs() < 1e-6 * (1.0 + should.abs()), "{} {} {}", text, is, should);
+            }
         }
     }
 

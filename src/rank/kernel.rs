@@ -247,10 +247,8 @@ impl<'a> Kernel<'a> {
     fn image(&self, f: Field, monomials: &[Residue]) -> Option<Image> {
         let width = self.matrix.columns();
         let mut rows = vec![vec![f.zero(); width]; self.matrix.rows()];
-        for column in 0..width {
-            for (row, entry) in self.matrix.column(column) {
-                rows[*row][column] = entry.image(f, monomials)?;
-            }
+        for (row, column, entry) in self.matrix.entries() {
+            rows[row][column] = entry.image(f, monomials)?;
         }
         let mut echelon = Echelon::new(f);
         let independent: Vec<usize> = (0..rows.len())

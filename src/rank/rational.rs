@@ -15,10 +15,8 @@ use crate::verify::matrix::MatrixOverRing;
 #[must_use]
 pub fn rank(matrix: &MatrixOverRing) -> Option<usize> {
     let mut rows: Vec<BTreeMap<usize, BigRational>> = vec![BTreeMap::new(); matrix.rows()];
-    for column in 0..matrix.columns() {
-        for (row, entry) in matrix.column(column) {
-            rows[*row].insert(column, entry.as_rational()?);
-        }
+    for (row, column, entry) in matrix.entries() {
+        rows[row].insert(column, entry.as_rational()?);
     }
     let mut rank = 0;
     loop {

@@ -4,6 +4,66 @@ use crate::linalg::number_ring::Element;
 use num_rational::BigRational;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use thiserror::Error;
+
+/// The word that begins a file of certificates.
+pub const FORMAT: &str = "ozols-certificate-1";
+
+/// A file of certificates of one mechanism.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CertificateFile {
+    /// [`FORMAT`].
+    pub format: String,
+    /// Name of the mechanism.
+    pub mechanism: String,
+    /// One for each state that has one.
+    pub certificates: Vec<Certificate>,
+    /// The states without.
+    pub without: Vec<Without>,
+}
+
+/// A state without a certificate.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Without {
+    /// Name of the state.
+    pub state: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// Why a text is no file of certificates.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// Not of the right form.
+    #[error("not a file of certificates: {0}")]
+    Json(#[from] serde_json::Error),
+    /// A file of another kind.
+    #[error("not a file of certificates: its format is `{format}`, not `ozols-certificate-1`")]
+    Format {
+        /// The format it states.
+        format: String,
+    },
+}
+
+impl CertificateFile {
+    /// Reads a file of certificates; what it claims is for [`super::check`] to confirm. O(length).
+    ///
+    /// # Errors
+    /// Where the text is no such file.
+    pub fn read(json: &[u8]) -> Result<CertificateFile, ReadError> {
+        let file: CertificateFile = serde_json::from_slice(json)?;
+        if file.format == FORMAT {
+            Ok(file)
+        } else {
+            Err(ReadError::Format {
+                format: file.format,
+            })
+        }
+    }
+}
 
 /// A proof that a matrix has a rank; see [`super`] for what it says.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -75,6 +75,12 @@ impl MatrixOverRing {
         &self.columns[column]
     }
 
+    /// The nonzero entries as (row, column, number), column by column. O(1) each.
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, &Element)> {
+        let columns = self.columns.iter().enumerate();
+        columns.flat_map(|(c, column)| column.iter().map(move |(r, x)| (*r, c, x)))
+    }
+
     /// A nonzero entry. O(log entries of the column).
     #[must_use]
     pub fn entry(&self, row: usize, column: usize) -> Option<&Element> {
