@@ -16,7 +16,9 @@ pub use splitting::Splitting;
 use std::collections::BTreeMap;
 
 use num_bigint::BigInt;
+use num_integer::Integer;
 use num_rational::BigRational;
+use num_traits::One;
 
 use super::exact::ExactError;
 use super::exact::eval::{self, Target};
@@ -125,10 +127,16 @@ impl NumberField {
         Ok(field)
     }
 
+    /// Adjoins y with y² = d² · radicand, where d makes that integral; the root is y/d.
     fn adjoin_root(&mut self, radicand: &Element) -> Option<Element> {
-        let constant = self.ring.sub(&Element::default(), radicand);
+        let below = radicand.coordinates().iter();
+        let d = below.fold(BigInt::one(), |d, q| d.lcm(q.denom()));
+        let square = Element::rational(BigRational::from_integer(-(&d * &d)));
+        let constant = self.ring.mul(radicand, &square);
         self.ring = std::mem::take(&mut self.ring).adjoin(vec![constant, Element::default()])?;
-        Some(self.ring.generator(self.ring.generators() - 1))
+        let y = self.ring.generator(self.ring.generators() - 1);
+        let scale = Element::rational(BigRational::new(BigInt::one(), d));
+        Some(self.ring.mul(&y, &scale))
     }
 
     /// The positive root of a prime that divides N (as 8 does where the prime is 2).
@@ -333,7 +341,7 @@ mod tests {
             nested in any::<bool>(),
             d in 1i64..9,
         ) {
-            let under = if nested { format!("sqrt(37+sqrt({q}))") } else { format!("sqrt({q})") };
+            let under = if nested { format!("sqrt(37/{d}+sqrt({q}))") } else { format!("sqrt({q})") };
             let text = format!(
                 "({d}/7-sin({k}*360deg/{n})*{under})^3/(2*sqrt({d})+cos({k}*360deg/{n})+{under})-cos(360deg/{n})*sqrt(5)"
             );

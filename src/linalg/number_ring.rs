@@ -1,7 +1,8 @@
-//! Exact arithmetic in rings Q[x_1, ..., x_m] / (monic relations), a tower of simple extensions of the rationals.
+//! Exact arithmetic in rings Q[x_1, ..., x_m] / (relations), a tower of simple extensions of the rationals.
 //!
-//! Relation i is a monic polynomial in x_i whose coefficients lie in the ring of the generators before it, so that
-//! the monomials with every exponent below its degree are a basis over Q. Basis elements are numbered with x_1 running
+//! Relation i is a monic polynomial in x_i whose coefficients are integral combinations of the monomials in the
+//! generators before it. The monomials with every exponent below the degree of its relation are a basis over Q, and
+//! products of integral combinations are integral: multiplication is done on integers, over common denominators. Basis elements are numbered with x_1 running
 //! fastest: the ring of the first few generators is then a prefix, and an element is kept as its coordinates without
 //! trailing zeros. Rational numbers have one coordinate at most.
 //!
@@ -9,6 +10,7 @@
 //! Cohen, "A Course in Computational Algebraic Number Theory", ch. 4 (elements as polynomials).
 
 use num_bigint::BigInt;
+use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
@@ -96,20 +98,11 @@ impl Element {
         Element(self.0.iter().map(times).collect())
     }
 
-    /// `self += other · x^k`, for a generator `x` whose powers are `width` coordinates apart.
-    fn accumulate(&mut self, other: &Element, offset: usize) {
-        if other.is_zero() {
-            return;
-        }
-        let needed = offset + other.0.len();
-        if self.0.len() < needed {
-            self.0.resize(needed, BigRational::zero());
-        }
-        for (a, b) in self.0[offset..].iter_mut().zip(&other.0) {
-            if !b.is_zero() {
-                *a += b;
-            }
-        }
+    /// Integers and their common denominator.
+    fn over_common_denominator(&self) -> (Vec<BigInt>, BigInt) {
+        let below = self.0.iter().fold(BigInt::one(), |m, q| m.lcm(q.denom()));
+        let above = |q: &BigRational| q.numer() * (&below / q.denom());
+        (self.0.iter().map(above).collect(), below)
     }
 }
 
@@ -118,6 +111,8 @@ impl Element {
 struct Step {
     /// Coefficients, lowest first, the leading 1 left out.
     relation: Vec<Element>,
+    /// The same as integers.
+    integers: Vec<Vec<BigInt>>,
     /// Dimension over Q of the ring of the generators before this one.
     width: usize,
 }
@@ -135,17 +130,23 @@ impl NumberRing {
         NumberRing::default()
     }
 
-    /// The ring with one more generator, or `None` where the relation has no coefficients, one that lies outside the
-    /// ring so far, or a dimension beyond `usize`. `relation` lists the coefficients, lowest first, the leading 1 left
-    /// out. O(length).
+    /// The ring with one more generator, or `None` where the relation has no coefficients, one that is not integral or
+    /// lies outside the ring so far, or a dimension beyond `usize`. `relation` lists the coefficients, lowest first, the
+    /// leading 1 left out. O(length).
     #[must_use]
     pub fn adjoin(mut self, relation: Vec<Element>) -> Option<NumberRing> {
         let width = self.dimension();
-        if relation.is_empty() || relation.iter().any(|c| c.0.len() > width) {
+        let fits = |c: &Element| c.0.len() <= width && c.0.iter().all(BigRational::is_integer);
+        if relation.is_empty() || !relation.iter().all(fits) {
             return None;
         }
         width.checked_mul(relation.len())?;
-        self.steps.push(Step { relation, width });
+        let numerators = |c: &Element| c.0.iter().map(|q| q.numer().clone()).collect();
+        self.steps.push(Step {
+            integers: relation.iter().map(numerators).collect(),
+            relation,
+            width,
+        });
         Some(self)
     }
 
@@ -180,9 +181,9 @@ impl NumberRing {
         if step.relation.len() == 1 {
             return self.sub(&Element::default(), &step.relation[0]);
         }
-        let mut out = Element::default();
-        out.accumulate(&Element::integer(1), step.width);
-        out
+        let mut out = vec![BigRational::zero(); step.width];
+        out.push(BigRational::one());
+        Element::new(out)
     }
 
     /// Whether an element has no more coordinates than the ring. O(1).
@@ -215,6 +216,9 @@ impl NumberRing {
 
     /// Product of two elements of the ring. O(dimension² · generators) operations on rationals at most; a rational
     /// factor costs O(dimension).
+    ///
+    /// # Panics
+    /// Where a factor has more coordinates than the ring, see [`NumberRing::contains`].
     #[must_use]
     pub fn mul(&self, a: &Element, b: &Element) -> Element {
         if a.is_zero() || b.is_zero() {
@@ -226,41 +230,61 @@ impl NumberRing {
             _ => {}
         }
         let longest = a.0.len().max(b.0.len());
-        // The last generator that occurs in a factor; there is one, as both are longer than a rational.
-        let Some(step) = self.steps.iter().rposition(|s| s.width < longest) else {
-            return Element::default();
-        };
-        let width = self.steps[step].width;
-        let (x, y) = (blocks(a, width), blocks(b, width));
-        let mut product = vec![Element::default(); x.len() + y.len() - 1];
-        for (i, p) in x.iter().enumerate().filter(|(_, p)| !p.is_zero()) {
-            for (j, q) in y.iter().enumerate().filter(|(_, q)| !q.is_zero()) {
-                product[i + j].accumulate(&self.mul(p, q), 0);
+        // Up to the last generator that occurs in a factor.
+        let last = self.steps.iter().rposition(|s| s.width < longest);
+        let (x, below) = a.over_common_denominator();
+        let (y, other) = b.over_common_denominator();
+        let below = below * other;
+        let fraction = |n: BigInt| {
+            if n.is_zero() {
+                BigRational::zero()
+            } else {
+                BigRational::new(n, below.clone())
             }
-        }
-        self.reduced(product, step)
+        };
+        let product = self.product(last.map_or(0, |i| i + 1), &x, &y);
+        Element::new(product.into_iter().map(fraction).collect())
     }
 
-    /// A polynomial in the generator of a step, brought below its degree by its relation.
-    fn reduced(&self, mut polynomial: Vec<Element>, step: usize) -> Element {
-        let Step { relation, width } = &self.steps[step];
-        let degree = relation.len();
-        while polynomial.len() > degree {
-            let Some(top) = polynomial.pop() else { break };
-            let top = Element::new(top.0);
-            if top.is_zero() {
+    /// Product of integral combinations of the monomials in the first few generators.
+    fn product(&self, generators: usize, a: &[BigInt], b: &[BigInt]) -> Vec<BigInt> {
+        let Some(step) = generators.checked_sub(1).map(|g| &self.steps[g]) else {
+            return vec![&a[0] * &b[0]];
+        };
+        let (width, degree) = (step.width, step.relation.len());
+        let nonzero = |(_, x): &(usize, &[BigInt])| x.iter().any(|n| !n.is_zero());
+        // A polynomial in the last generator, whose coefficients are blocks of `width`.
+        let mut out = vec![BigInt::zero(); (2 * degree - 1) * width];
+        for (i, x) in a.chunks(width).enumerate().filter(nonzero) {
+            for (j, y) in b.chunks(width).enumerate().filter(nonzero) {
+                let at = &mut out[(i + j) * width..];
+                if width == 1 {
+                    at[0] += &x[0] * &y[0];
+                } else {
+                    let product = self.product(generators - 1, x, y);
+                    at.iter_mut().zip(product).for_each(|(o, p)| *o += p);
+                }
+            }
+        }
+        // Powers from the degree on are brought down by the relation.
+        for k in (degree..2 * degree - 1).rev() {
+            let top = out.split_off(k * width);
+            if top.iter().all(Zero::is_zero) {
                 continue;
             }
-            let low = polynomial.len() - degree;
-            for (c, at) in relation.iter().zip(&mut polynomial[low..]) {
-                *at = self.sub(at, &self.mul(c, &top));
+            for (j, c) in step.integers.iter().enumerate() {
+                let at = &mut out[(k - degree + j) * width..];
+                match c.as_slice() {
+                    [] => {}
+                    [c] => at.iter_mut().zip(&top).for_each(|(o, t)| *o -= t * c),
+                    c => {
+                        let product = self.product(generators - 1, c, &top);
+                        at.iter_mut().zip(product).for_each(|(o, p)| *o -= p);
+                    }
+                }
             }
         }
-        let mut out = Element::default();
-        for (i, c) in polynomial.into_iter().enumerate() {
-            out.accumulate(&Element::new(c.0), i * width);
-        }
-        Element::new(out.0)
+        out
     }
 
     /// The inverse, or `None` where there is none (in a field: of zero). By Euclid's algorithm on polynomials over the
@@ -273,7 +297,9 @@ impl NumberRing {
             _ => {}
         }
         let step = self.steps.iter().rposition(|s| s.width < a.0.len())?;
-        let Step { relation, width } = &self.steps[step];
+        let Step {
+            relation, width, ..
+        } = &self.steps[step];
         let mut modulus = relation.clone();
         modulus.push(Element::integer(1));
         // Invariant: r ≡ t · a modulo the relation.
@@ -286,8 +312,13 @@ impl NumberRing {
             (t0, t1) = (t1, t);
         }
         let scale = self.inverse(r1.first()?)?;
-        let scaled = t1.iter().map(|c| self.mul(c, &scale)).collect();
-        Some(self.reduced(scaled, step))
+        // The cofactor stays below the degree of the relation.
+        let mut out = Vec::new();
+        for (i, c) in t1.iter().enumerate() {
+            out.resize(i * width, BigRational::zero());
+            out.extend(self.mul(c, &scale).0);
+        }
+        Some(Element::new(out))
     }
 
     /// Values of the basis elements under a homomorphism into a prime field, of those made of the generators whose
@@ -434,6 +465,8 @@ mod tests {
         let long = Element::new(vec![BigRational::one(); 3]);
         assert!(NumberRing::rationals().adjoin(vec![long]).is_none());
         assert!(NumberRing::rationals().adjoin(Vec::new()).is_none());
+        let half = Element::rational(BigRational::new(1.into(), 2.into()));
+        assert!(NumberRing::rationals().adjoin(vec![half]).is_none());
         let r = ring();
         assert!(r.mul(&r.generator(1), &r.generator(1)) == Element::integer(2));
     }
