@@ -1,4 +1,5 @@
-//! Exact geometry: expressions with roots and rational-degree cosines, and their images in a prime field.
+//! Exact geometry: expressions with roots and rational-degree cosines, their images in a prime field, and the
+//! number field they lie in.
 
 pub mod exact;
 pub mod expr;

@@ -33,8 +33,8 @@
 //!
 //! # Layers
 //!
-//! linalg, geom -> model -> closure -> import, rank -> redundancy -> search -> report -> cli. Imports go one way; a test
-//! holds them to it.
+//! linalg -> geom, verify -> model -> closure -> import, rank -> redundancy -> search -> report -> cli. Imports go one way;
+//! a test holds them to it.
 //!
 //! # Sources
 //!

@@ -19,7 +19,8 @@ Examples:
   ozols search gripper-10                     the best statically determinate redesigns
   ozols search gripper-10 --max-mobility 1    only those without idle links
   ozols show four-bar > mine.toml             a file to start from
-  ozols check mine.toml                       what is wrong with it, if anything"
+  ozols check mine.toml                       what is wrong with it, if anything
+  ozols analyze mine.toml --certificate c.json && ozols verify mine.toml c.json"
 )]
 pub(super) struct Args {
     /// What to do.

@@ -1,4 +1,20 @@
 //! Certificates of rank: made here, checked by [`crate::verify`].
+//!
+//! ```
+//! use ozols::import::text::mechanism_from_str;
+//! use ozols::rank::certificate::{certify, matrix, number_field};
+//! use ozols::verify;
+//!
+//! let text = ozols::builtin::text("gripper-10").expect("it is built in");
+//! let gripper = mechanism_from_str("gripper-10.toml", text)?;
+//! let certificate = certify(&gripper, 0)?;
+//!
+//! // Whoever doubts it needs only the file and the certificate.
+//! let field = number_field(&gripper, 0)?;
+//! let j = matrix(&field, &gripper, 0)?;
+//! assert_eq!(verify::check(&j, &certificate)?, 13);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use thiserror::Error;
 
@@ -29,6 +45,12 @@ pub enum NoCertificate {
     TooLarge {
         /// f · (f - r) · degree.
         coordinates: usize,
+    },
+    /// It would take longer than the budget allows.
+    #[error("it takes some {operations} operations, over the budget")]
+    TooMuchWork {
+        /// Operations done and to be done.
+        operations: u64,
     },
     /// The numbers in the kernel are longer than the budget allows.
     #[error("the numbers in the kernel are not settled after {primes} primes")]

@@ -39,7 +39,7 @@ impl Default for Budget {
         Budget {
             coordinates: 2_000_000,
             primes: 400,
-            operations: 4_000_000_000,
+            operations: 2_000_000_000,
         }
     }
 }
@@ -157,8 +157,11 @@ impl<'a> Kernel<'a> {
             self.modulus.extend(f);
             let primes = self.modulus.primes();
             if quiet {
+                let vectors = self.vectors();
+                self.operations += self.cost_of_checking(&vectors);
+                self.within_budget()?;
                 if let Some((_, minor)) = &self.found
-                    && let Some(done) = confirm(minor.clone(), self.vectors())?
+                    && let Some(done) = confirm(minor.clone(), vectors)?
                 {
                     return Ok(done);
                 }
@@ -174,11 +177,29 @@ impl<'a> Kernel<'a> {
                 self.operations += self.settle();
                 attempt = primes + 1 + primes / 2;
             }
-            if self.operations > self.budget.operations {
-                return Err(NoCertificate::TooManyPrimes { primes });
-            }
+            self.within_budget()?;
         }
         Err(NoCertificate::NoPrimes)
+    }
+
+    fn within_budget(&self) -> Result<(), NoCertificate> {
+        let operations = self.operations;
+        if operations > self.budget.operations {
+            return Err(NoCertificate::TooMuchWork { operations });
+        }
+        Ok(())
+    }
+
+    /// Operations of the checker's products of J with the kernel.
+    fn cost_of_checking(&self, vectors: &[KernelVector]) -> u64 {
+        let products: usize = vectors
+            .iter()
+            .flat_map(|v| &v.entries)
+            .map(|(column, _)| self.matrix.column(*column).len())
+            .sum();
+        let degree = self.field.ring().dimension();
+        // Each of degree² products of integers, as long as the primes are many.
+        (products * degree * degree * (16 + self.modulus.primes())) as u64
     }
 
     /// Reconstructs what is open; the operations it took.

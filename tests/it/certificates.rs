@@ -337,6 +337,6 @@ fn long_numbers_take_more_primes_and_budgets_hold() {
     };
     assert!(matches!(
         certify_matrix(&rationals, &m, "free", short),
-        Err(NoCertificate::TooManyPrimes { .. })
+        Err(NoCertificate::TooMuchWork { .. })
     ));
 }
