@@ -33,7 +33,7 @@ pub struct Closure<N> {
     pub left_out: Vec<(JointId, usize)>,
 }
 
-impl<N: Copy + Default + PartialEq> Closure<N> {
+impl<N: Clone + Default + PartialEq> Closure<N> {
     /// Builds J of a state in a number system.
     ///
     /// # Errors
@@ -84,8 +84,12 @@ impl<N: Copy + Default + PartialEq> Closure<N> {
         let mut out = vec![N::default(); self.dim * contours.len()];
         for (row, &k) in contours.iter().enumerate() {
             if let Some(forward) = self.contours[k].direction(column.joint) {
-                for (o, &t) in out[row * self.dim..].iter_mut().zip(&column.twist) {
-                    *o = if forward { t } else { s.sub(N::default(), t) };
+                for (o, t) in out[row * self.dim..].iter_mut().zip(&column.twist) {
+                    *o = if forward {
+                        t.clone()
+                    } else {
+                        s.sub(N::default(), t.clone())
+                    };
                 }
             }
         }
@@ -113,7 +117,11 @@ impl<N: Copy + Default + PartialEq> Closure<N> {
             .iter()
             .map(|c| match path.iter().find(|(j, _)| *j == c.joint) {
                 Some((_, true)) => c.twist.clone(),
-                Some((_, false)) => c.twist.iter().map(|&t| s.sub(N::default(), t)).collect(),
+                Some((_, false)) => c
+                    .twist
+                    .iter()
+                    .map(|t| s.sub(N::default(), t.clone()))
+                    .collect(),
                 None => vec![N::default(); self.dim],
             })
             .collect()

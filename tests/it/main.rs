@@ -3,6 +3,7 @@
 
 mod bytes;
 mod catalogs;
+mod certificates;
 mod cli;
 mod contours;
 mod layering;
