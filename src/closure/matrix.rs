@@ -129,6 +129,9 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
 }
 
 /// Joints on a shortest path from the frame to a link, with the direction they are passed in; empty where there is none.
+///
+/// # Complexity
+/// O(n + m) for n links, m joints.
 #[must_use]
 pub fn path_from_frame(
     mechanism: &Mechanism,
@@ -136,10 +139,16 @@ pub fn path_from_frame(
     link: LinkId,
 ) -> Vec<(JointId, bool)> {
     let frame = mechanism.frame();
+    let mut joints_at: Vec<Vec<JointId>> = vec![Vec::new(); mechanism.links.len()];
+    for j in mechanism.joints_in(state) {
+        for end in mechanism.joints[j].links {
+            joints_at[end].push(j);
+        }
+    }
     let mut came: Vec<Option<(JointId, bool)>> = vec![None; mechanism.links.len()];
     let mut queue = std::collections::VecDeque::from([frame]);
     while let Some(at) = queue.pop_front() {
-        for j in mechanism.joints_in(state) {
+        for &j in &joints_at[at] {
             let [a, b] = mechanism.joints[j].links;
             for (from, to, forward) in [(a, b, true), (b, a, false)] {
                 if from == at && to != frame && came[to].is_none() {

@@ -8,4 +8,5 @@ mod cli;
 mod contours;
 mod layering;
 mod published;
+mod structure;
 mod twin;
