@@ -7,7 +7,9 @@
 
 pub mod best;
 pub mod brute;
+pub mod building;
 pub mod cost;
+pub mod counts;
 pub mod diagram;
 pub mod lookahead;
 pub mod order;

@@ -1,8 +1,9 @@
 //! A search as JSON; the keys are a stable contract. Counts are strings, since they outgrow 2^53.
 
 use crate::search::best::Variant;
+use crate::search::counts::Counts;
 use crate::search::diagram::Diagram;
-use crate::search::request::{Counts, Search};
+use crate::search::request::Search;
 use crate::search::space::choice_name;
 use num_bigint::BigUint;
 use serde_json::{Map, Value, json};
