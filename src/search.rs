@@ -14,6 +14,7 @@ pub mod diagram;
 pub mod lookahead;
 pub mod order;
 pub mod plan;
+pub mod primes;
 pub mod request;
 pub mod space;
 pub mod tally;

@@ -3,6 +3,7 @@
 use crate::search::best::Variant;
 use crate::search::counts::Counts;
 use crate::search::diagram::Diagram;
+use crate::search::primes::Verdict;
 use crate::search::request::Search;
 use crate::search::space::choice_name;
 use num_bigint::BigUint;
@@ -24,6 +25,8 @@ pub struct Found<'a> {
     pub diagrams: Option<(&'a Diagram, &'a Diagram)>,
     /// Why the search ended.
     pub stop: &'static str,
+    /// The primes of the search and its twin, and whether they agree; `None` where there is no twin.
+    pub check: Option<([u64; 2], Verdict)>,
 }
 
 fn counts<K: ToString>(of: &BTreeMap<K, BigUint>) -> Map<String, Value> {
@@ -112,6 +115,12 @@ pub fn header(found: &Found<'_>) -> Map<String, Value> {
         json!({"largest_layer": largest.map(|x| x.1), "nodes": nodes.map(|x| x.1)}),
     );
     put("stop", json!(found.stop));
+    let check = found.check.map(|(primes, verdict)| {
+        // Interrupted diagrams stop at different places: neither yes nor no.
+        let agree = (verdict == Verdict::Agree).then_some(true);
+        json!({"primes": primes.map(|p| p.to_string()), "agree": agree})
+    });
+    put("check", json!(check));
     put("exact", json!(found.stop == "exhausted"));
     out
 }

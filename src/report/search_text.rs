@@ -3,6 +3,7 @@
 use crate::report::search_json::{Found, changes};
 use crate::report::words::{cost, grouped, table};
 use crate::search::best::Variant;
+use crate::search::primes::Verdict;
 use crate::search::request::Search;
 use itertools::Itertools;
 use num_traits::Zero;
@@ -67,6 +68,12 @@ pub fn counts(found: &Found<'_>, width: Option<u16>) -> String {
             "  {least}{} of them {more}",
             big(&found.admissible.total)
         );
+    }
+    if let Some(([p, q], verdict)) = found.check {
+        let _ = match verdict {
+            Verdict::Agree => writeln!(out, "  Checked: modulo {p} and {q} the same"),
+            Verdict::Interrupted => writeln!(out, "  Not checked by a second prime: interrupted"),
+        };
     }
     if found.stop != "exhausted" {
         let _ = writeln!(

@@ -3,6 +3,7 @@
 
 mod bytes;
 mod catalogs;
+mod certify;
 mod cli;
 mod contours;
 mod layering;
