@@ -6,7 +6,7 @@ use crate::model::mechanism::JointId;
 use crate::report::search_json::{self, Found};
 use crate::report::search_text;
 use crate::report::words::cost;
-use crate::search::best::Variant;
+use crate::search::certify::{Certified, Summary};
 use crate::search::request::Search;
 use std::io::Write;
 
@@ -15,7 +15,7 @@ const BLOCK: usize = 1000;
 
 /// Calls a writer with each variant and its position; true where it was interrupted.
 pub(super) type Giver<'a> =
-    dyn FnMut(&mut dyn FnMut(usize, Variant) -> anyhow::Result<()>) -> anyhow::Result<bool> + 'a;
+    dyn FnMut(&mut dyn FnMut(usize, Certified) -> anyhow::Result<()>) -> anyhow::Result<bool> + 'a;
 
 pub(super) fn write_found(
     out: &mut dyn Write,
@@ -24,6 +24,7 @@ pub(super) fn write_found(
     give: &mut Giver<'_>,
 ) -> anyhow::Result<()> {
     let search = found.search;
+    let mut summary = Summary::default();
     match a.format {
         SearchFormat::Text => {
             let width = output::width(a.output.as_deref());
@@ -34,8 +35,8 @@ pub(super) fn write_found(
                 "cheapest first"
             };
             // A table is laid out as a whole, so a long list is given as several.
-            let (mut block, mut given): (Vec<Variant>, usize) = (Vec::new(), 0);
-            let mut put = |out: &mut dyn Write, block: &mut Vec<Variant>| -> anyhow::Result<()> {
+            let (mut block, mut given): (Vec<Certified>, usize) = (Vec::new(), 0);
+            let mut put = |out: &mut dyn Write, block: &mut Vec<Certified>| -> anyhow::Result<()> {
                 let head = if given == 0 {
                     format!("\n  {what}:\n")
                 } else {
@@ -50,7 +51,10 @@ pub(super) fn write_found(
                 block.clear();
                 Ok(())
             };
-            let interrupted = give(&mut |_, v| {
+            let mut notes = Vec::new();
+            let interrupted = give(&mut |i, v| {
+                summary.add(&v);
+                notes.extend(search_text::note(&v, i));
                 block.push(v);
                 if block.len() == BLOCK {
                     put(out, &mut block)
@@ -61,6 +65,7 @@ pub(super) fn write_found(
             if !block.is_empty() {
                 put(out, &mut block)?;
             }
+            write!(out, "{}", search_text::notes(&summary, &notes))?;
             if interrupted {
                 writeln!(out, "\n  interrupted after {given} variants")?;
             }
@@ -72,11 +77,15 @@ pub(super) fn write_found(
             let open = text.strip_suffix("\n}").unwrap_or(&text);
             write!(out, "{open},\n  \"variants\": [")?;
             let interrupted = give(&mut |i, v| {
+                summary.add(&v);
                 let comma = if i == 1 { "" } else { "," };
                 write!(out, "{comma}\n    {}", search_json::variant(search, &v, i))?;
                 Ok(())
             })?;
-            writeln!(out, "\n  ],\n  \"variants_complete\": {}\n}}", !interrupted)?;
+            let tail = search_json::tail(&summary, !interrupted);
+            let text = format!("{:#}", serde_json::Value::Object(tail));
+            let rest = text.strip_prefix("{\n").unwrap_or(&text);
+            writeln!(out, "\n  ],\n{rest}")?;
         }
         SearchFormat::Jsonl => {
             give(&mut |i, v| Ok(writeln!(out, "{}", search_json::variant(search, &v, i))?))?;
@@ -95,8 +104,14 @@ pub(super) fn write_found(
                 "external_redundant",
                 "changes",
             ];
-            writeln!(out, "{},{}", heads.join(","), names.join(","))?;
-            give(&mut |i, v| {
+            writeln!(
+                out,
+                "{},{},conditioning,agree",
+                heads.join(","),
+                names.join(",")
+            )?;
+            give(&mut |i, certified| {
+                let v = &certified.variant;
                 let k = v.key;
                 write!(
                     out,
@@ -121,7 +136,11 @@ pub(super) fn write_found(
                         ))
                     )?;
                 }
-                Ok(writeln!(out)?)
+                match certified.second.opinion() {
+                    Some(o) => writeln!(out, ",{:e},{}", o.conditioning, o.agree)?,
+                    None => writeln!(out, ",,")?,
+                }
+                Ok(())
             })?;
         }
     }

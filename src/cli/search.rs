@@ -7,6 +7,7 @@ use super::{Done, load, output, progress};
 use crate::redundancy::analysis::exact_field;
 use crate::report::search_json::Found;
 use crate::search::best::Variant;
+use crate::search::certify::{CHECKED, Certified, Second};
 use crate::search::diagram::Stop;
 use crate::search::primes;
 use crate::search::request::Search;
@@ -104,19 +105,22 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
         check,
     };
     output::to(a.output.as_deref(), |out| {
-        let mut given = 0;
         let mut give =
-            |write: &mut dyn FnMut(usize, Variant) -> anyhow::Result<()>| -> anyhow::Result<bool> {
+            |write: &mut dyn FnMut(usize, Certified) -> anyhow::Result<()>| -> anyhow::Result<bool> {
+                let mut sink = Sink {
+                    search: &search,
+                    second: a.check == Check::Full,
+                    block: Vec::new(),
+                    given: 0,
+                    write,
+                };
                 let mut failed = None;
-                let mut visit = |v: Variant| {
-                    given += 1;
-                    match write(given, v) {
-                        Ok(()) if cancelled() => ControlFlow::Break(()),
-                        Ok(()) => ControlFlow::Continue(()),
-                        Err(e) => {
-                            failed = Some(e);
-                            ControlFlow::Break(())
-                        }
+                let mut visit = |v: Variant| match sink.take(v) {
+                    Ok(()) if cancelled() => ControlFlow::Break(()),
+                    Ok(()) => ControlFlow::Continue(()),
+                    Err(e) => {
+                        failed = Some(e);
+                        ControlFlow::Break(())
                     }
                 };
                 match a.sample {
@@ -134,7 +138,11 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
                         visit,
                     ),
                 }
-                failed.map_or(Ok(cancelled()), Err)
+                if let Some(e) = failed {
+                    return Err(e);
+                }
+                sink.flush()?;
+                Ok(cancelled())
             };
         write_found(out, a, &found, &mut give)?;
         Ok(if found.admissible.total.is_zero() {
@@ -143,6 +151,40 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
             Done::Found
         })
     })
+}
+
+/// Gives variants on, the first with a second opinion; those are gathered first, so that they are analysed in parallel.
+struct Sink<'a> {
+    search: &'a Search<'a>,
+    /// Whether second opinions are wanted of those to come.
+    second: bool,
+    block: Vec<Variant>,
+    given: usize,
+    write: &'a mut dyn FnMut(usize, Certified) -> anyhow::Result<()>,
+}
+
+impl Sink<'_> {
+    fn take(&mut self, variant: Variant) -> anyhow::Result<()> {
+        if !self.second {
+            self.given += 1;
+            let second = Second::Unasked;
+            return (self.write)(self.given, Certified { variant, second });
+        }
+        self.block.push(variant);
+        if self.block.len() == CHECKED {
+            self.flush()?;
+            self.second = false;
+        }
+        Ok(())
+    }
+
+    fn flush(&mut self) -> anyhow::Result<()> {
+        for certified in self.search.certify(std::mem::take(&mut self.block)) {
+            self.given += 1;
+            (self.write)(self.given, certified)?;
+        }
+        Ok(())
+    }
 }
 
 fn brute(search: &Search<'_>, a: &SearchArgs) -> anyhow::Result<Done> {

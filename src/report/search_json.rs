@@ -1,6 +1,7 @@
 //! A search as JSON; the keys are a stable contract. Counts are strings, since they outgrow 2^53.
 
 use crate::search::best::Variant;
+use crate::search::certify::{Certified, Opinion, Summary};
 use crate::search::counts::Counts;
 use crate::search::diagram::Diagram;
 use crate::search::primes::Verdict;
@@ -125,9 +126,32 @@ pub fn header(found: &Found<'_>) -> Map<String, Value> {
     out
 }
 
+/// What follows the variants; `complete` unless their giving was interrupted.
+#[must_use]
+pub fn tail(summary: &Summary, complete: bool) -> Map<String, Value> {
+    let mut out = Map::new();
+    let mut put = |k: &str, v: Value| out.insert(k.to_owned(), v);
+    put("variants_complete", json!(complete));
+    put("variants_checked", json!(summary.checked));
+    put("variants_disagreeing", json!(summary.disagreeing));
+    put("variants_check_failed", json!(summary.failed));
+    out
+}
+
 /// One variant; `position` counts from 1.
 #[must_use]
-pub fn variant(search: &Search<'_>, variant: &Variant, position: usize) -> Value {
+pub fn variant(search: &Search<'_>, certified: &Certified, position: usize) -> Value {
+    let (variant, opinion) = (&certified.variant, certified.second.opinion());
+    let svd = |o: &Opinion| {
+        json!({
+            "mobility": o.mobility,
+            "redundant": o.redundant,
+            "external_redundant": o.external,
+            "output_mobility": o.output,
+            "smallest_kept": o.conditioning,
+            "largest_dropped": o.dropped,
+        })
+    };
     json!({
         "position": position,
         "cost": cost_number(search.steps.milli(variant.key.cost())),
@@ -137,6 +161,9 @@ pub fn variant(search: &Search<'_>, variant: &Variant, position: usize) -> Value
         "changes": changes(search, variant).into_iter()
             .map(|(joint, from, to)| json!({"joint": joint, "from": from, "to": to})).collect::<Vec<_>>(),
         "scores": {},
+        "conditioning": opinion.map(|o| o.conditioning),
+        "agree": opinion.map(|o| o.agree),
+        "svd": opinion.map(svd),
     })
 }
 

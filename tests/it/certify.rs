@@ -7,6 +7,7 @@ use ozols::search::primes::{Verdict, build_both, compare, compare_counts, primes
 use ozols::search::request::{Request, Search};
 use serde_json::Value;
 use std::fs;
+use std::ops::ControlFlow;
 
 /// The four-bar with one axis tilted out of parallel by a number that the first prime divides: modulo that prime it is
 /// parallel.
@@ -19,6 +20,11 @@ fn trap() -> String {
         &text[..at],
         text[at..].replacen("axis = [0, 0, 1]", axis, 1)
     )
+}
+
+/// The four-bar with one axis tilted by next to nothing: not parallel exactly, parallel to double precision.
+fn shaky() -> String {
+    trap().replace("\"2305843009213693973/10000000\"", "1e-11")
 }
 
 fn both(text: &str) -> Result<(Verdict, [u64; 2]), String> {
@@ -84,4 +90,84 @@ fn the_check_is_reported() {
     assert!(says("prime") && says("full") && !says("none"));
     let mirror = ["search", "gripper-10", "--one-per-orbit", "--count"];
     assert!(out(&mirror).contains("Checked: modulo"));
+}
+
+#[test]
+fn singular_values_agree_on_the_best_of_every_built_in_mechanism() {
+    for name in ozols::builtin::names() {
+        let m = mechanism_from_str("it.toml", ozols::builtin::text(name).unwrap()).unwrap();
+        let clamped = m.states.len() > 1;
+        for (keep_output, max_redundant) in [(true, 0), (false, 100)] {
+            let request = Request {
+                keep_output,
+                max_redundant,
+                state: clamped.then_some((1, 100)),
+                ..Request::default()
+            };
+            let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
+            if max_redundant > 0 && search.size() > 5000u32.into() {
+                continue;
+            }
+            let diagrams = search.build(&|| false, &mut |_| {});
+            let mut list = search.sample(&diagrams, 10, 1);
+            search.cheapest(&diagrams, 10, |v| {
+                list.push(v);
+                ControlFlow::Continue(())
+            });
+            for c in search.certify(list) {
+                let o = *c.second.opinion().unwrap();
+                assert!(o.agree, "{name}: {c:?}");
+                assert!(o.dropped < 1e-12 && o.conditioning > 1e-4, "{name}: {o:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_variant_that_two_methods_see_differently_is_marked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("shaky.toml");
+    fs::write(&path, shaky()).unwrap();
+    let path = path.to_str().unwrap();
+    let v = json(&["search", path, "--format", "json", "--all"]);
+    assert_eq!(v["check"]["agree"], true, "the primes see the same");
+    let variants = v["variants"].as_array().unwrap();
+    let wrong: Vec<&Value> = variants.iter().filter(|x| x["agree"] == false).collect();
+    assert!(!wrong.is_empty() && v["variants_disagreeing"] == wrong.len());
+    for x in wrong {
+        let gap = (&x["svd"]["smallest_kept"], &x["svd"]["largest_dropped"]);
+        assert!(gap.0.as_f64().unwrap() > 1e-9 && gap.1.as_f64().unwrap() < 1e-9);
+        assert!(x["svd"]["redundant"] != x["redundant"] || x["svd"]["mobility"] != x["mobility"]);
+    }
+    let text = out(&["search", path]);
+    for part in ["disagree on", " *  ", "  * 1: by singular values W = "] {
+        assert!(text.contains(part), "no {part:?} in {text}");
+    }
+    let csv = out(&["search", path, "--format", "csv"]);
+    assert!(csv.lines().nth(1).unwrap().ends_with(",false"));
+}
+
+#[test]
+fn nearly_singular_variants_are_marked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("near.toml");
+    fs::write(&path, shaky().replace("1e-11", "1e-6")).unwrap();
+    let text = out(&["search", path.to_str().unwrap()]);
+    assert!(text.contains("nearly singular"), "{text}");
+    assert!(text.contains("agree on all"), "{text}");
+}
+
+#[test]
+fn a_long_list_says_where_the_checking_ends() {
+    let options = ["search", "gripper-10", "--options", "revolute,spherical"];
+    let wide = ["--allow-output-change", "--top", "1034"];
+    let text = out(&[&options[..], &wide].concat());
+    assert!(text.contains("agree on the first 1,000; the rest was not asked"));
+    let v = json(&[&options[..], &wide, &["--format", "json"]].concat());
+    let variants = v["variants"].as_array().unwrap();
+    assert_eq!(
+        (variants.len(), &v["variants_checked"]),
+        (1034, &1000.into())
+    );
+    assert!(variants[999]["agree"] == true && variants[1000]["agree"].is_null());
 }
