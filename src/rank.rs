@@ -1,5 +1,6 @@
 //! Rank of the closure matrix, with what each method knows about its answer.
 
+pub mod measured;
 pub mod modular;
 pub mod numeric;
 

@@ -188,6 +188,10 @@ pub(super) struct Search {
     /// Diagram, or brute force for checking.
     #[arg(long, value_enum, default_value = "diagram")]
     pub(super) method: SearchMethod,
+    /// Search a file whose coordinates look measured exactly as it is written, though rounding errors in it change the
+    /// figures.
+    #[arg(long)]
+    pub(super) as_written: bool,
     /// How the search is checked.
     #[arg(long, value_enum, default_value = "full")]
     pub(super) check: Check,

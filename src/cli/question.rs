@@ -1,12 +1,41 @@
 //! The question a search answers, from its arguments.
 
 use super::args::Search as SearchArgs;
-use crate::model::mechanism::{JointId, Mechanism};
+use crate::model::measured::{Measured, looks_measured};
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::rank::measured::Verdicts;
+use crate::redundancy::analysis::exact_field;
 use crate::search::request::{Request, Symmetry};
 use anyhow::{bail, ensure};
 
-pub(super) fn request(mechanism: &Mechanism, a: &SearchArgs) -> anyhow::Result<Request> {
-    let state = match (&a.state, a.max_external) {
+pub(super) fn request(
+    mechanism: &Mechanism,
+    a: &SearchArgs,
+    tolerance: f64,
+) -> anyhow::Result<Request> {
+    let state = state(mechanism, a)?;
+    Ok(Request {
+        max_redundant: a.max_redundant,
+        state,
+        max_mobility: a.max_mobility,
+        max_changes: a.max_changes,
+        keep_output: !a.allow_output_change,
+        symmetry: match (a.symmetric, a.one_per_orbit) {
+            (true, _) => Symmetry::SymmetricOnly,
+            (_, true) => Symmetry::OnePerOrbit,
+            _ => Symmetry::All,
+        },
+        nodes: a.nodes.clamp(1, u32::MAX as usize / 2),
+        tolerance,
+    })
+}
+
+/// The state that takes part, with the external redundancy allowed there.
+pub(super) fn state(
+    mechanism: &Mechanism,
+    a: &SearchArgs,
+) -> anyhow::Result<Option<(StateId, u32)>> {
+    Ok(match (&a.state, a.max_external) {
         (None, None) => None,
         (None, Some(external)) => {
             ensure!(
@@ -26,20 +55,53 @@ pub(super) fn request(mechanism: &Mechanism, a: &SearchArgs) -> anyhow::Result<R
             };
             (s > 0).then_some((s, external.unwrap_or(u32::MAX)))
         }
-    };
-    Ok(Request {
-        max_redundant: a.max_redundant,
-        state,
-        max_mobility: a.max_mobility,
-        max_changes: a.max_changes,
-        keep_output: !a.allow_output_change,
-        symmetry: match (a.symmetric, a.one_per_orbit) {
-            (true, _) => Symmetry::SymmetricOnly,
-            (_, true) => Symmetry::OnePerOrbit,
-            _ => Symmetry::All,
-        },
-        nodes: a.nodes.clamp(1, u32::MAX as usize / 2),
     })
+}
+
+/// Whether the geometry looks measured, and if so what exact and tolerant ranks say of the mechanism as it is. Where
+/// they differ the search is refused, unless the file is to be taken as written.
+pub(super) fn measured(
+    mechanism: &Mechanism,
+    state: Option<StateId>,
+    as_written: bool,
+) -> anyhow::Result<Option<(Measured, Vec<Verdicts>)>> {
+    let Some(why) = looks_measured(mechanism) else {
+        return Ok(None);
+    };
+    let fields = [exact_field(mechanism, 0)?, exact_field(mechanism, 1)?];
+    let states = std::iter::once(0).chain(state);
+    let verdicts = states
+        .map(|s| Verdicts::new(&fields, mechanism, s, why.tolerance()))
+        .collect::<Result<Vec<_>, _>>()?;
+    let name = &mechanism.name;
+    let cure = "round the coordinates, write expressions such as sqrt(3)/2, or snap them with --snap TOLERANCE";
+    let Some(v) = verdicts.iter().find(|v| !v.agree()) else {
+        eprintln!(
+            "warning: the coordinates of {name} look measured ({why}). Exact and tolerant ranks agree on it as it is, \
+             but the search takes every digit at its word; {cure}"
+        );
+        return Ok(Some((why, verdicts)));
+    };
+    let (exact, near) = (v.figures(v.exact), v.figures(v.numeric.rank));
+    let differ = format!(
+        "the coordinates of {name} look measured ({why}), and that matters: as written, state {} has W = {}, σ = {}; \
+         to within {:.0e} it has W = {}, σ = {} (smallest singular value kept {:.1e}, largest dropped {:.1e}). \
+         Exact ranks take rounding errors for real misalignments",
+        v.state,
+        exact.0,
+        exact.1,
+        why.tolerance(),
+        near.0,
+        near.1,
+        v.numeric.kept,
+        v.numeric.dropped
+    );
+    ensure!(
+        as_written,
+        "{differ}; {cure}, or search the file --as-written"
+    );
+    eprintln!("warning: {differ}; {cure}");
+    Ok(Some((why, verdicts)))
 }
 
 /// Applies --hold, --options, --allow and --forbid.

@@ -2,8 +2,11 @@
 
 use super::answer::write_found;
 use super::args::{Args, Check, Search as SearchArgs, SearchFormat, SearchMethod};
-use super::question::{request, restrict};
+use super::question::{measured, request, restrict, state};
 use super::{Done, load, output, progress};
+use crate::model::measured::Measured;
+use crate::rank::measured::Verdicts;
+use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::redundancy::analysis::exact_field;
 use crate::report::search_json::Found;
 use crate::search::best::Variant;
@@ -24,10 +27,15 @@ const BRUTE_LIMIT: u64 = 1 << 32;
 pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file.file)?;
     restrict(&mut mechanism, a)?;
-    let request = request(&mechanism, a)?;
+    let state = state(&mechanism, a)?.map(|(s, _)| s);
+    let measured = measured(&mechanism, state, a.as_written)?;
+    let tolerance = measured
+        .as_ref()
+        .map_or(DEFAULT_TOLERANCE, |(m, _)| m.tolerance());
+    let request = request(&mechanism, a, tolerance)?;
     if a.method == SearchMethod::Brute {
         let search = Search::new(exact_field(&mechanism, 0)?, &mechanism, request)?;
-        return brute(&search, a);
+        return brute(&search, a, measured);
     }
     let over = |nth: usize| -> anyhow::Result<Search<'_>> {
         let field = exact_field(&mechanism, nth)?;
@@ -103,6 +111,7 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
         diagrams: Some((&diagrams.determinate, &diagrams.admissible)),
         stop: diagrams.stop().word(),
         check,
+        measured,
     };
     output::to(a.output.as_deref(), |out| {
         let mut give =
@@ -187,7 +196,11 @@ impl Sink<'_> {
     }
 }
 
-fn brute(search: &Search<'_>, a: &SearchArgs) -> anyhow::Result<Done> {
+fn brute(
+    search: &Search<'_>,
+    a: &SearchArgs,
+    measured: Option<(Measured, Vec<Verdicts>)>,
+) -> anyhow::Result<Done> {
     let size = search.size();
     ensure!(
         size <= BRUTE_LIMIT.into(),
@@ -202,6 +215,7 @@ fn brute(search: &Search<'_>, a: &SearchArgs) -> anyhow::Result<Done> {
         diagrams: None,
         stop: "exhausted",
         check: None,
+        measured,
     };
     output::to(a.output.as_deref(), |out| {
         write_found(out, a, &found, &mut |_| Ok(false))?;

@@ -1,5 +1,7 @@
 //! A search as JSON; the keys are a stable contract. Counts are strings, since they outgrow 2^53.
 
+use crate::model::measured::Measured;
+use crate::rank::measured::Verdicts;
 use crate::search::best::Variant;
 use crate::search::certify::{Certified, Opinion, Summary};
 use crate::search::counts::Counts;
@@ -28,6 +30,8 @@ pub struct Found<'a> {
     pub stop: &'static str,
     /// The primes of the search and its twin, and whether they agree; `None` where there is no twin.
     pub check: Option<([u64; 2], Verdict)>,
+    /// Why the geometry looks measured, with the verdicts on the mechanism as it is; `None` where it looks exact.
+    pub measured: Option<(Measured, Vec<Verdicts>)>,
 }
 
 fn counts<K: ToString>(of: &BTreeMap<K, BigUint>) -> Map<String, Value> {
@@ -122,8 +126,29 @@ pub fn header(found: &Found<'_>) -> Map<String, Value> {
         json!({"primes": primes.map(|p| p.to_string()), "agree": agree})
     });
     put("check", json!(check));
+    put("measured", json!(found.measured.as_ref().map(measured)));
     put("exact", json!(found.stop == "exhausted"));
     out
+}
+
+fn measured((why, verdicts): &(Measured, Vec<Verdicts>)) -> Value {
+    let figures = |(mobility, redundant): (usize, usize)| json!({"mobility": mobility, "redundant": redundant});
+    let states = verdicts.iter().map(|v| {
+        json!({
+            "state": v.state,
+            "exact": figures(v.figures(v.exact)),
+            "svd": figures(v.figures(v.numeric.rank)),
+            "smallest_kept": v.numeric.kept,
+            "largest_dropped": v.numeric.dropped,
+        })
+    });
+    json!({
+        "coordinates": why.coordinates,
+        "example": {"place": why.place, "value": why.value},
+        "tolerance": why.tolerance(),
+        "agree": verdicts.iter().all(Verdicts::agree),
+        "states": states.collect::<Vec<_>>(),
+    })
 }
 
 /// What follows the variants; `complete` unless their giving was interrupted.

@@ -147,13 +147,13 @@ impl Search<'_> {
 
     fn opinion(&self, variant: &Variant, shape: &Shape) -> Option<Opinion> {
         let m = self.realize(&variant.choices);
-        let (free, f) = decompose(&m, 0, &shape.free)?;
+        let (free, f) = self.decompose(&m, 0, &shape.free)?;
         let rows = |contours: &[Contour]| int(contours.len() * self.space.dim);
         let redundant = rows(&shape.free) - int(free.rank);
         let output = match &shape.locked {
             None => None,
             Some(contours) => {
-                let (locked, _) = decompose(&self.locked(&m), 0, contours)?;
+                let (locked, _) = self.decompose(&self.locked(&m), 0, contours)?;
                 Some(locked.rank.saturating_sub(free.rank))
             }
         };
@@ -161,7 +161,7 @@ impl Search<'_> {
         let external = match &shape.state {
             None => None,
             Some((s, contours)) => {
-                let (state, _) = decompose(&m, *s, contours)?;
+                let (state, _) = self.decompose(&m, *s, contours)?;
                 conditioning = conditioning.min(state.kept);
                 dropped = dropped.max(state.dropped);
                 Some(rows(contours) - int(state.rank) - redundant)
@@ -183,12 +183,18 @@ impl Search<'_> {
             agree,
         })
     }
-}
 
-/// Rank of J of a state by singular values, with the number of columns.
-fn decompose(m: &Mechanism, state: StateId, contours: &[Contour]) -> Option<(NumericRank, usize)> {
-    let closure = Closure::with_contours(&Reals, m, state, contours.to_vec()).ok()?;
-    Some((numeric::rank(&closure).ok()?, closure.columns.len()))
+    /// Rank of J of a state by singular values, with the number of columns.
+    fn decompose(
+        &self,
+        m: &Mechanism,
+        state: StateId,
+        contours: &[Contour],
+    ) -> Option<(NumericRank, usize)> {
+        let closure = Closure::with_contours(&Reals, m, state, contours.to_vec()).ok()?;
+        let rank = numeric::rank_with_tolerance(&closure, self.request.tolerance).ok()?;
+        Some((rank, closure.columns.len()))
+    }
 }
 
 fn int(x: usize) -> i64 {

@@ -4,6 +4,7 @@ use crate::closure::contour::contour_basis;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{LinkId, Mechanism, Role, StateId};
+use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::redundancy::motion::joint_motion;
 use crate::search::best::{self, Variant};
 use crate::search::brute::{self, Matrices};
@@ -46,6 +47,8 @@ pub struct Request {
     pub symmetry: Symmetry,
     /// Node budget of each diagram.
     pub nodes: usize,
+    /// Second opinions take singular values below this fraction of the largest for zero.
+    pub tolerance: f64,
 }
 
 impl Default for Request {
@@ -58,6 +61,7 @@ impl Default for Request {
             keep_output: true,
             symmetry: Symmetry::All,
             nodes: 1_000_000,
+            tolerance: DEFAULT_TOLERANCE,
         }
     }
 }
