@@ -64,8 +64,11 @@ impl<N: Copy + PartialEq + Default> MotionSpace<N> {
             MotionSpace::Spatial => Some(t.to_vec()),
             MotionSpace::Planar { axes: [n, e1, e2] } => {
                 let (w, v) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
-                let zero = N::default();
-                let inside = s.cross(w, *n).iter().all(|&c| c == zero) && s.dot(v, *n) == zero;
+                // Products of decimals round: a turn about the normal must not fall out of the plane by that.
+                let (nn, ww) = (s.dot(*n, *n), s.dot(w, w));
+                let (turn, shift) = (s.mul(ww, nn), s.mul(s.add(s.dot(v, v), ww), nn));
+                let inside = s.cross(w, *n).iter().all(|&c| s.vanishes(c, turn))
+                    && s.vanishes(s.dot(v, *n), shift);
                 inside.then(|| vec![s.dot(w, *n), s.dot(v, *e1), s.dot(v, *e2)])
             }
         }

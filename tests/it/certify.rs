@@ -259,3 +259,33 @@ fn measured_coordinates_that_change_the_figures_are_refused() {
         "{stderr}"
     );
 }
+
+#[test]
+fn singular_values_see_a_tilted_plane_as_the_exact_ranks_do() {
+    let mut text = out(&["show", "four-bar-planar"]);
+    // Any plane will do, as long as all points are in it: here z = x + 2 y - 3 y = x - y with decimals that round.
+    text = text.replace("axis = [0, 0, 1]", "axis = [\"1/7\", \"-1/7\", \"-1/7\"]");
+    for (i, p) in [
+        "[0.1, 0.3, -0.2]",
+        "[0.7, 0.2, 0.5]",
+        "[1.9, 0.6, 1.3]",
+        "[2.3, 0.1, 2.2]",
+    ]
+    .iter()
+    .enumerate()
+    {
+        let at = text.match_indices("point = ").nth(i).unwrap().0;
+        let end = at + text[at..].find('\n').unwrap();
+        text.replace_range(at..end, &format!("point = {p}"));
+    }
+    let normal = "plane_normal = [\"1/7\", \"-1/7\", \"-1/7\"]";
+    text = text.replace("plane_normal = [0, 0, 1]", normal);
+    let m = mechanism_from_str("it.toml", &text).unwrap();
+    let search = Search::new(exact_field(&m, 0).unwrap(), &m, Request::default()).unwrap();
+    let diagrams = search.build(&|| false, &mut |_| {});
+    let list = search.sample(&diagrams, 20, 1);
+    assert!(!list.is_empty());
+    for c in search.certify(list) {
+        assert!(c.second.opinion().unwrap().agree, "{c:?}");
+    }
+}
