@@ -9,3 +9,4 @@ mod contours;
 mod layering;
 mod published;
 mod twin;
+mod varied;
