@@ -1,8 +1,12 @@
 //! Rank of the closure matrix, with what each method knows about its answer.
 
+pub mod finite;
 pub mod measured;
 pub mod modular;
 pub mod numeric;
+pub mod second_order;
+pub mod subgroup;
+pub mod trace;
 
 /// How sure an answer is.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,6 +8,7 @@ use crate::geom::scalars::Reals;
 use crate::linalg::echelon::{self, Echelon};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};
+use crate::rank::finite::{Finite, finite};
 use crate::rank::numeric::{self, NumericError};
 use crate::rank::{Certainty, modular};
 use crate::redundancy::idle::{Idle, idle_motions};
@@ -100,6 +101,8 @@ pub struct StateAnalysis {
     pub rank: usize,
     /// W = f - rank, instantaneous.
     pub mobility: usize,
+    /// The mobility that is really there, and how that is known.
+    pub finite: Finite,
     /// Dimension of the output links' joint motion.
     pub working_mobility: usize,
     /// Dimension of the motions that leave every output at rest.
@@ -221,6 +224,7 @@ fn analyse_state(
         rows: closure.rows(),
         rank,
         mobility: freedoms - rank,
+        finite: finite(exact, mechanism, &closure, ranks[0])?,
         working_mobility,
         local_mobility: kernel.len() - working_mobility,
         redundant: closure.rows() - rank,
