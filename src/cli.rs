@@ -1,11 +1,13 @@
 //! The command line: arguments as data, one file per command, three exit codes.
 
 mod analyze;
+mod answer;
 mod args;
 mod check;
 mod load;
 mod output;
 mod progress;
+mod question;
 mod search;
 mod verify;
 

@@ -1,6 +1,7 @@
 //! Rank of the closure matrix, with what each method knows about its answer.
 
 pub mod finite;
+pub mod measured;
 pub mod modular;
 pub mod numeric;
 pub mod second_order;

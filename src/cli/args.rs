@@ -139,6 +139,16 @@ pub(super) enum SearchMethod {
     Brute,
 }
 
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Check {
+    /// One prime, no second opinion.
+    None,
+    /// The whole search over two primes, which must agree.
+    Prime,
+    /// That, and each variant given, up to 1000, analysed again by singular values.
+    Full,
+}
+
 #[derive(Debug, ClapArgs)]
 #[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
 pub(super) struct Search {
@@ -196,7 +206,14 @@ pub(super) struct Search {
     /// Diagram, or brute force for checking.
     #[arg(long, value_enum, default_value = "diagram")]
     pub(super) method: SearchMethod,
-    /// Node budget of each diagram, about 1 KB of memory a node.
+    /// Search a file whose coordinates look measured exactly as it is written, though rounding errors in it change the
+    /// figures.
+    #[arg(long)]
+    pub(super) as_written: bool,
+    /// How the search is checked.
+    #[arg(long, value_enum, default_value = "full")]
+    pub(super) check: Check,
+    /// Node budget of each diagram, about 1 KB of memory a node (twice that with a check).
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     pub(super) nodes: usize,
     /// Output format.

@@ -43,6 +43,19 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
         mechanism: &Mechanism,
         state: StateId,
     ) -> Result<Self, ExactError> {
+        Self::with_contours(s, mechanism, state, contour_basis(mechanism, state))
+    }
+
+    /// Builds J for contours that the caller has already, such as those of a mechanism with the same links and joints.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the number system.
+    pub fn with_contours<S: Scalars<Number = N>>(
+        s: &S,
+        mechanism: &Mechanism,
+        state: StateId,
+        contours: Vec<Contour>,
+    ) -> Result<Self, ExactError> {
         let space = MotionSpace::new(s, &mechanism.mode)?;
         let (mut columns, mut left_out) = (Vec::new(), Vec::new());
         for j in mechanism.joints_in(state) {
@@ -61,7 +74,7 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
         Ok(Closure {
             state,
             dim: space.dim(),
-            contours: contour_basis(mechanism, state),
+            contours,
             columns,
             left_out,
         })

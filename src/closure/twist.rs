@@ -65,10 +65,14 @@ impl<N: Clone + PartialEq + Default> MotionSpace<N> {
             MotionSpace::Planar { axes: [n, e1, e2] } => {
                 let [w0, w1, w2, v0, v1, v2] = t.clone();
                 let (w, v) = ([w0, w1, w2], [v0, v1, v2]);
-                let zero = N::default();
                 let dot = |a: &[N; 3], b: &[N; 3]| s.dot(a.clone(), b.clone());
-                let turn = s.cross(w.clone(), n.clone());
-                let inside = turn.iter().all(|c| *c == zero) && dot(&v, n) == zero;
+                // Products of decimals round: a turn about the normal must not fall out of the plane by that.
+                let (nn, ww) = (dot(n, n), dot(&w, &w));
+                let turn = s.mul(ww.clone(), nn.clone());
+                let shift = s.mul(s.add(dot(&v, &v), ww), nn);
+                let tilt = s.cross(w.clone(), n.clone());
+                let inside = tilt.into_iter().all(|c| s.vanishes(c, turn.clone()))
+                    && s.vanishes(dot(&v, n), shift);
                 inside.then(|| vec![dot(&w, n), dot(&v, e1), dot(&v, e2)])
             }
         }

@@ -22,6 +22,13 @@ pub trait Scalars: Sync {
     /// Product.
     fn mul(&self, a: Self::Number, b: Self::Number) -> Self::Number;
 
+    /// Whether `x` is zero as far as this number system can tell, where `square` is the square of what it would be
+    /// measured against.
+    fn vanishes(&self, x: Self::Number, square: Self::Number) -> bool {
+        let _ = square;
+        x == Self::Number::default()
+    }
+
     /// The value of a vector of expressions.
     ///
     /// # Errors
@@ -96,5 +103,8 @@ impl Scalars for Reals {
     }
     fn mul(&self, a: f64, b: f64) -> f64 {
         a * b
+    }
+    fn vanishes(&self, x: f64, square: f64) -> bool {
+        x * x <= 1e-20 * square
     }
 }

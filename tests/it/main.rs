@@ -4,9 +4,11 @@
 mod bytes;
 mod catalogs;
 mod certificates;
+mod certify;
 mod cli;
 mod contours;
 mod layering;
 mod published;
 mod structure;
 mod twin;
+mod varied;
