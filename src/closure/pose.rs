@@ -163,6 +163,8 @@ pub struct Pose {
     pub middle: [f64; 3],
     /// Displacement of each link since the file's pose, in [`Pose::length`] about the middle.
     pub links: Vec<Displacement>,
+    /// Relative error of the coordinates: contours need not close better than that.
+    accuracy: f64,
     /// Contours as (column, direction).
     contours: Vec<Vec<(usize, f64)>>,
     /// Links in the order they are reached from the frame: link, the joint that leads to it, its columns in order.
@@ -277,10 +279,24 @@ impl Pose {
             length,
             middle,
             links: vec![Displacement::IDENTITY; mechanism.links.len()],
+            accuracy: 0.0,
             contours,
             tree,
             base,
         })
+    }
+
+    /// The same pose of measured geometry, with a relative error of its coordinates.
+    #[must_use]
+    pub fn with_accuracy(mut self, accuracy: f64) -> Pose {
+        self.accuracy = accuracy;
+        self
+    }
+
+    /// The largest gap of a pose that counts as closed: radians, and fractions of [`Pose::length`].
+    #[must_use]
+    pub fn closed(&self) -> f64 {
+        CLOSED.max(10.0 * self.accuracy)
     }
 
     /// Rows of the closure equations, 6 per contour.
@@ -323,16 +339,14 @@ impl Pose {
     /// The closed coordinates nearest (nearly) to `q`, by damped least-norm Newton steps; `hold` keeps some coordinates.
     ///
     /// # Errors
-    /// [`PoseError::Open`] where the gaps do not go below `closed`.
+    /// [`PoseError::Open`] where the gaps do not go below [`Pose::closed`].
     ///
     /// # Complexity
     /// O((6k)²·f) a step.
-    pub fn close(
-        &self,
-        mut q: Vec<f64>,
-        hold: &[usize],
-        closed: f64,
-    ) -> Result<Vec<f64>, PoseError> {
+    pub fn close(&self, mut q: Vec<f64>, hold: &[usize]) -> Result<Vec<f64>, PoseError> {
+        let closed = self.closed();
+        // Errors of the coordinates must not be mended by running along the motion.
+        let floor = (1e4 * self.accuracy).clamp(1e-11, 1e-2);
         let (mut residual, mut best) = (f64::INFINITY, (f64::INFINITY, q.clone()));
         for _ in 0..STEPS {
             let gaps = self.gaps(&q);
@@ -348,7 +362,7 @@ impl Pose {
             for &c in hold {
                 jacobian.col_mut(c).fill(0.0);
             }
-            let step = least_norm(&jacobian, &gaps, residual);
+            let step = least_norm(&jacobian, &gaps, residual.clamp(floor, 1e-2));
             let length = step.iter().map(|x| x * x).sum::<f64>().sqrt();
             if !length.is_finite() || (length < 1e-16 && residual < closed) {
                 break;
@@ -466,9 +480,8 @@ fn meeting_point(w0: [f64; 3], v0: [f64; 3], w1: [f64; 3], v1: [f64; 3]) -> [f64
 /// The damped solution of J·x = gaps, min |J·x - gaps|² + λ|x|² by orthogonal factors, λ in proportion to the gap: where J is
 /// singular at the solution this still converges, and where it is regular the damping vanishes faster than the error
 /// [Yamashita & Fukushima 2001].
-fn least_norm(jacobian: &Mat<f64>, gaps: &[f64], residual: f64) -> Vec<f64> {
+fn least_norm(jacobian: &Mat<f64>, gaps: &[f64], damping: f64) -> Vec<f64> {
     let (rows, columns) = jacobian.shape();
-    let damping = residual.clamp(1e-11, 1e-2);
     let stacked = Mat::from_fn(rows + columns, columns, |r, c| match r.checked_sub(rows) {
         None => jacobian[(r, c)],
         Some(i) if i == c => damping,

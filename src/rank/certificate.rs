@@ -22,9 +22,8 @@ pub use super::kernel::Budget;
 use super::kernel::Kernel;
 use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactError;
-use crate::geom::expr::Expr;
 use crate::geom::number_field::{NumberField, NumberFieldError};
-use crate::model::mechanism::{Mechanism, Mode, StateId};
+use crate::model::mechanism::{Mechanism, StateId};
 pub use crate::verify::certificate::Certificate;
 use crate::verify::certificate::{FieldClaim, Witness};
 use crate::verify::matrix::MatrixOverRing;
@@ -77,18 +76,11 @@ pub fn number_field(
     let frames = mechanism
         .joints_in(state)
         .map(|j| &mechanism.joints[j].frame);
-    let of_frames = frames.flat_map(|f| {
-        f.point
-            .iter()
-            .chain(&f.axis)
-            .chain(&f.reference)
-            .chain([&f.pitch])
-    });
-    let normal: &[Expr] = match &mechanism.mode {
-        Mode::Spatial => &[],
-        Mode::Planar { normal } => normal,
-    };
-    NumberField::for_expressions(of_frames.chain(normal))
+    NumberField::for_expressions(
+        frames
+            .flat_map(super::coordinates)
+            .chain(super::normal(mechanism)),
+    )
 }
 
 /// J of a state over its number field: what a certificate of it is checked against.

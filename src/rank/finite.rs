@@ -1,5 +1,6 @@
 //! Finite (full-cycle) mobility: the dimension of the motion that is really there, beside the instantaneous f - rank J.
 
+use super::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
 use super::{second_order, subgroup, trace};
 use crate::closure::matrix::Closure;
 use crate::closure::pose::Pose;
@@ -133,10 +134,11 @@ pub fn finite(
             });
         }
     }
-    followed(mechanism, closure.state, instantaneous)
+    followed(mechanism, closure.state, instantaneous, 0.0)
 }
 
-/// The finite mobility by following the motion alone; `instantaneous` where it is too large for that.
+/// The finite mobility by following the motion alone; `instantaneous` where it is too large for that. `accuracy` is the
+/// relative error of the coordinates, 0 where they are exact.
 ///
 /// # Errors
 /// Where a coordinate has no value.
@@ -144,8 +146,9 @@ pub fn followed(
     mechanism: &Mechanism,
     state: StateId,
     instantaneous: usize,
+    accuracy: f64,
 ) -> Result<Finite, ExactError> {
-    let pose = Pose::of_file(mechanism, state)?;
+    let pose = Pose::of_file(mechanism, state)?.with_accuracy(accuracy);
     let work = pose.rows() * pose.rows() * pose.columns.len();
     let bound = Finite {
         mobility: instantaneous,
@@ -162,4 +165,41 @@ pub fn followed(
             regular: t.regular,
         },
     }))
+}
+
+/// Exact rank at the pose, then [`finite`], as a method.
+#[derive(Debug, Clone, Copy)]
+pub struct Exact;
+
+impl MobilityMethod for Exact {
+    fn name(&self) -> &'static str {
+        "finite"
+    }
+    fn title(&self) -> &'static str {
+        "finite mobility, exact geometry"
+    }
+    fn guarantee(&self) -> &'static str {
+        "proven where groups or second order decide; else followed numerically"
+    }
+    fn complexity(&self) -> &'static str {
+        "one modular rank; else some ten to some hundred closings of O((6k)² f)"
+    }
+    fn source(&self) -> &'static str {
+        "Hervé 1978 (groups); Connelly & Whiteley 1996 (second order); Wampler, Hauenstein & Sommese 2011 (local dimension)"
+    }
+    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+        let exact = super::field_of(mechanism, state, 0)?;
+        let closure = Closure::new(&exact, mechanism, state)?;
+        let rank = super::modular::rank(&exact, &closure);
+        let found = finite(&exact, mechanism, &closure, rank)?;
+        Ok(Answer {
+            mobility: i64::try_from(found.mobility).unwrap_or(i64::MAX),
+            quantity: Quantity::Finite,
+            certainty: if found.is_proven() {
+                Certainty::Exact
+            } else {
+                Certainty::Traced
+            },
+        })
+    }
 }

@@ -14,10 +14,12 @@
 //! Duff & Reid, "The multifrontal solution of indefinite sparse symmetric linear equations", ACM TOMS 9 (1983), applied
 //! to rank; Tinney & Walker's minimum-degree order, Proc. IEEE 55 (1967).
 
+use super::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
 use crate::closure::matrix::{Closure, Column};
 use crate::geom::exact::ExactField;
 use crate::linalg::echelon;
 use crate::linalg::modp::{Field, Residue};
+use crate::model::mechanism::{Mechanism, StateId};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -382,4 +384,36 @@ fn independent(field: Field, mut columns: Vec<Residue>, height: usize) -> Vec<Re
         rest = later;
     }
     basis
+}
+
+/// [`rank`] as a method.
+#[derive(Debug, Clone, Copy)]
+pub struct Modular;
+
+impl MobilityMethod for Modular {
+    fn name(&self) -> &'static str {
+        "modular"
+    }
+    fn title(&self) -> &'static str {
+        "rank modulo a prime"
+    }
+    fn guarantee(&self) -> &'static str {
+        "exact at this pose but for primes that divide a minor; a rank modulo a prime is never too large"
+    }
+    fn complexity(&self) -> &'static str {
+        "O(k) for chains, trees and grids of bounded width"
+    }
+    fn source(&self) -> &'static str {
+        "Schwartz 1980 (identities by evaluation); Duff & Reid 1983 (fronts)"
+    }
+    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+        let exact = super::field_of(mechanism, state, 0)?;
+        let closure = Closure::new(&exact, mechanism, state)?;
+        let int = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
+        Ok(Answer {
+            mobility: int(closure.columns.len()) - int(rank(&exact, &closure)),
+            quantity: Quantity::Instantaneous,
+            certainty: Certainty::Exact,
+        })
+    }
 }

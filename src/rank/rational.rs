@@ -4,6 +4,9 @@ use num_rational::BigRational;
 use num_traits::Zero;
 use std::collections::BTreeMap;
 
+use super::certificate::{matrix, number_field};
+use super::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::verify::matrix::MatrixOverRing;
 
 /// Rank of a matrix of rational numbers; `None` where an entry is not rational.
@@ -42,5 +45,39 @@ pub fn rank(matrix: &MatrixOverRing) -> Option<usize> {
                 }
             }
         }
+    }
+}
+
+/// [`rank`] as a method.
+#[derive(Debug, Clone, Copy)]
+pub struct Rational;
+
+impl MobilityMethod for Rational {
+    fn name(&self) -> &'static str {
+        "rational"
+    }
+    fn title(&self) -> &'static str {
+        "exact rational elimination"
+    }
+    fn guarantee(&self) -> &'static str {
+        "exact at this pose; rational coordinates only"
+    }
+    fn complexity(&self) -> &'static str {
+        "O(rank · 6k · f) operations on growing fractions"
+    }
+    fn source(&self) -> &'static str {
+        "Gauss; von zur Gathen & Gerhard, Modern Computer Algebra, 2013, ch. 5"
+    }
+    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+        let field = number_field(mechanism, state)
+            .map_err(|_| NoAnswer::DoesNotApply("coordinates are not rational"))?;
+        let matrix = matrix(&field, mechanism, state)?;
+        let rank = rank(&matrix).ok_or(NoAnswer::DoesNotApply("coordinates are not rational"))?;
+        let int = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
+        Ok(Answer {
+            mobility: int(matrix.columns()) - int(rank),
+            quantity: Quantity::Instantaneous,
+            certainty: Certainty::Exact,
+        })
     }
 }

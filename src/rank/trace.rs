@@ -8,7 +8,7 @@
 //!
 //! Numeric: nothing is proven, and the certainty says so. Random directions come from a fixed seed.
 
-use crate::closure::pose::{CLOSED, Pose};
+use crate::closure::pose::Pose;
 use faer::Mat;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
@@ -112,7 +112,7 @@ impl Search {
         }
         self.poses += 1;
         Some(
-            pose.close(direction.iter().map(|x| x * step).collect(), &[], CLOSED)
+            pose.close(direction.iter().map(|x| x * step).collect(), &[])
                 .ok(),
         )
     }
