@@ -64,12 +64,32 @@ pub(super) struct File {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum RankMethod {
-    /// The surest that fits the file: exact geometry, so `modular`.
+    /// The cheapest that is certain: exact where the geometry is, singular values where it was measured.
     Auto,
-    /// Modulo two primes near 2^61, on exact geometry.
+    /// Modulo two primes near 2^61, every digit taken at its word.
     Modular,
+    /// Exact elimination in fractions (rational coordinates only).
+    Rational,
     /// Singular values in double precision, with the gap.
     Svd,
+    /// Column-pivoted QR in double precision.
+    Qr,
+    /// Column-pivoted QR in single precision.
+    Qr32,
+    /// LU with full pivoting in double precision.
+    Lu,
+    /// LU with full pivoting in single precision.
+    Lu32,
+    /// Counting formula in space, 6(n-1) less the constraints.
+    Count,
+    /// Counting formula in the plane, 3(n-1) less the constraints.
+    CountPlanar,
+    /// Freedoms less the sum of the contours' own ranks.
+    Loops,
+    /// The same structure in general position, by a pebble game.
+    Generic,
+    /// Exact rank, and the mobility that is really there.
+    Finite,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -82,9 +102,10 @@ pub(super) struct Analyze {
     /// How the rank is found.
     #[arg(long, value_enum, default_value = "auto")]
     pub(super) method: RankMethod,
-    /// Relative tolerance of `--method svd`.
-    #[arg(long, value_name = "T", default_value_t = ozols_tolerance())]
-    pub(super) tolerance: f64,
+    /// Relative tolerance of the floating-point methods, and of snapping measured geometry; by default what suits the
+    /// method and the digits.
+    #[arg(long, visible_alias = "snap", value_name = "T")]
+    pub(super) tolerance: Option<f64>,
     /// Model the mechanism in its plane (normal z) with 3 rows per contour, whatever the file says.
     #[arg(long)]
     pub(super) planar: bool,
@@ -109,10 +130,6 @@ pub(super) struct Verify {
     /// The certificates were made with `analyze --planar`.
     #[arg(long)]
     pub(super) planar: bool,
-}
-
-fn ozols_tolerance() -> f64 {
-    crate::rank::numeric::DEFAULT_TOLERANCE
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -1,7 +1,7 @@
 //! The automatic choice: the cheapest method that is certain for this mechanism, and one line that says what was chosen,
 //! why, and what was left out.
 
-use super::finite::{Finite, finite, followed};
+use super::finite::{Finite, finite, finite_within, followed};
 use super::method::{Answer, Certainty as Sure, MobilityMethod, NoAnswer, Quantity};
 use super::numeric::{NumericRank, rank_with_tolerance};
 use super::qr::Qr;
@@ -118,7 +118,7 @@ pub fn decide(
         line,
     };
     if numeric.rank == as_written {
-        let found = finite(&exact, mechanism, &closure, as_written)?;
+        let found = finite_within(&exact, mechanism, &closure, as_written, Some(tolerance))?;
         let line = format!("{why}; exact rank as written and {gap} agree{doubt}{needed}");
         return Ok(base(
             Geometry::MeasuredAgreeing(measured),
@@ -138,11 +138,12 @@ pub fn decide(
         freedoms - numeric.rank
     );
     if snapped_rank == numeric.rank {
-        let found = finite(
+        let found = finite_within(
             &snapped_exact,
             &snapped.mechanism,
             &snapped_closure,
             snapped_rank,
+            Some(tolerance),
         )?;
         let line = format!(
             "{why}; snapped within {tolerance:.0e} ({} changes), exact rank then; {gap} agree{doubt}; {both}",
