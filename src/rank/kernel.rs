@@ -23,6 +23,9 @@ use crate::verify::matrix::MatrixOverRing;
 /// Primes that may be useless before the search is given up.
 const MAX_BAD_PRIMES: usize = 64;
 
+/// Numbers in a row that may be too long yet before no more are looked at.
+const MAX_FAILURES: usize = 8;
+
 /// How much a certificate may cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Budget {
@@ -175,7 +178,7 @@ impl<'a> Kernel<'a> {
             // Reconstruction costs the square of the number of primes: not after every one.
             if primes >= attempt {
                 self.operations += self.settle();
-                attempt = primes + 1 + primes / 2;
+                attempt = primes + 1 + primes / 8;
             }
             self.within_budget()?;
         }
@@ -204,11 +207,19 @@ impl<'a> Kernel<'a> {
 
     /// Reconstructs what is open; the operations it took.
     fn settle(&mut self) -> u64 {
-        let mut tried = 0;
+        let (mut tried, mut failures) = (0, 0);
         for unknown in &mut self.unknowns {
             if matches!(unknown, Unknown::Open(_)) {
                 tried += 1;
-                unknown.settle(&self.modulus);
+                if unknown.settle(&self.modulus) {
+                    failures = 0;
+                } else {
+                    failures += 1;
+                }
+            }
+            // The rest will hardly be shorter.
+            if failures >= MAX_FAILURES {
+                break;
             }
         }
         let primes = self.modulus.primes() as u64;

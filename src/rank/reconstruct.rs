@@ -10,6 +10,9 @@ use num_traits::{One, Signed, Zero};
 
 use crate::linalg::modp::{Field, Residue};
 
+/// Bits by which a fraction has to be shorter than the modulus: one residue in 2^24 has such a fraction by chance.
+const SPARE_BITS: u64 = 24;
+
 /// The fraction n/d ≡ x modulo m with |n| and d at most sqrt(m/2), which is unique where it exists.
 ///
 /// Half of Euclid's algorithm on m and x: O(log² m) bit operations.
@@ -107,13 +110,15 @@ impl Unknown {
         false
     }
 
-    /// Settles on a fraction where there is one of moderate size. O(primes²) where open.
-    pub fn settle(&mut self, modulus: &Modulus) {
-        if let Unknown::Open(x) = self
-            && let Some(q) = rational(x, &modulus.product)
-        {
-            *self = Unknown::Settled(q);
-        }
+    /// Settles on a fraction where there is one so short that chance would not have produced it; whether it is settled
+    /// now. O(primes²) where open.
+    pub fn settle(&mut self, modulus: &Modulus) -> bool {
+        let Unknown::Open(x) = self else { return true };
+        let found = rational(x, &modulus.product)
+            .filter(|q| q.numer().bits() + q.denom().bits() + SPARE_BITS <= modulus.product.bits());
+        let Some(q) = found else { return false };
+        *self = Unknown::Settled(q);
+        true
     }
 }
 
