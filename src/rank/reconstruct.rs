@@ -110,16 +110,46 @@ impl Unknown {
         false
     }
 
-    /// Settles on a fraction where there is one so short that chance would not have produced it; whether it is settled
-    /// now. O(primes²) where open.
-    pub fn settle(&mut self, modulus: &Modulus) -> bool {
-        let Unknown::Open(x) = self else { return true };
-        let found = rational(x, &modulus.product)
-            .filter(|q| q.numer().bits() + q.denom().bits() + SPARE_BITS <= modulus.product.bits());
-        let Some(q) = found else { return false };
-        *self = Unknown::Settled(q);
-        true
+    /// Settles on a fraction where there is one so short that chance would not have produced it; how it went.
+    ///
+    /// `denominator` is tried first, and becomes a multiple of the one found: the numbers of a vector mostly share one,
+    /// and a product is much cheaper than Euclid's algorithm. O(primes²) where open.
+    pub fn settle(&mut self, modulus: &Modulus, denominator: &mut BigInt) -> Settled {
+        let Unknown::Open(x) = self else {
+            return Settled::Before;
+        };
+        let m = &modulus.product;
+        let short = |n: &BigInt, d: &BigInt| n.bits() + d.bits() + SPARE_BITS <= m.bits();
+        let mut numerator = (&*x * &*denominator).mod_floor(m);
+        if &numerator * 2u32 > *m {
+            numerator -= m;
+        }
+        if short(&numerator, denominator) {
+            *self = Unknown::Settled(BigRational::new(numerator, denominator.clone()));
+            return Settled::Cheaply;
+        }
+        match rational(x, m).filter(|q| short(q.numer(), q.denom())) {
+            Some(q) => {
+                *denominator = denominator.lcm(q.denom());
+                *self = Unknown::Settled(q);
+                Settled::Newly
+            }
+            None => Settled::NotYet,
+        }
     }
+}
+
+/// How an attempt to settle on a fraction went.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Settled {
+    /// There was one already.
+    Before,
+    /// By the denominator at hand.
+    Cheaply,
+    /// By Euclid's algorithm.
+    Newly,
+    /// It is too long yet.
+    NotYet,
 }
 
 /// The inverse of the product of the primes so far, in a field of another prime. O(primes).
@@ -148,7 +178,7 @@ mod tests {
                 let agreed = unknown.see(f, f.from_rational(&q).unwrap(), &modulus, inverse_of(&modulus, f).unwrap());
                 quiet = if agreed { quiet + 1 } else { 0 };
                 modulus.extend(f);
-                unknown.settle(&modulus);
+                unknown.settle(&modulus, &mut BigInt::one());
             }
             prop_assert!(quiet > 2);
             prop_assert!(matches!(unknown, Unknown::Settled(x) if x == q));
