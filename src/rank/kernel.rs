@@ -5,9 +5,8 @@
 //! coordinates themselves follow by the Chinese remainder theorem and rational reconstruction.
 //!
 //! # Sources
-//! Dixon, "Exact solution of linear equations using p-adic expansions", Numer. Math. 40 (1982), for the bounds;
-//! Encarnación, "Computing GCDs of polynomials over algebraic number fields", J. Symb. Comput. 20 (1995), for the use of
-//! all homomorphisms of a number field.
+//! von zur Gathen & Gerhard, "Modern Computer Algebra", ch. 5 (computing modulo many small primes, Chinese remainders,
+//! rational reconstruction).
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
