@@ -21,6 +21,9 @@ use crate::linalg::modp::{Field, Residue};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+/// Up to so many contours, looking at all is faster than a heap.
+const FEW: usize = 12;
+
 /// Rank of J over the field, exact unless the prime divides a minor.
 ///
 /// # Complexity
@@ -36,11 +39,11 @@ pub fn rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
         plan: &plan,
         taken: vec![false; plan.columns_of.len()],
         slot: vec![0; closure.contours.len()],
-        rest: Vec::new(),
+        rest: vec![Rest::default(); closure.contours.len()],
+        left: Vec::new(),
         front: Vec::new(),
         rank: 0,
     };
-    work.rest.resize_with(closure.contours.len(), Rest::default);
     for &c in &plan.order {
         work.eliminate(closure, c);
     }
@@ -198,16 +201,23 @@ impl Plan {
 
 /// The order of elimination; leaves in each set the neighbours that the contour has when its turn comes.
 fn fewest_neighbours_first(k: usize, neighbours: &mut Sets) -> Vec<usize> {
+    const DONE: u32 = u32::MAX;
     let mut degree: Vec<u32> = (0..k).map(|c| neighbours.len(c)).collect();
-    let first = degree.iter().enumerate().map(|(c, &d)| Reverse((d, c)));
-    let mut heap: BinaryHeap<_> = first.collect::<Vec<_>>().into();
     let mut order = Vec::with_capacity(k);
     let mut near = Vec::new();
-    const DONE: u32 = u32::MAX;
-    while let Some(Reverse((d, c))) = heap.pop() {
-        if degree[c] != d {
-            continue;
-        }
+    let mut heap = BinaryHeap::new();
+    if k > FEW {
+        heap.extend(degree.iter().enumerate().map(|(c, &d)| Reverse((d, c))));
+    }
+    while order.len() < k {
+        let c = if k > FEW {
+            match heap.pop() {
+                Some(Reverse((d, c))) if degree[c] == d => c,
+                _ => continue,
+            }
+        } else {
+            (0..k).min_by_key(|&c| degree[c]).unwrap_or(0)
+        };
         degree[c] = DONE;
         order.push(c);
         near.clear();
@@ -219,18 +229,21 @@ fn fewest_neighbours_first(k: usize, neighbours: &mut Sets) -> Vec<usize> {
             let now = neighbours.len(n);
             if now != degree[n] {
                 degree[n] = now;
-                heap.push(Reverse((now, n)));
+                if k > FEW {
+                    heap.push(Reverse((now, n)));
+                }
             }
         }
     }
     order
 }
 
-/// What a front leaves: columns on the rows of the contour's neighbours, ascending, and the next one to go to.
-#[derive(Default)]
+/// What a front leaves: columns on the rows of the contour's neighbours, ascending.
+#[derive(Clone, Copy, Default)]
 struct Rest {
-    columns: Vec<Residue>,
-    /// Other rests for the same parent, as a chain.
+    /// Where they begin and end in `Work::left`.
+    columns: (usize, usize),
+    /// Another rest that goes to the same contour's front.
     sibling: Option<usize>,
     /// The first rest that this contour's front takes in.
     child: Option<usize>,
@@ -244,6 +257,8 @@ struct Work<'a> {
     /// Per contour of the present front, the first of its rows there.
     slot: Vec<usize>,
     rest: Vec<Rest>,
+    /// The columns of all rests.
+    left: Vec<Residue>,
     /// The columns of the present front, one after the other.
     front: Vec<Residue>,
     rank: usize,
@@ -285,9 +300,9 @@ impl Work<'_> {
         }
         let mut child = self.rest[c].child;
         while let Some(x) = child {
-            let columns = std::mem::take(&mut self.rest[x].columns);
+            let (from, to) = self.rest[x].columns;
             let width = plan.neighbours.len(x) as usize * dim;
-            for column in columns.chunks_exact(width) {
+            for column in self.left[from..to].chunks_exact(width) {
                 let at = self.front.len();
                 self.front.resize(at + height, 0);
                 let mut from = column.chunks_exact(dim);
@@ -301,18 +316,20 @@ impl Work<'_> {
         }
         self.rank += pivots(self.field, &mut self.front, height, dim);
         let Some(parent) = next else { return };
-        let mut left: Vec<Residue> = Vec::with_capacity(self.front.len());
+        let from = self.left.len();
         for column in self.front.chunks_exact(height) {
             if column[dim..].iter().any(|&x| x != 0) {
-                left.extend_from_slice(&column[dim..]);
+                self.left.extend_from_slice(&column[dim..]);
             }
         }
         let width = height - dim;
-        if left.len() > width * width {
-            left = independent(self.field, left, width);
+        if self.left.len() - from > width * width {
+            let basis = independent(self.field, &mut self.left[from..], width);
+            self.left.truncate(from);
+            self.left.extend_from_slice(&basis);
         }
-        if !left.is_empty() {
-            self.rest[c].columns = left;
+        if self.left.len() > from {
+            self.rest[c].columns = (from, self.left.len());
             self.rest[c].sibling = self.rest[parent].child.replace(c);
         }
     }
@@ -368,9 +385,9 @@ fn combine(field: Field, v: &mut [Residue], u: &[Residue], p: usize) {
 }
 
 /// A basis of the span of columns of equal height.
-fn independent(field: Field, mut columns: Vec<Residue>, height: usize) -> Vec<Residue> {
+fn independent(field: Field, columns: &mut [Residue], height: usize) -> Vec<Residue> {
     let mut basis = Vec::with_capacity(height * height);
-    let mut rest = columns.as_mut_slice();
+    let mut rest = columns;
     while rest.len() >= height {
         let (u, later) = rest.split_at_mut(height);
         if let Some(p) = u.iter().position(|&x| x != 0) {
