@@ -16,6 +16,7 @@ mod lattice;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use faer::traits::{ComplexField, RealField};
 use faer::{Mat, MatRef};
+use itertools::Itertools;
 use lattice::Kind;
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -31,7 +32,7 @@ use ozols::linalg::lanes::{LaneMatrix, SmallField};
 use ozols::linalg::modp::{Field, Residue};
 use ozols::model::mechanism::Mechanism;
 use ozols::rank::{modular, numeric};
-use ozols::redundancy::analysis::exact_field;
+use ozols::redundancy::analysis::{Method, analyse, exact_field};
 use std::fmt::Write as _;
 use std::hint::black_box;
 use std::io::Write as _;
@@ -471,12 +472,23 @@ fn methods(c: &mut Criterion) {
     }
 }
 
+fn analysis(c: &mut Criterion) {
+    let mut group = c.benchmark_group("whole analysis");
+    for (kind, k) in Kind::ALL.into_iter().cartesian_product([50, 200]) {
+        let m = lattice::mechanism(kind, k);
+        group.bench_function(format!("{kind:?} {k}"), |b| {
+            b.iter(|| analyse(&m, &[0], Method::Modular))
+        });
+    }
+    group.finish();
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default()
         .sample_size(10)
         .warm_up_time(Duration::from_millis(200))
         .measurement_time(Duration::from_millis(700));
-    targets = methods
+    targets = methods, analysis
 }
 criterion_main!(benches);

@@ -37,11 +37,9 @@ pub fn rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
     let mut work = Work {
         field: exact.field(),
         plan: &plan,
-        taken: vec![false; plan.columns_of.len()],
-        slot: vec![0; closure.contours.len()],
         rest: vec![Rest::default(); closure.contours.len()],
-        left: Vec::new(),
-        front: Vec::new(),
+        left: Vec::with_capacity(16 * closure.dim),
+        front: Vec::with_capacity(closure.columns.len().min(64) * 4 * closure.dim),
         rank: 0,
     };
     for &c in &plan.order {
@@ -87,8 +85,8 @@ impl Sets {
         &self.bits[of * self.words..(of + 1) * self.words]
     }
 
-    fn len(&self, of: usize) -> u32 {
-        self.row(of).iter().map(|w| w.count_ones()).sum()
+    fn len(&self, of: usize) -> usize {
+        self.row(of).iter().map(|w| w.count_ones() as usize).sum()
     }
 
     fn join(&mut self, of: usize, with: usize) {
@@ -119,7 +117,7 @@ struct Plan {
     passes: Vec<(usize, bool)>,
     /// The contours in the order they are eliminated in.
     order: Vec<usize>,
-    /// Per contour, its place in the order.
+    /// Per contour, a number that is greater the later it comes in the order.
     place: Vec<usize>,
     /// Per contour, those that its front has rows of besides its own.
     neighbours: Sets,
@@ -171,11 +169,7 @@ impl Plan {
                 }
             }
         }
-        let order = fewest_neighbours_first(k, &mut neighbours);
-        let mut place = vec![0; k];
-        for (p, &c) in order.iter().enumerate() {
-            place[c] = p;
-        }
+        let (order, place) = fewest_neighbours_first(k, &mut neighbours);
         Plan {
             columns_of,
             passes_from,
@@ -199,12 +193,14 @@ impl Plan {
     }
 }
 
-/// The order of elimination; leaves in each set the neighbours that the contour has when its turn comes.
-fn fewest_neighbours_first(k: usize, neighbours: &mut Sets) -> Vec<usize> {
-    const DONE: u32 = u32::MAX;
-    let mut degree: Vec<u32> = (0..k).map(|c| neighbours.len(c)).collect();
+/// The order of elimination, and for each contour a number that grows along it; leaves in each set the neighbours that
+/// the contour has when its turn comes.
+fn fewest_neighbours_first(k: usize, neighbours: &mut Sets) -> (Vec<usize>, Vec<usize>) {
+    // Above all degrees.
+    const DONE: usize = usize::MAX / 2;
+    let mut degree: Vec<usize> = (0..k).map(|c| neighbours.len(c)).collect();
     let mut order = Vec::with_capacity(k);
-    let mut near = Vec::new();
+    let mut near = Vec::with_capacity(k.min(64));
     let mut heap = BinaryHeap::new();
     if k > FEW {
         heap.extend(degree.iter().enumerate().map(|(c, &d)| Reverse((d, c))));
@@ -218,7 +214,7 @@ fn fewest_neighbours_first(k: usize, neighbours: &mut Sets) -> Vec<usize> {
         } else {
             (0..k).min_by_key(|&c| degree[c]).unwrap_or(0)
         };
-        degree[c] = DONE;
+        degree[c] = DONE + order.len();
         order.push(c);
         near.clear();
         neighbours.each(c, |n| near.push(n));
@@ -235,12 +231,14 @@ fn fewest_neighbours_first(k: usize, neighbours: &mut Sets) -> Vec<usize> {
             }
         }
     }
-    order
+    (order, degree)
 }
 
 /// What a front leaves: columns on the rows of the contour's neighbours, ascending.
 #[derive(Clone, Copy, Default)]
 struct Rest {
+    /// The first row of this contour in the present front, while it is part of it.
+    slot: usize,
     /// Where they begin and end in `Work::left`.
     columns: (usize, usize),
     /// Another rest that goes to the same contour's front.
@@ -252,10 +250,6 @@ struct Rest {
 struct Work<'a> {
     field: Field,
     plan: &'a Plan,
-    /// Per joint, whether its columns are in a front already.
-    taken: Vec<bool>,
-    /// Per contour of the present front, the first of its rows there.
-    slot: Vec<usize>,
     rest: Vec<Rest>,
     /// The columns of all rests.
     left: Vec<Residue>,
@@ -268,11 +262,11 @@ impl Work<'_> {
     /// Forms the front of a contour, takes out the pivots of its rows, and passes on what is left.
     fn eliminate(&mut self, closure: &Closure<Residue>, c: usize) {
         let (plan, dim) = (self.plan, closure.dim);
-        self.slot[c] = 0;
+        self.rest[c].slot = 0;
         let mut height = dim;
         let mut next: Option<usize> = None;
         plan.neighbours.each(c, |n| {
-            self.slot[n] = height;
+            self.rest[n].slot = height;
             height += dim;
             if next.is_none_or(|x| plan.place[n] < plan.place[x]) {
                 next = Some(n);
@@ -283,14 +277,16 @@ impl Work<'_> {
         // Columns with entries in this contour only, then those shared with others.
         for own in [true, false] {
             for j in joints().filter(|&j| (plan.passes(j).len() == 1) == own) {
-                if plan.passes(j).is_empty() || std::mem::replace(&mut self.taken[j], true) {
+                // The front of the first of its contours in the order takes a joint.
+                let first = |&(i, _): &(usize, bool)| plan.place[i] >= plan.place[c];
+                if plan.passes(j).is_empty() || !plan.passes(j).iter().all(first) {
                     continue;
                 }
                 for column in plan.columns(closure, j) {
                     let at = self.front.len();
                     self.front.resize(at + height, 0);
                     for &(i, forward) in plan.passes(j) {
-                        let block = &mut self.front[at + self.slot[i]..][..dim];
+                        let block = &mut self.front[at + self.rest[i].slot..][..dim];
                         for (o, &t) in block.iter_mut().zip(&column.twist) {
                             *o = if forward { t } else { self.field.neg(t) };
                         }
@@ -301,14 +297,14 @@ impl Work<'_> {
         let mut child = self.rest[c].child;
         while let Some(x) = child {
             let (from, to) = self.rest[x].columns;
-            let width = plan.neighbours.len(x) as usize * dim;
+            let width = plan.neighbours.len(x) * dim;
             for column in self.left[from..to].chunks_exact(width) {
                 let at = self.front.len();
                 self.front.resize(at + height, 0);
                 let mut from = column.chunks_exact(dim);
                 plan.neighbours.each(x, |n| {
                     if let Some(block) = from.next() {
-                        self.front[at + self.slot[n]..][..dim].copy_from_slice(block);
+                        self.front[at + self.rest[n].slot..][..dim].copy_from_slice(block);
                     }
                 });
             }
