@@ -13,9 +13,9 @@
 //! A rank modulo p is never too high, and too low only where p divides every largest nonzero minor. For a minor that
 //! behaves like a random number that happens about once in p: 5·10^-10 for 2^31 - 1, 4·10^-9 for one prime of 28 bits,
 //! 2·10^-18 for both, 4·10^-19 for one prime of 61 bits. The program's answers rest on two primes of 61 bits and
-//! `rank::modular`, which uses the structure of J: on the matrices of mechanisms that is faster than one pass here, and
-//! primes of 61 bits in which the geometry's roots exist are easy to find. This kernel is for dense matrices without
-//! structure.
+//! `rank::modular`, which uses the structure of J: on the ten-link gripper that takes as long as both small primes here
+//! (0.7 µs), from some ten contours on it is faster than one of them, and primes of 61 bits in which the geometry's
+//! roots exist are easy to find. This kernel is for dense matrices without structure.
 //!
 //! # Sources
 //! Montgomery, "Modular multiplication without trial division", Math. Comp. 44 (1985); Bareiss, Math. Comp. 22 (1968),
