@@ -14,7 +14,7 @@
 //! behaves like a random number that happens about once in p: 5·10^-10 for 2^31 - 1, 4·10^-9 for one prime of 28 bits,
 //! 2·10^-18 for both, 4·10^-19 for one prime of 61 bits. The program's answers rest on two primes of 61 bits and
 //! `rank::modular`, which uses the structure of J: on the ten-link gripper that takes as long as both small primes here
-//! (0.7 µs), from some ten contours on it is faster than one of them, and primes of 61 bits in which the geometry's
+//! (0.7 µs), from some tens of contours on it is faster than one of them, and primes of 61 bits in which the geometry's
 //! roots exist are easy to find. This kernel is for dense matrices without structure.
 //!
 //! # Sources
