@@ -53,4 +53,5 @@ pub mod model;
 pub mod rank;
 pub mod redundancy;
 pub mod report;
+pub mod robot;
 pub mod search;

@@ -42,6 +42,8 @@ pub(super) enum Command {
     Analyze(Analyze),
     /// Every redesign that removes the redundant constraints: exact counts and the best ones.
     Search(Search),
+    /// Make a mechanism file of a robot description: URDF, MJCF or SDF.
+    Import(Import),
     /// Validate a file.
     Check(File),
     /// The built-in mechanisms.
@@ -50,6 +52,45 @@ pub(super) enum Command {
     Show(File),
     /// Print the JSON Schema of the mechanism file.
     Schema,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum ImportFormat {
+    Toml,
+    Json,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Import {
+    /// A robot description: URDF, MJCF or SDF, by its root element.
+    #[arg(value_name = "FILE")]
+    pub(super) file: String,
+    /// A file of loop closures (YAML, JSON or TOML): [[loop]] with a, b and type; robot.yaml of
+    /// example-parallel-robots; Drake's list of ball constraints.
+    #[arg(long, value_name = "SIDE")]
+    pub(super) loops: Option<PathBuf>,
+    /// Value of a joint in radians or metres: elbow=0.3 (repeatable); several with commas for joints of several
+    /// freedoms. Loops that are open there are closed from there.
+    #[arg(long, value_name = "JOINT=VALUE", allow_hyphen_values = true)]
+    pub(super) pose: Vec<String>,
+    /// Let a robot without a fixed link float: a joint of six freedoms to the world.
+    #[arg(long)]
+    pub(super) floating: bool,
+    /// Take loops that are open in the given pose as they are.
+    #[arg(long)]
+    pub(super) open: bool,
+    /// The fixed link; the root by default.
+    #[arg(long, value_name = "LINK")]
+    pub(super) frame: Option<String>,
+    /// A link whose motion is the working motion (repeatable); the ends of chains by default.
+    #[arg(long, value_name = "LINK")]
+    pub(super) working_link: Vec<String>,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "toml")]
+    pub(super) format: ImportFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -47,6 +47,20 @@ pub(super) fn unknown(file: &str) -> String {
     )
 }
 
+/// The bytes of a file, one more than `limit` at most.
+pub(super) fn bytes(path: &std::path::Path, limit: u64) -> anyhow::Result<Vec<u8>> {
+    bytes_of(path, limit).with_context(|| format!("cannot read {}", path.display()))
+}
+
+/// The same without the file's name in the error.
+pub(super) fn bytes_of(path: &std::path::Path, limit: u64) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    std::fs::File::open(path)?
+        .take(limit + 1)
+        .read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
 fn read(from: impl Read) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     // One byte more than allowed, so that the reader can say that there are too many.

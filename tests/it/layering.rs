@@ -4,12 +4,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers, lowest first; modules of one row do not import each other, except where a row says so by order.
-const LAYERS: [&[&str]; 9] = [
+const LAYERS: [&[&str]; 10] = [
     &["linalg"],
     &["geom"],
     &["model"],
     &["closure"],
     &["import", "rank"],
+    &["robot"],
     &["redundancy"],
     &["search", "builtin"],
     &["report"],
