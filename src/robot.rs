@@ -8,6 +8,8 @@
 mod close;
 mod emit;
 mod kinematics;
+mod loops;
+mod mjcf;
 mod parts;
 mod pose;
 mod problem;
@@ -83,10 +85,13 @@ pub fn import(
 ) -> Result<Imported, ImportError> {
     let mut document = Document::default();
     let root = document.read(name, xml::utf8(name, bytes)?)?;
-    let _ = read;
+    if document.element(root).name() == "mujoco" {
+        mjcf::expand(&mut document, root, read)?;
+    }
     let element = document.element(root);
     let mut robot = match element.name() {
         "robot" => urdf::read(element)?,
+        "mujoco" => mjcf::read(element)?,
         other => {
             let found = other.to_owned();
             return Err(element.fail(None, RobotProblem::Format { found }));
@@ -102,6 +107,9 @@ pub fn import(
                 what,
             },
         ));
+    }
+    if let Some((side, bytes)) = &options.loops {
+        loops::add(side, bytes, &mut robot)?;
     }
     apply_pose(&mut robot, options).map_err(fail)?;
     let frame = root_link(&mut robot, options).map_err(fail)?;
@@ -153,7 +161,7 @@ fn apply_pose(robot: &mut Robot, options: &Options) -> Result<(), RobotProblem> 
                 want: format!("give {} finite numbers", joint.values.len()),
             });
         }
-        joint.values.clone_from(values);
+        joint.values = values.iter().map(|v| v - joint.zero).collect();
     }
     Ok(())
 }

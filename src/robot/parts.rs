@@ -24,6 +24,8 @@ pub(super) struct Part {
     pub(super) drive: bool,
     /// Whether it closes a loop by what the file says; such joints join the tree last.
     pub(super) closes: bool,
+    /// Value of the one freedom in the pose drawn, subtracted from values given from outside.
+    pub(super) zero: f64,
     /// Displacement of each freedom.
     pub(super) values: Vec<f64>,
     /// Limits of a joint of one freedom.
@@ -49,6 +51,7 @@ impl Part {
             axis: Z,
             second: X,
             pitch: 0.0,
+            zero: 0.0,
             drive: false,
             closes: false,
             limits: None,

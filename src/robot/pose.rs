@@ -229,6 +229,20 @@ fn about(axis: V3, angle: f64) -> M3 {
     ]
 }
 
+/// The least turn that takes z to an axis.
+pub(super) fn turn_z_to(axis: V3) -> Pose {
+    let to = unit(axis);
+    let about = cross(Z, to);
+    if length(about) < 1e-12 {
+        return if dot(to, Z) > 0.0 {
+            Pose::IDENTITY
+        } else {
+            Pose::turn(X, std::f64::consts::PI)
+        };
+    }
+    Pose::turn(about, length(about).atan2(dot(Z, to)))
+}
+
 /// A number as it is written: rounding errors around multiples of 1e-9 are taken off.
 pub(super) fn clean(x: f64) -> f64 {
     let r = (x * 1e9).round() / 1e9;

@@ -14,6 +14,7 @@ pub(super) fn read(root: Element<'_>) -> Result<Robot, ImportError> {
     let mut robot = Robot::new(root.attribute("name").unwrap_or("robot"), Format::Urdf);
     for link in root.named("link") {
         let name = link.required("name")?;
+        link.room("links", robot.links.len())?;
         if robot.frame(name).is_some() {
             return Err(link.fail(
                 Some("name"),
@@ -28,6 +29,7 @@ pub(super) fn read(root: Element<'_>) -> Result<Robot, ImportError> {
         }
     }
     for e in root.children() {
+        e.room("joints", robot.joints.len())?;
         match e.name() {
             "link" => {}
             "joint" => joint(e, &mut robot)?,

@@ -13,6 +13,8 @@ pub(super) const MAX_BYTES: usize = 64 << 20;
 pub(super) const MAX_DEPTH: usize = 4000;
 /// Most elements.
 pub(super) const MAX_ELEMENTS: usize = 500_000;
+/// Most links, and most joints, of a robot.
+const MAX_PARTS: usize = 10_000;
 /// Most attributes of one element.
 const MAX_ATTRIBUTES: usize = 256;
 /// Largest size of a number; the mechanism file takes lengths up to 1e12.
@@ -275,10 +277,6 @@ impl<'a> Element<'a> {
             .map(|a| a.value.as_str())
     }
 
-    pub(super) fn attributes(self) -> impl Iterator<Item = (&'a str, &'a str)> {
-        let all = self.node().attributes.iter();
-        all.map(|a| (a.name.as_str(), a.value.as_str()))
-    }
 
     /// How the element is called in messages.
     pub(super) fn label(self) -> String {
@@ -298,6 +296,15 @@ impl<'a> Element<'a> {
             .map_or_else(|| node.span.clone(), |a| a.span.clone());
         let source = &self.document.sources[node.source];
         problem.at(&source.name, &source.text, Some(span))
+    }
+
+    /// Refuses one more of `what` where there are too many already.
+    pub(super) fn room(self, what: &'static str, count: usize) -> Result<(), ImportError> {
+        let limit = MAX_PARTS;
+        if count < limit {
+            return Ok(());
+        }
+        Err(self.fail(None, RobotProblem::TooMany { what, limit }))
     }
 
     /// The attribute that must be there.
