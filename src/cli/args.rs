@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 /// A search engine for statically determinate mechanisms.
 ///
-/// FILE is a path to a mechanism file (TOML, or JSON with the ending .json), `-` for standard input, or the name of a
-/// built-in mechanism (see `ozols list`).
+/// FILE is a path to a mechanism file (TOML, or JSON with the ending .json) or to a robot description (.urdf, .xml,
+/// .sdf; see `ozols import` for more control), `-` for standard input, or the name of a built-in mechanism (see `ozols
+/// list`).
 #[derive(Debug, Parser)]
 #[command(
     name = "ozols",
@@ -76,6 +77,9 @@ pub(super) struct Import {
     /// Let a robot without a fixed link float: a joint of six freedoms to the world.
     #[arg(long)]
     pub(super) floating: bool,
+    /// SDF drawn in parts: every joint puts the frame that is its parent onto its child.
+    #[arg(long)]
+    pub(super) assemble: bool,
     /// Take loops that are open in the given pose as they are.
     #[arg(long)]
     pub(super) open: bool,

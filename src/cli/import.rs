@@ -13,6 +13,7 @@ const MAX_BYTES: u64 = 64 << 20;
 pub(super) fn run(_: &Args, a: &Import) -> anyhow::Result<Done> {
     let mut options = Options {
         floating: a.floating,
+        assemble: a.assemble,
         open: a.open,
         frame: a.frame.clone(),
         outputs: a.working_link.clone(),
@@ -26,7 +27,7 @@ pub(super) fn run(_: &Args, a: &Import) -> anyhow::Result<Done> {
         options.loops = Some((path.display().to_string(), bytes));
     }
     let imported = description(Path::new(&a.file), &options)?;
-    eprint!("{}", imported.report.text(&a.file));
+    output::note(&imported.report.text(&a.file));
     output::to(a.output.as_deref(), |out| {
         match a.format {
             ImportFormat::Toml => write!(out, "{}", imported.toml)?,

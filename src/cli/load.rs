@@ -3,6 +3,7 @@
 use crate::builtin;
 use crate::import::text::{MAX_BYTES, mechanism_from_bytes};
 use crate::model::mechanism::Mechanism;
+use crate::robot;
 use anyhow::{Context, bail};
 use std::io::Read;
 
@@ -15,6 +16,17 @@ pub(super) fn mechanism(file: &str) -> anyhow::Result<Mechanism> {
         )?);
     }
     let path = std::path::Path::new(file);
+    if path.is_file() && robot::is_description(file) {
+        let imported = super::import::description(path, &robot::Options::default())?;
+        let doubts = imported.report.doubts();
+        if !doubts.is_empty() {
+            super::output::note(&format!("{file}: {}\n{doubts}", imported.format.name()));
+        }
+        return Ok(mechanism_from_bytes(
+            "the imported mechanism",
+            imported.toml.as_bytes(),
+        )?);
+    }
     if path.is_file() {
         let open = std::fs::File::open(path).with_context(|| format!("cannot read {file}"))?;
         let bytes = read(open).with_context(|| format!("cannot read {file}"))?;

@@ -2,7 +2,7 @@
 
 use crate::model::joint_type::Freedom;
 use crate::robot::kinematics::{Tree, displacement, places, world_axes};
-use crate::robot::parts::Robot;
+use crate::robot::parts::{Part, Robot};
 use crate::robot::pose::{Pose, V3, add, cross, length, scale, sub, unit};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
@@ -11,7 +11,11 @@ use faer::{Mat, Side};
 pub(super) const CLOSED: f64 = 1e-6;
 /// Most unknowns; beyond them a pose has to be given.
 const MAX_UNKNOWNS: usize = 600;
+/// Most steps from one start, and most starts.
 const STEPS: usize = 300;
+const STARTS: usize = 12;
+/// Longest step of a joint, in radians or sizes of the robot: the loops close near by or not at all.
+const LONGEST: f64 = 0.3;
 
 /// How far a loop is from closed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,23 +87,66 @@ pub(super) fn worst(gaps: &[Gap], size: f64) -> f64 {
 }
 
 /// Changes the joint values so that the loops close, staying near where they are; gives the largest gap left.
+///
+/// Of several starts the first that closes with all joints within their limits is taken, else the one that breaks the
+/// fewest limits, else the values stay.
 pub(super) fn close(robot: &mut Robot, tree: &Tree) -> f64 {
     let size = size(robot);
-    // Freedoms of the loop joints first take up what they can by themselves.
-    for start in 0..4 {
-        let before: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
+    let first: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
+    let set = |robot: &mut Robot, values: &[Vec<f64>]| {
+        for (j, v) in robot.joints.iter_mut().zip(values) {
+            j.values.clone_from(v);
+        }
+    };
+    let mut best: Option<(usize, f64, Vec<Vec<f64>>)> = None;
+    for start in 0..STARTS {
+        set(robot, &first);
         if start > 0 {
             begin(robot, start);
         }
         let left = descend(robot, tree, size);
-        if left <= CLOSED * size {
-            return left;
+        if left > CLOSED * size {
+            continue;
         }
-        for (j, v) in robot.joints.iter_mut().zip(before) {
-            j.values = v;
+        let broken = robot
+            .joints
+            .iter_mut()
+            .map(wind_back)
+            .filter(|inside| !inside)
+            .count();
+        if best.as_ref().is_none_or(|(b, ..)| broken < *b) {
+            let values = robot.joints.iter().map(|j| j.values.clone()).collect();
+            best = Some((broken, left, values));
+        }
+        if broken == 0 {
+            break;
         }
     }
-    worst(&gaps(robot, tree), size)
+    match best {
+        Some((_, left, values)) => {
+            set(robot, &values);
+            left
+        }
+        None => {
+            set(robot, &first);
+            worst(&gaps(robot, tree), size)
+        }
+    }
+}
+
+/// Takes whole turns off angles; says whether the joint is within its limits.
+fn wind_back(j: &mut Part) -> bool {
+    const TURN: f64 = std::f64::consts::TAU;
+    let middle = j.limits.map_or(0.0, |(low, high)| f64::midpoint(low, high));
+    for (v, f) in j.values.iter_mut().zip(j.joint_type.freedoms()) {
+        if matches!(f, Freedom::Rx | Freedom::Ry | Freedom::Rz) {
+            *v -= TURN * ((*v - middle) / TURN).round();
+        }
+    }
+    match (&j.values[..], j.limits) {
+        ([v], Some((low, high))) => (low - 1e-3..=high + 1e-3).contains(v),
+        _ => true,
+    }
 }
 
 /// Other values to start from: limited joints within their limits, others turned a little, differently each time.
@@ -141,7 +188,12 @@ fn descend(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
         return left;
     }
     let (mut damping, mut cost) = (1e-4, cost(robot, tree, size));
-    for _ in 0..STEPS {
+    let mut milestone = cost;
+    for step in 1..=STEPS {
+        // Hardly nearer for a while: a minimum that is not a closed pose.
+        if step % 25 == 0 && std::mem::replace(&mut milestone, cost) * 0.99 < cost {
+            break;
+        }
         if left <= 1e-14 * size || damping > 1e8 {
             break;
         }
@@ -157,10 +209,18 @@ fn descend(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
         };
         let change = factor.solve(&right);
         let before: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
+        let longest = (0..unknowns)
+            .map(|i| change[(i, 0)].abs())
+            .fold(0.0, f64::max);
+        let shrink = if longest > LONGEST {
+            LONGEST / longest
+        } else {
+            1.0
+        };
         for (j, &first) in robot.joints.iter_mut().zip(&offsets) {
             let prismatic: Vec<bool> = j.joint_type.freedoms().iter().map(is_shift).collect();
             for (i, v) in j.values.iter_mut().enumerate() {
-                *v += change[(first + i, 0)] * if prismatic[i] { size } else { 1.0 };
+                *v += shrink * change[(first + i, 0)] * if prismatic[i] { size } else { 1.0 };
             }
         }
         let after = self::cost(robot, tree, size);

@@ -61,21 +61,50 @@ impl Report {
     pub fn text(&self, file: &str) -> String {
         let (links, joints) = self.size;
         let mut out = format!("{file}: {links} links, {joints} joints\n");
-        let counts = |m: &BTreeMap<String, usize>| {
-            m.iter()
-                .map(|(k, n)| format!("{n} {k}"))
-                .collect::<Vec<_>>()
-                .join(", ")
-        };
-        let mut line = |head: &str, what: &str| {
-            let _ = writeln!(out, "  {head:<13} {what}");
-        };
-        if !self.mapped.is_empty() {
-            line("mapped", &counts(&self.mapped));
+        let mapped = self
+            .mapped
+            .iter()
+            .map(|(k, n)| format!("{n} {k}"))
+            .collect::<Vec<_>>();
+        if !mapped.is_empty() {
+            line(&mut out, "mapped", &mapped.join(", "));
         }
         for p in &self.pose {
-            line("pose", p);
+            line(&mut out, "pose", p);
         }
+        out.push_str(&self.doubts());
+        for (kind, (count, names)) in &self.dropped {
+            let more = if *count > names.len() { ", ..." } else { "" };
+            let names = match names[..] {
+                [] => String::new(),
+                _ => format!(" ({}{more})", names.join(", ")),
+            };
+            line(&mut out, "dropped", &format!("{count} {kind}{names}"));
+        }
+        let (names, asked) = &self.outputs;
+        let hint = if *asked {
+            ""
+        } else {
+            " (the end links; --working-link to choose)"
+        };
+        let shown = names
+            .iter()
+            .take(8)
+            .map(String::as_str)
+            .collect::<Vec<_>>()
+            .join(", ");
+        let more = match names.len() {
+            n @ 9.. => format!(" and {} more", n - 8),
+            _ => String::new(),
+        };
+        line(&mut out, "output", &format!("{shown}{more}{hint}"));
+        out
+    }
+
+    /// What keeps the figures from being those of the description: nothing, or some lines.
+    #[must_use]
+    pub fn doubts(&self) -> String {
+        let mut out = String::new();
         if self.coupling_rows > 0 {
             let n = self.coupling_rows;
             let (rows, them) = if n == 1 {
@@ -83,43 +112,22 @@ impl Report {
             } else {
                 ("rows", "them")
             };
-            line(
-                "left out",
-                &format!(
-                    "{n} coupling {rows} between joint angles: W is up to {n} too high without {them}, σ may be too low"
-                ),
+            let what = format!(
+                "{n} coupling {rows} between joint angles: W is up to {n} too high without {them}, σ may be too low"
             );
+            line(&mut out, "left out", &what);
         }
         for n in &self.approximated {
-            line("approximated", &format!("{}: {}", n.element, n.what));
+            line(
+                &mut out,
+                "approximated",
+                &format!("{}: {}", n.element, n.what),
+            );
         }
-        for (kind, (count, names)) in &self.dropped {
-            let names = match (names.is_empty(), *count > names.len()) {
-                (true, _) => String::new(),
-                (false, more) => {
-                    format!(" ({}{})", names.join(", "), if more { ", ..." } else { "" })
-                }
-            };
-            line("dropped", &format!("{count} {kind}{names}"));
-        }
-        let (names, asked) = &self.outputs;
-        let shown = names
-            .iter()
-            .take(8)
-            .map(String::as_str)
-            .collect::<Vec<_>>()
-            .join(", ");
-        let more = if names.len() > 8 {
-            format!(" and {} more", names.len() - 8)
-        } else {
-            String::new()
-        };
-        let hint = if *asked {
-            ""
-        } else {
-            " (the end links; --working-link to choose)"
-        };
-        line("output", &format!("{shown}{more}{hint}"));
         out
     }
+}
+
+fn line(out: &mut String, head: &str, what: &str) {
+    let _ = writeln!(out, "  {head:<13} {what}");
 }

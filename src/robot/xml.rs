@@ -277,7 +277,6 @@ impl<'a> Element<'a> {
             .map(|a| a.value.as_str())
     }
 
-
     /// How the element is called in messages.
     pub(super) fn label(self) -> String {
         match self.attribute("name") {

@@ -7,5 +7,6 @@ mod cli;
 mod contours;
 mod layering;
 mod published;
+mod robot_bytes;
 mod robots;
 mod twin;
