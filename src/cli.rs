@@ -3,6 +3,7 @@
 mod analyze;
 mod args;
 mod check;
+mod export;
 mod import;
 mod load;
 mod output;
@@ -37,6 +38,7 @@ pub fn run() -> ExitCode {
         args::Command::Analyze(a) => analyze::run(&args, a),
         args::Command::Search(a) => search::run(&args, a),
         args::Command::Import(a) => import::run(&args, a),
+        args::Command::Export(a) => export::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::List => check::list(),
         args::Command::Show(a) => check::show(a),

@@ -33,7 +33,7 @@
 //!
 //! # Layers
 //!
-//! linalg, geom -> model -> closure -> import, rank -> redundancy -> search -> report -> cli. Imports go one way; a test
+//! linalg, geom -> model -> closure -> import, rank -> robot, export -> redundancy -> search -> report -> cli. Imports go one way; a test
 //! holds them to it.
 //!
 //! # Sources
@@ -46,6 +46,7 @@
 pub mod builtin;
 pub mod cli;
 pub mod closure;
+pub mod export;
 pub mod geom;
 pub mod import;
 pub mod linalg;

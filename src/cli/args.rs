@@ -20,7 +20,9 @@ Examples:
   ozols search gripper-10                     the best statically determinate redesigns
   ozols search gripper-10 --max-mobility 1    only those without idle links
   ozols show four-bar > mine.toml             a file to start from
-  ozols check mine.toml                       what is wrong with it, if anything"
+  ozols check mine.toml                       what is wrong with it, if anything
+  ozols import robot.urdf -o robot.toml       a mechanism file of a robot description
+  ozols export gripper-10 --to dot            its graph for Graphviz"
 )]
 pub(super) struct Args {
     /// What to do.
@@ -45,6 +47,8 @@ pub(super) enum Command {
     Search(Search),
     /// Make a mechanism file of a robot description: URDF, MJCF or SDF.
     Import(Import),
+    /// Write a mechanism in another format: TOML, JSON, URDF, SDF, Graphviz DOT, GraphML.
+    Export(Export),
     /// Validate a file.
     Check(File),
     /// The built-in mechanisms.
@@ -92,6 +96,34 @@ pub(super) struct Import {
     /// Output format.
     #[arg(long, value_enum, default_value = "toml")]
     pub(super) format: ImportFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum ExportFormat {
+    /// The mechanism file, every joint with its own options.
+    Toml,
+    /// The same as JSON.
+    Json,
+    /// A spanning tree; loops as comments.
+    Urdf,
+    /// Loops closed by joints.
+    Sdf,
+    /// Graphviz.
+    Dot,
+    /// GraphML, for graph programs.
+    Graphml,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Export {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// The format.
+    #[arg(long, value_enum)]
+    pub(super) to: ExportFormat,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,

@@ -15,8 +15,8 @@ pub(super) const MAX_DEPTH: usize = 4000;
 pub(super) const MAX_ELEMENTS: usize = 500_000;
 /// Most links, and most joints, of a robot.
 const MAX_PARTS: usize = 10_000;
-/// Most attributes of one element.
-const MAX_ATTRIBUTES: usize = 256;
+/// Most attributes of one element, and of all together.
+const MAX_ATTRIBUTES: (usize, usize) = (256, 1_000_000);
 /// Largest size of a number; the mechanism file takes lengths up to 1e12.
 const MAX_NUMBER: f64 = 1e9;
 
@@ -117,6 +117,7 @@ fn xml_problem(message: impl ToString) -> RobotProblem {
 fn parse(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Located> {
     let mut reader = Reader::from_str(text);
     let (mut open, mut root): (Vec<usize>, Option<usize>) = (Vec::new(), None);
+    let mut attributes = 0;
     loop {
         let before = position(reader.buffer_position());
         let event = reader
@@ -136,7 +137,12 @@ fn parse(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Loca
                     return Err((RobotProblem::TooMany { what, limit }, before));
                 }
                 let id = nodes.len();
+                if attributes > MAX_ATTRIBUTES.1 {
+                    let (what, limit) = ("attributes", MAX_ATTRIBUTES.1);
+                    return Err((RobotProblem::TooMany { what, limit }, before));
+                }
                 nodes.push(node(tag, text, source, before..after)?);
+                attributes += nodes[id].attributes.len();
                 match open.last() {
                     Some(&parent) => nodes[parent].children.push(id),
                     None => root = Some(id),
@@ -148,8 +154,8 @@ fn parse(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Loca
             Event::End(_) => {
                 open.pop();
             }
-            Event::Text(t) => put(&t.to_string(), &open, nodes),
-            Event::CData(t) => put(&t.to_string(), &open, nodes),
+            Event::Text(t) => put(&t, &open, nodes),
+            Event::CData(t) => put(&t, &open, nodes),
             Event::GeneralRef(r) => {
                 let word = format!("&{};", &*r);
                 let plain = quick_xml::escape::unescape(&word)
@@ -199,12 +205,12 @@ fn node(
             .normalized_value(quick_xml::XmlVersion::Implicit1_0)
             .map_err(|e| (xml_problem(e), span.start))?
             .into_owned();
-        if attributes.len() >= MAX_ATTRIBUTES {
+        if attributes.len() >= MAX_ATTRIBUTES.0 {
             let what = "attributes of one element";
             return Err((
                 RobotProblem::TooMany {
                     what,
-                    limit: MAX_ATTRIBUTES,
+                    limit: MAX_ATTRIBUTES.0,
                 },
                 span.start,
             ));

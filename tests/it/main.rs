@@ -5,6 +5,7 @@ mod bytes;
 mod catalogs;
 mod cli;
 mod contours;
+mod exports;
 mod layering;
 mod published;
 mod robot_bytes;
