@@ -28,7 +28,7 @@ pub(super) struct Args {
     /// What to do.
     #[command(subcommand)]
     pub(super) command: Command,
-    /// No progress bar.
+    /// No progress bar, no report of an import.
     #[arg(long, short, global = true)]
     pub(super) quiet: bool,
     /// Threads to use; all processors by default. Results do not depend on it.

@@ -10,7 +10,7 @@ use std::path::Path;
 /// Largest robot description and file beside it, in bytes.
 const MAX_BYTES: u64 = 64 << 20;
 
-pub(super) fn run(_: &Args, a: &Import) -> anyhow::Result<Done> {
+pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
     let mut options = Options {
         floating: a.floating,
         assemble: a.assemble,
@@ -27,7 +27,9 @@ pub(super) fn run(_: &Args, a: &Import) -> anyhow::Result<Done> {
         options.loops = Some((path.display().to_string(), bytes));
     }
     let imported = description(Path::new(&a.file), &options)?;
-    output::note(&imported.report.text(&a.file));
+    if !args.quiet {
+        output::note(&imported.report.text(&a.file));
+    }
     output::to(a.output.as_deref(), |out| {
         match a.format {
             ImportFormat::Toml => write!(out, "{}", imported.toml)?,

@@ -7,6 +7,7 @@ use super::kinematics::{Tree, places, spanning_tree};
 use super::parts::{Part, Robot, free};
 use super::pose::Pose;
 use super::problem::{RobotProblem, known};
+use crate::import::build::LIMITS;
 use crate::model::joint_type::JointType;
 use std::collections::BTreeSet;
 
@@ -243,6 +244,18 @@ pub(super) fn write(
         .flat_map(|&j| robot.joints[j].links.map(|l| bodies.of[l]))
         .collect();
     report.size = (used.len(), joints.len());
+    for (what, count, limit) in [
+        ("links", used.len(), LIMITS.0),
+        ("joints", joints.len(), LIMITS.1),
+    ] {
+        if count > limit {
+            return Err(RobotProblem::Whole {
+                message: format!(
+                    "after merging what is rigidly joined there are {count} {what}, more than the {limit} of a mechanism file; import a part of the robot"
+                ),
+            });
+        }
+    }
     robot.report = report;
     let file = std::path::Path::new(file).file_name();
     Ok(emit::toml(&Content {

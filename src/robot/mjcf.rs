@@ -366,8 +366,9 @@ fn joint<'a>(
     context: &Context<'a>,
     robot: &mut Robot,
 ) -> Result<Part, ImportError> {
-    let look = context.defaults.of(e, class)?;
-    let word = if e.name() == "freejoint" {
+    let tag = if e.name() == "freejoint" { "" } else { "joint" };
+    let look = context.defaults.of(e, tag, class)?;
+    let word = if tag.is_empty() {
         "free"
     } else {
         look.attribute("type").map_or("hinge", |(_, t)| t)

@@ -354,6 +354,7 @@ impl<'a> Element<'a> {
     ) -> Result<[f64; N], ImportError> {
         let bad = || {
             let want = match N {
+                _ if text.contains("${") => "expand the macros first, with `xacro FILE`".to_owned(),
                 1 => "write one finite number up to 1e9 in size".to_owned(),
                 n => format!("write {n} finite numbers up to 1e9 in size, with spaces between"),
             };

@@ -4,7 +4,14 @@ use ozols::import::text::mechanism_from_str;
 use ozols::robot::{Options, import};
 use proptest::prelude::*;
 
-const FILES: [(&str, &str, Option<(&str, &str)>); 6] = [
+/// Name and text of a description, and of the file beside it.
+type Input = (
+    &'static str,
+    &'static str,
+    Option<(&'static str, &'static str)>,
+);
+
+const FILES: [Input; 6] = [
     (
         "a.xml",
         include_str!("../data/robots/robotiq_2f85_v4/2f85.nomesh.xml"),

@@ -95,6 +95,44 @@ fn poses_are_composed() {
     assert!(i.toml.contains("point = [-0.1, -0.2, 1]"), "{}", i.toml);
 }
 
+// Seen from the tip the chain is passed backwards; the tip's frame is the global one then.
+#[test]
+fn another_frame() {
+    let options = Options {
+        frame: Some("tip".to_owned()),
+        outputs: vec!["base".to_owned()],
+        ..Options::default()
+    };
+    let i = import("arm.urdf", ARM.as_bytes(), &none, &options).unwrap();
+    for part in [
+        "point = [-0.1, -0.2, 0]\naxis = [0, 0, 1]",
+        "point = [0, 0, 0]\naxis = [1, 0, 0]",
+        "id = \"base\"\nrole = \"output\"",
+    ] {
+        assert!(i.toml.contains(part), "{part}\n{}", i.toml);
+    }
+    assert_eq!(i.report.outputs, (vec!["base".to_owned()], true));
+}
+
+// MuJoCo's values count from `ref`, where the model is as drawn; the pose is in radians whatever the file's unit.
+#[test]
+fn mjcf_reference_pose() {
+    let at = |value: f64| {
+        let options = Options {
+            pose: vec![("j".to_owned(), vec![value])],
+            ..Options::default()
+        };
+        let text = mjcf(
+            "<worldbody><body name='a'><joint name='j' ref='90'/><body name='b' pos='1 0 0'><joint name='k'/></body></body></worldbody>",
+        );
+        import("m.xml", text.as_bytes(), &none, &options)
+            .unwrap()
+            .toml
+    };
+    assert!(at(std::f64::consts::FRAC_PI_2).contains("point = [1, 0, 0]"));
+    assert!(at(std::f64::consts::PI).contains("point = [0, 1, 0]"));
+}
+
 // A floating base is one joint of six freedoms.
 #[test]
 fn floating() {
@@ -145,10 +183,10 @@ fn errors_name_the_element_and_the_line() {
             &["arm.urdf:6:18:", "3 finite numbers"],
         ),
         ("0.1 0.2 0", "0.1 inf 0", &["3 finite numbers"]),
-        ("0.1 0.2 0", "${x} 0 0", &["3 finite numbers"]),
+        ("0.1 0.2 0", "${x} 0 0", &["expand the macros"]),
         ("name=\"q\" ", "", &["<joint> has no attribute name"]),
         ("name=\"q\"", "name=\"p\"", &["joint \"p\" is there twice"]),
-        ("</robot>", "", &["arm.urdf:9:", "<robot> is not closed"]),
+        ("</robot>", "", &["arm.urdf:8:", "<robot> is not closed"]),
         (
             "</joint>\n  <joint name=\"t\"",
             "</jnt>\n  <joint name=\"t\"",
@@ -198,6 +236,49 @@ fn hostile_xml() {
     assert!(e.to_string().contains("UTF-8"));
 }
 
+// The mechanism file takes 2000 links; what is fixed together counts once.
+#[test]
+fn too_many_links() {
+    let chain = |n: usize, kind: &str| {
+        let links: String = (0..n).map(|i| format!("<link name='l{i}'/>")).collect();
+        let joint = |i: usize| {
+            let kind = if i == 0 { "continuous" } else { kind };
+            format!(
+                "<joint name='j{i}' type='{kind}'><parent link='l{i}'/><child link='l{}'/></joint>",
+                i + 1
+            )
+        };
+        format!(
+            "<robot name='c'>{links}{}</robot>",
+            (0..n - 1).map(joint).collect::<String>()
+        )
+    };
+    assert!(
+        refused("c.urdf", &chain(2100, "continuous")).contains("2100 links, more than the 2000")
+    );
+    assert!(refused("c.urdf", &chain(10_100, "fixed")).contains("more than 10000 links"));
+    let i = import(
+        "c.urdf",
+        chain(2100, "fixed").as_bytes(),
+        &none,
+        &Options::default(),
+    )
+    .unwrap();
+    assert_eq!(i.report.size, (2, 1));
+}
+
+// Defaults of equalities stand under <equality>, whatever their kind.
+#[test]
+fn mjcf_inactive_by_default() {
+    let i = import("m.xml", mjcf("<default><equality active='false'/></default>
+        <worldbody><body name='a'><joint/></body><body name='b'><joint/></body></worldbody>
+        <equality><weld body1='a' body2='b'/><connect body1='a' body2='b' anchor='0 0 0' active='true'/></equality>").as_bytes(), &none, &Options::default()).unwrap();
+    assert_eq!(
+        (i.report.size.1, i.report.dropped["inactive equality"].0),
+        (3, 1)
+    );
+}
+
 #[test]
 fn the_command() {
     let file = folder().join("robotiq_ros_urdf/robotiq_arg2f_85_model.expanded.urdf");
@@ -210,6 +291,7 @@ fn the_command() {
     };
     let o = run(&["-o", target.to_str().unwrap()]);
     assert_eq!((o.status.code(), o.stdout.len()), (Some(0), 0));
+    assert_eq!(run(&["--quiet"]).stderr.len(), 0);
     assert!(
         String::from_utf8(o.stderr)
             .unwrap()

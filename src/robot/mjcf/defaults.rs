@@ -45,10 +45,12 @@ impl<'a> Defaults<'a> {
         Ok(Defaults { classes })
     }
 
-    /// Where to look up the attributes of an element: its class, else that of the bodies around it, else the main one.
+    /// Where to look up the attributes of an element: itself, then `tag` in its class, else in that of the bodies around
+    /// it, else in the main one.
     pub(super) fn of(
         &self,
         e: Element<'a>,
+        tag: &str,
         childclass: Option<&'a str>,
     ) -> Result<Lookup<'a>, ImportError> {
         let given = e.attribute("class").or(childclass);
@@ -65,11 +67,6 @@ impl<'a> Defaults<'a> {
                 },
             ));
         }
-        let tag = if e.name() == "freejoint" {
-            ""
-        } else {
-            e.name()
-        };
         let mut places = vec![e];
         // A class is only ever within one that was read before, so that this ends; the bound is for repeated names.
         let outermost = || {

@@ -16,7 +16,7 @@ pub(super) fn read(
 ) -> Result<(), ImportError> {
     for (i, e) in section.children().enumerate() {
         e.room("joints", robot.joints.len())?;
-        let look = context.defaults.of(e, None)?;
+        let look = context.defaults.of(e, "equality", None)?;
         let id = match e.attribute("name") {
             Some(n) => n.to_owned(),
             None => format!("{}-{}", e.name(), i + 1),
