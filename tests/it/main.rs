@@ -9,5 +9,8 @@ mod exports;
 mod layering;
 mod published;
 mod robot_bytes;
+mod robot_mjcf;
+mod robot_models;
+mod robot_sdf;
 mod robots;
 mod twin;
