@@ -143,8 +143,8 @@ pub(super) fn close_loops(
         return Ok(());
     }
     let before: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
-    let left = if options.open {
-        first
+    let (left, outside) = if options.open {
+        (first, 0)
     } else {
         close(robot, tree)
     };
@@ -165,8 +165,12 @@ pub(super) fn close_loops(
         let moved = largest.map_or(String::new(), |(v, id)| {
             format!("; {id} moved most, by {v:.3}")
         });
+        let limits = match outside {
+            0 => String::new(),
+            n => format!("; {n} outside their limits"),
+        };
         robot.report.pose.push(format!(
-            "{loops} open by {first:.1e} m in the pose of the file, closed to {left:.1e} m by moving joints{moved}"
+            "{loops} open by {first:.1e} m in the pose of the file, closed to {left:.1e} m by moving joints{moved}{limits}"
         ));
         return Ok(());
     }

@@ -86,11 +86,12 @@ pub(super) fn worst(gaps: &[Gap], size: f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Changes the joint values so that the loops close, staying near where they are; gives the largest gap left.
+/// Changes the joint values so that the loops close, staying near where they are; gives the largest gap left
+/// and the number of joints outside their limits.
 ///
 /// Of several starts the first that closes with all joints within their limits is taken, else the one that breaks the
 /// fewest limits, else the values stay.
-pub(super) fn close(robot: &mut Robot, tree: &Tree) -> f64 {
+pub(super) fn close(robot: &mut Robot, tree: &Tree) -> (f64, usize) {
     let size = size(robot);
     let first: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
     let set = |robot: &mut Robot, values: &[Vec<f64>]| {
@@ -123,13 +124,13 @@ pub(super) fn close(robot: &mut Robot, tree: &Tree) -> f64 {
         }
     }
     match best {
-        Some((_, left, values)) => {
+        Some((broken, left, values)) => {
             set(robot, &values);
-            left
+            (left, broken)
         }
         None => {
             set(robot, &first);
-            worst(&gaps(robot, tree), size)
+            (worst(&gaps(robot, tree), size), 0)
         }
     }
 }
