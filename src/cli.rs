@@ -4,6 +4,8 @@ mod analyze;
 mod answer;
 mod args;
 mod check;
+mod export;
+mod import;
 mod load;
 mod output;
 mod progress;
@@ -39,6 +41,8 @@ pub fn run() -> ExitCode {
         args::Command::Analyze(a) => analyze::run(&args, a),
         args::Command::Search(a) => search::run(&args, a),
         args::Command::Verify(a) => verify::run(&args, a),
+        args::Command::Import(a) => import::run(&args, a),
+        args::Command::Export(a) => export::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::List => check::list(),
         args::Command::Show(a) => check::show(a),

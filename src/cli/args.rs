@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 /// A search engine for statically determinate mechanisms.
 ///
-/// FILE is a path to a mechanism file (TOML, or JSON with the ending .json), `-` for standard input, or the name of a
-/// built-in mechanism (see `ozols list`).
+/// FILE is a path to a mechanism file (TOML, or JSON with the ending .json) or to a robot description (.urdf, .xml,
+/// .sdf; see `ozols import` for more control), `-` for standard input, or the name of a built-in mechanism (see `ozols
+/// list`).
 #[derive(Debug, Parser)]
 #[command(
     name = "ozols",
@@ -20,13 +21,15 @@ Examples:
   ozols search gripper-10 --max-mobility 1    only those without idle links
   ozols show four-bar > mine.toml             a file to start from
   ozols check mine.toml                       what is wrong with it, if anything
-  ozols analyze mine.toml --certificate c.json && ozols verify mine.toml c.json"
+  ozols analyze mine.toml --certificate c.json && ozols verify mine.toml c.json
+  ozols import robot.urdf -o robot.toml       a mechanism file of a robot description
+  ozols export gripper-10 --to dot            its graph for Graphviz"
 )]
 pub(super) struct Args {
     /// What to do.
     #[command(subcommand)]
     pub(super) command: Command,
-    /// No progress bar.
+    /// No progress bar, no report of an import.
     #[arg(long, short, global = true)]
     pub(super) quiet: bool,
     /// Threads to use; all processors by default. Results do not depend on it.
@@ -45,6 +48,10 @@ pub(super) enum Command {
     Search(Search),
     /// Confirm the certificates of rank that `ozols analyze --certificate` wrote.
     Verify(Verify),
+    /// Make a mechanism file of a robot description: URDF, MJCF or SDF.
+    Import(Import),
+    /// Write a mechanism in another format: TOML, JSON, URDF, SDF, Graphviz DOT, GraphML.
+    Export(Export),
     /// Validate a file.
     Check(File),
     /// The built-in mechanisms.
@@ -53,6 +60,76 @@ pub(super) enum Command {
     Show(File),
     /// Print the JSON Schema of the mechanism file.
     Schema,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum ImportFormat {
+    Toml,
+    Json,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Import {
+    /// A robot description: URDF, MJCF or SDF, by its root element.
+    #[arg(value_name = "FILE")]
+    pub(super) file: String,
+    /// A file of loop closures (YAML, JSON or TOML): [[loop]] with a, b and type; robot.yaml of
+    /// example-parallel-robots; Drake's list of ball constraints.
+    #[arg(long, value_name = "SIDE")]
+    pub(super) loops: Option<PathBuf>,
+    /// Value of a joint in radians or metres: elbow=0.3 (repeatable); several with commas for joints of several
+    /// freedoms. Loops that are open there are closed from there.
+    #[arg(long, value_name = "JOINT=VALUE", allow_hyphen_values = true)]
+    pub(super) pose: Vec<String>,
+    /// Let a robot without a fixed link float: a joint of six freedoms to the world.
+    #[arg(long)]
+    pub(super) floating: bool,
+    /// SDF drawn in parts: every joint puts the frame that is its parent onto its child.
+    #[arg(long)]
+    pub(super) assemble: bool,
+    /// Take loops that are open in the given pose as they are.
+    #[arg(long)]
+    pub(super) open: bool,
+    /// The fixed link; the root by default.
+    #[arg(long, value_name = "LINK")]
+    pub(super) frame: Option<String>,
+    /// A link whose motion is the working motion (repeatable); the ends of chains by default.
+    #[arg(long, value_name = "LINK")]
+    pub(super) working_link: Vec<String>,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "toml")]
+    pub(super) format: ImportFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum ExportFormat {
+    /// The mechanism file, every joint with its own options.
+    Toml,
+    /// The same as JSON.
+    Json,
+    /// A spanning tree; loops as comments.
+    Urdf,
+    /// Loops closed by joints.
+    Sdf,
+    /// Graphviz.
+    Dot,
+    /// GraphML, for graph programs.
+    Graphml,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Export {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// The format.
+    #[arg(long, value_enum)]
+    pub(super) to: ExportFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
 }
 
 #[derive(Debug, ClapArgs)]
