@@ -94,6 +94,8 @@ pub fn decide(
     let real = Closure::new(&Reals, mechanism, state)?;
     let numeric =
         rank_with_tolerance(&real, tolerance).map_err(|e| NoAnswer::Failed(e.to_string()))?;
+    // What rounding and noise leave of a zero says how well poses can close.
+    let accuracy = (10.0 * numeric.dropped).clamp(1e-16, tolerance);
     let second = Qr::<f64>::with_tolerance(tolerance).rank(&real);
     let doubt = if second.rank == numeric.rank {
         String::new()
@@ -118,7 +120,7 @@ pub fn decide(
         line,
     };
     if numeric.rank == as_written {
-        let found = finite_within(&exact, mechanism, &closure, as_written, Some(tolerance))?;
+        let found = finite_within(&exact, mechanism, &closure, as_written, Some(accuracy))?;
         let line = format!("{why}; exact rank as written and {gap} agree{doubt}{needed}");
         return Ok(base(
             Geometry::MeasuredAgreeing(measured),
@@ -143,7 +145,7 @@ pub fn decide(
             &snapped.mechanism,
             &snapped_closure,
             snapped_rank,
-            Some(tolerance),
+            Some(accuracy),
         )?;
         let line = format!(
             "{why}; snapped within {tolerance:.0e} ({} changes), exact rank then; {gap} agree{doubt}; {both}",
@@ -160,7 +162,7 @@ pub fn decide(
             line,
         ));
     }
-    let found = followed(mechanism, state, freedoms - numeric.rank, tolerance)?;
+    let found = followed(mechanism, state, freedoms - numeric.rank, accuracy)?;
     let line = format!("{why}; {gap}{doubt}; {both}");
     Ok(base(
         Geometry::Measured(measured),

@@ -4,7 +4,7 @@ use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactError;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
-use crate::rank::scaled::scaled;
+use crate::rank::scaled::{POINT, scaled};
 use crate::redundancy::share::ContourShare;
 use faer::Mat;
 
@@ -152,7 +152,7 @@ fn scale_of(closure: &Closure<f64>) -> Scale {
                 .fold(0.0, f64::max)
         })
         .fold(0.0, f64::max);
-    let arm = if arm > 0.0 { arm } else { 1.0 };
+    let arm = if arm > POINT { arm } else { 1.0 };
     let columns = closure
         .columns
         .iter()

@@ -9,6 +9,7 @@ mod cli;
 mod contours;
 mod exports;
 mod layering;
+mod mobility;
 mod published;
 mod robot_bytes;
 mod robot_mjcf;
