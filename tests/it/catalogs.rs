@@ -18,7 +18,10 @@ fn every_built_in_mechanism_has_the_figures_it_states() {
         );
         for e in &m.expected {
             let (Some(w), Some(finite)) = (e.mobility, e.finite_mobility) else {
-                panic!("{name} {} states no mobility or no finite mobility", e.state);
+                panic!(
+                    "{name} {} states no mobility or no finite mobility",
+                    e.state
+                );
             };
             assert!(
                 (0..=w).contains(&finite),
