@@ -8,5 +8,6 @@ mod cli;
 mod contours;
 mod layering;
 mod published;
+mod stroke;
 mod twin;
 mod varied;
