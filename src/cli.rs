@@ -9,6 +9,7 @@ mod output;
 mod progress;
 mod question;
 mod search;
+mod verify;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -22,7 +23,7 @@ enum Done {
     Nothing,
 }
 
-/// Runs the program. Exit codes: 0 done, 1 nothing found, 2 bad input or failure.
+/// Runs the program. Exit codes: 0 done, 1 nothing found or a certificate rejected, 2 bad input or failure.
 #[must_use]
 pub fn run() -> ExitCode {
     let args = match args::Args::try_parse() {
@@ -37,6 +38,7 @@ pub fn run() -> ExitCode {
     let result = prepare(&args).and_then(|()| match &args.command {
         args::Command::Analyze(a) => analyze::run(&args, a),
         args::Command::Search(a) => search::run(&args, a),
+        args::Command::Verify(a) => verify::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::List => check::list(),
         args::Command::Show(a) => check::show(a),

@@ -7,6 +7,10 @@ pub mod numeric;
 pub mod second_order;
 pub mod subgroup;
 pub mod trace;
+pub mod certificate;
+mod kernel;
+pub mod rational;
+pub mod reconstruct;
 
 /// How sure an answer is.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -19,7 +19,8 @@ Examples:
   ozols search gripper-10                     the best statically determinate redesigns
   ozols search gripper-10 --max-mobility 1    only those without idle links
   ozols show four-bar > mine.toml             a file to start from
-  ozols check mine.toml                       what is wrong with it, if anything"
+  ozols check mine.toml                       what is wrong with it, if anything
+  ozols analyze mine.toml --certificate c.json && ozols verify mine.toml c.json"
 )]
 pub(super) struct Args {
     /// What to do.
@@ -42,6 +43,8 @@ pub(super) enum Command {
     Analyze(Analyze),
     /// Every redesign that removes the redundant constraints: exact counts and the best ones.
     Search(Search),
+    /// Confirm the certificates of rank that `ozols analyze --certificate` wrote.
+    Verify(Verify),
     /// Validate a file.
     Check(File),
     /// The built-in mechanisms.
@@ -91,6 +94,21 @@ pub(super) struct Analyze {
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
+    /// Also write a proof of each state's rank to a JSON file, for `ozols verify`.
+    #[arg(long, value_name = "FILE")]
+    pub(super) certificate: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Verify {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// The certificates, as written by `ozols analyze FILE --certificate CERTIFICATES`.
+    #[arg(value_name = "CERTIFICATES")]
+    pub(super) certificates: PathBuf,
+    /// The certificates were made with `analyze --planar`.
+    #[arg(long)]
+    pub(super) planar: bool,
 }
 
 fn ozols_tolerance() -> f64 {

@@ -33,7 +33,7 @@ pub struct Closure<N> {
     pub left_out: Vec<(JointId, usize)>,
 }
 
-impl<N: Copy + Default + PartialEq> Closure<N> {
+impl<N: Clone + Default + PartialEq> Closure<N> {
     /// Builds J of a state in a number system.
     ///
     /// # Errors
@@ -97,8 +97,12 @@ impl<N: Copy + Default + PartialEq> Closure<N> {
         let mut out = vec![N::default(); self.dim * contours.len()];
         for (row, &k) in contours.iter().enumerate() {
             if let Some(forward) = self.contours[k].direction(column.joint) {
-                for (o, &t) in out[row * self.dim..].iter_mut().zip(&column.twist) {
-                    *o = if forward { t } else { s.sub(N::default(), t) };
+                for (o, t) in out[row * self.dim..].iter_mut().zip(&column.twist) {
+                    *o = if forward {
+                        t.clone()
+                    } else {
+                        s.sub(N::default(), t.clone())
+                    };
                 }
             }
         }
@@ -126,7 +130,11 @@ impl<N: Copy + Default + PartialEq> Closure<N> {
             .iter()
             .map(|c| match path.iter().find(|(j, _)| *j == c.joint) {
                 Some((_, true)) => c.twist.clone(),
-                Some((_, false)) => c.twist.iter().map(|&t| s.sub(N::default(), t)).collect(),
+                Some((_, false)) => c
+                    .twist
+                    .iter()
+                    .map(|t| s.sub(N::default(), t.clone()))
+                    .collect(),
                 None => vec![N::default(); self.dim],
             })
             .collect()
@@ -134,6 +142,9 @@ impl<N: Copy + Default + PartialEq> Closure<N> {
 }
 
 /// Joints on a shortest path from the frame to a link, with the direction they are passed in; empty where there is none.
+///
+/// # Complexity
+/// O(n + m) for n links, m joints.
 #[must_use]
 pub fn path_from_frame(
     mechanism: &Mechanism,
@@ -141,10 +152,16 @@ pub fn path_from_frame(
     link: LinkId,
 ) -> Vec<(JointId, bool)> {
     let frame = mechanism.frame();
+    let mut joints_at: Vec<Vec<JointId>> = vec![Vec::new(); mechanism.links.len()];
+    for j in mechanism.joints_in(state) {
+        for end in mechanism.joints[j].links {
+            joints_at[end].push(j);
+        }
+    }
     let mut came: Vec<Option<(JointId, bool)>> = vec![None; mechanism.links.len()];
     let mut queue = std::collections::VecDeque::from([frame]);
     while let Some(at) = queue.pop_front() {
-        for j in mechanism.joints_in(state) {
+        for &j in &joints_at[at] {
             let [a, b] = mechanism.joints[j].links;
             for (from, to, forward) in [(a, b, true), (b, a, false)] {
                 if from == at && to != frame && came[to].is_none() {

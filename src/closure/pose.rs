@@ -341,7 +341,7 @@ impl Pose {
                 best = (residual, q.clone());
             }
             // The last steps are for free: Newton's are quadratic, unless the pose is singular.
-            if residual < 1e-15 || !residual.is_finite() {
+            if residual < 1e-14 || !residual.is_finite() {
                 break;
             }
             let mut jacobian = self.jacobian(&q);
@@ -468,7 +468,7 @@ fn meeting_point(w0: [f64; 3], v0: [f64; 3], w1: [f64; 3], v1: [f64; 3]) -> [f64
 /// [Yamashita & Fukushima 2001].
 fn least_norm(jacobian: &Mat<f64>, gaps: &[f64], residual: f64) -> Vec<f64> {
     let (rows, columns) = jacobian.shape();
-    let damping = residual.clamp(1e-15, 1e-2);
+    let damping = residual.clamp(1e-11, 1e-2);
     let stacked = Mat::from_fn(rows + columns, columns, |r, c| match r.checked_sub(rows) {
         None => jacobian[(r, c)],
         Some(i) if i == c => damping,

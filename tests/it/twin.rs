@@ -265,7 +265,7 @@ const AXES: [[i32; 3]; 6] = [
 ];
 
 /// A random mechanism file with a few contours, sometimes with a clamped object.
-fn random() -> impl Strategy<Value = String> {
+pub(crate) fn random() -> impl Strategy<Value = String> {
     let joint = (
         0usize..6,
         prop::array::uniform3(-3i32..4),
