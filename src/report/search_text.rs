@@ -260,7 +260,10 @@ fn opinions(out: &mut String, summary: &Summary) {
     let verdict = if wrong == 0 {
         format!("Singular values agree on {which}")
     } else {
-        format!("Singular values disagree on {wrong} of {which}")
+        format!(
+            "Singular values disagree on {wrong} of {}",
+            which.trim_start_matches("all ")
+        )
     };
     // Writing to a string cannot fail.
     let _ = writeln!(out, "\n  {verdict} (cond.: the smallest over the largest)");
