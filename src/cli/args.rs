@@ -300,6 +300,13 @@ pub(super) struct Search {
     /// Diagram, or brute force for checking.
     #[arg(long, value_enum, default_value = "diagram")]
     pub(super) method: SearchMethod,
+    /// Look at each variant given, up to 1000, in N further poses of the present motion, and mark those whose W, σ or
+    /// output motion is not right there.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(super) poses: usize,
+    /// Leave out the variants that further poses (3 unless --poses says otherwise) show to be lucky.
+    #[arg(long)]
+    pub(super) generic_only: bool,
     /// Search a file whose coordinates look measured exactly as it is written, though rounding errors in it change the
     /// figures.
     #[arg(long)]

@@ -16,6 +16,7 @@ mod robot_mjcf;
 mod robot_models;
 mod robot_sdf;
 mod robots;
+mod stroke;
 mod structure;
 mod twin;
 mod varied;
