@@ -54,3 +54,4 @@ pub mod rank;
 pub mod redundancy;
 pub mod report;
 pub mod search;
+pub mod workload;

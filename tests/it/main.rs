@@ -7,4 +7,5 @@ mod cli;
 mod contours;
 mod layering;
 mod published;
+mod statics;
 mod twin;
