@@ -284,10 +284,7 @@ impl Placement {
             reached.push(at);
             for (q, entry) in self.of_pair.iter().enumerate() {
                 let Some((ends, given)) = entry else { continue };
-                for h in 0..2 {
-                    if given[h] != at {
-                        continue;
-                    }
+                for (h, _) in given.iter().enumerate().filter(|(_, g)| **g == at) {
                     let to = if ends[0] == at { ends[1] } else { ends[0] };
                     if to != held && came[to].is_none() {
                         came[to] = Some((q, h, Some(at)));
