@@ -259,7 +259,7 @@ pub(super) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findi
             );
         }
         let Some(link) = mechanism.link(&f.link) else {
-            let known = mechanism.links.iter().take(30).map(|l| l.id.as_str());
+            let mut known = mechanism.links.iter().take(30).map(|l| l.id.as_str());
             let known = known.join(", ");
             let id = f.link.clone();
             out.add(&key(&at, "link"), ProblemKind::UnknownLink { id, known });
