@@ -1,5 +1,6 @@
 //! Statics of planar mechanisms: structure, motion, reactions.
 
+mod cycle;
 mod structure;
 
 use ozols::import::text::mechanism_from_str;
@@ -74,4 +75,20 @@ pub(crate) fn planar(joints: &[J]) -> PlanarMechanism {
 
 pub(crate) fn pair(m: &PlanarMechanism, name: &str) -> PairId {
     m.pairs.iter().position(|p| p.name == name).unwrap()
+}
+
+pub(crate) fn shears() -> &'static str {
+    ozols::builtin::text("parallel-shears").unwrap()
+}
+
+pub(crate) fn four_bar_file() -> String {
+    file(
+        &[
+            r("0", "1", 0.0, 0.0),
+            r("1", "2", 0.0, 1.0),
+            r("2", "3", 3.0, 3.0),
+            r("3", "0", 4.0, 0.0),
+        ],
+        "",
+    )
 }
