@@ -2,8 +2,12 @@
 
 pub mod assur;
 pub mod assur_class;
+pub mod contour_group;
+pub mod delta_point;
 mod dense;
+pub mod group_equilibrium;
 pub mod kinetostatics;
 pub mod planar;
 pub mod planar_motion;
 pub mod pose;
+pub mod projective;
