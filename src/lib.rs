@@ -34,7 +34,7 @@
 //! # Layers
 //!
 //! linalg, geom -> model -> closure -> import, rank -> redundancy -> search -> report -> cli. Imports go one way; a test
-//! holds them to it.
+//! holds them to it. [`chart`] draws finished numbers and imports nothing.
 //!
 //! # Sources
 //!
@@ -44,6 +44,7 @@
 //!   Comput. 16, 1987.
 
 pub mod builtin;
+pub mod chart;
 pub mod cli;
 pub mod closure;
 pub mod geom;
