@@ -11,3 +11,5 @@ pub mod planar;
 pub mod planar_motion;
 pub mod pose;
 pub mod projective;
+pub mod stability;
+pub mod statics;
