@@ -233,6 +233,9 @@ pub(super) struct Statics {
     /// A state named in the file.
     #[arg(long, default_value = "free")]
     pub(super) state: String,
+    /// Model the mechanism in its plane (normal z), whatever the file says.
+    #[arg(long)]
+    pub(super) planar: bool,
     /// Only the Assur groups, under each possible drive.
     #[arg(long, conflicts_with_all = ["stability", "svg", "stroke"])]
     pub(super) groups: bool,

@@ -3,9 +3,10 @@
 use super::args::{Args, Statics, StaticsFormat, StaticsMethod};
 use super::{Done, load, output};
 use crate::chart::page;
+use crate::geom::expr::Expr;
 use crate::import::loads::{MAX_STEPS, position};
 use crate::model::loads::Stroke;
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, Mode};
 use crate::report::statics_charts::{self, Named};
 use crate::report::statics_words::GroupMethod;
 use crate::report::words::table;
@@ -24,7 +25,12 @@ use std::path::Path;
 const GROUPS: usize = 9;
 
 pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
-    let m = load::mechanism(a.file.as_deref().unwrap_or("parallel-shears"))?;
+    let mut m = load::mechanism(a.file.as_deref().unwrap_or("parallel-shears"))?;
+    if a.planar {
+        m.mode = Mode::Planar {
+            normal: [0, 0, 1].map(Expr::from),
+        };
+    }
     let Some(state) = m.states.iter().position(|s| *s == a.state) else {
         bail!(
             "{} has no state {}; it has: {}",
@@ -147,7 +153,11 @@ fn write_charts(folder: &Path, title: &str, charts: &[Named]) -> anyhow::Result<
     for (name, chart) in charts {
         let svg = chart.svg();
         write(&format!("{name}.svg"), &svg)?;
-        write(&format!("{name}.csv"), &chart.csv())?;
+        let mut table = chart.clone();
+        for series in &mut table.series {
+            series.points.retain(|p| p.1.is_finite());
+        }
+        write(&format!("{name}.csv"), &table.csv())?;
         parts.push((chart.title.clone(), chart.subtitle.clone(), svg));
     }
     write("index.html", &page(title, &parts))?;

@@ -117,11 +117,20 @@ fn write_statics(
     if !d.groups.is_empty() {
         writeln!(out, "{}\n", groups(m, d, &s.conditions, width))?;
     }
-    for (i, (index, _)) in s.contour_groups.iter().enumerate() {
+    let loaded = s.moments.iter().any(|x| !x.loads.is_empty());
+    for (i, (index, _)) in s.contour_groups.iter().enumerate().filter(|_| loaded) {
         group_table(out, s, i, *index, methods, width)?;
     }
-    joints(out, s, width)?;
-    summary(out, s, methods)?;
+    let loads = &s.loads;
+    if loads.forces.is_empty() && loads.masses.iter().all(Option::is_none) {
+        writeln!(
+            out,
+            "The file states no loads: give links a mass and centre, or forces under [[workload.force]]."
+        )?;
+    } else {
+        joints(out, s, width)?;
+        summary(out, s, methods)?;
+    }
     if let Some(dead) = &s.dead {
         let who = dead.group.map_or_else(
             || "the drives".to_owned(),

@@ -23,7 +23,7 @@ pub enum PlanarError {
     /// A joint moves out of the plane.
     #[error(
         "joint \"{joint}\" moves out of the plane of motion; statics is planar: use revolute, prismatic and slotted \
-         joints in parallel planes, or mode = \"planar\""
+         joints in parallel planes, or mode = \"planar\" (--planar)"
     )]
     NotPlanar {
         /// The joint.

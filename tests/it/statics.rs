@@ -1,7 +1,9 @@
 //! Statics of planar mechanisms: structure, motion, reactions.
 
+mod command;
 mod cycle;
 mod reactions;
+mod stability;
 mod structure;
 
 use ozols::import::text::mechanism_from_str;
