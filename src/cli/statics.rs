@@ -11,12 +11,10 @@ use crate::report::statics_charts::{self, Named};
 use crate::report::statics_words::GroupMethod;
 use crate::report::words::table;
 use crate::report::{statics_data, statics_text};
-use crate::workload::assur::alternatives;
 use crate::workload::contour_group::GroupPose;
 use crate::workload::kinetostatics::Source;
-use crate::workload::planar::PlanarMechanism;
 use crate::workload::stability::{Failure, Sample, distances, samples};
-use crate::workload::statics::statics;
+use crate::workload::statics::{statics, structures};
 use anyhow::{Context, bail};
 use rayon::prelude::*;
 use std::path::Path;
@@ -113,16 +111,15 @@ fn stroke(text: &str) -> anyhow::Result<Stroke> {
 }
 
 fn groups(m: &Mechanism, state: usize, a: &Statics) -> anyhow::Result<Done> {
-    let planar = PlanarMechanism::new(m, state)?;
-    let found = alternatives(&planar, &planar.drives());
-    let any = found.iter().any(|(_, d)| d.is_ok());
+    let (planar, found) = structures(m, state)?;
+    let any = found.iter().any(|x| x.found.is_ok());
     output::to(a.output.as_deref(), |out| {
         match a.format {
             StaticsFormat::Json => {
                 writeln!(
                     out,
                     "{:#}",
-                    statics_data::alternatives(&m.name, &planar, &found)
+                    statics_data::structures(&m.name, &planar, &found)
                 )?;
             }
             StaticsFormat::Csv => bail!("--groups has no CSV; use --format json"),
@@ -131,7 +128,7 @@ fn groups(m: &Mechanism, state: usize, a: &Statics) -> anyhow::Result<Done> {
                 write!(
                     out,
                     "{}",
-                    statics_text::alternatives(&m.name, &planar, &found, width)
+                    statics_text::structures(&m.name, &planar, &found, width)
                 )?;
             }
         }

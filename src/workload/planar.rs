@@ -143,6 +143,8 @@ pub struct PlanarMechanism {
     pub axes: [[f64; 3]; 3],
     /// Metres in a length unit of the file.
     pub metres: f64,
+    /// Symbol of that unit.
+    pub unit: &'static str,
 }
 
 fn unit(v: [f64; 3]) -> [f64; 3] {
@@ -178,6 +180,7 @@ impl PlanarMechanism {
             frame: 0,
             axes: [x, Reals.cross(normal, x), normal],
             metres: m.length_unit.metres,
+            unit: m.length_unit.symbol,
         };
         let mut body_of = vec![None; m.links.len()];
         for (l, link) in m.links.iter().enumerate() {
