@@ -113,7 +113,9 @@ pub fn statics(
     };
     let stated = mechanism.loads.drive_speeds.iter().enumerate();
     let speeds: Vec<f64> = stated.map(|(i, s)| s * unit(i)).collect();
-    let slides = unit(0) != 1.0;
+    let slides = drives
+        .first()
+        .is_some_and(|&p| linkage.mechanism.pairs[p].kind == PairKind::Sliding);
     let loads = PlanarLoads::new(mechanism, &linkage, slides);
     let positions: Vec<f64> = match stroke {
         None => vec![0.0],
