@@ -2,6 +2,7 @@
 
 mod command;
 mod cycle;
+mod enumeration;
 mod reactions;
 mod stability;
 mod structure;
