@@ -208,7 +208,7 @@ fn stability(
     output::to(None, |out| {
         writeln!(
             out,
-            "Largest relative error against exact arithmetic, by distance from the failure\n"
+            "Relative error against exact arithmetic by distance from each failure, median of {GROUPS} groups\n"
         )?;
         let header = [
             "failure", "figure", "method", "1", "1e-3", "1e-6", "1e-9", "1e-12", "1e-15",
