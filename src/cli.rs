@@ -1,13 +1,16 @@
 //! The command line: arguments as data, one file per command, three exit codes.
 
 mod analyze;
+mod answer;
 mod args;
 mod check;
 mod load;
 mod output;
 mod progress;
+mod question;
 mod search;
 mod statics;
+mod verify;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -21,7 +24,7 @@ enum Done {
     Nothing,
 }
 
-/// Runs the program. Exit codes: 0 done, 1 nothing found, 2 bad input or failure.
+/// Runs the program. Exit codes: 0 done, 1 nothing found or a certificate rejected, 2 bad input or failure.
 #[must_use]
 pub fn run() -> ExitCode {
     let args = match args::Args::try_parse() {
@@ -37,6 +40,7 @@ pub fn run() -> ExitCode {
         args::Command::Analyze(a) => analyze::run(&args, a),
         args::Command::Search(a) => search::run(&args, a),
         args::Command::Statics(a) => statics::run(&args, a),
+        args::Command::Verify(a) => verify::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::List => check::list(),
         args::Command::Show(a) => check::show(a),

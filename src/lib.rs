@@ -33,8 +33,8 @@
 //!
 //! # Layers
 //!
-//! linalg, geom -> model -> closure -> import, rank, workload -> redundancy -> search -> report -> cli. Imports go one way; a test
-//! holds them to it. [`chart`] draws finished numbers and imports nothing.
+//! linalg -> geom, verify -> model -> closure -> import, rank, workload -> redundancy -> search -> report -> cli. Imports go
+//! one way; a test holds them to it. [`chart`] draws finished numbers and imports nothing.
 //!
 //! # Sources
 //!
@@ -58,4 +58,5 @@ pub mod rank;
 pub mod redundancy;
 pub mod report;
 pub mod search;
+pub mod verify;
 pub mod workload;

@@ -5,4 +5,5 @@
 
 pub mod joint_type;
 pub mod loads;
+pub mod measured;
 pub mod mechanism;

@@ -3,9 +3,13 @@
 
 mod bytes;
 mod catalogs;
+mod certificates;
+mod certify;
 mod cli;
 mod contours;
 mod layering;
 mod published;
 mod statics;
+mod structure;
 mod twin;
+mod varied;
