@@ -11,6 +11,7 @@ mod output;
 mod progress;
 mod question;
 mod search;
+mod statics;
 mod verify;
 
 use clap::Parser;
@@ -40,6 +41,7 @@ pub fn run() -> ExitCode {
     let result = prepare(&args).and_then(|()| match &args.command {
         args::Command::Analyze(a) => analyze::run(&args, a),
         args::Command::Search(a) => search::run(&args, a),
+        args::Command::Statics(a) => statics::run(&args, a),
         args::Command::Verify(a) => verify::run(&args, a),
         args::Command::Import(a) => import::run(&args, a),
         args::Command::Export(a) => export::run(&args, a),

@@ -4,5 +4,6 @@
 //! Text formats live in `import`; nothing here reads a file.
 
 pub mod joint_type;
+pub mod loads;
 pub mod measured;
 pub mod mechanism;

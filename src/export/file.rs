@@ -1,6 +1,7 @@
 //! A mechanism as the entries of its file, exactly.
 
 use crate::geom::expr::Expr;
+use crate::import::loads::WorkloadEntry;
 use crate::import::schema::{
     ContourEntry, Coordinate, ExpectedEntry, JointEntry, LinkEntry, MechanismFile, OptionEntry,
     OptionTable, SearchEntry, Unloading, Words,
@@ -30,6 +31,9 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
             .map(|l| LinkEntry {
                 id: l.id.clone(),
                 role: role(l.role).map(ToOwned::to_owned),
+                mass: None,
+                centre: None,
+                inertia: None,
             })
             .collect(),
         joint: m.joints.iter().map(|j| joint(m, j)).collect(),
@@ -39,6 +43,7 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
             .map(|c| ContourEntry { joints: ids(c) })
             .collect(),
         search: search(m),
+        workload: WorkloadEntry::default(),
         expected: m.expected.iter().map(expected).collect(),
     }
 }

@@ -37,6 +37,7 @@ impl Search<'_> {
                 links.push(Link {
                     id: format!("{} pad", joint.id),
                     role: Role::Inner,
+                    mass: None,
                 });
                 let at = old.joints.len() + inserted.len();
                 for contour in contours.iter_mut().filter(|c| c.contains(&joints.len())) {
@@ -58,6 +59,7 @@ impl Search<'_> {
             states: old.states.clone(),
             contours,
             search: Default::default(),
+            loads: old.loads.clone(),
             expected: Vec::new(),
         }
     }

@@ -10,7 +10,7 @@
 //! singular one, where more seems to move, and to bind, than does.
 
 use crate::closure::matrix::path_from_frame;
-use crate::closure::pose::{CLOSED, Pose};
+use crate::closure::pose::Pose;
 use crate::geom::exact::ExactError;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism};
@@ -107,7 +107,7 @@ impl Search<'_> {
             let reached = steps
                 .map(|s| (s, along.iter().map(|x| x * s).collect::<Vec<f64>>()))
                 .find_map(|(s, q)| {
-                    let q = pose.close(q, &[], CLOSED).ok()?;
+                    let q = pose.close(q, &[]).ok()?;
                     let moved = q.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
                     (moved > BACK * (s * largest).abs()).then_some(q)
                 });
@@ -172,7 +172,7 @@ impl Search<'_> {
             .iter()
             .map(|c| moved(c.joint, c.freedom))
             .collect();
-        let q = pose.close(q, &[], CLOSED).ok()?;
+        let q = pose.close(q, &[]).ok()?;
         self.figures_at(m, &pose.moved(&q))
     }
 

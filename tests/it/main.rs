@@ -17,6 +17,7 @@ mod robot_models;
 mod robot_sdf;
 mod robots;
 mod stroke;
+mod statics;
 mod structure;
 mod twin;
 mod varied;
