@@ -314,6 +314,10 @@ pub(super) struct Search {
     /// figures.
     #[arg(long)]
     pub(super) as_written: bool,
+    /// Make axes exactly parallel, square, coaxial or concurrent that are so to within T (radians, and fractions of the
+    /// largest coordinate), for files whose coordinates were measured or rounded; lists what was moved.
+    #[arg(long, value_name = "T")]
+    pub(super) snap: Option<f64>,
     /// How the search is checked.
     #[arg(long, value_enum, default_value = "full")]
     pub(super) check: Check,

@@ -7,6 +7,7 @@ use super::{Done, load, output, progress};
 use crate::model::measured::Measured;
 use crate::rank::measured::Verdicts;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
+use crate::rank::snap::snap;
 use crate::redundancy::analysis::exact_field;
 use crate::report::search_json::Found;
 use crate::search::best::Variant;
@@ -29,6 +30,17 @@ const BRUTE_LIMIT: u64 = 1 << 32;
 
 pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file.file)?;
+    if let Some(tolerance) = a.snap {
+        ensure!(
+            tolerance > 0.0 && tolerance < 1.0,
+            "--snap must be between 0 and 1"
+        );
+        let snapped = snap(&mechanism, tolerance);
+        for moved in &snapped.moved {
+            eprintln!("snapped: {moved}");
+        }
+        mechanism = snapped.mechanism;
+    }
     restrict(&mut mechanism, a)?;
     let state = state(&mechanism, a)?.map(|(s, _)| s);
     let measured = measured(&mechanism, state, a.as_written)?;

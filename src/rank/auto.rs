@@ -66,18 +66,19 @@ pub fn decide(
 ) -> Result<Decision, NoAnswer> {
     let exact = field_of(mechanism, state, 0)?;
     let closure = Closure::new(&exact, mechanism, state)?;
-    let as_written = modular::rank(&exact, &closure);
     let freedoms = closure.columns.len();
     let group = whole_group(&exact, mechanism, state)?;
-    let needed = if closure.contours.is_empty() || closure.dim == group.dimension() {
-        String::new()
+    let (as_written, needed) = if closure.contours.is_empty() || closure.dim == group.dimension() {
+        (modular::rank(&exact, &closure), String::new())
     } else {
-        format!(
-            "; all joints move in {}, so {} of the {} rows per contour are always redundant",
+        let left_out = closure.dim - group.dimension();
+        let line = format!(
+            "; all joints move in {}, so {} rows per contour do; left out: {left_out} of {}, redundant whatever the rest",
             group.name(),
-            closure.dim - group.dimension(),
+            group.dimension(),
             closure.dim
-        )
+        );
+        (modular::rank(&exact, &group.rows_of(&closure)), line)
     };
     let Some(measured) = looks_measured(mechanism) else {
         return Ok(Decision {

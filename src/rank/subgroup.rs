@@ -7,6 +7,7 @@
 //! manifold of dimension f - rank J: the instantaneous mobility is then the finite one, proven, whatever σ is.
 
 use crate::closure::contour::Contour;
+use crate::closure::matrix::{Closure, Column};
 use crate::closure::twist::FrameValues;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::scalars::Scalars;
@@ -136,9 +137,29 @@ pub struct Group {
     turns: usize,
     slides: usize,
     across: bool,
+    /// Components of a twist that tell all the others: pivots of the algebra.
+    pivots: Vec<usize>,
 }
 
 impl Group {
+    /// J with one row per dimension of the group and contour: the other components of its twists are combinations of
+    /// these, the same for every column, so the rank is the same.
+    #[must_use]
+    pub fn rows_of(&self, closure: &Closure<Residue>) -> Closure<Residue> {
+        Closure {
+            dim: self.dimension,
+            columns: closure
+                .columns
+                .iter()
+                .map(|c| Column {
+                    twist: self.pivots.iter().map(|&p| c.twist[p]).collect(),
+                    ..c.clone()
+                })
+                .collect(),
+            ..closure.clone()
+        }
+    }
+
     /// Its dimension, at most 6.
     #[must_use]
     pub fn dimension(&self) -> usize {
@@ -189,6 +210,7 @@ pub fn whole_group(
             turns: 1,
             slides: 2,
             across: true,
+            pivots: vec![0, 1, 2],
         });
     }
     let joints = mechanism.joints_in(state).map(|j| (j, true));
@@ -216,11 +238,21 @@ pub fn whole_group(
         .reduced()
         .first()
         .map_or([0; 3], |t| [t[0], t[1], t[2]]);
+    let mut whole = Echelon::new(field);
+    basis.iter().for_each(|t| {
+        whole.insert(t);
+    });
+    let pivots = whole
+        .reduced()
+        .iter()
+        .filter_map(|row| row.iter().position(|&x| x != 0))
+        .collect();
     let across = slides.iter().all(|&v| exact.dot(v, axis) == 0);
     Ok(Group {
         dimension: basis.len(),
         turns: turns.rank(),
         slides: slides.len(),
         across,
+        pivots,
     })
 }

