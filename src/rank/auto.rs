@@ -5,6 +5,7 @@ use super::finite::{Finite, finite, finite_within, followed};
 use super::method::{Answer, Certainty as Sure, MobilityMethod, NoAnswer, Quantity};
 use super::numeric::{NumericRank, rank_with_tolerance};
 use super::qr::Qr;
+use super::scaled::scaled;
 use super::snap::snap;
 use super::subgroup::whole_group;
 use super::{field_of, modular};
@@ -97,7 +98,7 @@ pub fn decide(
         rank_with_tolerance(&real, tolerance).map_err(|e| NoAnswer::Failed(e.to_string()))?;
     // What rounding and noise leave of a zero says how well poses can close.
     let accuracy = (10.0 * numeric.dropped).clamp(1e-16, tolerance);
-    let second = Qr::<f64>::with_tolerance(tolerance).rank(&real);
+    let second = Qr::<f64>::with_tolerance(tolerance).rank_of(&scaled(&real));
     let doubt = if second.rank == numeric.rank {
         String::new()
     } else {

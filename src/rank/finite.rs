@@ -10,9 +10,9 @@ use crate::linalg::modp::Residue;
 use crate::model::mechanism::{Mechanism, StateId};
 
 /// Work of one closing, rows² · columns, up to which a pose is followed at all.
-const LARGEST: usize = 600 * 600 * 500;
+const LARGEST: usize = 30_000_000;
 /// Work of all closings together.
-const WORK: usize = 20_000_000_000;
+const WORK: usize = 5_000_000_000;
 
 /// Why a finite mobility is what it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -177,7 +177,7 @@ pub fn followed(
     if work > LARGEST {
         return Ok(bound);
     }
-    let budget = (WORK / work.max(1)).clamp(200, 20_000);
+    let budget = (WORK / work.max(1)).clamp(40, 20_000);
     Ok(trace::mobility(&pose, budget).map_or(bound, |t| Finite {
         mobility: t.mobility.min(instantaneous),
         how: How::Traced {

@@ -7,6 +7,7 @@ use super::scaled::{
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
+use faer::Mat;
 use std::marker::PhantomData;
 
 /// QR factors with column pivoting.
@@ -30,10 +31,16 @@ impl<T: Precision> Qr<T> {
         }
     }
 
-    /// The rank of J.
+    /// The rank of J as it stands.
     #[must_use]
     pub fn rank(&self, closure: &Closure<f64>) -> NumericRank {
-        let matrix = in_format::<T>(&as_it_stands(closure));
+        self.rank_of(&as_it_stands(closure))
+    }
+
+    /// The rank of any matrix.
+    #[must_use]
+    pub fn rank_of(&self, matrix: &Mat<f64>) -> NumericRank {
+        let matrix = in_format::<T>(matrix);
         let values = if matrix.nrows() == 0 || matrix.ncols() == 0 {
             Vec::new()
         } else {

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 fn read(name: &str, bytes: &[u8]) {
     match mechanism_from_bytes(name, bytes) {
         Ok(m) if m.joints.len() < 20 => {
-            let _ = analyse(&m, &[0], Method::Modular);
+            let _ = analyse(&m, &[0], Method::Auto { tolerance: None });
         }
         Ok(_) => {}
         Err(e) => {
