@@ -1,5 +1,6 @@
 //! The command line: arguments as data, one file per command, three exit codes.
 
+mod accuracy;
 mod analyze;
 mod answer;
 mod args;
@@ -39,6 +40,7 @@ pub fn run() -> ExitCode {
         args::Command::Analyze(a) => analyze::run(&args, a),
         args::Command::Search(a) => search::run(&args, a),
         args::Command::Verify(a) => verify::run(&args, a),
+        args::Command::Accuracy(a) => accuracy::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::List => check::list(),
         args::Command::Show(a) => check::show(a),

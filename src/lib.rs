@@ -33,7 +33,7 @@
 //!
 //! # Layers
 //!
-//! linalg -> geom, verify -> model -> closure -> import, rank -> redundancy -> search -> report -> cli. Imports go one way;
+//! linalg -> geom, verify -> model -> closure -> import, rank -> redundancy -> search -> accuracy -> report -> cli. Imports go one way;
 //! a test holds them to it. [`chart`] draws finished numbers and imports nothing.
 //!
 //! # Sources
@@ -43,6 +43,7 @@
 //! - `[Horton 1987]` J. D. Horton, "A polynomial-time algorithm to find the shortest cycle basis of a graph", SIAM J.
 //!   Comput. 16, 1987.
 
+pub mod accuracy;
 pub mod builtin;
 pub mod chart;
 pub mod cli;
