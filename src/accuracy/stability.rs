@@ -1,7 +1,16 @@
 //! Where numbers fail: geometry, size, scale, noise and tolerance moved until answers turn wrong.
 
+pub mod change;
+mod distance;
+mod noise;
+pub mod numeric;
+mod scale;
+mod size;
+pub mod sweep;
+mod tolerance;
+
 use super::survey::Case;
-use crate::geom::exact::ExactError;
+use crate::import::problem::ImportError;
 
 /// A series of experiments with what it shows.
 #[derive(Debug, Clone)]
@@ -27,14 +36,28 @@ pub struct Effort {
     pub seed: u64,
 }
 
-/// Every study in turn; `progress` gets the study under way, the steps done and their number.
+/// Is told the study under way, the steps done and their number.
+pub type Progress<'a> = &'a mut dyn FnMut(&str, usize, usize);
+
+/// Every study in turn.
 ///
 /// # Errors
-/// Where the exact truth cannot be had.
+/// Where a built-in file is not valid.
 pub fn all(
-    _cases: &[Case],
-    _effort: Effort,
-    _progress: &mut dyn FnMut(&str, usize, usize),
-) -> Result<Vec<Study>, ExactError> {
-    Ok(Vec::new())
+    cases: &[Case],
+    effort: Effort,
+    progress: Progress<'_>,
+) -> Result<Vec<Study>, ImportError> {
+    let some: Vec<Case> = cases
+        .iter()
+        .step_by(if effort.quick { 4 } else { 1 })
+        .cloned()
+        .collect();
+    Ok(vec![
+        distance::study(effort, progress)?,
+        size::study(effort, progress),
+        scale::study(&some, effort, progress),
+        noise::study(&some, effort, progress),
+        tolerance::study(&some, effort, progress),
+    ])
 }

@@ -108,6 +108,24 @@ impl Sweep {
         }
     }
 
+    /// Where a row is right in all cases, and its best and worst shares: "is right in all cases from 1e-12 to 1e-6,
+    /// and in 45 % to 100 % over the whole range".
+    #[must_use]
+    pub fn least_in_words(&self, row: usize) -> String {
+        let shares = || self.rows[row].1.iter().map(|t| 100.0 * t.share());
+        let (low, high) = (
+            shares().fold(f64::MAX, f64::min).floor(),
+            shares().fold(0.0, f64::max).floor(),
+        );
+        match self.region(row) {
+            Some(_) => format!(
+                "is right in all from {}, elsewhere in as few as {low:.0} %",
+                self.region_in_words(row)
+            ),
+            None => format!("is right in {low:.0} to {high:.0} % and nowhere in all"),
+        }
+    }
+
     /// The row of a name.
     #[must_use]
     pub fn row(&self, name: &str) -> Option<usize> {
@@ -124,7 +142,12 @@ impl Sweep {
             rows: self
                 .rows
                 .iter()
-                .map(|(name, t)| (name.clone(), bands(&self.values, t.iter().map(|t| t.kind()))))
+                .map(|(name, t)| {
+                    (
+                        name.clone(),
+                        bands(&self.values, t.iter().map(|t| t.kind())),
+                    )
+                })
                 .collect(),
         }
     }
@@ -209,7 +232,10 @@ mod tests {
 
     #[test]
     fn bands_meet_half_way_and_hold_their_verdict() {
-        let b = bands(&sweep([10, 10, 9, 3]).values, [Kind::Good, Kind::Good, Kind::Warn, Kind::Bad]);
+        let b = bands(
+            &sweep([10, 10, 9, 3]).values,
+            [Kind::Good, Kind::Good, Kind::Warn, Kind::Bad],
+        );
         assert_eq!(b.len(), 3);
         assert_eq!(b[0].0, 1e-3);
         assert_eq!(b[0].1, b[1].0);
