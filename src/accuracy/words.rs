@@ -26,9 +26,12 @@ pub fn signed(x: i64) -> String {
     }
 }
 
-/// A power of ten or a short decimal: 1e-9, 3e-10.
+/// A power of ten or a short decimal: 1e-9, 3e-10, 1.
 #[must_use]
 pub fn scientific(x: f64) -> String {
+    if (1e-2..1e4).contains(&x) {
+        return format!("{x}");
+    }
     let text = format!("{x:.1e}");
     text.replace(".0e", "e").replace('-', "−")
 }
@@ -53,6 +56,7 @@ mod tests {
         assert_eq!(duration(0.0123), "12 ms");
         assert_eq!(signed(-3), "−3");
         assert_eq!(scientific(1e-9), "1e−9");
+        assert_eq!(scientific(1.0), "1");
         assert_eq!(scientific(3.2e-10), "3.2e−10");
         assert_eq!(list(&["a".into(), "b".into(), "c".into()]), "a, b and c");
     }

@@ -35,15 +35,14 @@ pub fn resized(mechanism: &Mechanism, e: i32) -> Mechanism {
     m
 }
 
-/// Half the diagonal of the box round all joints; 1 where they are all in one place.
+/// Half the diagonal of the box round all joints; 0 where they are all in one place.
 #[must_use]
 pub fn size(mechanism: &Mechanism) -> f64 {
     let half = (0..3).map(|i| {
         let at = || mechanism.joints.iter().map(|j| j.frame.point[i].to_f64());
         (at().fold(f64::MIN, f64::max) - at().fold(f64::MAX, f64::min)) / 2.0
     });
-    let size = half.map(|x| x * x).sum::<f64>().sqrt();
-    if size > 0.0 { size } else { 1.0 }
+    half.map(|x: f64| x * x).sum::<f64>().sqrt()
 }
 
 /// Noise that is the same for the same seed on every machine.
@@ -75,7 +74,7 @@ impl Noise {
 }
 
 /// Every coordinate as a double with uniform noise: points by `level` times the mechanism's size, axes by `level` times
-/// their length, so that coordinates that are zero move as well. In planar mode points alone, for joints stay square to
+/// their length, so that coordinates that are zero move as well. Joints that are all in one place stay there. In planar mode points alone, for joints stay square to
 /// the plane there.
 #[must_use]
 pub fn shaken(mechanism: &Mechanism, level: f64, noise: &mut Noise) -> Mechanism {

@@ -190,6 +190,11 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
         let text = builtin::text(special.name).unwrap_or_default();
         let mechanism = mechanism_from_str(&format!("{}.toml", special.name), text)?;
         let (at_zero, _) = truth(&mechanism);
+        // A method that is wrong about the special mechanism cannot tell another one from it.
+        let knows: Vec<bool> = method::ALL
+            .iter()
+            .map(|x| Verdict::keeps_promise(&x.answer(&mechanism, 0), at_zero))
+            .collect();
         let found: Vec<At> = distances
             .par_iter()
             .map(|(distance, exact)| {
@@ -227,7 +232,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
             let kinds: Vec<Kind> = kinds.collect();
             let pairs: Vec<(f64, Kind)> = xs.iter().copied().zip(kinds.iter().copied()).collect();
             if kinds.iter().any(|k| *k != Kind::None) {
-                met[m].push(seen(&pairs));
+                met[m].push(if knows[m] { seen(&pairs) } else { Seen::Never });
             }
             rows.push((method.name().to_owned(), bands(&xs, kinds)));
         }
@@ -323,29 +328,28 @@ fn sentence(met: &[Vec<Seen>]) -> String {
     let (mut always, mut from, mut blind) = (Vec::new(), Vec::new(), Vec::new());
     for (method, seen) in method::ALL.iter().zip(met) {
         let name = method.name().to_owned();
-        let places: Vec<f64> = seen
-            .iter()
-            .filter_map(|s| match s {
+        let places = || {
+            seen.iter().filter_map(|s| match s {
                 Seen::From(d) => Some(*d),
                 _ => None,
             })
-            .collect();
+        };
         let (low, high) = (
-            places.iter().copied().fold(f64::MAX, f64::min),
-            places.iter().copied().fold(0.0, f64::max),
+            places().fold(f64::MAX, f64::min),
+            places().fold(0.0, f64::max),
         );
         if seen.iter().all(|s| *s == Seen::Always) {
             always.push(name);
-        } else if places.is_empty() {
+        } else if seen.contains(&Seen::Never) {
             blind.push(name);
         } else if low < high {
             from.push(format!(
-                "{name} from {} to {} up",
+                "{name} {} to {}",
                 scientific(low),
                 scientific(high)
             ));
         } else {
-            from.push(format!("{name} from {} up", scientific(low)));
+            from.push(format!("{name} {}", scientific(low)));
         }
     }
     let mut out = format!(
@@ -353,11 +357,14 @@ fn sentence(met: &[Vec<Seen>]) -> String {
         list(&always)
     );
     if !from.is_empty() {
-        out += &format!("; {}, each depending on the mechanism", list(&from));
+        out += &format!(
+            "; the smallest distance seen, over the four, is for {}",
+            list(&from)
+        );
     }
     if !blind.is_empty() {
         out += &format!(
-            "; {} do not see coordinates, or not all of them, and are wrong at every distance in some",
+            "; wrong about some of the four, special or displaced, at every distance: {}",
             list(&blind)
         );
     }

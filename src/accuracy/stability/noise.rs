@@ -71,7 +71,10 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
             .collect();
         for (i, row) in rows.iter_mut().enumerate() {
             let mut tally = Tally::default();
-            right.iter().for_each(|r| tally.add(r[i]));
+            right
+                .iter()
+                .enumerate()
+                .for_each(|(at, r)| tally.add(at / seeds, r[i]));
             row.1.push(tally);
         }
     }
@@ -80,6 +83,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         x: "uniform noise, relative to the size of the mechanism and the length of axes".to_owned(),
         column: "noise",
         values: exponents.iter().map(|&e| 10f64.powi(e)).collect(),
+        cases: cases.iter().map(Case::name).collect(),
         rows,
     };
     let sentence = sentence(&sweep);
@@ -105,16 +109,28 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
 
 fn sentence(sweep: &Sweep) -> String {
     let part = |name: &str| {
-        let row = sweep.row(name)?;
-        Some(match sweep.region(row) {
-            Some((_, to)) => format!("{name} up to noise of {}", scientific(to)),
-            None => format!("{name} at no level of noise"),
-        })
+        let region = sweep.region(sweep.row(name)?)?;
+        Some(format!(
+            "{name} up to noise of {} {}",
+            scientific(sweep.values[region.last]),
+            sweep.but(&region.missed)
+        ))
     };
-    let asked = names();
-    let parts: Vec<String> = asked.iter().filter_map(|n| part(n)).collect();
+    let svd = ASKED[3].1.iter();
+    let svd = svd.map(|t| format!("{} at {}", Numeric::Svd.name(), scientific(*t)));
+    let told: Vec<String> = svd
+        .chain(["auto".to_owned()])
+        .filter_map(|name| part(&name))
+        .collect();
+    let exact = sweep.row("modular").and_then(|row| sweep.region(row));
+    let exact = exact.map_or_else(String::new, |r| {
+        format!(
+            " Exact ranks take every digit at its word: with any noise modular finds it {} only.",
+            sweep.but(&r.missed)
+        )
+    });
     format!(
-        "The mobility without noise is found in every case by {}.",
-        list(&parts)
+        "The mobility without noise is found by {}.{exact}",
+        list(&told)
     )
 }

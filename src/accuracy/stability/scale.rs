@@ -6,7 +6,7 @@ use super::sweep::{Sweep, Tally};
 use super::{Effort, Progress, Study};
 use crate::accuracy::Verdict;
 use crate::accuracy::survey::Case;
-use crate::accuracy::words::list;
+use crate::accuracy::words::{list, scientific};
 use crate::rank::method::{self, MobilityMethod};
 use rayon::prelude::*;
 
@@ -38,7 +38,9 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
             .collect();
         for (i, row) in rows.iter_mut().enumerate() {
             let mut tally = Tally::default();
-            kept.iter().for_each(|k| tally.add(k[i]));
+            kept.iter()
+                .enumerate()
+                .for_each(|(c, k)| tally.add(c, k[i]));
             row.1.push(tally);
         }
     }
@@ -47,6 +49,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         x: "all lengths multiplied by".to_owned(),
         column: "factor",
         values: exponents.iter().map(|&e| 10f64.powi(e)).collect(),
+        cases: cases.iter().map(Case::name).collect(),
         rows,
     };
     let sentence = sentence(&sweep);
@@ -72,20 +75,34 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
 
 fn sentence(sweep: &Sweep) -> String {
     let (mut always, mut rest) = (Vec::new(), Vec::new());
-    let ends = (sweep.values.first().copied(), sweep.values.last().copied());
-    for (n, (name, _)) in sweep.rows.iter().enumerate() {
-        match sweep.region(n) {
-            Some((a, b)) if (Some(a), Some(b)) == ends => always.push(name.clone()),
-            _ => rest.push(format!("{name} {}", sweep.least_in_words(n))),
+    for (n, (name, tallies)) in sweep.rows.iter().enumerate() {
+        let Some(region) = sweep.region(n) else {
+            continue;
+        };
+        if sweep.is_whole(&region) && region.missed.is_empty() {
+            always.push(name.clone());
+            continue;
         }
+        let least = tallies.iter().map(|t| 100.0 * t.share());
+        let at = |n: usize| scientific(sweep.values[n]);
+        rest.push(format!(
+            "{name} is right {} from {} to {}, elsewhere in as few as {:.0} %",
+            sweep.but(&region.missed),
+            at(region.first),
+            at(region.last),
+            least.fold(f64::MAX, f64::min).floor()
+        ));
     }
-    let always = match always.len() {
-        0 => "No method is right at every scale".to_owned(),
-        1 => format!("{} is right in all cases at every scale", always[0]),
-        _ => format!("{} are right in all cases at every scale", list(&always)),
+    let mut out = match always.as_slice() {
+        [] => "No method is right in all cases at every scale".to_owned(),
+        [one] => format!("{one} alone is right in all cases at every scale"),
+        more => format!("{} are right in all cases at every scale", list(more)),
     };
-    match rest.len() {
-        0 => format!("{always}."),
-        _ => format!("{always}; {}.", list(&rest)),
+    if !rest.is_empty() {
+        out += &format!(
+            "; those that take J as it stands depend on the unit of length: {}",
+            list(&rest)
+        );
     }
+    out + "."
 }

@@ -79,7 +79,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
                 slow[i] = seconds > limit.as_secs_f64();
                 let verdict = Verdict::on(&answer, truth);
                 if verdict != Verdict::Silent {
-                    record.tally.add(Verdict::keeps_promise(&answer, truth));
+                    record.tally.add(s, Verdict::keeps_promise(&answer, truth));
                     record.times.push(seconds);
                 }
                 csv.row(&[
@@ -166,7 +166,7 @@ fn chart(sizes: &[usize], records: &[Vec<Record>]) -> Chart {
 }
 
 fn kind(r: &Record) -> Kind {
-    match r.tally {
+    match &r.tally {
         t if t.of == 0 || r.skipped > 0 => Kind::None,
         t if t.right == t.of => Kind::Good,
         t if t.right > 0 => Kind::Warn,

@@ -1,39 +1,38 @@
 //! Right answers of several methods over a range of one quantity.
 
 use crate::accuracy::csv::Csv;
-use crate::accuracy::words::scientific;
+use crate::accuracy::words::list;
 use crate::chart::{Axis, Band, Bands, Chart, Kind, Scale, Series, Style};
 
-/// Right answers of how many.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+/// Right answers of how many, and whose were not.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Tally {
     /// Right ones.
     pub right: usize,
     /// All asked for.
     pub of: usize,
+    /// The cases with an answer that is not right, ascending.
+    pub missed: Vec<usize>,
 }
 
 impl Tally {
-    /// Counts one more.
-    pub fn add(&mut self, right: bool) {
+    /// Counts an answer on a case; cases come in ascending order.
+    pub fn add(&mut self, case: usize, right: bool) {
         self.right += usize::from(right);
         self.of += 1;
-    }
-
-    /// Counts what another tally has counted.
-    pub fn join(&mut self, other: Tally) {
-        self.right += other.right;
-        self.of += other.of;
+        if !right && self.missed.last() != Some(&case) {
+            self.missed.push(case);
+        }
     }
 
     /// The share of right ones, 0 of none.
     #[must_use]
     #[allow(clippy::cast_precision_loss, reason = "counts are small")]
-    pub fn share(self) -> f64 {
+    pub fn share(&self) -> f64 {
         self.right as f64 / self.of.max(1) as f64
     }
 
-    fn kind(self) -> Kind {
+    fn kind(&self) -> Kind {
         match self.share() {
             _ if self.of == 0 => Kind::None,
             _ if self.right == self.of => Kind::Good,
@@ -54,8 +53,21 @@ pub struct Sweep {
     pub column: &'static str,
     /// Where it was looked at, ascending.
     pub values: Vec<f64>,
+    /// The names of the cases.
+    pub cases: Vec<String>,
     /// Names with a tally for each value.
     pub rows: Vec<(String, Vec<Tally>)>,
+}
+
+/// Where a row does best.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Region {
+    /// The first value of the longest stretch.
+    pub first: usize,
+    /// Its last value.
+    pub last: usize,
+    /// The cases missed on that stretch.
+    pub missed: Vec<usize>,
 }
 
 /// Bands about the values of a log axis, neighbours of one kind as one.
@@ -79,50 +91,50 @@ pub fn bands(values: &[f64], kinds: impl IntoIterator<Item = Kind>) -> Vec<Band>
 }
 
 impl Sweep {
-    /// The longest stretch of values over which a row is right throughout.
+    /// The longest stretch of values over which a row misses as few cases as it ever does, and always the same ones.
     #[must_use]
-    pub fn region(&self, row: usize) -> Option<(f64, f64)> {
+    pub fn region(&self, row: usize) -> Option<Region> {
         let tallies = &self.rows[row].1;
-        let mut best: Option<(usize, usize)> = None;
-        let mut begun = None;
+        let asked = tallies.iter().filter(|t| t.of > 0);
+        let fewest = asked.map(|t| t.missed.len()).min()?;
+        let mut best: Option<Region> = None;
+        let mut begun: Option<usize> = None;
         for (n, tally) in tallies.iter().enumerate() {
-            if tally.of == 0 || tally.right < tally.of {
+            if tally.of == 0 || tally.missed.len() > fewest {
                 begun = None;
                 continue;
             }
-            let from = *begun.get_or_insert(n);
-            if best.is_none_or(|(a, b)| n - from > b - a) {
-                best = Some((from, n));
+            let from = begun
+                .filter(|&b| tallies[b].missed == tally.missed)
+                .unwrap_or(n);
+            begun = Some(from);
+            if best.as_ref().is_none_or(|b| n - from > b.last - b.first) {
+                best = Some(Region {
+                    first: from,
+                    last: n,
+                    missed: tally.missed.clone(),
+                });
             }
         }
-        best.map(|(a, b)| (self.values[a], self.values[b]))
+        best
     }
 
-    /// "1e-12 to 1e-6", or "nowhere".
+    /// Whether the stretch is the whole range.
     #[must_use]
-    pub fn region_in_words(&self, row: usize) -> String {
-        match self.region(row) {
-            Some((a, b)) if a < b => format!("{} to {}", scientific(a), scientific(b)),
-            Some((a, _)) => format!("{} alone", scientific(a)),
-            None => "nowhere".to_owned(),
-        }
+    pub fn is_whole(&self, region: &Region) -> bool {
+        region.first == 0 && region.last + 1 == self.values.len()
     }
 
-    /// Where a row is right in all cases, and its best and worst shares: "is right in all cases from 1e-12 to 1e-6,
-    /// and in 45 % to 100 % over the whole range".
+    /// "in all cases", "in all cases but door-two-hinges", or "in 91 of 117 cases".
     #[must_use]
-    pub fn least_in_words(&self, row: usize) -> String {
-        let shares = || self.rows[row].1.iter().map(|t| 100.0 * t.share());
-        let (low, high) = (
-            shares().fold(f64::MAX, f64::min).floor(),
-            shares().fold(0.0, f64::max).floor(),
-        );
-        match self.region(row) {
-            Some(_) => format!(
-                "is right in all from {}, elsewhere in as few as {low:.0} %",
-                self.region_in_words(row)
-            ),
-            None => format!("is right in {low:.0} to {high:.0} % and nowhere in all"),
+    pub fn but(&self, missed: &[usize]) -> String {
+        match missed.len() {
+            0 => "in all cases".to_owned(),
+            1..=3 => {
+                let names: Vec<String> = missed.iter().map(|&c| self.cases[c].clone()).collect();
+                format!("in all cases but {}", list(&names))
+            }
+            n => format!("in {} of {} cases", self.cases.len() - n, self.cases.len()),
         }
     }
 
@@ -190,7 +202,7 @@ impl Sweep {
     /// One line for each row and value.
     #[must_use]
     pub fn csv(&self) -> String {
-        let mut csv = Csv::new(&["method", self.column, "right", "of", "share"]);
+        let mut csv = Csv::new(&["method", self.column, "right", "of", "share", "missed"]);
         for (name, tallies) in &self.rows {
             for (x, t) in self.values.iter().zip(tallies) {
                 csv.row(&[
@@ -199,6 +211,11 @@ impl Sweep {
                     t.right.to_string(),
                     t.of.to_string(),
                     format!("{:.4}", t.share()),
+                    t.missed
+                        .iter()
+                        .map(|&c| self.cases[c].as_str())
+                        .collect::<Vec<_>>()
+                        .join("; "),
                 ]);
             }
         }
@@ -210,24 +227,33 @@ impl Sweep {
 mod tests {
     use super::*;
 
-    fn sweep(right: [usize; 4]) -> Sweep {
+    /// Ten cases; those named are missed at each of four values.
+    fn sweep(missed: [&[usize]; 4]) -> Sweep {
+        let tally = |missed: &[usize]| {
+            let mut tally = Tally::default();
+            (0..10).for_each(|c| tally.add(c, !missed.contains(&c)));
+            tally
+        };
         Sweep {
             title: String::new(),
             x: String::new(),
             column: "x",
             values: vec![1e-3, 1e-2, 1e-1, 1.0],
-            rows: vec![(
-                "m".to_owned(),
-                right.map(|right| Tally { right, of: 10 }).to_vec(),
-            )],
+            cases: (0..10).map(|c| format!("c{c}")).collect(),
+            rows: vec![("m".to_owned(), missed.map(tally).to_vec())],
         }
     }
 
     #[test]
-    fn the_region_is_the_longest_stretch_without_a_mistake() {
-        assert_eq!(sweep([10, 9, 10, 10]).region(0), Some((1e-1, 1.0)));
-        assert_eq!(sweep([10, 10, 10, 3]).region_in_words(0), "1e−3 to 1e−1");
-        assert_eq!(sweep([1, 9, 0, 3]).region_in_words(0), "nowhere");
+    fn the_region_is_the_longest_stretch_with_the_fewest_misses() {
+        let ends = |s: Sweep| s.region(0).map(|r| (r.first, r.last, s.but(&r.missed)));
+        let all = || "in all cases".to_owned();
+        assert_eq!(ends(sweep([&[], &[3], &[], &[]])), Some((2, 3, all())));
+        assert_eq!(ends(sweep([&[], &[], &[], &[1]])), Some((0, 2, all())));
+        let but = "in all cases but c3".to_owned();
+        assert_eq!(ends(sweep([&[3], &[3], &[1, 3], &[2]])), Some((0, 1, but)));
+        let many = "in 6 of 10 cases".to_owned();
+        assert_eq!(ends(sweep([&[1, 2, 3, 4]; 4])), Some((0, 3, many)));
     }
 
     #[test]

@@ -50,10 +50,10 @@ fn tally(cases: &[Case], effort: Effort, level: f64, tolerances: &[f64]) -> Vec<
         })
         .collect();
     let mut tallies = vec![vec![Tally::default(); tolerances.len()]; Numeric::ALL.len()];
-    for one in &right {
+    for (at, one) in right.iter().enumerate() {
         for (row, found) in tallies.iter_mut().zip(one) {
             for (t, ok) in row.iter_mut().zip(found) {
-                t.add(*ok);
+                t.add(at / seeds, *ok);
             }
         }
     }
@@ -84,6 +84,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         x: "tolerance, relative to the largest pivot or singular value".to_owned(),
         column: "tolerance",
         values: tolerances,
+        cases: cases.iter().map(Case::name).collect(),
         rows,
     };
     let part = |title: &str, names: Vec<String>| Sweep {
@@ -128,49 +129,47 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
     }
 }
 
-/// The middle, on a log scale, of the tolerances at which a row is right in all cases.
-fn recommended(sweep: &Sweep, row: &str) -> Option<(f64, f64, f64)> {
-    let (from, to) = sweep.region(sweep.row(row)?)?;
-    Some((from, to, (from * to).sqrt()))
+/// The tolerances at which a row does best, in words, and their middle on a log scale.
+fn best(sweep: &Sweep, row: &str) -> Option<(String, f64)> {
+    let region = sweep.region(sweep.row(row)?)?;
+    let (from, to) = (sweep.values[region.first], sweep.values[region.last]);
+    let least = if region.first == 0 {
+        " (the least tried)"
+    } else {
+        ""
+    };
+    let range = if from < to {
+        format!("{}{least} to {}", scientific(from), scientific(to))
+    } else {
+        format!("{} alone", scientific(from))
+    };
+    let words = format!("{range} {}", sweep.but(&region.missed));
+    Some((words, (from * to).sqrt()))
 }
 
 fn sentence(sweep: &Sweep) -> String {
-    let parts: Vec<String> = LEVELS
-        .iter()
-        .map(|&level| {
-            let noise = match level {
-                0.0 => "as the catalogue stands".to_owned(),
-                l => format!("with noise {}", scientific(l)),
-            };
-            match recommended(sweep, &name(Numeric::Svd, level)) {
-                Some((from, to, middle)) => format!(
-                    "{noise} from {} to {} (middle {})",
-                    scientific(from),
-                    scientific(to),
-                    scientific(middle)
-                ),
-                None => format!("{noise} nowhere"),
-            }
-        })
-        .collect();
-    let others: Vec<String> = Numeric::ALL
+    let levels = LEVELS.iter().filter_map(|&level| {
+        let noise = match level {
+            0.0 => "without noise".to_owned(),
+            l => format!("with noise {}", scientific(l)),
+        };
+        let (words, middle) = best(sweep, &name(Numeric::Svd, level))?;
+        Some(format!("{noise} {words} (middle {})", scientific(middle)))
+    });
+    let others = Numeric::ALL
         .into_iter()
         .filter(|m| *m != Numeric::Svd)
-        .filter_map(|m| {
-            let row = sweep.row(m.name())?;
-            Some(format!("{} {}", m.name(), sweep.region_in_words(row)))
-        })
-        .collect();
-    let default = recommended(sweep, Numeric::Svd.name()).map_or_else(String::new, |(_, _, t)| {
+        .filter_map(|m| Some(format!("{} {}", m.name(), best(sweep, m.name())?.0)));
+    let default = best(sweep, Numeric::Svd.name()).map_or_else(String::new, |(_, middle)| {
         format!(
-            " Recommended default tolerance {}; the present default is {}.",
-            scientific(t),
+            " Recommended default tolerance: {}, the middle without noise; the present default is {}.",
+            scientific(middle),
             scientific(DEFAULT_TOLERANCE)
         )
     });
     format!(
-        "Singular values are right in every case {}; without noise {}.{default}",
-        list(&parts),
-        list(&others)
+        "Tolerances at which singular values are right: {}. The others, without noise: {}.{default}",
+        list(&levels.collect::<Vec<_>>()),
+        list(&others.collect::<Vec<_>>())
     )
 }
