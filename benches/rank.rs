@@ -10,17 +10,14 @@
     reason = "a bench prints its ratios"
 )]
 
-#[path = "../tests/common/lattice.rs"]
-mod lattice;
-
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use faer::traits::{ComplexField, RealField};
 use faer::{Mat, MatRef};
 use itertools::Itertools;
-use lattice::Kind;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{ToPrimitive, Zero};
+use ozols::accuracy::lattice::{self, Kind};
 use ozols::builtin;
 use ozols::closure::matrix::Closure;
 use ozols::geom::exact::{ExactError, ExactField};

@@ -1,5 +1,6 @@
 //! The command line: arguments as data, one file per command, three exit codes.
 
+mod accuracy;
 mod analyze;
 mod answer;
 mod args;
@@ -45,6 +46,7 @@ pub fn run() -> ExitCode {
         args::Command::Verify(a) => verify::run(&args, a),
         args::Command::Import(a) => import::run(&args, a),
         args::Command::Export(a) => export::run(&args, a),
+        args::Command::Accuracy(a) => accuracy::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::List => check::list(),
         args::Command::Show(a) => check::show(a),

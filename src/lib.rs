@@ -46,6 +46,7 @@
 //! - `[Horton 1987]` J. D. Horton, "A polynomial-time algorithm to find the shortest cycle basis of a graph", SIAM J.
 //!   Comput. 16, 1987.
 
+pub mod accuracy;
 pub mod builtin;
 pub mod chart;
 pub mod cli;

@@ -1,5 +1,6 @@
 //! Finished values as JSON and as text for people.
 
+pub mod accuracy_text;
 pub mod analysis_json;
 pub mod analysis_text;
 pub mod search_json;

@@ -244,7 +244,7 @@ pub(super) fn beside_points(xml: &mut Xml, drawn: &[Drawn], plot: &Rect) {
         };
         let text = xml
             .tag("text")
-            .set("class", "name")
+            .set("class", "name halo")
             .set("text-anchor", anchor);
         text.num("x", at).num("y", rect.3 - 3.5).text(name);
     }

@@ -86,10 +86,12 @@ impl Chart {
             let (a, b) = (x.place(p.0)?, y.place(p.1)?);
             Some((left + a * (right - left), bottom - b * height))
         };
+        let lines = self.series.iter().filter(|s| s.style != Style::Points);
+        let many = lines.count() > COLOURS;
         let drawn: Vec<Drawn> = shown
             .iter()
             .map(|&(number, series)| Drawn {
-                many: self.series.len() > COLOURS,
+                many,
                 number,
                 series,
                 runs: drawn::runs(series, place),

@@ -25,6 +25,7 @@ pub(super) const STYLE: &str = "
 .oz .small{font-size:11px}
 .oz .raised{font-size:9px}
 .oz .sub,.oz .soft{fill:#59636e}
+.oz .halo{paint-order:stroke;stroke:#fff;stroke-width:4px;stroke-linejoin:round}
 .oz .bg{fill:#fff}
 .oz .grid,.oz .fine,.oz .axis,.oz .lead{fill:none;stroke:#e3e7eb}
 .oz .fine{stroke:#f0f2f4}
@@ -50,6 +51,7 @@ pub(super) const STYLE: &str = "
 @media screen and (prefers-color-scheme:dark){
 .oz text{fill:#e8ebee}
 .oz .sub,.oz .soft{fill:#a3adb7}
+.oz .halo{stroke:#15191d}
 .oz .bg{fill:#15191d}
 .oz .grid{stroke:#2b3239}
 .oz .fine{stroke:#20262b}

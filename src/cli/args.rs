@@ -22,6 +22,7 @@ Examples:
   ozols statics parallel-shears               Assur groups, and joint reactions over the cycle
   ozols show four-bar > mine.toml             a file to start from
   ozols check mine.toml                       what is wrong with it, if anything
+  ozols accuracy -o accuracy                  accuracy against speed of every method, as charts
   ozols analyze mine.toml --certificate c.json && ozols verify mine.toml c.json
   ozols import robot.urdf -o robot.toml       a mechanism file of a robot description
   ozols export gripper-10 --to dot            its graph for Graphviz"
@@ -55,6 +56,8 @@ pub(super) enum Command {
     Import(Import),
     /// Write a mechanism in another format: TOML, JSON, URDF, SDF, Graphviz DOT, GraphML.
     Export(Export),
+    /// How right and how fast each method is on every built-in mechanism, and where its numbers fail.
+    Accuracy(Accuracy),
     /// Validate a file.
     Check(File),
     /// The built-in mechanisms.
@@ -210,6 +213,19 @@ pub(super) struct Verify {
     /// The certificates were made with `analyze --planar`.
     #[arg(long)]
     pub(super) planar: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Accuracy {
+    /// Write charts and tables to this folder, index.html first among them; without it only the table is printed.
+    #[arg(long, short, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+    /// Fewer repeats and coarser stability charts: some seconds instead of a minute or two.
+    #[arg(long)]
+    pub(super) quick: bool,
+    /// Times each answer is timed; the median counts. 5 by default, 1 with --quick.
+    #[arg(long, value_name = "N")]
+    pub(super) repeat: Option<usize>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -5,7 +5,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
-/// Shows how far a diagram has come: layer, nodes, and an estimate.
+/// Shows how far a run has come.
 pub(super) struct Bar {
     bar: Option<ProgressBar>,
     begun: Instant,
@@ -21,6 +21,7 @@ impl Bar {
         }
     }
 
+    /// Shows how far a diagram has come: layer, nodes, and an estimate.
     pub(super) fn show(&mut self, p: Progress) {
         if !self.wanted || self.begun.elapsed() < Duration::from_secs(1) {
             return;
@@ -36,6 +37,23 @@ impl Bar {
         });
         bar.set_position(p.done as u64);
         bar.set_message(format!("{} nodes, {} in this layer", p.nodes, p.layer));
+    }
+
+    /// Shows how far a run of known length has come.
+    pub(super) fn step(&mut self, what: &str, done: usize, of: usize) {
+        if !self.wanted || self.begun.elapsed() < Duration::from_secs(1) {
+            return;
+        }
+        let bar = self.bar.get_or_insert_with(|| {
+            let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+            let style =
+                ProgressStyle::with_template("{elapsed_precise} [{bar:30}] {pos}/{len} {msg}");
+            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+            bar
+        });
+        bar.set_length(of as u64);
+        bar.set_position(done as u64);
+        bar.set_message(what.to_owned());
     }
 
     pub(super) fn clear(&self) {

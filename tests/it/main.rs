@@ -1,6 +1,7 @@
 //! Integration tests.
 #![allow(clippy::unwrap_used, missing_docs, reason = "tests")]
 
+mod accuracy;
 mod bytes;
 mod catalogs;
 mod certificates;

@@ -1,11 +1,8 @@
 //! What is done by the structure of J, against the same by definition: the rank from the contours one by one, and the
 //! shares of the contours from one basis of the self-stresses.
 
-#[path = "../common/lattice.rs"]
-mod lattice;
-
 use crate::twin;
-use lattice::Kind;
+use ozols::accuracy::lattice::{self, Kind};
 use ozols::builtin;
 use ozols::closure::contour::Contour;
 use ozols::closure::matrix::{Closure, Column};

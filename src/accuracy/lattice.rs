@@ -1,12 +1,12 @@
-//! Mechanisms of any number of contours, for tests and benches.
+//! Mechanisms of any number of contours, whose mobility is known by construction or by exact ranks.
 
-use ozols::import::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
+use crate::import::text::mechanism_from_str;
+use crate::model::mechanism::Mechanism;
 use std::fmt::Write;
 
 /// What to build.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub enum Kind {
     /// Planar four-bars side by side on the frame, each driven by the one before: k contours, W = 1, σ = 3k.
     FourBars,
     /// A lazy tongs of k + 1 crossed pairs of bars: k contours, W = 1, σ = 3k.
@@ -17,7 +17,7 @@ pub(super) enum Kind {
 
 impl Kind {
     /// All of them.
-    pub(super) const ALL: [Kind; 3] = [Kind::FourBars, Kind::Scissors, Kind::Grid];
+    pub const ALL: [Kind; 3] = [Kind::FourBars, Kind::Scissors, Kind::Grid];
 }
 
 struct File(String);
@@ -55,7 +55,7 @@ impl File {
 /// # Panics
 /// Never: the text is valid.
 #[must_use]
-pub(super) fn mechanism(kind: Kind, k: usize) -> Mechanism {
+pub fn mechanism(kind: Kind, k: usize) -> Mechanism {
     let mut file;
     match kind {
         Kind::FourBars => {

@@ -1,0 +1,41 @@
+//! The files of a run.
+
+use super::pictures;
+use super::stability::Study;
+use super::survey::Survey;
+use crate::chart::page;
+
+/// Names and texts of every file, `index.html` last, so that it is there only once all that it shows is.
+#[must_use]
+pub fn files(survey: &Survey, studies: &[Study]) -> Vec<(String, String)> {
+    let (main, matrix) = (pictures::share_time(survey), pictures::matrix(survey));
+    let mut files = vec![
+        ("survey.csv".to_owned(), survey.csv()),
+        ("methods.csv".to_owned(), survey.methods_csv()),
+        ("share-time.svg".to_owned(), main.svg()),
+        ("share-time.csv".to_owned(), main.csv()),
+        ("matrix.svg".to_owned(), matrix.svg()),
+    ];
+    let part = |title: &str, svg: String| (title.to_owned(), String::new(), svg);
+    let mut parts = vec![
+        part(&main.title, main.svg()),
+        part(&matrix.title, matrix.svg()),
+    ];
+    for study in studies {
+        files.push((format!("{}.csv", study.name), study.csv.clone()));
+        let mut sentence = study.sentence.clone();
+        for (n, (name, svg)) in study.pictures.iter().enumerate() {
+            files.push((format!("{name}.svg"), svg.clone()));
+            let title = match n {
+                0 => study.title.clone(),
+                _ => format!("{} ({})", study.title, n + 1),
+            };
+            parts.push((title, std::mem::take(&mut sentence), svg.clone()));
+        }
+    }
+    files.push((
+        "index.html".to_owned(),
+        page("Mobility methods: accuracy, speed, stability", &parts),
+    ));
+    files
+}

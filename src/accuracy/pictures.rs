@@ -1,0 +1,179 @@
+//! The survey as pictures.
+
+use super::Verdict;
+use super::survey::{Case, Reply, Standing, Survey};
+use super::words::{duration, list, signed};
+use crate::chart::{Axis, Cell, Chart, Kind, Matrix, Scale, Series, Style};
+use crate::rank::method::{self, MobilityMethod};
+
+/// The methods that no other one beats in both share and time, the fastest first.
+#[must_use]
+pub fn pareto(standings: &[Standing]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..standings.len())
+        .filter(|&m| standings[m].applies > 0)
+        .collect();
+    let better = |&a: &usize, &b: &usize| {
+        let (a, b) = (&standings[a], &standings[b]);
+        a.seconds
+            .total_cmp(&b.seconds)
+            .then(b.share.total_cmp(&a.share))
+    };
+    order.sort_by(better);
+    let mut best = f64::NEG_INFINITY;
+    order.retain(|&m| {
+        let ahead = standings[m].share > best;
+        best = best.max(standings[m].share);
+        ahead
+    });
+    order
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.0} %", 100.0 * share)
+}
+
+/// Share of right answers against median time of an answer.
+#[must_use]
+pub fn share_time(survey: &Survey) -> Chart {
+    let standings: Vec<Standing> = (0..method::ALL.len()).map(|m| survey.standing(m)).collect();
+    let front = pareto(&standings);
+    let mut steps: Vec<(f64, f64)> = front
+        .iter()
+        .map(|&m| (standings[m].seconds, 100.0 * standings[m].share))
+        .collect();
+    let slowest = standings.iter().map(|s| s.seconds).fold(0.0, f64::max);
+    if let Some(&(_, share)) = steps.last() {
+        steps.push((slowest, share));
+    }
+    let mut series = vec![Series {
+        name: "Pareto front".to_owned(),
+        points: steps,
+        style: Style::Steps,
+    }];
+    series.extend(method::ALL.iter().zip(&standings).map(|(m, s)| Series {
+        name: m.name().to_owned(),
+        points: vec![(s.seconds, 100.0 * s.share)],
+        style: Style::Points,
+    }));
+    Chart {
+        title: "Accuracy against speed".to_owned(),
+        subtitle: share_sentence(survey, &standings, &front),
+        x: Axis {
+            label: "median time of an answer, s".to_owned(),
+            scale: Scale::Log,
+        },
+        y: Axis {
+            label: format!(
+                "share of all {} cases with the right finite mobility, %",
+                survey.cases.len()
+            ),
+            scale: Scale::Linear,
+        },
+        series,
+    }
+}
+
+fn share_sentence(survey: &Survey, standings: &[Standing], front: &[usize]) -> String {
+    let cases = survey.cases.len();
+    let all: Vec<String> = method::ALL
+        .iter()
+        .zip(standings)
+        .filter(|(_, s)| s.right == cases)
+        .map(|(m, s)| format!("{} ({})", m.name(), duration(s.seconds)))
+        .collect();
+    let all = match all.len() {
+        0 => "No method is right everywhere".to_owned(),
+        1 => format!("Only {} is right on all {cases} cases", all[0]),
+        _ => format!("{} are right on all {cases} cases", list(&all)),
+    };
+    let front: Vec<String> = front
+        .iter()
+        .map(|&m| {
+            let (name, s) = (method::ALL[m].name(), &standings[m]);
+            format!("{name} ({}, {})", percent(s.share), duration(s.seconds))
+        })
+        .collect();
+    format!(
+        "{all}. No method is both faster and more often right than {}. Cases that a method does not apply to count as \
+         not right.",
+        list(&front)
+    )
+}
+
+/// Mechanisms down, methods across: right, wrong by how much, or not applicable.
+#[must_use]
+pub fn matrix(survey: &Survey) -> Matrix {
+    let columns: Vec<String> = method::ALL.iter().map(|m| m.name().to_owned()).collect();
+    let rows = survey.cases.iter().map(Case::name).collect();
+    let cell = |case: &Case, (method, reply): (&&dyn MobilityMethod, &Reply)| {
+        let (text, kind) = match reply.verdict {
+            Verdict::Right => (String::new(), Kind::Good),
+            Verdict::Pose(by) => (signed(by), Kind::Warn),
+            Verdict::Wrong(by) => (signed(by), Kind::Bad),
+            Verdict::Failed => ("fails".to_owned(), Kind::Bad),
+            Verdict::Silent => ("n/a".to_owned(), Kind::None),
+        };
+        Cell {
+            text,
+            kind,
+            tooltip: tooltip(case, *method, reply),
+        }
+    };
+    let cells = survey.cases.iter().zip(&survey.replies);
+    let cells = cells
+        .map(|(case, replies)| {
+            let pairs = method::ALL.iter().zip(replies);
+            pairs.map(|pair| cell(case, pair)).collect()
+        })
+        .collect();
+    Matrix {
+        title: "Every method on every mechanism".to_owned(),
+        subtitle: matrix_sentence(survey),
+        columns,
+        rows,
+        cells,
+    }
+}
+
+fn tooltip(case: &Case, method: &dyn MobilityMethod, reply: &Reply) -> String {
+    let says = match &reply.answer {
+        Ok(a) => format!("says {}", a.mobility),
+        Err(e) => return e.to_string(),
+    };
+    let truth = case.truth;
+    let is = if truth.instantaneous == truth.finite {
+        format!("the mobility is {}", truth.finite)
+    } else {
+        format!(
+            "the finite mobility is {}, at this pose {}",
+            truth.finite, truth.instantaneous
+        )
+    };
+    match reply.verdict {
+        Verdict::Right => format!("{says}, right"),
+        Verdict::Pose(_) => format!("{says}; {is}: the method speaks of the pose alone"),
+        _ => format!("{says}; {is}: {}", method.guarantee()),
+    }
+}
+
+fn matrix_sentence(survey: &Survey) -> String {
+    let total = |of: fn(&Verdict) -> bool| {
+        survey
+            .replies
+            .iter()
+            .flatten()
+            .filter(|r| of(&r.verdict))
+            .count()
+    };
+    let (wrong, pose) = (
+        total(|v| matches!(v, Verdict::Wrong(_) | Verdict::Failed)),
+        total(|v| matches!(v, Verdict::Pose(_))),
+    );
+    format!(
+        "{} cases by {} methods: a tick is the true finite mobility, a number by how much an answer is off; {wrong} \
+         answers are wrong, {pose} are right at the pose of the file but not for the motion, n/a is where a method does \
+         not apply.",
+        survey.cases.len(),
+        method::ALL.len(),
+    )
+}

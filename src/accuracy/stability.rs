@@ -1,0 +1,63 @@
+//! Where numbers fail: geometry, size, scale, noise and tolerance moved until answers turn wrong.
+
+pub mod change;
+mod distance;
+mod noise;
+pub mod numeric;
+mod scale;
+mod size;
+pub mod sweep;
+mod tolerance;
+
+use super::survey::Case;
+use crate::import::problem::ImportError;
+
+/// A series of experiments with what it shows.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// The stem of its files.
+    pub name: &'static str,
+    /// What was varied.
+    pub title: String,
+    /// What came of it, from the data.
+    pub sentence: String,
+    /// Names and texts of its SVG pictures.
+    pub pictures: Vec<(String, String)>,
+    /// Its data.
+    pub csv: String,
+}
+
+/// How much to do.
+#[derive(Debug, Clone, Copy)]
+pub struct Effort {
+    /// Coarse steps and part of the mechanisms.
+    pub quick: bool,
+    /// Seed of the noise.
+    pub seed: u64,
+}
+
+/// Is told the study under way, the steps done and their number.
+pub type Progress<'a> = &'a mut dyn FnMut(&str, usize, usize);
+
+/// Every study in turn.
+///
+/// # Errors
+/// Where a built-in file is not valid.
+pub fn all(
+    cases: &[Case],
+    effort: Effort,
+    progress: Progress<'_>,
+) -> Result<Vec<Study>, ImportError> {
+    let some: Vec<Case> = cases
+        .iter()
+        .step_by(if effort.quick { 4 } else { 1 })
+        .cloned()
+        .collect();
+    Ok(vec![
+        distance::study(effort, progress)?,
+        size::study(effort, progress),
+        scale::study(&some, effort, progress),
+        noise::study(&some, effort, progress),
+        tolerance::study(&some, effort, progress),
+    ])
+}

@@ -1,0 +1,115 @@
+//! Mechanisms with their geometry changed.
+
+use crate::geom::expr::Expr;
+use crate::model::mechanism::{Mechanism, Mode};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{RngCore, SeedableRng};
+
+/// 10^e, exactly.
+#[must_use]
+pub fn power_of_ten(e: i32) -> Expr {
+    Expr::rational(BigRational::from_integer(BigInt::from(10)).pow(e))
+}
+
+/// A copy without what only a search needs.
+fn bare(mechanism: &Mechanism) -> Mechanism {
+    let mut m = mechanism.clone();
+    for joint in &mut m.joints {
+        joint.options.clear();
+        joint.unloading.clear();
+    }
+    m
+}
+
+/// Every length multiplied by 10^e, exactly.
+#[must_use]
+pub fn resized(mechanism: &Mechanism, e: i32) -> Mechanism {
+    let mut m = bare(mechanism);
+    let factor = power_of_ten(e);
+    for joint in &mut m.joints {
+        let lengths = joint.frame.point.iter_mut().chain([&mut joint.frame.pitch]);
+        lengths.for_each(|x| *x = &*x * &factor);
+    }
+    m
+}
+
+/// Half the diagonal of the box round all joints; 0 where they are all in one place.
+#[must_use]
+pub fn size(mechanism: &Mechanism) -> f64 {
+    let half = (0..3).map(|i| {
+        let at = || mechanism.joints.iter().map(|j| j.frame.point[i].to_f64());
+        (at().fold(f64::MIN, f64::max) - at().fold(f64::MAX, f64::min)) / 2.0
+    });
+    half.map(|x: f64| x * x).sum::<f64>().sqrt()
+}
+
+/// Noise that is the same for the same seed on every machine.
+#[derive(Debug)]
+pub struct Noise(ChaCha8Rng);
+
+impl Noise {
+    /// The noise of a seed, for the `n`th mechanism.
+    #[must_use]
+    pub fn new(seed: u64, n: usize) -> Noise {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        random.set_stream(n as u64);
+        Noise(random)
+    }
+
+    /// Uniform in [-1, 1].
+    fn uniform(&mut self) -> f64 {
+        f64::from(self.0.next_u32()) / f64::from(u32::MAX) * 2.0 - 1.0
+    }
+
+    fn shake(&mut self, vector: &mut [Expr; 3], by: f64) {
+        for x in vector {
+            // What is not finite stays as it is; a double always is.
+            if let Ok(shaken) = Expr::from_f64(x.to_f64() + by * self.uniform()) {
+                *x = shaken;
+            }
+        }
+    }
+}
+
+/// Every coordinate as a double with uniform noise: points by `level` times the mechanism's size, axes by `level` times
+/// their length, so that coordinates that are zero move as well. Joints that are all in one place stay there. In planar mode points alone, for joints stay square to
+/// the plane there.
+#[must_use]
+pub fn shaken(mechanism: &Mechanism, level: f64, noise: &mut Noise) -> Mechanism {
+    let mut m = bare(mechanism);
+    let size = size(mechanism);
+    let spatial = matches!(m.mode, Mode::Spatial);
+    let length = |v: &[Expr; 3]| v.iter().map(|x| x.to_f64().powi(2)).sum::<f64>().sqrt();
+    for joint in &mut m.joints {
+        let frame = &mut joint.frame;
+        noise.shake(&mut frame.point, level * size);
+        if spatial {
+            let by = level * length(&frame.axis);
+            noise.shake(&mut frame.axis, by);
+            let by = level * length(&frame.reference);
+            noise.shake(&mut frame.reference, by);
+        }
+    }
+    m
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::builtin;
+    use crate::import::text::mechanism_from_str;
+
+    #[test]
+    fn changes_are_as_large_as_asked() {
+        let text = builtin::text("bennett").expect("built in");
+        let m = mechanism_from_str("bennett.toml", text).expect("valid");
+        let x = |m: &Mechanism| m.joints[0].frame.point[0].to_f64();
+        assert!((x(&resized(&m, -6)) - 40e-6).abs() < 1e-20);
+        let moved = |seed| x(&shaken(&m, 1e-3, &mut Noise::new(seed, 0))) - x(&m);
+        assert!(moved(1).abs() <= 1e-3 * size(&m) && moved(1) != 0.0);
+        assert_eq!(moved(1).to_bits(), moved(1).to_bits());
+        assert_ne!(moved(1).to_bits(), moved(2).to_bits());
+    }
+}

@@ -1,0 +1,136 @@
+//! Noise in the coordinates, 1e-15 to 1e-3 of the mechanism's size, judged by the mechanism without noise.
+
+use super::change::{Noise, shaken};
+use super::numeric::Numeric;
+use super::sweep::{Sweep, Tally};
+use super::{Effort, Progress, Study};
+use crate::accuracy::Verdict;
+use crate::accuracy::survey::Case;
+use crate::accuracy::words::{list, scientific};
+use crate::closure::matrix::Closure;
+use crate::geom::scalars::Reals;
+use crate::rank::method;
+use rayon::prelude::*;
+
+/// What is asked: the floating-point methods at these tolerances,
+const ASKED: [(Numeric, &[f64]); 4] = [
+    (Numeric::Lu32, &[1e-4]),
+    (Numeric::Lu, &[1e-9, 1e-6]),
+    (Numeric::Qr, &[1e-9, 1e-6]),
+    (Numeric::Svd, &[1e-12, 1e-9, 1e-6, 1e-3]),
+];
+/// and these methods as they are.
+const WHOLE: [&str; 2] = ["modular", "auto"];
+
+fn names() -> Vec<String> {
+    let numeric = ASKED.iter().flat_map(|(m, tolerances)| {
+        let at = |t: &f64| format!("{} at {}", m.name(), scientific(*t));
+        tolerances.iter().map(at).collect::<Vec<_>>()
+    });
+    numeric.chain(WHOLE.map(str::to_owned)).collect()
+}
+
+/// Whether each of [`names`] is right on a shaken case.
+fn ask(case: &Case, level: f64, noise: &mut Noise) -> Vec<bool> {
+    let m = shaken(&case.mechanism, level, noise);
+    let closure = Closure::new(&Reals, &m, case.state).ok();
+    let mut out = Vec::new();
+    for (method, tolerances) in ASKED {
+        match &closure {
+            Some(c) => out.extend(
+                method
+                    .mobilities(c, tolerances)
+                    .into_iter()
+                    .map(|w| w == Some(case.truth.instantaneous)),
+            ),
+            None => out.extend(tolerances.iter().map(|_| false)),
+        }
+    }
+    for name in WHOLE {
+        let answer = method::by_name(name).map(|x| x.answer(&m, case.state));
+        out.push(answer.is_some_and(|a| Verdict::keeps_promise(&a, case.truth)));
+    }
+    out
+}
+
+/// Runs the study.
+pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
+    let (step, seeds) = if effort.quick { (3, 1) } else { (1, 3) };
+    let exponents: Vec<i32> = (-15..=-3).step_by(step).collect();
+    let mut rows: Vec<(String, Vec<Tally>)> =
+        names().into_iter().map(|n| (n, Vec::new())).collect();
+    for (n, &e) in exponents.iter().enumerate() {
+        progress("noise", n, exponents.len());
+        let right: Vec<Vec<bool>> = (0..cases.len() * seeds)
+            .into_par_iter()
+            .map(|i| {
+                let (c, seed) = (i / seeds, (i % seeds) as u64);
+                let mut noise = Noise::new(effort.seed.wrapping_add(seed), c);
+                ask(&cases[c], 10f64.powi(e), &mut noise)
+            })
+            .collect();
+        for (i, row) in rows.iter_mut().enumerate() {
+            let mut tally = Tally::default();
+            right
+                .iter()
+                .enumerate()
+                .for_each(|(at, r)| tally.add(at / seeds, r[i]));
+            row.1.push(tally);
+        }
+    }
+    let sweep = Sweep {
+        title: "Noise in the coordinates".to_owned(),
+        x: "uniform noise, relative to the size of the mechanism and the length of axes".to_owned(),
+        column: "noise",
+        values: exponents.iter().map(|&e| 10f64.powi(e)).collect(),
+        cases: cases.iter().map(Case::name).collect(),
+        rows,
+    };
+    let sentence = sentence(&sweep);
+    Study {
+        name: "stability-noise",
+        title: sweep.title.clone(),
+        pictures: vec![
+            ("stability-noise".to_owned(), sweep.bands(&sentence).svg()),
+            (
+                "stability-noise-share".to_owned(),
+                sweep
+                    .chart(&format!(
+                        "Share of {} noisy mechanisms whose mobility without noise is found: at the pose, and for auto the finite one.",
+                        cases.len() * seeds
+                    ))
+                    .svg(),
+            ),
+        ],
+        sentence,
+        csv: sweep.csv(),
+    }
+}
+
+fn sentence(sweep: &Sweep) -> String {
+    let part = |name: &str| {
+        let region = sweep.region(sweep.row(name)?)?;
+        Some(format!(
+            "{name} up to noise of {} {}",
+            scientific(sweep.values[region.last]),
+            sweep.but(&region.missed)
+        ))
+    };
+    let svd = ASKED[3].1.iter();
+    let svd = svd.map(|t| format!("{} at {}", Numeric::Svd.name(), scientific(*t)));
+    let told: Vec<String> = svd
+        .chain(["auto".to_owned()])
+        .filter_map(|name| part(&name))
+        .collect();
+    let exact = sweep.row("modular").and_then(|row| sweep.region(row));
+    let exact = exact.map_or_else(String::new, |r| {
+        format!(
+            " Exact ranks take every digit at its word: with any noise modular finds it {} only.",
+            sweep.but(&r.missed)
+        )
+    });
+    format!(
+        "The mobility without noise is found by {}.{exact}",
+        list(&told)
+    )
+}

@@ -1,0 +1,240 @@
+//! Size: 1 to 200 contours.
+
+use super::sweep::{Tally, bands};
+use super::{Effort, Progress, Study};
+use crate::accuracy::csv::Csv;
+use crate::accuracy::lattice::{self, Kind as Shape};
+use crate::accuracy::survey::{median, time};
+use crate::accuracy::words::{duration, list};
+use crate::accuracy::{Truth, Verdict};
+use crate::chart::{Axis, Bands, Chart, Kind, Scale, Series, Style};
+use crate::closure::matrix::Closure;
+use crate::model::mechanism::Mechanism;
+use crate::rank::method::{self, MobilityMethod};
+use crate::rank::{field_of, modular};
+use std::time::{Duration, Instant};
+
+const SIZES: [usize; 10] = [1, 2, 3, 5, 10, 20, 35, 60, 100, 200];
+/// A method that takes longer is not asked about larger ones of the same shape.
+const LIMIT: Duration = Duration::from_secs(2);
+/// The same in a quick run.
+const QUICK_LIMIT: Duration = Duration::from_millis(100);
+
+/// What a method did with one size, over the shapes.
+#[derive(Debug, Clone, Default)]
+struct Record {
+    tally: Tally,
+    times: Vec<f64>,
+    skipped: usize,
+}
+
+/// Known by construction for the planar chains, by ranks over two primes for the grid.
+fn truth(shape: Shape, m: &Mechanism) -> Truth {
+    let one = Truth {
+        instantaneous: 1,
+        finite: 1,
+    };
+    if shape != Shape::Grid {
+        return one;
+    }
+    let free = |nth| {
+        let exact = field_of(m, 0, nth).ok()?;
+        let closure = Closure::new(&exact, m, 0).ok()?;
+        i64::try_from(closure.columns.len() - modular::rank(&exact, &closure)).ok()
+    };
+    let free = (0..2).filter_map(free).min().unwrap_or(0);
+    // What cannot move instantaneously cannot move; otherwise only the mobility at the pose is known.
+    Truth {
+        instantaneous: free,
+        finite: free,
+    }
+}
+
+/// Runs the study.
+pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
+    let sizes = if effort.quick {
+        &SIZES[..5]
+    } else {
+        &SIZES[..]
+    };
+    let limit = if effort.quick { QUICK_LIMIT } else { LIMIT };
+    let mut records = vec![vec![Record::default(); sizes.len()]; method::ALL.len()];
+    let mut csv = Csv::new(&[
+        "shape", "contours", "links", "joints", "method", "answer", "expected", "verdict",
+        "seconds",
+    ]);
+    for (s, shape) in Shape::ALL.into_iter().enumerate() {
+        let mut slow = vec![false; method::ALL.len()];
+        for (n, &size) in sizes.iter().enumerate() {
+            progress("size", s * sizes.len() + n, Shape::ALL.len() * sizes.len());
+            let m = lattice::mechanism(shape, size);
+            let truth = truth(shape, &m);
+            for (i, method) in method::ALL.iter().enumerate() {
+                let record = &mut records[i][n];
+                if slow[i] {
+                    record.skipped += 1;
+                    continue;
+                }
+                let (answer, seconds) = ask(*method, &m);
+                slow[i] = seconds > limit.as_secs_f64();
+                let verdict = Verdict::on(&answer, truth);
+                if verdict != Verdict::Silent {
+                    record.tally.add(s, Verdict::keeps_promise(&answer, truth));
+                    record.times.push(seconds);
+                }
+                csv.row(&[
+                    format!("{shape:?}"),
+                    size.to_string(),
+                    m.links.len().to_string(),
+                    m.joints.len().to_string(),
+                    method.name().to_owned(),
+                    answer
+                        .as_ref()
+                        .map_or_else(ToString::to_string, |a| a.mobility.to_string()),
+                    truth.instantaneous.to_string(),
+                    verdict.word().to_owned(),
+                    format!("{seconds:.3e}"),
+                ]);
+            }
+        }
+    }
+    let sentence = sentence(sizes, &records, limit);
+    Study {
+        name: "stability-size",
+        title: "Size".to_owned(),
+        pictures: vec![
+            (
+                "stability-size-time".to_owned(),
+                chart(sizes, &records).svg(),
+            ),
+            ("stability-size".to_owned(), picture(sizes, &records).svg()),
+        ],
+        sentence,
+        csv: csv.finish(),
+    }
+}
+
+/// The answer and its time; short times are the median of several.
+fn ask(
+    method: &dyn MobilityMethod,
+    m: &Mechanism,
+) -> (Result<method::Answer, method::NoAnswer>, f64) {
+    let begun = Instant::now();
+    let answer = method.answer(m, 0);
+    let first = begun.elapsed().as_secs_f64();
+    if first > 0.05 {
+        return (answer, first);
+    }
+    (answer, time(method, m, 0, 5))
+}
+
+fn points(sizes: &[usize], records: &[Record]) -> Vec<(f64, f64)> {
+    let of = |(&k, r): (&usize, &Record)| {
+        // Of all shapes, or of none: a median over fewer would jump.
+        let whole = !r.times.is_empty() && r.skipped == 0;
+        #[allow(clippy::cast_precision_loss, reason = "sizes are small")]
+        whole.then(|| (k as f64, median(r.times.clone())))
+    };
+    sizes.iter().zip(records).filter_map(of).collect()
+}
+
+fn chart(sizes: &[usize], records: &[Vec<Record>]) -> Chart {
+    Chart {
+        title: "Time against size".to_owned(),
+        subtitle: format!(
+            "Median over {} shapes: rows of four-bars, lazy tongs, and grids of many joint types.",
+            Shape::ALL.len()
+        ),
+        x: Axis {
+            label: "independent contours".to_owned(),
+            scale: Scale::Log,
+        },
+        y: Axis {
+            label: "time of an answer, s".to_owned(),
+            scale: Scale::Log,
+        },
+        series: method::ALL
+            .iter()
+            .zip(records)
+            .map(|(m, r)| Series {
+                name: m.name().to_owned(),
+                points: points(sizes, r),
+                style: Style::Line,
+            })
+            .collect(),
+    }
+}
+
+fn kind(r: &Record) -> Kind {
+    match &r.tally {
+        t if t.of == 0 || r.skipped > 0 => Kind::None,
+        t if t.right == t.of => Kind::Good,
+        t if t.right > 0 => Kind::Warn,
+        _ => Kind::Bad,
+    }
+}
+
+fn picture(sizes: &[usize], records: &[Vec<Record>]) -> Bands {
+    #[allow(clippy::cast_precision_loss, reason = "sizes are small")]
+    let xs: Vec<f64> = sizes.iter().map(|&k| k as f64).collect();
+    Bands {
+        title: "Right answers against size".to_owned(),
+        subtitle: "Right: on each shape that the method applies to; in doubt: on some; no verdict: too slow, or not \
+                   applicable."
+            .to_owned(),
+        x: Axis {
+            label: "independent contours".to_owned(),
+            scale: Scale::Log,
+        },
+        rows: method::ALL
+            .iter()
+            .zip(records)
+            .map(|(m, r)| (m.name().to_owned(), bands(&xs, r.iter().map(kind))))
+            .collect(),
+    }
+}
+
+/// The exponent of time over size, from the last two sizes measured that are at least three apart in ratio.
+fn growth(points: &[(f64, f64)]) -> Option<f64> {
+    let (x1, y1) = *points.last()?;
+    let (x0, y0) = *points.iter().rev().find(|(x, _)| x * 3.0 <= x1)?;
+    Some((y1 / y0).ln() / (x1 / x0).ln())
+}
+
+fn sentence(sizes: &[usize], records: &[Vec<Record>], limit: Duration) -> String {
+    let largest = sizes.last().copied().unwrap_or(0);
+    let mut always = Vec::new();
+    let mut late = Vec::new();
+    let mut times = Vec::new();
+    for (method, r) in method::ALL.iter().zip(records) {
+        let name = method.name();
+        if r.iter().all(|r| kind(r) == Kind::Good) {
+            always.push(name.to_owned());
+        }
+        if let Some(first) = r.iter().position(|r| r.skipped > 0) {
+            late.push(format!("{name} at {}", sizes[first]));
+        }
+        let points = points(sizes, r);
+        if ["lu", "svd", "modular", "rational", "finite", "auto"].contains(&name)
+            && let (Some(grows), Some((k, t))) = (growth(&points), points.last())
+        {
+            times.push(format!(
+                "{name} {} at {k:.0} (growing as k^{grows:.1})",
+                duration(*t)
+            ));
+        }
+    }
+    let mut out = format!(
+        "{} are right on all shapes up to {largest} contours. Times: {}.",
+        list(&always),
+        list(&times)
+    );
+    if !late.is_empty() {
+        out += &format!(
+            " Not asked any more, having taken over {}: {}.",
+            duration(limit.as_secs_f64()),
+            list(&late)
+        );
+    }
+    out
+}

@@ -1,0 +1,175 @@
+//! The tolerance of the floating-point methods, 1e-15 to 1e-3, with and without noise; the default follows from it.
+
+use super::change::{Noise, shaken};
+use super::numeric::Numeric;
+use super::sweep::{Sweep, Tally};
+use super::{Effort, Progress, Study};
+use crate::accuracy::survey::Case;
+use crate::accuracy::words::{list, scientific};
+use crate::closure::matrix::Closure;
+use crate::geom::scalars::Reals;
+use crate::rank::numeric::DEFAULT_TOLERANCE;
+use rayon::prelude::*;
+
+/// Levels of noise; 0 is the catalogue as it stands.
+const LEVELS: [f64; 4] = [0.0, 1e-12, 1e-9, 1e-6];
+
+fn name(method: Numeric, level: f64) -> String {
+    if level == 0.0 {
+        method.name().to_owned()
+    } else {
+        format!("{}, noise {}", method.name(), scientific(level))
+    }
+}
+
+/// Tallies over the tolerances for each method, at a level of noise.
+fn tally(cases: &[Case], effort: Effort, level: f64, tolerances: &[f64]) -> Vec<Vec<Tally>> {
+    let seeds = if level == 0.0 || effort.quick { 1 } else { 3 };
+    let right: Vec<Vec<Vec<bool>>> = (0..cases.len() * seeds)
+        .into_par_iter()
+        .map(|i| {
+            let (n, seed) = (i / seeds, (i % seeds) as u64);
+            let (case, mut noise) = (&cases[n], Noise::new(effort.seed.wrapping_add(seed), n));
+            let closure = if level == 0.0 {
+                Closure::new(&Reals, &case.mechanism, case.state)
+            } else {
+                let m = shaken(&case.mechanism, level, &mut noise);
+                Closure::new(&Reals, &m, case.state)
+            };
+            let truth = Some(case.truth.instantaneous);
+            Numeric::ALL
+                .iter()
+                .map(|method| match &closure {
+                    Ok(c) => {
+                        let found = method.mobilities(c, tolerances);
+                        found.into_iter().map(|w| w == truth).collect()
+                    }
+                    Err(_) => vec![false; tolerances.len()],
+                })
+                .collect()
+        })
+        .collect();
+    let mut tallies = vec![vec![Tally::default(); tolerances.len()]; Numeric::ALL.len()];
+    for (at, one) in right.iter().enumerate() {
+        for (row, found) in tallies.iter_mut().zip(one) {
+            for (t, ok) in row.iter_mut().zip(found) {
+                t.add(at / seeds, *ok);
+            }
+        }
+    }
+    tallies
+}
+
+/// Runs the study.
+pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
+    // Half decades, or decades.
+    let step = if effort.quick { 2 } else { 1 };
+    let tolerances: Vec<f64> = (-30..=-6)
+        .step_by(step)
+        .map(|half| 10f64.powf(f64::from(half) / 2.0))
+        .collect();
+    let mut found: Vec<Vec<Vec<Tally>>> = Vec::new();
+    for (n, &level) in LEVELS.iter().enumerate() {
+        progress("tolerance", n, LEVELS.len());
+        found.push(tally(cases, effort, level, &tolerances));
+    }
+    let mut rows = Vec::new();
+    for (m, method) in Numeric::ALL.into_iter().enumerate() {
+        for (n, &level) in LEVELS.iter().enumerate() {
+            rows.push((name(method, level), found[n][m].clone()));
+        }
+    }
+    let all = Sweep {
+        title: "Tolerance of the floating-point methods".to_owned(),
+        x: "tolerance, relative to the largest pivot or singular value".to_owned(),
+        column: "tolerance",
+        values: tolerances,
+        cases: cases.iter().map(Case::name).collect(),
+        rows,
+    };
+    let part = |title: &str, names: Vec<String>| Sweep {
+        title: title.to_owned(),
+        rows: all
+            .rows
+            .iter()
+            .filter(|r| names.contains(&r.0))
+            .cloned()
+            .collect(),
+        ..all.clone()
+    };
+    let methods = part(
+        "Tolerance, coordinates as in the catalogue",
+        Numeric::ALL.map(|m| name(m, 0.0)).to_vec(),
+    );
+    let levels = part(
+        "Tolerance of singular values, with noise",
+        LEVELS.map(|l| name(Numeric::Svd, l)).to_vec(),
+    );
+    let sentence = sentence(&all);
+    Study {
+        name: "stability-tolerance",
+        title: all.title.clone(),
+        pictures: vec![
+            ("stability-tolerance".to_owned(), all.bands(&sentence).svg()),
+            (
+                "stability-tolerance-methods".to_owned(),
+                methods
+                    .chart("Share of all cases in which the mobility at the pose is found.")
+                    .svg(),
+            ),
+            (
+                "stability-tolerance-noise".to_owned(),
+                levels
+                    .chart("Share of all cases in which singular values find the mobility at the pose of the mechanism without noise.")
+                    .svg(),
+            ),
+        ],
+        sentence,
+        csv: all.csv(),
+    }
+}
+
+/// The tolerances at which a row does best, in words, and their middle on a log scale.
+fn best(sweep: &Sweep, row: &str) -> Option<(String, f64)> {
+    let region = sweep.region(sweep.row(row)?)?;
+    let (from, to) = (sweep.values[region.first], sweep.values[region.last]);
+    let least = if region.first == 0 {
+        " (the least tried)"
+    } else {
+        ""
+    };
+    let range = if from < to {
+        format!("{}{least} to {}", scientific(from), scientific(to))
+    } else {
+        format!("{} alone", scientific(from))
+    };
+    let words = format!("{range} {}", sweep.but(&region.missed));
+    Some((words, (from * to).sqrt()))
+}
+
+fn sentence(sweep: &Sweep) -> String {
+    let levels = LEVELS.iter().filter_map(|&level| {
+        let noise = match level {
+            0.0 => "without noise".to_owned(),
+            l => format!("with noise {}", scientific(l)),
+        };
+        let (words, middle) = best(sweep, &name(Numeric::Svd, level))?;
+        Some(format!("{noise} {words} (middle {})", scientific(middle)))
+    });
+    let others = Numeric::ALL
+        .into_iter()
+        .filter(|m| *m != Numeric::Svd)
+        .filter_map(|m| Some(format!("{} {}", m.name(), best(sweep, m.name())?.0)));
+    let default = best(sweep, Numeric::Svd.name()).map_or_else(String::new, |(_, middle)| {
+        format!(
+            " Recommended default tolerance: {}, the middle without noise; the present default is {}.",
+            scientific(middle),
+            scientific(DEFAULT_TOLERANCE)
+        )
+    });
+    format!(
+        "Tolerances at which singular values are right: {}. The others, without noise: {}.{default}",
+        list(&levels.collect::<Vec<_>>()),
+        list(&others.collect::<Vec<_>>())
+    )
+}

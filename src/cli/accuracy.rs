@@ -1,0 +1,58 @@
+//! `ozols accuracy`.
+
+use super::args::{Accuracy, Args};
+use super::progress::Bar;
+use super::{Done, output};
+use crate::accuracy::folder;
+use crate::accuracy::stability::{self, Effort};
+use crate::accuracy::survey::Survey;
+use crate::report::accuracy_text;
+use anyhow::{Context, ensure};
+
+pub(super) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
+    let repeat = a.repeat.unwrap_or(if a.quick { 1 } else { 5 });
+    ensure!(repeat > 0, "--repeat must be at least 1");
+    // The folder before the work: a bad path should not cost a minute.
+    if let Some(folder) = &a.output {
+        std::fs::create_dir_all(folder)
+            .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    }
+    let mut bar = Bar::new(args.quiet);
+    let survey = Survey::new(repeat, &mut |done, of| {
+        bar.step("timing the methods", done, of);
+    })?;
+    if let Some(folder) = &a.output {
+        let effort = Effort {
+            quick: a.quick,
+            seed: args.seed,
+        };
+        let studies = stability::all(&survey.cases, effort, &mut |what, done, of| {
+            bar.step(what, done, of);
+        })?;
+        for (name, text) in folder::files(&survey, &studies) {
+            output::to(Some(&folder.join(&name)), |out| {
+                out.write_all(text.as_bytes())?;
+                Ok(Done::Found)
+            })?;
+        }
+        bar.clear();
+        let sentences = studies
+            .iter()
+            .map(|s| (s.title.as_str(), s.sentence.as_str()));
+        let text = accuracy_text::summary(&survey, sentences, output::width(None));
+        return output::to(None, |out| {
+            writeln!(
+                out,
+                "{text}\nWritten to {}.",
+                folder.join("index.html").display()
+            )?;
+            Ok(Done::Found)
+        });
+    }
+    bar.clear();
+    output::to(None, |out| {
+        let text = accuracy_text::summary(&survey, [], output::width(None));
+        write!(out, "{text}")?;
+        Ok(Done::Found)
+    })
+}

@@ -1,0 +1,177 @@
+//! The survey of the methods, and where the naive formulas fail.
+
+use ozols::accuracy::Verdict;
+use ozols::accuracy::survey::{Reply, Survey, cases};
+use ozols::rank::method;
+use std::sync::LazyLock;
+
+static SURVEY: LazyLock<Survey> = LazyLock::new(|| Survey::new(1, &mut |_, _| {}).unwrap());
+
+fn index(name: &str) -> usize {
+    method::ALL.iter().position(|m| m.name() == name).unwrap()
+}
+
+fn reply(case: &str, method: &str) -> &'static Reply {
+    let n = SURVEY.cases.iter().position(|c| c.name() == case).unwrap();
+    &SURVEY.replies[n][index(method)]
+}
+
+#[test]
+fn finite_auto_and_modular_are_right_everywhere() {
+    assert!(cases().unwrap().len() >= 117);
+    let mut wrong = Vec::new();
+    for name in ["finite", "auto"] {
+        for (case, r) in SURVEY.of_method(index(name)) {
+            if r.verdict != Verdict::Right {
+                wrong.push(format!("{name} on {}: {:?}", case.name(), r.answer));
+            }
+        }
+    }
+    for (case, r) in SURVEY.of_method(index("modular")) {
+        if r.answer.as_ref().unwrap().mobility != case.truth.instantaneous {
+            wrong.push(format!("modular on {}: {:?}", case.name(), r.answer));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn each_naive_formula_fails_where_it_is_known_to() {
+    for (case, method, says, by) in [
+        ("bennett", "count", -2, -3),
+        ("parallelogram-3-rods", "count-planar", 0, -1),
+        ("3-crr", "loops", 2, -1),
+        ("bennett", "generic", 0, -1),
+    ] {
+        let r = reply(case, method);
+        assert_eq!(
+            r.answer.as_ref().unwrap().mobility,
+            says,
+            "{method} on {case}"
+        );
+        assert_eq!(r.verdict, Verdict::Wrong(by), "{method} on {case}");
+    }
+}
+
+/// Rows of a CSV text, the heads first.
+fn rows(csv: &str) -> Vec<Vec<String>> {
+    let mut rows = vec![vec![String::new()]];
+    let mut quoted = false;
+    for c in csv.chars() {
+        let row = rows.last_mut().unwrap();
+        match (c, quoted) {
+            ('"', _) => quoted = !quoted,
+            (',', false) => row.push(String::new()),
+            ('\n', false) => rows.push(vec![String::new()]),
+            _ => row.last_mut().unwrap().push(c),
+        }
+    }
+    assert_eq!(rows.pop().unwrap(), [""], "the last line ends");
+    let width = rows[0].len();
+    assert!(rows.iter().all(|r| r.len() == width), "rows of one width");
+    rows
+}
+
+fn run(args: &[&str]) -> String {
+    let mut command = assert_cmd::Command::cargo_bin("ozols").unwrap();
+    let out = command.args(args).assert().success();
+    String::from_utf8(out.get_output().stdout.clone()).unwrap()
+}
+
+/// What does not depend on time.
+fn verdicts(folder: &std::path::Path) -> Vec<(String, String)> {
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    let mut out: Vec<(String, String)> = [
+        "matrix.svg",
+        "stability-distance.csv",
+        "stability-scale.csv",
+        "stability-noise.csv",
+        "stability-tolerance.csv",
+    ]
+    .map(|n| (n.to_owned(), read(n)))
+    .into();
+    let survey = rows(&read("survey.csv"));
+    let timeless: Vec<_> = survey.iter().map(|r| r[..r.len() - 1].join("|")).collect();
+    out.push(("survey.csv".to_owned(), timeless.join("\n")));
+    out
+}
+
+#[test]
+fn a_quick_run_writes_charts_whose_right_cells_are_right() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path().join("new");
+    let said = run(&["accuracy", "--quick", "-o", at.to_str().unwrap()]);
+    assert!(said.contains("right of 117") && said.contains("Recommended default tolerance"));
+    let mut svgs = 0;
+    for entry in std::fs::read_dir(&at).unwrap() {
+        let path = entry.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        match path.extension().unwrap().to_str().unwrap() {
+            "svg" => {
+                roxmltree::Document::parse(&text).unwrap_or_else(|e| panic!("{path:?}: {e}"));
+                svgs += 1;
+            }
+            "csv" => assert!(rows(&text).len() > 1, "{path:?}"),
+            _ => assert!(path.ends_with("index.html") && text.ends_with("</html>\n")),
+        }
+    }
+    assert!(svgs >= 10, "{svgs} pictures");
+
+    let read = |name: &str| std::fs::read_to_string(at.join(name)).unwrap();
+    let survey = rows(&read("survey.csv"));
+    let column = |name: &str| survey[0].iter().position(|h| h == name).unwrap();
+    let (answer, finite, pose) = (
+        column("answer"),
+        column("expected_finite"),
+        column("expected_instantaneous"),
+    );
+    let (verdict, quantity) = (column("verdict"), column("quantity"));
+    let mut right = 0;
+    for row in &survey[1..] {
+        let expected = if row[answer].is_empty() {
+            "does not apply"
+        } else if row[answer] == row[finite] {
+            right += 1;
+            "right"
+        } else if row[quantity] == "instantaneous" && row[answer] == row[pose] {
+            "right at the pose"
+        } else {
+            "wrong"
+        };
+        assert_eq!(row[verdict], expected, "{row:?}");
+    }
+    // A tick is drawn for each right answer and for no other.
+    let matrix = read("matrix.svg");
+    let matrix = roxmltree::Document::parse(&matrix).unwrap();
+    let ticks = matrix
+        .descendants()
+        .filter(|n| n.attribute("class") == Some("sign good"));
+    assert_eq!(ticks.count(), right);
+
+    let other = folder.path().join("other");
+    run(&[
+        "accuracy",
+        "--quick",
+        "--threads",
+        "1",
+        "-o",
+        other.to_str().unwrap(),
+    ]);
+    for (one, two) in verdicts(&at).into_iter().zip(verdicts(&other)) {
+        assert!(one == two, "{} differs between runs", one.0);
+    }
+}
+
+#[test]
+fn without_a_folder_there_is_a_table_and_nothing_else() {
+    let here = tempfile::tempdir().unwrap();
+    let mut command = assert_cmd::Command::cargo_bin("ozols").unwrap();
+    let out = command
+        .current_dir(&here)
+        .args(["accuracy", "--quick"])
+        .assert()
+        .success();
+    let text = String::from_utf8(out.get_output().stdout.clone()).unwrap();
+    assert_eq!(text.lines().count(), 2 + method::ALL.len(), "{text}");
+    assert_eq!(std::fs::read_dir(&here).unwrap().count(), 0);
+}
