@@ -33,8 +33,8 @@
 //!
 //! # Layers
 //!
-//! linalg, geom -> model -> closure -> import, rank -> redundancy -> search -> report -> cli. Imports go one way; a test
-//! holds them to it.
+//! linalg, geom -> model -> closure -> import, rank, workload -> redundancy -> search -> report -> cli.
+//! Imports go one way; a test holds them to it.
 //!
 //! # Sources
 //!
@@ -42,6 +42,10 @@
 //!   Science and Transport Progress 4 (76), 2018.
 //! - `[Horton 1987]` J. D. Horton, "A polynomial-time algorithm to find the shortest cycle basis of a graph", SIAM J.
 //!   Comput. 16, 1987.
+//! - `[Pavlenko & Godunko 2010]` I. I. Pavlenko, M. O. Godunko, transmission relations of the force arms of clamping levers
+//!   of robot grippers, Kirovohrad National Technical University, 2010.
+//! - `[Klyuchkovskyi 1999]` S. M. Klyuchkovskyi, a universal module of transport and feeding mechanisms for robots and
+//!   cyclic automata, UDC 621.01, 1999.
 
 pub mod builtin;
 pub mod cli;
@@ -54,3 +58,4 @@ pub mod rank;
 pub mod redundancy;
 pub mod report;
 pub mod search;
+pub mod workload;

@@ -9,7 +9,7 @@ const LAYERS: [&[&str]; 9] = [
     &["geom"],
     &["model"],
     &["closure"],
-    &["import", "rank"],
+    &["import", "rank", "workload"],
     &["redundancy"],
     &["search", "builtin"],
     &["report"],

@@ -5,6 +5,7 @@ mod bytes;
 mod catalogs;
 mod cli;
 mod contours;
+mod grip;
 mod layering;
 mod published;
 mod twin;

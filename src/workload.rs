@@ -1,0 +1,4 @@
+//! Workload models: what a gripper must hold and what drives it. They know geometry and statics, and nothing of files,
+//! searches or reports.
+
+pub mod lever_arm;
