@@ -27,9 +27,7 @@ pub enum LeverError {
     )]
     PrismAngle(f64),
     /// Beyond the lever.
-    #[error(
-        "the mounting angle is {0} degrees; give one from 0 to below 180"
-    )]
+    #[error("the mounting angle is {0} degrees; give one from 0 to below 180")]
     MountingAngle(f64),
 }
 

@@ -6,6 +6,7 @@ mod catalogs;
 mod cli;
 mod contours;
 mod grip;
+mod holding;
 mod layering;
 mod published;
 mod twin;
