@@ -34,7 +34,7 @@
 //! # Layers
 //!
 //! linalg, geom -> model -> closure -> import, rank, workload -> redundancy -> search -> report -> cli.
-//! Imports go one way; a test holds them to it.
+//! Imports go one way; a test holds them to it. [`chart`] draws finished numbers and imports nothing.
 //!
 //! # Sources
 //!
@@ -48,6 +48,7 @@
 //!   cyclic automata, UDC 621.01, 1999.
 
 pub mod builtin;
+pub mod chart;
 pub mod cli;
 pub mod closure;
 pub mod geom;

@@ -1,0 +1,322 @@
+//! Ranges, ticks and their labels.
+
+use super::Scale;
+use super::look::{self, TICK};
+
+/// The range of an axis with its ticks; places are fractions of the axis from its low end.
+#[derive(Clone, Debug)]
+pub(super) struct Ruler {
+    scale: Scale,
+    lo: f64,
+    hi: f64,
+    /// Ticks from low to high.
+    pub(super) ticks: Vec<Tick>,
+    /// Places of the unlabelled lines between decades.
+    pub(super) fine: Vec<f64>,
+}
+
+/// A tick.
+#[derive(Clone, Debug)]
+pub(super) struct Tick {
+    /// Where.
+    pub(super) at: f64,
+    /// Its label; none where it would not fit.
+    pub(super) label: Option<Label>,
+}
+
+/// A tick's label: `base`, or `base` with a raised `power`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Label {
+    pub(super) base: String,
+    pub(super) power: Option<String>,
+}
+
+/// How the range follows from the values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Fit {
+    /// From the least to the greatest value.
+    Tight,
+    /// A little beyond both.
+    Padded,
+    /// From tick to tick, with zero where it is near.
+    Round,
+}
+
+/// The room for labels, in pixels.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Room {
+    /// An axis across of this length, with this much space before and after it.
+    Across(f64, f64, f64),
+    /// An axis up of this length.
+    Up(f64),
+}
+
+impl Label {
+    /// Its width in pixels.
+    pub(super) fn width(&self) -> f64 {
+        let power = self.power.as_deref().unwrap_or_default();
+        look::width(&self.base, TICK) + look::width(power, look::RAISED)
+    }
+}
+
+/// What the axis measures: the value or its decimal logarithm; none if it cannot be shown.
+fn measure(scale: Scale, value: f64) -> Option<f64> {
+    match scale {
+        Scale::Linear => (value.abs() <= 1e300).then_some(value),
+        Scale::Log => (value > 0.0 && value.is_finite()).then(|| value.log10()),
+    }
+}
+
+impl Ruler {
+    /// The ruler for `values`.
+    pub(super) fn new(
+        scale: Scale,
+        values: impl Iterator<Item = f64>,
+        fit: Fit,
+        room: Room,
+    ) -> Self {
+        let range = values
+            .filter_map(|v| measure(scale, v))
+            .fold(None, |range, v| {
+                let (lo, hi) = range.unwrap_or((v, v));
+                Some((v.min(lo), v.max(hi)))
+            });
+        let (lo, hi) = range.unwrap_or((0.0, 1.0));
+        let mut ruler = match scale {
+            Scale::Linear => linear(lo, hi, fit, room),
+            Scale::Log => log(lo, hi, fit, room),
+        };
+        ruler.drop_crowded(room);
+        ruler
+    }
+
+    /// Whether an axis can show `value`.
+    pub(super) fn shows(scale: Scale, value: f64) -> bool {
+        measure(scale, value).is_some()
+    }
+
+    /// Where `value` stands; none if it cannot be shown.
+    pub(super) fn place(&self, value: f64) -> Option<f64> {
+        measure(self.scale, value).map(|v| self.fraction(v))
+    }
+
+    fn fraction(&self, measured: f64) -> f64 {
+        // halved, so that the widest ranges do not overflow
+        (measured / 2.0 - self.lo / 2.0) / (self.hi / 2.0 - self.lo / 2.0)
+    }
+
+    fn crowded(&self, room: Room) -> bool {
+        let Room::Across(length, ..) = room else {
+            return false;
+        };
+        let labels = self
+            .ticks
+            .iter()
+            .filter_map(|t| Some((t.at, t.label.as_ref()?)));
+        let mut end = f64::NEG_INFINITY;
+        for (at, label) in labels {
+            let (middle, half) = (at * length, label.width() / 2.0);
+            if middle - half < end + look::GAP {
+                return true;
+            }
+            end = middle + half;
+        }
+        false
+    }
+
+    /// Takes away the labels that would touch the one before or leave the picture.
+    fn drop_crowded(&mut self, room: Room) {
+        let Room::Across(length, before, after) = room else {
+            return;
+        };
+        let mut end = f64::NEG_INFINITY;
+        for tick in &mut self.ticks {
+            let half = tick.label.as_ref().map_or(0.0, Label::width) / 2.0;
+            let (from, to) = (tick.at * length - half, tick.at * length + half);
+            if from < -before || to > length + after || from < end + look::GAP {
+                tick.label = None;
+            } else {
+                end = to;
+            }
+        }
+    }
+}
+
+/// How many steps to try, the best first.
+fn counts(room: Room) -> impl Iterator<Item = f64> {
+    let best = match room {
+        Room::Across(length, ..) => length / 60.0,
+        Room::Up(length) => length / 46.0,
+    };
+    let best = best.round().clamp(1.0, 10.0);
+    (0..10)
+        .map(move |less| best - f64::from(less))
+        .filter(|&n| n >= 1.0)
+}
+
+fn linear(lo: f64, hi: f64, fit: Fit, room: Room) -> Ruler {
+    let size = lo.abs().max(hi.abs());
+    let (mut lo, mut hi) = if hi / 2.0 - lo / 2.0 > (size * 1e-10).max(1e-290) {
+        (lo, hi)
+    } else if size < 1e-280 {
+        (-1.0, 1.0)
+    } else {
+        let middle = lo / 2.0 + hi / 2.0;
+        (middle - 0.2 * size, middle + 0.2 * size)
+    };
+    if fit != Fit::Tight {
+        if lo >= 0.0 && lo < 0.4 * hi {
+            lo = 0.0;
+        } else if hi <= 0.0 && hi > 0.4 * lo {
+            hi = 0.0;
+        }
+    }
+    if fit == Fit::Padded {
+        let pad = 0.05 * hi - 0.05 * lo;
+        lo = if lo == 0.0 { lo } else { lo - pad };
+        hi = if hi == 0.0 { hi } else { hi + pad };
+    }
+    let mut ruler = linear_by(lo, hi, 1.0, fit);
+    for count in counts(room) {
+        ruler = linear_by(lo, hi, count, fit);
+        if !ruler.crowded(room) {
+            break;
+        }
+    }
+    ruler
+}
+
+/// Ticks at a 1-2-5 step, about `count` steps in the range.
+fn linear_by(lo: f64, hi: f64, count: f64, fit: Fit) -> Ruler {
+    let raw = hi / count - lo / count;
+    let mut exponent = raw.log10().floor() as i32;
+    let lead = raw / ten(exponent) * (1.0 - 1e-9);
+    let mut lead = [1_i64, 2, 5, 10]
+        .into_iter()
+        .find(|&m| lead <= m as f64)
+        .unwrap_or(10);
+    if lead == 10 {
+        (lead, exponent) = (1, exponent + 1);
+    }
+    let step = lead as f64 * ten(exponent);
+    let (first, last) = if fit == Fit::Round {
+        ((lo / step + 1e-9).floor(), (hi / step - 1e-9).ceil())
+    } else {
+        ((lo / step - 1e-9).ceil(), (hi / step + 1e-9).floor())
+    };
+    // whole multiples of ten(exponent)
+    let whole: Vec<i64> = (first as i64..=last as i64).map(|k| k * lead).collect();
+    let value = |k: i64| match exponent {
+        ..0 => k as f64 / ten(-exponent),
+        _ => k as f64 * ten(exponent),
+    };
+    let (mut lo, mut hi) = (lo, hi);
+    if let (Fit::Round, Some(&first), Some(&last)) = (fit, whole.first(), whole.last()) {
+        (lo, hi) = (lo.min(value(first)), hi.max(value(last)));
+    }
+    let most = whole.iter().map(|k| k.abs()).max().unwrap_or(0);
+    let mut ruler = Ruler {
+        scale: Scale::Linear,
+        lo,
+        hi,
+        ticks: Vec::new(),
+        fine: Vec::new(),
+    };
+    ruler.ticks = whole
+        .iter()
+        .map(|&k| Tick {
+            at: ruler.fraction(value(k)).clamp(0.0, 1.0),
+            label: Some(decimal(k, exponent, most)),
+        })
+        .collect();
+    ruler
+}
+
+fn ten(exponent: i32) -> f64 {
+    10_f64.powi(exponent)
+}
+
+/// `whole` times ten to the `exponent`, like its neighbours, the greatest of which is `most`.
+fn decimal(whole: i64, exponent: i32, most: i64) -> Label {
+    let plain = |base| Label { base, power: None };
+    if whole == 0 {
+        return plain("0".to_owned());
+    }
+    let sign = if whole < 0 { "\u{2212}" } else { "" };
+    let top = exponent + most.max(1).ilog10() as i32;
+    if top < 6 && exponent >= -4 {
+        let size = whole.unsigned_abs() as f64 * ten(exponent);
+        let digits = format!("{size:.0$}", (-exponent).max(0) as usize);
+        return plain(format!("{sign}{}", look::grouped(&digits)));
+    }
+    let decimals = (top - exponent).max(0);
+    let mantissa = whole.unsigned_abs() as f64 / ten(decimals);
+    Label {
+        base: format!("{sign}{mantissa:.0$}×10", decimals as usize),
+        power: Some(look::minus(&top.to_string())),
+    }
+}
+
+fn log(lo: f64, hi: f64, fit: Fit, room: Room) -> Ruler {
+    let decades = |lo: f64, hi: f64| (hi + 1e-9).floor() - (lo - 1e-9).ceil() + 1.0;
+    let (mut lo, mut hi) = if decades(lo, hi) >= 2.0 {
+        let pad = if fit == Fit::Tight {
+            0.0
+        } else {
+            0.04 * (hi - lo)
+        };
+        (lo - pad, hi + pad)
+    } else {
+        ((lo + 1e-9).floor(), (hi - 1e-9).ceil())
+    };
+    if hi - lo < 0.5 {
+        (lo, hi) = (lo - 1.0, hi + 1.0);
+    }
+    let first = (lo - 1e-9).ceil() as i32;
+    let last = (hi + 1e-9).floor() as i32;
+    let plain = first >= -3 && last <= 5;
+    let most = counts(room).next().unwrap_or(1.0) as i32 + 1;
+    let mut ruler = Ruler {
+        scale: Scale::Log,
+        lo,
+        hi,
+        ticks: Vec::new(),
+        fine: Vec::new(),
+    };
+    for step in [1, 2, 3, 5, 10, 20, 50, 100, 200, 500] {
+        let decades = (first..=last).filter(|e| e % step == 0);
+        ruler.ticks = decades
+            .map(|e| Tick {
+                at: ruler.fraction(f64::from(e)).clamp(0.0, 1.0),
+                label: Some(decade(e, plain)),
+            })
+            .collect();
+        if ruler.ticks.len() as i32 <= most && !ruler.crowded(room) {
+            break;
+        }
+    }
+    if last - first <= 6 {
+        for decade in first - 1..=last {
+            let places = (2..10).map(|m| f64::from(decade) + f64::from(m).log10());
+            let places = places
+                .filter(|p| (lo..=hi).contains(p))
+                .map(|p| ruler.fraction(p));
+            ruler.fine.extend(places.collect::<Vec<_>>());
+        }
+    }
+    ruler
+}
+
+fn decade(exponent: i32, plain: bool) -> Label {
+    if !plain {
+        return Label {
+            base: "10".to_owned(),
+            power: Some(look::minus(&exponent.to_string())),
+        };
+    }
+    let digits = format!("{:.1$}", ten(exponent), (-exponent).max(0) as usize);
+    Label {
+        base: look::grouped(&digits),
+        power: None,
+    }
+}

@@ -1,0 +1,288 @@
+//! The series of a chart on paper: lines, marks, names.
+
+use super::frame;
+use super::labels::{self, Rect};
+use super::look::{self, COLOURS, PAD, TICK, WIDTH};
+use super::xml::{Xml, number};
+use super::{Series, Style};
+
+/// The height between names in the margin.
+pub(super) const STEP: f64 = 18.0;
+/// The length of the sample of a line before its name.
+pub(super) const SAMPLE: f64 = 24.0;
+/// The space between the plot and the samples.
+pub(super) const LEAD: f64 = 16.0;
+/// A line of more points shows marks here and there only, and only among many series.
+const SPARSE: usize = 40;
+
+/// The outline of a plus sign.
+const PLUS: [(f64, f64); 12] = [
+    (-0.45, -1.35),
+    (0.45, -1.35),
+    (0.45, -0.45),
+    (1.35, -0.45),
+    (1.35, 0.45),
+    (0.45, 0.45),
+    (0.45, 1.35),
+    (-0.45, 1.35),
+    (-0.45, 0.45),
+    (-1.35, 0.45),
+    (-1.35, -0.45),
+    (-0.45, -0.45),
+];
+
+/// Neighbouring points that can be shown: the place in pixels and the point.
+pub(super) type Run = Vec<((f64, f64), (f64, f64))>;
+
+/// A series on the way to the paper.
+#[derive(Debug)]
+pub(super) struct Drawn<'a> {
+    /// Whether lines need marks to be told apart.
+    pub(super) many: bool,
+    /// Its place among all series.
+    pub(super) number: usize,
+    /// What is drawn.
+    pub(super) series: &'a Series,
+    /// Its points, broken where one cannot be shown.
+    pub(super) runs: Vec<Run>,
+}
+
+impl Drawn<'_> {
+    fn points(&self) -> impl Iterator<Item = ((f64, f64), (f64, f64))> + '_ {
+        self.runs.iter().flatten().copied()
+    }
+
+    /// The place of the point farthest right, the later of two.
+    fn end(&self) -> Option<(f64, f64)> {
+        self.points()
+            .map(|(place, _)| place)
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// A point with its name beside it.
+    fn lone(&self) -> bool {
+        self.series.style == Style::Points && self.points().count() == 1
+    }
+
+    /// Whether every point has its mark.
+    fn marked(&self) -> bool {
+        match self.series.style {
+            Style::Points => true,
+            Style::Steps => false,
+            Style::Line | Style::Dashed => self.points().count() <= SPARSE,
+        }
+    }
+
+    fn colour(&self) -> usize {
+        self.number % COLOURS
+    }
+
+    fn hollow(&self) -> bool {
+        self.number / COLOURS % 2 == 1
+    }
+}
+
+/// The points that can be shown, broken where one cannot.
+pub(super) fn runs(series: &Series, place: impl Fn((f64, f64)) -> Option<(f64, f64)>) -> Vec<Run> {
+    let mut runs = vec![Vec::new()];
+    for &point in &series.points {
+        match place(point) {
+            Some(at) => runs
+                .last_mut()
+                .into_iter()
+                .for_each(|run| run.push((at, point))),
+            None => runs.push(Vec::new()),
+        }
+    }
+    runs.retain(|run| !run.is_empty());
+    runs
+}
+
+/// The path through runs of places; held levels if `steps`.
+fn path(runs: &[Run], steps: bool) -> String {
+    let mut out = String::new();
+    for run in runs.iter().filter(|run| run.len() > 1) {
+        let mut last = (String::new(), String::new());
+        for (n, ((x, y), _)) in run.iter().enumerate() {
+            let (x, y) = (number(*x), number(*y));
+            if n == 0 {
+                out += &format!("M{x} {y}");
+            } else if (&x, &y) != (&last.0, &last.1) {
+                out += &match steps {
+                    true => format!("H{x}V{y}"),
+                    false => format!("L{x} {y}"),
+                };
+            }
+            last = (x, y);
+        }
+    }
+    out
+}
+
+fn line_class(d: &Drawn) -> String {
+    let dash = if d.series.style == Style::Dashed {
+        " dash"
+    } else {
+        ""
+    };
+    format!("line{dash} c{}", d.colour())
+}
+
+/// The line and the points of a series.
+pub(super) fn body(xml: &mut Xml, d: &Drawn) {
+    let style = d.series.style;
+    xml.tag("g").open();
+    if style != Style::Points {
+        let path = path(&d.runs, style == Style::Steps);
+        if !path.is_empty() {
+            xml.tag("path")
+                .set("class", &line_class(d))
+                .set("d", &path)
+                .tip(&d.series.name);
+        }
+    }
+    let count = d.points().count();
+    let alone = d.runs.iter().filter(|run| run.len() == 1).flatten();
+    let tip = |point: (f64, f64)| {
+        let (x, y) = (look::value(point.0), look::value(point.1));
+        format!("{}: {x}, {y}", d.series.name)
+    };
+    if d.marked() {
+        let size = match (style, count) {
+            (Style::Points, ..=200) => 4.5,
+            (Style::Points, _) => 3.0,
+            _ => 3.2,
+        };
+        for (at, point) in d.points() {
+            mark(
+                xml,
+                d,
+                at,
+                size,
+                &if count <= 2000 {
+                    tip(point)
+                } else {
+                    String::new()
+                },
+            );
+        }
+    } else {
+        alone.for_each(|&(at, point)| mark(xml, d, at, 3.2, &tip(point)));
+        let every = count.div_ceil(8).max(1);
+        let shift = d.number * every / 14;
+        for (n, (at, point)) in d.points().enumerate() {
+            if d.many && n % every == shift {
+                mark(xml, d, at, 3.2, &tip(point));
+            } else if n % count.div_ceil(80).max(1) == 0 {
+                let hit = xml.tag("circle").set("class", "hit");
+                hit.num("cx", at.0)
+                    .num("cy", at.1)
+                    .num("r", 7.0)
+                    .tip(&tip(point));
+            }
+        }
+    }
+    xml.end();
+}
+
+/// The mark of a series: its shape, colour and filling say which.
+fn mark(xml: &mut Xml, d: &Drawn, (x, y): (f64, f64), r: f64, tip: &str) {
+    let class = match (d.hollow(), d.series.style) {
+        (true, _) => format!("hollow c{}", d.colour()),
+        (_, Style::Points) => format!("full f{}", d.colour()),
+        _ => format!("f{}", d.colour()),
+    };
+    let corners: &[(f64, f64)] = match (d.number + d.number / (2 * COLOURS)) % COLOURS {
+        0 => {
+            let circle = xml.tag("circle").set("class", &class);
+            return circle.num("cx", x).num("cy", y).num("r", r).tip(tip);
+        }
+        1 => &[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
+        2 => &[(0.0, -1.25), (1.15, 0.8), (-1.15, 0.8)],
+        3 => &[(0.0, -1.35), (1.35, 0.0), (0.0, 1.35), (-1.35, 0.0)],
+        4 => &[(0.0, 1.25), (1.15, -0.8), (-1.15, -0.8)],
+        5 => &PLUS,
+        _ => &PLUS.map(|(a, b)| (0.8 * (a - b), 0.8 * (a + b))),
+    };
+    let mut shape = String::new();
+    for (n, (a, b)) in corners.iter().enumerate() {
+        let letter = if n == 0 { "M" } else { "L" };
+        shape += &format!("{letter}{} {}", number(x + a * r), number(y + b * r));
+    }
+    xml.tag("path")
+        .set("class", &class)
+        .set("d", &(shape + "Z"))
+        .tip(tip);
+}
+
+/// The names of points that stand alone, each beside its point.
+pub(super) fn beside_points(xml: &mut Xml, drawn: &[Drawn], plot: &Rect) {
+    let lone = drawn
+        .iter()
+        .filter(|d| d.lone() && !d.series.name.is_empty());
+    let lone: Vec<_> = lone.filter_map(|d| Some((d.end()?, d))).collect();
+    let points: Vec<_> = lone.iter().map(|l| l.0).collect();
+    let names: Vec<_> = lone
+        .iter()
+        .map(|l| look::cut(&l.1.series.name, TICK, plot.2 - plot.0 - 40.0))
+        .collect();
+    let sizes: Vec<_> = names.iter().map(|n| (look::width(n, TICK), 15.0)).collect();
+    let room = Rect(plot.0 + 2.0, plot.1 - 8.0, plot.2 + 30.0, plot.3 - 2.0);
+    for ((rect, name), &(x, y)) in labels::beside(&points, &sizes, room)
+        .iter()
+        .zip(&names)
+        .zip(&points)
+    {
+        let near = (x.clamp(rect.0, rect.2), y.clamp(rect.1, rect.3));
+        if (near.0 - x).hypot(near.1 - y) > 16.0 {
+            frame::stroke(xml, "lead", (x, y), near);
+        }
+        let (anchor, at) = match (rect.0 >= x, rect.2 <= x) {
+            (true, _) => ("start", rect.0),
+            (_, true) => ("end", rect.2),
+            _ => ("middle", f64::midpoint(rect.0, rect.2)),
+        };
+        let text = xml
+            .tag("text")
+            .set("class", "name")
+            .set("text-anchor", anchor);
+        text.num("x", at).num("y", rect.3 - 3.5).text(name);
+    }
+}
+
+/// The names of all other series in the margin, each near the end of its line and with a sample of it.
+pub(super) fn margin(xml: &mut Xml, drawn: &[Drawn], plot: &Rect) {
+    let named = drawn
+        .iter()
+        .filter(|d| !d.lone() && !d.series.name.is_empty());
+    let mut ends: Vec<_> = named.filter_map(|d| Some((d.end()?, d))).collect();
+    ends.sort_by(|a, b| a.0.1.total_cmp(&b.0.1));
+    let wishes: Vec<_> = ends.iter().map(|(end, _)| end.1).collect();
+    let half = STEP / 2.0;
+    let heights = labels::spread(&wishes, STEP, plot.1 + half, plot.3 - half);
+    for ((end, d), y) in ends.iter().zip(heights) {
+        let from = plot.2 + LEAD;
+        if plot.2 - end.0 < 12.0 {
+            frame::stroke(
+                xml,
+                "lead",
+                (end.0.max(plot.2) + 3.0, end.1),
+                (from - 2.0, y),
+            );
+        }
+        let middle = (from + SAMPLE / 2.0, y);
+        if d.series.style != Style::Points {
+            frame::stroke(xml, &line_class(d), (from, y), (from + SAMPLE, y));
+        }
+        if d.marked() || d.many {
+            mark(xml, d, middle, 4.0, "");
+        }
+        let at = from + SAMPLE + 8.0;
+        let name = look::cut(&d.series.name, TICK, WIDTH - PAD / 2.0 - at);
+        xml.tag("text")
+            .set("class", "name")
+            .num("x", at)
+            .num("y", y + 4.0)
+            .text_and_tip(&name, &d.series.name);
+    }
+}

@@ -1,0 +1,121 @@
+//! What every picture has: the root element, the title, axes across.
+
+use super::axis::{Label, Ruler};
+use super::look::{self, PAD, STYLE, TICK};
+use super::xml::Xml;
+
+/// The title and the sentence under it, broken into lines.
+#[derive(Debug)]
+pub(super) struct Head {
+    title: Vec<String>,
+    subtitle: Vec<String>,
+}
+
+impl Head {
+    /// The lines for a picture of this width.
+    pub(super) fn new(title: &str, subtitle: &str, width: f64) -> Self {
+        Head {
+            title: look::wrap(title, 16.5, width - 2.0 * PAD),
+            subtitle: look::wrap(subtitle, 12.0, width - 2.0 * PAD),
+        }
+    }
+
+    /// How far down it reaches.
+    pub(super) fn height(&self) -> f64 {
+        PAD + 23.0 * self.title.len() as f64 + 18.0 * self.subtitle.len() as f64 + 6.0
+    }
+
+    fn write(&self, xml: &mut Xml) {
+        let mut y = PAD - 6.0;
+        for (lines, step, class) in [(&self.title, 23.0, "title"), (&self.subtitle, 18.0, "sub")] {
+            y += if class == "sub" { 3.0 } else { 0.0 };
+            for line in lines {
+                y += step;
+                xml.tag("text")
+                    .set("class", class)
+                    .num("x", PAD)
+                    .num("y", y)
+                    .text(line);
+            }
+        }
+    }
+}
+
+/// Begins a picture; `class` is added to its root, `about` is read out after the title.
+pub(super) fn begin(size: (f64, f64), class: &str, title: &str, about: &str, head: &Head) -> Xml {
+    let (width, height) = (size.0.ceil(), size.1.ceil());
+    let mut xml = Xml::default();
+    let view = format!("0 0 {width} {height}");
+    let root = xml.tag("svg").set("xmlns", "http://www.w3.org/2000/svg");
+    let root = root
+        .set("class", class)
+        .set("role", "img")
+        .set("viewBox", &view);
+    root.num("width", width).num("height", height).open();
+    xml.tag("title").text(title);
+    xml.tag("desc").text(about);
+    xml.tag("style").open();
+    xml.raw(STYLE);
+    xml.end();
+    let back = xml.tag("rect").set("class", "bg");
+    back.num("width", width).num("height", height).close();
+    head.write(&mut xml);
+    xml
+}
+
+/// A line between two points.
+pub(super) fn stroke(xml: &mut Xml, class: &str, from: (f64, f64), to: (f64, f64)) {
+    let line = xml
+        .tag("line")
+        .set("class", class)
+        .num("x1", from.0)
+        .num("y1", from.1);
+    line.num("x2", to.0).num("y2", to.1).close();
+}
+
+/// A tick's label; `anchor` is the SVG text anchor.
+pub(super) fn tick(xml: &mut Xml, label: &Label, at: (f64, f64), anchor: &str, class: &str) {
+    let class = format!("soft {class}");
+    let text = xml
+        .tag("text")
+        .set("class", &class)
+        .num("x", at.0)
+        .num("y", at.1);
+    text.set("text-anchor", anchor).open();
+    xml.text(&label.base);
+    if let Some(power) = &label.power {
+        xml.tag("tspan")
+            .set("class", "raised")
+            .set("dy", "-5")
+            .text(power);
+    }
+    xml.end();
+}
+
+/// The axis across: lines over the plot from `top` to `bottom`, labels below, the name of the axis under them.
+pub(super) fn across(xml: &mut Xml, ruler: &Ruler, name: &str, plot: &super::labels::Rect) {
+    let &super::labels::Rect(left, top, right, bottom) = plot;
+    for at in &ruler.fine {
+        let x = left + at * (right - left);
+        stroke(xml, "fine", (x, top), (x, bottom));
+    }
+    for tick in &ruler.ticks {
+        let x = left + tick.at * (right - left);
+        stroke(xml, "grid", (x, top), (x, bottom));
+    }
+    for tick in &ruler.ticks {
+        if let Some(label) = &tick.label {
+            let x = left + tick.at * (right - left);
+            stroke(xml, "axis", (x, bottom), (x, bottom + 4.0));
+            self::tick(xml, label, (x, bottom + 18.0), "middle", "xt");
+        }
+    }
+    let room = right - left;
+    let name = look::cut(name, TICK, room.max(300.0));
+    let at = xml
+        .tag("text")
+        .set("class", "name")
+        .num("x", right)
+        .num("y", bottom + 38.0);
+    at.set("text-anchor", "end").text(&name);
+}

@@ -1,0 +1,132 @@
+//! Where names go so that none touches another.
+
+/// A rectangle: left, top, right, bottom.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Rect(
+    pub(super) f64,
+    pub(super) f64,
+    pub(super) f64,
+    pub(super) f64,
+);
+
+impl Rect {
+    /// How much of it `other` covers.
+    fn overlap(self, other: Rect) -> f64 {
+        let across = self.2.min(other.2) - self.0.max(other.0);
+        let up = self.3.min(other.3) - self.1.max(other.1);
+        across.max(0.0) * up.max(0.0)
+    }
+
+    fn inside(self, room: Rect) -> bool {
+        self.0 >= room.0 && self.1 >= room.1 && self.2 <= room.2 && self.3 <= room.3
+    }
+}
+
+/// Heights at least `step` apart within `from..=to`, in the order of the wishes and as near to them as can be.
+///
+/// The wishes must ascend. If the room is too small the last ones go below it.
+pub(super) fn spread(wishes: &[f64], step: f64, from: f64, to: f64) -> Vec<f64> {
+    // least squares under the order: pools of neighbours that push each other take their mean
+    let mut pools: Vec<(f64, usize)> = Vec::new();
+    for (n, wish) in wishes.iter().enumerate() {
+        let mut pool = (wish - n as f64 * step, 1);
+        while let Some(&(mean, count)) = pools.last() {
+            if mean <= pool.0 {
+                break;
+            }
+            let all = count + pool.1;
+            pool = (
+                (mean * count as f64 + pool.0 * pool.1 as f64) / all as f64,
+                all,
+            );
+            pools.pop();
+        }
+        pools.push(pool);
+    }
+    let last = (to - wishes.len().saturating_sub(1) as f64 * step).max(from);
+    let means = pools
+        .iter()
+        .flat_map(|&(mean, count)| std::iter::repeat_n(mean, count));
+    means
+        .enumerate()
+        .map(|(n, mean)| mean.clamp(from, last) + n as f64 * step)
+        .collect()
+}
+
+/// The place for a name of the given width and height by each point: the first one that is free, or else the one that
+/// covers least.
+pub(super) fn beside(points: &[(f64, f64)], sizes: &[(f64, f64)], room: Rect) -> Vec<Rect> {
+    let mut taken: Vec<Rect> = points
+        .iter()
+        .map(|&(x, y)| Rect(x - 6.0, y - 6.0, x + 6.0, y + 6.0))
+        .collect();
+    let mut out = Vec::new();
+    for (&(x, y), &(w, h)) in points.iter().zip(sizes) {
+        let mut best: Option<(f64, Rect)> = None;
+        for away in [9.0, 22.0, 36.0, 52.0, 70.0, 90.0, 112.0] {
+            let (left, right, middle) = (x - away - w, x + away, x - w / 2.0);
+            let (above, below, level) = (y - away - h, y + away, y - h / 2.0);
+            let corner = 0.6 * away;
+            let near = [
+                (right, level),
+                (left, level),
+                (middle, above),
+                (middle, below),
+                (x + corner, y - corner - h),
+                (x + corner, y + corner),
+                (x - corner - w, y - corner - h),
+                (x - corner - w, y + corner),
+            ];
+            for (a, b) in near {
+                let rect = Rect(a, b, a + w, b + h);
+                if !rect.inside(room) {
+                    continue;
+                }
+                let covered = taken.iter().map(|t| rect.overlap(*t)).sum::<f64>();
+                if best.is_none_or(|(least, _)| covered < least) {
+                    best = Some((covered, rect));
+                }
+            }
+            if best.is_some_and(|(covered, _)| covered == 0.0) {
+                break;
+            }
+        }
+        // a name wider than the room starts at its left edge
+        let rect = best.map_or(
+            Rect(room.0, y - h / 2.0, room.0 + w, y + h / 2.0),
+            |(_, r)| r,
+        );
+        taken.push(rect);
+        out.push(rect);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_keep_apart_and_near() {
+        assert_eq!(spread(&[10.0, 50.0], 16.0, 0.0, 100.0), [10.0, 50.0]);
+        assert_eq!(spread(&[50.0, 50.0], 16.0, 0.0, 100.0), [42.0, 58.0]);
+        assert_eq!(
+            spread(&[99.0, 100.0, 100.0], 10.0, 0.0, 100.0),
+            [80.0, 90.0, 100.0]
+        );
+        assert_eq!(spread(&[1.0, 2.0], 10.0, 0.0, 5.0), [0.0, 10.0]);
+        assert!(spread(&[], 10.0, 0.0, 5.0).is_empty());
+    }
+
+    #[test]
+    fn names_of_points_in_one_place_do_not_cover_each_other() {
+        let points = [(100.0, 100.0); 8];
+        let places = beside(&points, &[(60.0, 14.0); 8], Rect(0.0, 0.0, 300.0, 300.0));
+        for (n, a) in places.iter().enumerate() {
+            assert!(
+                places[..n].iter().all(|b| a.overlap(*b) == 0.0),
+                "{places:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! The look: style sheet, text sizes and widths, words for numbers.
+
+/// The width of a chart, in pixels.
+pub(super) const WIDTH: f64 = 760.0;
+/// The space around everything.
+pub(super) const PAD: f64 = 20.0;
+/// The least space between neighbouring labels.
+pub(super) const GAP: f64 = 10.0;
+/// The size of ticks and names.
+pub(super) const TICK: f64 = 12.0;
+/// The size of a raised power.
+pub(super) const RAISED: f64 = 9.0;
+/// How many colours there are; after as many series they come again with hollow marks.
+pub(super) const COLOURS: usize = 7;
+
+/// The style sheet of every picture. It names colours outright, since many viewers of files know no CSS variables.
+///
+/// The colours of series lie at least 0.11 apart in Oklab, both as they are and as simulated for protanopia,
+/// deuteranopia and tritanopia.
+pub(super) const STYLE: &str = "
+.oz{font-family:system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif;font-size:12px}
+.oz text{fill:#1c2126;font-variant-numeric:tabular-nums}
+.oz .title{font-size:18px;font-weight:600}
+.oz .sub{font-size:13px}
+.oz .small{font-size:11px}
+.oz .raised{font-size:9px}
+.oz .sub,.oz .soft{fill:#59636e}
+.oz .bg{fill:#fff}
+.oz .grid,.oz .fine,.oz .axis,.oz .lead{fill:none;stroke:#e3e7eb}
+.oz .fine{stroke:#f0f2f4}
+.oz .axis{stroke:#8b949e}
+.oz .lead{stroke:#b4bcc4}
+.oz .line{fill:none;stroke-width:2;stroke-linejoin:round;stroke-linecap:round}
+.oz .dash{stroke-dasharray:7 5;stroke-linecap:butt}
+.oz .hit{fill:#000;fill-opacity:0;stroke:none}
+.oz .hollow{fill:#fff;stroke-width:1.6}
+.oz .full{stroke:#fff;stroke-width:1}
+.oz .c0{stroke:#072faa}.oz .f0{fill:#072faa}
+.oz .c1{stroke:#e4539b}.oz .f1{fill:#e4539b}
+.oz .c2{stroke:#3f753f}.oz .f2{fill:#3f753f}
+.oz .c3{stroke:#009be4}.oz .f3{fill:#009be4}
+.oz .c4{stroke:#a99300}.oz .f4{fill:#a99300}
+.oz .c5{stroke:#741800}.oz .f5{fill:#741800}
+.oz .c6{stroke:#4b005c}.oz .f6{fill:#4b005c}
+.oz .good{fill:#cfe6fb}.oz .bad{fill:#fbd0bd}.oz .warn{fill:#fbecb4}.oz .none{fill:#f3f5f7}
+.oz text.good{fill:#0b4a83}.oz text.bad{fill:#8a2300;font-weight:600}.oz text.warn{fill:#6b5200}.oz text.none{fill:#59636e}
+.oz .bar.good{fill:#2f81c8}.oz .bar.bad{fill:#d1480b}.oz .bar.warn{fill:#d9ab00}.oz .bar.none{fill:#a9b2bb}
+@media screen and (prefers-color-scheme:dark){
+.oz text{fill:#e8ebee}
+.oz .sub,.oz .soft{fill:#a3adb7}
+.oz .bg{fill:#15191d}
+.oz .grid{stroke:#2b3239}
+.oz .fine{stroke:#20262b}
+.oz .axis{stroke:#7a848e}
+.oz .lead{stroke:#4b555f}
+.oz .hollow{fill:#15191d}
+.oz .full{stroke:#15191d}
+.oz .c0{stroke:#4b7ef7}.oz .f0{fill:#4b7ef7}
+.oz .c1{stroke:#b4699e}.oz .f1{fill:#b4699e}
+.oz .c2{stroke:#8ef58f}.oz .f2{fill:#8ef58f}
+.oz .c3{stroke:#80b6dc}.oz .f3{fill:#80b6dc}
+.oz .c4{stroke:#eba203}.oz .f4{fill:#eba203}
+.oz .c5{stroke:#e15500}.oz .f5{fill:#e15500}
+.oz .c6{stroke:#fed5fe}.oz .f6{fill:#fed5fe}
+.oz .good{fill:#16395a}.oz .bad{fill:#5e2412}.oz .warn{fill:#4d3f0c}.oz .none{fill:#1d2227}
+.oz text.good{fill:#b5daf8}.oz text.bad{fill:#ffc9b3}.oz text.warn{fill:#f7e08a}.oz text.none{fill:#a3adb7}
+.oz .bar.good{fill:#4a9be0}.oz .bar.bad{fill:#ee6a2c}.oz .bar.warn{fill:#e0b62a}.oz .bar.none{fill:#59636e}
+}
+";
+
+/// The width of `text` at `size` pixels, taken wide: the fonts are not known here.
+pub(super) fn width(text: &str, size: f64) -> f64 {
+    let of = |c| {
+        if c < '\u{1100}' || ('\u{2000}'..'\u{2070}').contains(&c) {
+            0.6
+        } else {
+            1.0
+        }
+    };
+    text.chars().map(of).sum::<f64>() * size
+}
+
+/// `text` in one line, cut to `room` pixels.
+pub(super) fn cut(text: &str, size: f64, room: f64) -> String {
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    if width(&text, size) <= room {
+        return text;
+    }
+    let mut short = String::new();
+    for c in text.chars() {
+        short.push(c);
+        if width(&short, size) > room - size {
+            short.pop();
+            break;
+        }
+    }
+    format!("{}…", short.trim_end())
+}
+
+/// `text` in lines of at most `room` pixels; a longer word is cut.
+pub(super) fn wrap(text: &str, size: f64, room: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        let word = cut(word, size, room);
+        if let Some(line) = lines.last_mut() {
+            let longer = format!("{line} {word}");
+            if width(&longer, size) <= room {
+                *line = longer;
+                continue;
+            }
+        }
+        lines.push(word);
+    }
+    lines
+}
+
+/// A number's text with a true minus sign.
+pub(super) fn minus(text: &str) -> String {
+    text.replace('-', "\u{2212}")
+}
+
+/// Digits with a narrow space between thousands, from five digits on.
+pub(super) fn grouped(digits: &str) -> String {
+    let (whole, rest) = digits.split_at(digits.find('.').unwrap_or(digits.len()));
+    if whole.len() < 5 {
+        return digits.to_owned();
+    }
+    let mut out = String::new();
+    for (n, c) in whole.chars().enumerate() {
+        if n > 0 && (whole.len() - n).is_multiple_of(3) {
+            out.push('\u{202f}');
+        }
+        out.push(c);
+    }
+    out + rest
+}
+
+/// A value for a tooltip, to six digits.
+pub(super) fn value(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 || !value.is_finite() {
+        return minus(&format!("{}", value + 0.0));
+    }
+    let text = format!("{value:.5e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let trim = |t: &str| match t.contains('.') {
+        true => t.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => t.to_owned(),
+    };
+    minus(&if (1e-4..1e6).contains(&size) {
+        let decimals = 5 - exponent.parse::<i32>().unwrap_or(0);
+        trim(&format!("{value:.0$}", decimals.max(0) as usize))
+    } else {
+        format!("{}e{exponent}", trim(mantissa))
+    })
+}
