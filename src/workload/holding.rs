@@ -4,10 +4,10 @@
 //! cone is kept exact (a second-order cone programme). Forces that *can* hold are asked for: where more than one set does, nature
 //! may choose another, which is what the safety factor is for.
 
-use crate::workload::contact::{Pose, cross};
+use crate::workload::contact::Pose;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
-    DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT,
+    DefaultSettings, DefaultSolution, DefaultSolver, IPSolver, SolverStatus, SupportedConeT,
     SupportedConeT::{NonnegativeConeT, SecondOrderConeT, ZeroConeT},
 };
 use thiserror::Error;
@@ -134,21 +134,150 @@ fn cross3(a: Spatial, b: Spatial) -> Spatial {
     ]
 }
 
-/// One linear programme over second-order cones, written row by row: `coefficients · x + s = right`, s in the row's cone.
-#[derive(Default)]
-struct Rows {
+/// A linear programme over cones: minimise the drive moment subject to `row · x + s = right`, s in the cone of the row.
+/// Dimensionless: lengths over the lever's, forces over the load.
+struct Programme<'a> {
+    pose: &'a Pose,
+    /// Length of a lever. `[m]`
+    length: f64,
+    /// Directions of the three components of each contact force.
+    directions: [[Spatial; 3]; 4],
+    /// Components in use: three with friction, one without.
+    used: usize,
     rows: Vec<Vec<(usize, f64)>>,
     right: Vec<f64>,
     cones: Vec<SupportedConeT<f64>>,
 }
 
-impl Rows {
-    fn add(&mut self, row: Vec<(usize, f64)>, right: f64) {
-        self.rows.push(row);
+/// The drive moment among the variables, after three components for each of four contacts.
+const DRIVE: usize = 12;
+
+impl<'a> Programme<'a> {
+    fn new(pose: &'a Pose, friction: f64) -> Self {
+        let (p, v) = (pose.pivots[0], pose.vertices[0]);
+        Programme {
+            pose,
+            length: (v[0] - p[0]).hypot(v[1] - p[1]),
+            directions: pose.contacts.map(|c| {
+                let flat = |v: [f64; 2]| [v[0], v[1], 0.0];
+                [flat(c.normal), flat(c.tangent), [0.0, 0.0, 1.0]]
+            }),
+            used: if friction > 0.0 { 3 } else { 1 },
+            rows: Vec::new(),
+            right: Vec::new(),
+            cones: Vec::new(),
+        }
+    }
+
+    /// Contact, component and variable of every force component in use.
+    fn components(&self) -> impl Iterator<Item = (usize, usize, usize)> + use<> {
+        let used = self.used;
+        (0..4).flat_map(move |c| (0..used).map(move |d| (c, d, 3 * c + d)))
+    }
+
+    fn row(&mut self, row: impl IntoIterator<Item = (usize, f64)>, right: f64) {
+        self.rows.push(row.into_iter().collect());
         self.right.push(right);
     }
 
-    fn matrix(&self, columns: usize) -> CscMatrix<f64> {
+    fn from(&self, origin: [f64; 2], contact: usize) -> Spatial {
+        let q = self.pose.contacts[contact].point;
+        [
+            (q[0] - origin[0]) / self.length,
+            (q[1] - origin[1]) / self.length,
+            0.0,
+        ]
+    }
+
+    /// Three equations of forces and three of moments about the part's centre.
+    fn balance(&mut self, load: &Load, unit: f64) {
+        let wrenches: Vec<(usize, Spatial, Spatial)> = self
+            .components()
+            .map(|(c, d, v)| {
+                let f = self.directions[c][d];
+                (v, f, cross3(self.from(self.pose.centre, c), f))
+            })
+            .collect();
+        for axis in 0..3 {
+            self.row(
+                wrenches.iter().map(|(v, f, _)| (*v, f[axis])),
+                -load.force[axis] / unit,
+            );
+        }
+        for axis in 0..3 {
+            let right = -load.moment[axis] / unit / self.length;
+            self.row(wrenches.iter().map(|(v, _, m)| (*v, m[axis])), right);
+        }
+    }
+
+    /// The closing moment that a lever needs, `scale` times: that of the part's forces on it about its pivot.
+    fn lever(&self, k: usize, scale: f64) -> Vec<(usize, f64)> {
+        let sign = if k == 0 { -scale } else { scale };
+        let own = self
+            .components()
+            .filter(|(c, _, _)| self.pose.contacts[*c].lever == k);
+        own.map(|(c, d, v)| {
+            (
+                v,
+                sign * cross3(self.from(self.pose.pivots[k], c), self.directions[c][d])[2],
+            )
+        })
+        .collect()
+    }
+
+    /// Each lever's moment against the drive's.
+    fn equal_levers(&mut self) {
+        for k in 0..2 {
+            let row = self.lever(k, 1.0).into_iter().chain([(DRIVE, -1.0)]);
+            self.row(row, 0.0);
+        }
+    }
+
+    fn write(mut self, load: &Load, unit: f64, friction: f64, coupling: Coupling) -> Self {
+        self.balance(load, unit);
+        if coupling == Coupling::Equal {
+            self.equal_levers();
+        }
+        // Components that frictionless contacts do not have are held at zero.
+        let used = self.used;
+        for v in (0..DRIVE).filter(|v| v % 3 >= used) {
+            self.row([(v, 1.0)], 0.0);
+        }
+        self.cones.push(ZeroConeT(self.rows.len()));
+        let equations = self.rows.len();
+        self.row([(DRIVE, -1.0)], 0.0);
+        match coupling {
+            Coupling::Coupled => {
+                let both = self.lever(0, 0.5).into_iter().chain(self.lever(1, 0.5));
+                self.row(both.chain([(DRIVE, -1.0)]), 0.0);
+            }
+            Coupling::Independent => {
+                self.equal_levers();
+                for k in 0..2 {
+                    let row = self.lever(k, -1.0);
+                    self.row(row, 0.0);
+                }
+            }
+            Coupling::Equal => {}
+        }
+        if friction == 0.0 {
+            (0..4).for_each(|c| self.row([(3 * c, -1.0)], 0.0));
+        }
+        self.cones
+            .push(NonnegativeConeT(self.rows.len() - equations));
+        if friction > 0.0 {
+            for c in 0..4 {
+                self.row([(3 * c, -friction)], 0.0);
+                self.row([(3 * c + 1, -1.0)], 0.0);
+                self.row([(3 * c + 2, -1.0)], 0.0);
+                self.cones.push(SecondOrderConeT(3));
+            }
+        }
+        self
+    }
+
+    fn solve(&self) -> Result<DefaultSolution<f64>, HoldingError> {
+        let columns = DRIVE + 1;
         let (mut i, mut j, mut v) = (Vec::new(), Vec::new(), Vec::new());
         for (r, row) in self.rows.iter().enumerate() {
             for &(c, x) in row {
@@ -157,12 +286,27 @@ impl Rows {
                 v.push(x);
             }
         }
-        CscMatrix::new_from_triplets(self.rows.len(), columns, i, j, v)
+        let matrix = CscMatrix::new_from_triplets(self.rows.len(), columns, i, j, v);
+        let mut objective = vec![0.0; columns];
+        objective[DRIVE] = 1.0;
+        let settings = DefaultSettings {
+            verbose: false,
+            ..DefaultSettings::default()
+        };
+        let quadratic = CscMatrix::zeros((columns, columns));
+        let mut solver = DefaultSolver::new(
+            &quadratic,
+            &objective,
+            &matrix,
+            &self.right,
+            &self.cones,
+            settings,
+        )
+        .map_err(|e| HoldingError::Solver(e.to_string()))?;
+        solver.solve();
+        Ok(solver.solution)
     }
 }
-
-/// Components of a contact force among the variables: three a contact, then the drive moment.
-const DRIVE: usize = 12;
 
 /// The least drive moment per lever that holds the part in a pose under a load, or the motion in which it slips.
 ///
@@ -170,7 +314,7 @@ const DRIVE: usize = 12;
 /// SI.
 ///
 /// # Guarantee
-/// Forces balance the load to 1e-7 of it, and the drive moment exceeds the least one by no more than `drive - lower_bound`.
+/// Forces balance the load to 1e-6 of it, and the drive moment exceeds the least one by no more than `drive - lower_bound`.
 ///
 /// # Errors
 /// Friction or load out of range; a solver that gives up.
@@ -190,19 +334,13 @@ pub fn hold(
     if !load.force.iter().chain(&load.moment).all(|x| x.is_finite()) {
         return Err(HoldingError::Load);
     }
-    // Dimensionless: lengths over the lever's, forces over the load.
-    let arm = |k: usize| {
-        [
-            pose.vertices[k][0] - pose.pivots[k][0],
-            pose.vertices[k][1] - pose.pivots[k][1],
-        ]
-    };
-    let length = arm(0)[0].hypot(arm(0)[1]);
+    let programme = Programme::new(pose, friction);
+    let length = programme.length;
     let size = load
         .force
         .iter()
         .map(|f| f * f)
-        .chain(load.moment.iter().map(|m| m * m / (length * length)));
+        .chain(load.moment.iter().map(|m| (m / length).powi(2)));
     let unit = size.sum::<f64>().sqrt();
     if unit == 0.0 {
         let idle = ContactForce {
@@ -217,117 +355,8 @@ pub fn hold(
             lower_bound: 0.0,
         }));
     }
-    let directions: [[Spatial; 3]; 4] = pose.contacts.map(|c| {
-        [
-            [c.normal[0], c.normal[1], 0.0],
-            [c.tangent[0], c.tangent[1], 0.0],
-            [0.0, 0.0, 1.0],
-        ]
-    });
-    let used = if friction > 0.0 { 3 } else { 1 };
-    let components = || (0..4).flat_map(move |c| (0..used).map(move |d| (c, d)));
-    let mut rows = Rows::default();
-    for axis in 0..3 {
-        let row = components()
-            .map(|(c, d)| (3 * c + d, directions[c][d][axis]))
-            .collect();
-        rows.add(row, -load.force[axis] / unit);
-    }
-    for axis in 0..3 {
-        let row = components().map(|(c, d)| {
-            let p = pose.contacts[c].point;
-            let from_centre = [
-                (p[0] - pose.centre[0]) / length,
-                (p[1] - pose.centre[1]) / length,
-                0.0,
-            ];
-            (3 * c + d, cross3(from_centre, directions[c][d])[axis])
-        });
-        let row = row.collect();
-        rows.add(row, -load.moment[axis] / unit / length);
-    }
-    // Closing moment that a lever needs: that of the part's forces on it, clockwise for the lower one.
-    let lever = |k: usize| -> Vec<(usize, f64)> {
-        let sign = if k == 0 { -1.0 } else { 1.0 };
-        let own = components().filter(|(c, d)| pose.contacts[*c].lever == k && *d < 2);
-        own.map(|(c, d)| {
-            let (p, q) = (pose.pivots[k], pose.contacts[c].point);
-            let from_pivot = [(q[0] - p[0]) / length, (q[1] - p[1]) / length];
-            (
-                3 * c + d,
-                sign * cross(from_pivot, [directions[c][d][0], directions[c][d][1]]),
-            )
-        })
-        .collect()
-    };
-    let scaled = |row: Vec<(usize, f64)>, s: f64| row.into_iter().map(move |(c, x)| (c, s * x));
-    let mut equalities = 6;
-    if coupling == Coupling::Equal {
-        for k in 0..2 {
-            rows.add(lever(k).into_iter().chain([(DRIVE, -1.0)]).collect(), 0.0);
-        }
-        equalities += 2;
-    }
-    // Variables that frictionless contacts do not have are held at zero.
-    let unused: Vec<usize> = (0..4)
-        .flat_map(|c| (used..3).map(move |d| 3 * c + d))
-        .collect();
-    for &v in &unused {
-        rows.add(vec![(v, 1.0)], 0.0);
-    }
-    rows.cones.push(ZeroConeT(equalities + unused.len()));
-    let mut inequalities = 1;
-    rows.add(vec![(DRIVE, -1.0)], 0.0);
-    match coupling {
-        Coupling::Coupled => {
-            let mean = scaled(lever(0), 0.5)
-                .chain(scaled(lever(1), 0.5))
-                .chain([(DRIVE, -1.0)]);
-            rows.add(mean.collect(), 0.0);
-            inequalities += 1;
-        }
-        Coupling::Independent => {
-            for k in 0..2 {
-                rows.add(lever(k).into_iter().chain([(DRIVE, -1.0)]).collect(), 0.0);
-                rows.add(scaled(lever(k), -1.0).collect(), 0.0);
-            }
-            inequalities += 4;
-        }
-        Coupling::Equal => {}
-    }
-    if friction == 0.0 {
-        (0..4).for_each(|c| rows.add(vec![(3 * c, -1.0)], 0.0));
-        inequalities += 4;
-    }
-    rows.cones.push(NonnegativeConeT(inequalities));
-    if friction > 0.0 {
-        for c in 0..4 {
-            rows.add(vec![(3 * c, -friction)], 0.0);
-            rows.add(vec![(3 * c + 1, -1.0)], 0.0);
-            rows.add(vec![(3 * c + 2, -1.0)], 0.0);
-            rows.cones.push(SecondOrderConeT(3));
-        }
-    }
-    let columns = DRIVE + 1;
-    let mut objective = vec![0.0; columns];
-    objective[DRIVE] = 1.0;
-    let settings = DefaultSettings {
-        verbose: false,
-        ..DefaultSettings::default()
-    };
-    let quadratic = CscMatrix::zeros((columns, columns));
-    let failed = |e: &dyn std::fmt::Display| HoldingError::Solver(e.to_string());
-    let mut solver = DefaultSolver::new(
-        &quadratic,
-        &objective,
-        &rows.matrix(columns),
-        &rows.right,
-        &rows.cones,
-        settings,
-    )
-    .map_err(|e| failed(&e))?;
-    solver.solve();
-    let s = &solver.solution;
+    let programme = programme.write(load, unit, friction, coupling);
+    let s = programme.solve()?;
     match s.status {
         SolverStatus::Solved | SolverStatus::AlmostSolved => {
             let forces = [0, 1, 2, 3].map(|c| ContactForce {
@@ -335,8 +364,15 @@ pub fn hold(
                 along: s.x[3 * c + 1] * unit,
                 axial: s.x[3 * c + 2] * unit,
             });
-            let moment =
-                |k: usize| lever(k).iter().map(|&(v, a)| a * s.x[v]).sum::<f64>() * unit * length;
+            let moment = |k| {
+                programme
+                    .lever(k, 1.0)
+                    .iter()
+                    .map(|&(v, a)| a * s.x[v])
+                    .sum::<f64>()
+                    * unit
+                    * length
+            };
             Ok(Outcome::Held(Holding {
                 forces,
                 moments: [moment(0), moment(1)],
@@ -346,13 +382,12 @@ pub fn hold(
         }
         SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {
             // The certificate is a motion on which the load works and no contact force takes work away.
-            let z = [0, 1, 2, 3, 4, 5].map(|i| s.z[i]);
-            let power: f64 = z.iter().zip(&rows.right).map(|(z, b)| -z * b).sum();
-            let size =
-                z.iter().map(|z| z * z).sum::<f64>().sqrt() * if power < 0.0 { -1.0 } else { 1.0 };
+            let z = &s.z[..6];
+            let size = z.iter().map(|z| z * z).sum::<f64>().sqrt();
+            let part = |from: usize| [0, 1, 2].map(|i| z[from + i] / size);
             Ok(Outcome::Slips(Slip {
-                velocity: [z[0] / size, z[1] / size, z[2] / size],
-                rotation: [z[3] / size, z[4] / size, z[5] / size],
+                velocity: part(0),
+                rotation: part(3),
             }))
         }
         other => Err(HoldingError::Solver(format!("{other:?}"))),

@@ -197,10 +197,11 @@ fn arms_are_those_of_the_normals_in_every_pose() {
                 let (p, v) = (pose.pivots[c.lever], pose.vertices[c.lever]);
                 near((v[0] - p[0]).hypot(v[1] - p[1]), 0.1, 1e-15);
                 // The contact is on the part's rim, its normal points at the centre, the face passes through the vertex.
-                for a in 0..2 {
-                    near(c.point[a] + d / 2.0 * c.normal[a], pose.centre[a], 1e-15);
-                    near(c.point[a] - l.face_distance(d) * c.tangent[a], v[a], 1e-15);
-                }
+                let face = l.face_distance(d);
+                near(c.point[0] + d / 2.0 * c.normal[0], pose.centre[0], 1e-15);
+                near(c.point[1] + d / 2.0 * c.normal[1], pose.centre[1], 1e-15);
+                near(c.point[0] - face * c.tangent[0], v[0], 1e-15);
+                near(c.point[1] - face * c.tangent[1], v[1], 1e-15);
                 let arm = cross(
                     [c.point[0] - p[0], c.point[1] - p[1]],
                     [-c.normal[0], -c.normal[1]],
