@@ -4,4 +4,5 @@
 //! Text formats live in `import`; nothing here reads a file.
 
 pub mod joint_type;
+pub mod loads;
 pub mod mechanism;

@@ -1,6 +1,13 @@
-//! Workload models: what a gripper must hold and what drives it. They know geometry and statics, and nothing of files,
-//! searches or reports.
+//! What mechanisms are put to: loads and the reactions they cause, what a gripper must hold, and what drives it. Knows
+//! geometry and statics, and nothing of files, searches or reports.
 
+pub mod assur;
+pub mod assur_class;
 pub mod contact;
+mod dense;
 pub mod holding;
+pub mod kinetostatics;
 pub mod lever_arm;
+pub mod planar;
+pub mod planar_motion;
+pub mod pose;

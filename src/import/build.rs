@@ -2,6 +2,7 @@
 
 use crate::closure::contour::closed_walk;
 use crate::geom::expr::Expr;
+use crate::import::loads::{loads, mass};
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
 use crate::import::resolve::{
@@ -9,6 +10,7 @@ use crate::import::resolve::{
 };
 use crate::import::schema::{JointEntry, MechanismFile, OptionEntry, Unloading, Words};
 use crate::model::joint_type::JointType;
+use crate::model::loads::Loads;
 use crate::model::mechanism::{
     Expected, Joint, JointId, JointOption, LengthUnit, Link, LinkId, Mechanism, Mode, Role,
     SearchSpec,
@@ -132,11 +134,13 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
         states,
         contours: Vec::new(),
         search: SearchSpec::default(),
+        loads: Loads::default(),
         expected: Vec::new(),
     };
     connected(&mechanism, &mut out);
     mechanism.contours = contours(file, &mechanism, &mut out);
     mechanism.search = search(file, &mechanism, &mut out);
+    mechanism.loads = loads(file, &mechanism, &mut out);
     mechanism.expected = expected(file, &mechanism, &mut out);
     if out.found.is_empty() {
         Ok(mechanism)
@@ -209,6 +213,7 @@ fn links(file: &MechanismFile, out: &mut Findings) -> Vec<Link> {
         links.push(Link {
             id: entry.id.clone(),
             role,
+            mass: mass(entry, &at, out),
         });
     }
     let has = |role| links.iter().any(|l| l.role == role);

@@ -79,6 +79,14 @@ pub enum ProblemKind {
     },
     #[error("joint \"{joint}\" has two options named \"{option}\"; give one of them another name")]
     RepeatedOption { joint: String, option: String },
+    #[error("{what} {value} is out of range; give {allowed}")]
+    BadQuantity {
+        what: &'static str,
+        value: String,
+        allowed: &'static str,
+    },
+    #[error("link \"{link}\" has part of its mass data only; add {what}")]
+    LinkNeeds { link: String, what: &'static str },
     #[error("no link has the role \"frame\"; mark the fixed link: role = \"frame\"")]
     NoFrame,
     #[error("link \"{second}\" is a second frame after \"{first}\"; keep one role = \"frame\"")]

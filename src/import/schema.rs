@@ -1,5 +1,6 @@
 //! The mechanism file: one schema for TOML and JSON.
 
+use crate::import::loads::{InertiaEntry, WorkloadEntry};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -37,6 +38,9 @@ pub struct MechanismFile {
     /// What a search may do.
     #[serde(default)]
     pub search: SearchEntry,
+    /// Loads and drive, for `ozols statics`.
+    #[serde(default)]
+    pub workload: WorkloadEntry,
     /// Known figures, checked by tests.
     #[serde(default)]
     pub expected: Vec<ExpectedEntry>,
@@ -66,6 +70,15 @@ pub struct LinkEntry {
     /// "frame", "output" or "object"; nothing for the rest.
     #[serde(default)]
     pub role: Option<String>,
+    /// Mass in kg.
+    #[serde(default)]
+    pub mass: Option<f64>,
+    /// Mass centre, at the pose of the file.
+    #[serde(default)]
+    pub centre: Option<[Coordinate; 3]>,
+    /// Inertia about the mass centre in kg·m²: a number about the plane's normal, or 3 or 6 in space.
+    #[serde(default)]
+    pub inertia: Option<InertiaEntry>,
 }
 
 /// A joint between two links.

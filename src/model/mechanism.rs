@@ -2,6 +2,7 @@
 
 use crate::geom::expr::Expr;
 use crate::model::joint_type::JointType;
+use crate::model::loads::{Loads, MassProperties};
 
 /// Index of a link in [`Mechanism::links`].
 pub type LinkId = usize;
@@ -30,6 +31,8 @@ pub struct Link {
     pub id: String,
     /// What the link is for.
     pub role: Role,
+    /// Its mass, where the file states one.
+    pub mass: Option<MassProperties>,
 }
 
 /// Where a joint is and how it is turned: z = `axis`, x = `reference` made perpendicular to it, y = z × x.
@@ -166,6 +169,8 @@ pub struct Mechanism {
     pub contours: Vec<Vec<JointId>>,
     /// What the file asks of a search.
     pub search: SearchSpec,
+    /// Loads and drive.
+    pub loads: Loads,
     /// Known figures.
     pub expected: Vec<Expected>,
 }

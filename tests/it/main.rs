@@ -9,4 +9,5 @@ mod grip;
 mod holding;
 mod layering;
 mod published;
+mod statics;
 mod twin;

@@ -1,0 +1,64 @@
+//! What a mechanism carries: masses of links, gravity, forces from outside, and how it is driven.
+
+use crate::geom::expr::Expr;
+use crate::model::mechanism::LinkId;
+
+/// Inertia of a link about its mass centre `[kg·m²]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Inertia {
+    /// About the normal of the plane of motion.
+    Plane(f64),
+    /// About the global axes x, y, z.
+    Principal([f64; 3]),
+    /// xx, yy, zz, xy, yz, zx in global axes.
+    Tensor([f64; 6]),
+}
+
+/// Mass of a link and where it is.
+#[derive(Debug, Clone)]
+pub struct MassProperties {
+    /// Mass `[kg]`, not negative.
+    pub mass: f64,
+    /// Mass centre at the pose of the file, in the file's length unit.
+    pub centre: [Expr; 3],
+    /// Inertia about the mass centre; none where the file states none.
+    pub inertia: Option<Inertia>,
+}
+
+/// A force from outside, of fixed direction, at a point that moves with a link.
+#[derive(Debug, Clone)]
+pub struct ExternalForce {
+    /// The link it acts on.
+    pub link: LinkId,
+    /// Its point at the pose of the file, in the file's length unit.
+    pub point: [Expr; 3],
+    /// The force `[N]` in global axes.
+    pub force: [Expr; 3],
+    /// The range of the first drive's position it acts in, ends included; always where `None`. Radians, or the file's
+    /// length unit.
+    pub range: Option<[f64; 2]>,
+}
+
+/// A range of the first drive's position, from the pose of the file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stroke {
+    /// Where it begins `[rad]` or in the file's length unit.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// Number of equal steps, at least 1.
+    pub steps: usize,
+}
+
+/// Loads and drive of a mechanism.
+#[derive(Debug, Clone, Default)]
+pub struct Loads {
+    /// Acceleration of gravity `[m/s²]`, where the file states one.
+    pub gravity: Option<[Expr; 3]>,
+    /// Forces from outside.
+    pub forces: Vec<ExternalForce>,
+    /// Speed of each drive `[rad/s]` or in the file's length unit per second; those not stated stand still.
+    pub drive_speeds: Vec<f64>,
+    /// The cycle, where the file states one.
+    pub stroke: Option<Stroke>,
+}

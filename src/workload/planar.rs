@@ -1,0 +1,336 @@
+//! A mechanism seen in its plane of motion: bodies joined by turning and sliding pairs, coordinates in metres.
+
+use crate::closure::twist::FrameValues;
+use crate::geom::exact::ExactError;
+use crate::geom::scalars::{Reals, Scalars};
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, StateId};
+use std::fmt;
+use thiserror::Error;
+
+/// Index of a body in [`PlanarMechanism::bodies`].
+pub type BodyId = usize;
+/// Index of a pair in [`PlanarMechanism::pairs`].
+pub type PairId = usize;
+
+/// Sine of the angle below which directions count as parallel.
+const PARALLEL: f64 = 1e-9;
+
+/// Why a mechanism has no planar model.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum PlanarError {
+    /// A joint moves out of the plane.
+    #[error(
+        "joint \"{joint}\" moves out of the plane of motion; statics is planar: use revolute, prismatic and slotted \
+         joints in parallel planes, or mode = \"planar\""
+    )]
+    NotPlanar {
+        /// The joint.
+        joint: String,
+    },
+    /// A joint has freedoms in the plane that are not those of a turning, sliding or pin-in-slot pair.
+    #[error(
+        "joint \"{joint}\" leaves {freedoms} freedoms in the plane; statics knows turning, sliding and pin-in-slot pairs"
+    )]
+    Unsupported {
+        /// The joint.
+        joint: String,
+        /// Its freedoms in the plane.
+        freedoms: usize,
+    },
+    /// A joint of two freedoms is marked as a drive.
+    #[error(
+        "joint \"{joint}\" has two freedoms and cannot be a drive; drive a revolute or prismatic joint"
+    )]
+    DriveOfTwo {
+        /// The joint.
+        joint: String,
+    },
+    /// A coordinate has no value.
+    #[error(transparent)]
+    Exact(#[from] ExactError),
+}
+
+/// How two bodies are joined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum PairKind {
+    /// One freedom, a turn.
+    Turning,
+    /// One freedom, a slide along a line of the first body.
+    Sliding,
+    /// No freedom.
+    Rigid,
+}
+
+impl PairKind {
+    /// Constraints of the pair: 3 less its freedoms.
+    #[must_use]
+    pub fn constraints(self) -> usize {
+        match self {
+            PairKind::Turning | PairKind::Sliding => 2,
+            PairKind::Rigid => 3,
+        }
+    }
+
+    /// R, P or F, as structural formulas write it.
+    #[must_use]
+    pub fn letter(self) -> char {
+        match self {
+            PairKind::Turning => 'R',
+            PairKind::Sliding => 'P',
+            PairKind::Rigid => 'F',
+        }
+    }
+}
+
+impl fmt::Display for PairKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.letter())
+    }
+}
+
+/// A rigid body in the plane.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    /// The link it is; `None` for the sliding block that stands for a pin in a slot.
+    pub link: Option<LinkId>,
+    /// Name of the link, or of the joint with a mark.
+    pub name: String,
+}
+
+/// A turning, sliding or rigid pair.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pair {
+    /// The joint it is, or is part of.
+    pub joint: JointId,
+    /// Name of the joint, with a mark for the sliding half of a pin in a slot.
+    pub name: String,
+    /// The two bodies; relative motion is that of the second against the first.
+    pub bodies: [BodyId; 2],
+    /// How they are joined.
+    pub kind: PairKind,
+    /// Centre of a turning pair, a point of a sliding pair's line, at the pose of the file `[m]`.
+    pub point: [f64; 2],
+    /// Unit direction of a sliding pair at the pose of the file.
+    pub along: [f64; 2],
+    /// Whether the mechanism is driven here.
+    pub drive: bool,
+}
+
+impl Pair {
+    /// The body at the other end, if `body` is at one.
+    #[must_use]
+    pub fn other(&self, body: BodyId) -> Option<BodyId> {
+        match self.bodies {
+            [a, b] if a == body => Some(b),
+            [a, b] if b == body => Some(a),
+            _ => None,
+        }
+    }
+}
+
+/// A planar mechanism of bodies and pairs. Points are (x, y) along [`PlanarMechanism::axes`] in metres.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanarMechanism {
+    /// The bodies.
+    pub bodies: Vec<Body>,
+    /// The pairs.
+    pub pairs: Vec<Pair>,
+    /// The fixed body.
+    pub frame: BodyId,
+    /// Unit vectors x, y and normal of the plane in the axes of the file.
+    pub axes: [[f64; 3]; 3],
+    /// Metres in a length unit of the file.
+    pub metres: f64,
+}
+
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    let n = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    v.map(|x| x / n)
+}
+
+fn is_parallel(a: [f64; 3], b: [f64; 3]) -> bool {
+    let c = Reals.cross(a, b);
+    Reals.dot(c, c).sqrt() <= PARALLEL
+}
+
+impl PlanarMechanism {
+    /// The planar model of a state: a spatial mechanism must have all its freedoms in one plane, in planar mode those
+    /// out of it are left out. A pin in a slot becomes a turning pair, a block, and a sliding pair; the pin is on the
+    /// joint's first link, the slot in its second.
+    ///
+    /// # Errors
+    /// Where a joint fits no planar pair.
+    pub fn new(m: &Mechanism, state: StateId) -> Result<Self, PlanarError> {
+        let normal = match &m.mode {
+            Mode::Planar { normal } => unit(Reals.eval3(normal)?),
+            Mode::Spatial => spatial_normal(m, state)?,
+        };
+        let x = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+            .into_iter()
+            .find(|g| !is_parallel(*g, normal))
+            .unwrap_or([1.0, 0.0, 0.0]);
+        let x = unit(Reals.scaled_sum(-Reals.dot(x, normal), normal, x));
+        let mut planar = PlanarMechanism {
+            bodies: Vec::new(),
+            pairs: Vec::new(),
+            frame: 0,
+            axes: [x, Reals.cross(normal, x), normal],
+            metres: m.length_unit.metres,
+        };
+        let mut body_of = vec![None; m.links.len()];
+        for (l, link) in m.links.iter().enumerate() {
+            let joined = m.joints_in(state).any(|j| m.joints[j].links.contains(&l));
+            if joined || l == m.frame() {
+                body_of[l] = Some(planar.bodies.len());
+                planar.bodies.push(Body {
+                    link: Some(l),
+                    name: link.id.clone(),
+                });
+            }
+        }
+        planar.frame = body_of[m.frame()].unwrap_or(0);
+        for j in m.joints_in(state) {
+            let [Some(a), Some(b)] = m.joints[j].links.map(|l| body_of[l]) else {
+                continue;
+            };
+            planar.add_joint(m, j, [a, b])?;
+        }
+        Ok(planar)
+    }
+
+    /// A point of the file as (x, y) in metres.
+    #[must_use]
+    pub fn flat(&self, point: [f64; 3]) -> [f64; 2] {
+        self.across(point).map(|c| c * self.metres)
+    }
+
+    /// The components of a vector of the file along x and y.
+    #[must_use]
+    pub fn across(&self, v: [f64; 3]) -> [f64; 2] {
+        [Reals.dot(self.axes[0], v), Reals.dot(self.axes[1], v)]
+    }
+
+    /// The body that a link is, where it is joined to others in this state.
+    #[must_use]
+    pub fn body_of(&self, link: LinkId) -> Option<BodyId> {
+        self.bodies.iter().position(|b| b.link == Some(link))
+    }
+
+    /// The pairs that are marked as drives.
+    #[must_use]
+    pub fn drives(&self) -> Vec<PairId> {
+        (0..self.pairs.len())
+            .filter(|&p| self.pairs[p].drive)
+            .collect()
+    }
+
+    fn add_joint(
+        &mut self,
+        m: &Mechanism,
+        j: JointId,
+        bodies: [BodyId; 2],
+    ) -> Result<(), PlanarError> {
+        let joint = &m.joints[j];
+        let name = || joint.id.clone();
+        let values = FrameValues::new(&Reals, &joint.frame)?;
+        let axes = values.axes.map(unit);
+        let freedoms = joint.joint_type.freedoms();
+        let ball = [Freedom::Rx, Freedom::Ry, Freedom::Rz]
+            .iter()
+            .all(|f| freedoms.contains(f));
+        let (mut turns, mut slides, mut outside) = (usize::from(ball), Vec::new(), false);
+        for f in freedoms {
+            let normal = |k: usize| is_parallel(axes[k], self.axes[2]);
+            let across = |k: usize| Reals.dot(axes[k], self.axes[2]).abs() <= PARALLEL;
+            match f {
+                Freedom::Rx | Freedom::Ry | Freedom::Rz if ball => {}
+                Freedom::Rx if normal(0) => turns += 1,
+                Freedom::Ry if normal(1) => turns += 1,
+                Freedom::Rz if normal(2) => turns += 1,
+                Freedom::Tx if across(0) => slides.push(axes[0]),
+                Freedom::Ty if across(1) => slides.push(axes[1]),
+                Freedom::Tz if across(2) => slides.push(axes[2]),
+                _ => outside = true,
+            }
+        }
+        if (outside || ball) && matches!(m.mode, Mode::Spatial) {
+            return Err(PlanarError::NotPlanar { joint: name() });
+        }
+        let point = self.flat(values.point);
+        let mut push = |bodies, kind, along, name| {
+            self.pairs.push(Pair {
+                joint: j,
+                name,
+                bodies,
+                kind,
+                point,
+                along,
+                drive: joint.drive,
+            });
+        };
+        match (turns, slides.as_slice()) {
+            (0, []) => push(bodies, PairKind::Rigid, [0.0; 2], name()),
+            (1, []) => push(bodies, PairKind::Turning, [0.0; 2], name()),
+            (0, [u]) => {
+                let u = [Reals.dot(self.axes[0], *u), Reals.dot(self.axes[1], *u)];
+                push(bodies, PairKind::Sliding, u, name());
+            }
+            (1, [_]) if joint.drive => return Err(PlanarError::DriveOfTwo { joint: name() }),
+            (1, [u]) => {
+                let u = [Reals.dot(self.axes[0], *u), Reals.dot(self.axes[1], *u)];
+                let block = self.bodies.len();
+                let [a, b] = bodies;
+                push([a, block], PairKind::Turning, [0.0; 2], name());
+                push(
+                    [block, b],
+                    PairKind::Sliding,
+                    u,
+                    format!("{} slot", joint.id),
+                );
+                self.bodies.push(Body {
+                    link: None,
+                    name: format!("block of {}", joint.id),
+                });
+            }
+            (t, s) => {
+                return Err(PlanarError::Unsupported {
+                    joint: name(),
+                    freedoms: t + s.len(),
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The normal that the joints of a spatial mechanism share: the first axis they turn about, or across the first two
+/// directions they slide in.
+fn spatial_normal(m: &Mechanism, state: StateId) -> Result<[f64; 3], PlanarError> {
+    let mut slides: Vec<[f64; 3]> = Vec::new();
+    for j in m.joints_in(state) {
+        let joint = &m.joints[j];
+        let axes = FrameValues::new(&Reals, &joint.frame)?.axes.map(unit);
+        for f in joint.joint_type.freedoms() {
+            match f {
+                Freedom::Rx => return Ok(axes[0]),
+                Freedom::Ry => return Ok(axes[1]),
+                Freedom::Rz => return Ok(axes[2]),
+                Freedom::Tx => slides.push(axes[0]),
+                Freedom::Ty => slides.push(axes[1]),
+                Freedom::Tz => slides.push(axes[2]),
+                Freedom::Screw => {
+                    return Err(PlanarError::NotPlanar {
+                        joint: joint.id.clone(),
+                    });
+                }
+            }
+        }
+    }
+    let other = |u: [f64; 3]| slides.iter().find(|v| !is_parallel(u, **v)).copied();
+    Ok(slides
+        .first()
+        .and_then(|u| other(*u).map(|v| unit(Reals.cross(*u, v))))
+        .unwrap_or([0.0, 0.0, 1.0]))
+}

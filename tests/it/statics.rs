@@ -1,0 +1,77 @@
+//! Statics of planar mechanisms: structure, motion, reactions.
+
+mod structure;
+
+use ozols::import::text::mechanism_from_str;
+use ozols::model::mechanism::Mechanism;
+use ozols::workload::planar::{PairId, PlanarMechanism};
+use std::fmt::Write;
+
+/// One joint of a test mechanism: "a-b" with R, or P and its direction, at a point.
+#[derive(Debug, Clone)]
+pub(crate) struct J {
+    pub(crate) links: (String, String),
+    pub(crate) slide: Option<[f64; 2]>,
+    pub(crate) at: [f64; 2],
+}
+
+pub(crate) fn r(a: &str, b: &str, x: f64, y: f64) -> J {
+    J {
+        links: (a.into(), b.into()),
+        slide: None,
+        at: [x, y],
+    }
+}
+
+pub(crate) fn p(a: &str, b: &str, x: f64, y: f64, along: [f64; 2]) -> J {
+    J {
+        links: (a.into(), b.into()),
+        slide: Some(along),
+        at: [x, y],
+    }
+}
+
+/// A file in planar mode; link 0 is the frame, the first joint is the drive; `more` goes to the end.
+pub(crate) fn file(joints: &[J], more: &str) -> String {
+    let mut links: Vec<&String> = joints
+        .iter()
+        .flat_map(|j| [&j.links.0, &j.links.1])
+        .collect();
+    links.sort();
+    links.dedup();
+    let mut text = String::from("name = \"t\"\nmode = \"planar\"\n");
+    for (i, l) in links.iter().enumerate() {
+        let role = match (l.as_str(), i + 1 == links.len()) {
+            ("0", _) => "role = \"frame\"",
+            (_, true) => "role = \"output\"",
+            _ => "",
+        };
+        writeln!(text, "[[link]]\nid = \"{l}\"\n{role}").unwrap();
+    }
+    for (i, j) in joints.iter().enumerate() {
+        let (a, b) = &j.links;
+        let kind = match j.slide {
+            None => "type = \"revolute\"\naxis = [0, 0, 1]".to_owned(),
+            Some([x, y]) => format!("type = \"prismatic\"\naxis = [{x:?}, {y:?}, 0]"),
+        };
+        writeln!(
+            text,
+            "[[joint]]\nid = \"{a}-{b}\"\nlinks = [\"{a}\", \"{b}\"]\n{kind}\npoint = [{:?}, {:?}, 0]\ndrive = {}",
+            j.at[0], j.at[1], i == 0
+        )
+        .unwrap();
+    }
+    text + more
+}
+
+pub(crate) fn mechanism(text: &str) -> Mechanism {
+    mechanism_from_str("t.toml", text).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+pub(crate) fn planar(joints: &[J]) -> PlanarMechanism {
+    PlanarMechanism::new(&mechanism(&file(joints, "")), 0).unwrap()
+}
+
+pub(crate) fn pair(m: &PlanarMechanism, name: &str) -> PairId {
+    m.pairs.iter().position(|p| p.name == name).unwrap()
+}

@@ -1,0 +1,487 @@
+//! Decomposition into Assur groups: published classifications, laws, and brute force.
+
+use super::{J, file, mechanism, p, pair, planar, r};
+use itertools::Itertools;
+use ozols::workload::assur::{AssurError, Decomposition, alternatives, decompose};
+use ozols::workload::assur_class::Kind;
+use ozols::workload::planar::{BodyId, PairKind, PlanarMechanism};
+use proptest::prelude::*;
+
+fn four_bar() -> Vec<J> {
+    vec![
+        r("0", "1", 0., 0.),
+        r("1", "2", 0., 1.),
+        r("2", "3", 3., 3.),
+        r("3", "0", 4., 0.),
+    ]
+}
+
+/// Stephenson III: a four-bar 0-1-2-3 whose coupler carries the dyad 4-5.
+fn stephenson() -> Vec<J> {
+    let mut all = four_bar();
+    all.extend([
+        r("2", "4", 2., 4.),
+        r("4", "5", 6., 5.),
+        r("5", "0", 7., 0.),
+    ]);
+    all
+}
+
+/// Watt I: four-bar 0-1-2-3, dyad 4-5 on coupler and rocker.
+fn watt() -> Vec<J> {
+    let mut all = four_bar();
+    all.extend([
+        r("2", "4", 2., 4.),
+        r("4", "5", 6., 5.),
+        r("5", "3", 5., 2.),
+    ]);
+    all
+}
+
+/// Theo Jansen's leg: crank 1, and dyads (2, 3), (4, 5), (6, 7).
+fn jansen() -> Vec<J> {
+    vec![
+        r("0", "1", 0., 0.),
+        r("1", "2", 15., 0.),
+        r("2", "3", -30., 41.),
+        r("3", "0", -38., -8.),
+        r("1", "4", 15., 0.),
+        r("4", "5", -20., -45.),
+        r("5", "0", -38., -8.),
+        r("3", "6", -78., -5.),
+        r("6", "7", -62., -42.),
+        r("7", "5", -20., -45.),
+    ]
+}
+
+/// The four-link group with a closed contour: 4 (D; F, K), rods 6 and 7, slider 10 (M, L; guide), on a crank 3.
+fn closed_contour() -> Vec<J> {
+    vec![
+        r("0", "3", -2., 5.),
+        r("3", "4", 0., 5.),
+        r("4", "6", -1., 3.),
+        r("4", "7", 1., 3.),
+        r("6", "9", -0.6, 1.),
+        r("7", "9", 0.5, 1.),
+        p("0", "9", 0., 0., [0., 1.]),
+    ]
+}
+
+fn decomposed(joints: &[J]) -> (PlanarMechanism, Decomposition) {
+    let m = planar(joints);
+    let d = decompose(&m, &m.drives()).unwrap();
+    (m, d)
+}
+
+fn words(m: &PlanarMechanism, d: &Decomposition) -> Vec<String> {
+    let names = |list: &[BodyId]| list.iter().map(|&b| m.bodies[b].name.as_str()).join("+");
+    d.groups
+        .iter()
+        .map(|g| format!("{}: {}", names(&g.bodies), g.class))
+        .collect()
+}
+
+/// Every law a decomposition keeps.
+fn laws(m: &PlanarMechanism, d: &Decomposition) {
+    let mut bodies: Vec<BodyId> = d.driven.iter().copied().chain([m.frame]).collect();
+    let mut pairs = d.driven_pairs.clone();
+    let mut placed = bodies.clone();
+    for g in &d.groups {
+        assert_eq!(g.mobility(), 0);
+        assert_eq!(g.class.order, g.outer.len());
+        for &q in &g.outer {
+            let ends = m.pairs[q].bodies;
+            assert_eq!(ends.iter().filter(|b| g.bodies.contains(b)).count(), 1);
+            assert_eq!(
+                ends.iter().filter(|b| placed.contains(b)).count(),
+                1,
+                "outer pairs hang on earlier bodies"
+            );
+        }
+        for &q in &g.inner {
+            assert!(m.pairs[q].bodies.iter().all(|b| g.bodies.contains(b)));
+        }
+        bodies.extend(&g.bodies);
+        placed.extend(&g.bodies);
+        pairs.extend(g.pairs());
+    }
+    bodies.sort_unstable();
+    pairs.sort_unstable();
+    assert_eq!(
+        bodies,
+        (0..m.bodies.len()).collect_vec(),
+        "every body is in exactly one group"
+    );
+    assert_eq!(
+        pairs,
+        (0..m.pairs.len()).collect_vec(),
+        "the pairs of the groups are all pairs"
+    );
+}
+
+/// Groups by definition: again and again the smallest set of unused bodies with 3n = 2p, lowest numbers first.
+fn by_brute_force(m: &PlanarMechanism, driven: &[BodyId]) -> Vec<Vec<BodyId>> {
+    let mut used: Vec<BodyId> = driven.iter().copied().chain([m.frame]).collect();
+    let mut groups = Vec::new();
+    while used.len() < m.bodies.len() {
+        let unused = (0..m.bodies.len())
+            .filter(|b| !used.contains(b))
+            .collect_vec();
+        let balanced = |set: &Vec<BodyId>| {
+            let inside = |b: &BodyId| set.contains(b) || used.contains(b);
+            let touches = |q: &&ozols::workload::planar::Pair| {
+                !q.drive && q.bodies.iter().any(|b| set.contains(b)) && q.bodies.iter().all(inside)
+            };
+            3 * set.len() == 2 * m.pairs.iter().filter(touches).count()
+        };
+        let found = unused
+            .iter()
+            .copied()
+            .powerset()
+            .skip(1)
+            .find(balanced)
+            .expect("a group");
+        used.extend(&found);
+        groups.push(found);
+    }
+    groups.sort();
+    groups
+}
+
+#[test]
+fn published_mechanisms_have_their_published_groups() {
+    let (m, d) = decomposed(&four_bar());
+    assert_eq!(words(&m, &d), ["2+3: class II, order 2, dyad RRR"]);
+    // Norton, Design of Machinery, ch. 4 and 6; Artobolevsky § 15: with the crank of the four-bar driving, Stephenson's
+    // chain is of class II, driven from the dyad's side of class III.
+    let (m, d) = decomposed(&stephenson());
+    assert_eq!(
+        words(&m, &d),
+        [
+            "2+3: class II, order 2, dyad RRR",
+            "4+5: class II, order 2, dyad RRR"
+        ]
+    );
+    let d = decompose(&m, &[pair(&m, "5-0")]).unwrap();
+    assert_eq!(words(&m, &d), ["1+2+3+4: class III, order 3, triad"]);
+    laws(&m, &d);
+    let (m, d) = decomposed(&watt());
+    assert_eq!(d.class(), 2);
+    assert_eq!(d.groups.len(), 2);
+    laws(&m, &d);
+    let (m, d) = decomposed(&jansen());
+    assert_eq!(
+        words(&m, &d),
+        [
+            "2+3: class II, order 2, dyad RRR",
+            "4+5: class II, order 2, dyad RRR",
+            "6+7: class II, order 2, dyad RRR"
+        ]
+    );
+    laws(&m, &d);
+    // [Bychkov, Dvornikov & Zhukov 2018] and the paper of 2004 they cite: four links in a closed contour, class IV.
+    let (m, d) = decomposed(&closed_contour());
+    assert_eq!(
+        words(&m, &d),
+        ["4+6+7+9: class IV, order 2, four links in a closed contour"]
+    );
+    laws(&m, &d);
+}
+
+/// Artobolevsky's table of dyads.
+#[test]
+fn dyads_have_their_species() {
+    let dyad = |a: bool, b: bool, c: bool| {
+        let joint = |x: &str, y: &str, at: (f64, f64), slide: bool, along| {
+            if slide {
+                p(x, y, at.0, at.1, along)
+            } else {
+                r(x, y, at.0, at.1)
+            }
+        };
+        vec![
+            r("0", "1", 0., 0.),
+            joint("1", "2", (0., 1.), a, [1., 0.]),
+            joint("2", "3", (3., 3.), b, [1., 2.]),
+            joint("3", "0", (4., 0.), c, [0., 1.]),
+        ]
+    };
+    for (pairs, species) in [
+        ((false, false, false), 1),
+        ((false, false, true), 2),
+        ((true, false, false), 2),
+        ((false, true, false), 3),
+        ((true, false, true), 4),
+        ((true, true, false), 5),
+        ((false, true, true), 5),
+    ] {
+        let (_, d) = decomposed(&dyad(pairs.0, pairs.1, pairs.2));
+        assert_eq!(d.groups[0].class.kind, Kind::Dyad(species), "{pairs:?}");
+    }
+}
+
+#[test]
+fn groups_of_six_links_are_classified() {
+    // Two bodies of three pairs joined, two leashes each: class III, order 4.
+    let chain = vec![
+        r("0", "1", 0., 0.),
+        r("1", "a", 1., 0.),
+        r("a", "S", 2., 1.),
+        r("0", "b", 1., 3.),
+        r("b", "S", 2., 3.),
+        r("S", "T", 4., 2.),
+        r("T", "c", 6., 1.),
+        r("c", "0", 7., 0.),
+        r("T", "d", 6., 3.),
+        r("d", "0", 7., 4.),
+    ];
+    let (_, d) = decomposed(&chain);
+    assert_eq!(
+        (d.groups.len(), d.class(), d.groups[0].class.order),
+        (1, 3, 4)
+    );
+    assert_eq!(
+        (
+            d.groups[0].class.contours,
+            &d.groups[0].class.composition[..]
+        ),
+        (0, &[4, 2][..])
+    );
+    // A contour of five bodies, three of them with an outer pair and one carrying a leash ring: class V, order 3.
+    let ring = vec![
+        r("0", "1", 0., 0.),
+        r("1", "a", 1., 0.),
+        r("a", "b", 2., 2.),
+        r("b", "c", 4., 3.),
+        r("c", "d", 6., 2.),
+        r("d", "e", 6., 0.),
+        r("e", "a", 3., -1.),
+        r("c", "0", 5., 5.),
+        r("d", "f", 8., 1.),
+        r("f", "0", 9., 0.),
+    ];
+    let (_, d) = decomposed(&ring);
+    assert_eq!((d.groups.len(), d.class()), (1, 5));
+    assert_eq!(d.groups[0].class.order, 3);
+}
+
+#[test]
+fn the_drive_decides_the_groups() {
+    let m = planar(&stephenson());
+    let found = alternatives(&m, &m.drives());
+    assert_eq!(found.len(), m.pairs.len());
+    let at_frame = found
+        .iter()
+        .take(3)
+        .map(|(q, _)| m.pairs[*q].name.as_str())
+        .collect_vec();
+    assert_eq!(at_frame, ["0-1", "3-0", "5-0"]);
+    let classes: Vec<(&str, usize)> = found
+        .iter()
+        .map(|(q, d)| (m.pairs[*q].name.as_str(), d.as_ref().unwrap().class()))
+        .collect();
+    assert_eq!(
+        classes,
+        [
+            ("0-1", 2),
+            ("3-0", 2),
+            ("5-0", 3),
+            ("1-2", 2),
+            ("2-3", 2),
+            ("2-4", 3),
+            ("4-5", 3)
+        ]
+    );
+    for (_, d) in found {
+        laws(&m, &d.unwrap());
+    }
+}
+
+#[test]
+fn drives_that_do_not_fit_are_refused_with_names() {
+    let m = planar(&four_bar());
+    let none = decompose(&m, &[]).unwrap_err();
+    assert_eq!(
+        none,
+        AssurError::Underconstrained {
+            bodies: "1, 2, 3".into(),
+            freedoms: 1
+        }
+    );
+    let two = decompose(&m, &[0, 3]).unwrap_err();
+    let AssurError::Overconstrained { excess: 1, bodies } = two else {
+        panic!("{two}")
+    };
+    assert_eq!(bodies, "2");
+    // A third rod on a parallelogram is redundant in the plane too.
+    let text = ozols::builtin::text("parallelogram-3-rods-planar").unwrap();
+    let m = PlanarMechanism::new(&mechanism(text), 0).unwrap();
+    assert!(matches!(
+        decompose(&m, &m.drives()),
+        Err(AssurError::Overconstrained { excess: 1, .. })
+    ));
+}
+
+#[test]
+fn several_drives_and_drives_between_moving_bodies() {
+    // Five-bar with two cranks.
+    let mut five = planar(&[
+        r("0", "1", 0., 0.),
+        r("1", "2", 0., 1.),
+        r("2", "3", 2., 3.),
+        r("3", "4", 4., 1.),
+        r("4", "0", 4., 0.),
+    ]);
+    five.pairs[4].drive = true;
+    let d = decompose(&five, &five.drives()).unwrap();
+    assert_eq!(
+        (d.driven.len(), words(&five, &d)),
+        (2, vec!["2+3: class II, order 2, dyad RRR".to_owned()])
+    );
+    laws(&five, &d);
+    // A boom raised by a cylinder: the cylinder and its rod are one block of the dyad.
+    let boom = planar(&[
+        p("2", "3", 1., 1., [1., 1.]),
+        r("0", "1", 0., 1.),
+        r("0", "2", 0.5, 0.5),
+        r("3", "1", 3., 3.),
+    ]);
+    let d = decompose(&boom, &boom.drives()).unwrap();
+    assert_eq!(d.groups[0].class.to_string(), "class II, order 2, dyad RRR");
+    assert_eq!(
+        (
+            d.groups[0].blocks.len(),
+            d.groups[0].bodies.len(),
+            d.groups[0].locked.len()
+        ),
+        (2, 3, 1)
+    );
+    laws(&boom, &d);
+}
+
+#[test]
+fn a_pin_in_a_slot_is_a_turning_and_a_sliding_pair() {
+    let m = PlanarMechanism::new(
+        &mechanism(ozols::builtin::text("lever-slot-gripper").unwrap()),
+        0,
+    )
+    .unwrap();
+    assert_eq!(m.bodies.iter().filter(|b| b.link.is_none()).count(), 2);
+    let d = decompose(&m, &m.drives()).unwrap();
+    laws(&m, &d);
+    assert_eq!(
+        d.groups.iter().map(|g| g.class.kind).collect_vec(),
+        [Kind::Dyad(3); 2]
+    );
+}
+
+/// Chains grown group by group: dyads, triads and closed contours hung on bodies that are already there.
+fn grown() -> impl Strategy<Value = (Vec<J>, usize)> {
+    let seed = proptest::collection::vec((0..4usize, any::<[u16; 4]>(), any::<[i16; 12]>()), 1..5);
+    seed.prop_map(|steps| {
+        let mut joints = vec![r("0", "1", 0., 0.)];
+        let mut bodies = vec!["0".to_owned(), "1".to_owned()];
+        for (what, on, xy) in &steps {
+            let at = |i: usize| {
+                (
+                    f64::from(xy[(2 * i) % 12]) / 8.0,
+                    f64::from(xy[(2 * i + 1) % 12]) / 8.0,
+                )
+            };
+            // The last body always carries the next group, so that drives matter.
+            let base = |i: usize| {
+                if i == 0 {
+                    bodies[bodies.len() - 1].clone()
+                } else {
+                    bodies[usize::from(on[i]) % bodies.len()].clone()
+                }
+            };
+            let name = |i: usize| format!("{}", bodies.len() + i);
+            let join = |a: String, b: String, i: usize| r(&a, &b, at(i).0, at(i).1);
+            let (n, new) = match what {
+                0 | 1 => (
+                    2,
+                    vec![
+                        join(base(0), name(0), 0),
+                        join(name(0), name(1), 1),
+                        join(name(1), base(1), 2),
+                    ],
+                ),
+                2 => (
+                    4,
+                    vec![
+                        join(name(0), name(1), 0),
+                        join(name(0), name(2), 1),
+                        join(name(0), name(3), 2),
+                        join(name(1), base(0), 3),
+                        join(name(2), base(1), 4),
+                        join(name(3), base(2), 5),
+                    ],
+                ),
+                _ => (
+                    4,
+                    vec![
+                        join(base(0), name(0), 0),
+                        join(name(0), name(1), 1),
+                        join(name(0), name(2), 2),
+                        join(name(3), name(1), 3),
+                        join(name(3), name(2), 4),
+                        p(&base(1), &name(3), at(5).0, at(5).1, [1.0, 0.25]),
+                    ],
+                ),
+            };
+            joints.extend(new);
+            for _ in 0..n {
+                bodies.push(format!("{}", bodies.len()));
+            }
+        }
+        // Joints are told apart by name; a group may hang twice on one body.
+        (joints, steps.len())
+    })
+}
+
+fn grown_mechanism(joints: &[J]) -> PlanarMechanism {
+    let text = file(joints, "");
+    let mut n = 0;
+    let renamed = text.split("[[joint]]\nid = \"").map(|part| {
+        n += 1;
+        if n == 1 {
+            part.to_owned()
+        } else {
+            format!("[[joint]]\nid = \"j{n} {part}")
+        }
+    });
+    PlanarMechanism::new(&mechanism(&renamed.collect::<String>()), 0).unwrap()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 96, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// A chain grown by k groups decomposes into k groups, which brute force finds too.
+    #[test]
+    fn grown_chains_decompose_into_what_they_grew_from((joints, grown) in grown()) {
+        let m = grown_mechanism(&joints);
+        let d = decompose(&m, &m.drives()).unwrap();
+        laws(&m, &d);
+        prop_assert_eq!(d.groups.len(), grown);
+        if m.bodies.len() <= 14 {
+            let mut groups = d.groups.iter().map(|g| g.bodies.clone()).collect_vec();
+            groups.sort();
+            prop_assert_eq!(groups, by_brute_force(&m, &d.driven));
+        }
+    }
+
+    /// Under any drive that makes the chain determinate the laws hold; a drive at the frame always does.
+    #[test]
+    fn every_drive_obeys_the_laws((joints, _) in grown()) {
+        let m = grown_mechanism(&joints);
+        for (q, d) in alternatives(&m, &m.drives()) {
+            if let Ok(d) = d {
+                laws(&m, &d);
+                let locked = d.groups.iter().map(|g| g.locked.len()).sum::<usize>() + d.driven_pairs.len();
+                prop_assert_eq!(locked, 1);
+                prop_assert!(m.pairs[q].kind != PairKind::Rigid);
+            }
+        }
+    }
+}
