@@ -2,7 +2,9 @@
 
 mod analyze;
 mod args;
+mod charts;
 mod check;
+mod grip;
 mod load;
 mod output;
 mod progress;
@@ -35,6 +37,7 @@ pub fn run() -> ExitCode {
     let result = prepare(&args).and_then(|()| match &args.command {
         args::Command::Analyze(a) => analyze::run(&args, a),
         args::Command::Search(a) => search::run(&args, a),
+        args::Command::Grip(a) => grip::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::List => check::list(),
         args::Command::Show(a) => check::show(a),

@@ -2,6 +2,9 @@
 
 pub mod analysis_json;
 pub mod analysis_text;
+pub mod grip_charts;
+pub mod grip_json;
+pub mod grip_text;
 pub mod search_json;
 pub mod search_text;
 pub mod words;

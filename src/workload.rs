@@ -1,8 +1,10 @@
 //! What mechanisms are put to: loads and the reactions they cause, what a gripper must hold, and what drives it. Knows
 //! geometry and statics, and nothing of files, searches or reports.
 
+pub mod arm_charts;
 pub mod assur;
 pub mod assur_class;
+pub mod clamping;
 pub mod contact;
 mod dense;
 pub mod holding;
@@ -11,3 +13,4 @@ pub mod lever_arm;
 pub mod planar;
 pub mod planar_motion;
 pub mod pose;
+pub mod transmission;

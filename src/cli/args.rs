@@ -18,6 +18,7 @@ Examples:
   ozols analyze gripper-10                    mobility and redundant constraints, contour by contour
   ozols search gripper-10                     the best statically determinate redesigns
   ozols search gripper-10 --max-mobility 1    only those without idle links
+  ozols grip lever-gripper                    what its levers can hold, and with what drive moment
   ozols show four-bar > mine.toml             a file to start from
   ozols check mine.toml                       what is wrong with it, if anything"
 )]
@@ -42,6 +43,8 @@ pub(super) enum Command {
     Analyze(Analyze),
     /// Every redesign that removes the redundant constraints: exact counts and the best ones.
     Search(Search),
+    /// What a lever gripper can hold, and the drive moment it takes.
+    Grip(Grip),
     /// Validate a file.
     Check(File),
     /// The built-in mechanisms.
@@ -95,6 +98,37 @@ pub(super) struct Analyze {
 
 fn ozols_tolerance() -> f64 {
     crate::rank::numeric::DEFAULT_TOLERANCE
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Grip {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// A further acceleration of the gripper in m/s², in its axes (repeatable): 5,0,-2.
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    pub(super) acceleration: Vec<[f64; 3]>,
+    /// A further acceleration of the gripper in m/s², in any direction; `ozols drive` prints one.
+    #[arg(long, value_name = "A")]
+    pub(super) any_acceleration: Option<f64>,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    pub(super) format: AnalyzeFormat,
+    /// Also write charts, each as SVG and CSV, into this folder.
+    #[arg(long, value_name = "DIR")]
+    pub(super) svg: Option<PathBuf>,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
+
+fn vector(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|t| t.trim().parse::<f64>().ok().filter(|x| x.abs() <= 1e6))
+        .collect::<Option<_>>()
+        .unwrap_or_default();
+    <[f64; 3]>::try_from(numbers)
+        .map_err(|_| "give three numbers such as 5,0,-2, none beyond 1e6".to_owned())
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -1,5 +1,6 @@
 //! Masses of links and the `[workload]` table.
 
+use crate::import::grip::GripEntry;
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
 use crate::import::resolve::{Findings, index, key, vector};
@@ -53,7 +54,7 @@ pub enum InertiaEntry {
     List(Vec<f64>),
 }
 
-/// Loads and drive, for `ozols statics`.
+/// Loads and drive, for `ozols statics`; a gripper, for `ozols grip`.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorkloadEntry {
@@ -70,6 +71,9 @@ pub struct WorkloadEntry {
     /// The cycle.
     #[serde(default)]
     pub stroke: Option<StrokeEntry>,
+    /// Clamping levers and what they must hold, for `ozols grip`.
+    #[serde(default)]
+    pub grip: Option<GripEntry>,
 }
 
 /// A force of fixed direction at a point that moves with a link.

@@ -20,6 +20,8 @@ pub struct Gripper {
     pub face_length: Option<f64>,
     /// Width of a lever across its line from pivot to vertex; 0 for a mere line. `[m]`
     pub lever_width: f64,
+    /// Whether the levers lie in planes of their own and may cross.
+    pub may_cross: bool,
 }
 
 /// A contact of the part with a face.
@@ -165,6 +167,7 @@ impl Gripper {
             pivot: lever.nominal_pivot(diameter),
             face_length: None,
             lever_width: 0.0,
+            may_cross: false,
         }
     }
 
@@ -270,7 +273,7 @@ impl Gripper {
         let clearance = pose.pivots[0][1].min(pose.vertices[0][1]);
         let half_width = self.lever_width / 2.0;
         // Rounding must not part levers that lie on the axis.
-        if clearance < half_width - 1e-12 * self.lever.length {
+        if !self.may_cross && clearance < half_width - 1e-12 * self.lever.length {
             out.push(Unholdable::Crossed {
                 clearance,
                 half_width,
