@@ -13,4 +13,6 @@ pub mod lever_arm;
 pub mod planar;
 pub mod planar_motion;
 pub mod pose;
+pub mod swing;
+pub mod torsion;
 pub mod transmission;

@@ -5,6 +5,7 @@ mod bytes;
 mod catalogs;
 mod cli;
 mod contours;
+mod drive;
 mod grip;
 mod holding;
 mod layering;
