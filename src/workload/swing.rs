@@ -171,7 +171,7 @@ impl Disc {
             && self.stiffness > 0.0
             && self.inertia.is_finite()
             && self.stiffness.is_finite();
-        if !positive || !(self.viscous >= 0.0 && self.coulomb >= 0.0) {
+        if !(positive && self.viscous >= 0.0 && self.coulomb >= 0.0) {
             return Err(SwingError::Disc);
         }
         if self.damping_ratio() >= 1.0 {
