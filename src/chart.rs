@@ -1,21 +1,25 @@
 //! Charts as self-contained SVG: lines on linear or log axes, verdict matrices, bands, and a page that gathers them.
 //!
-//! The SVG is written by a helper of our own ([`xml`]), since the charting crates looked at (plotters, charming, poloto,
-//! charts-rs) fix colours in attributes or need a JavaScript engine, and none gives decades, gaps, tooltips, labels that
-//! keep apart and light and dark looks at once; the `svg` crate puts spaces before superscripts and lets control
-//! characters through.
+//! The SVG is written by a helper of our own: plotters and charts-rs fix the colours, so that one picture cannot be both
+//! light and dark, poloto has no log axis, charming runs V8, none keeps names at line ends apart, and the `svg` crate puts
+//! spaces before superscripts and lets control characters through.
 //!
 //! Every picture carries its own style sheet with a light and a dark look, needs no script and no font file, and comes
 //! out byte for byte the same for the same input. A point that cannot be shown (not finite, beyond 1e300 on a linear
 //! axis, not positive on a log axis) is left out and breaks its line.
 
 mod axis;
+mod bands;
 mod drawn;
 mod frame;
 mod labels;
 mod line;
 mod look;
+mod matrix;
+mod page;
 mod xml;
+
+pub use page::page;
 
 #[cfg(test)]
 mod tests;
@@ -75,4 +79,59 @@ pub enum Style {
     Points,
     /// A line that holds each y until the next x.
     Steps,
+}
+
+/// Verdicts in rows and columns.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Matrix {
+    /// What is shown.
+    pub title: String,
+    /// One sentence under the title, or nothing.
+    pub subtitle: String,
+    /// The heads of the columns.
+    pub columns: Vec<String>,
+    /// The names of the rows.
+    pub rows: Vec<String>,
+    /// The cells, row by row.
+    pub cells: Vec<Vec<Cell>>,
+}
+
+/// A cell of a matrix.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cell {
+    /// What stands in it; a cell without text shows a sign of its kind.
+    pub text: String,
+    /// Its colour.
+    pub kind: Kind,
+    /// What is said when one points at it, or nothing to repeat the text.
+    pub tooltip: String,
+}
+
+/// A verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// As it should be.
+    Good,
+    /// Wrong.
+    Bad,
+    /// Doubtful.
+    Warn,
+    /// No verdict.
+    None,
+}
+
+/// A stretch of an axis: from, to, and the verdict between them.
+pub type Band = (f64, f64, Kind);
+
+/// Regions of an axis, row by row: where each of several methods is right.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bands {
+    /// What is shown.
+    pub title: String,
+    /// One sentence under the title, or nothing.
+    pub subtitle: String,
+    /// The axis across.
+    pub x: Axis,
+    /// The name of each row with its bands.
+    pub rows: Vec<(String, Vec<Band>)>,
 }

@@ -9,6 +9,7 @@ mod load;
 mod output;
 mod progress;
 mod search;
+mod statics;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -37,6 +38,7 @@ pub fn run() -> ExitCode {
     let result = prepare(&args).and_then(|()| match &args.command {
         args::Command::Analyze(a) => analyze::run(&args, a),
         args::Command::Search(a) => search::run(&args, a),
+        args::Command::Statics(a) => statics::run(&args, a),
         args::Command::Grip(a) => grip::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::List => check::list(),

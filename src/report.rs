@@ -7,4 +7,8 @@ pub mod grip_json;
 pub mod grip_text;
 pub mod search_json;
 pub mod search_text;
+pub mod statics_charts;
+pub mod statics_data;
+pub mod statics_text;
+pub mod statics_words;
 pub mod words;

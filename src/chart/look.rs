@@ -44,6 +44,8 @@ pub(super) const STYLE: &str = "
 .oz .c6{stroke:#4b005c}.oz .f6{fill:#4b005c}
 .oz .good{fill:#cfe6fb}.oz .bad{fill:#fbd0bd}.oz .warn{fill:#fbecb4}.oz .none{fill:#f3f5f7}
 .oz text.good{fill:#0b4a83}.oz text.bad{fill:#8a2300;font-weight:600}.oz text.warn{fill:#6b5200}.oz text.none{fill:#59636e}
+.oz .sign{fill:none;stroke-width:1.8;stroke-linecap:round;stroke-linejoin:round}
+.oz .sign.good{stroke:#0b4a83}.oz .sign.bad{stroke:#8a2300}.oz .sign.warn{stroke:#6b5200}
 .oz .bar.good{fill:#2f81c8}.oz .bar.bad{fill:#d1480b}.oz .bar.warn{fill:#d9ab00}.oz .bar.none{fill:#a9b2bb}
 @media screen and (prefers-color-scheme:dark){
 .oz text{fill:#e8ebee}
@@ -64,6 +66,7 @@ pub(super) const STYLE: &str = "
 .oz .c6{stroke:#fed5fe}.oz .f6{fill:#fed5fe}
 .oz .good{fill:#16395a}.oz .bad{fill:#5e2412}.oz .warn{fill:#4d3f0c}.oz .none{fill:#1d2227}
 .oz text.good{fill:#b5daf8}.oz text.bad{fill:#ffc9b3}.oz text.warn{fill:#f7e08a}.oz text.none{fill:#a3adb7}
+.oz .sign.good{stroke:#b5daf8}.oz .sign.bad{stroke:#ffc9b3}.oz .sign.warn{stroke:#f7e08a}
 .oz .bar.good{fill:#4a9be0}.oz .bar.bad{fill:#ee6a2c}.oz .bar.warn{fill:#e0b62a}.oz .bar.none{fill:#59636e}
 }
 ";

@@ -157,6 +157,78 @@ fn csv_keeps_every_point() {
     );
 }
 
+#[test]
+fn bands_reach_the_edges() {
+    let bands = Bands {
+        title: String::new(),
+        subtitle: String::new(),
+        x: Axis {
+            label: "noise".to_owned(),
+            scale: Scale::Log,
+        },
+        rows: vec![
+            (
+                "a".to_owned(),
+                vec![(0.0, 1e-3, Kind::Good), (1e-3, f64::INFINITY, Kind::Bad)],
+            ),
+            (
+                "b".to_owned(),
+                vec![(1.0, 1e-6, Kind::Good), (-1.0, 0.0, Kind::Bad)],
+            ),
+        ],
+    };
+    let svg = bands.svg();
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let titled = document
+        .descendants()
+        .filter(|n| n.has_tag_name("rect") && n.has_children());
+    let places: Vec<(f64, f64)> = titled
+        .map(|n| ["x", "width"].map(|a| n.attribute(a).unwrap().parse::<f64>().unwrap()))
+        .map(|[x, width]| (x, x + width))
+        .collect();
+    let [(left, middle), (from, right), whole] = places[..] else {
+        panic!("{places:?}")
+    };
+    assert_eq!(middle, from);
+    assert_eq!((left, right), whole);
+}
+
+#[test]
+fn a_cell_says_its_row_and_column() {
+    let cell = |text: &str, tooltip: &str| Cell {
+        text: text.to_owned(),
+        kind: Kind::Warn,
+        tooltip: tooltip.to_owned(),
+    };
+    let matrix = Matrix {
+        title: "Counts".to_owned(),
+        subtitle: String::new(),
+        columns: vec!["QR".to_owned(), "SVD".to_owned()],
+        rows: vec!["bennett".to_owned()],
+        cells: vec![vec![cell("1, 3", ""), cell("", "no gap")]],
+    };
+    let svg = matrix.svg();
+    assert!(svg.contains("<title>bennett, QR: 1, 3</title>"), "{svg}");
+    assert!(svg.contains("<title>bennett, SVD: no gap</title>"), "{svg}");
+    assert!(svg.contains("0 good, 0 bad, 2 in doubt"), "{svg}");
+}
+
+#[test]
+fn a_page_escapes_all_but_the_pictures() {
+    let part = |n: u8| {
+        (
+            format!("<{n}>"),
+            "a & b".to_owned(),
+            "<svg></svg>".to_owned(),
+        )
+    };
+    let html = page("<t>", &[part(1), part(2), part(3)]);
+    assert!(html.contains("<title>&lt;t&gt;</title>") && html.contains("<h2>&lt;3&gt;</h2>"));
+    assert!(html.contains("<p>a &amp; b</p>") && html.contains("<svg></svg>"));
+    assert!(!html.contains("<nav"));
+    assert!(page("t", &[part(1), part(2), part(3), part(4)]).contains("<a href=\"#part-4\">"));
+}
+
 fn any_value() -> impl Strategy<Value = f64> {
     let odd = [
         f64::NAN,
@@ -213,6 +285,40 @@ prop_compose! {
     }
 }
 
+fn any_kind() -> impl Strategy<Value = Kind> {
+    prop::sample::select(vec![Kind::Good, Kind::Bad, Kind::Warn, Kind::None])
+}
+
+prop_compose! {
+    fn any_matrix()(
+        title in any_text(),
+        columns in prop::collection::vec(any_text(), 0..6),
+        rows in prop::collection::vec(any_text(), 0..40),
+        cells in prop::collection::vec(
+            prop::collection::vec((any_text(), any_kind(), any_text()), 0..8),
+            0..40,
+        ),
+    ) -> Matrix {
+        let cell = |(text, kind, tooltip)| Cell { text, kind, tooltip };
+        let cells = cells.into_iter().map(|row| row.into_iter().map(cell).collect());
+        Matrix { subtitle: title.clone(), title, columns, rows, cells: cells.collect() }
+    }
+}
+
+prop_compose! {
+    fn any_bands()(
+        texts in prop::collection::vec(any_text(), 3),
+        scale in any_scale(),
+        rows in prop::collection::vec(
+            (any_text(), prop::collection::vec((any_value(), any_value(), any_kind()), 0..6)),
+            0..8,
+        ),
+    ) -> Bands {
+        let [title, subtitle, label] = texts.try_into().unwrap();
+        Bands { title, subtitle, x: Axis { label, scale }, rows }
+    }
+}
+
 /// Parses; no number is odd; nothing with a place leaves the picture.
 fn sound(svg: &str) {
     let document = roxmltree::Document::parse(svg).unwrap_or_else(|e| panic!("{e}: {svg}"));
@@ -248,5 +354,15 @@ proptest! {
             prop_assert!(x - half > end, "{} at {}: {}", text, x, svg);
             end = x + half;
         }
+    }
+
+    #[test]
+    fn any_matrix_is_sound_xml(matrix in any_matrix()) {
+        sound(&matrix.svg());
+    }
+
+    #[test]
+    fn any_bands_are_sound_xml(bands in any_bands()) {
+        sound(&bands.svg());
     }
 }

@@ -18,6 +18,7 @@ Examples:
   ozols analyze gripper-10                    mobility and redundant constraints, contour by contour
   ozols search gripper-10                     the best statically determinate redesigns
   ozols search gripper-10 --max-mobility 1    only those without idle links
+  ozols statics parallel-shears               Assur groups, and joint reactions over the cycle
   ozols grip lever-gripper                    what its levers can hold, and with what drive moment
   ozols show four-bar > mine.toml             a file to start from
   ozols check mine.toml                       what is wrong with it, if anything"
@@ -43,6 +44,8 @@ pub(super) enum Command {
     Analyze(Analyze),
     /// Every redesign that removes the redundant constraints: exact counts and the best ones.
     Search(Search),
+    /// Assur groups of a planar mechanism, and its joint reactions over the cycle.
+    Statics(Statics),
     /// What a lever gripper can hold, and the drive moment it takes.
     Grip(Grip),
     /// Validate a file.
@@ -219,6 +222,64 @@ pub(super) struct Search {
     #[arg(long, value_enum, default_value = "text")]
     pub(super) format: SearchFormat,
     /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum StaticsMethod {
+    /// The δ-point method, for four-link groups with a closed contour.
+    Delta,
+    /// Its projective form.
+    Projective,
+    /// The equilibrium equations of every link, for any group.
+    Equilibrium,
+    /// All three, and how far they differ.
+    All,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum StaticsFormat {
+    Text,
+    Json,
+    /// One joint a line.
+    Csv,
+}
+
+#[derive(Debug, ClapArgs)]
+#[command(after_help = "\
+Examples:
+  ozols statics parallel-shears                          groups and reactions over the file's stroke
+  ozols statics parallel-shears --stroke 0:360deg:12 --svg charts
+  ozols statics parallel-shears --groups                 Assur groups under each possible drive
+  ozols statics --stability -o charts                    accuracy of the methods near their failures")]
+pub(super) struct Statics {
+    /// A path, `-`, or the name of a built-in mechanism; parallel-shears with --stability unless named.
+    #[arg(value_name = "FILE", required_unless_present = "stability")]
+    pub(super) file: Option<String>,
+    /// How the reactions of four-link groups with a closed contour are found.
+    #[arg(long, value_enum, default_value = "all")]
+    pub(super) method: StaticsMethod,
+    /// Range of the first drive and number of steps, such as 0:360deg:72; the file's stroke by default. Radians where no
+    /// unit stands, the file's length unit for drives that slide.
+    #[arg(long, value_name = "FROM:TO:STEPS", allow_hyphen_values = true)]
+    pub(super) stroke: Option<String>,
+    /// A state named in the file.
+    #[arg(long, default_value = "free")]
+    pub(super) state: String,
+    /// Only the Assur groups, under each possible drive.
+    #[arg(long, conflicts_with_all = ["stability", "svg", "stroke"])]
+    pub(super) groups: bool,
+    /// Compare the methods with exact arithmetic near each of their failures; charts and tables go to the folder of -o.
+    #[arg(long, requires = "output", conflicts_with = "svg")]
+    pub(super) stability: bool,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    pub(super) format: StaticsFormat,
+    /// Write charts of the cycle to this folder, too.
+    #[arg(long, value_name = "DIR")]
+    pub(super) svg: Option<PathBuf>,
+    /// Write to a file instead of standard output; a folder with --stability.
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
 }

@@ -92,7 +92,8 @@ impl<'a> Motion<'a> {
     /// Positions of all drives when the first is at `s`: the others keep step by their speeds.
     #[must_use]
     pub fn drive_positions(&self, s: f64) -> Vec<f64> {
-        let ratio = |i: usize| match (i, self.speeds[0]) {
+        let first = self.speeds.first().copied().unwrap_or(0.0);
+        let ratio = |i: usize| match (i, first) {
             (0, _) => 1.0,
             (_, v) if v != 0.0 => self.speeds[i] / v,
             _ => 0.0,

@@ -1,5 +1,7 @@
 //! Statics of planar mechanisms: structure, motion, reactions.
 
+mod cycle;
+mod reactions;
 mod structure;
 
 use ozols::import::text::mechanism_from_str;
@@ -33,6 +35,14 @@ pub(crate) fn p(a: &str, b: &str, x: f64, y: f64, along: [f64; 2]) -> J {
 
 /// A file in planar mode; link 0 is the frame, the first joint is the drive; `more` goes to the end.
 pub(crate) fn file(joints: &[J], more: &str) -> String {
+    file_with(joints, &|_| None, more)
+}
+
+/// Mass, centre and inertia.
+pub(crate) type Mass = (f64, [f64; 2], f64);
+
+/// The same with masses by link.
+pub(crate) fn file_with(joints: &[J], mass: &dyn Fn(&str) -> Option<Mass>, more: &str) -> String {
     let mut links: Vec<&String> = joints
         .iter()
         .flat_map(|j| [&j.links.0, &j.links.1])
@@ -47,6 +57,13 @@ pub(crate) fn file(joints: &[J], more: &str) -> String {
             _ => "",
         };
         writeln!(text, "[[link]]\nid = \"{l}\"\n{role}").unwrap();
+        if let Some((m, [x, y], i)) = mass(l) {
+            writeln!(
+                text,
+                "mass = {m:?}\ncentre = [{x:?}, {y:?}, 0]\ninertia = {i:?}"
+            )
+            .unwrap();
+        }
     }
     for (i, j) in joints.iter().enumerate() {
         let (a, b) = &j.links;
@@ -74,4 +91,20 @@ pub(crate) fn planar(joints: &[J]) -> PlanarMechanism {
 
 pub(crate) fn pair(m: &PlanarMechanism, name: &str) -> PairId {
     m.pairs.iter().position(|p| p.name == name).unwrap()
+}
+
+pub(crate) fn shears() -> &'static str {
+    ozols::builtin::text("parallel-shears").unwrap()
+}
+
+pub(crate) fn four_bar_file() -> String {
+    file(
+        &[
+            r("0", "1", 0.0, 0.0),
+            r("1", "2", 0.0, 1.0),
+            r("2", "3", 3.0, 3.0),
+            r("3", "0", 4.0, 0.0),
+        ],
+        "",
+    )
 }

@@ -1,0 +1,126 @@
+//! Regions of an axis, row by row.
+
+use super::axis::{Fit, Room, Ruler};
+use super::frame::{self, Head};
+use super::labels::Rect;
+use super::look::{self, PAD, TICK, WIDTH};
+use super::xml::Xml;
+use super::{Bands, Kind, Scale};
+
+/// The height of a row.
+const ROW: f64 = 28.0;
+/// The kinds in the order of the legend, with what they mean.
+const MEANINGS: [(Kind, &str); 4] = [
+    (Kind::Good, "right"),
+    (Kind::Warn, "in doubt"),
+    (Kind::Bad, "wrong"),
+    (Kind::None, "no verdict"),
+];
+
+impl Bands {
+    /// The bands as a self-contained SVG element, for a file of its own or inside HTML.
+    ///
+    /// A band may end at infinity, or on a log axis at zero: it then reaches the edge. Bands differ in height as well as in
+    /// colour: right ones are the highest, wrong ones low.
+    pub fn svg(&self) -> String {
+        let names = self.rows.iter().map(|r| look::width(r.0.trim(), TICK));
+        let left = (PAD + names.fold(0.0, f64::max).min(250.0) + 12.0).max(48.0);
+        let right = WIDTH - 36.0;
+        let head = Head::new(&self.title, &self.subtitle, WIDTH);
+        let top = head.height() + 34.0;
+        let bottom = top + ROW * self.rows.len().max(1) as f64;
+        let bands = || self.rows.iter().flat_map(|r| &r.1);
+        let ends = bands().flat_map(|b| [b.0, b.1]);
+        let room = Room::Across(right - left, left - 4.0, WIDTH - right - 4.0);
+        let ruler = Ruler::new(self.x.scale, ends, Fit::Tight, room);
+
+        let about = self.about();
+        let size = (WIDTH, bottom + 52.0);
+        let mut xml = frame::begin(size, "oz oz-bands", &self.title, &about, &head);
+        let mut x = left;
+        for (kind, meaning) in MEANINGS {
+            if bands().any(|b| b.2 == kind) {
+                bar(&mut xml, kind, (x, x + 22.0), top - 20.0, "");
+                let text = xml.tag("text").set("class", "soft").num("x", x + 28.0);
+                text.num("y", top - 16.0).text(meaning);
+                x += 28.0 + look::width(meaning, TICK) + 18.0;
+            }
+        }
+        let plot = Rect(left, top, right, bottom);
+        frame::across(&mut xml, &ruler, &self.x.label, &plot);
+        for (n, (name, bands)) in self.rows.iter().enumerate() {
+            let y = top + ROW * n as f64;
+            frame::stroke(&mut xml, "grid", (PAD, y), (right, y));
+            let text = xml
+                .tag("text")
+                .set("class", "name")
+                .set("text-anchor", "end");
+            let text = text.num("x", left - 10.0).num("y", y + ROW / 2.0 + 4.0);
+            text.text_and_tip(&look::cut(name, TICK, 250.0), name.trim());
+            for &(from, to, kind) in bands {
+                let Some((a, b)) = self.places(&ruler, from, to) else {
+                    continue;
+                };
+                let place = |at: f64| left + at * (right - left);
+                let meaning = MEANINGS.iter().find(|m| m.0 == kind).map_or("", |m| m.1);
+                let tip = format!(
+                    "{name}: {meaning} from {} to {}",
+                    look::value(from),
+                    look::value(to)
+                );
+                bar(&mut xml, kind, (place(a), place(b)), y + ROW / 2.0, &tip);
+            }
+        }
+        frame::stroke(&mut xml, "axis", (left, bottom), (right, bottom));
+        xml.finish()
+    }
+
+    /// Where a band begins and ends; none if it lies nowhere on the axis.
+    fn places(&self, ruler: &Ruler, from: f64, to: f64) -> Option<(f64, f64)> {
+        if from.is_nan() || to.is_nan() {
+            return None;
+        }
+        let (low, high) = (from.min(to), from.max(to));
+        if self.x.scale == Scale::Log && high <= 0.0 {
+            return None;
+        }
+        Some((
+            ruler.place(low).unwrap_or(0.0),
+            ruler.place(high).unwrap_or(1.0),
+        ))
+    }
+
+    /// What a screen reader says.
+    fn about(&self) -> String {
+        let rows = self.rows.iter().map(|(name, bands)| {
+            let right = bands.iter().filter(|b| b.2 == Kind::Good);
+            let right = right.map(|b| format!("{} to {}", look::value(b.0), look::value(b.1)));
+            match right.collect::<Vec<_>>().join(", ").as_str() {
+                "" => format!("{name}: nowhere right"),
+                regions => format!("{name}: right from {regions}"),
+            }
+        });
+        let rows = rows.collect::<Vec<_>>().join("; ");
+        let text = format!("{} Over {}. {rows}.", self.subtitle, self.x.label);
+        text.trim_start().to_owned()
+    }
+}
+
+/// A band about the height `y`; the kind gives its colour and its height.
+fn bar(xml: &mut Xml, kind: Kind, (from, to): (f64, f64), y: f64, tip: &str) {
+    let height = match kind {
+        Kind::Good => 16.0,
+        Kind::Warn => 10.0,
+        Kind::Bad => 5.0,
+        Kind::None => 2.0,
+    };
+    let (from, to) = match to - from < 2.0 {
+        true => (from - 1.0, to + 1.0),
+        false => (from, to),
+    };
+    let rect = xml
+        .tag("rect")
+        .set("class", &format!("bar {}", kind.class()));
+    let rect = rect.num("x", from).num("y", y - height / 2.0);
+    rect.num("width", to - from).num("height", height).tip(tip);
+}

@@ -1,0 +1,173 @@
+//! Verdicts in rows and columns.
+
+use super::frame::{self, Head};
+use super::look::{self, PAD, WIDTH};
+use super::xml::{Xml, number};
+use super::{Cell, Kind, Matrix};
+
+/// The size of names.
+const SIZE: f64 = 12.0;
+/// The size of text in cells.
+const SMALL: f64 = 11.0;
+/// The height of a row.
+const ROW: f64 = 21.0;
+/// More rows than this have the column heads again below.
+const LONG: usize = 30;
+
+impl Kind {
+    /// The class of its colours.
+    pub(super) fn class(self) -> &'static str {
+        match self {
+            Kind::Good => "good",
+            Kind::Bad => "bad",
+            Kind::Warn => "warn",
+            Kind::None => "none",
+        }
+    }
+}
+
+impl Matrix {
+    /// The matrix as a self-contained SVG element, for a file of its own or inside HTML.
+    ///
+    /// Rows of too few cells end early; cells beyond the last column have a column without a head.
+    pub fn svg(&self) -> String {
+        let widest = |names: &[String], most: f64| {
+            let widths = names.iter().map(|n| look::width(n.trim(), SIZE));
+            widths.fold(0.0, f64::max).min(most)
+        };
+        let columns = self
+            .cells
+            .iter()
+            .map(Vec::len)
+            .fold(self.columns.len(), usize::max);
+        let rows = self.rows.len().max(self.cells.len());
+        let texts = self
+            .cells
+            .iter()
+            .flatten()
+            .map(|c| look::width(c.text.trim(), SMALL));
+        let cell = (texts.fold(0.0, f64::max) + 12.0).clamp(34.0, 130.0);
+        let before = widest(&self.rows, 300.0) + 12.0;
+        let slant = widest(&self.columns, 190.0) * std::f64::consts::FRAC_1_SQRT_2;
+        let (left, across) = (PAD + before, columns as f64 * cell);
+        let width = (left + across + PAD.max(slant - cell / 2.0 + 16.0)).max(WIDTH / 2.0);
+
+        let head = Head::new(&self.title, &self.subtitle, width);
+        let top = head.height() + slant + 22.0;
+        let bottom = top + rows as f64 * ROW;
+        let again = rows > LONG;
+        let height = bottom + PAD + if again { slant + 10.0 } else { 0.0 };
+        let about = self.about();
+        let mut xml = frame::begin((width, height), "oz oz-matrix", &self.title, &about, &head);
+        for (n, name) in self.columns.iter().enumerate() {
+            let middle = left + (n as f64 + 0.5) * cell;
+            column(&mut xml, name, (middle, top - 8.0), -45.0);
+            if again {
+                column(&mut xml, name, (middle - 3.0, bottom + 14.0), 45.0);
+            }
+        }
+        for row in 0..rows {
+            let y = top + row as f64 * ROW;
+            if row % 5 == 0 {
+                frame::stroke(&mut xml, "grid", (PAD, y), (left + across, y));
+            }
+            let name = self.rows.get(row).map_or("", String::as_str);
+            let at = xml
+                .tag("text")
+                .set("class", "name")
+                .set("text-anchor", "end");
+            let at = at.num("x", left - 10.0).num("y", y + 15.0);
+            at.text_and_tip(&look::cut(name, SIZE, 300.0), name.trim());
+            for (n, c) in self.cells.get(row).into_iter().flatten().enumerate() {
+                let column = self.columns.get(n).map_or("", String::as_str);
+                one(
+                    &mut xml,
+                    c,
+                    &tip(c, name, column),
+                    (left + n as f64 * cell, y),
+                    cell,
+                );
+            }
+        }
+        frame::stroke(&mut xml, "grid", (PAD, bottom), (left + across, bottom));
+        xml.finish()
+    }
+
+    /// What a screen reader says.
+    fn about(&self) -> String {
+        let count = |kind| {
+            self.cells
+                .iter()
+                .flatten()
+                .filter(|c| c.kind == kind)
+                .count()
+        };
+        let (good, bad, warn) = (count(Kind::Good), count(Kind::Bad), count(Kind::Warn));
+        let (rows, columns) = (self.rows.len(), self.columns.join(", "));
+        let subtitle = &self.subtitle;
+        format!(
+            "{subtitle} {rows} rows; columns: {columns}. {good} good, {bad} bad, {warn} in doubt."
+        )
+        .trim_start()
+        .to_owned()
+    }
+}
+
+fn tip(cell: &Cell, row: &str, column: &str) -> String {
+    let said = if cell.tooltip.is_empty() {
+        &cell.text
+    } else {
+        &cell.tooltip
+    };
+    format!("{row}, {column}: {said}")
+}
+
+/// The head of a column, turned by `turn` degrees about its start.
+fn column(xml: &mut Xml, name: &str, (x, y): (f64, f64), turn: f64) {
+    let turn = format!(
+        "translate({} {}) rotate({})",
+        number(x),
+        number(y),
+        number(turn)
+    );
+    let text = xml.tag("text").set("class", "name").set("transform", &turn);
+    text.text_and_tip(&look::cut(name, SIZE, 190.0), name.trim());
+}
+
+/// A cell: its colour with its text, or with a sign where it has none.
+fn one(xml: &mut Xml, cell: &Cell, tip: &str, (x, y): (f64, f64), width: f64) {
+    let class = cell.kind.class();
+    xml.tag("g").open();
+    xml.tag("title").text(tip);
+    let back = xml
+        .tag("rect")
+        .set("class", class)
+        .num("x", x + 1.0)
+        .num("y", y + 1.0);
+    back.num("width", width - 2.0)
+        .num("height", ROW - 2.0)
+        .num("rx", 3.0)
+        .close();
+    let middle = x + width / 2.0;
+    let text = look::cut(&cell.text, SMALL, width - 4.0);
+    if text.is_empty() {
+        let shape = match cell.kind {
+            Kind::Good => "m-4 0 l3 3 l5 -6",
+            Kind::Bad => "m-3.5 -3.5 l7 7 m0 -7 l-7 7",
+            Kind::Warn => "m0 -4.5 v5 m0 2.5 v1.5",
+            Kind::None => "",
+        };
+        if !shape.is_empty() {
+            let path = format!("M{} {}{shape}", number(middle), number(y + ROW / 2.0));
+            xml.tag("path")
+                .set("class", &format!("sign {class}"))
+                .set("d", &path)
+                .close();
+        }
+    } else {
+        let at = xml.tag("text").set("class", &format!("small {class}"));
+        let at = at.set("text-anchor", "middle").num("x", middle);
+        at.num("y", y + ROW / 2.0 + 4.0).text(&text);
+    }
+    xml.end();
+}

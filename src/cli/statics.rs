@@ -1,0 +1,217 @@
+//! `ozols statics`.
+
+use super::args::{Args, Statics, StaticsFormat, StaticsMethod};
+use super::{Done, load, output};
+use crate::chart::page;
+use crate::import::loads::{MAX_STEPS, position};
+use crate::model::loads::Stroke;
+use crate::model::mechanism::Mechanism;
+use crate::report::statics_charts::{self, Named};
+use crate::report::statics_words::GroupMethod;
+use crate::report::words::table;
+use crate::report::{statics_data, statics_text};
+use crate::workload::assur::alternatives;
+use crate::workload::contour_group::GroupPose;
+use crate::workload::kinetostatics::Source;
+use crate::workload::planar::PlanarMechanism;
+use crate::workload::stability::{Failure, Sample, distances, samples};
+use crate::workload::statics::statics;
+use anyhow::{Context, bail};
+use rayon::prelude::*;
+use std::path::Path;
+
+/// Groups tried at each distance of a stability chart.
+const GROUPS: usize = 9;
+
+pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
+    let m = load::mechanism(a.file.as_deref().unwrap_or("parallel-shears"))?;
+    let Some(state) = m.states.iter().position(|s| *s == a.state) else {
+        bail!(
+            "{} has no state {}; it has: {}",
+            m.name,
+            a.state,
+            m.states.join(", ")
+        )
+    };
+    if a.groups {
+        return groups(&m, state, a);
+    }
+    let stroke = match &a.stroke {
+        Some(text) => Some(stroke(text)?),
+        None => m.loads.stroke,
+    };
+    if let (true, Some(folder)) = (a.stability, &a.output) {
+        return stability(&m, state, stroke, folder, args.seed);
+    }
+    let found = statics(&m, state, stroke)?;
+    let methods: &[GroupMethod] = match a.method {
+        StaticsMethod::Delta => &[GroupMethod::Delta],
+        StaticsMethod::Projective => &[GroupMethod::Projective],
+        StaticsMethod::Equilibrium => &[GroupMethod::Equilibrium],
+        StaticsMethod::All => &GroupMethod::ALL,
+    };
+    let own = matches!(a.method, StaticsMethod::Delta | StaticsMethod::Projective);
+    if own && found.contour_groups.is_empty() {
+        bail!(
+            "{} has no four-link group with a closed contour, which --method delta and projective are for; use --method equilibrium",
+            m.name
+        );
+    }
+    if let Some(folder) = &a.svg {
+        write_charts(
+            folder,
+            &m.name,
+            &statics_charts::cycle(&m.name, &found, methods),
+        )?;
+    }
+    output::to(a.output.as_deref(), |out| {
+        match a.format {
+            StaticsFormat::Json => {
+                writeln!(out, "{:#}", statics_data::json(&m.name, &found, methods))?;
+            }
+            StaticsFormat::Csv => write!(out, "{}", statics_data::csv(&found, methods))?,
+            StaticsFormat::Text => {
+                let width = output::width(a.output.as_deref());
+                write!(
+                    out,
+                    "{}",
+                    statics_text::statics(&m.name, &found, methods, width)
+                )?;
+            }
+        }
+        // A cycle that could not be finished is no success.
+        Ok(if found.dead.is_some() {
+            Done::Nothing
+        } else {
+            Done::Found
+        })
+    })
+}
+
+fn stroke(text: &str) -> anyhow::Result<Stroke> {
+    let parts: Vec<&str> = text.split(':').collect();
+    let parsed = match parts[..] {
+        [from, to, steps] => position(from)
+            .zip(position(to))
+            .zip(steps.parse::<usize>().ok()),
+        _ => None,
+    };
+    match parsed {
+        Some(((from, to), steps)) if (1..=MAX_STEPS).contains(&steps) => {
+            Ok(Stroke { from, to, steps })
+        }
+        _ => bail!(
+            "--stroke {text:?} is not FROM:TO:STEPS, such as 0:360deg:72 with 1 to {MAX_STEPS} steps"
+        ),
+    }
+}
+
+fn groups(m: &Mechanism, state: usize, a: &Statics) -> anyhow::Result<Done> {
+    let planar = PlanarMechanism::new(m, state)?;
+    let found = alternatives(&planar, &planar.drives());
+    let any = found.iter().any(|(_, d)| d.is_ok());
+    output::to(a.output.as_deref(), |out| {
+        match a.format {
+            StaticsFormat::Json => {
+                writeln!(
+                    out,
+                    "{:#}",
+                    statics_data::alternatives(&m.name, &planar, &found)
+                )?;
+            }
+            StaticsFormat::Csv => bail!("--groups has no CSV; use --format json"),
+            StaticsFormat::Text => {
+                let width = output::width(a.output.as_deref());
+                write!(
+                    out,
+                    "{}",
+                    statics_text::alternatives(&m.name, &planar, &found, width)
+                )?;
+            }
+        }
+        Ok(if any { Done::Found } else { Done::Nothing })
+    })
+}
+
+/// Writes each chart as SVG and CSV, and a page of all.
+fn write_charts(folder: &Path, title: &str, charts: &[Named]) -> anyhow::Result<()> {
+    std::fs::create_dir_all(folder)
+        .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    let write = |name: &str, text: &str| {
+        output::to(Some(&folder.join(name)), |out| {
+            write!(out, "{text}")?;
+            Ok(Done::Found)
+        })
+    };
+    let mut parts = Vec::new();
+    for (name, chart) in charts {
+        let svg = chart.svg();
+        write(&format!("{name}.svg"), &svg)?;
+        write(&format!("{name}.csv"), &chart.csv())?;
+        parts.push((chart.title.clone(), chart.subtitle.clone(), svg));
+    }
+    write("index.html", &page(title, &parts))?;
+    Ok(())
+}
+
+/// A group in a pose with its loads, the heaviest of the stroke where forces act from outside.
+fn typical(m: &Mechanism, state: usize, stroke: Option<Stroke>) -> anyhow::Result<GroupPose> {
+    let found = statics(m, state, stroke)?;
+    let heavy = |l: &crate::workload::kinetostatics::Load| {
+        if l.source == Source::External {
+            l.force[0].hypot(l.force[1])
+        } else {
+            0.0
+        }
+    };
+    let weight = |g: &GroupPose| -> f64 { g.loads.iter().map(heavy).sum() };
+    let first = found.moments.iter().filter_map(|x| x.groups.first());
+    let best = first.max_by(|a, b| weight(&a.pose).total_cmp(&weight(&b.pose)));
+    match best {
+        Some(g) => Ok(g.pose.clone()),
+        None => bail!(
+            "{} has no four-link group with a closed contour to compare the methods on",
+            m.name
+        ),
+    }
+}
+
+fn stability(
+    m: &Mechanism,
+    state: usize,
+    stroke: Option<Stroke>,
+    folder: &Path,
+    seed: u64,
+) -> anyhow::Result<Done> {
+    let base = typical(m, state, stroke)?;
+    let distances = distances();
+    let found: Vec<(Failure, Vec<Sample>)> = Failure::ALL
+        .par_iter()
+        .map(|&f| (f, samples(&base, f, &distances, GROUPS, seed)))
+        .collect();
+    let charts: Vec<Named> = found
+        .iter()
+        .map(|(f, s)| statics_charts::stability(*f, s))
+        .collect();
+    write_charts(folder, "Stability of the δ-point method", &charts)?;
+    let rows = found
+        .iter()
+        .flat_map(|(f, all)| statics_charts::stability_rows(*f, all))
+        .collect();
+    output::to(None, |out| {
+        writeln!(
+            out,
+            "Largest relative error against exact arithmetic, by distance from the failure\n"
+        )?;
+        let header = [
+            "failure", "figure", "method", "1", "1e-3", "1e-6", "1e-9", "1e-12", "1e-15",
+        ];
+        writeln!(out, "{}\n", table(&header, rows, output::width(None)))?;
+        writeln!(
+            out,
+            "Charts and tables: {}",
+            folder.join("index.html").display()
+        )?;
+        Ok(Done::Found)
+    })
+}

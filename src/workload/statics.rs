@@ -1,0 +1,199 @@
+//! A mechanism's statics over its cycle: structure, motion, loads, and reactions by every method.
+
+use crate::model::loads::Stroke;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::workload::assur::{AssurError, Decomposition, decompose};
+use crate::workload::contour_group::{ContourGroup, GroupPose, GroupReactions, recognise};
+use crate::workload::delta_point::{self, DeltaSteps};
+use crate::workload::group_equilibrium::{self, Worth};
+use crate::workload::kinetostatics::{Equilibrium, Load, PlanarLoads, by_groups, power, whole};
+use crate::workload::planar::{PairKind, PlanarError, PlanarMechanism};
+use crate::workload::planar_motion::{DeadPoint, Instant, Motion};
+use crate::workload::pose::Linkage;
+use crate::workload::projective;
+use thiserror::Error;
+
+/// Why there is no statics of a mechanism.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum StaticsError {
+    /// It is not planar.
+    #[error(transparent)]
+    Planar(#[from] PlanarError),
+    /// Its drives do not make it determinate.
+    #[error(transparent)]
+    Assur(#[from] AssurError),
+}
+
+/// Reactions of a four-link group with a closed contour by three methods.
+#[derive(Debug, Clone)]
+pub struct GroupSolutions {
+    /// Index of the group in [`Decomposition::groups`].
+    pub group: usize,
+    /// Its points and loads.
+    pub pose: GroupPose,
+    /// By the δ-point method.
+    pub delta: GroupReactions,
+    /// What the δ-point method found on its way.
+    pub steps: DeltaSteps,
+    /// By its projective form.
+    pub projective: GroupReactions,
+    /// By the twelve equilibrium equations, with their worth.
+    pub equilibrium: Option<(GroupReactions, Worth)>,
+}
+
+/// Loads and reactions at one position of the drive.
+#[derive(Debug, Clone)]
+pub struct Moment {
+    /// Where the mechanism is and how it moves.
+    pub instant: Instant,
+    /// The loads.
+    pub loads: Vec<Load>,
+    /// Reactions of all pairs by the equilibrium of all bodies at once.
+    pub whole: Option<Equilibrium>,
+    /// The same group by group, drives last.
+    pub by_groups: Option<Vec<Equilibrium>>,
+    /// The four-link groups with a closed contour.
+    pub groups: Vec<GroupSolutions>,
+    /// Power of loads and inertia `[W]`.
+    pub load_power: f64,
+    /// Power of the drives `[W]`, from the reactions; less than nothing of the other.
+    pub drive_power: f64,
+}
+
+/// The statics of a mechanism.
+#[derive(Debug, Clone)]
+pub struct Statics {
+    /// The planar mechanism.
+    pub linkage: Linkage,
+    /// Its drives and groups.
+    pub decomposition: Decomposition,
+    /// Condition of each group's equations at the pose of the file.
+    pub conditions: Vec<f64>,
+    /// The groups that the δ-point method solves, with their indices.
+    pub contour_groups: Vec<(usize, ContourGroup)>,
+    /// The loads it was asked to bear.
+    pub loads: PlanarLoads,
+    /// Position by position.
+    pub moments: Vec<Moment>,
+    /// Where the motion ended early, if it did.
+    pub dead: Option<DeadPoint>,
+}
+
+impl Statics {
+    /// Whether the first drive slides; its position is in metres then.
+    #[must_use]
+    pub fn drive_slides(&self) -> bool {
+        let first = self.decomposition.drives.first();
+        first.is_some_and(|&p| self.linkage.mechanism.pairs[p].kind == PairKind::Sliding)
+    }
+}
+
+/// Takes a state of a mechanism through a stroke of its first drive, or the pose of the file alone. Drive positions count
+/// from the pose of the file; turns about the plane's normal.
+///
+/// # Errors
+/// Where the mechanism is not planar, or its drives leave it indeterminate.
+///
+/// # Complexity
+/// O(steps · n³) for n bodies.
+pub fn statics(
+    mechanism: &Mechanism,
+    state: StateId,
+    stroke: Option<Stroke>,
+) -> Result<Statics, StaticsError> {
+    let planar = PlanarMechanism::new(mechanism, state)?;
+    let drives = planar.drives();
+    let decomposition = decompose(&planar, &drives)?;
+    let linkage = Linkage::new(planar);
+    let metres = linkage.mechanism.metres;
+    let unit = |i: usize| match drives.get(i).map(|&p| linkage.mechanism.pairs[p].kind) {
+        Some(PairKind::Sliding) => metres,
+        _ => 1.0,
+    };
+    let stated = mechanism.loads.drive_speeds.iter().enumerate();
+    let speeds: Vec<f64> = stated.map(|(i, s)| s * unit(i)).collect();
+    let slides = unit(0) != 1.0;
+    let loads = PlanarLoads::new(mechanism, &linkage, slides);
+    let positions: Vec<f64> = match stroke {
+        None => vec![0.0],
+        Some(s) => (0..=s.steps)
+            .map(|i| {
+                #[allow(clippy::cast_precision_loss, reason = "at most 1e5 steps")]
+                let part = i as f64 / s.steps as f64;
+                (s.from + (s.to - s.from) * part) * unit(0)
+            })
+            .collect(),
+    };
+    let motion = Motion::new(&linkage, &decomposition, &speeds);
+    let conditions = motion.conditions(&linkage.home());
+    let (instants, dead) = motion.follow(&positions);
+    let found = decomposition.groups.iter().enumerate();
+    let contour_groups: Vec<(usize, ContourGroup)> = found
+        .filter_map(|(i, g)| Some((i, recognise(&linkage.mechanism, g)?)))
+        .collect();
+    let moments = instants
+        .into_iter()
+        .map(|now| {
+            moment(
+                &linkage,
+                &decomposition,
+                &contour_groups,
+                &loads,
+                &speeds,
+                now,
+            )
+        })
+        .collect();
+    Ok(Statics {
+        conditions,
+        contour_groups,
+        loads,
+        moments,
+        dead,
+        decomposition,
+        linkage,
+    })
+}
+
+fn moment(
+    linkage: &Linkage,
+    d: &Decomposition,
+    contour_groups: &[(usize, ContourGroup)],
+    planar_loads: &PlanarLoads,
+    speeds: &[f64],
+    instant: Instant,
+) -> Moment {
+    let loads = planar_loads.at(linkage, &instant);
+    let whole = whole(linkage, d, &instant, &loads);
+    let groups = contour_groups.iter().map(|(group, letters)| {
+        let pose = GroupPose::new(linkage, letters, &instant.pose, &loads);
+        let (delta, steps) = delta_point::solve(&pose);
+        GroupSolutions {
+            group: *group,
+            delta,
+            steps,
+            projective: projective::solve(&pose),
+            equilibrium: group_equilibrium::solve(&pose),
+            pose,
+        }
+    });
+    let effort = |i: usize| {
+        let pair = d.drives[i];
+        let found = whole.as_ref()?.reactions.iter().find(|r| r.pair == pair)?;
+        found.effort
+    };
+    let speed = |i: usize| speeds.get(i).copied().unwrap_or(0.0);
+    let drive_power = (0..d.drives.len())
+        .map(|i| effort(i).unwrap_or(f64::NAN) * speed(i))
+        .sum();
+    Moment {
+        by_groups: by_groups(linkage, d, &instant, &loads),
+        groups: groups.collect(),
+        load_power: power(&instant, &loads),
+        drive_power,
+        whole,
+        loads,
+        instant,
+    }
+}
