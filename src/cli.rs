@@ -4,6 +4,7 @@ mod analyze;
 mod args;
 mod charts;
 mod check;
+mod drive;
 mod grip;
 mod load;
 mod output;
@@ -40,6 +41,7 @@ pub fn run() -> ExitCode {
         args::Command::Search(a) => search::run(&args, a),
         args::Command::Statics(a) => statics::run(&args, a),
         args::Command::Grip(a) => grip::run(&args, a),
+        args::Command::Drive(a) => drive::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::List => check::list(),
         args::Command::Show(a) => check::show(a),

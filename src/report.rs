@@ -2,6 +2,9 @@
 
 pub mod analysis_json;
 pub mod analysis_text;
+pub mod drive_charts;
+pub mod drive_json;
+pub mod drive_text;
 pub mod grip_charts;
 pub mod grip_json;
 pub mod grip_text;

@@ -20,6 +20,7 @@ Examples:
   ozols search gripper-10 --max-mobility 1    only those without idle links
   ozols statics parallel-shears               Assur groups, and joint reactions over the cycle
   ozols grip lever-gripper                    what its levers can hold, and with what drive moment
+  ozols drive torsion-module                  the torsion bar, the cam spring, and the programme run
   ozols show four-bar > mine.toml             a file to start from
   ozols check mine.toml                       what is wrong with it, if anything"
 )]
@@ -48,6 +49,8 @@ pub(super) enum Command {
     Statics(Statics),
     /// What a lever gripper can hold, and the drive moment it takes.
     Grip(Grip),
+    /// Size a torsional drive of two discs and run its programme.
+    Drive(Drive),
     /// Validate a file.
     Check(File),
     /// The built-in mechanisms.
@@ -113,6 +116,21 @@ pub(super) struct Grip {
     /// A further acceleration of the gripper in m/s², in any direction; `ozols drive` prints one.
     #[arg(long, value_name = "A")]
     pub(super) any_acceleration: Option<f64>,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    pub(super) format: AnalyzeFormat,
+    /// Also write charts, each as SVG and CSV, into this folder.
+    #[arg(long, value_name = "DIR")]
+    pub(super) svg: Option<PathBuf>,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Drive {
+    #[command(flatten)]
+    pub(super) file: File,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     pub(super) format: AnalyzeFormat,

@@ -2,6 +2,7 @@
 
 use crate::closure::contour::closed_walk;
 use crate::geom::expr::Expr;
+use crate::import::drive::drive;
 use crate::import::grip::grip;
 use crate::import::loads::{loads, mass};
 use crate::import::locate::Step;
@@ -128,6 +129,7 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     mechanism.search = search(file, &mechanism, &mut out);
     mechanism.loads = loads(file, &mechanism, &mut out);
     grip(file, length_unit.metres, Some(&mechanism), &mut out);
+    drive(file, length_unit.metres, Some(&mechanism), &mut out);
     mechanism.expected = expected(file, &mechanism, &mut out);
     if out.found.is_empty() {
         Ok(mechanism)

@@ -2,7 +2,7 @@
 
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
-use crate::import::quantity::{Bound, Table};
+use crate::import::quantity::{Bound, Table, word};
 use crate::import::resolve::{Findings, index, key};
 use crate::import::schema::{Coordinate, MechanismFile};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
@@ -185,31 +185,6 @@ fn diameters(t: &mut Table<'_>, entry: &GripEntry, unit: f64, nominal: f64) -> V
     list
 }
 
-fn word<T: Copy>(
-    t: &mut Table<'_>,
-    k: &'static str,
-    given: Option<&String>,
-    known: &[(&'static str, T)],
-) -> T {
-    let found = given.map_or(Some(known[0].1), |w| {
-        known.iter().find(|(n, _)| n == w).map(|(_, v)| *v)
-    });
-    found.unwrap_or_else(|| {
-        let path = key(&t.at, k);
-        let words = known.iter().map(|(n, _)| *n).join(", ");
-        let word = given.cloned().unwrap_or_default();
-        t.out.add(
-            &path,
-            ProblemKind::UnknownWord {
-                what: k,
-                word,
-                known: words,
-            },
-        );
-        known[0].1
-    })
-}
-
 fn load(t: &mut Table<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
     let mass = t.optional("mass", e.mass.as_ref(), 1.0, Bound::Positive);
     let density = t.optional("density", e.density.as_ref(), 1.0, Bound::Positive);
@@ -374,24 +349,13 @@ pub(super) fn grip(
         .map(|k| Step::Key(k.to_owned()))
         .to_vec();
     let t = &mut Table { at, out };
-    let angle = |t: &mut Table<'_>, k, c, (least, most): (f64, f64), words| {
-        let found = t.angle(k, c);
-        if !(least..=most).contains(&found.to_degrees()) {
-            let path = key(&t.at, k);
-            t.bad(&path, k, format!("{} degrees", found.to_degrees()), words);
-            return 1.0;
-        }
-        found
-    };
-    let prism_angle = angle(
-        t,
+    let prism_angle = t.angle_in(
         "prism_angle",
         &e.prism_angle,
         (1.0, 179.0),
         "an angle from 1 to 179 degrees: at 180 the faces form no V",
     );
-    let mounting_angle = angle(
-        t,
+    let mounting_angle = t.angle_in(
         "mounting_angle",
         &e.mounting_angle,
         (0.0, 179.0),

@@ -1,5 +1,6 @@
 //! Masses of links and the `[workload]` table.
 
+use crate::import::drive::DriveEntry;
 use crate::import::grip::GripEntry;
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
@@ -74,6 +75,9 @@ pub struct WorkloadEntry {
     /// Clamping levers and what they must hold, for `ozols grip`.
     #[serde(default)]
     pub grip: Option<GripEntry>,
+    /// Two discs on a torsion bar, for `ozols drive`.
+    #[serde(default)]
+    pub drive: Option<DriveEntry>,
 }
 
 /// A force of fixed direction at a point that moves with a link.

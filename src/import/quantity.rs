@@ -4,6 +4,7 @@ use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
 use crate::import::resolve::{Findings, key, number};
 use crate::import::schema::Coordinate;
+use itertools::Itertools;
 use std::f64::consts::PI;
 
 /// Values of one table, each read under its key.
@@ -118,6 +119,23 @@ impl Table<'_> {
         self.number_at(&path, k, &inner, unit, Bound::Any)
     }
 
+    /// An angle in radians that must lie in a range of degrees.
+    pub(super) fn angle_in(
+        &mut self,
+        k: &'static str,
+        c: &Coordinate,
+        (least, most): (f64, f64),
+        allowed: &'static str,
+    ) -> f64 {
+        let found = self.angle(k, c);
+        if (least..=most).contains(&found.to_degrees()) {
+            return found;
+        }
+        let path = key(&self.at, k);
+        self.bad(&path, k, format!("{} degrees", found.to_degrees()), allowed);
+        1.0
+    }
+
     /// Notes a value that will not do.
     pub(super) fn bad(
         &mut self,
@@ -140,6 +158,12 @@ impl Table<'_> {
     pub(super) fn needs(&mut self, k: &'static str, other: &'static str) {
         let path = key(&self.at, k);
         self.out.add(&path, ProblemKind::KeyNeeds { key: k, other });
+    }
+
+    /// Notes what a table lacks.
+    pub(super) fn needs_at(&mut self, path: &[Step], what: &'static str, other: &'static str) {
+        self.out
+            .add(path, ProblemKind::KeyNeeds { key: what, other });
     }
 
     /// Notes a key that does not go with another.
@@ -173,4 +197,30 @@ fn angle_text(text: &str) -> Option<(Coordinate, f64)> {
         rest => format!("({factor})/({})", rest.strip_prefix('/')?),
     };
     Some((Coordinate::Expression(divided), PI))
+}
+
+/// What a word stands for; the first of those known where none is given.
+pub(super) fn word<T: Copy>(
+    t: &mut Table<'_>,
+    k: &'static str,
+    given: Option<&String>,
+    known: &[(&'static str, T)],
+) -> T {
+    let found = given.map_or(Some(known[0].1), |w| {
+        known.iter().find(|(n, _)| n == w).map(|(_, v)| *v)
+    });
+    found.unwrap_or_else(|| {
+        let path = key(&t.at, k);
+        let words = known.iter().map(|(n, _)| *n).join(", ");
+        let word = given.cloned().unwrap_or_default();
+        t.out.add(
+            &path,
+            ProblemKind::UnknownWord {
+                what: k,
+                word,
+                known: words,
+            },
+        );
+        known[0].1
+    })
 }

@@ -1,12 +1,14 @@
 //! Reading the workload tables of a file, with or without a mechanism around them.
 
 use crate::import::build::{Finding, build, length_unit};
+use crate::import::drive::drive;
 use crate::import::grip::grip;
 use crate::import::locate::Step;
 use crate::import::problem::{ImportError, ProblemKind};
 use crate::import::resolve::Findings;
 use crate::import::schema::MechanismFile;
 use crate::import::text::{read, text_of};
+use crate::model::drive::DriveSpec;
 use crate::model::grip::GripSpec;
 use crate::model::mechanism::{LengthUnit, Mechanism};
 
@@ -36,6 +38,20 @@ pub fn grip_from_bytes(name: &str, bytes: &[u8]) -> Result<Workload<GripSpec>, I
     };
     read(name, text_of(name, bytes)?, |file| {
         workload(file, grip, missing)
+    })
+}
+
+/// Reads `[workload.drive]`; names that end in `.json` are JSON, all others TOML.
+///
+/// # Errors
+/// Every problem found, each with its place.
+pub fn drive_from_bytes(name: &str, bytes: &[u8]) -> Result<Workload<DriveSpec>, ImportError> {
+    let missing = ProblemKind::NoWorkload {
+        table: "drive",
+        example: "torsion-module",
+    };
+    read(name, text_of(name, bytes)?, |file| {
+        workload(file, drive, missing)
     })
 }
 
