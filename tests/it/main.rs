@@ -6,6 +6,7 @@ mod catalogs;
 mod cli;
 mod contours;
 mod drive;
+mod drive_command;
 mod grip;
 mod holding;
 mod layering;
