@@ -1,11 +1,16 @@
 //! The `[workload.drive]` table.
 
+use crate::geom::expr::Expr;
 use crate::import::locate::Step as Place;
+use crate::import::problem::ProblemKind;
 use crate::import::quantity::{Bound, Table, word};
 use crate::import::resolve::{Findings, index, key};
 use crate::import::schema::{Coordinate, MechanismFile};
 use crate::model::drive::{Cam, Damping, DriveSpec, Payload, Step};
+use crate::model::joint_type::JointType;
+use crate::model::loads::Inertia;
 use crate::model::mechanism::Mechanism;
+use itertools::Itertools;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -31,6 +36,9 @@ pub struct DriveEntry {
     /// Inertia in kg·m² of the bare disc, in place of `inertia`; with the payload.
     #[serde(default)]
     pub disc_inertia: Option<Coordinate>,
+    /// The link whose mass and inertia are those of the bare disc, in place of `disc_inertia`; it turns on the frame.
+    #[serde(default)]
+    pub disc_link: Option<String>,
     /// Mass of the payload in kg, taken as a point.
     #[serde(default)]
     pub payload_mass: Option<Coordinate>,
@@ -172,7 +180,73 @@ fn programme(t: &mut Table<'_>, e: &DriveEntry) -> Vec<Step> {
     steps
 }
 
-fn inertias(t: &mut Table<'_>, e: &DriveEntry, unit: f64) -> ([f64; 2], Option<Payload>) {
+/// Inertia of a link about the axis it turns on the frame about.
+fn link_inertia(
+    t: &mut Table<'_>,
+    id: &str,
+    unit: f64,
+    mechanism: Option<&Mechanism>,
+) -> Option<f64> {
+    let path = key(&t.at, "disc_link");
+    let Some(m) = mechanism else {
+        t.needs(
+            "disc_link",
+            "a mechanism in the same file: links and joints",
+        );
+        return None;
+    };
+    let Some(l) = m.link(id) else {
+        let known = m.links.iter().take(30).map(|l| l.id.as_str()).join(", ");
+        t.out.add(
+            &path,
+            ProblemKind::UnknownLink {
+                id: id.to_owned(),
+                known,
+            },
+        );
+        return None;
+    };
+    let hinge = m.joints_in(0).map(|j| &m.joints[j]).find(|j| {
+        j.joint_type == JointType::Revolute && j.links.contains(&l) && j.links.contains(&m.frame())
+    });
+    let mass = m.links[l]
+        .mass
+        .as_ref()
+        .and_then(|p| Some((p, p.inertia.as_ref()?)));
+    let (Some(hinge), Some((body, inertia))) = (hinge, mass) else {
+        t.needs(
+            "disc_link",
+            "a link with mass, centre and inertia, and a revolute joint to the frame",
+        );
+        return None;
+    };
+    let real = |v: &[Expr; 3]| [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()];
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let (axis, centre, point) = (
+        real(&hinge.frame.axis),
+        real(&body.centre),
+        real(&hinge.frame.point),
+    );
+    let size = dot(axis, axis).sqrt();
+    let [x, y, z] = axis.map(|c| c / size);
+    let about = match *inertia {
+        Inertia::Plane(i) => i,
+        Inertia::Principal([a, b, c]) => a * x * x + b * y * y + c * z * z,
+        Inertia::Tensor([xx, yy, zz, xy, yz, zx]) => {
+            xx * x * x + yy * y * y + zz * z * z + 2.0 * (xy * x * y + yz * y * z + zx * z * x)
+        }
+    };
+    let from = [0, 1, 2].map(|i| (centre[i] - point[i]) * unit);
+    let along = dot(from, [x, y, z]);
+    Some(about + body.mass * (dot(from, from) - along * along).max(0.0))
+}
+
+fn inertias(
+    t: &mut Table<'_>,
+    e: &DriveEntry,
+    unit: f64,
+    mechanism: Option<&Mechanism>,
+) -> ([f64; 2], Option<Payload>) {
     let mass = t.optional(
         "payload_mass",
         e.payload_mass.as_ref(),
@@ -191,6 +265,14 @@ fn inertias(t: &mut Table<'_>, e: &DriveEntry, unit: f64) -> ([f64; 2], Option<P
         1.0,
         Bound::NotNegative,
     );
+    let disc = match (disc, &e.disc_link) {
+        (Some(_), Some(_)) => {
+            t.excludes("disc_link", "disc_inertia");
+            disc
+        }
+        (None, Some(id)) => Some(link_inertia(t, id, unit, mechanism).unwrap_or(1.0)),
+        (_, None) => disc,
+    };
     let whole = t.optional("inertia", e.inertia.as_ref(), 1.0, Bound::Positive);
     let payload = match (mass, radius) {
         (Some(mass), Some(radius)) => Some(Payload { mass, radius }),
@@ -249,7 +331,7 @@ fn inertias(t: &mut Table<'_>, e: &DriveEntry, unit: f64) -> ([f64; 2], Option<P
 pub(super) fn drive(
     file: &MechanismFile,
     unit: f64,
-    _: Option<&Mechanism>,
+    mechanism: Option<&Mechanism>,
     out: &mut Findings,
 ) -> Option<DriveSpec> {
     let e = file.workload.drive.as_ref()?;
@@ -278,7 +360,7 @@ pub(super) fn drive(
             1.0
         }
     };
-    let (inertias, payload) = inertias(t, e, unit);
+    let (inertias, payload) = inertias(t, e, unit, mechanism);
     let at = key(&t.at, "diameters");
     let mut diameters = Vec::new();
     for (i, d) in e.diameters.iter().take(MOST).enumerate() {

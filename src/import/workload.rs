@@ -55,6 +55,39 @@ pub fn drive_from_bytes(name: &str, bytes: &[u8]) -> Result<Workload<DriveSpec>,
     })
 }
 
+/// Reads a file that has workload tables and no mechanism: its name and those of its tables; `None` for other files.
+///
+/// # Errors
+/// Every problem found, each with its place.
+pub fn tables_alone(
+    name: &str,
+    bytes: &[u8],
+) -> Result<Option<(String, Vec<&'static str>)>, ImportError> {
+    read(name, text_of(name, bytes)?, |file| {
+        let tables = [
+            ("grip", file.workload.grip.is_some()),
+            ("drive", file.workload.drive.is_some()),
+        ];
+        let tables: Vec<_> = tables
+            .into_iter()
+            .filter(|(_, there)| *there)
+            .map(|(n, _)| n)
+            .collect();
+        if tables.is_empty() || !file.link.is_empty() || !file.joint.is_empty() {
+            return Ok(None);
+        }
+        let mut out = Findings::default();
+        let unit = length_unit(file, &mut out).metres;
+        grip(file, unit, None, &mut out);
+        drive(file, unit, None, &mut out);
+        if out.found.is_empty() {
+            Ok(Some((file.name.clone(), tables)))
+        } else {
+            Err(out.found)
+        }
+    })
+}
+
 fn workload<T>(
     file: &MechanismFile,
     table: impl Fn(&MechanismFile, f64, Option<&Mechanism>, &mut Findings) -> Option<T>,

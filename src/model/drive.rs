@@ -51,7 +51,7 @@ pub struct DriveSpec {
     pub payload: Option<Payload>,
     /// G. `[Pa]`
     pub shear_modulus: f64,
-    /// [τ_s]. `[Pa]`
+    /// `[τ_s]`. `[Pa]`
     pub allowable_stress: f64,
     /// Length of the bar to begin with. `[m]`
     pub length: Option<f64>,

@@ -3,7 +3,7 @@
 use crate::import::workload::Workload;
 use crate::model::drive::DriveSpec;
 use crate::workload::driving::{CamDesign, DampingFrom, Design, Driving};
-use crate::workload::programme::{Event, Ran};
+use crate::workload::programme::{Endurance, Event, Ran};
 use crate::workload::swing::End;
 use crate::workload::torsion::{CamSpring, Sizing, decrement};
 use serde_json::{Value, json};
@@ -76,6 +76,11 @@ fn design(spec: &DriveSpec, d: &Design) -> Value {
             "angular_speed": m.angular_speed,
             "acceleration": m.acceleration,
         })),
+        "endurance": match d.endurance {
+            Endurance::Lasts { missing } => json!({ "lasts": true, "missing": missing }),
+            Endurance::Drifts { missing } => json!({ "lasts": Value::Null, "missing": missing }),
+            Endurance::Fails { after } => json!({ "lasts": false, "after": after }),
+        },
         "latched": d.run.latched,
         "wanted": d.run.wanted,
         "programme": d.run.steps.iter().map(step).collect::<Vec<_>>(),

@@ -4,7 +4,7 @@ use crate::import::workload::Workload;
 use crate::model::drive::DriveSpec;
 use crate::report::words::{plural, significant, table};
 use crate::workload::driving::{DampingFrom, Design, Driving};
-use crate::workload::programme::Event;
+use crate::workload::programme::{Endurance, Event, PATIENCE};
 use crate::workload::swing::End;
 use crate::workload::torsion::{Remedy, Sizing, decrement};
 use std::fmt::Write;
@@ -210,6 +210,24 @@ fn losses(out: &mut String, file: &Workload<DriveSpec>, design: &Design) -> std:
             out,
             "  no work of the cam brings the disc to its latch: it stops before the push begins"
         )?,
+    }
+    if design.run.complete() {
+        match design.endurance {
+            Endurance::Lasts { missing } => writeln!(
+                out,
+                "  in the long run every swing is latched, {} short",
+                degrees(missing)
+            )?,
+            Endurance::Drifts { missing } => writeln!(
+                out,
+                "  after {PATIENCE} more swings they still drift, {} short by then",
+                degrees(missing)
+            )?,
+            Endurance::Fails { after } => writeln!(
+                out,
+                "  BUT NOT FOR LONG: swings fall ever shorter, and after {after} of them a latch is missed; the cam must give more"
+            )?,
+        }
     }
     if let Some(cam) = &design.cam {
         let exact = cam.needed.map_or_else(String::new, |s| {

@@ -1,7 +1,7 @@
 //! A torsional drive designed and run: bar, missing angle, cam spring, programme, and the motion it gives its payload.
 
 use crate::model::drive::{Damping, DriveSpec};
-use crate::workload::programme::{Module, Run};
+use crate::workload::programme::{Endurance, Module, Run};
 use crate::workload::swing::{Disc, Feed, Latch, SwingError};
 use crate::workload::torsion::{Bar, CamSpring, Sizing, Wanted, frequency, friction_energy};
 
@@ -66,6 +66,8 @@ pub struct Design {
     pub module: Module,
     /// The programme run.
     pub run: Run,
+    /// What comes of it in the long run.
+    pub endurance: Endurance,
 }
 
 /// What came of a drive.
@@ -189,6 +191,10 @@ pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
         },
     };
     let run = module.run(&spec.programme)?;
+    let mut used: Vec<usize> = run.swings().map(|(disc, _)| disc).collect();
+    used.sort_unstable();
+    used.dedup();
+    let endurance = module.endurance(&used)?;
     let radius = spec.payload.map(|p| p.radius);
     let design = Design {
         bar,
@@ -205,6 +211,7 @@ pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
             .map(|i| motion(stiffness, i, spec.twist, radius)),
         module,
         run,
+        endurance,
     };
     Ok(Driving {
         sizing,

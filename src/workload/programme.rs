@@ -54,6 +54,29 @@ pub struct Run {
     pub angles: [f64; 2],
 }
 
+/// What comes of swings without end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Endurance {
+    /// They go on, each caught this far short of its latch. `[rad]`
+    Lasts {
+        /// How far short, in the long run.
+        missing: f64,
+    },
+    /// A latch is missed.
+    Fails {
+        /// After so many swings that were latched.
+        after: usize,
+    },
+    /// Still drifting when counting stopped.
+    Drifts {
+        /// How far short by then. `[rad]`
+        missing: f64,
+    },
+}
+
+/// Swings after which a drift is no longer followed.
+pub const PATIENCE: usize = 10_000;
+
 /// A moment of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
@@ -131,6 +154,31 @@ impl Module {
             }
         }
         Ok(run)
+    }
+
+    /// Lets the discs named take turns until their swings repeat or a latch is missed.
+    ///
+    /// # Errors
+    /// As [`Module::run`].
+    pub fn endurance(&self, discs: &[usize]) -> Result<Endurance, SwingError> {
+        let (mut place, mut missing) = (self.latch.at, vec![f64::NAN; discs.len().max(1)]);
+        for (n, &disc) in discs.iter().cycle().take(PATIENCE).enumerate() {
+            let swing = self.discs[disc].swing(place, self.latch, self.feed)?;
+            if matches!(swing.end, End::Missed { .. } | End::Stuck) {
+                return Ok(Endurance::Fails { after: n });
+            }
+            place = swing.place;
+            let turn = n % missing.len();
+            let before = std::mem::replace(&mut missing[turn], self.latch.at - place);
+            if (missing[turn] - before).abs() <= 1e-12 * self.latch.at {
+                return Ok(Endurance::Lasts {
+                    missing: missing[turn],
+                });
+            }
+        }
+        Ok(Endurance::Drifts {
+            missing: self.latch.at - place,
+        })
     }
 
     /// The run at moments `per_swing` to a swing, for charts.

@@ -23,7 +23,7 @@ impl Bar {
         PI * self.diameter.powi(4) * self.shear_modulus / (32.0 * self.length)
     }
 
-    /// [φ] = 2 l [τ_s] / (d G), the twist at which the rim reaches the allowable shear stress. `[rad]`
+    /// `[φ]` = 2 l `[τ_s]` / (d G), the twist at which the rim reaches the allowable shear stress. `[rad]`
     ///
     /// # Sources
     /// `[Klyuchkovskyi 1999]` equation (11), where the stress shares its letter with the period.
@@ -157,7 +157,7 @@ pub struct Wanted {
     pub inertia: f64,
     /// G. `[Pa]`
     pub shear_modulus: f64,
-    /// [τ_s]. `[Pa]`
+    /// `[τ_s]`. `[Pa]`
     pub allowable_stress: f64,
     /// The length to begin with. `[m]`
     pub length: Option<f64>,
@@ -174,7 +174,7 @@ pub struct Wanted {
 pub struct Trial {
     /// The bar.
     pub bar: Bar,
-    /// [φ]. `[rad]`
+    /// `[φ]`. `[rad]`
     pub allowable_twist: f64,
     /// Whether (11) holds.
     pub strong: bool,
@@ -187,7 +187,7 @@ pub struct Trial {
 pub struct Remedy {
     /// A bar at least this long. `[m]`
     pub length: f64,
-    /// A material with at least this [τ_s]. `[Pa]`
+    /// A material with at least this `[τ_s]`. `[Pa]`
     pub allowable_stress: f64,
     /// A period of at least this. `[s]`
     pub period: f64,
@@ -233,7 +233,7 @@ impl Wanted {
         }
     }
 
-    /// The least length at which (11) is an equality: [φ] grows as l^(3/4) when d follows (10). `[m]`
+    /// The least length at which (11) is an equality: `[φ]` grows as l^(3/4) when d follows (10). `[m]`
     #[must_use]
     pub fn least_length(&self) -> f64 {
         let one = self.trial(

@@ -2,7 +2,7 @@
 
 use crate::cli::{json, out, ozols};
 use ozols::model::drive::Step;
-use ozols::workload::programme::Module;
+use ozols::workload::programme::{Endurance, Module};
 use ozols::workload::swing::{Disc, End, Feed, Latch};
 use serde_json::Value;
 use std::fs;
@@ -108,6 +108,54 @@ fn energy_of_a_run_balances() {
         near(b.residual(), 0.0, 1e-9);
         had = b.stored;
     }
+}
+
+/// A cam that gives what is needed goes on for ever; one that gives what a swing without it lost, equation (12), loses ground.
+#[test]
+fn the_long_run_tells_enough_from_too_little() {
+    let m = module(0.02, 0.1, 0.0);
+    let need = m.discs[0].needed_feed(m.latch, 0.0).unwrap().unwrap();
+    let fed = |energy| Module {
+        feed: Feed { energy, from: 0.0 },
+        ..m
+    };
+    assert!(
+        matches!(fed(1.001 * need).endurance(&[0]).unwrap(), Endurance::Lasts { missing } if missing == 0.0)
+    );
+    let Endurance::Fails { after } = fed(0.97 * need).endurance(&[0]).unwrap() else {
+        panic!()
+    };
+    // A run of as many swings is latched, and one more is not.
+    let latched = |n: usize| {
+        fed(0.97 * need)
+            .run(&vec![Step::Swing(0); n])
+            .unwrap()
+            .latched
+    };
+    assert_eq!((latched(after), latched(after + 1)), (after, after));
+    // Viscous damping alone takes less from a smaller swing: with much capture, swings settle short of the latch.
+    let soft = Module {
+        latch: Latch {
+            at: 0.8,
+            capture: 0.4,
+        },
+        ..module(0.05, 0.0, 0.3)
+    };
+    assert!(
+        matches!(soft.endurance(&[0]).unwrap(), Endurance::Lasts { missing } if missing > 0.02)
+    );
+    // Two discs of different inertia that take turns end up repeating as well.
+    let both = Module {
+        feed: Feed {
+            energy: 1.2 * need,
+            from: 0.0,
+        },
+        ..m
+    };
+    assert!(matches!(
+        both.endurance(&[0, 1]).unwrap(),
+        Endurance::Lasts { .. }
+    ));
 }
 
 #[test]
@@ -410,6 +458,68 @@ fn bad_tables_are_refused_where_they_stand() {
         errors.contains("no [workload.drive] table") && errors.contains("torsion-module"),
         "{errors}"
     );
+}
+
+/// Inertia of a link that turns about an axis aside of its mass centre, with a payload.
+#[test]
+fn inertia_comes_from_a_link() {
+    let mechanism = r#"
+[[link]]
+id = "0"
+role = "frame"
+[[link]]
+id = "1"
+role = "output"
+mass = 3
+centre = [100, 0, 40]
+inertia = [1, 2, 0.04]
+[[joint]]
+id = "0-1"
+links = ["0", "1"]
+type = "revolute"
+point = [0, 0, 0]
+axis = [0, 0, 5]
+"#;
+    let with_link = |link: &str| {
+        let table = small_with(
+            "inertia = 0.23",
+            &format!("disc_link = \"{link}\"\npayload_mass = 2\npayload_radius = 300"),
+        );
+        table + mechanism
+    };
+    let value = small_json(&with_link("1"), 0);
+    near(
+        number(&value["inertias"][0]),
+        0.04 + 3.0 * 0.01 + 2.0 * 0.09,
+        1e-12,
+    );
+    let (code, _, errors) = run_file(&with_link("7"), &[]);
+    assert_eq!(code, Some(2));
+    assert!(errors.contains("unknown link \"7\""), "{errors}");
+    let (_, _, errors) = run_file(&with_link("0"), &[]);
+    assert!(
+        errors.contains("disc_link needs a link with mass"),
+        "{errors}"
+    );
+    let (_, _, errors) = run_file(&small_with("inertia = 0.23", "disc_link = \"1\""), &[]);
+    assert!(
+        errors.contains("disc_link needs a mechanism in the same file"),
+        "{errors}"
+    );
+}
+
+#[test]
+fn files_of_tables_alone_can_be_checked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("turner.toml");
+    fs::write(&path, SMALL).unwrap();
+    assert_eq!(
+        out(&["check", path.to_str().unwrap()]),
+        "turner: workload drive: valid\n"
+    );
+    fs::write(&path, small_with("inertia = 0.23", "inertia = 0")).unwrap();
+    let o = ozols(&["check", path.to_str().unwrap()]).output().unwrap();
+    assert_eq!(o.status.code(), Some(2));
 }
 
 #[test]
