@@ -2,7 +2,7 @@
 
 use crate::import::workload::Workload;
 use crate::model::grip::{GripSpec, LeverDrive, PartMass, Pivots, Toward};
-use crate::report::words::{significant, table};
+use crate::report::words::{plural, significant, table};
 use crate::workload::arm_charts::findings;
 use crate::workload::clamping::{Hardest, Row, Study, Verdict};
 use crate::workload::holding::{Holding, Slip};
@@ -246,8 +246,8 @@ fn inputs(out: &mut String, r: &Report<'_>) -> std::fmt::Result {
     };
     writeln!(
         out,
-        "  load: {mass}, {gravity}, {} accelerations, friction {}, safety factor {}",
-        load.accelerations.len(),
+        "  load: {mass}, {gravity}, {}, friction {}, safety factor {}",
+        plural(load.accelerations.len(), "acceleration"),
         significant(load.friction),
         significant(load.safety)
     )?;
@@ -263,10 +263,13 @@ fn rows(r: &Report<'_>, width: Option<u16>) -> String {
     let length = |x: f64| significant(x / metres);
     let mut head: Vec<String> = ["D", "l1", "l2"].map(|n| format!("{n}, {symbol}")).to_vec();
     head.extend(["l1/l2".to_owned(), "turn, °".to_owned()]);
-    let loaded = r.file.spec.load.is_some();
+    let load = r.file.spec.load.as_ref();
+    let loaded = load.is_some();
+    let told =
+        r.transmission.is_some() && load.is_some_and(|l| l.levers != LeverDrive::Independent);
     if loaded {
         head.extend(["mass, kg", "moment per lever, N·m", "both levers, N·m"].map(str::to_owned));
-        if r.transmission.is_some() {
+        if told {
             head.push("drive, N".to_owned());
         }
         head.push("hardest case".to_owned());
@@ -300,7 +303,7 @@ fn rows(r: &Report<'_>, width: Option<u16>) -> String {
         cells.push(
             holding.map_or_else(|| "-".to_owned(), |h| h.moments.map(significant).join(", ")),
         );
-        if r.transmission.is_some() {
+        if told {
             cells.push(number(holding.and_then(|h| r.effort(h))));
         }
         cells.push(

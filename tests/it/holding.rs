@@ -446,4 +446,33 @@ proptest! {
         let (less, more) = (held(&pose(), pull(f), mu, by), held(&pose(), pull(f), mu + 0.1, by));
         prop_assert!(more.drive <= less.drive + 1e-7);
     }
+
+    /// Grippers of all sizes and shapes, under loads over eight decades, always get an answer, and its forces balance the load.
+    #[test]
+    fn every_gripper_gets_an_answer(
+        size in -3.0..1.0f64, prism in 20.0..175.0f64, mounting in 0.0..100.0f64, part in -2.0..0.0f64, other in 0.5..1.5f64,
+        f in direction(), m in direction(), decade in -4.0..4.0f64, friction in prop::option::of(-2.5..1.0f64), by in coupling(),
+    ) {
+        let l = lever(10f64.powf(size), prism, mounting);
+        let d = l.length * 10f64.powf(part);
+        let g = Gripper { may_cross: true, ..Gripper::nominal(l, d) };
+        let pose = g.pose(d * other);
+        if let (Ok(pose), true) = (pose, g.obstacles(d * other).is_empty()) {
+            let strength = 10f64.powf(decade);
+            let load = Load { force: f.map(|x| x * strength), moment: m.map(|x| x * strength * l.length) };
+            let mu = friction.map_or(0.0, |e| 10f64.powf(e));
+            let outcome = hold(&pose, &load, mu, by);
+            prop_assert!(outcome.is_ok(), "{outcome:?}");
+            if let Ok(Outcome::Held(h)) = outcome {
+                let mut sum = load.force;
+                for (i, c) in h.forces.iter().enumerate() {
+                    let w = force(&pose, i, c);
+                    (0..3).for_each(|a| sum[a] += w[a]);
+                }
+                let most = strength + h.forces.iter().map(|c| c.normal).sum::<f64>();
+                sum.iter().for_each(|x| near(*x, 0.0, 1e-6 * most));
+                near(h.drive, h.lower_bound, 1e-4 * (h.drive + strength * l.length));
+            }
+        }
+    }
 }
