@@ -1,6 +1,7 @@
 //! The command line: arguments as data, one file per command, three exit codes.
 
 mod analyze;
+mod answer;
 mod args;
 mod charts;
 mod check;
@@ -9,8 +10,10 @@ mod grip;
 mod load;
 mod output;
 mod progress;
+mod question;
 mod search;
 mod statics;
+mod verify;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -24,7 +27,7 @@ enum Done {
     Nothing,
 }
 
-/// Runs the program. Exit codes: 0 done, 1 nothing found, 2 bad input or failure.
+/// Runs the program. Exit codes: 0 done, 1 nothing found or a certificate rejected, 2 bad input or failure.
 #[must_use]
 pub fn run() -> ExitCode {
     let args = match args::Args::try_parse() {
@@ -42,6 +45,7 @@ pub fn run() -> ExitCode {
         args::Command::Statics(a) => statics::run(&args, a),
         args::Command::Grip(a) => grip::run(&args, a),
         args::Command::Drive(a) => drive::run(&args, a),
+        args::Command::Verify(a) => verify::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::List => check::list(),
         args::Command::Show(a) => check::show(a),

@@ -2,4 +2,5 @@
 
 pub mod contour;
 pub mod matrix;
+pub mod pose;
 pub mod twist;

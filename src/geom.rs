@@ -1,5 +1,7 @@
-//! Exact geometry: expressions with roots and rational-degree cosines, and their images in a prime field.
+//! Exact geometry: expressions with roots and rational-degree cosines, their images in a prime field, and the
+//! number field they lie in.
 
 pub mod exact;
 pub mod expr;
+pub mod number_field;
 pub mod scalars;

@@ -33,13 +33,16 @@
 //!
 //! # Layers
 //!
-//! linalg, geom -> model -> closure -> import, rank, workload -> redundancy -> search -> report -> cli.
-//! Imports go one way; a test holds them to it. [`chart`] draws finished numbers and imports nothing.
+//! linalg -> geom, verify -> model -> closure -> import, rank, workload -> redundancy -> search -> report -> cli. Imports go
+//! one way; a test holds them to it. [`chart`] draws finished numbers and imports nothing.
 //!
 //! # Sources
 //!
 //! - `[Pogrebnyak 2018]` R. P. Pogrebnyak, repeated constraints in the schemes of a link slider-crank gripper mechanism,
 //!   Science and Transport Progress 4 (76), 2018.
+//! - `[Bychkov, Dvornikov & Zhukov 2018]` I. V. Bychkov, L. T. Dvornikov, I. A. Zhukov, the kinetostatic analysis of the
+//!   four-link group of Assur with a closed loop on the example of the mechanism of metallurgical parallel shears (in
+//!   Russian), 2018, No 4, p. 32-37, DOI 10.26730/1999-4125-2018-4-32-37.
 //! - `[Horton 1987]` J. D. Horton, "A polynomial-time algorithm to find the shortest cycle basis of a graph", SIAM J.
 //!   Comput. 16, 1987.
 //! - `[Pavlenko & Godunko 2010]` I. I. Pavlenko, M. O. Godunko, transmission relations of the force arms of clamping levers
@@ -59,4 +62,5 @@ pub mod rank;
 pub mod redundancy;
 pub mod report;
 pub mod search;
+pub mod verify;
 pub mod workload;

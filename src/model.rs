@@ -7,4 +7,5 @@ pub mod drive;
 pub mod grip;
 pub mod joint_type;
 pub mod loads;
+pub mod measured;
 pub mod mechanism;

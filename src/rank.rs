@@ -1,7 +1,61 @@
 //! Rank of the closure matrix, with what each method knows about its answer.
 
+pub mod auto;
+pub mod certificate;
+pub mod counting;
+pub mod finite;
+pub mod generic;
+mod kernel;
+pub mod loops;
+pub mod lu;
+pub mod measured;
+pub mod method;
 pub mod modular;
 pub mod numeric;
+pub mod qr;
+pub mod rational;
+pub mod reconstruct;
+pub mod scaled;
+pub mod second_order;
+pub mod snap;
+pub mod subgroup;
+pub mod trace;
+
+use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::expr::Expr;
+use crate::model::mechanism::{Frame, Mechanism, Mode, StateId};
+
+/// Coordinates of a joint's frame.
+fn coordinates(frame: &Frame) -> impl Iterator<Item = &Expr> {
+    frame
+        .point
+        .iter()
+        .chain(&frame.axis)
+        .chain(&frame.reference)
+        .chain([&frame.pitch])
+}
+
+fn normal(mechanism: &Mechanism) -> &[Expr] {
+    match &mechanism.mode {
+        Mode::Spatial => &[],
+        Mode::Planar { normal } => normal,
+    }
+}
+
+/// The exact field of the joints present in a state, in the `nth` suitable prime.
+///
+/// # Errors
+/// Where no prime suits, see [`ExactField`].
+pub fn field_of(
+    mechanism: &Mechanism,
+    state: StateId,
+    nth: usize,
+) -> Result<ExactField, ExactError> {
+    let frames = mechanism
+        .joints_in(state)
+        .map(|j| &mechanism.joints[j].frame);
+    ExactField::for_expressions(frames.flat_map(coordinates).chain(normal(mechanism)), nth)
+}
 
 /// How sure an answer is.
 #[derive(Debug, Clone, Copy, PartialEq)]

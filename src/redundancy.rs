@@ -4,4 +4,5 @@
 pub mod analysis;
 pub mod idle;
 pub mod motion;
+pub mod share;
 pub mod stress;

@@ -7,11 +7,16 @@
 
 pub mod best;
 pub mod brute;
+pub mod building;
+pub mod certify;
 pub mod cost;
+pub mod counts;
 pub mod diagram;
 pub mod lookahead;
 pub mod order;
 pub mod plan;
+pub mod primes;
+pub mod realize;
 pub mod request;
 pub mod space;
 pub mod tally;

@@ -1,9 +1,7 @@
 //! `ozols analyze`.
 
 use super::args::{Analyze, AnalyzeFormat, Args, RankMethod};
-use super::{Done, load, output};
-use crate::geom::expr::Expr;
-use crate::model::mechanism::Mode;
+use super::{Done, load, output, verify};
 use crate::redundancy::analysis::{Method, analyse};
 use crate::report::{analysis_json, analysis_text};
 use anyhow::bail;
@@ -11,9 +9,7 @@ use anyhow::bail;
 pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file.file)?;
     if a.planar {
-        mechanism.mode = Mode::Planar {
-            normal: [0, 0, 1].map(Expr::from),
-        };
+        load::put_in_plane(&mut mechanism);
     }
     let states: Vec<usize> = match (
         a.state.as_str(),
@@ -35,6 +31,9 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
         RankMethod::Svd => bail!("--tolerance must be between 0 and 1"),
     };
     let found = analyse(&mechanism, &states, method)?;
+    if let Some(path) = &a.certificate {
+        verify::write(path, &mechanism, &states)?;
+    }
     output::to(a.output.as_deref(), |out| {
         match a.format {
             AnalyzeFormat::Json => {

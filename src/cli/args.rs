@@ -22,7 +22,8 @@ Examples:
   ozols grip lever-gripper                    what its levers can hold, and with what drive moment
   ozols drive torsion-module                  the torsion bar, the cam spring, and the programme run
   ozols show four-bar > mine.toml             a file to start from
-  ozols check mine.toml                       what is wrong with it, if anything"
+  ozols check mine.toml                       what is wrong with it, if anything
+  ozols analyze mine.toml --certificate c.json && ozols verify mine.toml c.json"
 )]
 pub(super) struct Args {
     /// What to do.
@@ -51,6 +52,8 @@ pub(super) enum Command {
     Grip(Grip),
     /// Size a torsional drive of two discs and run its programme.
     Drive(Drive),
+    /// Confirm the certificates of rank that `ozols analyze --certificate` wrote.
+    Verify(Verify),
     /// Validate a file.
     Check(File),
     /// The built-in mechanisms.
@@ -100,6 +103,21 @@ pub(super) struct Analyze {
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
+    /// Also write a proof of each state's rank to a JSON file, for `ozols verify`.
+    #[arg(long, value_name = "FILE")]
+    pub(super) certificate: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Verify {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// The certificates, as written by `ozols analyze FILE --certificate CERTIFICATES`.
+    #[arg(value_name = "CERTIFICATES")]
+    pub(super) certificates: PathBuf,
+    /// The certificates were made with `analyze --planar`.
+    #[arg(long)]
+    pub(super) planar: bool,
 }
 
 fn ozols_tolerance() -> f64 {
@@ -176,6 +194,16 @@ pub(super) enum SearchMethod {
     Brute,
 }
 
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Check {
+    /// One prime, no second opinion.
+    None,
+    /// The whole search over two primes, which must agree.
+    Prime,
+    /// That, and each variant given, up to 1000, analysed again by singular values.
+    Full,
+}
+
 #[derive(Debug, ClapArgs)]
 #[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
 pub(super) struct Search {
@@ -233,7 +261,14 @@ pub(super) struct Search {
     /// Diagram, or brute force for checking.
     #[arg(long, value_enum, default_value = "diagram")]
     pub(super) method: SearchMethod,
-    /// Node budget of each diagram, about 1 KB of memory a node.
+    /// Search a file whose coordinates look measured exactly as it is written, though rounding errors in it change the
+    /// figures.
+    #[arg(long)]
+    pub(super) as_written: bool,
+    /// How the search is checked.
+    #[arg(long, value_enum, default_value = "full")]
+    pub(super) check: Check,
+    /// Node budget of each diagram, about 1 KB of memory a node (twice that with a check).
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     pub(super) nodes: usize,
     /// Output format.
@@ -285,6 +320,9 @@ pub(super) struct Statics {
     /// A state named in the file.
     #[arg(long, default_value = "free")]
     pub(super) state: String,
+    /// Model the mechanism in its plane (normal z), whatever the file says.
+    #[arg(long)]
+    pub(super) planar: bool,
     /// Only the Assur groups, under each possible drive.
     #[arg(long, conflicts_with_all = ["stability", "svg", "stroke"])]
     pub(super) groups: bool,

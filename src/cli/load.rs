@@ -1,8 +1,9 @@
 //! FILE arguments: paths, standard input, and built-in names.
 
 use crate::builtin;
+use crate::geom::expr::Expr;
 use crate::import::text::{MAX_BYTES, mechanism_from_bytes};
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, Mode};
 use anyhow::{Context, bail};
 use std::io::Read;
 
@@ -27,6 +28,13 @@ pub(super) fn named(file: &str) -> anyhow::Result<(String, Vec<u8>)> {
         bail!(unknown(file))
     };
     Ok((format!("{file}.toml"), text.as_bytes().to_vec()))
+}
+
+/// Models a mechanism in the plane of x and y.
+pub(super) fn put_in_plane(mechanism: &mut Mechanism) {
+    mechanism.mode = Mode::Planar {
+        normal: [0, 0, 1].map(Expr::from),
+    };
 }
 
 /// The message for a name that is neither a file nor built in.

@@ -3,19 +3,18 @@
 use super::args::{Args, Statics, StaticsFormat, StaticsMethod};
 use super::{Done, load, output};
 use crate::chart::page;
+use crate::geom::expr::Expr;
 use crate::import::loads::{MAX_STEPS, position};
 use crate::model::loads::Stroke;
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, Mode};
 use crate::report::statics_charts::{self, Named};
 use crate::report::statics_words::GroupMethod;
 use crate::report::words::table;
 use crate::report::{statics_data, statics_text};
-use crate::workload::assur::alternatives;
 use crate::workload::contour_group::GroupPose;
 use crate::workload::kinetostatics::Source;
-use crate::workload::planar::PlanarMechanism;
 use crate::workload::stability::{Failure, Sample, distances, samples};
-use crate::workload::statics::statics;
+use crate::workload::statics::{statics, structures};
 use anyhow::{Context, bail};
 use rayon::prelude::*;
 use std::path::Path;
@@ -24,7 +23,12 @@ use std::path::Path;
 const GROUPS: usize = 9;
 
 pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
-    let m = load::mechanism(a.file.as_deref().unwrap_or("parallel-shears"))?;
+    let mut m = load::mechanism(a.file.as_deref().unwrap_or("parallel-shears"))?;
+    if a.planar {
+        m.mode = Mode::Planar {
+            normal: [0, 0, 1].map(Expr::from),
+        };
+    }
     let Some(state) = m.states.iter().position(|s| *s == a.state) else {
         bail!(
             "{} has no state {}; it has: {}",
@@ -107,16 +111,15 @@ fn stroke(text: &str) -> anyhow::Result<Stroke> {
 }
 
 fn groups(m: &Mechanism, state: usize, a: &Statics) -> anyhow::Result<Done> {
-    let planar = PlanarMechanism::new(m, state)?;
-    let found = alternatives(&planar, &planar.drives());
-    let any = found.iter().any(|(_, d)| d.is_ok());
+    let (planar, found) = structures(m, state)?;
+    let any = found.iter().any(|x| x.found.is_ok());
     output::to(a.output.as_deref(), |out| {
         match a.format {
             StaticsFormat::Json => {
                 writeln!(
                     out,
                     "{:#}",
-                    statics_data::alternatives(&m.name, &planar, &found)
+                    statics_data::structures(&m.name, &planar, &found)
                 )?;
             }
             StaticsFormat::Csv => bail!("--groups has no CSV; use --format json"),
@@ -125,7 +128,7 @@ fn groups(m: &Mechanism, state: usize, a: &Statics) -> anyhow::Result<Done> {
                 write!(
                     out,
                     "{}",
-                    statics_text::alternatives(&m.name, &planar, &found, width)
+                    statics_text::structures(&m.name, &planar, &found, width)
                 )?;
             }
         }
@@ -147,7 +150,11 @@ fn write_charts(folder: &Path, title: &str, charts: &[Named]) -> anyhow::Result<
     for (name, chart) in charts {
         let svg = chart.svg();
         write(&format!("{name}.svg"), &svg)?;
-        write(&format!("{name}.csv"), &chart.csv())?;
+        let mut table = chart.clone();
+        for series in &mut table.series {
+            series.points.retain(|p| p.1.is_finite());
+        }
+        write(&format!("{name}.csv"), &table.csv())?;
         parts.push((chart.title.clone(), chart.subtitle.clone(), svg));
     }
     write("index.html", &page(title, &parts))?;
@@ -201,7 +208,7 @@ fn stability(
     output::to(None, |out| {
         writeln!(
             out,
-            "Largest relative error against exact arithmetic, by distance from the failure\n"
+            "Relative error against exact arithmetic by distance from each failure, median of {GROUPS} groups\n"
         )?;
         let header = [
             "failure", "figure", "method", "1", "1e-3", "1e-6", "1e-9", "1e-12", "1e-15",

@@ -2,9 +2,10 @@
 
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use itertools::Itertools;
-use petgraph::algo::dijkstra;
-use petgraph::graph::{NodeIndex, UnGraph};
+use petgraph::graph::{EdgeIndex, EdgeReference, NodeIndex, UnGraph};
 use petgraph::visit::EdgeRef;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 
 /// A closed walk through joints; `forward` where the walk goes from `links[0]` to `links[1]` of the joint.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -77,7 +78,8 @@ pub fn closed_walk(mechanism: &Mechanism, joints: &[JointId]) -> Option<Contour>
 /// the shortest independent contours (a minimum cycle basis where the file names none).
 ///
 /// # Complexity
-/// O(n·(m + n log n)) to find the candidates, O(n·m·k) words of elimination, for n links, m joints, k contours.
+/// O(n·m log m) to find the n·m candidates, O(m/64 · k) for each that is looked at; those are the ones no longer than
+/// the longest contour of the basis, for n links, m joints, k contours.
 ///
 /// # Sources
 /// Horton, "A polynomial-time algorithm to find the shortest cycle basis of a graph", SIAM J. Comput. 16 (1987).
@@ -91,9 +93,10 @@ pub fn contour_basis(mechanism: &Mechanism, state: StateId) -> Vec<Contour> {
     // The contours of the free state come first, so that what a state adds is at the end.
     let states: &[StateId] = if state == 0 { &[0] } else { &[0, state] };
     for &st in states {
+        let all: Vec<JointId> = mechanism.joints_in(state).collect();
         let present: Vec<JointId> = mechanism
             .joints_in(st)
-            .filter(|&j| mechanism.joints_in(state).contains(&j))
+            .filter(|j| all.binary_search(j).is_ok())
             .collect();
         let named = mechanism
             .contours
@@ -142,7 +145,7 @@ fn shortest_cycles(
     // A small distinct excess on each weight makes shortest paths unique, which Horton's theorem needs; it also makes
     // the choice among equals follow the order of the file.
     const UNIT: u64 = 1 << 44;
-    let mut graph: UnGraph<(), (JointId, u64)> = UnGraph::default();
+    let mut graph = Graph::default();
     for _ in &mechanism.links {
         graph.add_node(());
     }
@@ -155,67 +158,137 @@ fn shortest_cycles(
             (j, UNIT + (i as u64 + 1) * (1 << 20) + (excess & 0xf_ffff)),
         );
     }
-    let mut candidates: Vec<(u64, Vec<JointId>)> = Vec::new();
-    for v in graph.node_indices() {
-        let dist = dijkstra(&graph, v, None, |e| e.weight().1);
-        let parent = |x: NodeIndex| {
-            graph.edges(x).find(|e| {
-                let other = if e.source() == x {
-                    e.target()
-                } else {
-                    e.source()
-                };
-                dist.get(&other)
-                    .is_some_and(|d| d + e.weight().1 == dist[&x])
-            })
+    let trees: Vec<Tree> = graph.node_indices().map(|v| Tree::new(&graph, v)).collect();
+    // (length, v, joint): the cycles themselves are written out only as they are asked for.
+    let mut heap: BinaryHeap<Reverse<(u64, usize, usize)>> = trees
+        .iter()
+        .enumerate()
+        .flat_map(|(v, tree)| {
+            let closing = graph.edge_references().filter_map(|e| tree.closes(e));
+            closing.map(move |(length, e)| Reverse((length, v, e)))
+        })
+        .collect::<Vec<_>>()
+        .into();
+    let mut waiting: Vec<Vec<JointId>> = Vec::new();
+    std::iter::from_fn(move || {
+        if waiting.is_empty() {
+            // All of one length, nearly always one cycle seen from each of its links.
+            let Reverse((length, ..)) = heap.peek()?;
+            let length = *length;
+            let mut equal: Vec<(Vec<JointId>, Vec<JointId>)> = Vec::new();
+            while let Some(Reverse((l, v, e))) = heap.peek().copied() {
+                if l != length {
+                    break;
+                }
+                heap.pop();
+                let cycle = trees[v].cycle(&graph, e);
+                equal.push((cycle.iter().copied().sorted().collect_vec(), cycle));
+            }
+            equal.sort_unstable();
+            equal.dedup_by(|a, b| a.0 == b.0);
+            waiting.extend(equal.into_iter().rev().map(|(_, cycle)| from_first(&cycle)));
+        }
+        waiting.pop()
+    })
+}
+
+type Graph = UnGraph<(), (JointId, u64)>;
+
+/// The end of a joint that is not `x`.
+fn other_end(e: EdgeReference<'_, (JointId, u64)>, x: NodeIndex) -> NodeIndex {
+    if e.source() == x {
+        e.target()
+    } else {
+        e.source()
+    }
+}
+
+/// Shortest paths from one link.
+struct Tree {
+    /// Distance of each link that can be reached.
+    dist: Vec<Option<u64>>,
+    /// The last joint on the path to each link.
+    last: Vec<Option<EdgeIndex>>,
+    /// The first joint on the path to each link: paths with different ones meet nowhere.
+    first: Vec<Option<EdgeIndex>>,
+}
+
+impl Tree {
+    /// Dijkstra's algorithm, O(m log m).
+    fn new(graph: &Graph, from: NodeIndex) -> Tree {
+        let mut dist: Vec<Option<u64>> = vec![None; graph.node_count()];
+        let mut settled = Vec::with_capacity(graph.node_count());
+        let mut heap = BinaryHeap::from([Reverse((0, from))]);
+        while let Some(Reverse((d, x))) = heap.pop() {
+            if dist[x.index()].is_some() {
+                continue;
+            }
+            dist[x.index()] = Some(d);
+            settled.push(x);
+            for e in graph.edges(x) {
+                let y = other_end(e, x);
+                if dist[y.index()].is_none() {
+                    heap.push(Reverse((d + e.weight().1, y)));
+                }
+            }
+        }
+        let mut last = vec![None; graph.node_count()];
+        let mut first = vec![None; graph.node_count()];
+        for &x in settled.iter().skip(1) {
+            let back = graph.edges(x).find(|e| {
+                let before = dist[other_end(*e, x).index()];
+                before.map(|d| d + e.weight().1) == dist[x.index()]
+            });
+            if let Some(e) = back {
+                last[x.index()] = Some(e.id());
+                first[x.index()] = first[other_end(e, x).index()].or(Some(e.id()));
+            }
+        }
+        Tree { dist, last, first }
+    }
+
+    /// The length of the closed walk through a joint, where the shortest paths to its two ends part at once. O(1).
+    fn closes(&self, e: EdgeReference<'_, (JointId, u64)>) -> Option<(u64, usize)> {
+        let (x, y) = (e.source().index(), e.target().index());
+        let (dx, dy) = (self.dist[x]?, self.dist[y]?);
+        let in_tree = dx.abs_diff(dy) == e.weight().1;
+        let apart = self.first[x] != self.first[y];
+        (!in_tree && apart).then(|| (dx + dy + e.weight().1, e.id().index()))
+    }
+
+    /// The joints of that walk, in order.
+    fn cycle(&self, graph: &Graph, e: usize) -> Vec<JointId> {
+        let e = EdgeIndex::new(e);
+        let Some((x, y)) = graph.edge_endpoints(e) else {
+            return Vec::new();
         };
         let path = |mut x: NodeIndex| {
             let mut out = Vec::new();
-            while x != v {
-                let Some(e) = parent(x) else { break };
-                out.push(e.weight().0);
-                x = if e.source() == x {
-                    e.target()
-                } else {
-                    e.source()
+            while let Some(e) = self.last[x.index()] {
+                out.push(graph[e].0);
+                let Some((a, b)) = graph.edge_endpoints(e) else {
+                    break;
                 };
+                x = if a == x { b } else { a };
             }
             out
         };
-        for e in graph.edge_references() {
-            let (Some(dx), Some(dy)) = (dist.get(&e.source()), dist.get(&e.target())) else {
-                continue;
-            };
-            let tree = dx.abs_diff(*dy) == e.weight().1;
-            if tree {
-                continue;
-            }
-            let mut cycle = path(e.source());
-            let back = path(e.target());
-            if cycle.iter().any(|j| back.contains(j)) {
-                continue;
-            }
-            cycle.push(e.weight().0);
-            cycle.extend(back.into_iter().rev());
-            candidates.push((dx + dy + e.weight().1, cycle));
-        }
+        let mut cycle = path(x);
+        cycle.push(graph[e].0);
+        cycle.extend(path(y).into_iter().rev());
+        cycle
     }
-    let mut candidates: Vec<(u64, Vec<JointId>, Vec<JointId>)> = candidates
-        .into_iter()
-        .map(|(w, cycle)| (w, cycle.iter().copied().sorted().collect_vec(), cycle))
-        .collect();
-    candidates.sort_unstable();
-    candidates.dedup_by(|a, b| a.1 == b.1);
-    candidates.into_iter().map(|(_, _, cycle)| {
-        // Start each contour at its first joint in file order, and go on towards the earlier of its neighbours.
-        let first = cycle.iter().position_min().unwrap_or(0);
-        let mut rotated = cycle[first..].to_vec();
-        rotated.extend_from_slice(&cycle[..first]);
-        if rotated.len() > 2 && rotated[1] > rotated[rotated.len() - 1] {
-            rotated[1..].reverse();
-        }
-        rotated
-    })
+}
+
+/// Starts a contour at its first joint in file order, and goes on towards the earlier of its neighbours.
+fn from_first(cycle: &[JointId]) -> Vec<JointId> {
+    let first = cycle.iter().position_min().unwrap_or(0);
+    let mut rotated = cycle[first..].to_vec();
+    rotated.extend_from_slice(&cycle[..first]);
+    if rotated.len() > 2 && rotated[1] > rotated[rotated.len() - 1] {
+        rotated[1..].reverse();
+    }
+    rotated
 }
 
 /// Independent sets of joints over the field of two elements.

@@ -33,7 +33,7 @@ pub struct Closure<N> {
     pub left_out: Vec<(JointId, usize)>,
 }
 
-impl<N: Copy + Default + PartialEq> Closure<N> {
+impl<N: Clone + Default + PartialEq> Closure<N> {
     /// Builds J of a state in a number system.
     ///
     /// # Errors
@@ -42,6 +42,19 @@ impl<N: Copy + Default + PartialEq> Closure<N> {
         s: &S,
         mechanism: &Mechanism,
         state: StateId,
+    ) -> Result<Self, ExactError> {
+        Self::with_contours(s, mechanism, state, contour_basis(mechanism, state))
+    }
+
+    /// Builds J for contours that the caller has already, such as those of a mechanism with the same links and joints.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the number system.
+    pub fn with_contours<S: Scalars<Number = N>>(
+        s: &S,
+        mechanism: &Mechanism,
+        state: StateId,
+        contours: Vec<Contour>,
     ) -> Result<Self, ExactError> {
         let space = MotionSpace::new(s, &mechanism.mode)?;
         let (mut columns, mut left_out) = (Vec::new(), Vec::new());
@@ -61,7 +74,7 @@ impl<N: Copy + Default + PartialEq> Closure<N> {
         Ok(Closure {
             state,
             dim: space.dim(),
-            contours: contour_basis(mechanism, state),
+            contours,
             columns,
             left_out,
         })
@@ -84,8 +97,12 @@ impl<N: Copy + Default + PartialEq> Closure<N> {
         let mut out = vec![N::default(); self.dim * contours.len()];
         for (row, &k) in contours.iter().enumerate() {
             if let Some(forward) = self.contours[k].direction(column.joint) {
-                for (o, &t) in out[row * self.dim..].iter_mut().zip(&column.twist) {
-                    *o = if forward { t } else { s.sub(N::default(), t) };
+                for (o, t) in out[row * self.dim..].iter_mut().zip(&column.twist) {
+                    *o = if forward {
+                        t.clone()
+                    } else {
+                        s.sub(N::default(), t.clone())
+                    };
                 }
             }
         }
@@ -113,7 +130,11 @@ impl<N: Copy + Default + PartialEq> Closure<N> {
             .iter()
             .map(|c| match path.iter().find(|(j, _)| *j == c.joint) {
                 Some((_, true)) => c.twist.clone(),
-                Some((_, false)) => c.twist.iter().map(|&t| s.sub(N::default(), t)).collect(),
+                Some((_, false)) => c
+                    .twist
+                    .iter()
+                    .map(|t| s.sub(N::default(), t.clone()))
+                    .collect(),
                 None => vec![N::default(); self.dim],
             })
             .collect()
@@ -121,6 +142,9 @@ impl<N: Copy + Default + PartialEq> Closure<N> {
 }
 
 /// Joints on a shortest path from the frame to a link, with the direction they are passed in; empty where there is none.
+///
+/// # Complexity
+/// O(n + m) for n links, m joints.
 #[must_use]
 pub fn path_from_frame(
     mechanism: &Mechanism,
@@ -128,10 +152,16 @@ pub fn path_from_frame(
     link: LinkId,
 ) -> Vec<(JointId, bool)> {
     let frame = mechanism.frame();
+    let mut joints_at: Vec<Vec<JointId>> = vec![Vec::new(); mechanism.links.len()];
+    for j in mechanism.joints_in(state) {
+        for end in mechanism.joints[j].links {
+            joints_at[end].push(j);
+        }
+    }
     let mut came: Vec<Option<(JointId, bool)>> = vec![None; mechanism.links.len()];
     let mut queue = std::collections::VecDeque::from([frame]);
     while let Some(at) = queue.pop_front() {
-        for j in mechanism.joints_in(state) {
+        for &j in &joints_at[at] {
             let [a, b] = mechanism.joints[j].links;
             for (from, to, forward) in [(a, b, true), (b, a, false)] {
                 if from == at && to != frame && came[to].is_none() {

@@ -25,7 +25,7 @@ pub enum MotionSpace<N> {
     },
 }
 
-impl<N: Copy + PartialEq + Default> MotionSpace<N> {
+impl<N: Clone + PartialEq + Default> MotionSpace<N> {
     /// The space a mechanism's mode asks for.
     ///
     /// # Errors
@@ -37,14 +37,14 @@ impl<N: Copy + PartialEq + Default> MotionSpace<N> {
                 let n = s.eval3(normal)?;
                 let zero = N::default();
                 let one = s.eval(&Expr::from(1))?;
-                let e1 = [[one, zero, zero], [zero, one, zero]]
+                let unit = |i: usize| [0, 1, 2].map(|j| if i == j { &one } else { &zero }.clone());
+                let e1 = [unit(0), unit(1)]
                     .into_iter()
-                    .map(|x| s.cross(n, x))
-                    .find(|e| e.iter().any(|&c| c != zero))
-                    .unwrap_or([one, zero, zero]);
-                MotionSpace::Planar {
-                    axes: [n, e1, s.cross(n, e1)],
-                }
+                    .map(|x| s.cross(n.clone(), x))
+                    .find(|e| e.iter().any(|c| *c != zero))
+                    .unwrap_or_else(|| unit(0));
+                let e2 = s.cross(n.clone(), e1.clone());
+                MotionSpace::Planar { axes: [n, e1, e2] }
             }
         })
     }
@@ -63,10 +63,17 @@ impl<N: Copy + PartialEq + Default> MotionSpace<N> {
         match self {
             MotionSpace::Spatial => Some(t.to_vec()),
             MotionSpace::Planar { axes: [n, e1, e2] } => {
-                let (w, v) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
-                let zero = N::default();
-                let inside = s.cross(w, *n).iter().all(|&c| c == zero) && s.dot(v, *n) == zero;
-                inside.then(|| vec![s.dot(w, *n), s.dot(v, *e1), s.dot(v, *e2)])
+                let [w0, w1, w2, v0, v1, v2] = t.clone();
+                let (w, v) = ([w0, w1, w2], [v0, v1, v2]);
+                let dot = |a: &[N; 3], b: &[N; 3]| s.dot(a.clone(), b.clone());
+                // Products of decimals round: a turn about the normal must not fall out of the plane by that.
+                let (nn, ww) = (dot(n, n), dot(&w, &w));
+                let turn = s.mul(ww.clone(), nn.clone());
+                let shift = s.mul(s.add(dot(&v, &v), ww), nn);
+                let tilt = s.cross(w.clone(), n.clone());
+                let inside = tilt.into_iter().all(|c| s.vanishes(c, turn.clone()))
+                    && s.vanishes(dot(&v, n), shift);
+                inside.then(|| vec![dot(&w, n), dot(&v, e1), dot(&v, e2)])
             }
         }
     }
@@ -83,7 +90,7 @@ pub struct FrameValues<N> {
     pub pitch: N,
 }
 
-impl<N: Copy> FrameValues<N> {
+impl<N: Clone> FrameValues<N> {
     /// Evaluates a frame: z = axis, x = reference·(z·z) - z·(z·reference), y = z × x.
     ///
     /// # Errors
@@ -91,11 +98,13 @@ impl<N: Copy> FrameValues<N> {
     pub fn new<S: Scalars<Number = N>>(s: &S, frame: &Frame) -> Result<Self, ExactError> {
         let z = s.eval3(&frame.axis)?;
         let r = s.eval3(&frame.reference)?;
-        let minus = s.sub(s.sub(z[0], z[0]), s.dot(z, r));
-        let zz = s.dot(z, z);
-        let x = s.scaled_sum(minus, z, r.map(|c| s.mul(zz, c)));
+        let zero = s.sub(z[0].clone(), z[0].clone());
+        let minus = s.sub(zero, s.dot(z.clone(), r.clone()));
+        let zz = s.dot(z.clone(), z.clone());
+        let x = s.scaled_sum(minus, z.clone(), r.map(|c| s.mul(zz.clone(), c)));
+        let y = s.cross(z.clone(), x.clone());
         Ok(FrameValues {
-            axes: [x, s.cross(z, x), z],
+            axes: [x, y, z],
             point: s.eval3(&frame.point)?,
             pitch: s.eval(&frame.pitch)?,
         })
@@ -103,13 +112,14 @@ impl<N: Copy> FrameValues<N> {
 
     /// The twist of one freedom.
     pub fn twist<S: Scalars<Number = N>>(&self, s: &S, freedom: Freedom) -> Twist<N> {
-        let zero = s.sub(self.point[0], self.point[0]);
-        let rotation = |u: [N; 3]| {
-            let v = s.cross(self.point, u);
-            [u[0], u[1], u[2], v[0], v[1], v[2]]
+        let zero = || s.sub(self.point[0].clone(), self.point[0].clone());
+        let join = |[a, b, c]: [N; 3], [d, e, f]: [N; 3]| [a, b, c, d, e, f];
+        let rotation = |u: &[N; 3]| {
+            let v = s.cross(self.point.clone(), u.clone());
+            join(u.clone(), v)
         };
-        let translation = |u: [N; 3]| [zero, zero, zero, u[0], u[1], u[2]];
-        let [x, y, z] = self.axes;
+        let translation = |u: &[N; 3]| join([zero(), zero(), zero()], u.clone());
+        let [x, y, z] = &self.axes;
         match freedom {
             Freedom::Rx => rotation(x),
             Freedom::Ry => rotation(y),
@@ -118,9 +128,9 @@ impl<N: Copy> FrameValues<N> {
             Freedom::Ty => translation(y),
             Freedom::Tz => translation(z),
             Freedom::Screw => {
-                let r = rotation(z);
-                let t = s.scaled_sum(self.pitch, z, [r[3], r[4], r[5]]);
-                [r[0], r[1], r[2], t[0], t[1], t[2]]
+                let v = s.cross(self.point.clone(), z.clone());
+                let t = s.scaled_sum(self.pitch.clone(), z.clone(), v);
+                join(z.clone(), t)
             }
         }
     }
@@ -151,7 +161,7 @@ pub fn joint_twists<S: Scalars>(
                 .iter()
                 .any(|f| matches!(f, Freedom::Tx | Freedom::Ty | Freedom::Tz))
         {
-            values.axes = [*e1, *e2, *n];
+            values.axes = [e1.clone(), e2.clone(), n.clone()];
         }
     }
     Ok(freedoms

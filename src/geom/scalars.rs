@@ -1,4 +1,4 @@
-//! The two number systems a mechanism is evaluated in: residues modulo a prime (exact) and `f64` (measured).
+//! The number systems a mechanism is evaluated in: residues modulo a prime (exact), `f64` (measured).
 
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::expr::Expr;
@@ -8,7 +8,7 @@ use std::fmt::Debug;
 /// A commutative ring that expressions can be evaluated in. Division is left out on purpose: joint frames need none.
 pub trait Scalars: Sync {
     /// A number.
-    type Number: Copy + PartialEq + Debug + Default + Send + Sync;
+    type Number: Clone + PartialEq + Debug + Default + Send + Sync;
 
     /// The value of an expression.
     ///
@@ -22,6 +22,13 @@ pub trait Scalars: Sync {
     /// Product.
     fn mul(&self, a: Self::Number, b: Self::Number) -> Self::Number;
 
+    /// Whether `x` is zero as far as this number system can tell, where `square` is the square of what it would be
+    /// measured against.
+    fn vanishes(&self, x: Self::Number, square: Self::Number) -> bool {
+        let _ = square;
+        x == Self::Number::default()
+    }
+
     /// The value of a vector of expressions.
     ///
     /// # Errors
@@ -32,13 +39,16 @@ pub trait Scalars: Sync {
 
     /// Scalar product.
     fn dot(&self, a: [Self::Number; 3], b: [Self::Number; 3]) -> Self::Number {
-        let s = self.add(self.mul(a[0], b[0]), self.mul(a[1], b[1]));
-        self.add(s, self.mul(a[2], b[2]))
+        let [a0, a1, a2] = a;
+        let [b0, b1, b2] = b;
+        let s = self.add(self.mul(a0, b0), self.mul(a1, b1));
+        self.add(s, self.mul(a2, b2))
     }
 
     /// Vector product.
     fn cross(&self, a: [Self::Number; 3], b: [Self::Number; 3]) -> [Self::Number; 3] {
-        let minor = |i: usize, j: usize| self.sub(self.mul(a[i], b[j]), self.mul(a[j], b[i]));
+        let product = |i: usize, j: usize| self.mul(a[i].clone(), b[j].clone());
+        let minor = |i: usize, j: usize| self.sub(product(i, j), product(j, i));
         [minor(1, 2), minor(2, 0), minor(0, 1)]
     }
 
@@ -49,7 +59,9 @@ pub trait Scalars: Sync {
         a: [Self::Number; 3],
         b: [Self::Number; 3],
     ) -> [Self::Number; 3] {
-        [0, 1, 2].map(|i| self.add(self.mul(s, a[i]), b[i]))
+        let [b0, b1, b2] = b;
+        let [a0, a1, a2] = a.map(|x| self.mul(s.clone(), x));
+        [self.add(a0, b0), self.add(a1, b1), self.add(a2, b2)]
     }
 }
 
@@ -91,5 +103,8 @@ impl Scalars for Reals {
     }
     fn mul(&self, a: f64, b: f64) -> f64 {
         a * b
+    }
+    fn vanishes(&self, x: f64, square: f64) -> bool {
+        x * x <= 1e-20 * square
     }
 }

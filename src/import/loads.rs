@@ -90,7 +90,7 @@ pub struct ForceEntry {
     pub point: [Coordinate; 3],
     /// The force in N.
     pub force: [Coordinate; 3],
-    /// It acts from this position of the first drive: radians or "90deg", or the file's length unit.
+    /// It acts from this position of the first drive, in each turn: radians or "90deg", or the file's length unit.
     #[serde(default)]
     pub from: Option<Quantity>,
     /// And up to this one.

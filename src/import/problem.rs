@@ -66,7 +66,7 @@ pub enum ProblemKind {
     #[error("{message}")]
     BadNumber { message: String },
     #[error(
-        "coordinate {value} is out of range; lengths may be 1e-12 to 1e12 in size: choose another length_unit"
+        "coordinate {value} is out of range; lengths may be 1e-40 to 1e12 in size: choose another length_unit"
     )]
     OutOfRange { value: String },
     #[error(

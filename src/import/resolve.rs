@@ -36,7 +36,7 @@ pub(super) fn zero3() -> [Expr; 3] {
 }
 
 /// Largest and smallest nonzero size of a coordinate.
-const RANGE: (f64, f64) = (1e-12, 1e12);
+const RANGE: (f64, f64) = (1e-40, 1e12);
 
 pub(super) fn number(c: &Coordinate, path: &[Step], out: &mut Findings) -> Expr {
     let parsed = match c {

@@ -78,6 +78,17 @@ impl Field {
         if u >= self.p { u - self.p } else { u }
     }
 
+    /// `a·x - b·y` with one reduction.
+    #[inline(always)]
+    #[must_use]
+    pub fn cross(self, a: Residue, x: Residue, b: Residue, y: Residue) -> Residue {
+        // Below 2p² < 2^64·p/2, so the quotient is below 3p/2.
+        let t = u128::from(a) * u128::from(x) + u128::from(b) * u128::from(self.p - y);
+        let m = (t as u64).wrapping_mul(self.neg_inv);
+        let u = ((t + u128::from(m) * u128::from(self.p)) >> 64) as u64;
+        if u >= self.p { u - self.p } else { u }
+    }
+
     /// Sum of two residues.
     #[inline(always)]
     #[must_use]
@@ -298,6 +309,9 @@ mod tests {
             prop_assert_eq!(f.to_u64(f.mul(x, y)), wide(i128::from(a) * i128::from(b)));
             prop_assert_eq!(f.to_u64(f.add(x, y)), wide(i128::from(a) + i128::from(b)));
             prop_assert_eq!(f.to_u64(f.sub(x, y)), wide(i128::from(a) - i128::from(b)));
+            let (c, d) = (i64::from(b as i32), i64::from(a as i32));
+            let cross = i128::from(a) * i128::from(c) - i128::from(b) * i128::from(d);
+            prop_assert_eq!(f.to_u64(f.cross(x, f.from_i64(c), y, f.from_i64(d))), wide(cross));
             if x != 0 {
                 prop_assert_eq!(f.mul(x, f.inv(x)), f.one());
             }

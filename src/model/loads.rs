@@ -34,8 +34,8 @@ pub struct ExternalForce {
     pub point: [Expr; 3],
     /// The force `[N]` in global axes.
     pub force: [Expr; 3],
-    /// The range of the first drive's position it acts in, ends included; always where `None`. Radians, or the file's
-    /// length unit.
+    /// The range of the first drive's position it acts in, ends included, again in each turn; always where `None`. Radians,
+    /// or the file's length unit.
     pub range: Option<[f64; 2]>,
 }
 

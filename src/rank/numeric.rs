@@ -1,8 +1,11 @@
-//! Rank from singular values in double precision.
+//! Rank from singular values in double precision, on J scaled so that units do not matter.
 
+use super::method::{Answer, MobilityMethod, NoAnswer};
+pub use super::scaled::NumericRank;
+use super::scaled::{answer, rank_of_values, scaled};
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
-use faer::Mat;
+use crate::model::mechanism::{Mechanism, StateId};
 use thiserror::Error;
 
 /// Singular values below this fraction of the largest count as zero unless the caller says otherwise.
@@ -19,15 +22,18 @@ pub enum NumericError {
     NoConvergence,
 }
 
-/// A rank with the gap in the singular values that it rests on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NumericRank {
-    /// Number of singular values above the tolerance.
-    pub rank: usize,
-    /// The smallest kept singular value over the largest; 1 where none is kept.
-    pub kept: f64,
-    /// The largest dropped singular value over the largest; 0 where none is dropped.
-    pub dropped: f64,
+/// Singular values of the scaled J, with the gap.
+#[derive(Debug, Clone, Copy)]
+pub struct Svd {
+    /// Singular values below this fraction of the largest count as zero.
+    pub tolerance: f64,
+}
+
+impl Svd {
+    /// With [`DEFAULT_TOLERANCE`].
+    pub const DEFAULT: Svd = Svd {
+        tolerance: DEFAULT_TOLERANCE,
+    };
 }
 
 /// Rank of J with the default tolerance, see [`rank_with_tolerance`].
@@ -50,69 +56,39 @@ pub fn rank_with_tolerance(
     closure: &Closure<f64>,
     tolerance: f64,
 ) -> Result<NumericRank, NumericError> {
-    let mut columns = closure.dense(&Reals);
-    let (dim, turns) = (closure.dim, closure.dim / 2);
-    let is_velocity = |row: usize| row % dim >= turns;
-    // Unit turns first, so that the velocity entries are lever arms, whatever the length of the axes in the file.
-    let normalise = |column: &mut Vec<f64>| {
-        let turn = column
-            .iter()
-            .enumerate()
-            .filter(|(r, _)| !is_velocity(*r))
-            .map(|(_, x)| x * x)
-            .sum::<f64>()
-            .sqrt();
-        if turn > 0.0 {
-            column.iter_mut().for_each(|x| *x /= turn);
-        }
-        turn > 0.0
-    };
-    let turning: Vec<bool> = columns.iter_mut().map(normalise).collect();
-    let arm = columns
-        .iter()
-        .zip(&turning)
-        .filter(|(_, t)| **t)
-        .flat_map(|(c, _)| {
-            c.iter()
-                .enumerate()
-                .filter(|(r, _)| is_velocity(*r))
-                .map(|(_, x)| x.abs())
-        })
-        .fold(0.0, f64::max);
-    for column in &mut columns {
-        if arm > 0.0 {
-            column
-                .iter_mut()
-                .enumerate()
-                .filter(|(r, _)| is_velocity(*r))
-                .for_each(|(_, x)| *x /= arm);
-        }
-        let length = column.iter().map(|x| x * x).sum::<f64>().sqrt();
-        if length > 0.0 {
-            column.iter_mut().for_each(|x| *x /= length);
-        }
+    let matrix = scaled(closure);
+    if matrix.nrows() == 0 || matrix.ncols() == 0 {
+        return Ok(rank_of_values(Vec::new(), tolerance));
     }
-    if columns.is_empty() || closure.rows() == 0 {
-        return Ok(NumericRank {
-            rank: 0,
-            kept: 1.0,
-            dropped: 0.0,
-        });
-    }
-    let matrix = Mat::from_fn(closure.rows(), columns.len(), |r, c| columns[c][r]);
-    let mut values = matrix
+    let values = matrix
         .singular_values()
         .map_err(|_| NumericError::NoConvergence)?;
     if values.iter().any(|v| !v.is_finite()) {
         return Err(NumericError::NoConvergence);
     }
-    values.sort_by(|a, b| b.total_cmp(a));
-    let largest = values[0];
-    let rank = values.iter().filter(|&&v| v > tolerance * largest).count();
-    let relative = |i: usize| values.get(i).map(|v| v / largest);
-    Ok(NumericRank {
-        rank,
-        kept: rank.checked_sub(1).and_then(relative).unwrap_or(1.0),
-        dropped: relative(rank).unwrap_or(0.0),
-    })
+    Ok(rank_of_values(values, tolerance))
+}
+
+impl MobilityMethod for Svd {
+    fn name(&self) -> &'static str {
+        "svd"
+    }
+    fn title(&self) -> &'static str {
+        "f64 singular values"
+    }
+    fn guarantee(&self) -> &'static str {
+        "right at this pose where the gap in the singular values holds the tolerance"
+    }
+    fn complexity(&self) -> &'static str {
+        "O(6k f min(6k, f)), some 10 times LU"
+    }
+    fn source(&self) -> &'static str {
+        "Golub & Van Loan, Matrix Computations, 2013, 5.5.8"
+    }
+    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+        let closure = Closure::new(&Reals, mechanism, state)?;
+        let rank = rank_with_tolerance(&closure, self.tolerance)
+            .map_err(|e| NoAnswer::Failed(e.to_string()))?;
+        Ok(answer(&closure, rank, self.tolerance))
+    }
 }

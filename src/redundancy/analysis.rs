@@ -1,17 +1,19 @@
 //! The structure of a mechanism in each of its states.
 
-use crate::closure::contour::Contour;
 use crate::closure::matrix::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::expr::Expr;
 use crate::geom::scalars::Reals;
-use crate::linalg::echelon::{self, Echelon};
+use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};
+use crate::rank::finite::{Finite, finite};
 use crate::rank::numeric::{self, NumericError};
 use crate::rank::{Certainty, modular};
 use crate::redundancy::idle::{Idle, idle_motions};
 use crate::redundancy::motion::{Speeds, motions, twist};
+pub use crate::redundancy::share::ContourShare;
+use crate::redundancy::share::shares;
 use crate::redundancy::stress::{SelfStress, self_stresses};
 use thiserror::Error;
 
@@ -53,17 +55,6 @@ pub enum AnalysisError {
     },
 }
 
-/// Redundant constraints of one contour.
-#[derive(Debug, Clone)]
-pub struct ContourShare {
-    /// The contour.
-    pub contour: Contour,
-    /// σ_i when contours are added in the order reported.
-    pub redundant: usize,
-    /// Least and greatest σ_i over all orders.
-    pub range: (usize, usize),
-}
-
 /// The external constraints of a state, counted and by rank.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct External {
@@ -100,6 +91,8 @@ pub struct StateAnalysis {
     pub rank: usize,
     /// W = f - rank, instantaneous.
     pub mobility: usize,
+    /// The mobility that is really there, and how that is known.
+    pub finite: Finite,
     /// Dimension of the output links' joint motion.
     pub working_mobility: usize,
     /// Dimension of the motions that leave every output at rest.
@@ -221,6 +214,7 @@ fn analyse_state(
         rows: closure.rows(),
         rank,
         mobility: freedoms - rank,
+        finite: finite(exact, mechanism, &closure, ranks[0])?,
         working_mobility,
         local_mobility: kernel.len() - working_mobility,
         redundant: closure.rows() - rank,
@@ -274,35 +268,6 @@ fn span_of_links(
         span.insert(&all);
     }
     span.rank()
-}
-
-/// σ_i of each contour in the order of the basis, and its range over all orders.
-///
-/// Adding a contour to more contours never adds more rank (rank is submodular), so σ_i is least when the contour is
-/// added first and greatest when it is added last: no order need be tried.
-fn shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShare> {
-    let rank_of = |contours: &[usize]| {
-        let columns: Vec<Vec<Residue>> = (0..closure.columns.len())
-            .map(|c| closure.dense_column(exact, c, contours))
-            .collect();
-        echelon::rank(exact.field(), columns.iter().map(Vec::as_slice))
-    };
-    let all: Vec<usize> = (0..closure.contours.len()).collect();
-    let whole = rank_of(&all);
-    let prefix: Vec<usize> = (0..=all.len()).map(|i| rank_of(&all[..i])).collect();
-    all.iter()
-        .map(|&i| {
-            let others: Vec<usize> = all.iter().copied().filter(|&j| j != i).collect();
-            ContourShare {
-                contour: closure.contours[i].clone(),
-                redundant: closure.dim + prefix[i] - prefix[i + 1],
-                range: (
-                    closure.dim - rank_of(&[i]),
-                    closure.dim + rank_of(&others) - whole,
-                ),
-            }
-        })
-        .collect()
 }
 
 fn external(

@@ -22,7 +22,7 @@ pub struct Idle {
 /// A basis of the motions that leave the outputs at rest: motions of one link alone first, then what is left.
 ///
 /// # Complexity
-/// One elimination per link, O(n · W² · f).
+/// O(n · W · f) for the twists of n links, and one elimination per link, O(n · W² · n).
 #[must_use]
 pub fn idle_motions(
     exact: &ExactField,
@@ -43,13 +43,19 @@ pub fn idle_motions(
         .iter()
         .map(|&l| closure.link_motion(exact, mechanism, l))
         .collect();
+    // What each link does under each of the kernel's motions.
+    let moves: Vec<Vec<Vec<Residue>>> = motion
+        .iter()
+        .map(|m| kernel.iter().map(|k| twist(exact, m, k)).collect())
+        .collect();
     // Motions (as combinations of the kernel's) under which the given links rest.
     let resting = |rest: &dyn Fn(LinkId) -> bool| -> Vec<Speeds> {
         let images: Vec<Vec<Residue>> = kernel
             .iter()
-            .map(|k| {
-                let parts = links.iter().zip(&motion).filter(|(l, _)| rest(**l));
-                let mut image: Vec<Residue> = parts.flat_map(|(_, m)| twist(exact, m, k)).collect();
+            .enumerate()
+            .map(|(k, _)| {
+                let parts = links.iter().zip(&moves).filter(|(l, _)| rest(**l));
+                let mut image: Vec<Residue> = parts.flat_map(|(_, m)| m[k].clone()).collect();
                 image.push(0);
                 image
             })

@@ -45,6 +45,27 @@ pub struct SelfStress {
     pub verdict: Verdict,
 }
 
+/// The left kernel of J in the echelon form that keeps to the earliest contours it can: each vector ends in a one that
+/// no other vector has an entry at, and they are sorted by where they end.
+///
+/// # Complexity
+/// One elimination of J by rows, see [`relations`].
+#[must_use]
+pub fn stress_basis(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Vec<Residue>> {
+    let columns = closure.dense(exact);
+    let mut rows = if columns.is_empty() {
+        vec![vec![0]; closure.rows()]
+    } else {
+        transpose(&columns)
+    };
+    // Reversing the order of coordinates makes the reduced form keep to the earliest contours it can.
+    rows.reverse();
+    let mut stresses = relations(exact.field(), &rows);
+    stresses.iter_mut().for_each(|v| v.reverse());
+    stresses.reverse();
+    stresses
+}
+
 /// A sparse basis of the self-stresses of a state: those of the free state's contours first, then those that need the
 /// additional ones; among the latter, friction at the contacts first.
 ///
@@ -59,22 +80,7 @@ pub fn self_stresses(
     closure: &Closure<Residue>,
 ) -> Result<Vec<SelfStress>, ExactError> {
     let f = exact.field();
-    let columns = closure.dense(exact);
-    let rows = if columns.is_empty() {
-        vec![vec![0]; closure.rows()]
-    } else {
-        transpose(&columns)
-    };
-    // Reversing the order of coordinates makes the reduced form keep to the earliest contours it can.
-    let mut all = relations(f, &rows);
-    all.iter_mut().for_each(|v| v.reverse());
-    let mut sparse = Echelon::new(f);
-    all.iter().for_each(|v| {
-        sparse.insert(v);
-    });
-    let mut stresses = sparse.reduced();
-    stresses.iter_mut().for_each(|v| v.reverse());
-    stresses.reverse();
+    let stresses = stress_basis(exact, closure);
     let own: Vec<JointId> = mechanism.joints_in(0).collect();
     let added: Vec<JointId> = mechanism
         .joints_in(closure.state)
@@ -85,16 +91,17 @@ pub fn self_stresses(
         .iter()
         .map(|j| FrameValues::new(exact, &j.frame))
         .collect::<Result<_, _>>()?;
+    let mut passes: Vec<Vec<(usize, bool)>> = vec![Vec::new(); mechanism.joints.len()];
+    for (i, c) in closure.contours.iter().enumerate() {
+        for &(j, forward) in &c.joints {
+            passes[j].push((i, forward));
+        }
+    }
     let wrench = |stress: &[Residue], j: JointId| -> Vec<Residue> {
         let mut out = vec![0; closure.dim];
-        for (i, c) in closure.contours.iter().enumerate() {
-            if let Some(forward) = c.direction(j) {
-                f.accumulate(
-                    &mut out,
-                    &stress[i * closure.dim..(i + 1) * closure.dim],
-                    forward,
-                );
-            }
+        for &(i, forward) in &passes[j] {
+            let block = &stress[i * closure.dim..(i + 1) * closure.dim];
+            f.accumulate(&mut out, block, forward);
         }
         out
     };

@@ -55,6 +55,12 @@ fn state(
     )?;
     writeln!(
         out,
+        "  finite mobility {}: {}",
+        s.finite.mobility,
+        s.finite.describe()
+    )?;
+    writeln!(
+        out,
         "  σ = {rows} - rank = {}  (= W + {rows} - f)",
         s.redundant
     )?;

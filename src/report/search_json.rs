@@ -1,8 +1,13 @@
 //! A search as JSON; the keys are a stable contract. Counts are strings, since they outgrow 2^53.
 
+use crate::model::measured::Measured;
+use crate::rank::measured::Verdicts;
 use crate::search::best::Variant;
+use crate::search::certify::{Certified, Opinion, Summary};
+use crate::search::counts::Counts;
 use crate::search::diagram::Diagram;
-use crate::search::request::{Counts, Search};
+use crate::search::primes::Verdict;
+use crate::search::request::Search;
 use crate::search::space::choice_name;
 use num_bigint::BigUint;
 use serde_json::{Map, Value, json};
@@ -23,6 +28,10 @@ pub struct Found<'a> {
     pub diagrams: Option<(&'a Diagram, &'a Diagram)>,
     /// Why the search ended.
     pub stop: &'static str,
+    /// The primes of the search and its twin, and whether they agree; `None` where there is no twin.
+    pub check: Option<([u64; 2], Verdict)>,
+    /// Why the geometry looks measured, with the verdicts on the mechanism as it is; `None` where it looks exact.
+    pub measured: Option<(Measured, Vec<Verdicts>)>,
 }
 
 fn counts<K: ToString>(of: &BTreeMap<K, BigUint>) -> Map<String, Value> {
@@ -111,13 +120,63 @@ pub fn header(found: &Found<'_>) -> Map<String, Value> {
         json!({"largest_layer": largest.map(|x| x.1), "nodes": nodes.map(|x| x.1)}),
     );
     put("stop", json!(found.stop));
+    let check = found.check.map(|(primes, verdict)| {
+        // Interrupted diagrams stop at different places: neither yes nor no.
+        let agree = (verdict == Verdict::Agree).then_some(true);
+        json!({"primes": primes.map(|p| p.to_string()), "agree": agree})
+    });
+    put("check", json!(check));
+    put("measured", json!(found.measured.as_ref().map(measured)));
     put("exact", json!(found.stop == "exhausted"));
+    out
+}
+
+fn measured((why, verdicts): &(Measured, Vec<Verdicts>)) -> Value {
+    let figures = |(mobility, redundant): (usize, usize)| json!({"mobility": mobility, "redundant": redundant});
+    let states = verdicts.iter().map(|v| {
+        json!({
+            "state": v.state,
+            "exact": figures(v.figures(v.exact)),
+            "svd": figures(v.figures(v.numeric.rank)),
+            "smallest_kept": v.numeric.kept,
+            "largest_dropped": v.numeric.dropped,
+        })
+    });
+    json!({
+        "coordinates": why.coordinates,
+        "example": {"place": why.place, "value": why.value},
+        "tolerance": why.tolerance(),
+        "agree": verdicts.iter().all(Verdicts::agree),
+        "states": states.collect::<Vec<_>>(),
+    })
+}
+
+/// What follows the variants; `complete` unless their giving was interrupted.
+#[must_use]
+pub fn tail(summary: &Summary, complete: bool) -> Map<String, Value> {
+    let mut out = Map::new();
+    let mut put = |k: &str, v: Value| out.insert(k.to_owned(), v);
+    put("variants_complete", json!(complete));
+    put("variants_checked", json!(summary.checked));
+    put("variants_disagreeing", json!(summary.disagreeing));
+    put("variants_check_failed", json!(summary.failed));
     out
 }
 
 /// One variant; `position` counts from 1.
 #[must_use]
-pub fn variant(search: &Search<'_>, variant: &Variant, position: usize) -> Value {
+pub fn variant(search: &Search<'_>, certified: &Certified, position: usize) -> Value {
+    let (variant, opinion) = (&certified.variant, certified.second.opinion());
+    let svd = |o: &Opinion| {
+        json!({
+            "mobility": o.mobility,
+            "redundant": o.redundant,
+            "external_redundant": o.external,
+            "output_mobility": o.output,
+            "smallest_kept": o.conditioning,
+            "largest_dropped": o.dropped,
+        })
+    };
     json!({
         "position": position,
         "cost": cost_number(search.steps.milli(variant.key.cost())),
@@ -127,6 +186,9 @@ pub fn variant(search: &Search<'_>, variant: &Variant, position: usize) -> Value
         "changes": changes(search, variant).into_iter()
             .map(|(joint, from, to)| json!({"joint": joint, "from": from, "to": to})).collect::<Vec<_>>(),
         "scores": {},
+        "conditioning": opinion.map(|o| o.conditioning),
+        "agree": opinion.map(|o| o.agree),
+        "svd": opinion.map(svd),
     })
 }
 

@@ -2,7 +2,8 @@
 
 use crate::report::search_json::{Found, changes};
 use crate::report::words::{cost, grouped, table};
-use crate::search::best::Variant;
+use crate::search::certify::{Certified, NEARLY_SINGULAR, Second, Summary};
+use crate::search::primes::Verdict;
 use crate::search::request::Search;
 use itertools::Itertools;
 use num_traits::Zero;
@@ -68,6 +69,12 @@ pub fn counts(found: &Found<'_>, width: Option<u16>) -> String {
             big(&found.admissible.total)
         );
     }
+    if let Some(([p, q], verdict)) = found.check {
+        let _ = match verdict {
+            Verdict::Agree => writeln!(out, "  Checked: modulo {p} and {q} the same"),
+            Verdict::Interrupted => writeln!(out, "  Not checked by a second prime: interrupted"),
+        };
+    }
     if found.stop != "exhausted" {
         let _ = writeln!(
             out,
@@ -108,8 +115,15 @@ pub fn counts(found: &Found<'_>, width: Option<u16>) -> String {
 
 /// Some variants, numbered on from `first`.
 #[must_use]
-pub fn variants(search: &Search<'_>, best: &[Variant], first: usize, width: Option<u16>) -> String {
-    let rows = best.iter().enumerate().map(|(i, v)| {
+pub fn variants(
+    search: &Search<'_>,
+    best: &[Certified],
+    first: usize,
+    width: Option<u16>,
+) -> String {
+    let checked = best.iter().any(|v| v.second != Second::Unasked);
+    let rows = best.iter().enumerate().map(|(i, certified)| {
+        let v = &certified.variant;
         let mut changed: Vec<(String, Vec<String>)> = Vec::new();
         for (joint, _, to) in changes(search, v) {
             match changed.iter_mut().find(|(t, _)| *t == to) {
@@ -125,17 +139,99 @@ pub fn variants(search: &Search<'_>, best: &[Variant], first: usize, width: Opti
             Some(_) => format!("{} + {}", v.key.internal(), v.key.external()),
             None => v.key.internal().to_string(),
         };
-        vec![
-            (i + first).to_string(),
+        let mut row = vec![
+            format!("{}{}", i + first, mark(certified)),
             cost(search.steps.milli(v.key.cost())),
             search.mobility(v.key).to_string(),
             sigma,
-            if changed.is_empty() {
-                "none: the mechanism as it is".to_owned()
-            } else {
-                changed
-            },
-        ]
+        ];
+        if checked {
+            let of = |o: &crate::search::certify::Opinion| format!("{:.1e}", o.conditioning);
+            row.push(certified.second.opinion().map_or(String::new(), of));
+        }
+        row.push(if changed.is_empty() {
+            "none: the mechanism as it is".to_owned()
+        } else {
+            changed
+        });
+        row
     });
-    table(&["", "cost", "W", "σ", "changes"], rows.collect(), width)
+    let head: &[&str] = if checked {
+        &["", "cost", "W", "σ", "cond.", "changes"]
+    } else {
+        &["", "cost", "W", "σ", "changes"]
+    };
+    table(head, rows.collect(), width)
+}
+
+/// The mark of a variant that a footnote tells about.
+fn mark(certified: &Certified) -> &'static str {
+    match &certified.second {
+        Second::Unasked => "",
+        Second::Failed => " ?",
+        Second::Given(o) if !o.agree => " *",
+        Second::Given(o) if o.conditioning < NEARLY_SINGULAR => " ~",
+        Second::Given(_) => "",
+    }
+}
+
+/// The footnote of a marked variant.
+#[must_use]
+pub fn note(certified: &Certified, position: usize) -> Option<String> {
+    match &certified.second {
+        Second::Unasked => None,
+        Second::Failed => Some(format!(
+            "? {position}: the singular values did not converge"
+        )),
+        Second::Given(o) if !o.agree => {
+            let external = o.external.map_or(String::new(), |e| format!(" + {e}"));
+            let output = o
+                .output
+                .map_or(String::new(), |m| format!(", output mobility {m}"));
+            Some(format!(
+                "* {position}: by singular values W = {}, σ = {}{external}{output} (smallest kept {:.1e}, largest \
+                 dropped {:.1e}); do not trust either without a look at the geometry",
+                o.mobility, o.redundant, o.conditioning, o.dropped
+            ))
+        }
+        Second::Given(o) if o.conditioning < NEARLY_SINGULAR => Some(format!(
+            "~ {position}: nearly singular, smallest singular value {:.1e} of the largest: small errors of manufacture \
+             may change its figures",
+            o.conditioning
+        )),
+        Second::Given(_) => None,
+    }
+}
+
+/// Footnotes told at most.
+const NOTES: usize = 20;
+
+/// What the singular values say of a list, with its footnotes.
+#[must_use]
+pub fn notes(summary: &Summary, notes: &[String]) -> String {
+    let mut out = String::new();
+    if summary.checked + summary.failed == 0 {
+        return out;
+    }
+    let asked = grouped(&(summary.checked + summary.failed).to_string());
+    let which = if summary.given > summary.checked + summary.failed {
+        format!("the first {asked}; the rest was not asked about")
+    } else {
+        format!("all {asked}")
+    };
+    let wrong = summary.disagreeing + summary.failed;
+    let verdict = if wrong == 0 {
+        format!("Singular values agree on {which}")
+    } else {
+        format!("Singular values disagree on {wrong} of {which}")
+    };
+    // Writing to a string cannot fail.
+    let _ = writeln!(out, "\n  {verdict} (cond.: the smallest over the largest)");
+    for n in notes.iter().take(NOTES) {
+        let _ = writeln!(out, "  {n}");
+    }
+    if notes.len() > NOTES {
+        let _ = writeln!(out, "  and {} more marked", notes.len() - NOTES);
+    }
+    out
 }

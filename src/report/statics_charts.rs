@@ -4,6 +4,7 @@ use crate::chart::{Axis, Chart, Scale, Series, Style};
 use crate::report::statics_words::{
     GroupMethod, disagreement, drive_position, group, magnitudes, prefix,
 };
+use crate::workload::kinetostatics::Source;
 use crate::workload::planar::PairId;
 use crate::workload::stability::{Failure, Sample};
 use crate::workload::statics::{Moment, Statics};
@@ -40,11 +41,24 @@ fn drive_axis(s: &Statics) -> Axis {
     linear(format!("position of drive {}, {unit}", name.unwrap_or("")))
 }
 
-/// Values over the cycle, one series a name.
+/// How many forces from outside act.
+fn acting(x: &Moment) -> usize {
+    let outside = x.loads.iter().filter(|l| l.source == Source::External);
+    outside.count()
+}
+
+/// Values over the cycle, one series a name; where forces set in or end the lines are broken.
 fn over(s: &Statics, f: impl Fn(&Moment) -> Vec<(String, f64)>) -> Vec<Series> {
     let mut series: Vec<Series> = Vec::new();
+    let mut before = s.moments.first().map_or(0, acting);
     for x in &s.moments {
         let at = drive_position(s, x.instant.drive);
+        if acting(x) != before {
+            series
+                .iter_mut()
+                .for_each(|e| e.points.push((at, f64::NAN)));
+            before = acting(x);
+        }
         for (name, value) in f(x) {
             match series.iter_mut().find(|e| e.name == name) {
                 Some(e) => e.points.push((at, value)),
@@ -103,13 +117,19 @@ pub fn cycle(name: &str, s: &Statics, methods: &[GroupMethod]) -> Vec<Named> {
                 series,
             },
         ));
+        let far = 2.0 * s.linkage.size;
         let series = over(s, |x| {
             let found = x.groups.get(i).and_then(|g| Some((g, shown.of(g)?)));
             let guide = s.linkage.place(&x.instant.pose, letters.guide);
+            // Far out the line only says that the reaction changes its sign.
+            let near = |x: f64| if x.abs() <= far { x } else { f64::NAN };
             let all = found.map(|(g, r)| {
                 [
-                    ("arm h about D", r.arm),
-                    ("offset along the guide", r.guide_offset(&g.pose, guide)),
+                    ("arm h about D", near(r.arm)),
+                    (
+                        "offset along the guide",
+                        near(r.guide_offset(&g.pose, guide)),
+                    ),
                 ]
             });
             all.into_iter()
@@ -125,7 +145,7 @@ pub fn cycle(name: &str, s: &Statics, methods: &[GroupMethod]) -> Vec<Named> {
                     m.bodies[letters.slider].name
                 ),
                 subtitle: format!(
-                    "Point of application of the reaction of {}",
+                    "Point of application of the reaction of {}; broken where it vanishes",
                     place(letters.guide)
                 ),
                 x: drive_axis(s),
@@ -259,9 +279,11 @@ pub fn stability(failure: Failure, samples: &[Sample]) -> Named {
         let worst = |s: &Sample| s.forces.into_iter().fold(0.0, f64::max);
         series.push(line("forces, worst of the three", Style::Dashed, &worst));
     } else {
-        series.push(line("condition of LU · 2^-53", Style::Dashed, &|s| {
-            s.condition * f64::EPSILON / 2.0
-        }));
+        series.push(line(
+            "condition of LU × rounding unit",
+            Style::Dashed,
+            &|s| s.condition * f64::EPSILON / 2.0,
+        ));
     }
     let (title, subtitle, x) = words(failure);
     let chart = Chart {

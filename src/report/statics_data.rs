@@ -1,10 +1,10 @@
 //! Statics as JSON and CSV, in SI units.
 
 use crate::report::statics_words::GroupMethod;
-use crate::workload::assur::{AssurError, Decomposition};
+use crate::workload::assur::{Decomposition, Group};
 use crate::workload::contour_group::{GroupPose, GroupReactions};
 use crate::workload::planar::{PairId, PlanarMechanism};
-use crate::workload::statics::{GroupSolutions, Moment, Statics};
+use crate::workload::statics::{GroupSolutions, Moment, Statics, Structure};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -18,25 +18,12 @@ fn names<'a>(s: &'a Statics, pairs: &[PairId]) -> Vec<&'a str> {
 pub fn json(name: &str, s: &Statics, methods: &[GroupMethod]) -> Value {
     let (m, d) = (&s.linkage.mechanism, &s.decomposition);
     let body = |b: usize| m.bodies[b].name.as_str();
-    let groups = d.groups.iter().enumerate().map(|(i, g)| {
-        json!({
-            "links": g.bodies.iter().map(|&b| body(b)).collect::<Vec<_>>(),
-            "class": g.class.class,
-            "order": g.class.order,
-            "kind": g.class.to_string(),
-            "inner": names(s, &g.inner),
-            "outer": names(s, &g.outer),
-            "locked": names(s, &g.locked),
-            "mobility": g.mobility(),
-            "condition": s.conditions.get(i),
-        })
-    });
     json!({
         "mechanism": name,
         "drives": names(s, &d.drives),
         "driven": d.driven.iter().map(|&b| body(b)).collect::<Vec<_>>(),
         "class": d.class(),
-        "groups": groups.collect::<Vec<_>>(),
+        "groups": groups(m, d, &s.conditions),
         "positions": s.moments.iter().map(|x| position(s, x, methods)).collect::<Vec<_>>(),
         "stopped": s.dead.as_ref().map(|dead| json!({
             "drive": dead.drive,
@@ -82,6 +69,7 @@ fn position(s: &Statics, x: &Moment, methods: &[GroupMethod]) -> Value {
         "reactions": reactions.collect::<Vec<_>>(),
         "condition": x.whole.as_ref().map(|e| e.condition),
         "residual": x.whole.as_ref().map(|e| e.residual),
+        "by_groups": x.by_groups.iter().flatten().map(|e| json!({"condition": e.condition, "residual": e.residual})).collect::<Vec<_>>(),
         "drive_power": x.drive_power,
         "load_power": x.load_power,
         "contour_groups": groups.collect::<Vec<_>>(),
@@ -189,31 +177,33 @@ fn guide_moment(r: &GroupReactions, pose: &GroupPose, about: [f64; 2]) -> f64 {
 
 /// The structure under every drive.
 #[must_use]
-pub fn alternatives(
-    name: &str,
-    m: &PlanarMechanism,
-    found: &[(PairId, Result<Decomposition, AssurError>)],
-) -> Value {
-    let pairs = |list: &[PairId]| {
-        list.iter()
-            .map(|&p| m.pairs[p].name.clone())
-            .collect::<Vec<_>>()
-    };
-    let one = |(p, d): &(PairId, Result<Decomposition, AssurError>)| match d {
-        Err(e) => json!({"drive": m.pairs[*p].name, "error": e.to_string()}),
-        Ok(d) => json!({
-            "drive": m.pairs[*p].name,
+pub fn structures(name: &str, m: &PlanarMechanism, found: &[Structure]) -> Value {
+    let one = |x: &Structure| match &x.found {
+        Err(e) => json!({"drive": m.pairs[x.drive].name, "error": e.to_string()}),
+        Ok((d, conditions)) => json!({
+            "drive": m.pairs[x.drive].name,
             "class": d.class(),
-            "groups": d.groups.iter().map(|g| json!({
-                "links": g.bodies.iter().map(|&b| m.bodies[b].name.as_str()).collect::<Vec<_>>(),
-                "class": g.class.class,
-                "order": g.class.order,
-                "kind": g.class.to_string(),
-                "inner": pairs(&g.inner),
-                "outer": pairs(&g.outer),
-                "locked": pairs(&g.locked),
-            })).collect::<Vec<_>>(),
+            "groups": groups(m, d, conditions),
         }),
     };
     json!({"mechanism": name, "drives": found.iter().map(one).collect::<Vec<_>>()})
+}
+
+fn groups(m: &PlanarMechanism, d: &Decomposition, conditions: &[f64]) -> Vec<Value> {
+    let pairs =
+        |list: &[PairId]| -> Vec<&str> { list.iter().map(|&p| m.pairs[p].name.as_str()).collect() };
+    let one = |(i, g): (usize, &Group)| {
+        json!({
+            "links": g.bodies.iter().map(|&b| m.bodies[b].name.as_str()).collect::<Vec<_>>(),
+            "class": g.class.class,
+            "order": g.class.order,
+            "kind": g.class.to_string(),
+            "inner": pairs(&g.inner),
+            "outer": pairs(&g.outer),
+            "locked": pairs(&g.locked),
+            "mobility": g.mobility(),
+            "condition": conditions.get(i),
+        })
+    };
+    d.groups.iter().enumerate().map(one).collect()
 }

@@ -5,9 +5,9 @@ use crate::report::statics_words::{
     pairs, prefix,
 };
 use crate::report::words::{plural, table};
-use crate::workload::assur::{AssurError, Decomposition};
+use crate::workload::assur::{Decomposition, Group};
 use crate::workload::planar::{PairId, PlanarMechanism};
-use crate::workload::statics::Statics;
+use crate::workload::statics::{Statics, Structure};
 use itertools::Itertools;
 use std::fmt::Write;
 
@@ -45,44 +45,47 @@ fn roman(class: usize) -> String {
         .map_or_else(|| class.to_string(), |r| (*r).to_owned())
 }
 
+/// Above this, a group counts as singular in the pose.
+const SINGULAR: f64 = 1e12;
+
 /// The structure under every drive.
 #[must_use]
-pub fn alternatives(
+pub fn structures(
     name: &str,
     m: &PlanarMechanism,
-    found: &[(PairId, Result<Decomposition, AssurError>)],
+    found: &[Structure],
     width: Option<u16>,
 ) -> String {
-    let rows = found.iter().map(|(p, d)| {
-        let mut row = vec![m.pairs[*p].name.clone()];
-        match d {
-            Ok(d) => row.extend([
-                roman(d.class()),
-                d.groups
-                    .iter()
-                    .map(|g| {
-                        let inside = if g.locked.is_empty() {
-                            ""
-                        } else {
-                            ", the drive inside"
-                        };
-                        format!("{} ({}{inside})", bodies(m, &g.bodies), g.class)
-                    })
-                    .join("; "),
-            ]),
+    let rows = found.iter().map(|x| {
+        let mut row = vec![m.pairs[x.drive].name.clone()];
+        match &x.found {
+            Ok((d, conditions)) => {
+                let group = |(g, c): (&Group, &f64)| {
+                    let inside = if g.locked.is_empty() {
+                        ""
+                    } else {
+                        ", the drive inside"
+                    };
+                    let singular = if *c > SINGULAR {
+                        ", singular in this pose"
+                    } else {
+                        ""
+                    };
+                    format!("{} ({}{inside}{singular})", bodies(m, &g.bodies), g.class)
+                };
+                let groups = d.groups.iter().zip(conditions).map(group);
+                row.extend([roman(d.class()), groups.collect_vec().join("; ")]);
+            }
             Err(e) => row.extend(["-".to_owned(), e.to_string()]),
         }
         row
     });
-    let table = table(
-        &[
-            "drive",
-            "class",
-            "Assur groups, in the order they are placed",
-        ],
-        rows.collect(),
-        width,
-    );
+    let header = [
+        "drive",
+        "class",
+        "Assur groups, in the order they are placed",
+    ];
+    let table = table(&header, rows.collect(), width);
     format!("{name}: structure under each drive, those at the frame first\n\n{table}\n")
 }
 
@@ -117,11 +120,20 @@ fn write_statics(
     if !d.groups.is_empty() {
         writeln!(out, "{}\n", groups(m, d, &s.conditions, width))?;
     }
-    for (i, (index, _)) in s.contour_groups.iter().enumerate() {
+    let loaded = s.moments.iter().any(|x| !x.loads.is_empty());
+    for (i, (index, _)) in s.contour_groups.iter().enumerate().filter(|_| loaded) {
         group_table(out, s, i, *index, methods, width)?;
     }
-    joints(out, s, width)?;
-    summary(out, s, methods)?;
+    let loads = &s.loads;
+    if loads.forces.is_empty() && loads.masses.iter().all(Option::is_none) {
+        writeln!(
+            out,
+            "The file states no loads: give links a mass and centre, or forces under [[workload.force]]."
+        )?;
+    } else {
+        joints(out, s, width)?;
+        summary(out, s, methods)?;
+    }
     if let Some(dead) = &s.dead {
         let who = dead.group.map_or_else(
             || "the drives".to_owned(),

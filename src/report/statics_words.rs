@@ -85,10 +85,14 @@ pub fn drive_position(s: &Statics, value: f64) -> f64 {
     }
 }
 
-/// Degrees, or a length.
+/// Degrees, or the file's length unit.
 #[must_use]
 pub fn drive_unit(s: &Statics) -> &'static str {
-    if s.drive_slides() { "length" } else { "deg" }
+    if s.drive_slides() {
+        s.linkage.mechanism.unit
+    } else {
+        "deg"
+    }
 }
 
 /// Thousands of newtons and the like: the factor to divide by and the prefix, for values up to `greatest`.

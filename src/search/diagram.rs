@@ -180,7 +180,7 @@ pub fn build(
     stages: &[Stage],
     limits: &Limits,
     cancelled: &(dyn Fn() -> bool + Sync),
-    progress: &mut dyn FnMut(Progress),
+    progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
     let mut nodes = Nodes::root();
     let mut layers = Vec::with_capacity(stages.len());

@@ -7,8 +7,9 @@
 //! does not matter, so the decomposition is unique.
 //!
 //! # Sources
-//! L. W. Assur, 1914-1918; A. Sljoka, O. Shai, W. Whiteley, "Checking mobility and decomposition of linkages via pebble
-//! game algorithm", ASME DETC2011-48340 (the components are the Assur groups).
+//! A. Sljoka, O. Shai, W. Whiteley, "Checking mobility and decomposition of linkages via pebble game algorithm", ASME IDETC
+//! 2011; B. Servatius, O. Shai, W. Whiteley, "Combinatorial characterization of the Assur graphs from engineering",
+//! arXiv:0801.2525, 2008 (the components are the Assur groups).
 
 use crate::workload::assur_class::{Class, classify};
 use crate::workload::planar::{BodyId, PairId, PairKind, PlanarMechanism};

@@ -74,7 +74,7 @@ impl fmt::Display for Class {
 /// O(n·p²) for n bodies and p pairs of the group.
 ///
 /// # Sources
-/// I. I. Artobolevsky, "Theory of Mechanisms and Machines", 4th ed., 1988, § 13-15.
+/// I. I. Artobolevsky, "Theory of Mechanisms and Machines", 4th ed., 1988.
 #[must_use]
 pub fn classify(
     m: &PlanarMechanism,

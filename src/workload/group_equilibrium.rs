@@ -3,8 +3,9 @@
 use crate::workload::contour_group::{GroupPose, GroupReactions};
 use crate::workload::dense::System;
 use crate::workload::pose::{length, minus};
+use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::ops::{Mul, Sub};
 
 /// The two links of each of D, F, K, M, L: the first bears the unknown, the second (if of the group) its opposite.
@@ -119,7 +120,7 @@ pub fn solve(g: &GroupPose) -> Option<(GroupReactions, Worth)> {
 /// singular or a number is not finite.
 ///
 /// # Complexity
-/// O(12³) operations on numbers that grow to some thousand bits.
+/// O(12³) operations on whole numbers that grow to some thousand bits.
 #[must_use]
 pub fn exact(g: &GroupPose) -> Option<GroupReactions> {
     let numbers = g
@@ -131,39 +132,50 @@ pub fn exact(g: &GroupPose) -> Option<GroupReactions> {
         return None;
     }
     let number = |x: f64| BigRational::from_float(x).unwrap_or_else(BigRational::zero);
-    let mut rows = equations(g, number, [[0.0; 2]; 4]);
+    let rows = equations(g, number, [[0.0; 2]; 4]);
+    // Doubles are whole numbers over powers of two, so rows can be made whole; fraction-free Gauss-Jordan elimination
+    // (Bareiss) keeps them so, and leaves the determinant on the diagonal.
+    let mut rows: Vec<Vec<BigInt>> = rows.iter().map(|row| whole(row)).collect();
+    let mut last = BigInt::one();
     for c in 0..12 {
         let pivot = (c..12).filter(|&r| !rows[r][c].is_zero());
-        // The shortest pivot keeps numbers short; any nonzero one is right.
-        let best = pivot.min_by_key(|&r| rows[r][c].numer().bits() + rows[r][c].denom().bits())?;
+        let best = pivot.min_by_key(|&r| rows[r][c].bits())?;
         rows.swap(c, best);
         let top = rows[c].clone();
-        for row in rows.iter_mut().skip(c + 1).filter(|row| !row[c].is_zero()) {
-            let factor = &row[c] / &top[c];
-            for (x, t) in row.iter_mut().zip(&top).skip(c) {
-                *x -= &factor * t;
+        for (r, row) in rows.iter_mut().enumerate().filter(|(r, _)| *r != c) {
+            let factor = row[c].clone();
+            // Columns already cleared are zero but for the diagonal, which is scaled along.
+            let first = if r < c { r } else { c };
+            for (x, t) in row.iter_mut().zip(&top).skip(first) {
+                *x = (&*x * &top[c] - &factor * t) / &last;
             }
         }
+        last = top[c].clone();
     }
-    let mut x = vec![BigRational::zero(); 12];
-    for r in (0..12).rev() {
-        let known = (r + 1..12)
-            .map(|c| &rows[r][c] * &x[c])
-            .fold(BigRational::zero(), |s, t| s + t);
-        x[r] = (&rows[r][12] - known) / &rows[r][r];
-    }
-    let arm = if x[10].is_zero() {
+    let over = |r: usize, by: &BigInt| BigRational::new(rows[r][12].clone(), by.clone());
+    let x: Vec<f64> = (0..12).map(|r| real(&over(r, &rows[r][r]))).collect();
+    let arm = if rows[10][12].is_zero() {
         f64::INFINITY
     } else {
-        real(&(&x[11] / &x[10]))
+        real(&over(11, &rows[10][12]))
     };
-    let x: Vec<f64> = x.iter().map(real).collect();
     Some(reactions(&x, arm))
+}
+
+/// A row of dyadic rationals times the power of two that makes it whole.
+fn whole(row: &[BigRational]) -> Vec<BigInt> {
+    let denominator = row.iter().map(BigRational::denom).max();
+    let Some(common) = denominator else {
+        return Vec::new();
+    };
+    row.iter()
+        .map(|x| x.numer() * (common / x.denom()))
+        .collect()
 }
 
 /// The nearest double, or nearly so, of a rational of any length.
 fn real(x: &BigRational) -> f64 {
-    let bits = |n: &num_bigint::BigInt| i64::try_from(n.bits()).unwrap_or(i64::MAX);
+    let bits = |n: &BigInt| i64::try_from(n.bits()).unwrap_or(i64::MAX);
     if x.is_zero() {
         return 0.0;
     }

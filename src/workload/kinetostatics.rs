@@ -69,6 +69,25 @@ pub struct PlanarForce {
     pub force: [f64; 2],
     /// The range of the first drive's position it acts in `[rad]` or `[m]`.
     pub range: Option<[f64; 2]>,
+    /// The range comes again after this much: a whole turn where the drive turns.
+    pub period: Option<f64>,
+}
+
+/// Drive positions nearer than this to the end of a range are in it.
+const AT_END: f64 = 1e-9;
+
+impl PlanarForce {
+    /// Whether it acts when the first drive is at a position.
+    #[must_use]
+    pub fn acts_at(&self, drive: f64) -> bool {
+        let Some([from, to]) = self.range else {
+            return true;
+        };
+        match self.period.filter(|_| from.is_finite() && to.is_finite()) {
+            Some(period) => (drive - from + AT_END).rem_euclid(period) <= to - from + 2.0 * AT_END,
+            None => (from - AT_END..=to + AT_END).contains(&drive),
+        }
+    }
 }
 
 /// What a mechanism carries, in its plane.
@@ -113,6 +132,7 @@ impl PlanarLoads {
                 point: m.flat(real(&f.point)),
                 force: m.across(real(&f.force)),
                 range: f.range.map(|r| r.map(|x| x * unit)),
+                period: (!drive_slides).then_some(std::f64::consts::TAU),
             })
         });
         PlanarLoads {
@@ -159,8 +179,7 @@ impl PlanarLoads {
             out.push(load(Source::Inertia, a.map(|a| -a * mass.mass), moment));
         }
         for f in &self.forces {
-            let acts = f.range.is_none_or(|[a, b]| (a..=b).contains(&now.drive));
-            if acts && f.body != linkage.mechanism.frame {
+            if f.acts_at(now.drive) && f.body != linkage.mechanism.frame {
                 out.push(Load {
                     body: f.body,
                     source: Source::External,

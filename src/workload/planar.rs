@@ -23,7 +23,7 @@ pub enum PlanarError {
     /// A joint moves out of the plane.
     #[error(
         "joint \"{joint}\" moves out of the plane of motion; statics is planar: use revolute, prismatic and slotted \
-         joints in parallel planes, or mode = \"planar\""
+         joints in parallel planes, or mode = \"planar\" (--planar)"
     )]
     NotPlanar {
         /// The joint.
@@ -143,6 +143,8 @@ pub struct PlanarMechanism {
     pub axes: [[f64; 3]; 3],
     /// Metres in a length unit of the file.
     pub metres: f64,
+    /// Symbol of that unit.
+    pub unit: &'static str,
 }
 
 fn unit(v: [f64; 3]) -> [f64; 3] {
@@ -178,6 +180,7 @@ impl PlanarMechanism {
             frame: 0,
             axes: [x, Reals.cross(normal, x), normal],
             metres: m.length_unit.metres,
+            unit: m.length_unit.symbol,
         };
         let mut body_of = vec![None; m.links.len()];
         for (l, link) in m.links.iter().enumerate() {

@@ -6,8 +6,8 @@
 //! instead of a force plan, which parallel rods do not close.
 //!
 //! # Sources
-//! `[Bychkov, Dvornikov & Zhukov 2018]` for the method; J. J. Uicker, G. R. Pennock, J. E. Shigley, "Theory of Machines and
-//! Mechanisms", for forces as lines.
+//! `[Bychkov, Dvornikov & Zhukov 2018]` for the method; R. S. Ball, "A Treatise on the Theory of Screws", 1900, for forces as
+//! lines.
 
 use crate::workload::contour_group::{GroupPose, GroupReactions};
 use crate::workload::pose::{cross, dot, minus, plus, quarter};

@@ -2,12 +2,12 @@
 
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::workload::assur::{AssurError, Decomposition, decompose};
+use crate::workload::assur::{AssurError, Decomposition, alternatives, decompose};
 use crate::workload::contour_group::{ContourGroup, GroupPose, GroupReactions, recognise};
 use crate::workload::delta_point::{self, DeltaSteps};
 use crate::workload::group_equilibrium::{self, Worth};
 use crate::workload::kinetostatics::{Equilibrium, Load, PlanarLoads, by_groups, power, whole};
-use crate::workload::planar::{PairKind, PlanarError, PlanarMechanism};
+use crate::workload::planar::{PairId, PairKind, PlanarError, PlanarMechanism};
 use crate::workload::planar_motion::{DeadPoint, Instant, Motion};
 use crate::workload::pose::Linkage;
 use crate::workload::projective;
@@ -113,7 +113,9 @@ pub fn statics(
     };
     let stated = mechanism.loads.drive_speeds.iter().enumerate();
     let speeds: Vec<f64> = stated.map(|(i, s)| s * unit(i)).collect();
-    let slides = unit(0) != 1.0;
+    let slides = drives
+        .first()
+        .is_some_and(|&p| linkage.mechanism.pairs[p].kind == PairKind::Sliding);
     let loads = PlanarLoads::new(mechanism, &linkage, slides);
     let positions: Vec<f64> = match stroke {
         None => vec![0.0],
@@ -196,4 +198,34 @@ fn moment(
         loads,
         instant,
     }
+}
+
+/// The structure of a mechanism under one drive.
+#[derive(Debug, Clone)]
+pub struct Structure {
+    /// The pair that takes the place of the first drive.
+    pub drive: PairId,
+    /// The decomposition, and the condition of each group's equations at the pose of the file; or why there is none.
+    pub found: Result<(Decomposition, Vec<f64>), AssurError>,
+}
+
+/// The structure under every possible drive in place of the first, those at the frame first.
+///
+/// # Errors
+/// Where the mechanism is not planar.
+pub fn structures(
+    mechanism: &Mechanism,
+    state: StateId,
+) -> Result<(PlanarMechanism, Vec<Structure>), PlanarError> {
+    let planar = PlanarMechanism::new(mechanism, state)?;
+    let linkage = Linkage::new(planar.clone());
+    let all = alternatives(&planar, &planar.drives()).into_iter();
+    let found = all.map(|(drive, d)| Structure {
+        drive,
+        found: d.map(|d| {
+            let conditions = Motion::new(&linkage, &d, &[]).conditions(&linkage.home());
+            (d, conditions)
+        }),
+    });
+    Ok((planar, found.collect()))
 }

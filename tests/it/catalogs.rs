@@ -16,6 +16,19 @@ fn every_built_in_mechanism_has_the_figures_it_states() {
             m.expected.iter().any(|e| e.redundant.is_some()),
             "{name} states no redundancy"
         );
+        for e in &m.expected {
+            let (Some(w), Some(finite)) = (e.mobility, e.finite_mobility) else {
+                panic!(
+                    "{name} {} states no mobility or no finite mobility",
+                    e.state
+                );
+            };
+            assert!(
+                (0..=w).contains(&finite),
+                "{name} {}: what moves, moves at first order",
+                e.state
+            );
+        }
         for method in [Method::Modular, Method::Svd { tolerance: 1e-9 }] {
             let states: Vec<usize> = (0..m.states.len()).collect();
             for s in analyse(&m, &states, method).unwrap() {
@@ -77,7 +90,7 @@ fn every_built_in_mechanism_has_the_figures_it_states() {
 #[test]
 fn there_are_enough_mechanisms_and_the_gripper_is_among_them() {
     let names = builtin::names();
-    assert!(names.len() >= 14, "{names:?}");
+    assert!(names.len() >= 106, "{names:?}");
     assert!(names.contains(&"gripper-10") && names.contains(&"gripper-10-redesign"));
 }
 

@@ -792,11 +792,12 @@ fn csv_columns() {
             "changes"
         ]
     );
-    assert_eq!(lines[0][6..], joints);
+    assert_eq!(lines[0][6..18], joints);
+    assert_eq!(lines[0][18..], ["conditioning", "agree"]);
     assert_eq!(lines.len(), 11);
     for l in &lines[1..] {
-        assert_eq!(l.len(), 18);
-        let changed = l[6..].iter().filter(|t| **t != "revolute").count();
+        assert_eq!((l.len(), l[19]), (20, "true"));
+        let changed = l[6..18].iter().filter(|t| **t != "revolute").count();
         assert_eq!(l[5], changed.to_string());
     }
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 /// The layers, lowest first; modules of one row do not import each other, except where a row says so by order.
 const LAYERS: [&[&str]; 9] = [
     &["linalg", "chart"],
-    &["geom"],
+    &["geom", "verify"],
     &["model"],
     &["closure"],
     &["import", "rank", "workload"],

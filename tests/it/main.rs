@@ -3,6 +3,8 @@
 
 mod bytes;
 mod catalogs;
+mod certificates;
+mod certify;
 mod cli;
 mod contours;
 mod drive;
@@ -12,4 +14,6 @@ mod holding;
 mod layering;
 mod published;
 mod statics;
+mod structure;
 mod twin;
+mod varied;

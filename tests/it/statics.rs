@@ -1,7 +1,10 @@
 //! Statics of planar mechanisms: structure, motion, reactions.
 
+mod command;
 mod cycle;
+mod enumeration;
 mod reactions;
+mod stability;
 mod structure;
 
 use ozols::import::text::mechanism_from_str;

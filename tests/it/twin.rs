@@ -5,7 +5,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 use ozols::import::text::mechanism_from_str;
 use ozols::model::joint_type::{Freedom, JointType};
-use ozols::model::mechanism::{Frame, JointId, LinkId, Mechanism, Role};
+use ozols::model::mechanism::{Frame, JointId, LinkId, Mechanism, Mode, Role};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
 use ozols::search::request::{Request, Search, Symmetry};
 use proptest::prelude::*;
@@ -47,9 +47,34 @@ fn twists(frame: &Frame, kind: &JointType) -> Vec<Vec<Q>> {
         Freedom::Tx => slide(&x),
         Freedom::Ty => slide(&y),
         Freedom::Tz => slide(&z),
-        Freedom::Screw => unreachable!("no random mechanism has one"),
+        Freedom::Screw => {
+            let pitch = frame.pitch.as_rational().unwrap();
+            let turned = turn(&z);
+            let slid = slide(&z.iter().map(|c| c * &pitch).collect());
+            turned.iter().zip(&slid).map(|(a, b)| a + b).collect()
+        }
     };
     kind.freedoms().iter().map(one).collect()
+}
+
+/// Those of a joint's twists that stay in the plane of a planar mechanism; all in space. A ball turns about the normal.
+fn allowed_twists(mode: &Mode, frame: &Frame, kind: &JointType) -> Vec<Vec<Q>> {
+    let all = twists(frame, kind);
+    let Mode::Planar { normal } = mode else {
+        return all;
+    };
+    let n: Vec<Q> = normal.iter().map(|e| e.as_rational().unwrap()).collect();
+    if *kind == JointType::Spherical {
+        let p: Vec<Q> = frame
+            .point
+            .iter()
+            .map(|e| e.as_rational().unwrap())
+            .collect();
+        return vec![[n.clone(), cross(&p, &n)].concat()];
+    }
+    all.into_iter()
+        .filter(|t| cross(&t[..3], &n).iter().all(Zero::is_zero) && dot(&t[3..], &n).is_zero())
+        .collect()
 }
 
 /// Reduced row echelon form of rows, with its pivots.
@@ -137,19 +162,23 @@ fn figures(
     }
 }
 
-struct Twin {
-    internal: u32,
-    external: u32,
-    mobility: i64,
-    motion: usize,
-    changes: u32,
+pub(crate) struct Twin {
+    pub(crate) internal: u32,
+    pub(crate) external: u32,
+    pub(crate) mobility: i64,
+    pub(crate) motion: usize,
+    pub(crate) changes: u32,
 }
 
 /// Looks at one variant: `choice[j]` is (option, unloading) of joint j.
-fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>)]) -> Twin {
+pub(crate) fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>)]) -> Twin {
     let outputs: Vec<LinkId> = (0..m.links.len())
-        .filter(|&l| m.links[l].role == Role::Output)
+        .filter(|&l| m.links[l].role == Role::Output || m.search.hold.contains(&l))
         .collect();
+    let rows = match m.mode {
+        Mode::Spatial => 6,
+        Mode::Planar { .. } => 3,
+    };
     let of = |state: usize| {
         // An unloading joint is a joint in series with an extra link at the end of the list.
         let mut links = m.links.len();
@@ -157,7 +186,8 @@ fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>)]) -> Twin
         for (j, joint) in m.joints.iter().enumerate() {
             let present = m.joints_in(state).any(|x| x == j);
             let (option, unloading) = choice[j];
-            let span = twists(
+            let span = allowed_twists(
+                &m.mode,
                 &joint.options[option].frame,
                 &joint.options[option].joint_type,
             );
@@ -165,7 +195,8 @@ fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>)]) -> Twin
                 Some(u) => {
                     let pad = links;
                     links += 1;
-                    let extra = twists(&joint.unloading[u].frame, &joint.unloading[u].joint_type);
+                    let pad_joint = &joint.unloading[u];
+                    let extra = allowed_twists(&m.mode, &pad_joint.frame, &pad_joint.joint_type);
                     joints.push(([joint.links[0], pad], extra));
                     if present {
                         joints.push(([pad, joint.links[1]], span));
@@ -178,7 +209,7 @@ fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>)]) -> Twin
         let used: std::collections::BTreeSet<usize> = joints.iter().flat_map(|(l, _)| *l).collect();
         let contours = joints.len() + 1 - used.len();
         let f = figures(links, m.frame(), &joints, &outputs);
-        let sigma = f.mobility + 6 * contours - f.freedoms;
+        let sigma = f.mobility + rows * contours - f.freedoms;
         (f, sigma)
     };
     let (free, internal) = of(0);
@@ -196,7 +227,7 @@ fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>)]) -> Twin
     }
 }
 
-fn variants(m: &Mechanism, clamped: bool) -> Vec<Vec<(usize, Option<usize>)>> {
+pub(crate) fn variants(m: &Mechanism, clamped: bool) -> Vec<Vec<(usize, Option<usize>)>> {
     let mut out = vec![Vec::new()];
     for (j, joint) in m.joints.iter().enumerate() {
         let free = m.joints_in(0).any(|x: JointId| x == j);
@@ -234,7 +265,7 @@ const AXES: [[i32; 3]; 6] = [
 ];
 
 /// A random mechanism file with a few contours, sometimes with a clamped object.
-fn random() -> impl Strategy<Value = String> {
+pub(crate) fn random() -> impl Strategy<Value = String> {
     let joint = (
         0usize..6,
         prop::array::uniform3(-3i32..4),

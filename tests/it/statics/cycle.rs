@@ -1,6 +1,6 @@
 //! Positions, velocities and accelerations over a cycle.
 
-use super::{four_bar_file, mechanism, shears};
+use super::{file, four_bar_file, mechanism, p, r, shears};
 use ozols::workload::assur::{Decomposition, decompose};
 use ozols::workload::planar::PlanarMechanism;
 use ozols::workload::planar_motion::{Instant, Motion};
@@ -108,4 +108,72 @@ fn velocities_and_accelerations_are_the_derivatives() {
             }
         }
     }
+}
+
+/// Greatest difference of velocities and accelerations from central differences of the positions, at speed 1.
+fn off_by(l: &Linkage, d: &Decomposition, speeds: &[f64], s: f64, h: f64) -> [f64; 2] {
+    let motion = Motion::new(l, d, speeds);
+    let (found, dead) = motion.follow(&[s - h, s, s + h]);
+    assert!(dead.is_none(), "{dead:?}");
+    let dt = h / speeds[0];
+    let mut worst = [0.0f64; 2];
+    for b in 0..l.mechanism.bodies.len() {
+        for c in 0..3 {
+            let at = |i: usize| found[i].pose[b][c];
+            let v = (at(2) - at(0)) / (2.0 * dt) - found[1].velocity[b][c];
+            let a = (at(2) - 2.0 * at(1) + at(0)) / (dt * dt) - found[1].acceleration[b][c];
+            worst = [worst[0].max(v.abs()), worst[1].max(a.abs())];
+        }
+    }
+    worst
+}
+
+/// Sliding drives, drives between moving bodies, pins in slots, two drives at once.
+#[test]
+fn drives_of_every_kind_move_as_they_should() {
+    let boom = [
+        p("2", "3", 1.0, 1.0, [1.0, 1.0]),
+        r("0", "1", 0.0, 1.0),
+        r("0", "2", 0.5, 0.5),
+        r("3", "1", 3.0, 2.7),
+    ];
+    let slider = [
+        p("0", "1", 0.0, 0.0, [1.0, 0.5]),
+        r("1", "2", 0.0, 1.0),
+        r("2", "3", 2.0, 2.5),
+        r("3", "0", 3.0, 0.0),
+    ];
+    let two_slides = [
+        r("0", "1", 0.0, 0.0),
+        p("1", "2", 1.0, 0.5, [1.0, 0.3]),
+        p("2", "3", 2.0, 1.0, [0.2, 1.0]),
+        r("3", "0", 3.0, 0.0),
+    ];
+    for joints in [&boom, &slider, &two_slides] {
+        let (l, d) = linkage(&file(joints, ""));
+        let [v, a] = off_by(&l, &d, &[1.0], 0.1, 1e-4);
+        assert!(v < 1e-6 && a < 1e-5, "{joints:?} {v} {a}");
+    }
+    let (l, d) = linkage(ozols::builtin::text("lever-slot-gripper").unwrap());
+    let [v, a] = off_by(&l, &d, &[0.02], 0.002, 1e-6);
+    assert!(v < 1e-6 && a < 1e-3, "{v} {a}");
+    let five = file(
+        &[
+            r("0", "1", 0.0, 0.0),
+            r("1", "2", 0.0, 1.0),
+            r("2", "3", 2.0, 3.0),
+            r("3", "4", 4.0, 1.0),
+            r("4", "0", 4.0, 0.0),
+        ],
+        "",
+    );
+    let at = five.rfind("drive = false").unwrap();
+    let five = five[..at].to_owned() + "drive = true" + &five[at + 13..];
+    let (l, d) = linkage(&five);
+    assert_eq!(d.drives.len(), 2);
+    let [v, a] = off_by(&l, &d, &[1.0, -0.5], 0.3, 1e-4);
+    assert!(v < 1e-6 && a < 1e-5, "{v} {a}");
+    let (found, _) = Motion::new(&l, &d, &[1.0, -0.5]).follow(&[0.3]);
+    assert_eq!(found[0].drives, [0.3, -0.15]);
+    assert!((l.drive_position(&found[0].pose, 4) + 0.15).abs() < 1e-12);
 }

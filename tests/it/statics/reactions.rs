@@ -333,3 +333,71 @@ fn a_group_without_loads_bears_nothing() {
     let (r, steps) = delta_point::solve(&g);
     assert!(r.d == [0.0; 2] && steps.r34_tangential == 0.0 && r.arm.is_nan());
 }
+
+/// A cylinder between two moving links: its force is the derivative of the potential energy by its length.
+#[test]
+fn a_cylinder_bears_the_boom() {
+    let joints = [
+        p("2", "3", 1.0, 1.0, [1.0, 0.9]),
+        r("0", "1", 0.0, 1.0),
+        r("0", "2", 0.5, 0.5),
+        r("3", "1", 3.0, 2.7),
+    ];
+    let mass = |l: &str| match l {
+        "1" => Some((50.0, [2.5, 2.0], 4.0)),
+        "2" => Some((5.0, [1.0, 1.0], 0.1)),
+        "3" => Some((4.0, [2.0, 1.8], 0.1)),
+        _ => None,
+    };
+    let text = |speed: f64| {
+        file_with(
+            &joints,
+            &mass,
+            &format!("[workload]\ngravity = [0, -9.81, 0]\ndrive_speed = {speed:?}\n"),
+        )
+    };
+    let h = 1e-5;
+    let s = over(&text(0.0), 0.2 - h, 0.2 + h, 2);
+    let v = s.moments.iter().map(|m| energy(&s, m).1).collect_vec();
+    let (slope, force) = ((v[2] - v[0]) / (2.0 * h), effort(&s, &s.moments[1]));
+    assert!(
+        (slope - force).abs() < 1e-6 * force && force > 100.0,
+        "{slope} {force}"
+    );
+    let s = over(&text(0.7), 0.2 - h, 0.2 + h, 2);
+    let e = s
+        .moments
+        .iter()
+        .map(|m| energy(&s, m))
+        .map(|(k, p)| k + p)
+        .collect_vec();
+    let m = &s.moments[1];
+    let rise = (e[2] - e[0]) / (2.0 * h) * 0.7;
+    assert!(
+        (rise - m.drive_power).abs() < 1e-5 * rise.abs(),
+        "{rise} {}",
+        m.drive_power
+    );
+    assert!((m.load_power + m.drive_power).abs() < 1e-9 * rise.abs());
+    assert!(left_over(&s, m, m.whole.as_ref().unwrap()) < 1e-12);
+}
+
+/// A force over part of a turn acts there in every turn.
+#[test]
+fn forces_come_again_in_each_turn() {
+    let turn = std::f64::consts::TAU;
+    let s = over(shears(), -turn, 2.0 * turn, 3 * 72);
+    let cutting = |m: &Moment| {
+        m.loads
+            .iter()
+            .filter(|l| l.source == Source::External)
+            .count()
+    };
+    for i in 0..72 {
+        // 165 to 200 degrees, ends included.
+        let expected = if (33..=40).contains(&i) { 2 } else { 0 };
+        for k in 0..3 {
+            assert_eq!(cutting(&s.moments[72 * k + i]), expected, "{i} {k}");
+        }
+    }
+}

@@ -152,7 +152,7 @@ fn by_brute_force(m: &PlanarMechanism, driven: &[BodyId]) -> Vec<Vec<BodyId>> {
 fn published_mechanisms_have_their_published_groups() {
     let (m, d) = decomposed(&four_bar());
     assert_eq!(words(&m, &d), ["2+3: class II, order 2, dyad RRR"]);
-    // Norton, Design of Machinery, ch. 4 and 6; Artobolevsky § 15: with the crank of the four-bar driving, Stephenson's
+    // Norton, Design of Machinery; Artobolevsky: with the crank of the four-bar driving, Stephenson's
     // chain is of class II, driven from the dyad's side of class III.
     let (m, d) = decomposed(&stephenson());
     assert_eq!(

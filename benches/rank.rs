@@ -1,0 +1,481 @@
+//! The rank of J by every method: on the ten-link gripper, on chains and grids up to 200 contours, and next to FLINT.
+//!
+//! `cargo bench --bench rank`; first come ratios, each of best times of one run in which the methods take turns, then
+//! criterion's times. FLINT's part needs python-flint: `python3 -m venv V; V/bin/pip install python-flint`, then
+//! `OZOLS_PYTHON=V/bin/python cargo bench --bench rank`. `cargo bench --bench rank -- NONE` prints the ratios only.
+
+#![allow(
+    clippy::print_stdout,
+    missing_docs,
+    reason = "a bench prints its ratios"
+)]
+
+#[path = "../tests/common/lattice.rs"]
+mod lattice;
+
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use faer::traits::{ComplexField, RealField};
+use faer::{Mat, MatRef};
+use lattice::Kind;
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{ToPrimitive, Zero};
+use ozols::builtin;
+use ozols::closure::matrix::Closure;
+use ozols::geom::exact::{ExactError, ExactField};
+use ozols::geom::expr::Expr;
+use ozols::geom::scalars::{Reals, Scalars};
+use ozols::import::text::mechanism_from_str;
+use ozols::linalg::echelon;
+use ozols::linalg::lanes::{LaneMatrix, SmallField};
+use ozols::linalg::modp::{Field, Residue};
+use ozols::model::mechanism::Mechanism;
+use ozols::rank::{modular, numeric};
+use ozols::redundancy::analysis::exact_field;
+use std::fmt::Write as _;
+use std::hint::black_box;
+use std::io::Write as _;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// Twice the geometry, in whole numbers: the mechanisms here have halves at most.
+struct Doubled;
+
+impl Scalars for Doubled {
+    type Number = i128;
+
+    fn eval(&self, expr: &Expr) -> Result<i128, ExactError> {
+        let twice = expr.as_rational().expect("rational") * BigInt::from(2);
+        assert!(twice.is_integer(), "a multiple of a half");
+        Ok(twice.to_integer().to_i128().expect("small"))
+    }
+    fn add(&self, a: i128, b: i128) -> i128 {
+        a + b
+    }
+    fn sub(&self, a: i128, b: i128) -> i128 {
+        a - b
+    }
+    fn mul(&self, a: i128, b: i128) -> i128 {
+        a * b
+    }
+}
+
+/// J of a mechanism, in every form that a method starts from.
+struct Case {
+    name: String,
+    exact: ExactField,
+    closure: Closure<Residue>,
+    dense: Vec<Vec<Residue>>,
+    real: Closure<f64>,
+    f64s: Mat<f64>,
+    f32s: Mat<f32>,
+    whole: Vec<Vec<i128>>,
+    lanes: LaneMatrix,
+}
+
+impl Case {
+    fn new(name: String, m: &Mechanism) -> Case {
+        let exact = exact_field(m, 0).expect("exact");
+        let closure = Closure::new(&exact, m, 0).expect("exact");
+        let real = Closure::new(&Reals, m, 0).expect("real");
+        let columns = real.dense(&Reals);
+        let f64s = Mat::from_fn(real.rows(), columns.len(), |r, c| columns[c][r]);
+        let whole = Closure::new(&Doubled, m, 0).expect("whole").dense(&Doubled);
+        let small = SmallField::new(SmallField::FAST_PRIME);
+        let modulus = i128::from(small.modulus());
+        let lanes = LaneMatrix::from_fn(small, real.rows(), columns.len(), |r, c| {
+            whole[c][r].rem_euclid(modulus) as u64
+        });
+        Case {
+            name: format!("{name}, {} x {}", real.rows(), columns.len()),
+            dense: closure.dense(&exact),
+            f32s: Mat::from_fn(f64s.nrows(), f64s.ncols(), |r, c| f64s[(r, c)] as f32),
+            exact,
+            closure,
+            real,
+            f64s,
+            whole,
+            lanes,
+        }
+    }
+
+    fn gripper() -> Case {
+        let text = builtin::text("gripper-10").expect("built in");
+        Case::new(
+            "gripper-10".into(),
+            &mechanism_from_str("gripper-10.toml", text).expect("valid"),
+        )
+    }
+
+    /// The methods, by name, with the rank each finds. The last is too slow for large matrices.
+    fn methods(&self) -> Vec<(&'static str, Box<dyn FnMut() -> usize + '_>)> {
+        let mut scratch = Vec::new();
+        let field = self.exact.field();
+        let mut all: Vec<(&'static str, Box<dyn FnMut() -> usize + '_>)> = vec![
+            (
+                "modular, contour by contour",
+                Box::new(|| modular::rank(&self.exact, &self.closure)),
+            ),
+            (
+                "modular, written out",
+                Box::new(|| modular::rank_dense(&self.exact, &self.closure)),
+            ),
+            (
+                "modular, elimination alone",
+                Box::new(move || echelon::rank(field, self.dense.iter().map(Vec::as_slice))),
+            ),
+            (
+                "modular, 28 bits in lanes",
+                Box::new(move || self.lanes.rank_with(&mut scratch)),
+            ),
+            (
+                "f64 singular values, scaled",
+                Box::new(|| numeric::rank(&self.real).map_or(0, |r| r.rank)),
+            ),
+            (
+                "f64 singular values",
+                Box::new(|| by_values(&self.f64s, 1e-9)),
+            ),
+            ("f64 QR, pivoted", Box::new(|| by_qr(&self.f64s, 1e-9))),
+            ("f64 LU, full pivots", Box::new(|| by_lu(&self.f64s, 1e-9))),
+            (
+                "f32 singular values",
+                Box::new(|| by_values(&self.f32s, 1e-4)),
+            ),
+            ("f32 QR, pivoted", Box::new(|| by_qr(&self.f32s, 1e-4))),
+            ("f32 LU, full pivots", Box::new(|| by_lu(&self.f32s, 1e-4))),
+        ];
+        if self.whole.len() <= 200 {
+            all.push(("exact, Bareiss", Box::new(|| bareiss(&self.whole))));
+        }
+        all
+    }
+}
+
+fn cases(sizes: &[usize]) -> impl Iterator<Item = Case> + '_ {
+    let of = |k: usize| {
+        Kind::ALL.map(|kind| Case::new(format!("{kind:?} {k}"), &lattice::mechanism(kind, k)))
+    };
+    sizes.iter().flat_map(move |&k| of(k))
+}
+
+/// What the decompositions here ask of a number.
+trait Float: ComplexField<Real = Self> + RealField + Copy + Into<f64> {}
+impl Float for f32 {}
+impl Float for f64 {}
+
+fn above<T: Float>(sizes: impl Iterator<Item = T>, tolerance: f64) -> usize {
+    let sizes: Vec<f64> = sizes.map(|x| x.into().abs()).collect();
+    let least = sizes.iter().fold(0.0, |a: f64, &b| a.max(b)) * tolerance;
+    sizes.iter().filter(|v| **v > least).count()
+}
+
+fn diagonal<T: Float>(m: MatRef<'_, T>, tolerance: f64) -> usize {
+    above((0..m.nrows().min(m.ncols())).map(|i| m[(i, i)]), tolerance)
+}
+
+fn by_values<T: Float>(m: &Mat<T>, tolerance: f64) -> usize {
+    above(
+        m.singular_values().unwrap_or_default().into_iter(),
+        tolerance,
+    )
+}
+
+fn by_qr<T: Float>(m: &Mat<T>, tolerance: f64) -> usize {
+    diagonal(m.col_piv_qr().thin_R(), tolerance)
+}
+
+fn by_lu<T: Float>(m: &Mat<T>, tolerance: f64) -> usize {
+    diagonal(m.full_piv_lu().U(), tolerance)
+}
+
+/// Elimination without fractions, Bareiss 1968.
+fn bareiss(columns: &[Vec<i128>]) -> usize {
+    let mut m: Vec<Vec<BigInt>> = columns
+        .iter()
+        .map(|c| c.iter().map(|&x| BigInt::from(x)).collect())
+        .collect();
+    let (mut rank, mut last) = (0, BigInt::from(1));
+    for c in 0..m.first().map_or(0, Vec::len) {
+        let Some(p) = (rank..m.len()).find(|&r| !m[r][c].is_zero()) else {
+            continue;
+        };
+        m.swap(rank, p);
+        let (above, below) = m.split_at_mut(rank + 1);
+        let u = &above[rank];
+        for v in below {
+            let a = v[c].clone();
+            for (x, y) in v.iter_mut().zip(u).skip(c) {
+                *x = (&*x * &u[c] - &a * y).div_floor(&last);
+            }
+        }
+        last = u[c].clone();
+        rank += 1;
+    }
+    rank
+}
+
+/// Best time of one call in seconds, of several functions that take turns.
+fn best(
+    methods: &mut [(&'static str, Box<dyn FnMut() -> usize + '_>)],
+    rounds: usize,
+) -> Vec<(f64, usize)> {
+    let mut out = vec![(f64::INFINITY, 0); methods.len()];
+    let calls: Vec<u32> = methods
+        .iter_mut()
+        .map(|(_, f)| {
+            let start = Instant::now();
+            black_box(f());
+            (2e-4 / start.elapsed().as_secs_f64().max(1e-8)).ceil() as u32
+        })
+        .collect();
+    for _ in 0..rounds {
+        for (((_, f), out), &calls) in methods.iter_mut().zip(&mut out).zip(&calls) {
+            let start = Instant::now();
+            for _ in 0..calls {
+                out.1 = black_box(f());
+            }
+            out.0 = out.0.min(start.elapsed().as_secs_f64() / f64::from(calls));
+        }
+    }
+    out
+}
+
+fn micro(seconds: f64) -> String {
+    format!("{:.2} µs", seconds * 1e6)
+}
+
+fn ratios() {
+    println!("\n== time per rank, and against the rank contour by contour; best of one run ==");
+    for case in std::iter::once(Case::gripper()).chain(cases(&[10, 50])) {
+        let rounds = if case.dense.len() > 60 { 3 } else { 200 };
+        let mut methods = case.methods();
+        let found = best(&mut methods, rounds);
+        println!("{}", case.name);
+        for ((name, _), (t, rank)) in methods.iter().zip(&found) {
+            let ratio = t / found[0].0;
+            println!("  {name:<30} {:>14}  {ratio:>10.1}  rank {rank}", micro(*t));
+        }
+    }
+    println!("\n== growth: time of the rank contour by contour, for each contour ==");
+    for kind in Kind::ALL {
+        print!("{kind:?}");
+        for k in [10, 25, 50, 100, 200, 400] {
+            let m = lattice::mechanism(kind, k);
+            let exact = exact_field(&m, 0).expect("exact");
+            let closure = Closure::new(&exact, &m, 0).expect("exact");
+            let mut only: Vec<(&'static str, Box<dyn FnMut() -> usize>)> =
+                vec![("", Box::new(|| modular::rank(&exact, &closure)))];
+            let t = best(&mut only, 30)[0].0;
+            let k = closure.contours.len();
+            print!("  k = {k}: {}", micro(t / k as f64));
+        }
+        println!();
+    }
+}
+
+/// Ranks by python-flint in a child process: (best seconds, rank) of each matrix, or why there are none.
+fn flint(matrices: &[(u64, Vec<Vec<u64>>)]) -> Result<Vec<(f64, usize)>, String> {
+    const SCRIPT: &str = "
+import sys, time
+import flint
+for line in sys.stdin:
+    p, r, c, *x = map(int, line.split())
+    m = flint.nmod_mat(r, c, x, p)
+    best = 1e9
+    for _ in range(100):
+        t = time.perf_counter()
+        for _ in range(50):
+            m.rank()
+        best = min(best, (time.perf_counter() - t) / 50)
+    print(best, m.rank())
+";
+    let python = std::env::var("OZOLS_PYTHON").unwrap_or_else(|_| "python3".into());
+    let mut text = String::new();
+    for (p, rows) in matrices {
+        let _ = write!(
+            text,
+            "{p} {} {}",
+            rows.len(),
+            rows.first().map_or(0, Vec::len)
+        );
+        for x in rows.iter().flatten() {
+            let _ = write!(text, " {x}");
+        }
+        text.push('\n');
+    }
+    let mut child = Command::new(&python)
+        .args(["-c", SCRIPT])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .map_err(|e| format!("{python}: {e}"))?;
+    // The pipe may close early where flint is missing; the exit status tells.
+    let _ = child
+        .stdin
+        .take()
+        .map(|mut pipe| pipe.write_all(text.as_bytes()));
+    let out = child.wait_with_output().map_err(|e| e.to_string())?;
+    if !out.status.success() {
+        return Err(format!("{python} has no module flint"));
+    }
+    let parse = |line: &str| {
+        let (t, rank) = line.split_once(' ')?;
+        Some((t.parse().ok()?, rank.parse().ok()?))
+    };
+    let lines = String::from_utf8_lossy(&out.stdout).into_owned();
+    lines
+        .lines()
+        .map(|l| parse(l).ok_or(format!("{python} said {l:?}")))
+        .collect()
+}
+
+/// Numbers below `p`, always the same.
+fn random(p: u64, rows: usize, columns: usize) -> Vec<Vec<u64>> {
+    let mut state = 0x9e37_79b9_7f4a_7c15u64;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        state % p
+    };
+    (0..rows)
+        .map(|_| (0..columns).map(|_| next()).collect())
+        .collect()
+}
+
+fn against_flint() {
+    println!(
+        "\n== against FLINT's nmod_mat_rank: best times of one run, construction excluded on both sides =="
+    );
+    let small = [SmallField::FAST_PRIME, (1 << 31) - 1];
+    let large = (1u64 << 61) - 1;
+    let case = Case::gripper();
+    let (field, big) = (case.exact.field(), Field::new(large));
+    let small_image = |p: u32| -> Vec<Vec<u64>> {
+        let modulus = i128::from(p);
+        case.whole
+            .iter()
+            .map(|c| c.iter().map(|x| x.rem_euclid(modulus) as u64).collect())
+            .collect()
+    };
+    let plain: Vec<Vec<u64>> = case
+        .dense
+        .iter()
+        .map(|c| c.iter().map(|&x| field.to_u64(x)).collect())
+        .collect();
+    let dense = |p: u64| random(p, 24, 30);
+    let matrices = [
+        (u64::from(small[0]), dense(small[0].into())),
+        (u64::from(small[1]), dense(small[1].into())),
+        (large, dense(large)),
+        (u64::from(small[0]), small_image(small[0])),
+        (u64::from(small[1]), small_image(small[1])),
+        (field.modulus(), plain),
+    ];
+    let lanes: Vec<LaneMatrix> = [0, 1, 3, 4]
+        .map(|i| {
+            let (p, m) = &matrices[i];
+            LaneMatrix::from_fn(SmallField::new(*p as u32), m.len(), m[0].len(), |r, c| {
+                m[r][c]
+            })
+        })
+        .into();
+    // Another prime of 28 bits, for the same certainty as one of some 56.
+    let other = SmallField::new(268_435_367);
+    let second = [2, 3].map(|i| {
+        let m = &matrices[i].1;
+        LaneMatrix::from_fn(other, m.len(), m[0].len(), |r, c| m[r][c] % other.modulus())
+    });
+    let to_field = |x: &u64| big.mul(big.from_i64(*x as i64), big.one());
+    let dense_61: Vec<Vec<Residue>> = matrices[2]
+        .1
+        .iter()
+        .map(|r| r.iter().map(to_field).collect())
+        .collect();
+    let lane = |i: usize| {
+        let (m, mut scratch) = (&lanes[i], Vec::new());
+        Box::new(move || m.rank_with(&mut scratch))
+    };
+    let two = |i: usize, j: usize| {
+        let (m, n, mut scratch) = (&lanes[i], &second[j], Vec::new());
+        Box::new(move || m.rank_with(&mut scratch).max(n.rank_with(&mut scratch)))
+    };
+    // (what ours is, which of FLINT's it stands against)
+    let mut ours: Vec<(&'static str, Box<dyn FnMut() -> usize>)> = vec![
+        ("24 x 30 dense, 28 bits: lanes", lane(0)),
+        ("24 x 30 dense, 2^31 - 1: lanes", lane(1)),
+        (
+            "24 x 30 dense, 2^61 - 1: two of 28 bits in lanes",
+            two(0, 0),
+        ),
+        ("24 x 30 dense, 2^61 - 1: elimination by 61 bits", {
+            Box::new(|| echelon::rank(big, dense_61.iter().map(Vec::as_slice)))
+        }),
+        ("gripper 24 x 14, 28 bits: lanes", lane(2)),
+        ("gripper 24 x 14, 2^31 - 1: lanes", lane(3)),
+        (
+            "gripper 24 x 14, 61 bits: two of 28 bits in lanes",
+            two(2, 1),
+        ),
+        (
+            "gripper 24 x 14, 61 bits: contour by contour, same prime",
+            { Box::new(|| modular::rank(&case.exact, &case.closure)) },
+        ),
+        ("gripper 24 x 14, 2^31 - 1: contour by contour, 61 bits", {
+            Box::new(|| modular::rank(&case.exact, &case.closure))
+        }),
+    ];
+    let against = [0, 1, 2, 2, 3, 4, 5, 5, 4];
+    let before = flint(&matrices);
+    let mine = best(&mut ours, 300);
+    match (before, flint(&matrices)) {
+        (Ok(a), Ok(b)) => {
+            for (((name, _), (t, rank)), i) in ours.iter().zip(mine).zip(against) {
+                let theirs = a[i].0.min(b[i].0);
+                let same = if rank == a[i].1 {
+                    "same rank"
+                } else {
+                    "RANKS DIFFER"
+                };
+                println!(
+                    "  {name:<58} {:>10}  FLINT {:>10}  ratio {:>5.1}  {same}",
+                    micro(t),
+                    micro(theirs),
+                    theirs / t
+                );
+            }
+        }
+        (Err(e), _) | (_, Err(e)) => {
+            println!(
+                "  skipped: {e}; pip install python-flint, and name its python in OZOLS_PYTHON"
+            );
+            for ((name, _), (t, _)) in ours.iter().zip(mine) {
+                println!("  {name:<58} {:>10}", micro(t));
+            }
+        }
+    }
+}
+
+fn methods(c: &mut Criterion) {
+    ratios();
+    against_flint();
+    for case in std::iter::once(Case::gripper()).chain(cases(&[10, 50, 200])) {
+        let mut group = c.benchmark_group(&case.name);
+        for (name, mut f) in case.methods() {
+            group.bench_function(BenchmarkId::from_parameter(name), |b| b.iter(&mut f));
+        }
+        group.finish();
+    }
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_millis(700));
+    targets = methods
+}
+criterion_main!(benches);

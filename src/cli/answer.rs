@@ -1,0 +1,172 @@
+//! The answer of a search in the format asked for.
+
+use super::args::{Search as SearchArgs, SearchFormat};
+use super::output;
+use crate::model::mechanism::JointId;
+use crate::report::search_json::{self, Found};
+use crate::report::search_text;
+use crate::report::words::cost;
+use crate::search::certify::{Certified, Summary};
+use crate::search::request::Search;
+use std::io::Write;
+
+/// Variants a table holds at most.
+const BLOCK: usize = 1000;
+
+/// Calls a writer with each variant and its position; true where it was interrupted.
+pub(super) type Giver<'a> =
+    dyn FnMut(&mut dyn FnMut(usize, Certified) -> anyhow::Result<()>) -> anyhow::Result<bool> + 'a;
+
+pub(super) fn write_found(
+    out: &mut dyn Write,
+    a: &SearchArgs,
+    found: &Found<'_>,
+    give: &mut Giver<'_>,
+) -> anyhow::Result<()> {
+    let search = found.search;
+    let mut summary = Summary::default();
+    match a.format {
+        SearchFormat::Text => {
+            let width = output::width(a.output.as_deref());
+            write!(out, "{}", search_text::counts(found, width))?;
+            let what = if a.sample.is_some() {
+                "drawn at random"
+            } else {
+                "cheapest first"
+            };
+            // A table is laid out as a whole, so a long list is given as several.
+            let (mut block, mut given): (Vec<Certified>, usize) = (Vec::new(), 0);
+            let mut put = |out: &mut dyn Write, block: &mut Vec<Certified>| -> anyhow::Result<()> {
+                let head = if given == 0 {
+                    format!("\n  {what}:\n")
+                } else {
+                    String::new()
+                };
+                writeln!(
+                    out,
+                    "{head}{}",
+                    search_text::variants(search, block, given + 1, width)
+                )?;
+                given += block.len();
+                block.clear();
+                Ok(())
+            };
+            let mut notes = Vec::new();
+            let interrupted = give(&mut |i, v| {
+                summary.add(&v);
+                notes.extend(search_text::note(&v, i));
+                block.push(v);
+                if block.len() == BLOCK {
+                    put(out, &mut block)
+                } else {
+                    Ok(())
+                }
+            })?;
+            if !block.is_empty() {
+                put(out, &mut block)?;
+            }
+            write!(out, "{}", search_text::notes(&summary, &notes))?;
+            if interrupted {
+                writeln!(out, "\n  interrupted after {given} variants")?;
+            }
+        }
+        SearchFormat::Json => {
+            let header = serde_json::Value::Object(search_json::header(found));
+            // Variants stream: the closing brace of the header waits for them.
+            let text = format!("{header:#}");
+            let open = text.strip_suffix("\n}").unwrap_or(&text);
+            write!(out, "{open},\n  \"variants\": [")?;
+            let interrupted = give(&mut |i, v| {
+                summary.add(&v);
+                let comma = if i == 1 { "" } else { "," };
+                write!(out, "{comma}\n    {}", search_json::variant(search, &v, i))?;
+                Ok(())
+            })?;
+            let tail = search_json::tail(&summary, !interrupted);
+            let text = format!("{:#}", serde_json::Value::Object(tail));
+            let rest = text.strip_prefix("{\n").unwrap_or(&text);
+            writeln!(out, "\n  ],\n{rest}")?;
+        }
+        SearchFormat::Jsonl => {
+            give(&mut |i, v| Ok(writeln!(out, "{}", search_json::variant(search, &v, i))?))?;
+        }
+        SearchFormat::Csv => {
+            let joints: Vec<(usize, usize, JointId)> = columns(search);
+            let names: Vec<String> = joints
+                .iter()
+                .map(|&(_, _, j)| quoted(&search.mechanism.joints[j].id))
+                .collect();
+            let heads = [
+                "position",
+                "cost",
+                "mobility",
+                "redundant",
+                "external_redundant",
+                "changes",
+            ];
+            writeln!(
+                out,
+                "{},{},conditioning,agree",
+                heads.join(","),
+                names.join(",")
+            )?;
+            give(&mut |i, certified| {
+                let v = &certified.variant;
+                let k = v.key;
+                write!(
+                    out,
+                    "{i},{},{},{},",
+                    cost(search.steps.milli(k.cost())),
+                    search.mobility(k),
+                    k.internal()
+                )?;
+                if search.request.state.is_some() {
+                    write!(out, "{}", k.external())?;
+                }
+                write!(out, ",{}", k.changes())?;
+                for &(variable, _, j) in &joints {
+                    let choice = &search.space.variables[variable].choices[v.choices[variable]];
+                    write!(
+                        out,
+                        ",{}",
+                        quoted(&crate::search::space::choice_name(
+                            search.mechanism,
+                            j,
+                            choice
+                        ))
+                    )?;
+                }
+                match certified.second.opinion() {
+                    Some(o) => writeln!(out, ",{:e},{}", o.conditioning, o.agree)?,
+                    None => writeln!(out, ",,")?,
+                }
+                Ok(())
+            })?;
+        }
+    }
+    Ok(())
+}
+
+/// The joints that have a choice, in file order: (variable, place in it, joint).
+fn columns(search: &Search<'_>) -> Vec<(usize, usize, JointId)> {
+    let mut out = Vec::new();
+    for (v, variable) in search
+        .space
+        .variables
+        .iter()
+        .enumerate()
+        .filter(|(_, v)| v.choices.len() > 1)
+    {
+        out.extend(variable.joints.iter().enumerate().map(|(i, &j)| (v, i, j)));
+    }
+    out.sort_by_key(|&(_, _, j)| j);
+    out
+}
+
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}

@@ -1,0 +1,94 @@
+//! `ozols verify`, and the certificates that `ozols analyze` writes for it.
+
+use super::args::{Args, Verify};
+use super::{Done, load, output};
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::certificate::{certify, matrix, number_field};
+use crate::verify::certificate::{CertificateFile, FORMAT, Without};
+use crate::verify::check;
+use anyhow::{Context, bail};
+use std::io::Write;
+use std::path::Path;
+
+/// Writes a certificate for each state that has one.
+pub(super) fn write(path: &Path, m: &Mechanism, states: &[StateId]) -> anyhow::Result<()> {
+    let mut file = CertificateFile {
+        format: FORMAT.to_owned(),
+        mechanism: m.name.clone(),
+        certificates: Vec::new(),
+        without: Vec::new(),
+    };
+    for &state in states {
+        match certify(m, state) {
+            Ok(certificate) => file.certificates.push(certificate),
+            Err(reason) => {
+                let state = m.states[state].clone();
+                let reason = reason.to_string();
+                let _ = writeln!(
+                    std::io::stderr().lock(),
+                    "note: no certificate of state {state}: {reason}"
+                );
+                file.without.push(Without { state, reason });
+            }
+        }
+    }
+    output::to(Some(path), |out| {
+        serde_json::to_writer(&mut *out, &file)?;
+        writeln!(out)?;
+        Ok(Done::Found)
+    })?;
+    Ok(())
+}
+
+pub(super) fn run(_: &Args, a: &Verify) -> anyhow::Result<Done> {
+    let mut m = load::mechanism(&a.file.file)?;
+    if a.planar {
+        load::put_in_plane(&mut m);
+    }
+    let name = a.certificates.display();
+    let bytes = std::fs::read(&a.certificates).with_context(|| format!("cannot read {name}"))?;
+    let file = CertificateFile::read(&bytes).with_context(|| format!("cannot read {name}"))?;
+    let mut lines = Vec::new();
+    let mut done = if file.certificates.is_empty() {
+        Done::Nothing
+    } else {
+        Done::Found
+    };
+    for certificate in &file.certificates {
+        let Some(state) = m.states.iter().position(|s| *s == certificate.state) else {
+            bail!(
+                "{name} is about a state {}; {} has: {}",
+                certificate.state,
+                m.name,
+                m.states.join(", ")
+            )
+        };
+        let field = number_field(&m, state)?;
+        let (rows, columns) = (certificate.rows, certificate.columns);
+        lines.push(match check(&matrix(&field, &m, state)?, certificate) {
+            Ok(rank) => format!(
+                "{}, state {}: rank {rank} of the {rows} x {columns} closure matrix is proven",
+                m.name, certificate.state
+            ),
+            Err(flaw) => {
+                done = Done::Nothing;
+                format!(
+                    "{}, state {}: certificate rejected: {flaw}",
+                    m.name, certificate.state
+                )
+            }
+        });
+    }
+    for Without { state, reason } in &file.without {
+        lines.push(format!(
+            "{}, state {state}: no certificate: {reason}",
+            m.name
+        ));
+    }
+    output::to(None, |out| {
+        for line in lines {
+            writeln!(out, "{line}")?;
+        }
+        Ok(done)
+    })
+}

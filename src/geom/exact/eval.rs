@@ -1,0 +1,123 @@
+//! The value of an expression in any ring that has its angles and roots.
+
+use std::collections::{BTreeMap, HashMap};
+
+use num_rational::BigRational;
+
+use super::ExactError;
+use super::quadratic::denested;
+use super::radical::{Radical, radical};
+use crate::geom::expr::{Expr, Function, Kind};
+
+/// A ring with the angles and roots of some expressions, under one consistent choice of roots.
+pub(crate) trait Target {
+    type Number: Clone + PartialEq + Default;
+
+    /// A rational number; `None` where its denominator has no inverse.
+    fn rational(&self, r: &BigRational) -> Option<Self::Number>;
+    fn sum(&self, a: &Self::Number, b: &Self::Number) -> Self::Number;
+    fn difference(&self, a: &Self::Number, b: &Self::Number) -> Self::Number;
+    fn product(&self, a: &Self::Number, b: &Self::Number) -> Self::Number;
+    /// `None` where there is none.
+    fn inverse(&self, a: &Self::Number) -> Option<Self::Number>;
+    /// Twice the cosine and the sine of `k/n` turns; `None` for an angle that is not provided for.
+    fn twice_cos_sin(&self, k: u64, n: u64) -> Option<[Self::Number; 2]>;
+    /// The root of a prime, where provided for.
+    fn prime_root(&self, q: u64) -> Option<Self::Number>;
+    /// The root of a nested radicand, where provided for.
+    fn nested_root(&self, radicand: &Self::Number) -> Option<Self::Number>;
+    /// Roots of rationals, factored.
+    fn radicals(&self) -> &BTreeMap<BigRational, Radical>;
+
+    fn power(&self, a: &Self::Number, n: u64) -> Option<Self::Number> {
+        let mut out = self.rational(&BigRational::from_integer(1.into()))?;
+        for bit in (0..u64::BITS - n.leading_zeros()).rev() {
+            out = self.product(&out, &out);
+            if n >> bit & 1 == 1 {
+                out = self.product(&out, a);
+            }
+        }
+        Some(out)
+    }
+}
+
+/// The value of an expression. O(nodes), each shared node once.
+pub(crate) fn eval<T: Target>(target: &T, expr: &Expr) -> Result<T::Number, ExactError> {
+    let divides = || ExactError::DivisionByZero {
+        expression: expr.to_string(),
+    };
+    if let Some(r) = expr.rational_ref() {
+        return target.rational(r).ok_or_else(divides);
+    }
+    let mut memo: HashMap<usize, T::Number> = HashMap::new();
+    let zero = T::Number::default();
+    for e in expr.post_order() {
+        let at = |c: &Expr| memo.get(&c.id()).unwrap_or(&zero);
+        let inverse = |x: &T::Number| target.inverse(x).ok_or_else(divides);
+        let value = match e.kind() {
+            Kind::Rational(r) => target.rational(r).ok_or_else(divides)?,
+            Kind::Add(a, b) => target.sum(at(a), at(b)),
+            Kind::Sub(a, b) => target.difference(at(a), at(b)),
+            Kind::Mul(a, b) => target.product(at(a), at(b)),
+            Kind::Div(a, b) => target.product(at(a), &inverse(at(b))?),
+            Kind::Neg(a) => target.difference(&zero, at(a)),
+            Kind::Pow(a, n) => {
+                let power = target.power(at(a), n.unsigned_abs()).ok_or_else(divides)?;
+                if *n < 0 { inverse(&power)? } else { power }
+            }
+            Kind::Sqrt(a) => sqrt(target, a, at(a))?,
+            Kind::Trig(function, k, n) => {
+                let [c, s] = target.twice_cos_sin(*k, *n).ok_or_else(|| outside(e))?;
+                let half = || {
+                    let half = BigRational::new(1.into(), 2.into());
+                    target.rational(&half).ok_or_else(divides)
+                };
+                match function {
+                    Function::Cos => target.product(&c, &half()?),
+                    Function::Sin => target.product(&s, &half()?),
+                    Function::Tan => target.product(&s, &inverse(&c)?),
+                }
+            }
+        };
+        memo.insert(e.id(), value);
+    }
+    Ok(memo.remove(&expr.id()).unwrap_or_default())
+}
+
+/// The root of `inner`, whose value is `value`.
+fn sqrt<T: Target>(target: &T, inner: &Expr, value: &T::Number) -> Result<T::Number, ExactError> {
+    if let Some(r) = inner.rational_ref() {
+        let made;
+        let radical = match target.radicals().get(r) {
+            Some(radical) => radical,
+            None => {
+                made = radical(r)?;
+                &made
+            }
+        };
+        let coef = target
+            .rational(&radical.coef)
+            .ok_or_else(|| ExactError::DivisionByZero {
+                expression: inner.to_string(),
+            })?;
+        return radical.primes.iter().try_fold(coef, |product, &q| {
+            let root = target.prime_root(q).ok_or_else(|| outside(inner))?;
+            Ok(target.product(&product, &root))
+        });
+    }
+    // Rewritten roots have rational radicands only, so this recursion ends at depth one.
+    if let Some(flat) = denested(inner) {
+        return eval(target, &flat);
+    }
+    if *value == T::Number::default() {
+        return Ok(T::Number::default());
+    }
+    // Equal radicands have equal values, however they are written.
+    target.nested_root(value).ok_or_else(|| outside(inner))
+}
+
+fn outside(e: &Expr) -> ExactError {
+    ExactError::NotInField {
+        expression: e.to_string(),
+    }
+}

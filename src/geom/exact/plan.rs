@@ -1,0 +1,241 @@
+//! Which roots and angles a number field needs: those of the cyclotomic field, the free ones, the nested ones.
+
+use std::collections::BTreeMap;
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+
+use super::quadratic::denested;
+use super::radical::{Radical, TRIAL_LIMIT, factor, radical};
+use super::{ExactError, ExactField};
+use crate::geom::expr::{Expr, Kind, MAX_ANGLE_DENOMINATOR};
+use crate::linalg::modp::{Field, is_prime};
+
+/// Free square roots (of primes, or nested) whose primes are found by rejection, each halving the supply.
+const MAX_FREE: usize = 14;
+/// Nested roots that may be adjoined.
+const MAX_NESTED: usize = 6;
+/// Primes on which a radicand is tested for being a square.
+const WITNESSES: usize = 24;
+/// Candidates tried before the search for primes is given up.
+const MAX_CANDIDATES: u64 = 1 << 23;
+/// Primes lost to a vanishing divisor before the divisor is taken to be zero.
+pub(crate) const MAX_FAILURES: usize = 32;
+
+/// What a prime has to provide.
+#[derive(Debug, Default)]
+pub(crate) struct Plan {
+    pub(crate) order: u64,
+    /// Primes are taken 1 modulo this multiple of `order`.
+    pub(crate) modulus: u64,
+    pub(crate) order_primes: Vec<u64>,
+    pub(crate) radicals: BTreeMap<BigRational, Radical>,
+    /// Primes whose roots are needed: within Q(zeta_N), and independent of it.
+    pub(crate) inner_roots: Vec<u64>,
+    pub(crate) free_roots: Vec<u64>,
+    pub(crate) nested: Vec<Expr>,
+}
+
+impl Plan {
+    /// Classifies the roots and angles of some expressions.
+    pub(crate) fn new(exprs: &[&Expr]) -> Result<Plan, ExactError> {
+        let mut plan = Plan {
+            order: 4,
+            ..Plan::default()
+        };
+        let mut candidates = Vec::new();
+        for e in exprs {
+            plan.collect(e, &mut candidates)?;
+        }
+        plan.finish(candidates.is_empty())?;
+        for inner in candidates {
+            if plan.independent(&inner)? {
+                plan.nested.push(inner);
+            }
+        }
+        Ok(plan)
+    }
+
+    fn collect(&mut self, e: &Expr, candidates: &mut Vec<Expr>) -> Result<(), ExactError> {
+        for node in e.post_order() {
+            match node.kind() {
+                Kind::Trig(_, _, n) => {
+                    let lcm = u128::from(self.order).lcm(&u128::from(*n));
+                    self.order = u64::try_from(lcm)
+                        .ok()
+                        .filter(|&l| l <= MAX_ANGLE_DENOMINATOR)
+                        .ok_or(ExactError::AnglesTooFine)?;
+                }
+                Kind::Sqrt(inner) => {
+                    if let Some(r) = inner.rational_ref() {
+                        if !self.radicals.contains_key(r) {
+                            self.radicals.insert(r.clone(), radical(r)?);
+                        }
+                    } else if let Some(flat) = denested(inner) {
+                        self.collect(&flat, candidates)?;
+                    } else {
+                        candidates.push(inner.clone());
+                    }
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Sorts the roots into those of Q(zeta_N) and the free ones, once all angles are known.
+    fn finish(&mut self, flat: bool) -> Result<(), ExactError> {
+        let mut primes: Vec<u64> = self
+            .radicals
+            .values()
+            .flat_map(|r| r.primes.iter().copied())
+            .collect();
+        primes.sort_unstable();
+        primes.dedup();
+        self.order_primes = factor(self.order).into_iter().map(|(q, _)| q).collect();
+        self.modulus = self.order;
+        let mut rejected = 0;
+        for q in primes {
+            let inside = if q == 2 {
+                self.order.is_multiple_of(8)
+            } else {
+                self.order.is_multiple_of(q)
+            };
+            if inside {
+                if q > TRIAL_LIMIT {
+                    return Err(ExactError::RadicandTooLarge {
+                        radicand: q.to_string(),
+                    });
+                }
+                self.inner_roots.push(q);
+                continue;
+            }
+            self.free_roots.push(q);
+            // By reciprocity q is a square modulo every p = 1 mod 4q. Not with nested roots about, though: those
+            // would then be tested for squares in a larger field than the one at hand.
+            let wanted = u128::from(self.modulus) * u128::from(if q == 2 { 2 } else { q });
+            match u64::try_from(wanted) {
+                Ok(m) if flat && m <= MAX_ANGLE_DENOMINATOR => self.modulus = m,
+                _ => rejected += 1,
+            }
+        }
+        if rejected > MAX_FREE {
+            return Err(ExactError::TooManyRoots {
+                count: rejected,
+                limit: MAX_FREE,
+            });
+        }
+        Ok(())
+    }
+
+    /// Whether the root of `inner` has to be adjoined, rather than being known already. On primes where all previous
+    /// radicands are squares, a product of `inner` with some of them is a square exactly when `inner` is: one test covers all products.
+    fn independent(&self, inner: &Expr) -> Result<bool, ExactError> {
+        let (mut squares, mut zeros, mut failures) = (0, 0, 0);
+        for field in self.fields() {
+            let value = match field.eval(inner) {
+                Ok(value) => value,
+                Err(ExactError::DivisionByZero { .. }) if failures < MAX_FAILURES => {
+                    failures += 1;
+                    continue;
+                }
+                Err(error) => return Err(error),
+            };
+            if value == 0 {
+                zeros += 1;
+            } else if field.nested.iter().any(|&(a, _)| a == value) {
+                return Ok(false);
+            } else if field.field.sqrt(value).is_none() {
+                if self.nested.len() == MAX_NESTED {
+                    return Err(ExactError::TooManyRoots {
+                        count: MAX_NESTED + 1,
+                        limit: MAX_NESTED,
+                    });
+                }
+                return Ok(true);
+            } else {
+                squares += 1;
+            }
+            if zeros >= 2 {
+                return Ok(false);
+            }
+            if squares >= WITNESSES {
+                return Err(ExactError::AmbiguousNestedRoot {
+                    radicand: inner.to_string(),
+                });
+            }
+        }
+        Err(ExactError::NoPrime { nth: 0 })
+    }
+
+    /// The suitable primes in increasing order.
+    pub(crate) fn fields(&self) -> impl Iterator<Item = ExactField> + '_ {
+        let modulus = self.modulus.max(4);
+        let start = (1u64 << 61) / modulus + 1;
+        let end = ((1u64 << 62) - 1) / modulus;
+        (start..end.min(start.saturating_add(MAX_CANDIDATES)))
+            .filter_map(move |k| self.at(k * modulus + 1))
+    }
+
+    fn at(&self, p: u64) -> Option<ExactField> {
+        if !is_prime(p) {
+            return None;
+        }
+        let f = Field::new(p);
+        let mut roots = BTreeMap::new();
+        for &q in &self.free_roots {
+            let root = f.sqrt(f.from_bigint(&BigInt::from(q)))?;
+            if root == 0 {
+                return None;
+            }
+            roots.insert(q, root);
+        }
+        let zeta = (2..)
+            .take(1 << 16)
+            .map(|g| f.pow(f.from_i64(g), (p - 1) / self.order))
+            .find(|&z| {
+                self.order_primes
+                    .iter()
+                    .all(|r| f.pow(z, self.order / r) != f.one())
+            })?;
+        let inverse_i = f.pow(zeta, self.order / 4 * 3);
+        for &q in &self.inner_roots {
+            let root = if q == 2 {
+                let z = f.pow(zeta, self.order / 8);
+                f.add(z, f.inv(z))
+            } else {
+                // The sum of zeta_q^(x^2), which is sqrt(q) or i sqrt(q); x^2 steps by 2x + 1.
+                let z = f.pow(zeta, self.order / q);
+                let square = f.mul(z, z);
+                let (mut sum, mut term, mut step) = (f.zero(), f.one(), z);
+                for _ in 0..q {
+                    sum = f.add(sum, term);
+                    term = f.mul(term, step);
+                    step = f.mul(step, square);
+                }
+                if q % 4 == 1 {
+                    sum
+                } else {
+                    f.mul(sum, inverse_i)
+                }
+            };
+            roots.insert(q, root);
+        }
+        let radicals = self.radicals.clone();
+        let mut field = ExactField {
+            field: f,
+            order: self.order,
+            zeta,
+            roots,
+            radicals,
+            nested: Vec::new(),
+        };
+        for inner in &self.nested {
+            let value = field.eval(inner).ok().filter(|&v| v != 0)?;
+            let root = f.sqrt(value)?;
+            field.nested.push((value, root));
+        }
+        Some(field)
+    }
+}

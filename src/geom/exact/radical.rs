@@ -1,0 +1,132 @@
+//! Roots of rationals as rationals times roots of distinct primes.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+use super::ExactError;
+use crate::geom::expr::Expr;
+use crate::linalg::modp::is_prime;
+
+/// Trial division of radicands stops here; Gauss sums, linear in the prime, do too.
+pub(crate) const TRIAL_LIMIT: u64 = 1_000_000;
+
+/// `coef * product of sqrt(prime)`: the root of a rational.
+#[derive(Debug, Clone)]
+pub(crate) struct Radical {
+    pub(crate) coef: BigRational,
+    pub(crate) primes: Vec<u64>,
+}
+
+/// The root of a nonnegative rational as a rational times roots of distinct primes. Prime factors up to 10^6 are found
+/// by division, and those of a cofactor below 2^64 by Pollard's rho; beyond that only squares are recognised.
+pub(crate) fn radical(r: &BigRational) -> Result<Radical, ExactError> {
+    let too_large = || ExactError::RadicandTooLarge {
+        radicand: Expr::rational(r.clone()).to_string(),
+    };
+    if r.is_zero() {
+        return Ok(Radical {
+            coef: BigRational::zero(),
+            primes: Vec::new(),
+        });
+    }
+    if r.is_negative() || r.numer().bits() + r.denom().bits() > 1 << 12 {
+        return Err(too_large());
+    }
+    let (a, mut primes) = squarefree(r.numer()).ok_or_else(too_large)?;
+    let (b, under) = squarefree(r.denom()).ok_or_else(too_large)?;
+    // sqrt(q)/q for the primes below the line, which are distinct from those above it
+    let below = under.iter().fold(b, |product, q| product * q);
+    primes.extend(under);
+    primes.sort_unstable();
+    Ok(Radical {
+        coef: BigRational::new(a, below),
+        primes,
+    })
+}
+
+/// `x = s^2 * product of primes` as `(s, primes)`.
+fn squarefree(x: &BigInt) -> Option<(BigInt, Vec<u64>)> {
+    let (mut rest, mut root, mut primes) = (x.clone(), BigInt::one(), Vec::new());
+    let mut note = |q: u64, count: u32| {
+        root *= BigInt::from(q).pow(count / 2);
+        if count % 2 == 1 {
+            primes.push(q);
+        }
+    };
+    let mut q = 2u64;
+    while rest.bits() > 64 && q <= TRIAL_LIMIT {
+        let mut count = 0;
+        while (&rest % q).is_zero() {
+            rest /= q;
+            count += 1;
+        }
+        note(q, count);
+        q += if q == 2 { 1 } else { 2 };
+    }
+    if let Some(small) = rest.to_u64() {
+        for (q, count) in factor(small) {
+            note(q, count);
+        }
+        return Some((root, primes));
+    }
+    let s = rest.sqrt();
+    (&s * &s == rest).then(|| (root * s, primes))
+}
+
+/// The prime factors of a number with their multiplicities, in increasing order.
+pub(crate) fn factor(mut n: u64) -> Vec<(u64, u32)> {
+    let mut primes = Vec::new();
+    let mut q = 2u64;
+    while q <= 1000 && q * q <= n {
+        while n.is_multiple_of(q) {
+            n /= q;
+            primes.push(q);
+        }
+        q += if q == 2 { 1 } else { 2 };
+    }
+    let mut stack = vec![n];
+    while let Some(m) = stack.pop() {
+        if m <= 1 {
+            continue;
+        }
+        if is_prime(m) {
+            primes.push(m);
+            continue;
+        }
+        let d = split(m);
+        stack.extend([d, m / d]);
+    }
+    primes.sort_unstable();
+    let mut counted: Vec<(u64, u32)> = Vec::new();
+    for q in primes {
+        match counted.last_mut() {
+            Some((last, count)) if *last == q => *count += 1,
+            _ => counted.push((q, 1)),
+        }
+    }
+    counted
+}
+
+/// A proper divisor of a composite number (Pollard's rho).
+fn split(n: u64) -> u64 {
+    let root = n.isqrt();
+    if root * root == n {
+        return root;
+    }
+    for c in 1..n {
+        let step =
+            |x: u64| ((u128::from(x) * u128::from(x) + u128::from(c)) % u128::from(n)) as u64;
+        let (mut x, mut y, mut d) = (2, 2, 1);
+        while d == 1 {
+            x = step(x);
+            y = step(step(y));
+            d = x.abs_diff(y).gcd(&n);
+        }
+        if d != n {
+            return d;
+        }
+    }
+    n
+}

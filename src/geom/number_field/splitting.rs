@@ -1,0 +1,121 @@
+//! Primes that split a number field, and primes that show that it is one.
+
+use num_integer::Integer;
+
+use super::NumberField;
+use crate::geom::exact::radical::factor;
+use crate::linalg::modp::{Field, Residue, is_prime};
+
+/// Candidates for primes tried before the search is given up.
+const MAX_CANDIDATES: u64 = 1 << 20;
+
+/// A field with the images of its generators in a prime field, under every homomorphism there is.
+#[derive(Debug, Clone)]
+pub struct Splitting {
+    /// The prime field.
+    pub field: Field,
+    /// As many homomorphisms as the degree, each as the images of the generators.
+    pub homomorphisms: Vec<Vec<Residue>>,
+}
+
+impl NumberField {
+    /// Primes near 2^61 that split the field, with all homomorphisms. A search of 2^k primes each, for k radicands whose
+    /// roots reciprocity does not provide.
+    pub fn splittings(&self) -> impl Iterator<Item = Splitting> + '_ {
+        primes(self.modulus).filter_map(|field| self.split(field))
+    }
+
+    pub(super) fn split(&self, field: Field) -> Option<Splitting> {
+        let mut homomorphisms: Vec<Vec<Residue>> = vec![Vec::new()];
+        if self.first_root() == 1 {
+            let zeta = self.root_of_unity(field)?;
+            let inverse = field.inv(zeta);
+            homomorphisms = (1..self.order / 2)
+                .filter(|k| k.gcd(&self.order) == 1)
+                .map(|k| vec![field.add(field.pow(zeta, k), field.pow(inverse, k))])
+                .collect();
+        }
+        for g in self.first_root()..self.ring.generators() {
+            let mut more = Vec::with_capacity(2 * homomorphisms.len());
+            for images in homomorphisms {
+                let root = field.sqrt(self.radicand(g, field, &images)?)?;
+                if root == 0 {
+                    return None;
+                }
+                for sign in [root, field.neg(root)] {
+                    let mut images = images.clone();
+                    images.push(sign);
+                    more.push(images);
+                }
+            }
+            homomorphisms = more;
+        }
+        Some(Splitting {
+            field,
+            homomorphisms,
+        })
+    }
+
+    /// For each generator that is a root, a prime with images of the generators before it under which the radicand is
+    /// no square: the proof that the field is one. `None` where the search was given up. A search of 2^k primes for k
+    /// roots.
+    #[must_use]
+    pub fn witnesses(&self) -> Option<Vec<(u64, Vec<u64>)>> {
+        let first = self.first_root();
+        let mut found: Vec<Option<(u64, Vec<u64>)>> = vec![None; self.ring.generators() - first];
+        for field in primes(self.order) {
+            if found.iter().all(Option::is_some) {
+                break;
+            }
+            let mut images = Vec::new();
+            if first == 1 {
+                let Some(zeta) = self.root_of_unity(field) else {
+                    continue;
+                };
+                images.push(field.add(zeta, field.inv(zeta)));
+            }
+            for (g, witness) in (first..).zip(&mut found) {
+                let Some(radicand) = self.radicand(g, field, &images).filter(|&a| a != 0) else {
+                    break;
+                };
+                let Some(root) = field.sqrt(radicand) else {
+                    if witness.is_none() {
+                        let plain = images.iter().map(|&x| field.to_u64(x)).collect();
+                        *witness = Some((field.modulus(), plain));
+                    }
+                    break;
+                };
+                images.push(root);
+            }
+        }
+        found.into_iter().collect()
+    }
+
+    /// The image of what stands under the root of a generator.
+    fn radicand(&self, generator: usize, field: Field, images: &[Residue]) -> Option<Residue> {
+        let constant = self.ring.relation(generator).first()?;
+        let monomials = self.ring.monomials(field, images);
+        Some(field.neg(constant.image(field, &monomials)?))
+    }
+
+    fn root_of_unity(&self, field: Field) -> Option<Residue> {
+        let primes: Vec<u64> = factor(self.order).into_iter().map(|(q, _)| q).collect();
+        (2..1 << 16)
+            .map(|g| field.pow(field.from_i64(g), (field.modulus() - 1) / self.order))
+            .find(|&z| {
+                primes
+                    .iter()
+                    .all(|q| field.pow(z, self.order / q) != field.one())
+            })
+    }
+}
+
+/// The fields of primes 1 modulo a number, from 2^61 on.
+fn primes(modulus: u64) -> impl Iterator<Item = Field> {
+    let start = (1u64 << 61) / modulus + 1;
+    let end = ((1u64 << 62) - 1) / modulus;
+    (start..end.min(start.saturating_add(MAX_CANDIDATES)))
+        .map(move |k| k * modulus + 1)
+        .filter(|&p| is_prime(p))
+        .map(Field::new)
+}

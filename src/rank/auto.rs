@@ -1,0 +1,211 @@
+//! The automatic choice: the cheapest method that is certain for this mechanism, and one line that says what was chosen,
+//! why, and what was left out.
+
+use super::finite::{Finite, finite, followed};
+use super::method::{Answer, Certainty as Sure, MobilityMethod, NoAnswer, Quantity};
+use super::numeric::{NumericRank, rank_with_tolerance};
+use super::qr::Qr;
+use super::snap::snap;
+use super::subgroup::whole_group;
+use super::{field_of, modular};
+use crate::closure::matrix::Closure;
+use crate::geom::scalars::Reals;
+use crate::model::measured::{Measured, looks_measured};
+use crate::model::mechanism::{Mechanism, StateId};
+
+/// What the geometry is, and which mechanism the verdict is about.
+#[derive(Debug, Clone)]
+pub enum Geometry {
+    /// Exact as the file has it.
+    Exact,
+    /// Measured; ranks as written and numeric agree.
+    MeasuredAgreeing(Measured),
+    /// Measured; exact once near-coincidences are snapped, and then in agreement with the numeric rank.
+    Snapped {
+        /// Why it looks measured.
+        measured: Measured,
+        /// The snapped mechanism.
+        mechanism: Box<Mechanism>,
+        /// What was moved.
+        moved: Vec<String>,
+    },
+    /// Measured; only the numeric rank sees what the digits mean.
+    Measured(Measured),
+}
+
+/// A decision for one state.
+#[derive(Debug, Clone)]
+pub struct Decision {
+    /// What the geometry is.
+    pub geometry: Geometry,
+    /// Rank of J by the verdict.
+    pub rank: usize,
+    /// Rank of J with every digit taken at its word.
+    pub as_written: usize,
+    /// Singular values of the file's J, where they were asked.
+    pub numeric: Option<NumericRank>,
+    /// The tolerance they were read at.
+    pub tolerance: f64,
+    /// The mobility that is really there.
+    pub finite: Finite,
+    /// What was chosen, why, and what was left out.
+    pub line: String,
+}
+
+/// Decides for a state; `tolerance` overrides the one that follows from the digits.
+///
+/// # Errors
+/// Where the geometry has no image in a prime field, or the singular values do not converge.
+///
+/// # Complexity
+/// One modular rank for exact geometry; for measured geometry singular values, a second elimination and the snapping.
+pub fn decide(
+    mechanism: &Mechanism,
+    state: StateId,
+    tolerance: Option<f64>,
+) -> Result<Decision, NoAnswer> {
+    let exact = field_of(mechanism, state, 0)?;
+    let closure = Closure::new(&exact, mechanism, state)?;
+    let as_written = modular::rank(&exact, &closure);
+    let freedoms = closure.columns.len();
+    let group = whole_group(&exact, mechanism, state)?;
+    let needed = if closure.contours.is_empty() || closure.dim == group.dimension() {
+        String::new()
+    } else {
+        format!(
+            "; all joints move in {}, so {} of the {} rows per contour are always redundant",
+            group.name(),
+            closure.dim - group.dimension(),
+            closure.dim
+        )
+    };
+    let Some(measured) = looks_measured(mechanism) else {
+        return Ok(Decision {
+            geometry: Geometry::Exact,
+            rank: as_written,
+            as_written,
+            numeric: None,
+            tolerance: 0.0,
+            finite: finite(&exact, mechanism, &closure, as_written)?,
+            line: format!("exact geometry, so ranks over prime fields{needed}"),
+        });
+    };
+    let tolerance = tolerance.unwrap_or_else(|| measured.tolerance());
+    let real = Closure::new(&Reals, mechanism, state)?;
+    let numeric =
+        rank_with_tolerance(&real, tolerance).map_err(|e| NoAnswer::Failed(e.to_string()))?;
+    let second = Qr::<f64>::with_tolerance(tolerance).rank(&real);
+    let doubt = if second.rank == numeric.rank {
+        String::new()
+    } else {
+        format!(
+            "; column-pivoted QR says rank {} instead, so treat this as open",
+            second.rank
+        )
+    };
+    let gap = format!(
+        "singular values at tolerance {tolerance:.0e} (smallest kept {:.1e}, largest dropped {:.1e})",
+        numeric.kept, numeric.dropped
+    );
+    let why = format!("coordinates look measured ({measured})");
+    let base = |geometry, rank, finite, line| Decision {
+        geometry,
+        rank,
+        as_written,
+        numeric: Some(numeric),
+        tolerance,
+        finite,
+        line,
+    };
+    if numeric.rank == as_written {
+        let found = finite(&exact, mechanism, &closure, as_written)?;
+        let line = format!("{why}; exact rank as written and {gap} agree{doubt}{needed}");
+        return Ok(base(
+            Geometry::MeasuredAgreeing(measured),
+            as_written,
+            found,
+            line,
+        ));
+    }
+    let snapped = snap(mechanism, tolerance);
+    let snapped_exact = field_of(&snapped.mechanism, state, 0)?;
+    let snapped_closure = Closure::new(&snapped_exact, &snapped.mechanism, state)?;
+    let snapped_rank = modular::rank(&snapped_exact, &snapped_closure);
+    let both = format!(
+        "as written, every digit at its word, the rank would be {as_written} (mobility {}) instead of {} (mobility {})",
+        freedoms - as_written,
+        numeric.rank,
+        freedoms - numeric.rank
+    );
+    if snapped_rank == numeric.rank {
+        let found = finite(
+            &snapped_exact,
+            &snapped.mechanism,
+            &snapped_closure,
+            snapped_rank,
+        )?;
+        let line = format!(
+            "{why}; snapped within {tolerance:.0e} ({} changes), exact rank then; {gap} agree{doubt}; {both}",
+            snapped.moved.len()
+        );
+        return Ok(base(
+            Geometry::Snapped {
+                measured,
+                mechanism: Box::new(snapped.mechanism),
+                moved: snapped.moved,
+            },
+            snapped_rank,
+            found,
+            line,
+        ));
+    }
+    let found = followed(mechanism, state, freedoms - numeric.rank, tolerance)?;
+    let line = format!("{why}; {gap}{doubt}; {both}");
+    Ok(base(
+        Geometry::Measured(measured),
+        numeric.rank,
+        found,
+        line,
+    ))
+}
+
+/// The automatic choice as a method; finite mobility.
+#[derive(Debug, Clone, Copy)]
+pub struct Auto;
+
+impl MobilityMethod for Auto {
+    fn name(&self) -> &'static str {
+        "auto"
+    }
+    fn title(&self) -> &'static str {
+        "automatic choice"
+    }
+    fn guarantee(&self) -> &'static str {
+        "as the method it chooses, which it names; finite mobility"
+    }
+    fn complexity(&self) -> &'static str {
+        "one modular rank, and singular values only where coordinates are measured"
+    }
+    fn source(&self) -> &'static str {
+        "this program"
+    }
+    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+        let decision = decide(mechanism, state, None)?;
+        let numeric = decision
+            .numeric
+            .filter(|_| matches!(decision.geometry, Geometry::Measured(_)));
+        Ok(Answer {
+            mobility: i64::try_from(decision.finite.mobility).unwrap_or(i64::MAX),
+            quantity: Quantity::Finite,
+            certainty: match numeric {
+                Some(n) => Sure::Numeric {
+                    tolerance: decision.tolerance,
+                    kept: n.kept,
+                    dropped: n.dropped,
+                },
+                None if decision.finite.is_proven() => Sure::Exact,
+                None => Sure::Traced,
+            },
+        })
+    }
+}

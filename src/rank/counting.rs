@@ -1,0 +1,86 @@
+//! Counting formulas: links, joints and freedoms, no geometry.
+
+use super::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
+use super::subgroup::{Kind, whole_group};
+use crate::model::mechanism::{Mechanism, StateId};
+
+/// W = 6(n - 1) - Σ constraints.
+#[derive(Debug, Clone, Copy)]
+pub struct Spatial;
+
+/// W = 3(n - 1) - Σ constraints in the plane.
+#[derive(Debug, Clone, Copy)]
+pub struct Planar;
+
+/// `dim`·(n - 1) - Σ (`dim` - f_i) over the joints of a state.
+#[must_use]
+pub fn count(mechanism: &Mechanism, state: StateId, dim: i64) -> i64 {
+    let mut links: Vec<_> = mechanism
+        .joints_in(state)
+        .flat_map(|j| mechanism.joints[j].links)
+        .collect();
+    links.sort_unstable();
+    links.dedup();
+    let constraints: i64 = mechanism
+        .joints_in(state)
+        .map(|j| dim - i64::try_from(mechanism.joints[j].joint_type.freedoms().len()).unwrap_or(0))
+        .sum();
+    dim * (i64::try_from(links.len()).unwrap_or(i64::MAX).max(1) - 1) - constraints
+}
+
+fn counted(mobility: i64) -> Answer {
+    Answer {
+        mobility,
+        quantity: Quantity::Count,
+        certainty: Certainty::Counted,
+    }
+}
+
+impl MobilityMethod for Spatial {
+    fn name(&self) -> &'static str {
+        "count"
+    }
+    fn title(&self) -> &'static str {
+        "spatial counting"
+    }
+    fn guarantee(&self) -> &'static str {
+        "right where no constraint is redundant (σ = 0); otherwise too small by σ"
+    }
+    fn complexity(&self) -> &'static str {
+        "O(n + p)"
+    }
+    fn source(&self) -> &'static str {
+        "Chebychev 1869, Grübler 1917, Kutzbach 1929; Malyshev 1923"
+    }
+    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+        if matches!(mechanism.mode, crate::model::mechanism::Mode::Planar { .. }) {
+            return Err(NoAnswer::DoesNotApply("the file is in planar mode"));
+        }
+        Ok(counted(count(mechanism, state, 6)))
+    }
+}
+
+impl MobilityMethod for Planar {
+    fn name(&self) -> &'static str {
+        "count-planar"
+    }
+    fn title(&self) -> &'static str {
+        "planar counting"
+    }
+    fn guarantee(&self) -> &'static str {
+        "right where every joint moves in one plane and no constraint in it is redundant"
+    }
+    fn complexity(&self) -> &'static str {
+        "O(n + p)"
+    }
+    fn source(&self) -> &'static str {
+        "Chebychev 1869, Grübler 1883"
+    }
+    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+        let exact = super::field_of(mechanism, state, 0)?;
+        match whole_group(&exact, mechanism, state)?.kind() {
+            Kind::Planar | Kind::Rotation => Ok(counted(count(mechanism, state, 3))),
+            _ => Err(NoAnswer::DoesNotApply("not every joint moves in one plane")),
+        }
+    }
+}

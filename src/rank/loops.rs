@@ -1,0 +1,50 @@
+//! Sum over independent contours of the dimension of each one's twist space.
+
+use super::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
+use crate::closure::matrix::Closure;
+use crate::linalg::echelon;
+use crate::model::mechanism::{Mechanism, StateId};
+
+/// W = f - Σ rank of contour i, over a minimum cycle basis.
+#[derive(Debug, Clone, Copy)]
+pub struct Loops;
+
+impl MobilityMethod for Loops {
+    fn name(&self) -> &'static str {
+        "loops"
+    }
+    fn title(&self) -> &'static str {
+        "sum of contour ranks"
+    }
+    fn guarantee(&self) -> &'static str {
+        "right where contours do not share redundant constraints; too small otherwise, and then dependent on the cycle basis [Gogu 2005]"
+    }
+    fn complexity(&self) -> &'static str {
+        "O(f) eliminations of six rows"
+    }
+    fn source(&self) -> &'static str {
+        "Voinea & Atanasiu 1959; Gogu 2005"
+    }
+    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+        let exact = super::field_of(mechanism, state, 0)?;
+        let closure = Closure::new(&exact, mechanism, state)?;
+        let mut mobility = i64::try_from(closure.columns.len()).unwrap_or(i64::MAX);
+        for k in 0..closure.contours.len() {
+            let columns: Vec<_> = (0..closure.columns.len())
+                .filter(|&c| {
+                    closure.contours[k]
+                        .direction(closure.columns[c].joint)
+                        .is_some()
+                })
+                .map(|c| closure.dense_column(&exact, c, &[k]))
+                .collect();
+            let rank = echelon::rank(exact.field(), columns.iter().map(Vec::as_slice));
+            mobility -= i64::try_from(rank).unwrap_or(0);
+        }
+        Ok(Answer {
+            mobility,
+            quantity: Quantity::Count,
+            certainty: Certainty::Exact,
+        })
+    }
+}

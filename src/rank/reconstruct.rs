@@ -1,0 +1,152 @@
+//! Rational numbers from their residues modulo several primes.
+//!
+//! # Sources
+//! von zur Gathen & Gerhard, "Modern Computer Algebra", 5.10 (rational reconstruction), 5.4 (Chinese remainders).
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use crate::linalg::modp::{Field, Residue};
+
+/// The fraction n/d ≡ x modulo m with |n| and d at most sqrt(m/2), which is unique where it exists.
+///
+/// Half of Euclid's algorithm on m and x: O(log² m) bit operations.
+#[must_use]
+pub fn rational(x: &BigInt, m: &BigInt) -> Option<BigRational> {
+    let bound = (m / 2u32).sqrt();
+    let (mut r0, mut r1) = (m.clone(), x.mod_floor(m));
+    let (mut t0, mut t1) = (BigInt::zero(), BigInt::one());
+    while r1 > bound {
+        let (q, r) = r0.div_rem(&r1);
+        let t = t0 - q * &t1;
+        (r0, r1) = (r1, r);
+        (t0, t1) = (t1, t);
+    }
+    if t1.is_zero() || t1.abs() > bound || !r1.gcd(&t1).is_one() {
+        return None;
+    }
+    Some(BigRational::new(r1, t1))
+}
+
+/// The primes so far and their product.
+#[derive(Debug, Clone)]
+pub struct Modulus {
+    product: BigInt,
+    primes: usize,
+}
+
+impl Default for Modulus {
+    fn default() -> Self {
+        Modulus {
+            product: BigInt::one(),
+            primes: 0,
+        }
+    }
+}
+
+impl Modulus {
+    /// Number of primes. O(1).
+    #[must_use]
+    pub fn primes(&self) -> usize {
+        self.primes
+    }
+
+    /// Takes one more prime, after all unknowns have seen it. O(primes).
+    pub fn extend(&mut self, field: Field) {
+        self.product *= field.modulus();
+        self.primes += 1;
+    }
+}
+
+/// A rational number of which residues come in.
+#[derive(Debug, Clone)]
+pub enum Unknown {
+    /// A fraction that all residues so far agree with.
+    Settled(BigRational),
+    /// The residue modulo the product of the primes so far.
+    Open(BigInt),
+}
+
+impl Default for Unknown {
+    fn default() -> Self {
+        Unknown::Settled(BigRational::zero())
+    }
+}
+
+impl Unknown {
+    /// Takes the residue modulo one more prime; false where it contradicts the fraction settled on. `inverse` is that of
+    /// the product of the primes before, in the field. O(primes) where open, O(size of the fraction) where settled.
+    pub fn see(
+        &mut self,
+        field: Field,
+        residue: Residue,
+        modulus: &Modulus,
+        inverse: Residue,
+    ) -> bool {
+        let agrees = match self {
+            Unknown::Settled(q) if q.is_zero() => residue == 0,
+            Unknown::Settled(q) => field.from_rational(q) == Some(residue),
+            Unknown::Open(_) => false,
+        };
+        if agrees {
+            return true;
+        }
+        let before = match std::mem::take(self) {
+            Unknown::Settled(q) => {
+                // Its denominator was invertible modulo every prime so far.
+                let m = &modulus.product;
+                let inverse = q.denom().modinv(m).unwrap_or_default();
+                (q.numer() * inverse).mod_floor(m)
+            }
+            Unknown::Open(x) => x,
+        };
+        let step = field.mul(field.sub(residue, field.from_bigint(&before)), inverse);
+        *self = Unknown::Open(before + &modulus.product * field.to_u64(step));
+        false
+    }
+
+    /// Settles on a fraction where there is one of moderate size. O(primes²) where open.
+    pub fn settle(&mut self, modulus: &Modulus) {
+        if let Unknown::Open(x) = self
+            && let Some(q) = rational(x, &modulus.product)
+        {
+            *self = Unknown::Settled(q);
+        }
+    }
+}
+
+/// The inverse of the product of the primes so far, in a field of another prime. O(primes).
+#[must_use]
+pub fn inverse_of(modulus: &Modulus, field: Field) -> Option<Residue> {
+    let residue = field.from_bigint(&modulus.product);
+    (residue != 0).then(|| field.inv(residue))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::modp::is_prime;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn fractions_come_back_from_their_residues(n in any::<i128>(), d in 1u64.., far in any::<bool>()) {
+            let q = BigRational::new(n.into(), d.into());
+            let q = if far { &q * &q } else { q };
+            let mut unknown = Unknown::default();
+            let mut modulus = Modulus::default();
+            let mut quiet = 0;
+            for p in (1u64 << 61..).filter(|&p| is_prime(p)).take(12) {
+                let f = Field::new(p);
+                let agreed = unknown.see(f, f.from_rational(&q).unwrap(), &modulus, inverse_of(&modulus, f).unwrap());
+                quiet = if agreed { quiet + 1 } else { 0 };
+                modulus.extend(f);
+                unknown.settle(&modulus);
+            }
+            prop_assert!(quiet > 2);
+            prop_assert!(matches!(unknown, Unknown::Settled(x) if x == q));
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! How the redundant constraints are shared out among the contours.
+
+use crate::closure::contour::Contour;
+use crate::closure::matrix::Closure;
+use crate::geom::exact::ExactField;
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::Residue;
+use crate::redundancy::stress::stress_basis;
+
+/// Redundant constraints of one contour.
+#[derive(Debug, Clone)]
+pub struct ContourShare {
+    /// The contour.
+    pub contour: Contour,
+    /// σ_i when contours are added in the order reported.
+    pub redundant: usize,
+    /// Least and greatest σ_i over all orders.
+    pub range: (usize, usize),
+}
+
+/// σ_i of each contour in the order of the basis, and its range over all orders.
+///
+/// Adding a contour to more contours never adds more rank (rank is submodular), so σ_i is least when the contour is
+/// added first and greatest when it is added last: no order need be tried. And all of it can be read off one basis of
+/// the self-stresses, the left kernel of J:
+/// - those within the first i contours are the left kernel of the first i contours' rows, so σ_i in the order given is
+///   the number of vectors of an echelon basis that end in contour i;
+/// - those without contour i are the left kernel of the other rows, so the greatest σ_i is the dimension of what the
+///   basis has in the rows of contour i;
+/// - the least is the number of rows less the rank of the contour's own columns.
+///
+/// # Complexity
+/// One elimination of J by rows, then O(σ·k) to look at the basis and an elimination of at most `dim` independent rows
+/// per contour; k + 2 eliminations of J by the definition.
+#[must_use]
+pub fn shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShare> {
+    let dim = closure.dim;
+    let stresses = stress_basis(exact, closure);
+    let mut ending = vec![0; closure.contours.len()];
+    for s in &stresses {
+        if let Some(last) = s.iter().rposition(|&x| x != 0) {
+            ending[last / dim] += 1;
+        }
+    }
+    let ranks = |vectors: &mut dyn Iterator<Item = &[Residue]>| {
+        let mut span = Echelon::new(exact.field());
+        while span.rank() < dim {
+            let Some(v) = vectors.next() else { break };
+            if v.iter().any(|&x| x != 0) {
+                span.insert(v);
+            }
+        }
+        span.rank()
+    };
+    // Columns are grouped by joint, in file order.
+    let of_joint = |j| {
+        let from = closure.columns.partition_point(|c| c.joint < j);
+        closure.columns[from..]
+            .iter()
+            .take_while(move |c| c.joint == j)
+    };
+    closure
+        .contours
+        .iter()
+        .enumerate()
+        .map(|(i, contour)| {
+            let mut own = contour
+                .joints
+                .iter()
+                .flat_map(|&(j, _)| of_joint(j))
+                .map(|c| c.twist.as_slice());
+            let mut carried = stresses.iter().map(|s| &s[i * dim..(i + 1) * dim]);
+            ContourShare {
+                contour: contour.clone(),
+                redundant: ending[i],
+                range: (dim - ranks(&mut own), ranks(&mut carried)),
+            }
+        })
+        .collect()
+}

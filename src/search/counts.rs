@@ -1,0 +1,139 @@
+//! How many variants there are of each kind.
+
+use crate::search::diagram::Diagram;
+use crate::search::request::{Request, Search, SearchError, Symmetry};
+use crate::search::tally::{Count, Key, Kinds, Tally};
+use num_bigint::BigUint;
+use num_traits::Zero;
+use std::collections::BTreeMap;
+
+/// Exact counts of some variants, by their properties.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// All of them.
+    pub total: BigUint,
+    /// By W.
+    pub by_mobility: BTreeMap<i64, BigUint>,
+    /// By number of changes.
+    pub by_changes: BTreeMap<u32, BigUint>,
+    /// By W and number of changes.
+    pub by_mobility_and_changes: BTreeMap<(i64, u32), BigUint>,
+    /// By redundant constraints within the mechanism.
+    pub by_redundant: BTreeMap<u32, BigUint>,
+    /// By freedoms f.
+    pub by_freedoms: BTreeMap<u32, BigUint>,
+}
+
+impl Counts {
+    pub(super) fn add(&mut self, mobility: i64, key: Key, count: &BigUint) {
+        self.total += count;
+        *self.by_mobility.entry(mobility).or_default() += count;
+        *self.by_changes.entry(key.changes()).or_default() += count;
+        *self
+            .by_mobility_and_changes
+            .entry((mobility, key.changes()))
+            .or_default() += count;
+        *self.by_redundant.entry(key.internal()).or_default() += count;
+        *self.by_freedoms.entry(key.freedoms()).or_default() += count;
+    }
+
+    /// Orbits of a mirror symmetry, from all variants and the symmetric ones (Burnside's lemma).
+    fn orbits(mut self, symmetric: &Counts) -> Counts {
+        fn half<K: Ord>(all: &mut BTreeMap<K, BigUint>, fixed: &BTreeMap<K, BigUint>) {
+            for (k, n) in all.iter_mut() {
+                *n = (&*n + fixed.get(k).cloned().unwrap_or_default()) / 2u8;
+            }
+        }
+        self.total = (self.total + &symmetric.total) / 2u8;
+        half(&mut self.by_mobility, &symmetric.by_mobility);
+        half(&mut self.by_changes, &symmetric.by_changes);
+        half(
+            &mut self.by_mobility_and_changes,
+            &symmetric.by_mobility_and_changes,
+        );
+        half(&mut self.by_redundant, &symmetric.by_redundant);
+        half(&mut self.by_freedoms, &symmetric.by_freedoms);
+        self
+    }
+}
+
+impl Search<'_> {
+    /// Counts the variants of a diagram; `filter` applies the conditions on mobility and changes too.
+    #[must_use]
+    pub fn counts(&self, diagram: &Diagram, filter: bool) -> Counts {
+        if self.fits() {
+            self.count_with::<u128>(diagram, filter)
+        } else {
+            self.count_with::<BigUint>(diagram, filter)
+        }
+    }
+
+    /// Whether every count fits 128 bits.
+    pub(super) fn fits(&self) -> bool {
+        self.space.size().bits() <= 127
+    }
+
+    fn count_with<C: Count>(&self, diagram: &Diagram, filter: bool) -> Counts {
+        let kinds = Kinds {
+            freedoms: true,
+            changes: true,
+            cost: false,
+        };
+        let tally: Tally<C> = Tally::new(diagram, &self.steps.only(kinds), None);
+        let mut counts = Counts::default();
+        for (key, count) in tally.totals() {
+            if !filter || self.wanted(*key) {
+                counts.add(self.mobility(*key), *key, &count.big());
+            }
+        }
+        counts
+    }
+
+    /// Counts by cost in thousandths of the variants of a diagram that meet every condition.
+    #[must_use]
+    pub fn counts_by_cost(&self, diagram: &Diagram) -> BTreeMap<i64, BigUint> {
+        fn with<C: Count>(s: &Search<'_>, diagram: &Diagram) -> BTreeMap<i64, BigUint> {
+            let kinds = Kinds {
+                freedoms: s.request.max_mobility.is_some(),
+                changes: s.request.max_changes.is_some(),
+                cost: true,
+            };
+            let tally: Tally<C> = Tally::new(diagram, &s.steps.only(kinds), None);
+            let mut out = BTreeMap::new();
+            for (key, count) in tally.totals().iter().filter(|(k, _)| s.wanted(*k)) {
+                *out.entry(s.steps.milli(key.cost()))
+                    .or_insert_with(BigUint::zero) += count.big();
+            }
+            out
+        }
+        if self.fits() {
+            with::<u128>(self, diagram)
+        } else {
+            with::<BigUint>(self, diagram)
+        }
+    }
+
+    /// Counts of orbits from counts of all variants, by a search for the symmetric ones.
+    ///
+    /// # Errors
+    /// As [`Search::new`].
+    pub fn orbits(
+        &self,
+        all: (Counts, Counts),
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Result<(Counts, Counts), SearchError> {
+        let request = Request {
+            symmetry: Symmetry::SymmetricOnly,
+            ..self.request.clone()
+        };
+        let symmetric = Search::new(self.exact.clone(), self.mechanism, request)?;
+        let diagrams = symmetric.build(cancelled, &mut |_| {});
+        let determinate = all
+            .0
+            .orbits(&symmetric.counts(&diagrams.determinate, false));
+        Ok((
+            determinate,
+            all.1.orbits(&symmetric.counts(&diagrams.admissible, true)),
+        ))
+    }
+}

@@ -1,0 +1,142 @@
+//! Checks a certificate of rank by slow, plain means that share nothing with how it was found.
+//!
+//! A certificate that J has rank r over a real number field K shows three things:
+//! - K is a field: its first generator is 2 cos(2π/N), whose minimal polynomial is recomputed here, and each later one
+//!   is the root of a number that is no square, which a prime shows;
+//! - the rank is at least r: a ring homomorphism into a prime field under which a minor of size r does not vanish;
+//! - the rank is at most r: f - r vectors with J v = 0 exactly, each 1 in a column where all others are 0.
+
+pub mod certificate;
+mod field;
+mod flaw;
+pub mod matrix;
+mod modular;
+
+pub use flaw::Flaw;
+
+use crate::linalg::number_ring::Element;
+use certificate::{Certificate, KernelVector};
+use matrix::MatrixOverRing;
+use modular::Homomorphism;
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::One;
+
+/// Confirms that a matrix has the rank its certificate claims.
+///
+/// # Errors
+/// The first [`Flaw`] found.
+///
+/// # Complexity
+/// O(r³) operations modulo the prime and O(entries · (f - r)) products in the ring.
+pub fn check(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<usize, Flaw> {
+    let (rows, columns, rank) = (certificate.rows, certificate.columns, certificate.rank);
+    if (rows, columns) != (matrix.rows(), matrix.columns()) {
+        return Err(Flaw::Shape {
+            claimed: [rows, columns],
+            actual: [matrix.rows(), matrix.columns()],
+        });
+    }
+    if rank > rows.min(columns) {
+        return Err(Flaw::RankTooLarge { rank });
+    }
+    field::check(matrix, &certificate.field)?;
+    at_least(matrix, certificate)?;
+    at_most(matrix, certificate)?;
+    Ok(rank)
+}
+
+/// Every index below a bound, and none twice.
+fn distinct(indices: &[usize], bound: usize) -> bool {
+    let mut seen = vec![false; bound];
+    indices
+        .iter()
+        .all(|&i| i < bound && !std::mem::replace(&mut seen[i], true))
+}
+
+fn at_least(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<(), Flaw> {
+    let (rank, minor) = (certificate.rank, &certificate.minor);
+    if minor.rows.len() != rank || minor.columns.len() != rank {
+        return Err(Flaw::PivotCount {
+            rank,
+            rows: minor.rows.len(),
+            columns: minor.columns.len(),
+        });
+    }
+    if !distinct(&minor.rows, matrix.rows()) || !distinct(&minor.columns, matrix.columns()) {
+        return Err(Flaw::PivotIndices);
+    }
+    let images = Homomorphism::new(minor.prime, &minor.images, matrix.ring())?;
+    images.respects(matrix.ring(), matrix.ring().generators())?;
+    let mut square = vec![vec![0; rank]; rank];
+    for (i, &row) in minor.rows.iter().enumerate() {
+        for (j, &column) in minor.columns.iter().enumerate() {
+            if let Some(entry) = matrix.entry(row, column) {
+                square[i][j] = images.of(entry)?;
+            }
+        }
+    }
+    if modular::singular(square, minor.prime) {
+        return Err(Flaw::MinorVanishes { prime: minor.prime });
+    }
+    Ok(())
+}
+
+fn at_most(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<(), Flaw> {
+    let kernel = &certificate.kernel;
+    if kernel.len() != matrix.columns() - certificate.rank {
+        return Err(Flaw::KernelCount {
+            wanted: matrix.columns() - certificate.rank,
+            given: kernel.len(),
+        });
+    }
+    // Pivot columns and free columns share out the columns between them.
+    let mut all: Vec<usize> = kernel.iter().map(|v| v.free).collect();
+    all.extend(&certificate.minor.columns);
+    if !distinct(&all, matrix.columns()) {
+        return Err(Flaw::FreeColumns);
+    }
+    let mut free = vec![false; matrix.columns()];
+    kernel.iter().for_each(|v| free[v.free] = true);
+    let (ring, one) = (matrix.ring(), Element::integer(1));
+    for (i, vector) in kernel.iter().enumerate() {
+        let support: Vec<usize> = vector.entries.iter().map(|(c, _)| *c).collect();
+        if !distinct(&support, matrix.columns()) {
+            return Err(Flaw::KernelIndices { vector: i });
+        }
+        if !vector.entries.iter().all(|(_, x)| ring.contains(x)) {
+            return Err(Flaw::KernelNumber { vector: i });
+        }
+        let reduced = vector.entries.iter().all(|(c, x)| {
+            !free[*c]
+                || if *c == vector.free {
+                    *x == one
+                } else {
+                    x.is_zero()
+                }
+        });
+        if !reduced || !support.contains(&vector.free) {
+            return Err(Flaw::NotReduced { vector: i });
+        }
+        // Over a common denominator sums need no long fractions; the scale does not matter to a zero.
+        let scale = common_denominator(vector);
+        let mut sums = vec![Element::default(); matrix.rows()];
+        for (column, x) in &vector.entries {
+            let x = ring.mul(x, &scale);
+            for (row, entry) in matrix.column(*column) {
+                sums[*row] = ring.add(&sums[*row], &ring.mul(entry, &x));
+            }
+        }
+        if let Some(row) = sums.iter().position(|s| !s.is_zero()) {
+            return Err(Flaw::NotInKernel { vector: i, row });
+        }
+    }
+    Ok(())
+}
+
+fn common_denominator(vector: &KernelVector) -> Element {
+    let numbers = vector.entries.iter().flat_map(|(_, x)| x.coordinates());
+    let lcm = numbers.fold(BigInt::one(), |m, q| m.lcm(q.denom()));
+    Element::rational(BigRational::from_integer(lcm))
+}

@@ -1,0 +1,191 @@
+//! Certificates as data, to be written to JSON and read back. Numbers are written as strings.
+
+use crate::linalg::number_ring::Element;
+use num_rational::BigRational;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use thiserror::Error;
+
+/// The word that begins a file of certificates.
+pub const FORMAT: &str = "ozols-certificate-1";
+
+/// A file of certificates of one mechanism.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CertificateFile {
+    /// [`FORMAT`].
+    pub format: String,
+    /// Name of the mechanism.
+    pub mechanism: String,
+    /// One for each state that has one.
+    pub certificates: Vec<Certificate>,
+    /// The states without.
+    pub without: Vec<Without>,
+}
+
+/// A state without a certificate.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Without {
+    /// Name of the state.
+    pub state: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// Why a text is no file of certificates.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// Not of the right form.
+    #[error("not a file of certificates: {0}")]
+    Json(#[from] serde_json::Error),
+    /// A file of another kind.
+    #[error("not a file of certificates: its format is `{format}`, not `ozols-certificate-1`")]
+    Format {
+        /// The format it states.
+        format: String,
+    },
+}
+
+impl CertificateFile {
+    /// Reads a file of certificates; what it claims is for [`super::check`] to confirm. O(length).
+    ///
+    /// # Errors
+    /// Where the text is no such file.
+    pub fn read(json: &[u8]) -> Result<CertificateFile, ReadError> {
+        let file: CertificateFile = serde_json::from_slice(json)?;
+        if file.format == FORMAT {
+            Ok(file)
+        } else {
+            Err(ReadError::Format {
+                format: file.format,
+            })
+        }
+    }
+}
+
+/// A proof that a matrix has a rank; see [`super`] for what it says.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Certificate {
+    /// Name of the state the matrix belongs to.
+    pub state: String,
+    /// Rows of the matrix.
+    pub rows: usize,
+    /// Columns of the matrix.
+    pub columns: usize,
+    /// The rank.
+    pub rank: usize,
+    /// The number field.
+    pub field: FieldClaim,
+    /// The rank is at least this minor's size.
+    pub minor: Minor,
+    /// The rank is at most the columns less these.
+    pub kernel: Vec<KernelVector>,
+}
+
+/// A number field: the rationals, 2 cos(2π/N), and square roots.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FieldClaim {
+    /// N where the first generator is 2 cos(2π/N).
+    pub cosine_order: Option<u64>,
+    /// The monic relation of each generator over those before it, lowest coefficient first, the leading 1 left out.
+    pub relations: Vec<Vec<Element>>,
+    /// For each generator but a cosine, what shows that its relation has no root yet.
+    pub witnesses: Vec<Witness>,
+}
+
+/// A prime modulo which a radicand is no square.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Witness {
+    /// The prime.
+    #[serde(with = "word")]
+    pub prime: u64,
+    /// Images of the generators before the root.
+    #[serde(with = "words")]
+    pub images: Vec<u64>,
+}
+
+/// A minor that does not vanish modulo a prime.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Minor {
+    /// The prime.
+    #[serde(with = "word")]
+    pub prime: u64,
+    /// Images of the generators of the field.
+    #[serde(with = "words")]
+    pub images: Vec<u64>,
+    /// Pivot rows.
+    pub rows: Vec<usize>,
+    /// Pivot columns.
+    pub columns: Vec<usize>,
+}
+
+/// A vector that the matrix sends to zero.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KernelVector {
+    /// The column where it is 1 and all others are 0.
+    pub free: usize,
+    /// Its nonzero entries by column.
+    pub entries: Vec<(usize, Element)>,
+}
+
+impl Serialize for Element {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_seq(self.coordinates().iter().map(ToString::to_string))
+    }
+}
+
+impl<'de> Deserialize<'de> for Element {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Element, D::Error> {
+        let texts = Vec::<String>::deserialize(from)?;
+        let number = |text: &String| {
+            text.parse::<BigRational>()
+                .map_err(|_| D::Error::custom(format!("`{text}` is not a rational number")))
+        };
+        Ok(Element::new(
+            texts.iter().map(number).collect::<Result<_, _>>()?,
+        ))
+    }
+}
+
+/// A 64-bit number as a string: JSON numbers are doubles to many readers.
+mod word {
+    use serde::de::Error as _;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(x: &u64, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_str(x)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<u64, D::Error> {
+        let text = String::deserialize(from)?;
+        text.parse()
+            .map_err(|_| D::Error::custom(format!("`{text}` is not a whole number below 2^64")))
+    }
+}
+
+mod words {
+    use serde::de::Error as _;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(x: &[u64], to: S) -> Result<S::Ok, S::Error> {
+        to.collect_seq(x.iter().map(ToString::to_string))
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<u64>, D::Error> {
+        let number = |text: &String| {
+            text.parse()
+                .map_err(|_| D::Error::custom(format!("`{text}` is not a whole number below 2^64")))
+        };
+        Vec::<String>::deserialize(from)?
+            .iter()
+            .map(number)
+            .collect()
+    }
+}

@@ -1,0 +1,156 @@
+//! Confirms that the ring of a matrix is a field, so that a number that is not zero in the ring is not zero in fact.
+
+use super::certificate::FieldClaim;
+use super::flaw::Flaw;
+use super::matrix::MatrixOverRing;
+use super::modular::{Homomorphism, power};
+use crate::linalg::number_ring::{Element, NumberRing};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+/// The finest angle whose polynomial is recomputed here.
+const MAX_ORDER: u64 = 4096;
+
+/// Confirms that the field is the one of the matrix, and a field.
+pub(super) fn check(matrix: &MatrixOverRing, claim: &FieldClaim) -> Result<(), Flaw> {
+    let ring = matrix.ring();
+    let same = claim.cosine_order == matrix.cosine_order()
+        && claim.relations.len() == ring.generators()
+        && (0..ring.generators()).all(|g| claim.relations[g] == ring.relation(g));
+    if !same {
+        return Err(Flaw::FieldDiffers);
+    }
+    let mut first = 0;
+    if let Some(order) = matrix.cosine_order() {
+        if ring.generators() == 0 || !is_cosine_relation(order, ring.relation(0)) {
+            return Err(Flaw::NotAField {
+                generator: 0,
+                why: "its relation is not the minimal polynomial of 2 cos(2π/N)",
+            });
+        }
+        first = 1;
+    }
+    if claim.witnesses.len() != ring.generators() - first {
+        return Err(Flaw::NotAField {
+            generator: first + claim.witnesses.len().min(ring.generators() - first),
+            why: "the witnesses are not one for each root",
+        });
+    }
+    for (generator, witness) in (first..).zip(&claim.witnesses) {
+        root_is_new(ring, generator, witness.prime, &witness.images)?;
+    }
+    Ok(())
+}
+
+/// Confirms that the number under a root is no square in the field so far: it is none modulo a prime, at simple roots
+/// of the relations so far (there the ring is integrally closed, so that a square of the field is one modulo the prime).
+fn root_is_new(
+    ring: &NumberRing,
+    generator: usize,
+    prime: u64,
+    images: &[u64],
+) -> Result<(), Flaw> {
+    let flaw = |why| Flaw::NotAField { generator, why };
+    let [constant, linear] = ring.relation(generator) else {
+        return Err(flaw("its relation is not quadratic"));
+    };
+    if !linear.is_zero() {
+        return Err(flaw("its relation is not that of a square root"));
+    }
+    let images = Homomorphism::new(prime, images, ring)?;
+    images.respects(ring, generator)?;
+    if !images.simple(ring)? {
+        return Err(flaw("the prime of its witness divides a discriminant"));
+    }
+    let radicand = (prime - images.of(constant)?) % prime;
+    if power(radicand, (prime - 1) / 2, prime) != prime - 1 {
+        return Err(flaw(
+            "its radicand is a square modulo the prime of its witness",
+        ));
+    }
+    Ok(())
+}
+
+/// Whether a relation is the minimal polynomial ψ of 2 cos(2π/N): with x = y + 1/y it has to become the cyclotomic
+/// polynomial, y^h ψ(y + 1/y) = Φ_N(y), which is irreducible (Gauss).
+fn is_cosine_relation(order: u64, relation: &[Element]) -> bool {
+    if !(3..=MAX_ORDER).contains(&order) {
+        return false;
+    }
+    let degree = relation.len();
+    let Some(mut coefficients) = relation
+        .iter()
+        .map(|c| c.as_rational().filter(BigRational::is_integer))
+        .map(|c| c.map(|c| c.to_integer()))
+        .collect::<Option<Vec<BigInt>>>()
+    else {
+        return false;
+    };
+    coefficients.push(BigInt::one());
+    // Horner in (y² + 1), each coefficient below the lead with one more y.
+    let mut expanded: Vec<BigInt> = Vec::new();
+    for (i, c) in coefficients.iter().rev().enumerate() {
+        let mut next = vec![BigInt::zero(); (expanded.len() + 2).max(i + 1)];
+        for (k, e) in expanded.iter().enumerate() {
+            next[k] += e;
+            next[k + 2] += e;
+        }
+        next[i] += c;
+        expanded = next;
+    }
+    expanded.truncate(2 * degree + 1);
+    expanded == cyclotomic(order)
+}
+
+/// The cyclotomic polynomial, lowest coefficient first: x^n - 1 divided by those of all proper divisors.
+fn cyclotomic(n: u64) -> Vec<BigInt> {
+    let divisors: Vec<u64> = (1..=n).filter(|d| n.is_multiple_of(*d)).collect();
+    let mut known: Vec<(u64, Vec<BigInt>)> = Vec::new();
+    for d in divisors {
+        let mut rest = vec![BigInt::zero(); usize::try_from(d).unwrap_or(0) + 1];
+        rest[0] -= 1;
+        if let Some(lead) = rest.last_mut() {
+            *lead += 1;
+        }
+        for (_, divisor) in known.iter().filter(|(e, _)| d.is_multiple_of(*e)) {
+            rest = divided(rest, divisor);
+        }
+        known.push((d, rest));
+    }
+    known.pop().map(|(_, p)| p).unwrap_or_default()
+}
+
+/// The quotient by a monic polynomial that divides.
+fn divided(mut a: Vec<BigInt>, b: &[BigInt]) -> Vec<BigInt> {
+    let length = (a.len() + 1).saturating_sub(b.len());
+    let mut quotient = vec![BigInt::zero(); length];
+    for low in (0..length).rev() {
+        let q = a[low + b.len() - 1].clone();
+        for (x, y) in a[low..].iter_mut().zip(b) {
+            *x -= &q * y;
+        }
+        quotient[low] = q;
+    }
+    quotient
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn polynomials_of_cosines() {
+        let is = |order, relation: &[i64]| {
+            let relation: Vec<Element> = relation.iter().map(|&c| Element::integer(c)).collect();
+            is_cosine_relation(order, &relation)
+        };
+        assert!(is(3, &[1]) && is(4, &[0]) && is(6, &[-1]));
+        assert!(is(5, &[-1, 1]) && is(8, &[-2, 0]) && is(12, &[-3, 0]));
+        assert!(is(7, &[-1, -2, 1]) && is(9, &[1, -3, 0]));
+        assert!(is(20, &[5, 0, -5, 0]));
+        assert!(!is(5, &[1, 1]) && !is(8, &[-3, 0]) && !is(7, &[-1, 1]) && !is(20, &[-1, 1]));
+        assert!(!is(5000, &[0]) && !is(1, &[-2]));
+        assert_eq!(cyclotomic(105)[7], BigInt::from(-2));
+    }
+}

@@ -1,0 +1,91 @@
+//! The matrix a certificate is about.
+
+use crate::linalg::number_ring::{Element, NumberRing};
+
+/// A sparse matrix over a number ring.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MatrixOverRing {
+    ring: NumberRing,
+    cosine_order: Option<u64>,
+    rows: usize,
+    /// The nonzero entries of each column, as (row, number), rows ascending.
+    columns: Vec<Vec<(usize, Element)>>,
+}
+
+impl MatrixOverRing {
+    /// A matrix from its entries `(row, column, number)`, those left out being 0; of equal places the last counts.
+    /// `None` where an entry lies outside the matrix or the ring. With `cosine_order` N, the first generator of the
+    /// ring stands for 2 cos(2π/N). O(entries · log).
+    #[must_use]
+    pub fn new(
+        ring: NumberRing,
+        cosine_order: Option<u64>,
+        [rows, columns]: [usize; 2],
+        entries: impl IntoIterator<Item = (usize, usize, Element)>,
+    ) -> Option<MatrixOverRing> {
+        let mut by_column = vec![std::collections::BTreeMap::new(); columns];
+        for (row, column, number) in entries {
+            if row >= rows || column >= columns || !ring.contains(&number) {
+                return None;
+            }
+            by_column[column].insert(row, number);
+        }
+        let columns = by_column
+            .into_iter()
+            .map(|c| c.into_iter().filter(|(_, x)| !x.is_zero()).collect())
+            .collect();
+        Some(MatrixOverRing {
+            ring,
+            cosine_order,
+            rows,
+            columns,
+        })
+    }
+
+    /// The ring. O(1).
+    #[must_use]
+    pub fn ring(&self) -> &NumberRing {
+        &self.ring
+    }
+
+    /// N where the first generator stands for 2 cos(2π/N). O(1).
+    #[must_use]
+    pub fn cosine_order(&self) -> Option<u64> {
+        self.cosine_order
+    }
+
+    /// Number of rows. O(1).
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Number of columns. O(1).
+    #[must_use]
+    pub fn columns(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// The nonzero entries of a column, rows ascending. O(1).
+    ///
+    /// # Panics
+    /// Where there is no such column.
+    #[must_use]
+    pub fn column(&self, column: usize) -> &[(usize, Element)] {
+        &self.columns[column]
+    }
+
+    /// The nonzero entries as (row, column, number), column by column. O(1) each.
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, &Element)> {
+        let columns = self.columns.iter().enumerate();
+        columns.flat_map(|(c, column)| column.iter().map(move |(r, x)| (*r, c, x)))
+    }
+
+    /// A nonzero entry. O(log entries of the column).
+    #[must_use]
+    pub fn entry(&self, row: usize, column: usize) -> Option<&Element> {
+        let entries = self.columns.get(column)?;
+        let at = entries.binary_search_by_key(&row, |(r, _)| *r).ok()?;
+        Some(&entries[at].1)
+    }
+}

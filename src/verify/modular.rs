@@ -1,0 +1,212 @@
+//! Plain arithmetic modulo a prime below 2^63, in 128 bits.
+
+use super::flaw::Flaw;
+use crate::linalg::number_ring::{Element, NumberRing};
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+
+/// Product modulo p.
+pub(super) fn times(a: u64, b: u64, p: u64) -> u64 {
+    let product = u128::from(a) * u128::from(b) % u128::from(p);
+    u64::try_from(product).unwrap_or(0)
+}
+
+/// Sum modulo p.
+pub(super) fn plus(a: u64, b: u64, p: u64) -> u64 {
+    let sum = (u128::from(a) + u128::from(b)) % u128::from(p);
+    u64::try_from(sum).unwrap_or(0)
+}
+
+/// Power modulo p.
+pub(super) fn power(mut base: u64, mut exponent: u64, p: u64) -> u64 {
+    let mut out = 1 % p;
+    while exponent > 0 {
+        if exponent % 2 == 1 {
+            out = times(out, base, p);
+        }
+        base = times(base, base, p);
+        exponent /= 2;
+    }
+    out
+}
+
+/// Whether p is a prime with 2 < p < 2^63 (strong pseudoprime test with the twelve bases that decide 64 bits).
+///
+/// # Sources
+/// Sorenson & Webster, "Strong pseudoprimes to twelve prime bases", Math. Comp. 86 (2017).
+pub(super) fn is_odd_prime(p: u64) -> bool {
+    const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
+    if p < 3 || p.is_multiple_of(2) || p >> 63 == 1 {
+        return false;
+    }
+    if BASES.contains(&p) {
+        return true;
+    }
+    let (twos, odd) = (
+        (p - 1).trailing_zeros(),
+        (p - 1) >> (p - 1).trailing_zeros(),
+    );
+    BASES.iter().all(|&base| {
+        let mut x = power(base, odd, p);
+        if x == 1 {
+            return true;
+        }
+        for _ in 0..twos {
+            if x == p - 1 {
+                return true;
+            }
+            x = times(x, x, p);
+        }
+        false
+    })
+}
+
+/// Images of the generators of a ring in a prime field.
+#[derive(Debug)]
+pub(super) struct Homomorphism {
+    prime: u64,
+    images: Vec<u64>,
+    /// Images of the basis elements made of the generators given.
+    basis: Vec<u64>,
+}
+
+impl Homomorphism {
+    /// Images of the first generators of a ring: of all of them, or as many as are given, which
+    /// [`Homomorphism::respects`] checks.
+    pub(super) fn new(prime: u64, images: &[u64], ring: &NumberRing) -> Result<Homomorphism, Flaw> {
+        if !is_odd_prime(prime) {
+            return Err(Flaw::NotPrime { modulus: prime });
+        }
+        if images.len() > ring.generators() || images.iter().any(|&x| x >= prime) {
+            return Err(Flaw::Images {
+                prime,
+                wanted: ring.generators(),
+                given: images.len(),
+            });
+        }
+        let mut basis = vec![1];
+        for (generator, &image) in images.iter().enumerate() {
+            let below = basis.clone();
+            let mut factor = 1;
+            for _ in 1..ring.relation(generator).len() {
+                factor = times(factor, image, prime);
+                basis.extend(below.iter().map(|&b| times(b, factor, prime)));
+            }
+        }
+        Ok(Homomorphism {
+            prime,
+            images: images.to_vec(),
+            basis,
+        })
+    }
+
+    /// Confirms that exactly the first `count` generators have images, and that these satisfy their relations.
+    pub(super) fn respects(&self, ring: &NumberRing, count: usize) -> Result<(), Flaw> {
+        if self.images.len() != count {
+            return Err(Flaw::Images {
+                prime: self.prime,
+                wanted: count,
+                given: self.images.len(),
+            });
+        }
+        for (generator, &x) in self.images.iter().enumerate() {
+            // Horner, from the leading 1 down
+            let mut value = 1;
+            for c in ring.relation(generator).iter().rev() {
+                value = plus(times(value, x, self.prime), self.of(c)?, self.prime);
+            }
+            if value != 0 {
+                return Err(Flaw::Relation {
+                    prime: self.prime,
+                    generator,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether no image is a multiple root of its relation.
+    pub(super) fn simple(&self, ring: &NumberRing) -> Result<bool, Flaw> {
+        for (generator, &x) in self.images.iter().enumerate() {
+            let (relation, p) = (ring.relation(generator), self.prime);
+            let mut slope = relation.len() as u64 % p;
+            for (k, c) in relation.iter().enumerate().skip(1).rev() {
+                slope = plus(times(slope, x, p), times(k as u64 % p, self.of(c)?, p), p);
+            }
+            if slope == 0 {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// The image of an element made of the generators that have one.
+    pub(super) fn of(&self, element: &Element) -> Result<u64, Flaw> {
+        let mut sum = 0;
+        for (i, q) in element.coordinates().iter().enumerate() {
+            let monomial = *self.basis.get(i).ok_or(Flaw::FieldDiffers)?;
+            let term = times(self.of_rational(q)?, monomial, self.prime);
+            sum = plus(sum, term, self.prime);
+        }
+        Ok(sum)
+    }
+
+    fn of_rational(&self, q: &BigRational) -> Result<u64, Flaw> {
+        let p = self.prime;
+        let residue = |x: &BigInt| x.mod_floor(&BigInt::from(p)).to_u64().unwrap_or(0);
+        let below = residue(q.denom());
+        if below == 0 {
+            return Err(Flaw::Denominator { prime: p });
+        }
+        Ok(times(residue(q.numer()), power(below, p - 2, p), p))
+    }
+}
+
+/// Whether the determinant of a square matrix vanishes modulo p, by elimination. O(n³).
+pub(super) fn singular(mut m: Vec<Vec<u64>>, p: u64) -> bool {
+    let size = m.len();
+    for c in 0..size {
+        let Some(r) = (c..size).find(|&r| m[r][c] != 0) else {
+            return true;
+        };
+        m.swap(c, r);
+        let pivot = m[c].clone();
+        let inverse = power(pivot[c], p - 2, p);
+        for row in m.iter_mut().skip(c + 1).filter(|row| row[c] != 0) {
+            // row += (p - row[c] / pivot[c]) · pivot
+            let by = p - times(row[c], inverse, p);
+            for (x, &y) in row.iter_mut().zip(&pivot).skip(c) {
+                *x = plus(*x, times(by, y, p), p);
+            }
+        }
+    }
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn primes_are_told_from_composites() {
+        for p in 0..2000u64 {
+            let prime = p > 2 && (2..p).all(|d| p % d != 0);
+            assert_eq!(is_odd_prime(p), prime, "{p}");
+        }
+        assert!(is_odd_prime((1 << 61) - 1));
+        // a strong pseudoprime to the first nine bases
+        assert!(!is_odd_prime(3_825_123_056_546_413_051));
+    }
+
+    #[test]
+    fn determinants_modulo_small_primes() {
+        assert!(singular(vec![vec![1, 2], vec![3, 6]], 7));
+        assert!(!singular(vec![vec![0, 2], vec![3, 6]], 7));
+        // determinant -7
+        assert!(singular(vec![vec![1, 3], vec![3, 2]], 7));
+        assert!(!singular(vec![vec![1, 3], vec![3, 2]], 5));
+        assert!(!singular(Vec::new(), 5));
+    }
+}

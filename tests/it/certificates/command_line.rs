@@ -1,0 +1,78 @@
+//! `ozols analyze --certificate` and `ozols verify`.
+
+use crate::cli::{out, ozols};
+
+fn code_and_words(args: &[&str]) -> (Option<i32>, String, String) {
+    let o = ozols(args).output().unwrap();
+    let text = |b: &[u8]| String::from_utf8(b.to_vec()).unwrap();
+    (o.status.code(), text(&o.stdout), text(&o.stderr))
+}
+
+#[test]
+fn certificates_are_written_and_confirmed_and_false_ones_rejected() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("c.json");
+    let path = path.to_str().unwrap();
+    let plain = out(&["analyze", "gripper-10"]);
+    assert_eq!(
+        out(&["analyze", "gripper-10", "--certificate", path]),
+        plain
+    );
+    let said = out(&["verify", "gripper-10", path]);
+    assert_eq!(
+        said,
+        "gripper-10, state free: rank 13 of the 24 x 14 closure matrix is proven\n\
+         gripper-10, state clamped: rank 14 of the 30 x 14 closure matrix is proven\n"
+    );
+    // Of another mechanism, with the same states.
+    let (code, said, err) = code_and_words(&["verify", "gripper-10-redesign", path]);
+    assert_eq!((code, err.as_str()), (Some(1), ""));
+    assert!(
+        said.contains("state free: certificate rejected: it is about a 24 x 14 matrix"),
+        "{said}"
+    );
+    // Of the same in a plane.
+    let (code, _, _) = code_and_words(&["verify", "gripper-10", path, "--planar"]);
+    assert_eq!(code, Some(1));
+    out(&["analyze", "gripper-10", "--planar", "--certificate", path]);
+    out(&["verify", "gripper-10", path, "--planar"]);
+    // Of states it has not.
+    out(&["analyze", "gripper-10", "--certificate", path]);
+    let (code, said, err) = code_and_words(&["verify", "bennett", path]);
+    assert_eq!((code, said.as_str()), (Some(2), ""));
+    assert!(
+        err.contains("state clamped") || err.contains("state free"),
+        "{err}"
+    );
+    for garbled in ["", "{", "[]", "{\"format\": \"x\"}", "\u{0}"] {
+        std::fs::write(path, garbled).unwrap();
+        let (code, said, err) = code_and_words(&["verify", "gripper-10", path]);
+        assert_eq!((code, said.as_str()), (Some(2), ""));
+        assert!(err.contains("not a file of certificates"), "{err}");
+    }
+    let (code, _, err) = code_and_words(&["verify", "gripper-10", "no-such.json"]);
+    assert_eq!(code, Some(2));
+    assert!(err.contains("cannot read no-such.json"), "{err}");
+}
+
+#[test]
+fn a_field_that_is_too_large_is_said_and_no_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (file, certificates) = (path("fine.toml"), path("c.json"));
+    let text = out(&["show", "four-bar"]);
+    let at = text.find("axis = ").unwrap();
+    let end = at + text[at..].find('\n').unwrap();
+    let fine = format!(
+        "{}axis = [\"cos(1deg/7)\", 0, 1]{}",
+        &text[..at],
+        &text[end..]
+    );
+    std::fs::write(&file, fine).unwrap();
+    let (code, _, err) = code_and_words(&["analyze", &file, "--certificate", &certificates]);
+    assert_eq!(code, Some(0), "{err}");
+    assert!(err.contains("note: no certificate of state free: the roots and angles generate a number field of degree"), "{err}");
+    let (code, said, _) = code_and_words(&["verify", &file, &certificates]);
+    assert_eq!(code, Some(1));
+    assert!(said.contains("state free: no certificate: "), "{said}");
+}

@@ -1,0 +1,196 @@
+//! Certificates made false, each in a way that has to be noticed.
+
+use super::certified;
+use num_rational::BigRational;
+use ozols::linalg::number_ring::Element;
+use ozols::rank::certificate::Certificate;
+use ozols::verify;
+use ozols::verify::matrix::MatrixOverRing;
+
+/// The kinds of corruption that make a certificate false, or say something other than it did, whatever the matrix:
+/// - a kernel entry changed (the column of a pivot is not zero, so the product with J changes), dropped, doubled, or
+///   given more coordinates than the field has; a vector dropped, doubled, or said to have another free column;
+/// - pivots doubled, dropped or out of range; a pivot column that is a free one;
+/// - a modulus that is no prime; an image that is no root of its relation;
+/// - another rank, another size; another relation, order or number of witnesses, a witness that shows nothing.
+///
+/// Not among them, for they leave a true proof: another order of vectors or pivots, another prime, a conjugate image.
+pub(super) fn corruptions(m: &MatrixOverRing, good: &Certificate) -> Vec<(String, Certificate)> {
+    let mut out = Vec::new();
+    let mut put = |what: String, change: &dyn Fn(&mut Certificate)| {
+        let mut c = good.clone();
+        change(&mut c);
+        assert!(c != *good, "{what} changes nothing");
+        out.push((what, c));
+    };
+    let ring = m.ring();
+    for (i, v) in good.kernel.iter().enumerate() {
+        for j in 0..v.entries.len() {
+            for g in 0..ring.dimension() {
+                put(format!("coordinate {g} of entry {j} of vector {i}"), &|c| {
+                    let x = &mut c.kernel[i].entries[j].1;
+                    let mut unit = vec![BigRational::default(); g];
+                    unit.push(BigRational::new(1.into(), 7.into()));
+                    *x = ring.add(x, &Element::new(unit));
+                });
+            }
+            put(format!("entry {j} of vector {i} dropped"), &|c| {
+                c.kernel[i].entries.remove(j);
+            });
+            put(format!("entry {j} of vector {i} twice"), &|c| {
+                let entry = c.kernel[i].entries[j].clone();
+                c.kernel[i].entries.push(entry);
+            });
+            put(format!("entry {j} of vector {i} beyond the field"), &|c| {
+                let long = vec![BigRational::from_integer(1.into()); ring.dimension() + 1];
+                c.kernel[i].entries[j].1 = Element::new(long);
+            });
+            put(format!("entry {j} of vector {i} out of range"), &|c| {
+                c.kernel[i].entries[j].0 = m.columns();
+            });
+        }
+        put(format!("vector {i} dropped"), &|c| {
+            c.kernel.remove(i);
+        });
+        put(format!("vector {i} twice"), &|c| {
+            let v = c.kernel[i].clone();
+            c.kernel.push(v);
+        });
+        for free in (0..=m.columns()).filter(|&f| f != v.free) {
+            put(format!("free column {free} for vector {i}"), &|c| {
+                c.kernel[i].free = free;
+            });
+        }
+        if good.kernel.len() > 1 {
+            put(format!("vector {i} in place of another"), &|c| {
+                let v = c.kernel[i].clone();
+                let other = (i + 1) % c.kernel.len();
+                c.kernel[other] = v;
+            });
+        }
+        for p in 0..good.rank {
+            put(format!("free column of {i} as pivot {p}"), &|c| {
+                c.minor.columns[p] = c.kernel[i].free;
+            });
+        }
+    }
+    for p in 0..good.rank {
+        for q in (0..good.rank).filter(|&q| q != p) {
+            put(format!("pivot rows {p} and {q} the same"), &|c| {
+                c.minor.rows[p] = c.minor.rows[q];
+            });
+            put(format!("pivot columns {p} and {q} the same"), &|c| {
+                c.minor.columns[p] = c.minor.columns[q];
+            });
+        }
+        put(format!("pivot row {p} dropped"), &|c| {
+            c.minor.rows.remove(p);
+        });
+        put(format!("pivot column {p} dropped"), &|c| {
+            c.minor.columns.remove(p);
+        });
+        put(format!("pivot row {p} out of range"), &|c| {
+            c.minor.rows[p] = m.rows();
+        });
+        put(format!("pivot column {p} out of range"), &|c| {
+            c.minor.columns[p] = m.columns();
+        });
+    }
+    let p = good.minor.prime;
+    let composite = (1u64 << 31) - 1;
+    for modulus in [0, 1, 2, p - 1, p + 1, composite * composite, u64::MAX] {
+        put(format!("modulus {modulus}"), &|c| c.minor.prime = modulus);
+    }
+    for i in 0..good.minor.images.len() {
+        for by in [1, 2, p / 2] {
+            put(format!("image {i} off by {by}"), &|c| {
+                c.minor.images[i] = (c.minor.images[i] + by) % p;
+            });
+        }
+        put(format!("image {i} is no residue"), &|c| {
+            c.minor.images[i] += p
+        });
+        put(format!("image {i} dropped"), &|c| {
+            c.minor.images.remove(i);
+        });
+    }
+    put("one more image".to_owned(), &|c| c.minor.images.push(0));
+    put("one more in rank".to_owned(), &|c| c.rank += 1);
+    put("a huge rank".to_owned(), &|c| c.rank = usize::MAX);
+    if good.rank > 0 {
+        put("one less in rank".to_owned(), &|c| c.rank -= 1);
+        put("a smaller minor to fit".to_owned(), &|c| {
+            c.rank -= 1;
+            c.minor.rows.pop();
+            c.minor.columns.pop();
+        });
+    }
+    put("a row more".to_owned(), &|c| c.rows += 1);
+    put("a column more".to_owned(), &|c| c.columns += 1);
+    put("another cosine".to_owned(), &|c| {
+        c.field.cosine_order = Some(c.field.cosine_order.unwrap_or(0) + 4);
+    });
+    put("one more relation".to_owned(), &|c| {
+        c.field.relations.push(vec![Element::integer(1)]);
+    });
+    for g in 0..good.field.relations.len() {
+        put(format!("relation {g} altered"), &|c| {
+            let x = &mut c.field.relations[g][0];
+            *x = ring.add(x, &Element::integer(1));
+        });
+        put(format!("relation {g} dropped"), &|c| {
+            c.field.relations.remove(g);
+        });
+    }
+    for w in 0..good.field.witnesses.len() {
+        put(format!("witness {w} dropped"), &|c| {
+            c.field.witnesses.remove(w);
+        });
+        put(format!("witness {w} without a prime"), &|c| {
+            c.field.witnesses[w].prime += 1;
+        });
+        put(
+            format!("witness {w} where the radicand is a square"),
+            &|c| {
+                c.field.witnesses[w].prime = p;
+                let first = c.minor.images.len() - c.field.witnesses.len();
+                c.field.witnesses[w].images = c.minor.images[..first + w].to_vec();
+            },
+        );
+    }
+    out
+}
+
+#[test]
+fn corrupted_certificates_of_mechanisms_are_rejected() {
+    let mut flaws = std::collections::BTreeSet::new();
+    for name in ["gripper-10", "3-rps", "bennett", "stewart-gough", "tongs"] {
+        let (m, good) = certified(name);
+        for (what, c) in corruptions(&m, &good) {
+            let flaw = verify::check(&m, &c).expect_err(&format!("{name}: {what}"));
+            let word = format!("{flaw:?}");
+            let end = word.find(' ').unwrap_or(word.len());
+            flaws.insert(word[..end].to_owned());
+        }
+    }
+    // Each kind of flaw was met, but for those that only a small prime or another matrix brings about.
+    for flaw in [
+        "Shape",
+        "RankTooLarge",
+        "FieldDiffers",
+        "NotAField",
+        "NotPrime",
+        "Images",
+        "Relation",
+        "PivotCount",
+        "PivotIndices",
+        "KernelCount",
+        "FreeColumns",
+        "KernelIndices",
+        "KernelNumber",
+        "NotReduced",
+        "NotInKernel",
+    ] {
+        assert!(flaws.contains(flaw), "{flaw} was not met: {flaws:?}");
+    }
+}

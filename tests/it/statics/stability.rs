@@ -1,0 +1,114 @@
+//! Accuracy near each failure of the δ-point method, against exact arithmetic.
+
+use super::{mechanism, shears};
+use ozols::model::loads::Stroke;
+use ozols::workload::contour_group::GroupPose;
+use ozols::workload::stability::{Failure, Sample, at_distance, samples};
+use ozols::workload::statics::statics;
+use ozols::workload::{delta_point, group_equilibrium, projective};
+
+fn base() -> GroupPose {
+    let at = Stroke {
+        from: 3.1,
+        to: 3.1,
+        steps: 1,
+    };
+    statics(&mechanism(shears()), 0, Some(at)).unwrap().moments[0].groups[0]
+        .pose
+        .clone()
+}
+
+fn at(failure: Failure, distances: &[f64]) -> Vec<Sample> {
+    samples(&base(), failure, distances, 5, 7)
+}
+
+#[test]
+fn far_from_every_failure_all_methods_are_right() {
+    for failure in Failure::ALL {
+        let s = at(failure, &[1.0])[0];
+        assert!(
+            s.forces.iter().chain(&s.arm).all(|e| *e < 1e-13),
+            "{failure:?} {s:?}"
+        );
+    }
+}
+
+/// δ at infinity harms the δ-point method alone.
+#[test]
+fn parallel_rods_harm_only_the_published_form() {
+    let found = at(Failure::ParallelRods, &[1e-3, 1e-9, 1e-15]);
+    for s in &found {
+        assert!(
+            s.forces[1] < 1e-14 && s.forces[2] < 1e-14 && s.condition < 1e3,
+            "{s:?}"
+        );
+    }
+    assert!(found[1].forces[0] > 1e-10 && found[2].forces[0] > 1e-5);
+    // Exactly parallel: no δ at all, and the projective form does not notice.
+    let mut g = base();
+    (g.f, g.m) = ([-0.5, 0.0], [-0.5, 1.0]);
+    (g.k, g.l) = ([0.25, 0.0], [0.25, 1.5]);
+    g.d = [0.125, -1.0];
+    let exact = group_equilibrium::exact(&g).unwrap();
+    assert!(projective::solve(&g).distance(&exact, &g) < 1e-14);
+    let (published, steps) = delta_point::solve(&g);
+    assert!(!steps.delta.iter().all(|c| c.is_finite()));
+    assert!(published.distance(&exact, &g).is_infinite());
+}
+
+/// At a dead point of the group every method loses figures as the condition grows, none much more than another.
+#[test]
+fn dead_points_harm_every_method_alike() {
+    for failure in [Failure::AcrossGuide, Failure::AtDelta] {
+        for s in at(failure, &[1e-4, 1e-8, 1e-12]) {
+            let bound = 1e3 * s.condition * f64::EPSILON;
+            assert!(s.forces.iter().all(|e| *e < bound), "{failure:?} {s:?}");
+            assert!(s.condition > 0.1 / s.distance, "{s:?}");
+        }
+        assert!(group_equilibrium::exact(&at_distance(&base(), failure, 1e-12).unwrap()).is_some());
+    }
+}
+
+/// Without a guide reaction h has no value; the forces and the guide's moment do not care.
+#[test]
+fn a_vanishing_guide_reaction_harms_only_its_arm() {
+    for s in at(Failure::NoGuideReaction, &[1e-6, 1e-12]) {
+        assert!(s.forces.iter().all(|e| *e < 1e-14), "{s:?}");
+        assert!(
+            s.arm
+                .iter()
+                .all(|e| *e > 1e-18 / s.distance && *e < 1e-13 / s.distance),
+            "{s:?}"
+        );
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_samples() {
+    assert_eq!(at(Failure::AtDelta, &[1e-5]), at(Failure::AtDelta, &[1e-5]));
+}
+
+/// The exact solution on numbers that doubles hold exactly: a group whose reactions are known by hand.
+#[test]
+fn a_group_solved_by_hand() {
+    // Rods straight up from F and K to M and L, D below midway, the guide upright, a load of 8 down on the slider midway.
+    let mut g = base();
+    g.loads.clear();
+    (g.d, g.f, g.k) = ([0.0, 0.0], [-1.0, 1.0], [1.0, 1.0]);
+    (g.m, g.l) = ([-1.0, 3.0], [1.0, 3.0]);
+    g.guide = [0.0, 1.0];
+    g.push(3, [0.0, 4.0], [0.0, -8.0]);
+    let exact = group_equilibrium::exact(&g).unwrap();
+    for r in [
+        exact,
+        projective::solve(&g),
+        group_equilibrium::solve(&g).unwrap().0,
+    ] {
+        let near = |v: [f64; 2], w: [f64; 2]| (v[0] - w[0]).abs() + (v[1] - w[1]).abs() < 1e-14;
+        // D bears 8 up; each rod is pushed up by 4 at its foot, and down by 4 at its head; the guide bears nothing.
+        assert!(near(r.d, [0.0, 8.0]), "{r:?}");
+        assert!(near(r.f, [0.0, 4.0]) && near(r.k, [0.0, 4.0]), "{r:?}");
+        assert!(near(r.m, [0.0, -4.0]) && near(r.l, [0.0, -4.0]), "{r:?}");
+        assert!(r.guide.abs() < 1e-14 && r.guide_moment.abs() < 1e-14);
+    }
+}

@@ -1,0 +1,150 @@
+//! What is done by the structure of J, against the same by definition: the rank from the contours one by one, and the
+//! shares of the contours from one basis of the self-stresses.
+
+#[path = "../common/lattice.rs"]
+mod lattice;
+
+use crate::twin;
+use lattice::Kind;
+use ozols::builtin;
+use ozols::closure::contour::Contour;
+use ozols::closure::matrix::{Closure, Column};
+use ozols::geom::exact::ExactField;
+use ozols::import::text::mechanism_from_str;
+use ozols::linalg::echelon;
+use ozols::linalg::modp::Residue;
+use ozols::model::joint_type::Freedom;
+use ozols::model::mechanism::Mechanism;
+use ozols::rank::modular;
+use ozols::redundancy::analysis::exact_field;
+use ozols::redundancy::share::shares;
+use proptest::prelude::*;
+
+/// (σ in the order given, least, greatest) of each contour, by a rank for each.
+fn shares_by_definition(exact: &ExactField, closure: &Closure<Residue>) -> Vec<[usize; 3]> {
+    let rank_of = |contours: &[usize]| {
+        let columns: Vec<Vec<Residue>> = (0..closure.columns.len())
+            .map(|c| closure.dense_column(exact, c, contours))
+            .collect();
+        echelon::rank(exact.field(), columns.iter().map(Vec::as_slice))
+    };
+    let all: Vec<usize> = (0..closure.contours.len()).collect();
+    all.iter()
+        .map(|&i| {
+            let others: Vec<usize> = all.iter().copied().filter(|&j| j != i).collect();
+            [
+                closure.dim + rank_of(&all[..i]) - rank_of(&all[..=i]),
+                closure.dim - rank_of(&[i]),
+                closure.dim + rank_of(&others) - rank_of(&all),
+            ]
+        })
+        .collect()
+}
+
+fn check(mechanism: &Mechanism) {
+    let exact = exact_field(mechanism, 0).unwrap();
+    for state in 0..mechanism.states.len() {
+        let closure = Closure::new(&exact, mechanism, state).unwrap();
+        let what = format!("{} {}", mechanism.name, mechanism.states[state]);
+        assert_eq!(
+            modular::rank(&exact, &closure),
+            modular::rank_dense(&exact, &closure),
+            "{what}"
+        );
+        let found: Vec<[usize; 3]> = shares(&exact, &closure)
+            .iter()
+            .map(|s| [s.redundant, s.range.0, s.range.1])
+            .collect();
+        assert_eq!(found, shares_by_definition(&exact, &closure), "{what}");
+    }
+}
+
+#[test]
+fn built_in_mechanisms() {
+    for name in builtin::names() {
+        check(&mechanism_from_str(name, builtin::text(name).unwrap()).unwrap());
+    }
+}
+
+#[test]
+fn chains_and_grids() {
+    for kind in Kind::ALL {
+        for k in [1, 2, 3, 9, 24] {
+            check(&lattice::mechanism(kind, k));
+        }
+    }
+    for kind in [Kind::FourBars, Kind::Scissors] {
+        let m = lattice::mechanism(kind, 70);
+        let exact = exact_field(&m, 0).unwrap();
+        let closure = Closure::new(&exact, &m, 0).unwrap();
+        assert_eq!(closure.contours.len(), 70);
+        assert_eq!(modular::rank(&exact, &closure), 3 * 70, "{kind:?}");
+    }
+}
+
+/// Rows per contour, the joints of each contour, the twists of each joint.
+type Structure = (usize, Vec<Vec<(usize, bool)>>, Vec<Vec<Vec<i64>>>);
+
+/// Contours and columns at random, not those of any mechanism: each joint in some contours, with a few small twists.
+fn structured() -> impl Strategy<Value = Structure> {
+    let twist = prop::collection::vec(-1i64..2, 6);
+    let joint = (
+        prop::collection::vec((any::<prop::sample::Index>(), any::<bool>()), 0..4),
+        prop::collection::vec(twist, 0..5),
+    );
+    (
+        prop::bool::ANY,
+        1usize..9,
+        prop::collection::vec(joint, 1..24),
+    )
+        .prop_map(|(planar, k, joints)| {
+            let mut contours = vec![Vec::new(); k];
+            for (j, (of, _)) in joints.iter().enumerate() {
+                for (i, forward) in of {
+                    let i = i.index(k);
+                    if contours[i].last().is_none_or(|&(last, _)| last != j) {
+                        contours[i].push((j, *forward));
+                    }
+                }
+            }
+            let dim = if planar { 3 } else { 6 };
+            (
+                dim,
+                contours,
+                joints.into_iter().map(|(_, twists)| twists).collect(),
+            )
+        })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 256, ..ProptestConfig::default() })]
+    #[test]
+    fn random_structures((dim, contours, twists) in structured()) {
+        let exact = ExactField::for_expressions([], 0).unwrap();
+        let column = |(joint, t): (usize, &Vec<i64>)| Column {
+            joint,
+            freedom: Freedom::Rz,
+            twist: t[..dim].iter().map(|&x| exact.field().from_i64(x)).collect(),
+        };
+        let columns = twists.iter().enumerate().flat_map(|(j, ts)| ts.iter().map(move |t| (j, t)));
+        let closure = Closure {
+            state: 0,
+            dim,
+            contours: contours.into_iter().map(|joints| Contour { joints, links: Vec::new() }).collect(),
+            columns: columns.map(column).collect(),
+            left_out: Vec::new(),
+        };
+        prop_assert_eq!(modular::rank(&exact, &closure), modular::rank_dense(&exact, &closure));
+        let found: Vec<[usize; 3]> =
+            shares(&exact, &closure).iter().map(|s| [s.redundant, s.range.0, s.range.1]).collect();
+        prop_assert_eq!(found, shares_by_definition(&exact, &closure));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
+    #[test]
+    fn random_mechanisms(text in twin::random()) {
+        check(&mechanism_from_str("random.toml", &text).unwrap());
+    }
+}
