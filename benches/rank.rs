@@ -16,6 +16,7 @@ mod lattice;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use faer::traits::{ComplexField, RealField};
 use faer::{Mat, MatRef};
+use itertools::Itertools;
 use lattice::Kind;
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -31,12 +32,15 @@ use ozols::linalg::lanes::{LaneMatrix, SmallField};
 use ozols::linalg::modp::{Field, Residue};
 use ozols::model::mechanism::Mechanism;
 use ozols::rank::{modular, numeric};
-use ozols::redundancy::analysis::exact_field;
+use ozols::redundancy::analysis::{Method, analyse, exact_field};
 use std::fmt::Write as _;
 use std::hint::black_box;
 use std::io::Write as _;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
+
+/// A method by name.
+type Timed<'a> = (&'static str, Box<dyn FnMut() -> usize + 'a>);
 
 /// Twice the geometry, in whole numbers: the mechanisms here have halves at most.
 struct Doubled;
@@ -81,7 +85,7 @@ impl Case {
         let columns = real.dense(&Reals);
         let f64s = Mat::from_fn(real.rows(), columns.len(), |r, c| columns[c][r]);
         let whole = Closure::new(&Doubled, m, 0).expect("whole").dense(&Doubled);
-        let small = SmallField::new(SmallField::FAST_PRIME);
+        let small = SmallField::new(SmallField::GREATEST);
         let modulus = i128::from(small.modulus());
         let lanes = LaneMatrix::from_fn(small, real.rows(), columns.len(), |r, c| {
             whole[c][r].rem_euclid(modulus) as u64
@@ -108,10 +112,10 @@ impl Case {
     }
 
     /// The methods, by name, with the rank each finds. The last is too slow for large matrices.
-    fn methods(&self) -> Vec<(&'static str, Box<dyn FnMut() -> usize + '_>)> {
+    fn methods(&self) -> Vec<Timed<'_>> {
         let mut scratch = Vec::new();
         let field = self.exact.field();
-        let mut all: Vec<(&'static str, Box<dyn FnMut() -> usize + '_>)> = vec![
+        let mut all: Vec<Timed<'_>> = vec![
             (
                 "modular, contour by contour",
                 Box::new(|| modular::rank(&self.exact, &self.closure)),
@@ -216,10 +220,7 @@ fn bareiss(columns: &[Vec<i128>]) -> usize {
 }
 
 /// Best time of one call in seconds, of several functions that take turns.
-fn best(
-    methods: &mut [(&'static str, Box<dyn FnMut() -> usize + '_>)],
-    rounds: usize,
-) -> Vec<(f64, usize)> {
+fn best(methods: &mut [Timed<'_>], rounds: usize) -> Vec<(f64, usize)> {
     let mut out = vec![(f64::INFINITY, 0); methods.len()];
     let calls: Vec<u32> = methods
         .iter_mut()
@@ -264,8 +265,7 @@ fn ratios() {
             let m = lattice::mechanism(kind, k);
             let exact = exact_field(&m, 0).expect("exact");
             let closure = Closure::new(&exact, &m, 0).expect("exact");
-            let mut only: Vec<(&'static str, Box<dyn FnMut() -> usize>)> =
-                vec![("", Box::new(|| modular::rank(&exact, &closure)))];
+            let mut only: Vec<Timed<'_>> = vec![("", Box::new(|| modular::rank(&exact, &closure)))];
             let t = best(&mut only, 30)[0].0;
             let k = closure.contours.len();
             print!("  k = {k}: {}", micro(t / k as f64));
@@ -349,7 +349,7 @@ fn against_flint() {
     println!(
         "\n== against FLINT's nmod_mat_rank: best times of one run, construction excluded on both sides =="
     );
-    let small = [SmallField::FAST_PRIME, (1 << 31) - 1];
+    let small = [SmallField::GREATEST, SmallField::MERSENNE];
     let large = (1u64 << 61) - 1;
     let case = Case::gripper();
     let (field, big) = (case.exact.field(), Field::new(large));
@@ -382,11 +382,10 @@ fn against_flint() {
             })
         })
         .into();
-    // Another prime of 28 bits, for the same certainty as one of some 56.
-    let other = SmallField::new(268_435_367);
-    let second = [2, 3].map(|i| {
-        let m = &matrices[i].1;
-        LaneMatrix::from_fn(other, m.len(), m[0].len(), |r, c| m[r][c] % other.modulus())
+    // Both small primes together are nearly as sure as one of 61 bits.
+    let both = small.map(|p| {
+        let (m, field) = (&matrices[2].1, SmallField::new(p));
+        LaneMatrix::from_fn(field, 24, 30, |r, c| m[r][c] % field.modulus())
     });
     let to_field = |x: &u64| big.mul(big.from_i64(*x as i64), big.one());
     let dense_61: Vec<Vec<Residue>> = matrices[2]
@@ -398,17 +397,20 @@ fn against_flint() {
         let (m, mut scratch) = (&lanes[i], Vec::new());
         Box::new(move || m.rank_with(&mut scratch))
     };
-    let two = |i: usize, j: usize| {
-        let (m, n, mut scratch) = (&lanes[i], &second[j], Vec::new());
-        Box::new(move || m.rank_with(&mut scratch).max(n.rank_with(&mut scratch)))
+    let two = |m: [&'_ LaneMatrix; 2]| {
+        let (m, mut scratch) = (m.map(Clone::clone), Vec::new());
+        Box::new(move || {
+            m[0].rank_with(&mut scratch)
+                .max(m[1].rank_with(&mut scratch))
+        })
     };
     // (what ours is, which of FLINT's it stands against)
-    let mut ours: Vec<(&'static str, Box<dyn FnMut() -> usize>)> = vec![
+    let mut ours: Vec<Timed<'_>> = vec![
         ("24 x 30 dense, 28 bits: lanes", lane(0)),
         ("24 x 30 dense, 2^31 - 1: lanes", lane(1)),
         (
-            "24 x 30 dense, 2^61 - 1: two of 28 bits in lanes",
-            two(0, 0),
+            "24 x 30 dense, 2^61 - 1: 28 and 31 bits in lanes",
+            two([&both[0], &both[1]]),
         ),
         ("24 x 30 dense, 2^61 - 1: elimination by 61 bits", {
             Box::new(|| echelon::rank(big, dense_61.iter().map(Vec::as_slice)))
@@ -416,8 +418,8 @@ fn against_flint() {
         ("gripper 24 x 14, 28 bits: lanes", lane(2)),
         ("gripper 24 x 14, 2^31 - 1: lanes", lane(3)),
         (
-            "gripper 24 x 14, 61 bits: two of 28 bits in lanes",
-            two(2, 1),
+            "gripper 24 x 14, 61 bits: 28 and 31 bits in lanes",
+            two([&lanes[2], &lanes[3]]),
         ),
         (
             "gripper 24 x 14, 61 bits: contour by contour, same prime",
@@ -470,12 +472,23 @@ fn methods(c: &mut Criterion) {
     }
 }
 
+fn analysis(c: &mut Criterion) {
+    let mut group = c.benchmark_group("whole analysis");
+    for (kind, k) in Kind::ALL.into_iter().cartesian_product([50, 200]) {
+        let m = lattice::mechanism(kind, k);
+        group.bench_function(format!("{kind:?} {k}"), |b| {
+            b.iter(|| analyse(&m, &[0], Method::Modular))
+        });
+    }
+    group.finish();
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default()
         .sample_size(10)
         .warm_up_time(Duration::from_millis(200))
         .measurement_time(Duration::from_millis(700));
-    targets = methods
+    targets = methods, analysis
 }
 criterion_main!(benches);

@@ -6,7 +6,9 @@ mod args;
 mod charts;
 mod check;
 mod drive;
+mod export;
 mod grip;
+mod import;
 mod load;
 mod output;
 mod progress;
@@ -46,6 +48,8 @@ pub fn run() -> ExitCode {
         args::Command::Grip(a) => grip::run(&args, a),
         args::Command::Drive(a) => drive::run(&args, a),
         args::Command::Verify(a) => verify::run(&args, a),
+        args::Command::Import(a) => import::run(&args, a),
+        args::Command::Export(a) => export::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::List => check::list(),
         args::Command::Show(a) => check::show(a),

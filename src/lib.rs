@@ -33,8 +33,8 @@
 //!
 //! # Layers
 //!
-//! linalg -> geom, verify -> model -> closure -> import, rank, workload -> redundancy -> search -> report -> cli. Imports go
-//! one way; a test holds them to it. [`chart`] draws finished numbers and imports nothing.
+//! linalg -> geom, verify -> model -> closure -> import, rank, workload -> robot, export -> redundancy -> search -> report
+//! -> cli. Imports go one way; a test holds them to it. [`chart`] draws finished numbers and imports nothing.
 //!
 //! # Sources
 //!
@@ -54,6 +54,7 @@ pub mod builtin;
 pub mod chart;
 pub mod cli;
 pub mod closure;
+pub mod export;
 pub mod geom;
 pub mod import;
 pub mod linalg;
@@ -61,6 +62,7 @@ pub mod model;
 pub mod rank;
 pub mod redundancy;
 pub mod report;
+pub mod robot;
 pub mod search;
 pub mod verify;
 pub mod workload;

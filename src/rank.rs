@@ -26,7 +26,7 @@ use crate::geom::expr::Expr;
 use crate::model::mechanism::{Frame, Mechanism, Mode, StateId};
 
 /// Coordinates of a joint's frame.
-fn coordinates(frame: &Frame) -> impl Iterator<Item = &Expr> {
+pub(crate) fn coordinates(frame: &Frame) -> impl Iterator<Item = &Expr> {
     frame
         .point
         .iter()
@@ -35,7 +35,8 @@ fn coordinates(frame: &Frame) -> impl Iterator<Item = &Expr> {
         .chain([&frame.pitch])
 }
 
-fn normal(mechanism: &Mechanism) -> &[Expr] {
+/// Coordinates of the plane's normal, if there is one.
+pub(crate) fn normal(mechanism: &Mechanism) -> &[Expr] {
     match &mechanism.mode {
         Mode::Spatial => &[],
         Mode::Planar { normal } => normal,
@@ -57,9 +58,15 @@ pub fn field_of(
     ExactField::for_expressions(frames.flat_map(coordinates).chain(normal(mechanism)), nth)
 }
 
-/// How sure an answer is.
+/// How sure the rank of an analysis is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Certainty {
+    /// Proven: pivots that do not vanish and a kernel in characteristic 0, confirmed by [`crate::verify`], beside the
+    /// ranks over two prime fields.
+    Proven {
+        /// The primes.
+        primes: [u64; 2],
+    },
     /// Rank over two prime fields, on exact geometry. A rank modulo a prime never exceeds the true rank, and falls short
     /// only where the prime divides a nonzero minor; two primes near 2^61 agree on a wrong rank with probability
     /// below 10^-30.
@@ -67,13 +74,15 @@ pub enum Certainty {
         /// The primes.
         primes: [u64; 2],
     },
-    /// Singular values in double precision.
+    /// Floating point.
     Numeric {
-        /// Singular values below this fraction of the largest count as zero.
+        /// The method's name.
+        method: &'static str,
+        /// Values below this fraction of the largest count as zero.
         tolerance: f64,
-        /// The smallest kept singular value, relative to the largest.
+        /// The smallest kept value, relative to the largest.
         kept: f64,
-        /// The largest dropped singular value, relative to the largest.
+        /// The largest dropped value, relative to the largest.
         dropped: f64,
     },
 }
@@ -83,16 +92,29 @@ impl Certainty {
     #[must_use]
     pub fn describe(&self) -> String {
         match self {
+            Certainty::Proven { primes: [p, q] } => format!(
+                "exact geometry; rank proven by a checked certificate (--certificate), and modulo {p} and {q}"
+            ),
             Certainty::Modular { primes: [p, q] } => {
                 format!("exact geometry; ranks modulo {p} and {q} agree")
             }
             Certainty::Numeric {
+                method,
                 tolerance,
                 kept,
                 dropped,
-            } => format!(
-                "f64 singular values, tolerance {tolerance:.0e}: smallest kept {kept:.1e}, largest dropped {dropped:.1e}"
-            ),
+            } => {
+                let what = match *method {
+                    "svd" => "f64 singular values",
+                    "lu" => "f64 pivots",
+                    "lu32" => "f32 pivots",
+                    "qr32" => "f32 column-pivoted QR",
+                    _ => "f64 column-pivoted QR",
+                };
+                format!(
+                    "{what}, tolerance {tolerance:.0e}: smallest kept {kept:.1e}, largest dropped {dropped:.1e}"
+                )
+            }
         }
     }
 
@@ -100,8 +122,18 @@ impl Certainty {
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
+            Certainty::Proven { .. } => "proven",
             Certainty::Modular { .. } => "modular",
             Certainty::Numeric { .. } => "numeric",
+        }
+    }
+
+    /// The method's name.
+    #[must_use]
+    pub fn method(&self) -> &'static str {
+        match self {
+            Certainty::Proven { .. } | Certainty::Modular { .. } => "modular",
+            Certainty::Numeric { method, .. } => method,
         }
     }
 }

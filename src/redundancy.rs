@@ -3,6 +3,7 @@
 
 pub mod analysis;
 pub mod idle;
+pub mod measured;
 pub mod motion;
 pub mod share;
 pub mod stress;

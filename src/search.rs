@@ -19,5 +19,6 @@ pub mod primes;
 pub mod realize;
 pub mod request;
 pub mod space;
+pub mod stroke;
 pub mod tally;
 mod transition;

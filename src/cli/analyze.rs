@@ -2,9 +2,13 @@
 
 use super::args::{Analyze, AnalyzeFormat, Args, RankMethod};
 use super::{Done, load, output, verify};
-use crate::redundancy::analysis::{Method, analyse};
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::method;
+use crate::rank::numeric::DEFAULT_TOLERANCE;
+use crate::rank::scaled::Precision;
+use crate::redundancy::analysis::{Elimination, Method, analyse};
 use crate::report::{analysis_json, analysis_text};
-use anyhow::bail;
+use anyhow::{Context, bail};
 
 pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file.file)?;
@@ -23,12 +27,27 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
             mechanism.states.join(", ")
         ),
     };
+    if let Some(t) = a.tolerance
+        && !(t > 0.0 && t < 1.0)
+    {
+        bail!("--tolerance must be between 0 and 1");
+    }
+    let eliminate = |e: Elimination, usual: f64| Method::Numeric(e, a.tolerance.unwrap_or(usual));
     let method = match a.method {
-        RankMethod::Auto | RankMethod::Modular => Method::Modular,
-        RankMethod::Svd if a.tolerance > 0.0 && a.tolerance < 1.0 => Method::Svd {
+        RankMethod::Auto => Method::Auto {
             tolerance: a.tolerance,
         },
-        RankMethod::Svd => bail!("--tolerance must be between 0 and 1"),
+        RankMethod::Modular | RankMethod::Finite => Method::Modular,
+        RankMethod::Svd => eliminate(Elimination::Svd, DEFAULT_TOLERANCE),
+        RankMethod::Qr => eliminate(Elimination::Qr, f64::TOLERANCE),
+        RankMethod::Qr32 => eliminate(Elimination::Qr32, f32::TOLERANCE),
+        RankMethod::Lu => eliminate(Elimination::Lu, f64::TOLERANCE),
+        RankMethod::Lu32 => eliminate(Elimination::Lu32, f32::TOLERANCE),
+        RankMethod::Rational => return by(&mechanism, &states, "rational", a),
+        RankMethod::Count => return by(&mechanism, &states, "count", a),
+        RankMethod::CountPlanar => return by(&mechanism, &states, "count-planar", a),
+        RankMethod::Loops => return by(&mechanism, &states, "loops", a),
+        RankMethod::Generic => return by(&mechanism, &states, "generic", a),
     };
     let found = analyse(&mechanism, &states, method)?;
     if let Some(path) = &a.certificate {
@@ -46,6 +65,30 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
                     analysis_text::analysis(&mechanism, &found, output::width(a.output.as_deref()))
                 )?;
             }
+        }
+        Ok(Done::Found)
+    })
+}
+
+/// A method that gives a mobility and nothing else.
+fn by(mechanism: &Mechanism, states: &[StateId], name: &str, a: &Analyze) -> anyhow::Result<Done> {
+    let method = method::by_name(name).with_context(|| format!("there is no method {name}"))?;
+    let answers = states
+        .iter()
+        .map(|&s| Ok((s, method.answer(mechanism, s)?)))
+        .collect::<anyhow::Result<Vec<_>>>()
+        .with_context(|| format!("{} by {}", mechanism.name, method.title()))?;
+    output::to(a.output.as_deref(), |out| {
+        match a.format {
+            AnalyzeFormat::Json => {
+                let value = analysis_json::by_method(mechanism, method, &answers);
+                writeln!(out, "{value:#}")?;
+            }
+            AnalyzeFormat::Text => write!(
+                out,
+                "{}",
+                analysis_text::by_method(mechanism, method, &answers)
+            )?,
         }
         Ok(Done::Found)
     })

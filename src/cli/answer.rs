@@ -13,9 +13,18 @@ use std::io::Write;
 /// Variants a table holds at most.
 const BLOCK: usize = 1000;
 
-/// Calls a writer with each variant and its position; true where it was interrupted.
+/// What was given.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Given {
+    /// Whether the giving was interrupted.
+    pub(super) interrupted: bool,
+    /// Lucky variants left out.
+    pub(super) dropped: usize,
+}
+
+/// Calls a writer with each variant and its position.
 pub(super) type Giver<'a> =
-    dyn FnMut(&mut dyn FnMut(usize, Certified) -> anyhow::Result<()>) -> anyhow::Result<bool> + 'a;
+    dyn FnMut(&mut dyn FnMut(usize, Certified) -> anyhow::Result<()>) -> anyhow::Result<Given> + 'a;
 
 pub(super) fn write_found(
     out: &mut dyn Write,
@@ -52,7 +61,7 @@ pub(super) fn write_found(
                 Ok(())
             };
             let mut notes = Vec::new();
-            let interrupted = give(&mut |i, v| {
+            let whole = give(&mut |i, v| {
                 summary.add(&v);
                 notes.extend(search_text::note(&v, i));
                 block.push(v);
@@ -65,8 +74,9 @@ pub(super) fn write_found(
             if !block.is_empty() {
                 put(out, &mut block)?;
             }
+            summary.dropped = whole.dropped;
             write!(out, "{}", search_text::notes(&summary, &notes))?;
-            if interrupted {
+            if whole.interrupted {
                 writeln!(out, "\n  interrupted after {given} variants")?;
             }
         }
@@ -76,13 +86,14 @@ pub(super) fn write_found(
             let text = format!("{header:#}");
             let open = text.strip_suffix("\n}").unwrap_or(&text);
             write!(out, "{open},\n  \"variants\": [")?;
-            let interrupted = give(&mut |i, v| {
+            let whole = give(&mut |i, v| {
                 summary.add(&v);
                 let comma = if i == 1 { "" } else { "," };
                 write!(out, "{comma}\n    {}", search_json::variant(search, &v, i))?;
                 Ok(())
             })?;
-            let tail = search_json::tail(&summary, !interrupted);
+            summary.dropped = whole.dropped;
+            let tail = search_json::tail(&summary, !whole.interrupted);
             let text = format!("{:#}", serde_json::Value::Object(tail));
             let rest = text.strip_prefix("{\n").unwrap_or(&text);
             writeln!(out, "\n  ],\n{rest}")?;
@@ -106,7 +117,7 @@ pub(super) fn write_found(
             ];
             writeln!(
                 out,
-                "{},{},conditioning,agree",
+                "{},{},conditioning,agree,lucky",
                 heads.join(","),
                 names.join(",")
             )?;
@@ -137,10 +148,15 @@ pub(super) fn write_found(
                     )?;
                 }
                 match certified.second.opinion() {
-                    Some(o) => writeln!(out, ",{:e},{}", o.conditioning, o.agree)?,
-                    None => writeln!(out, ",,")?,
+                    Some(o) => write!(out, ",{:e},{}", o.conditioning, o.agree)?,
+                    None => write!(out, ",,")?,
                 }
-                Ok(())
+                let lucky = certified.stroke.and_then(|s| s.lucky());
+                Ok(writeln!(
+                    out,
+                    ",{}",
+                    lucky.map_or(String::new(), |l| l.to_string())
+                )?)
             })?;
         }
     }

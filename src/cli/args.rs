@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 /// A search engine for statically determinate mechanisms.
 ///
-/// FILE is a path to a mechanism file (TOML, or JSON with the ending .json), `-` for standard input, or the name of a
-/// built-in mechanism (see `ozols list`).
+/// FILE is a path to a mechanism file (TOML, or JSON with the ending .json) or to a robot description (.urdf, .xml,
+/// .sdf; see `ozols import` for more control), `-` for standard input, or the name of a built-in mechanism (see `ozols
+/// list`).
 #[derive(Debug, Parser)]
 #[command(
     name = "ozols",
@@ -23,13 +24,15 @@ Examples:
   ozols drive torsion-module                  the torsion bar, the cam spring, and the programme run
   ozols show four-bar > mine.toml             a file to start from
   ozols check mine.toml                       what is wrong with it, if anything
-  ozols analyze mine.toml --certificate c.json && ozols verify mine.toml c.json"
+  ozols analyze mine.toml --certificate c.json && ozols verify mine.toml c.json
+  ozols import robot.urdf -o robot.toml       a mechanism file of a robot description
+  ozols export gripper-10 --to dot            its graph for Graphviz"
 )]
 pub(super) struct Args {
     /// What to do.
     #[command(subcommand)]
     pub(super) command: Command,
-    /// No progress bar.
+    /// No progress bar, no report of an import.
     #[arg(long, short, global = true)]
     pub(super) quiet: bool,
     /// Threads to use; all processors by default. Results do not depend on it.
@@ -54,6 +57,10 @@ pub(super) enum Command {
     Drive(Drive),
     /// Confirm the certificates of rank that `ozols analyze --certificate` wrote.
     Verify(Verify),
+    /// Make a mechanism file of a robot description: URDF, MJCF or SDF.
+    Import(Import),
+    /// Write a mechanism in another format: TOML, JSON, URDF, SDF, Graphviz DOT, GraphML.
+    Export(Export),
     /// Validate a file.
     Check(File),
     /// The built-in mechanisms.
@@ -62,6 +69,76 @@ pub(super) enum Command {
     Show(File),
     /// Print the JSON Schema of the mechanism file.
     Schema,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum ImportFormat {
+    Toml,
+    Json,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Import {
+    /// A robot description: URDF, MJCF or SDF, by its root element.
+    #[arg(value_name = "FILE")]
+    pub(super) file: String,
+    /// A file of loop closures (YAML, JSON or TOML): [[loop]] with a, b and type; robot.yaml of
+    /// example-parallel-robots; Drake's list of ball constraints.
+    #[arg(long, value_name = "SIDE")]
+    pub(super) loops: Option<PathBuf>,
+    /// Value of a joint in radians or metres: elbow=0.3 (repeatable); several with commas for joints of several
+    /// freedoms. Loops that are open there are closed from there.
+    #[arg(long, value_name = "JOINT=VALUE", allow_hyphen_values = true)]
+    pub(super) pose: Vec<String>,
+    /// Let a robot without a fixed link float: a joint of six freedoms to the world.
+    #[arg(long)]
+    pub(super) floating: bool,
+    /// SDF drawn in parts: every joint puts the frame that is its parent onto its child.
+    #[arg(long)]
+    pub(super) assemble: bool,
+    /// Take loops that are open in the given pose as they are.
+    #[arg(long)]
+    pub(super) open: bool,
+    /// The fixed link; the root by default.
+    #[arg(long, value_name = "LINK")]
+    pub(super) frame: Option<String>,
+    /// A link whose motion is the working motion (repeatable); the ends of chains by default.
+    #[arg(long, value_name = "LINK")]
+    pub(super) working_link: Vec<String>,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "toml")]
+    pub(super) format: ImportFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum ExportFormat {
+    /// The mechanism file, every joint with its own options.
+    Toml,
+    /// The same as JSON.
+    Json,
+    /// A spanning tree; loops as comments.
+    Urdf,
+    /// Loops closed by joints.
+    Sdf,
+    /// Graphviz.
+    Dot,
+    /// GraphML, for graph programs.
+    Graphml,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Export {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// The format.
+    #[arg(long, value_enum)]
+    pub(super) to: ExportFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -73,12 +150,32 @@ pub(super) struct File {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum RankMethod {
-    /// The surest that fits the file: exact geometry, so `modular`.
+    /// The cheapest that is certain: exact where the geometry is, singular values where it was measured.
     Auto,
-    /// Modulo two primes near 2^61, on exact geometry.
+    /// Modulo two primes near 2^61, every digit taken at its word.
     Modular,
+    /// Exact elimination in fractions (rational coordinates only).
+    Rational,
     /// Singular values in double precision, with the gap.
     Svd,
+    /// Column-pivoted QR in double precision.
+    Qr,
+    /// Column-pivoted QR in single precision.
+    Qr32,
+    /// LU with full pivoting in double precision.
+    Lu,
+    /// LU with full pivoting in single precision.
+    Lu32,
+    /// Counting formula in space, 6(n-1) less the constraints.
+    Count,
+    /// Counting formula in the plane, 3(n-1) less the constraints.
+    CountPlanar,
+    /// Freedoms less the sum of the contours' own ranks.
+    Loops,
+    /// The same structure in general position, by a pebble game.
+    Generic,
+    /// Exact rank, and the mobility that is really there.
+    Finite,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -91,9 +188,10 @@ pub(super) struct Analyze {
     /// How the rank is found.
     #[arg(long, value_enum, default_value = "auto")]
     pub(super) method: RankMethod,
-    /// Relative tolerance of `--method svd`.
-    #[arg(long, value_name = "T", default_value_t = ozols_tolerance())]
-    pub(super) tolerance: f64,
+    /// Relative tolerance of the floating-point methods, and of snapping measured geometry; by default what suits the
+    /// method and the digits.
+    #[arg(long, visible_alias = "snap", value_name = "T")]
+    pub(super) tolerance: Option<f64>,
     /// Model the mechanism in its plane (normal z) with 3 rows per contour, whatever the file says.
     #[arg(long)]
     pub(super) planar: bool,
@@ -118,10 +216,6 @@ pub(super) struct Verify {
     /// The certificates were made with `analyze --planar`.
     #[arg(long)]
     pub(super) planar: bool,
-}
-
-fn ozols_tolerance() -> f64 {
-    crate::rank::numeric::DEFAULT_TOLERANCE
 }
 
 #[derive(Debug, ClapArgs)]
@@ -261,6 +355,13 @@ pub(super) struct Search {
     /// Diagram, or brute force for checking.
     #[arg(long, value_enum, default_value = "diagram")]
     pub(super) method: SearchMethod,
+    /// Look at each variant given, up to 1000, in N further poses of the present motion, and mark those whose W, σ or
+    /// output motion is not right there.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(super) poses: usize,
+    /// Leave out the variants that further poses (3 unless --poses says otherwise) show to be lucky.
+    #[arg(long)]
+    pub(super) generic_only: bool,
     /// Search a file whose coordinates look measured exactly as it is written, though rounding errors in it change the
     /// figures.
     #[arg(long)]

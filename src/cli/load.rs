@@ -4,6 +4,7 @@ use crate::builtin;
 use crate::geom::expr::Expr;
 use crate::import::text::{MAX_BYTES, mechanism_from_bytes};
 use crate::model::mechanism::{Mechanism, Mode};
+use crate::robot;
 use anyhow::{Context, bail};
 use std::io::Read;
 
@@ -19,6 +20,17 @@ pub(super) fn named(file: &str) -> anyhow::Result<(String, Vec<u8>)> {
         return Ok(("standard input".to_owned(), read(std::io::stdin().lock())?));
     }
     let path = std::path::Path::new(file);
+    if path.is_file() && robot::is_description(file) {
+        let imported = super::import::description(path, &robot::Options::default())?;
+        let doubts = imported.report.doubts();
+        if !doubts.is_empty() {
+            super::output::note(&format!("{file}: {}\n{doubts}", imported.format.name()));
+        }
+        return Ok((
+            "the imported mechanism".to_owned(),
+            imported.toml.into_bytes(),
+        ));
+    }
     if path.is_file() {
         let open = std::fs::File::open(path).with_context(|| format!("cannot read {file}"))?;
         let bytes = read(open).with_context(|| format!("cannot read {file}"))?;
@@ -53,6 +65,20 @@ pub(super) fn unknown(file: &str) -> String {
     format!(
         "{file} is neither a file nor a built-in mechanism{hint} (`ozols list` shows those built in)"
     )
+}
+
+/// The bytes of a file, one more than `limit` at most.
+pub(super) fn bytes(path: &std::path::Path, limit: u64) -> anyhow::Result<Vec<u8>> {
+    bytes_of(path, limit).with_context(|| format!("cannot read {}", path.display()))
+}
+
+/// The same without the file's name in the error.
+pub(super) fn bytes_of(path: &std::path::Path, limit: u64) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    std::fs::File::open(path)?
+        .take(limit + 1)
+        .read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 fn read(from: impl Read) -> std::io::Result<Vec<u8>> {

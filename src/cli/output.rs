@@ -67,6 +67,11 @@ pub(super) fn is_broken_pipe(e: &anyhow::Error) -> bool {
     })
 }
 
+/// Says something on standard error; a closed one is no failure.
+pub(super) fn note(text: &str) {
+    let _ = write!(std::io::stderr().lock(), "{text}");
+}
+
 /// Says what went wrong.
 pub(super) fn complain(e: &anyhow::Error) {
     let mut err = std::io::stderr().lock();

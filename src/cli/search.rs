@@ -1,6 +1,6 @@
 //! `ozols search`.
 
-use super::answer::write_found;
+use super::answer::{Given, write_found};
 use super::args::{Args, Check, Search as SearchArgs, SearchFormat, SearchMethod};
 use super::question::{measured, request, restrict, state};
 use super::{Done, load, output, progress};
@@ -10,10 +10,11 @@ use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::redundancy::analysis::exact_field;
 use crate::report::search_json::Found;
 use crate::search::best::Variant;
-use crate::search::certify::{CHECKED, Certified, Second};
+use crate::search::certify::{CHECKED, Certified};
 use crate::search::diagram::Stop;
 use crate::search::primes;
 use crate::search::request::Search;
+use crate::search::stroke::Stroke;
 use anyhow::{Context, ensure};
 use num_traits::Zero;
 use std::collections::BTreeMap;
@@ -21,6 +22,8 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+/// Poses that --generic-only looks at where their number is not given.
+const POSES: usize = 3;
 /// Brute force looks at no more variants than this.
 const BRUTE_LIMIT: u64 = 1 << 32;
 
@@ -103,6 +106,20 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
     } else {
         BTreeMap::new()
     };
+    let poses = if a.generic_only && a.poses == 0 {
+        POSES
+    } else {
+        a.poses
+    };
+    let stroke = (poses > 0)
+        .then(|| search.stroke(poses, args.seed))
+        .transpose()?;
+    if stroke.as_ref().is_some_and(|s| s.reached() == 0) {
+        eprintln!(
+            "warning: no other pose of {} could be reached: it has no motion to follow from this one",
+            mechanism.name
+        );
+    }
     let found = Found {
         search: &search,
         determinate,
@@ -112,20 +129,26 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
         stop: diagrams.stop().word(),
         check,
         measured,
+        poses: stroke.as_ref().map(|s| (s.asked, s.reached())),
     };
     output::to(a.output.as_deref(), |out| {
         let mut give =
-            |write: &mut dyn FnMut(usize, Certified) -> anyhow::Result<()>| -> anyhow::Result<bool> {
+            |write: &mut dyn FnMut(usize, Certified) -> anyhow::Result<()>| -> anyhow::Result<Given> {
+                let wanted = if a.all { usize::MAX / 4 } else { a.top };
                 let mut sink = Sink {
                     search: &search,
-                    second: a.check == Check::Full,
+                    opinions: a.check == Check::Full,
+                    stroke: stroke.as_ref(),
+                    generic_only: a.generic_only,
+                    room: if a.sample.is_some() { usize::MAX } else { wanted },
                     block: Vec::new(),
                     given: 0,
+                    dropped: 0,
                     write,
                 };
                 let mut failed = None;
                 let mut visit = |v: Variant| match sink.take(v) {
-                    Ok(()) if cancelled() => ControlFlow::Break(()),
+                    Ok(()) if cancelled() || sink.room == 0 => ControlFlow::Break(()),
                     Ok(()) => ControlFlow::Continue(()),
                     Err(e) => {
                         failed = Some(e);
@@ -141,17 +164,20 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
                         }
                     }
                     None if a.count => {}
-                    None => search.cheapest(
-                        &diagrams,
-                        if a.all { usize::MAX / 4 } else { a.top },
-                        visit,
-                    ),
+                    // Lucky variants make room for others.
+                    None if a.generic_only && wanted > 0 => {
+                        search.cheapest(&diagrams, wanted.saturating_mul(100).max(CHECKED), visit);
+                    }
+                    None => search.cheapest(&diagrams, wanted, visit),
                 }
                 if let Some(e) = failed {
                     return Err(e);
                 }
                 sink.flush()?;
-                Ok(cancelled())
+                Ok(Given {
+                    interrupted: cancelled(),
+                    dropped: sink.dropped,
+                })
             };
         write_found(out, a, &found, &mut give)?;
         Ok(if found.admissible.total.is_zero() {
@@ -166,33 +192,55 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
 struct Sink<'a> {
     search: &'a Search<'a>,
     /// Whether second opinions are wanted of those to come.
-    second: bool,
+    opinions: bool,
+    /// The poses that those to come are looked at in.
+    stroke: Option<&'a Stroke>,
+    generic_only: bool,
+    /// How many more may be given.
+    room: usize,
     block: Vec<Variant>,
     given: usize,
+    dropped: usize,
     write: &'a mut dyn FnMut(usize, Certified) -> anyhow::Result<()>,
 }
 
 impl Sink<'_> {
     fn take(&mut self, variant: Variant) -> anyhow::Result<()> {
-        if !self.second {
-            self.given += 1;
-            let second = Second::Unasked;
-            return (self.write)(self.given, Certified { variant, second });
+        if !self.opinions && self.stroke.is_none() {
+            return self.give(Certified::unasked(variant));
         }
         self.block.push(variant);
-        if self.block.len() == CHECKED {
+        if self.generic_only && self.block.len() == self.room.clamp(16, CHECKED) {
             self.flush()?;
-            self.second = false;
+        } else if self.block.len() == CHECKED {
+            self.flush()?;
+            // Nothing is left out unseen, so a list of generic variants is looked at to its end.
+            if !self.generic_only {
+                (self.opinions, self.stroke) = (false, None);
+            }
         }
         Ok(())
     }
 
     fn flush(&mut self) -> anyhow::Result<()> {
-        for certified in self.search.certify(std::mem::take(&mut self.block)) {
-            self.given += 1;
-            (self.write)(self.given, certified)?;
+        let block = std::mem::take(&mut self.block);
+        for certified in self.search.certify(block, self.opinions, self.stroke) {
+            if self.room > 0 && self.generic_only && certified.lucky() {
+                self.dropped += 1;
+            } else {
+                self.give(certified)?;
+            }
         }
         Ok(())
+    }
+
+    fn give(&mut self, certified: Certified) -> anyhow::Result<()> {
+        if self.room == 0 {
+            return Ok(());
+        }
+        self.room -= 1;
+        self.given += 1;
+        (self.write)(self.given, certified)
     }
 }
 
@@ -216,9 +264,10 @@ fn brute(
         stop: "exhausted",
         check: None,
         measured,
+        poses: None,
     };
     output::to(a.output.as_deref(), |out| {
-        write_found(out, a, &found, &mut |_| Ok(false))?;
+        write_found(out, a, &found, &mut |_| Ok(Given::default()))?;
         Ok(if found.admissible.total.is_zero() {
             Done::Nothing
         } else {

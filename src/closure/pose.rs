@@ -17,6 +17,8 @@ use faer::linalg::solvers::SolveLstsq;
 
 /// Largest residual of a closed pose: radians, and fractions of the mechanism's size.
 pub const CLOSED: f64 = 1e-12;
+/// A mechanism smaller than this, in the file's unit, is a point and has no size.
+const POINT: f64 = 1e-12;
 /// Newton steps before a pose is given up.
 const STEPS: usize = 60;
 
@@ -152,6 +154,9 @@ pub struct PoseColumn {
     pub moved: f64,
 }
 
+/// Freedoms in the order they are passed in, each with its direction.
+type Walk = Vec<(usize, f64)>;
+
 /// A pose of a mechanism in one state.
 #[derive(Debug, Clone)]
 pub struct Pose {
@@ -166,9 +171,9 @@ pub struct Pose {
     /// Relative error of the coordinates: contours need not close better than that.
     accuracy: f64,
     /// Contours as (column, direction).
-    contours: Vec<Vec<(usize, f64)>>,
+    contours: Vec<Walk>,
     /// Links in the order they are reached from the frame: link, the joint that leads to it, its columns in order.
-    tree: Vec<(LinkId, LinkId, Vec<(usize, f64)>)>,
+    tree: Vec<(LinkId, LinkId, Walk)>,
     /// First link of every column's joint, and the columns of that joint before it.
     base: Vec<(LinkId, usize)>,
 }
@@ -214,9 +219,15 @@ impl Pose {
         );
         let middle = [0, 1, 2].map(|i| f64::midpoint(low[i], high[i]));
         let half = [0, 1, 2].map(|i| (high[i] - low[i]) / 2.0);
-        let length = Some(dot(half, half).sqrt())
-            .filter(|&l| l > 0.0)
-            .unwrap_or(1.0);
+        // Points that differ by rounding alone are one point, and then any length will do.
+        let far = low
+            .iter()
+            .chain(&high)
+            .fold(0.0, |a: f64, x| a.max(x.abs()));
+        let length = [(dot(half, half).sqrt(), 1e-9 * far), (far, 0.0)]
+            .into_iter()
+            .find(|&(l, least)| l > least && l > POINT)
+            .map_or(1.0, |(l, _)| l);
         let (mut columns, mut base) = (Vec::new(), Vec::new());
         let mut of_joint = vec![Vec::new(); mechanism.joints.len()];
         for (&j, frame) in joints.iter().zip(&frames) {
@@ -247,7 +258,7 @@ impl Pose {
                 });
             }
         }
-        let walk = |j: JointId, forward: bool| -> Vec<(usize, f64)> {
+        let walk = |j: JointId, forward: bool| -> Walk {
             if forward {
                 of_joint[j].iter().map(|&c| (c, 1.0)).collect()
             } else {
@@ -346,7 +357,7 @@ impl Pose {
     pub fn close(&self, mut q: Vec<f64>, hold: &[usize]) -> Result<Vec<f64>, PoseError> {
         let closed = self.closed();
         // Errors of the coordinates must not be mended by running along the motion.
-        let floor = (1e4 * self.accuracy).clamp(1e-11, 1e-2);
+        let floor = (1e3 * self.accuracy).clamp(1e-11, 1e-2);
         let (mut residual, mut best) = (f64::INFINITY, (f64::INFINITY, q.clone()));
         for _ in 0..STEPS {
             let gaps = self.gaps(&q);

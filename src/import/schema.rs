@@ -246,6 +246,35 @@ pub struct ExpectedEntry {
     pub source: String,
 }
 
+impl MechanismFile {
+    /// The file as JSON, without what is left at its default.
+    #[must_use]
+    pub fn json(&self) -> serde_json::Value {
+        let mut value = serde_json::to_value(self).unwrap_or_default();
+        strip(&mut value);
+        value
+    }
+}
+
+/// Removes what says nothing: null, false, "" and empty tables and lists.
+fn strip(value: &mut serde_json::Value) {
+    use serde_json::Value;
+    match value {
+        Value::Array(items) => items.iter_mut().for_each(strip),
+        Value::Object(map) => {
+            map.values_mut().for_each(strip);
+            map.retain(|k, v| match v {
+                Value::Null | Value::Bool(false) => false,
+                Value::String(s) => !s.is_empty(),
+                Value::Array(a) => !a.is_empty() || k == "freedoms",
+                Value::Object(o) => !o.is_empty(),
+                _ => true,
+            });
+        }
+        _ => {}
+    }
+}
+
 /// The JSON Schema of the file.
 #[must_use]
 pub fn json_schema() -> serde_json::Value {

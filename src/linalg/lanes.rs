@@ -1,21 +1,21 @@
-//! Rank of small dense matrices modulo a prime below 2^31, eight entries at a time.
+//! Rank of small dense matrices modulo a prime of 28 or 31 bits, eight entries at a time.
 //!
-//! Entries are 32-bit residues in 64-bit lanes. A row is cleared crosswise, `v ← redc(b·v - a·u)` with pivot row `u`,
-//! pivot `b` and the row's own entry `a`: no inverse is ever taken, Montgomery's factor 2^-32 scales the whole row, and
-//! one reduction serves both products. Below 2^28 residues are kept between 0 and 2p, which the reduction maps into
-//! itself without a comparison, and two pivots are taken at once, so that three products and one reduction clear two
-//! columns (five multiplications for the eight of two single steps). Primes from 2^28 on take one pivot at a time, and a
-//! correction.
+//! Entries are 32-bit residues in 64-bit lanes. Two pivots are taken at once and rows cleared crosswise,
+//! `v ← reduce(d·v - e·u - g·w)` with pivot rows `u`, `w` and minors `d`, `e`, `g`: three products and one reduction for
+//! two columns, and never an inverse, as rows may be scaled as one likes. The sum of products fits 64 bits with residues
+//! only loosely reduced, so that reducing needs no comparison: modulo the Mersenne prime 2^31 - 1 two shifts and
+//! additions, modulo any prime below 2^28 Montgomery's two products.
 //!
 //! The loops are plain ones over arrays of eight that the compiler makes vector code of; [`pulp`] compiles them for the
 //! instruction sets that the machine may have and picks one at run time.
 //!
 //! # How sure
 //! A rank modulo p is never too high, and too low only where p divides every largest nonzero minor. For a minor that
-//! behaves like a random number that happens about once in p: 4·10^-9 for one prime of 28 bits, 10^-17 for two, less
-//! than one prime of 61 bits gives (4·10^-19) for three. The program's answers rest on two primes of 61 bits and
-//! `rank::modular`, which uses the structure of J instead; three passes here are no faster than
-//! that on the matrices of mechanisms. This kernel is for dense matrices without structure.
+//! behaves like a random number that happens about once in p: 5·10^-10 for 2^31 - 1, 4·10^-9 for one prime of 28 bits,
+//! 2·10^-18 for both, 4·10^-19 for one prime of 61 bits. The program's answers rest on two primes of 61 bits and
+//! `rank::modular`, which uses the structure of J: on the ten-link gripper that takes as long as both small primes here
+//! (0.7 µs), from some tens of contours on it is faster than one of them, and primes of 61 bits in which the geometry's
+//! roots exist are easy to find. This kernel is for dense matrices without structure.
 //!
 //! # Sources
 //! Montgomery, "Modular multiplication without trial division", Math. Comp. 44 (1985); Bareiss, Math. Comp. 22 (1968),
@@ -30,29 +30,32 @@ const LOW: u64 = 0xffff_ffff;
 
 type Lane = [u64; LANES];
 
-/// The integers modulo an odd prime below 2^31.
+/// [`SmallField::MERSENNE`].
+const M31: u64 = SmallField::MERSENNE as u64;
+
+/// The integers modulo a small prime.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SmallField {
     p: u64,
     /// -p^-1 mod 2^32
     neg_inv: u64,
-    /// 2^64 mod p, multiplies a plain integer into Montgomery form
-    r2: u64,
 }
 
 impl SmallField {
-    /// The greatest prime below 2^28: below it two pivots are taken at once.
-    pub const FAST_PRIME: u32 = 268_435_399;
+    /// 2^31 - 1, modulo which the kernel is fastest.
+    pub const MERSENNE: u32 = (1 << 31) - 1;
+    /// The greatest prime below 2^28.
+    pub const GREATEST: u32 = 268_435_399;
 
     /// The field of `p` elements.
     ///
     /// # Panics
-    /// If `p` is even, below 3 or not below 2^31. That `p` is prime is the caller's promise; see
+    /// If `p` is neither 2^31 - 1 nor an odd number below 2^28. That `p` is prime is the caller's promise; see
     /// [`is_prime`](crate::linalg::modp::is_prime).
     #[must_use]
     pub fn new(p: u32) -> Self {
         assert!(
-            p & 1 == 1 && (3..1 << 31).contains(&p),
+            p == Self::MERSENNE || p & 1 == 1 && (3..1 << 28).contains(&p),
             "modulus out of range"
         );
         let p = u64::from(p);
@@ -60,11 +63,9 @@ impl SmallField {
         for _ in 0..5 {
             inv = inv.wrapping_mul(2u64.wrapping_sub(p.wrapping_mul(inv)));
         }
-        let r = (1u64 << 32) % p;
         SmallField {
             p,
             neg_inv: inv.wrapping_neg() & LOW,
-            r2: r * r % p,
         }
     }
 
@@ -73,34 +74,59 @@ impl SmallField {
     pub fn modulus(self) -> u64 {
         self.p
     }
+}
 
-    /// `t / 2^32`, up to a multiple of p: at most t / 2^32 + p.
+/// How sums of three products come back under 32 bits. Scaling by a constant is allowed.
+trait Reduction: Copy {
+    /// A residue of `t`, for t of at most three products of what this returns.
+    fn reduce(self, t: u64) -> u64;
+    /// A residue of `-x`, for x as returned by `reduce`, under the same bound.
+    fn neg(self, x: u64) -> u64;
+    /// Whether a residue, as returned by either, is that of zero.
+    fn is_zero(self, x: u64) -> bool;
+}
+
+/// Modulo 2^31 - 1, residues of at most p + 5: three products of such stay below 2^64.
+#[derive(Clone, Copy)]
+struct Mersenne;
+
+impl Reduction for Mersenne {
     #[inline(always)]
-    fn redc(self, t: u64) -> u64 {
-        let m = (t & LOW) * (self.neg_inv & LOW);
-        (t + (m & LOW) * (self.p & LOW)) >> 32
+    fn reduce(self, t: u64) -> u64 {
+        let t = (t & M31) + (t >> 31);
+        (t & M31) + (t >> 31)
     }
 
-    /// Brings a value below 2p under the bound that the kernel keeps: p for large primes, 2p for small ones.
     #[inline(always)]
-    fn correct<const LARGE: bool>(self, x: u64) -> u64 {
-        // Signed comparisons are what the older vector units have.
-        if LARGE && x as i64 >= self.p as i64 {
-            x - self.p
-        } else {
-            x
-        }
+    fn neg(self, x: u64) -> u64 {
+        if x > M31 { 2 * M31 - x } else { M31 - x }
     }
 
     #[inline(always)]
     fn is_zero(self, x: u64) -> bool {
-        x == 0 || x == self.p
+        x == 0 || x == M31
+    }
+}
+
+/// Modulo p < 2^28, residues of at most 2p: three products are at most 12p², which 2^32 divides down to less than p.
+#[derive(Clone, Copy)]
+struct Montgomery(SmallField);
+
+impl Reduction for Montgomery {
+    #[inline(always)]
+    fn reduce(self, t: u64) -> u64 {
+        let m = (t & LOW) * (self.0.neg_inv & LOW);
+        (t + (m & LOW) * (self.0.p & LOW)) >> 32
     }
 
-    /// `-x`, for x of at most 2p.
     #[inline(always)]
-    fn neg<const LARGE: bool>(self, x: u64) -> u64 {
-        if LARGE { self.p - x } else { 2 * self.p - x }
+    fn neg(self, x: u64) -> u64 {
+        2 * self.0.p - x
+    }
+
+    #[inline(always)]
+    fn is_zero(self, x: u64) -> bool {
+        x == 0 || x == self.0.p || x == 2 * self.0.p
     }
 }
 
@@ -135,8 +161,7 @@ impl LaneMatrix {
         for r in 0..height {
             for c in 0..width {
                 let x = if turned { entry(c, r) } else { entry(r, c) };
-                let x = field.redc(x % field.p * field.r2);
-                out[r * stride + c / LANES][c % LANES] = field.correct::<true>(x);
+                out[r * stride + c / LANES][c % LANES] = x % field.p;
             }
         }
         LaneMatrix {
@@ -179,32 +204,37 @@ impl WithSimd for Job<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> usize {
-        if self.of.field.p < 1 << 28 {
-            eliminate::<false>(self.of, self.rows)
+        if self.of.field.p == M31 {
+            eliminate(Mersenne, self.of, self.rows)
         } else {
-            eliminate::<true>(self.of, self.rows)
+            eliminate(Montgomery(self.of.field), self.of, self.rows)
         }
     }
 }
 
-/// `v ← redc(b·v + a·u)`.
+/// `v ← reduce(b·v + a·u)`.
 #[inline(always)]
-fn one_pivot<const LARGE: bool>(f: SmallField, [b, a]: [u64; 2], v: &mut [Lane], u: &[Lane]) {
+fn one_pivot<R: Reduction>(f: R, [b, a]: [u64; 2], v: &mut [Lane], u: &[Lane]) {
     for (v, u) in v.iter_mut().zip(u) {
+        // Read whole before anything is written, so that the compiler need not fear that they overlap.
+        let (x, y) = (*v, *u);
         for i in 0..LANES {
-            let t = (b & LOW) * (v[i] & LOW) + (a & LOW) * (u[i] & LOW);
-            v[i] = f.correct::<LARGE>(f.redc(t));
+            v[i] = f.reduce((b & LOW) * (x[i] & LOW) + (a & LOW) * (y[i] & LOW));
         }
     }
 }
 
-/// `v ← redc(d·v + e·u + g·w)`. All below 2p, the sum is at most 12p², and comes back below 2p for p < 2^32 / 12.
+/// `v ← reduce(d·v + e·u + g·w)`; nothing where that would only scale the row.
 #[inline(always)]
-fn two_pivots(f: SmallField, [d, e, g]: [u64; 3], v: &mut [Lane], u: &[Lane], w: &[Lane]) {
+fn two_pivots<R: Reduction>(f: R, [d, e, g]: [u64; 3], v: &mut [Lane], u: &[Lane], w: &[Lane]) {
+    if f.is_zero(e) && f.is_zero(g) {
+        return;
+    }
     for ((v, u), w) in v.iter_mut().zip(u).zip(w) {
+        let (x, y, z) = (*v, *u, *w);
         for i in 0..LANES {
-            let t = (d & LOW) * (v[i] & LOW) + (e & LOW) * (u[i] & LOW) + (g & LOW) * (w[i] & LOW);
-            v[i] = f.redc(t);
+            let t = (d & LOW) * (x[i] & LOW) + (e & LOW) * (y[i] & LOW);
+            v[i] = f.reduce(t + (g & LOW) * (z[i] & LOW));
         }
     }
 }
@@ -220,17 +250,20 @@ fn swap(rows: &mut [Lane], stride: usize, [a, b]: [usize; 2], from: usize) {
 }
 
 #[inline(always)]
-fn eliminate<const LARGE: bool>(of: &LaneMatrix, rows: &mut [Lane]) -> usize {
-    let (f, stride, height) = (of.field, of.stride, of.height);
+fn eliminate<R: Reduction>(f: R, of: &LaneMatrix, rows: &mut [Lane]) -> usize {
+    let (stride, height) = (of.stride, of.height);
     let (mut rank, mut c) = (0, 0);
     while c < of.width && rank < height {
         // Groups left of the pivot's are never looked at again; within its group what is left of it is.
         let (group, lane) = (c / LANES, c % LANES);
-        let pivot = (rank..height).find(|r| !f.is_zero(rows[r * stride + group][lane]));
-        let Some(pivot) = pivot else {
+        let mut pivot = rank;
+        while pivot < height && f.is_zero(rows[pivot * stride + group][lane]) {
+            pivot += 1;
+        }
+        if pivot == height {
             c += 1;
             continue;
-        };
+        }
         swap(rows, stride, [rank, pivot], group);
         let (above, below) = rows.split_at_mut((rank + 1) * stride);
         let u = &above[rank * stride + group..];
@@ -239,34 +272,35 @@ fn eliminate<const LARGE: bool>(of: &LaneMatrix, rows: &mut [Lane]) -> usize {
         rank += 1;
         // The entry of each row in the next column, once this one is cleared.
         let (next, next_lane) = (c / LANES - group, c % LANES);
-        let cleared =
-            |v: &[Lane], y: u64| f.redc(b * v[next][next_lane] + f.neg::<LARGE>(v[0][lane]) * y);
-        let second = if LARGE || c == of.width {
-            None
-        } else {
+        let cleared = |v: &[Lane], y: u64| f.reduce(b * v[next][next_lane] + f.neg(v[0][lane]) * y);
+        let left = height - rank;
+        let mut second = left;
+        if c < of.width {
             let y = u[next][next_lane];
-            let mut left = below.chunks_exact(stride);
-            left.position(|v| !f.is_zero(cleared(&v[group..], y)))
-        };
-        let Some(second) = second else {
+            second = 0;
+            while second < left && f.is_zero(cleared(&below[second * stride + group..], y)) {
+                second += 1;
+            }
+        }
+        if second == left {
             for v in below.chunks_exact_mut(stride) {
                 let v = &mut v[group..];
-                let a = f.neg::<LARGE>(v[0][lane]);
-                one_pivot::<LARGE>(f, [b, a], v, u);
+                let a = f.neg(v[0][lane]);
+                one_pivot(f, [b, a], v, u);
             }
             continue;
-        };
+        }
         swap(below, stride, [0, second], group);
         let (w, below) = below.split_at_mut(stride);
         let w = &mut w[group..];
-        let a = f.neg::<LARGE>(w[0][lane]);
-        one_pivot::<LARGE>(f, [b, a], w, u);
+        let a = f.neg(w[0][lane]);
+        one_pivot(f, [b, a], w, u);
         let (y, b2) = (u[next][next_lane], w[next][next_lane]);
-        let d = f.redc(b * b2);
+        let d = f.reduce(b * b2);
         for v in below.chunks_exact_mut(stride) {
             let v = &mut v[group..];
-            let e = f.neg::<LARGE>(f.redc(b2 * v[0][lane]));
-            let g = f.neg::<LARGE>(cleared(v, y));
+            let e = f.neg(f.reduce(b2 * v[0][lane]));
+            let g = f.neg(cleared(v, y));
             two_pivots(f, [d, e, g], v, u, w);
         }
         c += 1;
@@ -312,8 +346,9 @@ mod tests {
     }
 
     #[test]
-    fn the_fast_prime_is_the_greatest_below_2_to_the_28() {
-        let p = u64::from(SmallField::FAST_PRIME);
+    fn the_primes_are_what_they_are_said_to_be() {
+        let p = u64::from(SmallField::GREATEST);
+        assert!(is_prime(M31));
         assert_eq!((0..1 << 28).rev().find(|&n| is_prime(n)), Some(p));
     }
 
@@ -321,13 +356,13 @@ mod tests {
         #![proptest_config(ProptestConfig { cases: 512, ..ProptestConfig::default() })]
         #[test]
         fn ranks_are_those_of_the_textbook(
-            which in 0usize..6,
+            which in 0usize..5,
             (rows, columns, inner) in (1usize..34, 1usize..34, 0usize..34),
             seed in any::<u64>(),
             sparse in any::<bool>(),
         ) {
             // Small primes make chance zeros common.
-            let p = [3u32, 7, 101, SmallField::FAST_PRIME, (1 << 29) - 3, (1 << 31) - 1][which];
+            let p = [3u32, 7, 101, SmallField::GREATEST, SmallField::MERSENNE][which];
             let modulus = u64::from(p);
             let mut state = seed | 1;
             let mut random = || {

@@ -63,7 +63,7 @@ pub fn looks_measured(mechanism: &Mechanism) -> Option<Measured> {
                 found = Some(Measured {
                     coordinates: 1,
                     place: place(),
-                    value: v.to_string(),
+                    value: format!("{:?}", v.to_f64()),
                     digits,
                 });
             }

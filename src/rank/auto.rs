@@ -1,7 +1,7 @@
 //! The automatic choice: the cheapest method that is certain for this mechanism, and one line that says what was chosen,
 //! why, and what was left out.
 
-use super::finite::{Finite, finite, followed};
+use super::finite::{Finite, finite, finite_within, followed};
 use super::method::{Answer, Certainty as Sure, MobilityMethod, NoAnswer, Quantity};
 use super::numeric::{NumericRank, rank_with_tolerance};
 use super::qr::Qr;
@@ -94,6 +94,8 @@ pub fn decide(
     let real = Closure::new(&Reals, mechanism, state)?;
     let numeric =
         rank_with_tolerance(&real, tolerance).map_err(|e| NoAnswer::Failed(e.to_string()))?;
+    // What rounding and noise leave of a zero says how well poses can close.
+    let accuracy = (10.0 * numeric.dropped).clamp(1e-16, tolerance);
     let second = Qr::<f64>::with_tolerance(tolerance).rank(&real);
     let doubt = if second.rank == numeric.rank {
         String::new()
@@ -118,7 +120,7 @@ pub fn decide(
         line,
     };
     if numeric.rank == as_written {
-        let found = finite(&exact, mechanism, &closure, as_written)?;
+        let found = finite_within(&exact, mechanism, &closure, as_written, Some(accuracy))?;
         let line = format!("{why}; exact rank as written and {gap} agree{doubt}{needed}");
         return Ok(base(
             Geometry::MeasuredAgreeing(measured),
@@ -138,11 +140,12 @@ pub fn decide(
         freedoms - numeric.rank
     );
     if snapped_rank == numeric.rank {
-        let found = finite(
+        let found = finite_within(
             &snapped_exact,
             &snapped.mechanism,
             &snapped_closure,
             snapped_rank,
+            Some(accuracy),
         )?;
         let line = format!(
             "{why}; snapped within {tolerance:.0e} ({} changes), exact rank then; {gap} agree{doubt}; {both}",
@@ -159,7 +162,7 @@ pub fn decide(
             line,
         ));
     }
-    let found = followed(mechanism, state, freedoms - numeric.rank, tolerance)?;
+    let found = followed(mechanism, state, freedoms - numeric.rank, accuracy)?;
     let line = format!("{why}; {gap}{doubt}; {both}");
     Ok(base(
         Geometry::Measured(measured),

@@ -119,9 +119,24 @@ pub fn matrix(
 /// # Complexity
 /// As [`certify_matrix`].
 pub fn certify(mechanism: &Mechanism, state: StateId) -> Result<Certificate, NoCertificate> {
+    certify_within(mechanism, state, Budget::default())
+}
+
+/// As [`certify`], within a budget.
+///
+/// # Errors
+/// A [`NoCertificate`] where there is none within the budget.
+///
+/// # Complexity
+/// As [`certify_matrix`].
+pub fn certify_within(
+    mechanism: &Mechanism,
+    state: StateId,
+    budget: Budget,
+) -> Result<Certificate, NoCertificate> {
     let field = number_field(mechanism, state)?;
     let matrix = matrix(&field, mechanism, state)?;
-    certify_matrix(&field, &matrix, &mechanism.states[state], Budget::default())
+    certify_matrix(&field, &matrix, &mechanism.states[state], budget)
 }
 
 /// A certificate of the rank of a matrix over a number field.

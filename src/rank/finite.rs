@@ -105,6 +105,21 @@ pub fn finite(
     closure: &Closure<Residue>,
     rank: usize,
 ) -> Result<Finite, ExactError> {
+    finite_within(exact, mechanism, closure, rank, None)
+}
+
+/// [`finite`] for coordinates with a relative error: second order is not asked then, since rounding alone would stop a
+/// motion, and poses are followed to within the error.
+///
+/// # Errors
+/// As [`finite`].
+pub fn finite_within(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+    rank: usize,
+    accuracy: Option<f64>,
+) -> Result<Finite, ExactError> {
     let instantaneous = closure.columns.len() - rank;
     if instantaneous == 0 {
         return Ok(Finite {
@@ -122,7 +137,7 @@ pub fn finite(
             how: How::Submersion { dimension },
         });
     }
-    if instantaneous == 1 {
+    if instantaneous == 1 && accuracy.is_none() {
         let columns = closure.dense(exact);
         let kernel = echelon::relations(exact.field(), &columns);
         if let [x] = kernel.as_slice()
@@ -134,7 +149,12 @@ pub fn finite(
             });
         }
     }
-    followed(mechanism, closure.state, instantaneous, 0.0)
+    followed(
+        mechanism,
+        closure.state,
+        instantaneous,
+        accuracy.unwrap_or(0.0),
+    )
 }
 
 /// The finite mobility by following the motion alone; `instantaneous` where it is too large for that. `accuracy` is the

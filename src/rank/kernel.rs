@@ -5,14 +5,15 @@
 //! coordinates themselves follow by the Chinese remainder theorem and rational reconstruction.
 //!
 //! # Sources
-//! Dixon, "Exact solution of linear equations using p-adic expansions", Numer. Math. 40 (1982), for the bounds;
-//! Encarnación, "Computing GCDs of polynomials over algebraic number fields", J. Symb. Comput. 20 (1995), for the use of
-//! all homomorphisms of a number field.
+//! von zur Gathen & Gerhard, "Modern Computer Algebra", ch. 5 (computing modulo many small primes, Chinese remainders,
+//! rational reconstruction).
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
+use num_traits::One;
 
 use super::certificate::NoCertificate;
-use super::reconstruct::{Modulus, Unknown, inverse_of};
+use super::reconstruct::{Modulus, Settled, Unknown, inverse_of};
 use crate::geom::number_field::{NumberField, Splitting};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
@@ -22,6 +23,9 @@ use crate::verify::matrix::MatrixOverRing;
 
 /// Primes that may be useless before the search is given up.
 const MAX_BAD_PRIMES: usize = 64;
+
+/// Numbers in a row that may be too long yet before no more are looked at.
+const MAX_FAILURES: usize = 8;
 
 /// How much a certificate may cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -174,8 +178,8 @@ impl<'a> Kernel<'a> {
             }
             // Reconstruction costs the square of the number of primes: not after every one.
             if primes >= attempt {
-                self.operations += self.settle();
-                attempt = primes + 1 + primes / 2;
+                self.settle()?;
+                attempt = primes + 1 + primes / 8;
             }
             self.within_budget()?;
         }
@@ -202,17 +206,37 @@ impl<'a> Kernel<'a> {
         (products * degree * degree * (16 + self.modulus.primes())) as u64
     }
 
-    /// Reconstructs what is open; the operations it took.
-    fn settle(&mut self) -> u64 {
-        let mut tried = 0;
-        for unknown in &mut self.unknowns {
-            if matches!(unknown, Unknown::Open(_)) {
-                tried += 1;
-                unknown.settle(&self.modulus);
+    /// Reconstructs what is open, as far as the budget goes.
+    fn settle(&mut self) -> Result<(), NoCertificate> {
+        let primes = self.modulus.primes() as u64;
+        let pivots = self.found.as_ref().map_or(0, |(p, _)| p.columns.len());
+        let of_vector = (pivots * self.field.ring().dimension()).max(1);
+        let mut failures = 0;
+        for vector in self.unknowns.chunks_mut(of_vector) {
+            let mut denominator = BigInt::one();
+            for unknown in vector {
+                self.operations += match unknown.settle(&self.modulus, &mut denominator) {
+                    Settled::Before => 0,
+                    Settled::Cheaply => 4 * primes * primes,
+                    Settled::Newly => {
+                        failures = 0;
+                        64 * primes * primes
+                    }
+                    Settled::NotYet => {
+                        failures += 1;
+                        64 * primes * primes
+                    }
+                };
+                // The rest will hardly be shorter.
+                if failures >= MAX_FAILURES {
+                    return Ok(());
+                }
+            }
+            if self.operations > self.budget.operations {
+                break;
             }
         }
-        let primes = self.modulus.primes() as u64;
-        tried * primes * primes * 64
+        self.within_budget()
     }
 
     /// The pivots and the coordinates of the kernel at a prime; `None` where its homomorphisms disagree, or the prime

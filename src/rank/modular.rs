@@ -23,6 +23,9 @@ use crate::model::mechanism::{Mechanism, StateId};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+/// Up to so many contours, looking at all is faster than a heap.
+const FEW: usize = 12;
+
 /// Rank of J over the field, exact unless the prime divides a minor.
 ///
 /// # Complexity
@@ -36,13 +39,11 @@ pub fn rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
     let mut work = Work {
         field: exact.field(),
         plan: &plan,
-        taken: vec![false; plan.columns_of.len()],
-        slot: vec![0; closure.contours.len()],
-        rest: Vec::new(),
-        front: Vec::new(),
+        rest: vec![Rest::default(); closure.contours.len()],
+        left: Vec::with_capacity(16 * closure.dim),
+        front: Vec::with_capacity(closure.columns.len().min(64) * 4 * closure.dim),
         rank: 0,
     };
-    work.rest.resize_with(closure.contours.len(), Rest::default);
     for &c in &plan.order {
         work.eliminate(closure, c);
     }
@@ -86,8 +87,8 @@ impl Sets {
         &self.bits[of * self.words..(of + 1) * self.words]
     }
 
-    fn len(&self, of: usize) -> u32 {
-        self.row(of).iter().map(|w| w.count_ones()).sum()
+    fn len(&self, of: usize) -> usize {
+        self.row(of).iter().map(|w| w.count_ones() as usize).sum()
     }
 
     fn join(&mut self, of: usize, with: usize) {
@@ -118,7 +119,7 @@ struct Plan {
     passes: Vec<(usize, bool)>,
     /// The contours in the order they are eliminated in.
     order: Vec<usize>,
-    /// Per contour, its place in the order.
+    /// Per contour, a number that is greater the later it comes in the order.
     place: Vec<usize>,
     /// Per contour, those that its front has rows of besides its own.
     neighbours: Sets,
@@ -170,11 +171,7 @@ impl Plan {
                 }
             }
         }
-        let order = fewest_neighbours_first(k, &mut neighbours);
-        let mut place = vec![0; k];
-        for (p, &c) in order.iter().enumerate() {
-            place[c] = p;
-        }
+        let (order, place) = fewest_neighbours_first(k, &mut neighbours);
         Plan {
             columns_of,
             passes_from,
@@ -198,19 +195,28 @@ impl Plan {
     }
 }
 
-/// The order of elimination; leaves in each set the neighbours that the contour has when its turn comes.
-fn fewest_neighbours_first(k: usize, neighbours: &mut Sets) -> Vec<usize> {
-    let mut degree: Vec<u32> = (0..k).map(|c| neighbours.len(c)).collect();
-    let first = degree.iter().enumerate().map(|(c, &d)| Reverse((d, c)));
-    let mut heap: BinaryHeap<_> = first.collect::<Vec<_>>().into();
+/// The order of elimination, and for each contour a number that grows along it; leaves in each set the neighbours that
+/// the contour has when its turn comes.
+fn fewest_neighbours_first(k: usize, neighbours: &mut Sets) -> (Vec<usize>, Vec<usize>) {
+    // Above all degrees.
+    const DONE: usize = usize::MAX / 2;
+    let mut degree: Vec<usize> = (0..k).map(|c| neighbours.len(c)).collect();
     let mut order = Vec::with_capacity(k);
-    let mut near = Vec::new();
-    const DONE: u32 = u32::MAX;
-    while let Some(Reverse((d, c))) = heap.pop() {
-        if degree[c] != d {
-            continue;
-        }
-        degree[c] = DONE;
+    let mut near = Vec::with_capacity(k.min(64));
+    let mut heap = BinaryHeap::new();
+    if k > FEW {
+        heap.extend(degree.iter().enumerate().map(|(c, &d)| Reverse((d, c))));
+    }
+    while order.len() < k {
+        let c = if k > FEW {
+            match heap.pop() {
+                Some(Reverse((d, c))) if degree[c] == d => c,
+                _ => continue,
+            }
+        } else {
+            (0..k).min_by_key(|&c| degree[c]).unwrap_or(0)
+        };
+        degree[c] = DONE + order.len();
         order.push(c);
         near.clear();
         neighbours.each(c, |n| near.push(n));
@@ -221,18 +227,23 @@ fn fewest_neighbours_first(k: usize, neighbours: &mut Sets) -> Vec<usize> {
             let now = neighbours.len(n);
             if now != degree[n] {
                 degree[n] = now;
-                heap.push(Reverse((now, n)));
+                if k > FEW {
+                    heap.push(Reverse((now, n)));
+                }
             }
         }
     }
-    order
+    (order, degree)
 }
 
-/// What a front leaves: columns on the rows of the contour's neighbours, ascending, and the next one to go to.
-#[derive(Default)]
+/// What a front leaves: columns on the rows of the contour's neighbours, ascending.
+#[derive(Clone, Copy, Default)]
 struct Rest {
-    columns: Vec<Residue>,
-    /// Other rests for the same parent, as a chain.
+    /// The first row of this contour in the present front, while it is part of it.
+    slot: usize,
+    /// Where they begin and end in `Work::left`.
+    columns: (usize, usize),
+    /// Another rest that goes to the same contour's front.
     sibling: Option<usize>,
     /// The first rest that this contour's front takes in.
     child: Option<usize>,
@@ -241,11 +252,9 @@ struct Rest {
 struct Work<'a> {
     field: Field,
     plan: &'a Plan,
-    /// Per joint, whether its columns are in a front already.
-    taken: Vec<bool>,
-    /// Per contour of the present front, the first of its rows there.
-    slot: Vec<usize>,
     rest: Vec<Rest>,
+    /// The columns of all rests.
+    left: Vec<Residue>,
     /// The columns of the present front, one after the other.
     front: Vec<Residue>,
     rank: usize,
@@ -255,11 +264,11 @@ impl Work<'_> {
     /// Forms the front of a contour, takes out the pivots of its rows, and passes on what is left.
     fn eliminate(&mut self, closure: &Closure<Residue>, c: usize) {
         let (plan, dim) = (self.plan, closure.dim);
-        self.slot[c] = 0;
+        self.rest[c].slot = 0;
         let mut height = dim;
         let mut next: Option<usize> = None;
         plan.neighbours.each(c, |n| {
-            self.slot[n] = height;
+            self.rest[n].slot = height;
             height += dim;
             if next.is_none_or(|x| plan.place[n] < plan.place[x]) {
                 next = Some(n);
@@ -270,14 +279,16 @@ impl Work<'_> {
         // Columns with entries in this contour only, then those shared with others.
         for own in [true, false] {
             for j in joints().filter(|&j| (plan.passes(j).len() == 1) == own) {
-                if plan.passes(j).is_empty() || std::mem::replace(&mut self.taken[j], true) {
+                // The front of the first of its contours in the order takes a joint.
+                let first = |&(i, _): &(usize, bool)| plan.place[i] >= plan.place[c];
+                if plan.passes(j).is_empty() || !plan.passes(j).iter().all(first) {
                     continue;
                 }
                 for column in plan.columns(closure, j) {
                     let at = self.front.len();
                     self.front.resize(at + height, 0);
                     for &(i, forward) in plan.passes(j) {
-                        let block = &mut self.front[at + self.slot[i]..][..dim];
+                        let block = &mut self.front[at + self.rest[i].slot..][..dim];
                         for (o, &t) in block.iter_mut().zip(&column.twist) {
                             *o = if forward { t } else { self.field.neg(t) };
                         }
@@ -287,15 +298,15 @@ impl Work<'_> {
         }
         let mut child = self.rest[c].child;
         while let Some(x) = child {
-            let columns = std::mem::take(&mut self.rest[x].columns);
-            let width = plan.neighbours.len(x) as usize * dim;
-            for column in columns.chunks_exact(width) {
+            let (from, to) = self.rest[x].columns;
+            let width = plan.neighbours.len(x) * dim;
+            for column in self.left[from..to].chunks_exact(width) {
                 let at = self.front.len();
                 self.front.resize(at + height, 0);
                 let mut from = column.chunks_exact(dim);
                 plan.neighbours.each(x, |n| {
                     if let Some(block) = from.next() {
-                        self.front[at + self.slot[n]..][..dim].copy_from_slice(block);
+                        self.front[at + self.rest[n].slot..][..dim].copy_from_slice(block);
                     }
                 });
             }
@@ -303,18 +314,20 @@ impl Work<'_> {
         }
         self.rank += pivots(self.field, &mut self.front, height, dim);
         let Some(parent) = next else { return };
-        let mut left: Vec<Residue> = Vec::with_capacity(self.front.len());
+        let from = self.left.len();
         for column in self.front.chunks_exact(height) {
             if column[dim..].iter().any(|&x| x != 0) {
-                left.extend_from_slice(&column[dim..]);
+                self.left.extend_from_slice(&column[dim..]);
             }
         }
         let width = height - dim;
-        if left.len() > width * width {
-            left = independent(self.field, left, width);
+        if self.left.len() - from > width * width {
+            let basis = independent(self.field, &mut self.left[from..], width);
+            self.left.truncate(from);
+            self.left.extend_from_slice(&basis);
         }
-        if !left.is_empty() {
-            self.rest[c].columns = left;
+        if self.left.len() > from {
+            self.rest[c].columns = (from, self.left.len());
             self.rest[c].sibling = self.rest[parent].child.replace(c);
         }
     }
@@ -370,9 +383,9 @@ fn combine(field: Field, v: &mut [Residue], u: &[Residue], p: usize) {
 }
 
 /// A basis of the span of columns of equal height.
-fn independent(field: Field, mut columns: Vec<Residue>, height: usize) -> Vec<Residue> {
+fn independent(field: Field, columns: &mut [Residue], height: usize) -> Vec<Residue> {
     let mut basis = Vec::with_capacity(height * height);
-    let mut rest = columns.as_mut_slice();
+    let mut rest = columns;
     while rest.len() >= height {
         let (u, later) = rest.split_at_mut(height);
         if let Some(p) = u.iter().position(|&x| x != 0) {

@@ -10,6 +10,9 @@ use num_traits::{One, Signed, Zero};
 
 use crate::linalg::modp::{Field, Residue};
 
+/// Bits by which a fraction has to be shorter than the modulus: one residue in 2^24 has such a fraction by chance.
+const SPARE_BITS: u64 = 24;
+
 /// The fraction n/d ≡ x modulo m with |n| and d at most sqrt(m/2), which is unique where it exists.
 ///
 /// Half of Euclid's algorithm on m and x: O(log² m) bit operations.
@@ -107,14 +110,46 @@ impl Unknown {
         false
     }
 
-    /// Settles on a fraction where there is one of moderate size. O(primes²) where open.
-    pub fn settle(&mut self, modulus: &Modulus) {
-        if let Unknown::Open(x) = self
-            && let Some(q) = rational(x, &modulus.product)
-        {
-            *self = Unknown::Settled(q);
+    /// Settles on a fraction where there is one so short that chance would not have produced it; how it went.
+    ///
+    /// `denominator` is tried first, and becomes a multiple of the one found: the numbers of a vector mostly share one,
+    /// and a product is much cheaper than Euclid's algorithm. O(primes²) where open.
+    pub fn settle(&mut self, modulus: &Modulus, denominator: &mut BigInt) -> Settled {
+        let Unknown::Open(x) = self else {
+            return Settled::Before;
+        };
+        let m = &modulus.product;
+        let short = |n: &BigInt, d: &BigInt| n.bits() + d.bits() + SPARE_BITS <= m.bits();
+        let mut numerator = (&*x * &*denominator).mod_floor(m);
+        if &numerator * 2u32 > *m {
+            numerator -= m;
+        }
+        if short(&numerator, denominator) {
+            *self = Unknown::Settled(BigRational::new(numerator, denominator.clone()));
+            return Settled::Cheaply;
+        }
+        match rational(x, m).filter(|q| short(q.numer(), q.denom())) {
+            Some(q) => {
+                *denominator = denominator.lcm(q.denom());
+                *self = Unknown::Settled(q);
+                Settled::Newly
+            }
+            None => Settled::NotYet,
         }
     }
+}
+
+/// How an attempt to settle on a fraction went.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Settled {
+    /// There was one already.
+    Before,
+    /// By the denominator at hand.
+    Cheaply,
+    /// By Euclid's algorithm.
+    Newly,
+    /// It is too long yet.
+    NotYet,
 }
 
 /// The inverse of the product of the primes so far, in a field of another prime. O(primes).
@@ -143,7 +178,7 @@ mod tests {
                 let agreed = unknown.see(f, f.from_rational(&q).unwrap(), &modulus, inverse_of(&modulus, f).unwrap());
                 quiet = if agreed { quiet + 1 } else { 0 };
                 modulus.extend(f);
-                unknown.settle(&modulus);
+                unknown.settle(&modulus, &mut BigInt::one());
             }
             prop_assert!(quiet > 2);
             prop_assert!(matches!(unknown, Unknown::Settled(x) if x == q));

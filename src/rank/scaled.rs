@@ -6,6 +6,9 @@ use crate::geom::scalars::Reals;
 use faer::traits::ComplexField;
 use faer::{Mat, MatRef};
 
+/// Lever arms shorter than this, in the file's unit, are rounding errors.
+pub(crate) const POINT: f64 = 1e-12;
+
 /// J as it stands: 6k × f, lengths in the file's unit, about the global origin.
 #[must_use]
 pub fn as_it_stands(closure: &Closure<f64>) -> Mat<f64> {
@@ -45,14 +48,14 @@ pub fn scaled(closure: &Closure<f64>) -> Mat<f64> {
                 .map(|(_, x)| x.abs())
         })
         .fold(0.0, f64::max);
+    // Lever arms of rounding errors are none.
+    let arm = if arm > POINT { arm } else { 1.0 };
     for column in &mut columns {
-        if arm > 0.0 {
-            column
-                .iter_mut()
-                .enumerate()
-                .filter(|(r, _)| is_velocity(*r))
-                .for_each(|(_, x)| *x /= arm);
-        }
+        column
+            .iter_mut()
+            .enumerate()
+            .filter(|(r, _)| is_velocity(*r))
+            .for_each(|(_, x)| *x /= arm);
         let length = column.iter().map(|x| x * x).sum::<f64>().sqrt();
         if length > 0.0 {
             column.iter_mut().for_each(|x| *x /= length);

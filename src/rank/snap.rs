@@ -134,13 +134,11 @@ pub fn snap(mechanism: &Mechanism, tolerance: f64) -> Snapped {
     let mut out = mechanism.clone();
     let mut moved = Vec::new();
     let points: Vec<V> = out.joints.iter().map(|j| real(&j.frame.point)).collect();
-    let middle = |i: usize| points.iter().map(|p| p[i]).sum::<f64>() / points.len().max(1) as f64;
-    let centre = [middle(0), middle(1), middle(2)];
+    // Errors go with the size of the coordinates, and a mechanism about one point has no other size.
     let size = points
         .iter()
-        .map(|p| norm(minus(*p, centre)))
-        .fold(0.0, f64::max)
-        .max(f64::MIN_POSITIVE);
+        .flatten()
+        .fold(f64::MIN_POSITIVE, |a, x| a.max(x.abs()));
     let near = tolerance * size;
     zeros(&mut out, near, tolerance, &mut moved);
     let mut directions = Directions {

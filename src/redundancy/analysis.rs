@@ -2,31 +2,75 @@
 
 use crate::closure::matrix::Closure;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::geom::expr::Expr;
 use crate::geom::scalars::Reals;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
+use crate::rank::auto::{self, Geometry};
+use crate::rank::certificate::{self, Budget};
 use crate::rank::finite::{Finite, finite};
-use crate::rank::numeric::{self, NumericError};
-use crate::rank::{Certainty, modular};
+use crate::rank::lu::Lu;
+use crate::rank::method::NoAnswer;
+use crate::rank::numeric::{self, NumericError, NumericRank};
+use crate::rank::qr::Qr;
+use crate::rank::{self, Certainty, modular};
 use crate::redundancy::idle::{Idle, idle_motions};
+use crate::redundancy::measured::Measured;
 use crate::redundancy::motion::{Speeds, motions, twist};
 pub use crate::redundancy::share::ContourShare;
 use crate::redundancy::share::shares;
 use crate::redundancy::stress::{SelfStress, self_stresses};
 use thiserror::Error;
 
+/// A floating-point elimination.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Elimination {
+    /// Singular values, f64.
+    Svd,
+    /// Column-pivoted QR, f64.
+    Qr,
+    /// Column-pivoted QR, f32.
+    Qr32,
+    /// LU with full pivoting, f64.
+    Lu,
+    /// LU with full pivoting, f32.
+    Lu32,
+}
+
+impl Elimination {
+    fn name(self) -> &'static str {
+        match self {
+            Elimination::Svd => "svd",
+            Elimination::Qr => "qr",
+            Elimination::Qr32 => "qr32",
+            Elimination::Lu => "lu",
+            Elimination::Lu32 => "lu32",
+        }
+    }
+
+    fn rank(self, closure: &Closure<f64>, tolerance: f64) -> Result<NumericRank, NumericError> {
+        Ok(match self {
+            Elimination::Svd => numeric::rank_with_tolerance(closure, tolerance)?,
+            Elimination::Qr => Qr::<f64>::with_tolerance(tolerance).rank(closure),
+            Elimination::Qr32 => Qr::<f32>::with_tolerance(tolerance).rank(closure),
+            Elimination::Lu => Lu::<f64>::with_tolerance(tolerance).rank(closure),
+            Elimination::Lu32 => Lu::<f32>::with_tolerance(tolerance).rank(closure),
+        })
+    }
+}
+
 /// How the rank is found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
-    /// Modulo two primes, on exact geometry.
-    Modular,
-    /// Singular values in double precision, with a relative tolerance.
-    Svd {
+    /// The cheapest that is certain, see [`auto`]; a tolerance for measured geometry other than the digits ask for.
+    Auto {
         /// Relative tolerance.
-        tolerance: f64,
+        tolerance: Option<f64>,
     },
+    /// Modulo two primes, every digit taken at its word.
+    Modular,
+    /// In floating point, with a relative tolerance.
+    Numeric(Elimination, f64),
 }
 
 /// Why an analysis failed.
@@ -39,6 +83,9 @@ pub enum AnalysisError {
     /// No singular values.
     #[error(transparent)]
     Numeric(#[from] NumericError),
+    /// The automatic choice failed.
+    #[error(transparent)]
+    Auto(#[from] NoAnswer),
     /// Two primes gave different ranks.
     #[error(
         "ranks modulo {first} and {second} differ in state {state}: {ranks:?}; report this with the file"
@@ -113,6 +160,12 @@ pub struct StateAnalysis {
     pub left_out: Vec<(JointId, usize)>,
     /// How sure the rank is.
     pub certainty: Certainty,
+    /// What the automatic choice was, why, and what was left out.
+    pub choice: Option<String>,
+    /// What was snapped in measured geometry, a sentence each.
+    pub snapped: Vec<String>,
+    /// The rank with every digit taken at its word, where that differs.
+    pub as_written: Option<usize>,
 }
 
 /// The exact field of a mechanism: all its coordinates, in the `nth` suitable prime.
@@ -125,18 +178,8 @@ pub fn exact_field(mechanism: &Mechanism, nth: usize) -> Result<ExactField, Exac
             .chain(j.options.iter().map(|o| &o.frame))
             .chain(j.unloading.iter().map(|o| &o.frame))
     });
-    let of_frames = frames.flat_map(|f| {
-        f.point
-            .iter()
-            .chain(&f.axis)
-            .chain(&f.reference)
-            .chain([&f.pitch])
-    });
-    let normal: &[Expr] = match &mechanism.mode {
-        Mode::Spatial => &[],
-        Mode::Planar { normal } => normal,
-    };
-    ExactField::for_expressions(of_frames.chain(normal), nth)
+    let of_frames = frames.flat_map(rank::coordinates);
+    ExactField::for_expressions(of_frames.chain(rank::normal(mechanism)), nth)
 }
 
 /// Analyses the given states.
@@ -148,19 +191,153 @@ pub fn analyse(
     states: &[StateId],
     method: Method,
 ) -> Result<Vec<StateAnalysis>, AnalysisError> {
-    let fields = [exact_field(mechanism, 0)?, exact_field(mechanism, 1)?];
     states
         .iter()
-        .map(|&s| analyse_state(mechanism, s, method, &fields))
+        .map(|&s| match method {
+            Method::Auto { tolerance } => chosen(mechanism, s, tolerance),
+            Method::Modular => exactly(mechanism, s),
+            Method::Numeric(elimination, tolerance) => {
+                let real = Closure::new(&Reals, mechanism, s)?;
+                let rank = elimination.rank(&real, tolerance)?;
+                let whole = exactly(mechanism, s)?;
+                let certainty = numeric_certainty(elimination.name(), rank, tolerance);
+                if rank.rank == whole.rank {
+                    Ok(StateAnalysis { certainty, ..whole })
+                } else {
+                    numerically(mechanism, s, whole, rank.rank, certainty, tolerance)
+                }
+            }
+        })
         .collect()
 }
 
-fn analyse_state(
+fn numeric_certainty(method: &'static str, rank: NumericRank, tolerance: f64) -> Certainty {
+    Certainty::Numeric {
+        method,
+        tolerance,
+        kept: rank.kept,
+        dropped: rank.dropped,
+    }
+}
+
+/// By the automatic choice.
+fn chosen(
     mechanism: &Mechanism,
     state: StateId,
-    method: Method,
-    fields: &[ExactField; 2],
+    tolerance: Option<f64>,
 ) -> Result<StateAnalysis, AnalysisError> {
+    let decision = auto::decide(mechanism, state, tolerance)?;
+    let as_written = (decision.as_written != decision.rank).then_some(decision.as_written);
+    let (whole, snapped) = match &decision.geometry {
+        Geometry::Exact | Geometry::MeasuredAgreeing(_) => (exactly(mechanism, state)?, Vec::new()),
+        Geometry::Snapped {
+            mechanism: snapped,
+            moved,
+            ..
+        } => (exactly(snapped, state)?, moved.clone()),
+        Geometry::Measured(_) => {
+            let whole = exactly(mechanism, state)?;
+            let certainty = decision.numeric.map_or(whole.certainty, |n| {
+                numeric_certainty("svd", n, decision.tolerance)
+            });
+            let found = numerically(
+                mechanism,
+                state,
+                whole,
+                decision.rank,
+                certainty,
+                decision.tolerance,
+            )?;
+            (found, Vec::new())
+        }
+    };
+    Ok(StateAnalysis {
+        finite: decision.finite,
+        choice: Some(decision.line),
+        snapped,
+        as_written,
+        ..whole
+    })
+}
+
+/// The same state with its figures from floating point: `rank` by the method asked for, all else from singular values.
+fn numerically(
+    mechanism: &Mechanism,
+    state: StateId,
+    whole: StateAnalysis,
+    rank: usize,
+    certainty: Certainty,
+    tolerance: f64,
+) -> Result<StateAnalysis, AnalysisError> {
+    let measured = Measured::new(mechanism, state, tolerance)?;
+    let working_mobility = measured.span_of_links(&outputs(mechanism));
+    let external = match whole.external {
+        Some(e) => {
+            let own: Vec<JointId> = mechanism.joints_in(0).collect();
+            let free = Measured::new(mechanism, 0, tolerance)?;
+            let free_rows = Closure::new(&Reals, mechanism, 0)?;
+            let free_redundant = free_rows.rows() + free.mobility() - free_rows.columns.len();
+            let (actual, working) = (int(free.mobility()), int(measured.span_of_joints(&own)));
+            let redundant = whole.rows + measured.mobility() - whole.freedoms;
+            let bodies = e.lost_mobility + int(whole.mobility) - e.working_mobility;
+            let lost = bodies - (int(measured.mobility()) - working);
+            Some(External {
+                actual_mobility: actual,
+                working_mobility: working,
+                lost_mobility: lost,
+                redundant: e.constraints - (actual - working) - lost,
+                by_rank: int(redundant) - int(free_redundant),
+                ..e
+            })
+        }
+        None => None,
+    };
+    Ok(StateAnalysis {
+        rank,
+        mobility: whole.freedoms - rank,
+        redundant: whole.rows - rank,
+        working_mobility,
+        local_mobility: measured.mobility().saturating_sub(working_mobility),
+        per_contour: measured.shares(),
+        external,
+        idle: Vec::new(),
+        self_stresses: Vec::new(),
+        certainty,
+        ..whole
+    })
+}
+
+fn outputs(mechanism: &Mechanism) -> Vec<LinkId> {
+    (0..mechanism.links.len())
+        .filter(|&l| mechanism.links[l].role == Role::Output)
+        .collect()
+}
+
+/// Elementary operations spent on a certificate before an analysis does without: some tenths of a second.
+const CERTIFICATE: Budget = Budget {
+    coordinates: 100_000,
+    primes: 60,
+    operations: 50_000_000,
+};
+
+/// Whether the rank has a certificate in characteristic 0, made and checked here.
+fn proven(mechanism: &Mechanism, state: StateId, rank: usize) -> bool {
+    let Ok(field) = certificate::number_field(mechanism, state) else {
+        return false;
+    };
+    let Ok(matrix) = certificate::matrix(&field, mechanism, state) else {
+        return false;
+    };
+    certificate::certify_matrix(&field, &matrix, &mechanism.states[state], CERTIFICATE)
+        .is_ok_and(|c| c.rank == rank)
+}
+
+/// On exact geometry.
+fn exactly(mechanism: &Mechanism, state: StateId) -> Result<StateAnalysis, AnalysisError> {
+    let fields = [
+        rank::field_of(mechanism, state, 0)?,
+        rank::field_of(mechanism, state, 1)?,
+    ];
     let exact = &fields[0];
     let closure = Closure::new(exact, mechanism, state)?;
     let ranks = [
@@ -177,25 +354,14 @@ fn analyse_state(
             ranks,
         });
     }
-    let (rank, certainty) = match method {
-        Method::Modular => (ranks[0], Certainty::Modular { primes }),
-        Method::Svd { tolerance } => {
-            let real = Closure::new(&Reals, mechanism, state)?;
-            let r = numeric::rank_with_tolerance(&real, tolerance)?;
-            (
-                r.rank,
-                Certainty::Numeric {
-                    tolerance,
-                    kept: r.kept,
-                    dropped: r.dropped,
-                },
-            )
-        }
+    let rank = ranks[0];
+    let certainty = if proven(mechanism, state, rank) {
+        Certainty::Proven { primes }
+    } else {
+        Certainty::Modular { primes }
     };
     let kernel = motions(exact, &closure);
-    let outputs: Vec<LinkId> = (0..mechanism.links.len())
-        .filter(|&l| mechanism.links[l].role == Role::Output)
-        .collect();
+    let outputs = outputs(mechanism);
     let working_mobility = span_of_links(exact, mechanism, &closure, &kernel, &outputs);
     let freedoms = closure.columns.len();
     let joints: Vec<JointId> = mechanism.joints_in(state).collect();
@@ -214,7 +380,7 @@ fn analyse_state(
         rows: closure.rows(),
         rank,
         mobility: freedoms - rank,
-        finite: finite(exact, mechanism, &closure, ranks[0])?,
+        finite: finite(exact, mechanism, &closure, rank)?,
         working_mobility,
         local_mobility: kernel.len() - working_mobility,
         redundant: closure.rows() - rank,
@@ -229,6 +395,9 @@ fn analyse_state(
         self_stresses: self_stresses(exact, mechanism, &closure)?,
         left_out: closure.left_out.clone(),
         certainty,
+        choice: None,
+        snapped: Vec::new(),
+        as_written: None,
     })
 }
 

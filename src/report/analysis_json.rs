@@ -1,10 +1,10 @@
 //! An analysis as JSON; the keys are a stable contract.
 
-use crate::model::mechanism::Mechanism;
-use crate::rank::Certainty;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::method::{Answer, MobilityMethod};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::stress::Verdict;
-use crate::report::words;
+use crate::report::words::{self, Shape};
 use serde_json::{Value, json};
 
 /// The whole analysis.
@@ -78,8 +78,42 @@ fn state(mechanism: &Mechanism, s: &StateAnalysis) -> Value {
         "idle": idle.collect::<Vec<_>>(),
         "self_stresses": stresses.collect::<Vec<_>>(),
         "left_out": s.left_out.iter().map(|&(j, n)| json!({"joint": joint(j), "freedoms": n})).collect::<Vec<_>>(),
-        "method": match s.certainty { Certainty::Modular { .. } => "modular", Certainty::Numeric { .. } => "svd" },
+        "method": s.certainty.method(),
         "certainty": s.certainty.describe(),
+        "certainty_kind": s.certainty.word(),
+        "choice": s.choice,
+        "snapped": s.snapped,
+        "as_written": s.as_written.map(|rank| json!({
+            "rank": rank, "mobility": s.freedoms - rank, "redundant": s.rows - rank,
+        })),
+    })
+}
+
+/// A mobility by one method, where that is all there is.
+#[must_use]
+pub fn by_method(
+    mechanism: &Mechanism,
+    method: &dyn MobilityMethod,
+    answers: &[(StateId, Answer)],
+) -> Value {
+    let states = answers.iter().map(|(s, answer)| {
+        let shape = Shape::of(mechanism, *s);
+        json!({
+            "state": mechanism.states[*s],
+            "links": shape.links,
+            "joints": shape.joints,
+            "contours": shape.contours,
+            "freedoms": shape.freedoms,
+            "mobility": answer.mobility,
+            "redundant": answer.mobility + shape.rows - shape.freedoms,
+            "method": method.name(),
+            "certainty": method.guarantee(),
+        })
+    });
+    json!({
+        "mechanism": mechanism.name,
+        "length_unit": mechanism.length_unit.symbol,
+        "states": states.collect::<Vec<_>>(),
     })
 }
 

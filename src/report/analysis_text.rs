@@ -1,9 +1,10 @@
 //! An analysis for people: the verdict first, then where each figure comes from.
 
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::method::{Answer, MobilityMethod};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::stress::{SelfStress, Verdict};
-use crate::report::words::{self, plural, table};
+use crate::report::words::{self, Shape, plural, table};
 use itertools::Itertools;
 use std::fmt::Write;
 
@@ -83,6 +84,20 @@ fn state(
         )?;
     }
     writeln!(out, "  {}", s.certainty.describe())?;
+    if let Some(choice) = &s.choice {
+        writeln!(out, "  method: {choice}")?;
+    }
+    for moved in &s.snapped {
+        writeln!(out, "  snapped: {moved}")?;
+    }
+    if let Some(rank) = s.as_written {
+        writeln!(
+            out,
+            "  as written, every digit at its word: mobility {}, σ = {}",
+            s.freedoms - rank,
+            s.rows - rank
+        )?;
+    }
     if !s.per_contour.is_empty() {
         let rows = s.per_contour.iter().map(|c| {
             let (least, greatest) = c.range;
@@ -142,6 +157,38 @@ fn state(
         )?;
     }
     Ok(())
+}
+
+/// A mobility by one method, where that is all there is.
+#[must_use]
+pub fn by_method(
+    mechanism: &Mechanism,
+    method: &dyn MobilityMethod,
+    answers: &[(StateId, Answer)],
+) -> String {
+    let mut out = String::new();
+    for (s, answer) in answers {
+        let shape = Shape::of(mechanism, *s);
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            out,
+            "{}, state {}: mobility {} by {}, so σ = W + {} - f = {}",
+            mechanism.name,
+            mechanism.states[*s],
+            answer.mobility,
+            method.title(),
+            shape.rows,
+            answer.mobility + shape.rows - shape.freedoms
+        );
+    }
+    let _ = writeln!(
+        out,
+        "  {} ({}; {})",
+        method.guarantee(),
+        method.source(),
+        method.complexity()
+    );
+    out
 }
 
 fn stress_row(mechanism: &Mechanism, s: &StateAnalysis, stress: &SelfStress) -> Vec<String> {

@@ -9,6 +9,7 @@ use crate::search::diagram::Diagram;
 use crate::search::primes::Verdict;
 use crate::search::request::Search;
 use crate::search::space::choice_name;
+use crate::search::stroke::OverStroke;
 use num_bigint::BigUint;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -32,6 +33,8 @@ pub struct Found<'a> {
     pub check: Option<([u64; 2], Verdict)>,
     /// Why the geometry looks measured, with the verdicts on the mechanism as it is; `None` where it looks exact.
     pub measured: Option<(Measured, Vec<Verdicts>)>,
+    /// Other poses asked for and reached; `None` where none were asked for.
+    pub poses: Option<(usize, usize)>,
 }
 
 fn counts<K: ToString>(of: &BTreeMap<K, BigUint>) -> Map<String, Value> {
@@ -127,6 +130,11 @@ pub fn header(found: &Found<'_>) -> Map<String, Value> {
     });
     put("check", json!(check));
     put("measured", json!(found.measured.as_ref().map(measured)));
+    let poses = found.poses;
+    put(
+        "poses",
+        json!(poses.map(|(asked, reached)| json!({"asked": asked, "reached": reached}))),
+    );
     put("exact", json!(found.stop == "exhausted"));
     out
 }
@@ -160,6 +168,9 @@ pub fn tail(summary: &Summary, complete: bool) -> Map<String, Value> {
     put("variants_checked", json!(summary.checked));
     put("variants_disagreeing", json!(summary.disagreeing));
     put("variants_check_failed", json!(summary.failed));
+    put("variants_posed", json!(summary.posed));
+    put("variants_lucky", json!(summary.lucky));
+    put("variants_dropped", json!(summary.dropped));
     out
 }
 
@@ -177,6 +188,17 @@ pub fn variant(search: &Search<'_>, certified: &Certified, position: usize) -> V
             "largest_dropped": o.dropped,
         })
     };
+    let other = |s: &OverStroke| {
+        let other = s.other.map(|(f, present)| {
+            json!({
+                "mobility": f.mobility,
+                "redundant": f.redundant,
+                "output_mobility": f.output,
+                "present_output_mobility": present,
+            })
+        });
+        json!({"poses": s.poses, "other": other})
+    };
     json!({
         "position": position,
         "cost": cost_number(search.steps.milli(variant.key.cost())),
@@ -189,6 +211,8 @@ pub fn variant(search: &Search<'_>, certified: &Certified, position: usize) -> V
         "conditioning": opinion.map(|o| o.conditioning),
         "agree": opinion.map(|o| o.agree),
         "svd": opinion.map(svd),
+        "lucky": certified.stroke.and_then(|s| s.lucky()),
+        "stroke": certified.stroke.as_ref().map(other),
     })
 }
 

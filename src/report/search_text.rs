@@ -167,9 +167,10 @@ pub fn variants(
 /// The mark of a variant that a footnote tells about.
 fn mark(certified: &Certified) -> &'static str {
     match &certified.second {
-        Second::Unasked => "",
         Second::Failed => " ?",
         Second::Given(o) if !o.agree => " *",
+        _ if certified.lucky() => " !",
+        Second::Unasked => "",
         Second::Given(o) if o.conditioning < NEARLY_SINGULAR => " ~",
         Second::Given(_) => "",
     }
@@ -178,6 +179,18 @@ fn mark(certified: &Certified) -> &'static str {
 /// The footnote of a marked variant.
 #[must_use]
 pub fn note(certified: &Certified, position: usize) -> Option<String> {
+    if let Some((f, present)) = certified.stroke.and_then(|s| s.other) {
+        let output = match (f.output, present) {
+            (Some(o), Some(p)) if o != p => {
+                format!(", and outputs that move in {o} ways instead of {p}")
+            }
+            _ => String::new(),
+        };
+        return Some(format!(
+            "! {position}: in this pose only; another has W = {}, σ = {}{output}",
+            f.mobility, f.redundant
+        ));
+    }
     match &certified.second {
         Second::Unasked => None,
         Second::Failed => Some(format!(
@@ -210,9 +223,33 @@ const NOTES: usize = 20;
 #[must_use]
 pub fn notes(summary: &Summary, notes: &[String]) -> String {
     let mut out = String::new();
-    if summary.checked + summary.failed == 0 {
-        return out;
+    if summary.checked + summary.failed > 0 {
+        opinions(&mut out, summary);
     }
+    let posed = grouped(&summary.posed.to_string());
+    // Writing to a string cannot fail.
+    let _ = match (summary.posed, summary.lucky, summary.dropped) {
+        (0, _, 0) => Ok(()),
+        (_, _, n) if n > 0 => writeln!(
+            out,
+            "  {n} left out: their figures are not the same at other poses"
+        ),
+        (_, 0, _) => writeln!(out, "  Figures the same at other poses: all {posed}"),
+        (_, n, _) => writeln!(
+            out,
+            "  Figures not the same at other poses: {n} of {posed}, marked !"
+        ),
+    };
+    for n in notes.iter().take(NOTES) {
+        let _ = writeln!(out, "  {n}");
+    }
+    if notes.len() > NOTES {
+        let _ = writeln!(out, "  and {} more marked", notes.len() - NOTES);
+    }
+    out
+}
+
+fn opinions(out: &mut String, summary: &Summary) {
     let asked = grouped(&(summary.checked + summary.failed).to_string());
     let which = if summary.given > summary.checked + summary.failed {
         format!("the first {asked}; the rest was not asked about")
@@ -223,15 +260,11 @@ pub fn notes(summary: &Summary, notes: &[String]) -> String {
     let verdict = if wrong == 0 {
         format!("Singular values agree on {which}")
     } else {
-        format!("Singular values disagree on {wrong} of {which}")
+        format!(
+            "Singular values disagree on {wrong} of {}",
+            which.trim_start_matches("all ")
+        )
     };
     // Writing to a string cannot fail.
     let _ = writeln!(out, "\n  {verdict} (cond.: the smallest over the largest)");
-    for n in notes.iter().take(NOTES) {
-        let _ = writeln!(out, "  {n}");
-    }
-    if notes.len() > NOTES {
-        let _ = writeln!(out, "  and {} more marked", notes.len() - NOTES);
-    }
-    out
 }

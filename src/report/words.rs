@@ -1,6 +1,8 @@
 //! Numbers, tables and wrenches in words.
 
-use crate::model::mechanism::Mechanism;
+use crate::closure::matrix::Closure;
+use crate::geom::scalars::Reals;
+use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::redundancy::idle::Idle;
 use crate::redundancy::stress::JointWrench;
 use comfy_table::{ContentArrangement, Table, TableComponent, presets};
@@ -146,5 +148,52 @@ pub fn significant(x: f64) -> String {
     match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text,
+    }
+}
+
+/// The numbers of a structure that need no rank.
+#[derive(Debug, Clone, Copy)]
+pub struct Shape {
+    /// n.
+    pub links: i64,
+    /// p.
+    pub joints: i64,
+    /// k.
+    pub contours: i64,
+    /// f, in the plane those of the plane.
+    pub freedoms: i64,
+    /// 6k, or 3k in the plane.
+    pub rows: i64,
+}
+
+impl Shape {
+    /// The numbers of a state.
+    #[must_use]
+    pub fn of(mechanism: &Mechanism, state: StateId) -> Shape {
+        let mut links: Vec<_> = mechanism
+            .joints_in(state)
+            .flat_map(|j| mechanism.joints[j].links)
+            .collect();
+        links.sort_unstable();
+        links.dedup();
+        let int = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
+        let (links, joints) = (int(links.len()), int(mechanism.joints_in(state).count()));
+        let contours = joints + 1 - links;
+        let dim = if matches!(mechanism.mode, Mode::Planar { .. }) {
+            3
+        } else {
+            6
+        };
+        let freedoms = match Closure::new(&Reals, mechanism, state) {
+            Ok(closure) => int(closure.columns.len()),
+            Err(_) => 0,
+        };
+        Shape {
+            links,
+            joints,
+            contours,
+            freedoms,
+            rows: dim * contours,
+        }
     }
 }

@@ -10,6 +10,7 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::numeric::{self, NumericRank};
 use crate::search::best::Variant;
 use crate::search::request::Search;
+use crate::search::stroke::{OverStroke, Stroke};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -46,6 +47,26 @@ pub struct Certified {
     pub variant: Variant,
     /// What its singular values say.
     pub second: Second,
+    /// What other poses say, where that was asked.
+    pub stroke: Option<OverStroke>,
+}
+
+impl Certified {
+    /// A variant that nothing more is known of.
+    #[must_use]
+    pub fn unasked(variant: Variant) -> Self {
+        Certified {
+            variant,
+            second: Second::Unasked,
+            stroke: None,
+        }
+    }
+
+    /// Whether other poses were looked at and give other figures.
+    #[must_use]
+    pub fn lucky(&self) -> bool {
+        self.stroke.is_some_and(|s| s.lucky() == Some(true))
+    }
 }
 
 /// A second opinion, or why there is none.
@@ -81,12 +102,20 @@ pub struct Summary {
     pub disagreeing: usize,
     /// Those whose singular values did not converge.
     pub failed: usize,
+    /// Those looked at in other poses too.
+    pub posed: usize,
+    /// Those whose figures differ in another pose.
+    pub lucky: usize,
+    /// Lucky ones left out.
+    pub dropped: usize,
 }
 
 impl Summary {
     /// Counts one more.
     pub fn add(&mut self, one: &Certified) {
         self.given += 1;
+        self.posed += usize::from(one.stroke.is_some_and(|s| s.poses > 0));
+        self.lucky += usize::from(one.lucky());
         match &one.second {
             Second::Unasked => {}
             Second::Failed => self.failed += 1,
@@ -106,23 +135,38 @@ struct Shape {
 }
 
 impl Search<'_> {
-    /// Analyses some variants by singular values, in parallel.
+    /// Analyses some variants by singular values, and in the poses of a stroke where one is given, in parallel.
     ///
     /// # Complexity
-    /// Two or three decompositions of a 6k x f matrix a variant.
+    /// Two or three decompositions of a 6k x f matrix a variant, and about two more for each pose.
     #[must_use]
-    pub fn certify(&self, variants: Vec<Variant>) -> Vec<Certified> {
+    pub fn certify(
+        &self,
+        variants: Vec<Variant>,
+        opinions: bool,
+        stroke: Option<&Stroke>,
+    ) -> Vec<Certified> {
         let mut shapes: BTreeMap<Vec<bool>, Shape> = BTreeMap::new();
-        for v in &variants {
+        for v in variants.iter().filter(|_| opinions) {
             shapes
                 .entry(self.inserted(&v.choices))
                 .or_insert_with(|| self.shape(&self.realize(&v.choices)));
         }
         let one = |variant: Variant| {
-            let shape = shapes.get(&self.inserted(&variant.choices));
-            let opinion = shape.and_then(|s| self.opinion(&variant, s));
-            let second = opinion.map_or(Second::Failed, Second::Given);
-            Certified { variant, second }
+            let m = self.realize(&variant.choices);
+            let second = if opinions {
+                let shape = shapes.get(&self.inserted(&variant.choices));
+                let opinion = shape.and_then(|s| self.opinion(&variant, &m, s));
+                opinion.map_or(Second::Failed, Second::Given)
+            } else {
+                Second::Unasked
+            };
+            let stroke = stroke.map(|s| self.over(s, &variant, &m));
+            Certified {
+                variant,
+                second,
+                stroke,
+            }
         };
         variants.into_par_iter().with_min_len(4).map(one).collect()
     }
@@ -145,15 +189,14 @@ impl Search<'_> {
         }
     }
 
-    fn opinion(&self, variant: &Variant, shape: &Shape) -> Option<Opinion> {
-        let m = self.realize(&variant.choices);
-        let (free, f) = self.decompose(&m, 0, &shape.free)?;
+    fn opinion(&self, variant: &Variant, m: &Mechanism, shape: &Shape) -> Option<Opinion> {
+        let (free, f) = self.decompose(m, 0, &shape.free)?;
         let rows = |contours: &[Contour]| int(contours.len() * self.space.dim);
         let redundant = rows(&shape.free) - int(free.rank);
         let output = match &shape.locked {
             None => None,
             Some(contours) => {
-                let (locked, _) = self.decompose(&self.locked(&m), 0, contours)?;
+                let (locked, _) = self.decompose(&self.locked(m), 0, contours)?;
                 Some(locked.rank.saturating_sub(free.rank))
             }
         };
@@ -161,7 +204,7 @@ impl Search<'_> {
         let external = match &shape.state {
             None => None,
             Some((s, contours)) => {
-                let (state, _) = self.decompose(&m, *s, contours)?;
+                let (state, _) = self.decompose(m, *s, contours)?;
                 conditioning = conditioning.min(state.kept);
                 dropped = dropped.max(state.dropped);
                 Some(rows(contours) - int(state.rank) - redundant)

@@ -2,7 +2,7 @@
 
 use ozols::builtin;
 use ozols::import::text::mechanism_from_str;
-use ozols::redundancy::analysis::{Method, analyse};
+use ozols::redundancy::analysis::{Elimination, Method, analyse};
 
 #[test]
 fn every_built_in_mechanism_has_the_figures_it_states() {
@@ -29,7 +29,7 @@ fn every_built_in_mechanism_has_the_figures_it_states() {
                 e.state
             );
         }
-        for method in [Method::Modular, Method::Svd { tolerance: 1e-9 }] {
+        for method in [Method::Modular, Method::Numeric(Elimination::Svd, 1e-9)] {
             let states: Vec<usize> = (0..m.states.len()).collect();
             for s in analyse(&m, &states, method).unwrap() {
                 // σ = W + 6k - f holds identically, p = n + k - 1 for a connected mechanism.

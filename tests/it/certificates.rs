@@ -263,6 +263,20 @@ fn a_certificate_does_not_serve_another_matrix() {
     ));
 }
 
+/// y² = 3 and z² = 5 with a witness at 3, which divides the discriminant of y: no proof, though 5 is no square modulo 3.
+#[test]
+fn witnesses_at_a_discriminant_are_refused() {
+    let f = field(&["sqrt(3)", "sqrt(5)"]);
+    let m = sparse(&f, &[vec![f.ring().generator(1)]], 1);
+    let mut c = certify_matrix(&f, &m, "free", Budget::default()).unwrap();
+    assert_eq!(verify::check(&m, &c), Ok(1));
+    (c.field.witnesses[1].prime, c.field.witnesses[1].images) = (3, vec![0]);
+    assert!(matches!(
+        verify::check(&m, &c),
+        Err(Flaw::NotAField { generator: 1, why }) if why.contains("discriminant")
+    ));
+}
+
 /// A ring that is no field, where a number can differ from 0 and be 0 in fact.
 #[test]
 fn rings_that_are_no_fields_are_found_out() {

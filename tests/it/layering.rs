@@ -4,12 +4,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers, lowest first; modules of one row do not import each other, except where a row says so by order.
-const LAYERS: [&[&str]; 9] = [
+const LAYERS: [&[&str]; 11] = [
     &["linalg", "chart"],
     &["geom", "verify"],
     &["model"],
     &["closure"],
     &["import", "rank", "workload"],
+    &["robot"],
+    &["export"],
     &["redundancy"],
     &["search", "builtin"],
     &["report"],

@@ -1,0 +1,209 @@
+//! A mechanism as the entries of its file, exactly.
+
+use crate::geom::expr::Expr;
+use crate::import::loads::WorkloadEntry;
+use crate::import::schema::{
+    ContourEntry, Coordinate, ExpectedEntry, JointEntry, LinkEntry, MechanismFile, OptionEntry,
+    OptionTable, SearchEntry, Unloading, Words,
+};
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::mechanism::{Expected, Frame, Joint, JointOption, Mechanism, Mode, Role};
+use std::collections::BTreeMap;
+
+/// The file of a mechanism. Options that the file had in common stand at each joint; nothing else is changed.
+#[must_use]
+pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
+    let ids = |list: &[usize]| list.iter().map(|&j| m.joints[j].id.clone()).collect();
+    let (mode, plane_normal) = match &m.mode {
+        Mode::Spatial => (None, None),
+        Mode::Planar { normal } => (Some("planar".to_owned()), Some(vector(normal))),
+    };
+    MechanismFile {
+        name: m.name.clone(),
+        description: m.description.clone(),
+        sources: m.sources.clone(),
+        length_unit: Some(m.length_unit.symbol.to_owned()),
+        mode,
+        plane_normal,
+        link: m
+            .links
+            .iter()
+            .map(|l| LinkEntry {
+                id: l.id.clone(),
+                role: role(l.role).map(ToOwned::to_owned),
+                mass: None,
+                centre: None,
+                inertia: None,
+            })
+            .collect(),
+        joint: m.joints.iter().map(|j| joint(m, j)).collect(),
+        contour: m
+            .contours
+            .iter()
+            .map(|c| ContourEntry { joints: ids(c) })
+            .collect(),
+        search: search(m),
+        workload: WorkloadEntry::default(),
+        expected: m.expected.iter().map(expected).collect(),
+    }
+}
+
+/// The word for a role.
+pub(super) fn role(role: Role) -> Option<&'static str> {
+    match role {
+        Role::Frame => Some("frame"),
+        Role::Output => Some("output"),
+        Role::Object => Some("object"),
+        Role::Inner => None,
+    }
+}
+
+/// A number where it is a decimal of at most 17 digits, else an expression.
+fn coordinate(e: &Expr) -> Coordinate {
+    let Some(value) = e.as_rational() else {
+        return Coordinate::Expression(e.to_string());
+    };
+    if value.is_integer()
+        && let Ok(whole) = i64::try_from(value.numer())
+    {
+        return Coordinate::Integer(whole);
+    }
+    let near = e.to_f64();
+    match Expr::from_f64(near) {
+        Ok(read) if read.as_rational() == Some(value) => Coordinate::Decimal(near),
+        _ => Coordinate::Expression(e.to_string()),
+    }
+}
+
+fn vector(v: &[Expr; 3]) -> [Coordinate; 3] {
+    [coordinate(&v[0]), coordinate(&v[1]), coordinate(&v[2])]
+}
+
+fn same(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
+    a.iter().zip(b).all(|(x, y)| x.to_string() == y.to_string())
+}
+
+/// Whether the reference is the one that is understood: x, or y where the axis is along x.
+fn is_default(f: &Frame) -> bool {
+    let unit = |i: usize| [0, 1, 2].map(|k| Expr::from(i64::from(k == i)));
+    let size = f.axis.each_ref().map(|c| c.to_f64().abs());
+    if size[1] + size[2] > 1e-6 * size[0] {
+        return same(&f.reference, &unit(0));
+    }
+    f.axis[1].is_zero_rational() && f.axis[2].is_zero_rational() && same(&f.reference, &unit(1))
+}
+
+fn screws(t: &JointType) -> bool {
+    t.freedoms().contains(&Freedom::Screw)
+}
+
+fn freedoms(t: &JointType) -> Option<Vec<String>> {
+    match t {
+        JointType::Custom(list) => Some(list.iter().map(|f| f.name().to_owned()).collect()),
+        _ => None,
+    }
+}
+
+#[allow(
+    clippy::cast_precision_loss,
+    reason = "costs are at most 1e9 thousandths"
+)]
+fn cost(milli: i64) -> f64 {
+    milli as f64 / 1000.0
+}
+
+fn joint(m: &Mechanism, j: &Joint) -> JointEntry {
+    let names = |s: &Vec<usize>| s.iter().map(|&s| m.states[s].clone()).collect::<Vec<_>>();
+    let present = &j.options[0];
+    // The present joint is understood, unless it has a cost of its own.
+    let listed = if present.cost_milli.is_some() { 0 } else { 1 };
+    let options = (j.options.len() > listed.max(1) || present.cost_milli.is_some()).then(|| {
+        j.options[listed..]
+            .iter()
+            .map(|o| option(o, &j.frame))
+            .collect()
+    });
+    let unloading = (!j.unloading.is_empty())
+        .then(|| Unloading::List(j.unloading.iter().map(|o| option(o, &j.frame)).collect()));
+    JointEntry {
+        id: j.id.clone(),
+        links: j.links.map(|l| m.links[l].id.clone()),
+        kind: j.joint_type.name().to_owned(),
+        freedoms: freedoms(&j.joint_type),
+        point: vector(&j.frame.point),
+        axis: Some(vector(&j.frame.axis)),
+        reference: (!is_default(&j.frame)).then(|| vector(&j.frame.reference)),
+        pitch: screws(&j.joint_type).then(|| coordinate(&j.frame.pitch)),
+        drive: j.drive,
+        state: j.states.as_ref().map(|s| Words::Many(names(s))),
+        options,
+        forbid: Vec::new(),
+        unloading,
+    }
+}
+
+/// An option: its type alone where the rest is as the joint's own.
+fn option(o: &JointOption, present: &Frame) -> OptionEntry {
+    let f = &o.frame;
+    let turned = !same(&f.axis, &present.axis);
+    let table = OptionTable {
+        kind: Some(o.joint_type.name().to_owned()),
+        freedoms: freedoms(&o.joint_type),
+        axis: turned.then(|| vector(&f.axis)),
+        reference: (turned || !same(&f.reference, &present.reference))
+            .then(|| vector(&f.reference)),
+        pitch: (screws(&o.joint_type) && f.pitch.to_string() != present.pitch.to_string())
+            .then(|| coordinate(&f.pitch)),
+        name: Some(o.name.clone()).filter(|n| n != o.joint_type.name()),
+        cost: o.cost_milli.map(cost),
+    };
+    let plain = table.freedoms.is_none()
+        && table.reference.is_none()
+        && table.pitch.is_none()
+        && table.name.is_none()
+        && table.cost.is_none();
+    match (plain, table.kind) {
+        (true, Some(word)) => OptionEntry::Word(word),
+        (_, kind) => OptionEntry::Table(Box::new(OptionTable { kind, ..table })),
+    }
+}
+
+fn search(m: &Mechanism) -> SearchEntry {
+    let spec = &m.search;
+    let mut costs: BTreeMap<String, f64> = BTreeMap::new();
+    costs.extend(
+        spec.costs
+            .by_type_milli
+            .iter()
+            .map(|(n, c)| (n.clone(), cost(*c))),
+    );
+    costs.extend(
+        spec.costs
+            .change_milli
+            .map(|c| ("change".to_owned(), cost(c))),
+    );
+    costs.extend(spec.costs.link_milli.map(|c| ("link".to_owned(), cost(c))));
+    SearchEntry {
+        hold: spec.hold.iter().map(|&l| m.links[l].id.clone()).collect(),
+        mirror: spec
+            .mirror
+            .iter()
+            .map(|&(a, b)| [a, b].map(|j| m.joints[j].id.clone()))
+            .collect(),
+        costs,
+        ..SearchEntry::default()
+    }
+}
+
+fn expected(e: &Expected) -> ExpectedEntry {
+    ExpectedEntry {
+        state: Some(e.state.clone()),
+        mobility: e.mobility,
+        finite_mobility: e.finite_mobility,
+        working_mobility: e.working_mobility,
+        local_mobility: e.local_mobility,
+        redundant: e.redundant,
+        external_redundant: e.external_redundant,
+        source: e.source.clone(),
+    }
+}

@@ -1,0 +1,170 @@
+//! The structure of a state by singular values, for measured geometry that exact arithmetic would take at its word.
+
+use crate::closure::matrix::Closure;
+use crate::geom::exact::ExactError;
+use crate::geom::scalars::Reals;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::rank::scaled::{POINT, scaled};
+use crate::redundancy::share::ContourShare;
+use faer::Mat;
+
+/// Ranks and motions of one J at one relative tolerance.
+#[derive(Debug)]
+pub struct Measured<'a> {
+    mechanism: &'a Mechanism,
+    closure: Closure<f64>,
+    /// The scaled J.
+    matrix: Mat<f64>,
+    /// Singular values at or below this count as zero.
+    floor: f64,
+    /// Motions: columns of an orthonormal basis of the null space.
+    kernel: Mat<f64>,
+}
+
+fn values(matrix: &Mat<f64>) -> Vec<f64> {
+    if matrix.nrows() == 0 || matrix.ncols() == 0 {
+        return Vec::new();
+    }
+    matrix.singular_values().unwrap_or_default()
+}
+
+impl<'a> Measured<'a> {
+    /// J of a state, with its null space at a relative tolerance.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value.
+    ///
+    /// # Complexity
+    /// One decomposition, O(6k · f · min(6k, f)).
+    pub fn new(
+        mechanism: &'a Mechanism,
+        state: StateId,
+        tolerance: f64,
+    ) -> Result<Self, ExactError> {
+        let closure = Closure::new(&Reals, mechanism, state)?;
+        let matrix = scaled(&closure);
+        let f = closure.columns.len();
+        let (mut floor, mut kernel) = (0.0, Mat::identity(f, f));
+        if matrix.nrows() > 0
+            && f > 0
+            && let Ok(svd) = matrix.svd()
+        {
+            let s = svd.S().column_vector();
+            floor = tolerance * s[0];
+            let rank = (0..s.nrows()).filter(|&i| s[i] > floor).count();
+            kernel = svd.V().subcols(rank, f - rank).to_owned();
+        }
+        Ok(Measured {
+            mechanism,
+            closure,
+            matrix,
+            floor,
+            kernel,
+        })
+    }
+
+    /// W at the pose.
+    #[must_use]
+    pub fn mobility(&self) -> usize {
+        self.kernel.ncols()
+    }
+
+    fn rank_of(&self, matrix: &Mat<f64>) -> usize {
+        values(matrix).iter().filter(|&&v| v > self.floor).count()
+    }
+
+    /// Dimension of the joint motion of some links.
+    #[must_use]
+    pub fn span_of_links(&self, links: &[LinkId]) -> usize {
+        let whole = scale_of(&self.closure);
+        let rows: Vec<Vec<Vec<f64>>> = links
+            .iter()
+            .map(|&l| self.closure.link_motion(&Reals, self.mechanism, l))
+            .collect();
+        let dim = self.closure.dim;
+        // Speeds in the kernel belong to columns of unit size; lengths are divided by the longest lever arm.
+        let motion = Mat::from_fn(dim * links.len(), self.closure.columns.len(), |r, c| {
+            let x = rows[r / dim][c][r % dim] / whole.columns[c];
+            if r % dim >= dim / 2 { x / whole.arm } else { x }
+        });
+        self.rank_of(&(motion * &self.kernel))
+    }
+
+    /// Dimension of the part of the motions that some joints do.
+    #[must_use]
+    pub fn span_of_joints(&self, joints: &[JointId]) -> usize {
+        let columns: Vec<usize> = (0..self.closure.columns.len())
+            .filter(|&c| joints.contains(&self.closure.columns[c].joint))
+            .collect();
+        let part = Mat::from_fn(columns.len(), self.kernel.ncols(), |r, c| {
+            self.kernel[(columns[r], c)]
+        });
+        self.rank_of(&part)
+    }
+
+    /// σ_i of each contour in the order of the basis, and its range over all orders.
+    ///
+    /// # Complexity
+    /// 3k decompositions.
+    #[must_use]
+    pub fn shares(&self) -> Vec<ContourShare> {
+        let dim = self.closure.dim;
+        let rank = |contours: &[usize]| {
+            self.rank_of(&Mat::from_fn(
+                dim * contours.len(),
+                self.matrix.ncols(),
+                |r, c| self.matrix[(dim * contours[r / dim] + r % dim, c)],
+            ))
+        };
+        let all: Vec<usize> = (0..self.closure.contours.len()).collect();
+        let prefix: Vec<usize> = (0..=all.len()).map(|i| rank(&all[..i])).collect();
+        all.iter()
+            .map(|&i| {
+                let others: Vec<usize> = all.iter().copied().filter(|&j| j != i).collect();
+                ContourShare {
+                    contour: self.closure.contours[i].clone(),
+                    redundant: dim + prefix[i] - prefix[i + 1],
+                    range: (dim - rank(&[i]), dim + rank(&others) - prefix[all.len()]),
+                }
+            })
+            .collect()
+    }
+}
+
+/// What [`scaled`] divides by: each column's size, and the arm.
+struct Scale {
+    columns: Vec<f64>,
+    arm: f64,
+}
+
+fn scale_of(closure: &Closure<f64>) -> Scale {
+    let turns = closure.dim / 2;
+    let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let arm = closure
+        .columns
+        .iter()
+        .filter(|c| norm(&c.twist[..turns]) > 0.0)
+        .map(|c| {
+            let size = norm(&c.twist[..turns]);
+            c.twist[turns..]
+                .iter()
+                .map(|x| (x / size).abs())
+                .fold(0.0, f64::max)
+        })
+        .fold(0.0, f64::max);
+    let arm = if arm > POINT { arm } else { 1.0 };
+    let columns = closure
+        .columns
+        .iter()
+        .map(|c| {
+            let scaled: Vec<f64> = c
+                .twist
+                .iter()
+                .enumerate()
+                .map(|(i, x)| if i >= turns { x / arm } else { *x })
+                .collect();
+            norm(&scaled)
+        })
+        .collect();
+    Scale { columns, arm }
+}

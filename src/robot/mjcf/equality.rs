@@ -1,0 +1,162 @@
+//! Equality constraints: the loops and couplings of MJCF.
+
+use super::{Context, unsupported};
+use crate::import::problem::ImportError;
+use crate::model::joint_type::JointType;
+use crate::robot::parts::{Part, Robot};
+use crate::robot::pose::Pose;
+use crate::robot::problem::{RobotProblem, known};
+use crate::robot::urdf::same_link;
+use crate::robot::xml::Element;
+
+pub(super) fn read(
+    section: Element<'_>,
+    context: &Context<'_>,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    for (i, e) in section.children().enumerate() {
+        e.room("joints", robot.joints.len())?;
+        let look = context.defaults.of(e, "equality", None)?;
+        let id = match e.attribute("name") {
+            Some(n) => n.to_owned(),
+            None => format!("{}-{}", e.name(), i + 1),
+        };
+        if look.attribute("active").is_some_and(|(_, v)| v == "false") {
+            robot.report.drop("inactive equality", Some(&id));
+            continue;
+        }
+        match e.name() {
+            "connect" => {
+                let ends = ends(e, context, robot)?;
+                closing(e, &id, ends, JointType::Spherical, robot)?;
+            }
+            "weld" => {
+                let ends = ends(e, context, robot)?;
+                closing(e, &id, ends, JointType::Fixed, robot)?;
+            }
+            "joint" => coupling(e, robot)?,
+            "tendon" => {
+                robot.report.coupling_rows += 1;
+                robot.report.approximate(
+                    &e.label(),
+                    "an equality of tendon lengths (1 row) is left out",
+                );
+            }
+            "flex" | "flexvert" | "flexstrain" | "distance" => {
+                return Err(unsupported(e, "it is not a joint", "remove it"));
+            }
+            other => robot.report.drop(other, e.attribute("name")),
+        }
+    }
+    Ok(())
+}
+
+type End = (usize, Pose);
+
+fn ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Result<[End; 2], ImportError> {
+    if e.attribute("site1").is_some() || e.attribute("site2").is_some() {
+        let site = |key: &'static str| {
+            let name = e.required(key)?;
+            context.sites.get(name).copied().ok_or_else(|| {
+                let known = known("sites", context.sites.keys().map(String::as_str));
+                unknown(e, key, "site", name, known)
+            })
+        };
+        return Ok([site("site1")?, site("site2")?]);
+    }
+    let body = |key: &'static str| {
+        let name = if key == "body2" {
+            e.attribute(key).unwrap_or("world")
+        } else {
+            e.required(key)?
+        };
+        robot.links.iter().position(|l| l == name).ok_or_else(|| {
+            let known = known("bodies", robot.links.iter().map(String::as_str));
+            unknown(e, key, "body", name, known)
+        })
+    };
+    let (one, two) = (body("body1")?, body("body2")?);
+    let as_drawn = |at: Pose| {
+        robot.places[two]
+            .inverse()
+            .then(&robot.places[one].then(&at))
+    };
+    if e.name() == "connect" {
+        e.required("anchor")?;
+        let at = Pose::shift(e.vector("anchor", [0.0; 3])?);
+        return Ok([(one, at), (two, as_drawn(at))]);
+    }
+    // The place of body 2 in body 1; a zero quaternion stands for that of the model as drawn.
+    match e.numbers::<7>("relpose")? {
+        Some([x, y, z, quat @ ..]) if quat != [0.0; 4] => Ok([
+            (one, Pose::quaternion([x, y, z], quat)),
+            (two, Pose::IDENTITY),
+        ]),
+        _ => Ok([(one, Pose::IDENTITY), (two, as_drawn(Pose::IDENTITY))]),
+    }
+}
+
+fn unknown(
+    e: Element<'_>,
+    key: &str,
+    what: &'static str,
+    name: &str,
+    known: String,
+) -> ImportError {
+    let (element, name) = (e.label(), name.to_owned());
+    e.fail(
+        Some(key),
+        RobotProblem::UnknownName {
+            element,
+            what,
+            name,
+            known,
+        },
+    )
+}
+
+fn closing(
+    e: Element<'_>,
+    id: &str,
+    ends: [End; 2],
+    joint_type: JointType,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    let links = ends.map(|x| x.0);
+    if links[0] == links[1] {
+        return Err(same_link(e));
+    }
+    let mut part = Part::new(id, links, ends.map(|x| x.1), joint_type);
+    part.closes = true;
+    part.comment = Some(format!("closes a loop: <{}>", e.name()));
+    robot.report.map(e.name());
+    robot.joints.push(part);
+    Ok(())
+}
+
+fn coupling(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+    let mut names = vec![e.required("joint1")?];
+    names.extend(e.attribute("joint2"));
+    for (name, key) in names.iter().zip(["joint1", "joint2"]) {
+        if !robot.joints.iter().any(|j| j.id == *name) {
+            let known = known("joints", robot.joints.iter().map(|j| j.id.as_str()));
+            return Err(unknown(e, key, "joint", name, known));
+        }
+    }
+    robot.report.coupling_rows += 1;
+    let what = match names[..] {
+        [a, b] => format!("{a} and {b} are independent joints; their coupling (1 row) is left out"),
+        _ => format!(
+            "{} can move; its equality to a constant (1 row) is left out",
+            names[0]
+        ),
+    };
+    robot.report.approximate(&e.label(), what);
+    if let Some(j) = robot.joints.iter_mut().find(|j| j.id == names[0]) {
+        j.comment = Some(match names[..] {
+            [_, b] => format!("coupled to {b}; here an independent joint"),
+            _ => "held at a constant; here it can move".to_owned(),
+        });
+    }
+    Ok(())
+}

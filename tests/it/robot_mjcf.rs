@@ -1,0 +1,249 @@
+//! MJCF: orientations, defaults, joints in series, equalities, includes.
+
+use crate::cli::ozols;
+use crate::robots::{figures, none, refused};
+use ozols::robot::{Options, import};
+
+// MuJoCo's values count from `ref`, where the model is as drawn; the pose is in radians whatever the file's unit.
+#[test]
+fn mjcf_reference_pose() {
+    let at = |value: f64| {
+        let options = Options {
+            pose: vec![("j".to_owned(), vec![value])],
+            ..Options::default()
+        };
+        let text = mjcf(
+            "<worldbody><body name='a'><joint name='j' ref='90'/><body name='b' pos='1 0 0'><joint name='k'/></body></body></worldbody>",
+        );
+        import("m.xml", text.as_bytes(), &none, &options)
+            .unwrap()
+            .toml
+    };
+    assert!(at(std::f64::consts::FRAC_PI_2).contains("point = [1, 0, 0]"));
+    assert!(at(std::f64::consts::PI).contains("point = [0, 1, 0]"));
+}
+
+// Defaults of equalities stand under <equality>, whatever their kind.
+#[test]
+fn mjcf_inactive_by_default() {
+    let i = import("m.xml", mjcf("<default><equality active='false'/></default>
+        <worldbody><body name='a'><joint/></body><body name='b'><joint/></body></worldbody>
+        <equality><weld body1='a' body2='b'/><connect body1='a' body2='b' anchor='0 0 0' active='true'/></equality>").as_bytes(), &none, &Options::default()).unwrap();
+    assert_eq!(
+        (i.report.size.1, i.report.dropped["inactive equality"].0),
+        (3, 1)
+    );
+}
+
+pub(crate) fn mjcf(body: &str) -> String {
+    format!("<mujoco model='m'>{body}</mujoco>")
+}
+
+pub(crate) fn toml_of(name: &str, text: &str) -> String {
+    match import(name, text.as_bytes(), &none, &Options::default()) {
+        Ok(i) => i.toml,
+        Err(e) => panic!("{e}\n{text}"),
+    }
+}
+
+// A quarter turn of z to -y, said in every way there is; then a hinge at (0, 0, 1) of the turned body.
+#[test]
+fn mjcf_orientations() {
+    let half = 0.5_f64.sqrt();
+    for (compiler, way) in [
+        ("", "quat='1 1 0 0'".to_owned()),
+        ("", format!("quat='{half} {half} 0 0'")),
+        ("", "axisangle='2 0 0 90'".to_owned()),
+        (
+            "angle='radian'",
+            "axisangle='1 0 0 1.5707963267948966'".to_owned(),
+        ),
+        ("", "euler='90 0 0'".to_owned()),
+        ("eulerseq='zyx'", "euler='0 0 90'".to_owned()),
+        (
+            "eulerseq='XYZ' angle='radian'",
+            "euler='1.5707963267948966 0 0'".to_owned(),
+        ),
+        ("", "xyaxes='1 0 0 0 0 5'".to_owned()),
+        ("", "zaxis='0 -1 0'".to_owned()),
+    ] {
+        let t = toml_of(
+            "m.xml",
+            &mjcf(&format!(
+                "<compiler {compiler}/><worldbody><body name='a' pos='0.1 0 0' {way}>
+                 <joint pos='0 0 1'/></body></worldbody>"
+            )),
+        );
+        assert!(
+            t.contains("point = [0.1, -1, 0]") && t.contains("axis = [0, -1, 0]"),
+            "{way}\n{t}"
+        );
+    }
+    // Letters of the frame turn with it: z by a quarter, then the new x by a quarter, against fixed axes.
+    for (seq, axis) in [("zxy", "[1, 0, 0]"), ("ZXY", "[0, -1, 0]")] {
+        let t = toml_of(
+            "m.xml",
+            &mjcf(&format!(
+                "<compiler eulerseq='{seq}'/><worldbody><body euler='90 90 0'><joint/></body></worldbody>"
+            )),
+        );
+        assert!(t.contains(&format!("axis = {axis}")), "{seq}\n{t}");
+    }
+}
+
+#[test]
+fn mjcf_defaults_and_series() {
+    let t = toml_of("m.xml", &mjcf("
+        <default><joint axis='1 0 0'/><default class='up'><joint axis='0 0 2'/>
+          <default class='slider'><joint type='slide'/></default></default></default>
+        <worldbody>
+          <body name='a'><joint name='x'/>
+            <body name='b' childclass='slider'><joint name='y'/><body name='c'><joint name='z' axis='0 1 0'/>
+              <frame pos='0 0 3'><body name='d' pos='1 0 0'><joint name='w' class='up'/></body></frame></body></body></body>
+          <body name='e'><joint name='s1' type='slide'/><joint name='s2' type='ball' pos='0 1 0'/></body>
+          <body name='f'><freejoint/></body>
+        </worldbody>"));
+    for part in [
+        "id = \"x\"\nlinks = [\"world\", \"a\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [1, 0, 0]",
+        "id = \"y\"\nlinks = [\"a\", \"b\"]\ntype = \"prismatic\"\npoint = [0, 0, 0]\naxis = [0, 0, 2]",
+        "id = \"z\"\nlinks = [\"b\", \"c\"]\ntype = \"prismatic\"\npoint = [0, 0, 0]\naxis = [0, 1, 0]",
+        "id = \"w\"\nlinks = [\"c\", \"d\"]\ntype = \"revolute\"\npoint = [1, 0, 3]\naxis = [0, 0, 2]",
+        "id = \"s1\"\nlinks = [\"world\", \"e~1\"]\ntype = \"prismatic\"",
+        "id = \"s2\"\nlinks = [\"e~1\", \"e\"]\ntype = \"spherical\"\npoint = [0, 1, 0]",
+        "type = \"custom\"\nfreedoms = [\"tx\", \"ty\", \"tz\", \"rx\", \"ry\", \"rz\"]",
+    ] {
+        assert!(t.contains(part), "{part}\n{t}");
+    }
+}
+
+// A weld of two bodies that hinge on the world in one place: a closed loop of two coaxial hinges, W = 1, σ = 5.
+#[test]
+fn mjcf_weld_and_actuator() {
+    let t = mjcf("<worldbody><body name='a'><joint name='h'/></body><body name='b'><joint/></body></worldbody>
+        <equality><weld body1='a' body2='b'/><weld body1='a' body2='b' active='false'/></equality>
+        <actuator><motor joint='h'/></actuator>");
+    let i = import("m.xml", t.as_bytes(), &none, &Options::default()).unwrap();
+    assert_eq!(figures(&i, 1e-9), [3, 3, 1, 2, 1, 5]);
+    assert!(i.toml.contains("drive = true") && i.toml.contains("type = \"fixed\""));
+}
+
+#[test]
+fn mjcf_includes() {
+    let files = |name: &str| -> std::io::Result<Vec<u8>> {
+        Ok(match name {
+            "defaults.xml" => "<mujocoinclude><default><joint axis='1 0 0'/></default></mujocoinclude>",
+            "arm.xml" => "<mujoco><include file='defaults.xml'/><worldbody><body name='a'><joint name='j'/></body></worldbody></mujoco>",
+            "loop.xml" => "<mujoco><include file='again.xml'/></mujoco>",
+            "again.xml" => "<mujoco><include file='loop.xml'/></mujoco>",
+            "bad.xml" => "<mujoco>\n<worldbody><body quat='1 2 3'/></worldbody></mujoco>",
+            "many.xml" => "<mujoco><include file='more.xml'/><include file='more.xml'/><include file='more.xml'/></mujoco>",
+            _ if name.starts_with("more") => return Ok(include_tree(name)),
+            _ => return Err(std::io::Error::other("no such file")),
+        }.as_bytes().to_vec())
+    };
+    fn include_tree(name: &str) -> Vec<u8> {
+        let next = format!("more{name}");
+        format!("<mujoco><include file='{next}'/><include file='{next}'/></mujoco>").into_bytes()
+    }
+    let with = |file: &str| {
+        let text = mjcf(&format!("<include file='{file}'/>"));
+        import("main.xml", text.as_bytes(), &files, &Options::default())
+    };
+    assert!(with("arm.xml").unwrap().toml.contains("axis = [1, 0, 0]"));
+    for (file, words) in [
+        ("loop.xml", "the file includes itself"),
+        ("main.xml", "the file includes itself"),
+        ("none.xml", "no such file"),
+        ("../arm.xml", "outside the folder"),
+        ("/etc/passwd", "outside the folder"),
+        ("bad.xml", "bad.xml:2:24: quat"),
+        ("many.xml", "files deep or 1000 in all"),
+    ] {
+        let e = with(file).unwrap_err().to_string();
+        assert!(e.contains(words), "{file}: {e}");
+    }
+}
+
+#[test]
+fn mjcf_errors() {
+    let one = |body: &str| {
+        mjcf(&format!(
+            "<worldbody><body name='a'>{body}</body></worldbody>"
+        ))
+    };
+    for (text, words) in [
+        (one("<joint type='screw'/>"), "hinge, slide, ball, free"),
+        (one("<joint axis='0 0 0'/>"), "axis"),
+        (one("<joint class='x'/>"), "default class \"x\""),
+        (one("<joint/><body name='a'/>"), "there is twice"),
+        (
+            one("<joint name='j'/><body><joint name='j'/></body>"),
+            "joint \"j\" is there twice",
+        ),
+        (one("<composite/>"), "save the compiled model"),
+        (one("<frame><joint/></frame>"), "inside <frame>"),
+        (
+            one("<joint/><body quat='1 0 0 0' euler='0 0 0'/>"),
+            "two orientations",
+        ),
+        (one("<joint/><body quat='0 0 0 0'/>"), "not zero"),
+        (
+            mjcf("<worldbody><joint/></worldbody>"),
+            "the world cannot move",
+        ),
+        (mjcf("<compiler angle='grad'/>"), "radian, degree"),
+        (mjcf("<compiler eulerseq='xyw'/>"), "eulerseq"),
+        (
+            mjcf("<compiler coordinate='global'/>"),
+            "global coordinates",
+        ),
+        (mjcf("<default><default/></default>"), "no attribute class"),
+        (
+            mjcf("<equality><connect body1='x' anchor='0 0 0'/></equality>"),
+            "body \"x\"",
+        ),
+        (
+            mjcf("<equality><connect body1='world' anchor='0 0 0'/></equality>"),
+            "to itself",
+        ),
+        (
+            mjcf("<equality><connect site1='x' site2='y'/></equality>"),
+            "site \"x\"",
+        ),
+        (
+            mjcf("<equality><joint joint1='x'/></equality>"),
+            "joint \"x\"",
+        ),
+        (mjcf(""), "nothing can move"),
+    ] {
+        let e = refused("m.xml", &text);
+        assert!(
+            e.contains(words) || words == "there is twice" && e.contains("is there twice"),
+            "{words}: {e}"
+        );
+    }
+}
+
+// Includes on disk: from the file's folder only, whatever links say.
+#[cfg(unix)]
+#[test]
+fn includes_on_disk() {
+    let out = tempfile::tempdir().unwrap();
+    let inner = out.path().join("inner");
+    std::fs::create_dir(&inner).unwrap();
+    let part = "<mujoco><worldbody><body name='a'><joint/></body></worldbody></mujoco>";
+    std::fs::write(out.path().join("secret.xml"), part).unwrap();
+    std::fs::write(inner.join("part.xml"), part).unwrap();
+    std::os::unix::fs::symlink(out.path().join("secret.xml"), inner.join("link.xml")).unwrap();
+    for (file, code) in [
+        ("part.xml", 0),
+        ("link.xml", 2),
+        ("../secret.xml", 2),
+        ("missing.xml", 2),
+    ] {
+        let main = inner.join("main.xml");
+        std::fs::write(&main, mjcf(&format!("<include file='{file}'/>"))).unwrap();
+        let o = ozols(&["import", main.to_str().unwrap()]).output().unwrap();
+        assert_eq!(o.status.code(), Some(code), "{file}");
+    }
+}

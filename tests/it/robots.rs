@@ -1,0 +1,260 @@
+//! Robot descriptions: real models against the figures of other engines, and what is refused.
+
+use crate::cli::ozols;
+use ozols::import::text::mechanism_from_str;
+use ozols::redundancy::analysis::{Elimination, Method, StateAnalysis, analyse};
+use ozols::robot::{Imported, Options, import};
+use std::path::PathBuf;
+
+pub(crate) fn folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/robots")
+}
+
+pub(crate) fn none(_: &str) -> std::io::Result<Vec<u8>> {
+    Err(std::io::Error::other("there is no such file"))
+}
+
+pub(crate) fn model(path: &str, options: &Options) -> Imported {
+    let bytes = std::fs::read(folder().join(path)).unwrap();
+    import(path, &bytes, &none, options).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// n, p, k, f, W, σ of the imported mechanism by singular values.
+pub(crate) fn figures(imported: &Imported, tolerance: f64) -> [i64; 6] {
+    let m = mechanism_from_str("imported.toml", &imported.toml).unwrap();
+    let s: &StateAnalysis =
+        &analyse(&m, &[0], Method::Numeric(Elimination::Svd, tolerance)).unwrap()[0];
+    [
+        s.links,
+        s.joints,
+        s.contours,
+        s.freedoms,
+        s.mobility,
+        s.redundant,
+    ]
+    .map(|x| i64::try_from(x).unwrap())
+}
+
+/// The message of a text that is refused.
+pub(crate) fn refused(name: &str, text: &str) -> String {
+    let e = import(name, text.as_bytes(), &none, &Options::default()).unwrap_err();
+    assert!(!e.render(false).is_empty());
+    e.to_string()
+}
+
+// The joint's place is composed along the chain: q at (0, 0, 1) turned by a quarter about z.
+pub(crate) const ARM: &str = r#"<robot name="arm">
+  <link name="base"/><link name="a"/><link name="b"/><link name="tip"/>
+  <joint name="p" type="continuous"><parent link="base"/><child link="a"/>
+    <origin xyz="0 0 1" rpy="0 0 1.5707963267948966"/><axis xyz="0 0 1"/></joint>
+  <joint name="q" type="prismatic"><parent link="a"/><child link="b"/>
+    <origin xyz="0.1 0.2 0"/><axis xyz="1 0 0"/></joint>
+  <joint name="t" type="fixed"><parent link="b"/><child link="tip"/></joint>
+</robot>"#;
+
+#[test]
+fn poses_are_composed() {
+    let i = import("arm.urdf", ARM.as_bytes(), &none, &Options::default()).unwrap();
+    for line in [
+        "point = [-0.2, 0.1, 1]",
+        "axis = [0, 1, 0]",
+        "# with tip, fixed to it",
+    ] {
+        assert!(i.toml.contains(line), "{line}\n{}", i.toml);
+    }
+    let turned = Options {
+        pose: vec![("p".to_owned(), vec![std::f64::consts::FRAC_PI_2])],
+        ..Options::default()
+    };
+    let i = import("arm.urdf", ARM.as_bytes(), &none, &turned).unwrap();
+    assert!(i.toml.contains("point = [-0.1, -0.2, 1]"), "{}", i.toml);
+}
+
+// Seen from the tip the chain is passed backwards; the tip's frame is the global one then.
+#[test]
+fn another_frame() {
+    let options = Options {
+        frame: Some("tip".to_owned()),
+        outputs: vec!["base".to_owned()],
+        ..Options::default()
+    };
+    let i = import("arm.urdf", ARM.as_bytes(), &none, &options).unwrap();
+    for part in [
+        "point = [-0.1, -0.2, 0]\naxis = [0, 0, 1]",
+        "point = [0, 0, 0]\naxis = [1, 0, 0]",
+        "id = \"base\"\nrole = \"output\"",
+    ] {
+        assert!(i.toml.contains(part), "{part}\n{}", i.toml);
+    }
+    assert_eq!(i.report.outputs, (vec!["base".to_owned()], true));
+}
+
+// A floating base is one joint of six freedoms.
+#[test]
+fn floating() {
+    let options = Options {
+        floating: true,
+        ..Options::default()
+    };
+    let i = import("arm.urdf", ARM.as_bytes(), &none, &options).unwrap();
+    assert_eq!(figures(&i, 1e-9), [4, 3, 0, 8, 8, 0]);
+}
+
+#[test]
+fn errors_name_the_element_and_the_line() {
+    for (from, to, words) in [
+        (
+            "<child link=\"b\"/>",
+            "<child link=\"c\"/>",
+            &[
+                "arm.urdf:5:",
+                "joint \"q\"",
+                "link \"c\"",
+                "base, a, b, tip",
+            ][..],
+        ),
+        (
+            "prismatic",
+            "sliding",
+            &[
+                "arm.urdf:5:",
+                "joint \"q\"",
+                "\"sliding\"",
+                "prismatic, fixed",
+            ],
+        ),
+        (
+            "xyz=\"1 0 0\"",
+            "xyz=\"0 0 0\"",
+            &["arm.urdf:6:", "axis", "joint \"q\""],
+        ),
+        (
+            "0.1 0.2 0",
+            "0.1 0.2",
+            &["arm.urdf:6:18:", "xyz", "3 finite numbers"],
+        ),
+        (
+            "0.1 0.2 0",
+            "0.1 nan 0",
+            &["arm.urdf:6:18:", "3 finite numbers"],
+        ),
+        ("0.1 0.2 0", "0.1 inf 0", &["3 finite numbers"]),
+        ("0.1 0.2 0", "${x} 0 0", &["expand the macros"]),
+        ("name=\"q\" ", "", &["<joint> has no attribute name"]),
+        ("name=\"q\"", "name=\"p\"", &["joint \"p\" is there twice"]),
+        ("</robot>", "", &["arm.urdf:8:", "<robot> is not closed"]),
+        (
+            "</joint>\n  <joint name=\"t\"",
+            "</jnt>\n  <joint name=\"t\"",
+            &["jnt"],
+        ),
+        ("<robot", "<robit", &["arm.urdf:"]),
+        (
+            "<parent link=\"b\"/>",
+            "<parent link=\"tip\"/>",
+            &["connects a link to itself"],
+        ),
+        (
+            "<parent link=\"base\"/>",
+            "",
+            &["joint \"p\" has no <parent"],
+        ),
+        (
+            "<link name=\"tip\"/>",
+            "<link name=\"tip\"/><link name=\"loose\"/>",
+            &["link \"loose\"", "--floating"],
+        ),
+    ] {
+        let text = ARM.replace(from, to);
+        assert_ne!(text, ARM, "{from}");
+        let e = refused("arm.urdf", &text);
+        for w in words {
+            assert!(e.contains(w), "{w:?} is not in: {e}");
+        }
+    }
+}
+
+#[test]
+fn hostile_xml() {
+    let bomb = r#"<?xml version="1.0"?><!DOCTYPE r [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;">]><robot name="&b;"/>"#;
+    assert!(refused("x.urdf", bomb).contains("declares entities"));
+    assert!(refused("x.urdf", "<robot name=\"&b;\"/>").contains("not well-formed"));
+    let deep = "<robot>".to_owned() + &"<a>".repeat(100_000);
+    assert!(refused("x.urdf", &deep).contains("4000 deep"));
+    let many = "<robot>".to_owned() + &"<a/>".repeat(600_000) + "</robot>";
+    assert!(refused("x.urdf", &many).contains("500000 elements"));
+    let wide =
+        "<robot ".to_owned() + &(0..300).map(|i| format!("a{i}='' ")).collect::<String>() + "/>";
+    assert!(refused("x.urdf", &wide).contains("256 attributes"));
+    assert!(refused("x.urdf", "").contains("there is no element"));
+    assert!(refused("x.urdf", "<robot a='1' a='2'/>").contains("twice"));
+    let e = import("x.urdf", b"\xff<robot/>", &none, &Options::default()).unwrap_err();
+    assert!(e.to_string().contains("UTF-8"));
+}
+
+// The mechanism file takes 2000 links; what is fixed together counts once.
+#[test]
+fn too_many_links() {
+    let chain = |n: usize, kind: &str| {
+        let links: String = (0..n).map(|i| format!("<link name='l{i}'/>")).collect();
+        let joint = |i: usize| {
+            let kind = if i == 0 { "continuous" } else { kind };
+            format!(
+                "<joint name='j{i}' type='{kind}'><parent link='l{i}'/><child link='l{}'/></joint>",
+                i + 1
+            )
+        };
+        format!(
+            "<robot name='c'>{links}{}</robot>",
+            (0..n - 1).map(joint).collect::<String>()
+        )
+    };
+    assert!(
+        refused("c.urdf", &chain(2100, "continuous")).contains("2100 links, more than the 2000")
+    );
+    assert!(refused("c.urdf", &chain(10_100, "fixed")).contains("more than 10000 links"));
+    let i = import(
+        "c.urdf",
+        chain(2100, "fixed").as_bytes(),
+        &none,
+        &Options::default(),
+    )
+    .unwrap();
+    assert_eq!(i.report.size, (2, 1));
+}
+
+#[test]
+fn the_command() {
+    let file = folder().join("robotiq_ros_urdf/robotiq_arg2f_85_model.expanded.urdf");
+    let out = tempfile::tempdir().unwrap();
+    let target = out.path().join("gripper.toml");
+    let run = |more: &[&str]| {
+        ozols(&[&["import", file.to_str().unwrap()][..], more].concat())
+            .output()
+            .unwrap()
+    };
+    let o = run(&["-o", target.to_str().unwrap()]);
+    assert_eq!((o.status.code(), o.stdout.len()), (Some(0), 0));
+    assert_eq!(run(&["--quiet"]).stderr.len(), 0);
+    assert!(
+        String::from_utf8(o.stderr)
+            .unwrap()
+            .contains("5 coupling rows")
+    );
+    let checked = ozols(&["check", target.to_str().unwrap()])
+        .output()
+        .unwrap();
+    assert_eq!(checked.status.code(), Some(0));
+    let json: serde_json::Value =
+        serde_json::from_slice(&run(&["--format", "json"]).stdout).unwrap();
+    assert_eq!(json["joint"][0]["type"], "revolute");
+    for bad in [
+        &["--pose", "finger_joint"][..],
+        &["--pose", "x=1"],
+        &["--frame", "x"],
+        &["--working-link", "x"],
+    ] {
+        let o = run(bad);
+        assert_eq!((o.status.code(), o.stdout.len()), (Some(2), 0), "{bad:?}");
+    }
+}

@@ -1,0 +1,152 @@
+//! Variants in other poses of the present motion.
+
+use crate::cli::{json, out, ozols};
+use ozols::import::text::mechanism_from_str;
+use ozols::redundancy::analysis::{Method, analyse};
+use serde_json::Value;
+use std::fs;
+
+const BALANCE: [&str; 7] = [
+    "search",
+    "roberval-balance",
+    "--format",
+    "json",
+    "--all",
+    "--seed",
+    "3",
+];
+
+fn changes(v: &Value) -> Vec<(String, String)> {
+    let word = |x: &Value| x.as_str().unwrap().to_owned();
+    let list = v["changes"].as_array().unwrap();
+    list.iter()
+        .map(|c| (word(&c["joint"]), word(&c["to"])))
+        .collect()
+}
+
+/// The balance's rocker 3 on a ball and a universal joint spins idly where the second pin of that joint, which stays
+/// with the frame, happens to point at the ball.
+#[test]
+fn variants_that_are_right_in_the_pose_of_the_file_only_are_marked() {
+    let v = json(&[&BALANCE[..], &["--poses", "4"]].concat());
+    assert_eq!(v["poses"], serde_json::json!({"asked": 4, "reached": 4}));
+    let variants = v["variants"].as_array().unwrap();
+    assert!(variants.iter().all(|x| x["lucky"].is_boolean()));
+    let lucky: Vec<&Value> = variants.iter().filter(|x| x["lucky"] == true).collect();
+    assert_eq!((lucky.len(), &v["variants_lucky"]), (3, &3.into()));
+    for x in &lucky {
+        let other = &x["stroke"]["other"];
+        assert_eq!(other["output_mobility"], 2);
+        assert_eq!(other["present_output_mobility"], 1);
+        assert_eq!(other["redundant"], 0);
+    }
+    let one = [
+        ("1-2", "cylindrical"),
+        ("2-3", "spherical"),
+        ("3-0", "universal"),
+    ]
+    .map(|(j, t)| (j.to_owned(), t.to_owned()));
+    assert!(lucky.iter().any(|x| changes(x) == one));
+    // The same variant, exactly, here and with the arms turned by a 3-4-5 triangle's angle.
+    let text = out(&["show", "roberval-balance"]);
+    let m = mechanism_from_str("it.toml", &text).unwrap();
+    for (turned, working) in [(false, 1), (true, 2)] {
+        let mut m = m.clone();
+        for (joint, to) in &one {
+            let j = m.joint(joint).unwrap();
+            let option = m.joints[j].options.iter().find(|o| o.name == *to).unwrap();
+            (m.joints[j].joint_type, m.joints[j].frame) =
+                (option.joint_type.clone(), option.frame.clone());
+        }
+        for (joint, x, y) in [("1-2", 120, 90), ("2-3", 120, -10)] {
+            let j = m.joint(joint).unwrap();
+            if turned {
+                m.joints[j].frame.point = [x, y, 0].map(|c: i64| c.into());
+            }
+        }
+        let found = &analyse(&m, &[0], Method::Modular).unwrap()[0];
+        assert_eq!(
+            (found.mobility, found.redundant, found.working_mobility),
+            (2, 0, working)
+        );
+    }
+}
+
+/// With the second pin in the rocker it points at the ball always.
+#[test]
+fn which_link_has_which_pin_matters() {
+    let text = out(&["show", "roberval-balance"]);
+    let swapped = text.replace("links = [\"3\", \"0\"]", "links = [\"0\", \"3\"]");
+    assert_ne!(text, swapped);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("swapped.toml");
+    fs::write(&path, swapped).unwrap();
+    let args = ["--format", "json", "--all", "--poses", "4"];
+    let v = json(&[&["search", path.to_str().unwrap()][..], &args].concat());
+    let lucky = |joint: &str| {
+        let list = v["variants"].as_array().unwrap().iter();
+        list.filter(|x| x["lucky"] == true)
+            .filter(|x| changes(x).contains(&(joint.to_owned(), "universal".to_owned())))
+            .count()
+    };
+    assert_eq!(lucky("3-0"), 0);
+}
+
+#[test]
+fn generic_only_leaves_the_lucky_out_and_makes_room() {
+    let v = json(&[&BALANCE[..], &["--generic-only"]].concat());
+    assert_eq!(v["poses"]["asked"], 3);
+    let variants = v["variants"].as_array().unwrap();
+    assert_eq!((variants.len(), &v["variants_dropped"]), (14, &3.into()));
+    assert!(variants.iter().all(|x| x["lucky"] == false));
+    let positions: Vec<u64> = variants
+        .iter()
+        .map(|x| x["position"].as_u64().unwrap())
+        .collect();
+    assert!(positions.iter().copied().eq(1..=14));
+    let text = out(&[
+        "search",
+        "roberval-balance",
+        "--generic-only",
+        "--top",
+        "14",
+    ]);
+    assert!(
+        text.contains("\n  14 ") && !text.contains("\n  15 "),
+        "{text}"
+    );
+    let marked = out(&["search", "roberval-balance", "--poses", "2", "--top", "20"]);
+    for part in ["14 !", "! 14: in this pose only", "2 ways instead of 1"] {
+        assert!(marked.contains(part), "no {part:?} in {marked}");
+    }
+}
+
+#[test]
+fn poses_do_not_depend_on_threads_and_need_a_motion() {
+    let run =
+        |threads: &str| out(&[&BALANCE[..], &["--poses", "3", "--threads", threads]].concat());
+    assert!(run("1") == run("2"));
+    let o = ozols(&[
+        "search",
+        "bennett-perturbed",
+        "--poses",
+        "2",
+        "--format",
+        "json",
+    ])
+    .output()
+    .unwrap();
+    let said = String::from_utf8(o.stderr).unwrap();
+    assert!(said.starts_with("warning: no other pose"), "{said}");
+    let v: Value = serde_json::from_slice(&o.stdout).unwrap();
+    assert_eq!(v["poses"]["reached"], 0);
+    assert!(
+        v["variants"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|x| x["lucky"].is_null())
+    );
+    let v = json(&["search", "four-bar", "--format", "json"]);
+    assert!(v["poses"].is_null() && v["variants"][0]["lucky"].is_null());
+}
