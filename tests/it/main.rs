@@ -14,6 +14,7 @@ mod grip;
 mod holding;
 mod layering;
 mod mobility;
+mod programmes;
 mod published;
 mod robot_bytes;
 mod robot_mjcf;
