@@ -4,8 +4,11 @@ mod accuracy;
 mod analyze;
 mod answer;
 mod args;
+mod charts;
 mod check;
+mod drive;
 mod export;
+mod grip;
 mod import;
 mod load;
 mod output;
@@ -43,6 +46,8 @@ pub fn run() -> ExitCode {
         args::Command::Analyze(a) => analyze::run(&args, a),
         args::Command::Search(a) => search::run(&args, a),
         args::Command::Statics(a) => statics::run(&args, a),
+        args::Command::Grip(a) => grip::run(&args, a),
+        args::Command::Drive(a) => drive::run(&args, a),
         args::Command::Verify(a) => verify::run(&args, a),
         args::Command::Import(a) => import::run(&args, a),
         args::Command::Export(a) => export::run(&args, a),

@@ -1,9 +1,13 @@
 //! From text to a validated mechanism, with every problem found pointed at.
 
 pub mod build;
+pub mod drive;
+pub mod grip;
 pub mod loads;
 pub mod locate;
 pub mod problem;
+mod quantity;
 mod resolve;
 pub mod schema;
 pub mod text;
+pub mod workload;

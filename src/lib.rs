@@ -45,6 +45,10 @@
 //!   Russian), 2018, No 4, p. 32-37, DOI 10.26730/1999-4125-2018-4-32-37.
 //! - `[Horton 1987]` J. D. Horton, "A polynomial-time algorithm to find the shortest cycle basis of a graph", SIAM J.
 //!   Comput. 16, 1987.
+//! - `[Pavlenko & Godunko 2010]` I. I. Pavlenko, M. O. Godunko, transmission relations of the force arms of clamping levers
+//!   of robot grippers, Kirovohrad National Technical University, 2010.
+//! - `[Klyuchkovskyi 1999]` S. M. Klyuchkovskyi, a universal module of transport and feeding mechanisms for robots and
+//!   cyclic automata, UDC 621.01, 1999.
 
 pub mod accuracy;
 pub mod builtin;

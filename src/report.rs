@@ -3,6 +3,12 @@
 pub mod accuracy_text;
 pub mod analysis_json;
 pub mod analysis_text;
+pub mod drive_charts;
+pub mod drive_json;
+pub mod drive_text;
+pub mod grip_charts;
+pub mod grip_json;
+pub mod grip_text;
 pub mod search_json;
 pub mod search_text;
 pub mod statics_charts;

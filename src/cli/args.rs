@@ -20,6 +20,8 @@ Examples:
   ozols search gripper-10                     the best statically determinate redesigns
   ozols search gripper-10 --max-mobility 1    only those without idle links
   ozols statics parallel-shears               Assur groups, and joint reactions over the cycle
+  ozols grip lever-gripper                    what its levers can hold, and with what drive moment
+  ozols drive torsion-module                  the torsion bar, the cam spring, and the programme run
   ozols show four-bar > mine.toml             a file to start from
   ozols check mine.toml                       what is wrong with it, if anything
   ozols accuracy -o accuracy                  accuracy against speed of every method, as charts
@@ -50,6 +52,10 @@ pub(super) enum Command {
     Search(Search),
     /// Assur groups of a planar mechanism, and its joint reactions over the cycle.
     Statics(Statics),
+    /// What a lever gripper can hold, and the drive moment it takes.
+    Grip(Grip),
+    /// Size a torsional drive of two discs and run its programme.
+    Drive(Drive),
     /// Confirm the certificates of rank that `ozols analyze --certificate` wrote.
     Verify(Verify),
     /// Make a mechanism file of a robot description: URDF, MJCF or SDF.
@@ -226,6 +232,52 @@ pub(super) struct Accuracy {
     /// Times each answer is timed; the median counts. 5 by default, 1 with --quick.
     #[arg(long, value_name = "N")]
     pub(super) repeat: Option<usize>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Grip {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// A further acceleration of the gripper in m/s², in its axes (repeatable): 5,0,-2.
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    pub(super) acceleration: Vec<[f64; 3]>,
+    /// A further acceleration of the gripper in m/s², in any direction; `ozols drive` prints one.
+    #[arg(long, value_name = "A")]
+    pub(super) any_acceleration: Option<f64>,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    pub(super) format: AnalyzeFormat,
+    /// Also write charts, each as SVG and CSV, into this folder.
+    #[arg(long, value_name = "DIR")]
+    pub(super) svg: Option<PathBuf>,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Drive {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    pub(super) format: AnalyzeFormat,
+    /// Also write charts, each as SVG and CSV, into this folder.
+    #[arg(long, value_name = "DIR")]
+    pub(super) svg: Option<PathBuf>,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
+
+fn vector(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|t| t.trim().parse::<f64>().ok().filter(|x| x.abs() <= 1e6))
+        .collect::<Option<_>>()
+        .unwrap_or_default();
+    <[f64; 3]>::try_from(numbers)
+        .map_err(|_| "give three numbers such as 5,0,-2, none beyond 1e6".to_owned())
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

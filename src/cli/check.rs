@@ -3,12 +3,21 @@
 use super::args::{Args, File};
 use super::{Done, load, output};
 use crate::builtin;
+use crate::import::text::mechanism_from_bytes;
+use crate::import::workload::tables_alone;
 use crate::redundancy::analysis::{Method, analyse};
 use crate::report::words;
 use anyhow::{Context, bail};
 
 pub(super) fn run(_: &Args, a: &File) -> anyhow::Result<Done> {
-    let m = load::mechanism(&a.file)?;
+    let (name, bytes) = load::named(&a.file)?;
+    if let Some((name, tables)) = tables_alone(&name, &bytes)? {
+        return output::to(None, |out| {
+            writeln!(out, "{name}: workload {}: valid", tables.join(", "))?;
+            Ok(Done::Found)
+        });
+    }
+    let m = mechanism_from_bytes(&name, &bytes)?;
     output::to(None, |out| {
         writeln!(
             out,

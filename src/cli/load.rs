@@ -10,11 +10,14 @@ use std::io::Read;
 
 /// Reads the mechanism that an argument names. A file wins over a built-in mechanism of the same name.
 pub(super) fn mechanism(file: &str) -> anyhow::Result<Mechanism> {
+    let (name, bytes) = named(file)?;
+    Ok(mechanism_from_bytes(&name, &bytes)?)
+}
+
+/// The name for messages and the bytes of the file that an argument names.
+pub(super) fn named(file: &str) -> anyhow::Result<(String, Vec<u8>)> {
     if file == "-" {
-        return Ok(mechanism_from_bytes(
-            "standard input",
-            &read(std::io::stdin().lock())?,
-        )?);
+        return Ok(("standard input".to_owned(), read(std::io::stdin().lock())?));
     }
     let path = std::path::Path::new(file);
     if path.is_file() && robot::is_description(file) {
@@ -23,23 +26,20 @@ pub(super) fn mechanism(file: &str) -> anyhow::Result<Mechanism> {
         if !doubts.is_empty() {
             super::output::note(&format!("{file}: {}\n{doubts}", imported.format.name()));
         }
-        return Ok(mechanism_from_bytes(
-            "the imported mechanism",
-            imported.toml.as_bytes(),
-        )?);
+        return Ok((
+            "the imported mechanism".to_owned(),
+            imported.toml.into_bytes(),
+        ));
     }
     if path.is_file() {
         let open = std::fs::File::open(path).with_context(|| format!("cannot read {file}"))?;
         let bytes = read(open).with_context(|| format!("cannot read {file}"))?;
-        return Ok(mechanism_from_bytes(file, &bytes)?);
+        return Ok((file.to_owned(), bytes));
     }
     let Some(text) = builtin::text(file) else {
         bail!(unknown(file))
     };
-    Ok(mechanism_from_bytes(
-        &format!("{file}.toml"),
-        text.as_bytes(),
-    )?)
+    Ok((format!("{file}.toml"), text.as_bytes().to_vec()))
 }
 
 /// Models a mechanism in the plane of x and y.

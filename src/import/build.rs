@@ -2,6 +2,8 @@
 
 use crate::closure::contour::closed_walk;
 use crate::geom::expr::Expr;
+use crate::import::drive::drive;
+use crate::import::grip::grip;
 use crate::import::loads::{loads, mass};
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
@@ -64,22 +66,7 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
             )]);
         }
     }
-    let symbol = file.length_unit.as_deref().unwrap_or("m");
-    let length_unit = UNITS
-        .into_iter()
-        .find(|u| u.symbol == symbol)
-        .unwrap_or_else(|| {
-            let known = UNITS.iter().map(|u| u.symbol).join(", ");
-            out.add(
-                &root("length_unit"),
-                ProblemKind::UnknownWord {
-                    what: "length unit",
-                    word: symbol.to_owned(),
-                    known,
-                },
-            );
-            UNITS[0]
-        });
+    let length_unit = length_unit(file, &mut out);
     let mode = match file.mode.as_deref().unwrap_or("spatial") {
         "planar" => {
             let at = root("plane_normal");
@@ -141,12 +128,32 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     mechanism.contours = contours(file, &mechanism, &mut out);
     mechanism.search = search(file, &mechanism, &mut out);
     mechanism.loads = loads(file, &mechanism, &mut out);
+    grip(file, length_unit.metres, Some(&mechanism), &mut out);
+    drive(file, length_unit.metres, Some(&mechanism), &mut out);
     mechanism.expected = expected(file, &mechanism, &mut out);
     if out.found.is_empty() {
         Ok(mechanism)
     } else {
         Err(out.found)
     }
+}
+
+/// The file's unit of length.
+pub(super) fn length_unit(file: &MechanismFile, out: &mut Findings) -> LengthUnit {
+    let symbol = file.length_unit.as_deref().unwrap_or("m");
+    let found = UNITS.into_iter().find(|u| u.symbol == symbol);
+    found.unwrap_or_else(|| {
+        let known = UNITS.iter().map(|u| u.symbol).join(", ");
+        out.add(
+            &[Step::Key("length_unit".to_owned())],
+            ProblemKind::UnknownWord {
+                what: "length unit",
+                word: symbol.to_owned(),
+                known,
+            },
+        );
+        UNITS[0]
+    })
 }
 
 fn words(w: Option<&Words>) -> Vec<String> {

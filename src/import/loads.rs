@@ -1,5 +1,7 @@
 //! Masses of links and the `[workload]` table.
 
+use crate::import::drive::DriveEntry;
+use crate::import::grip::GripEntry;
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
 use crate::import::resolve::{Findings, index, key, vector};
@@ -53,7 +55,7 @@ pub enum InertiaEntry {
     List(Vec<f64>),
 }
 
-/// Loads and drive, for `ozols statics`.
+/// Loads and drive, for `ozols statics`; a gripper, for `ozols grip`.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorkloadEntry {
@@ -70,6 +72,12 @@ pub struct WorkloadEntry {
     /// The cycle.
     #[serde(default)]
     pub stroke: Option<StrokeEntry>,
+    /// Clamping levers and what they must hold, for `ozols grip`.
+    #[serde(default)]
+    pub grip: Option<GripEntry>,
+    /// Two discs on a torsion bar, for `ozols drive`.
+    #[serde(default)]
+    pub drive: Option<DriveEntry>,
 }
 
 /// A force of fixed direction at a point that moves with a link.

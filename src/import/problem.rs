@@ -85,6 +85,23 @@ pub enum ProblemKind {
         value: String,
         allowed: &'static str,
     },
+    #[error("{key} needs {other}")]
+    KeyNeeds {
+        key: &'static str,
+        other: &'static str,
+    },
+    #[error("{key} cannot stand beside {other}; keep one of them")]
+    KeyExcludes {
+        key: &'static str,
+        other: &'static str,
+    },
+    #[error(
+        "the file has no [workload.{table}] table; `ozols show {example}` prints one to start from"
+    )]
+    NoWorkload {
+        table: &'static str,
+        example: &'static str,
+    },
     #[error("link \"{link}\" has part of its mass data only; add {what}")]
     LinkNeeds { link: String, what: &'static str },
     #[error("no link has the role \"frame\"; mark the fixed link: role = \"frame\"")]

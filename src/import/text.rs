@@ -1,6 +1,6 @@
 //! Reading a mechanism from text.
 
-use crate::import::build::build;
+use crate::import::build::{Finding, build};
 use crate::import::locate::locate;
 use crate::import::problem::{ImportError, Problem, ProblemKind};
 use crate::import::schema::MechanismFile;
@@ -14,6 +14,19 @@ pub const MAX_BYTES: usize = 4 << 20;
 /// # Errors
 /// Every problem found, each with its place.
 pub fn mechanism_from_bytes(name: &str, bytes: &[u8]) -> Result<Mechanism, ImportError> {
+    mechanism_from_str(name, text_of(name, bytes)?)
+}
+
+/// Reads a mechanism from text; names that end in `.json` are JSON, all others TOML.
+///
+/// # Errors
+/// Every problem found, each with its place.
+pub fn mechanism_from_str(name: &str, text: &str) -> Result<Mechanism, ImportError> {
+    read(name, text, build)
+}
+
+/// The text in the bytes of a file that is not too large.
+pub(super) fn text_of<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, ImportError> {
     let fail = |kind| ImportError {
         file: name.to_owned(),
         text: String::new(),
@@ -25,19 +38,19 @@ pub fn mechanism_from_bytes(name: &str, bytes: &[u8]) -> Result<Mechanism, Impor
             limit: MAX_BYTES,
         }));
     }
-    match std::str::from_utf8(bytes) {
-        Ok(text) => mechanism_from_str(name, text),
-        Err(e) => Err(fail(ProblemKind::NotUtf8 {
+    std::str::from_utf8(bytes).map_err(|e| {
+        fail(ProblemKind::NotUtf8 {
             at: e.valid_up_to(),
-        })),
-    }
+        })
+    })
 }
 
-/// Reads a mechanism from text; names that end in `.json` are JSON, all others TOML.
-///
-/// # Errors
-/// Every problem found, each with its place.
-pub fn mechanism_from_str(name: &str, text: &str) -> Result<Mechanism, ImportError> {
+/// Reads a file and makes something of it.
+pub(super) fn read<T>(
+    name: &str,
+    text: &str,
+    make: impl FnOnce(&MechanismFile) -> Result<T, Vec<Finding>>,
+) -> Result<T, ImportError> {
     let fail = |problems| ImportError {
         file: name.to_owned(),
         text: text.to_owned(),
@@ -58,7 +71,7 @@ pub fn mechanism_from_str(name: &str, text: &str) -> Result<Mechanism, ImportErr
         from_toml(text)
     };
     let file = file.map_err(|p| fail(vec![p]))?;
-    build(&file).map_err(|found| {
+    make(&file).map_err(|found| {
         let mut problems: Vec<Problem> = found
             .into_iter()
             .map(|(path, kind)| Problem {

@@ -131,6 +131,26 @@ pub fn idle(mechanism: &Mechanism, motion: &Idle) -> String {
     }
 }
 
+/// A measured number to four significant digits: 12.35, 0.001235, 1.235e-7.
+#[must_use]
+pub fn significant(x: f64) -> String {
+    // What rounds to nothing beside everything else is nothing.
+    if x.abs() < 1e-9 {
+        return "0".to_owned();
+    }
+    if !(1e-4..1e7).contains(&x.abs()) {
+        return format!("{x:.3e}");
+    }
+    #[allow(clippy::cast_possible_truncation, reason = "between -4 and 7")]
+    let magnitude = x.abs().log10().floor() as i32;
+    let decimals = usize::try_from(3 - magnitude).unwrap_or(0);
+    let text = format!("{x:.decimals$}");
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
 /// The numbers of a structure that need no rank.
 #[derive(Debug, Clone, Copy)]
 pub struct Shape {

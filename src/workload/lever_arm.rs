@@ -1,0 +1,147 @@
+//! Force arms of a clamping lever with a V-prism, in closed form.
+
+use std::f64::consts::PI;
+use thiserror::Error;
+
+/// A clamping lever whose end carries a V-prism. `[Pavlenko & Godunko 2010]`, fig. 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lever {
+    /// L, from the pivot to the vertex of the prism. `[m]`
+    pub length: f64,
+    /// α, between the faces of the prism. `[rad]`
+    pub prism_angle: f64,
+    /// γ, between the lever and the near face. `[rad]`
+    pub mounting_angle: f64,
+}
+
+/// Why there is no such lever.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum LeverError {
+    /// Not a length.
+    #[error("the lever length is {0} m; give a positive length")]
+    Length(f64),
+    /// Flat or folded faces.
+    #[error(
+        "the prism angle is {0} degrees; give one above 0 and below 180, where the faces form a V"
+    )]
+    PrismAngle(f64),
+    /// Beyond the lever.
+    #[error("the mounting angle is {0} degrees; give one from 0 to below 180")]
+    MountingAngle(f64),
+}
+
+/// The arms of the two clamping forces about the lever's pivot, with their parts. `[m]`
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Arms {
+    /// l11 = L cos(180° - α - γ), equation (4).
+    pub l11: f64,
+    /// l12 = D/2 tan(90° - α/2), equation (5).
+    pub l12: f64,
+    /// l1 = l11 + l12, of the contact far from the pivot, equations (1) and (3).
+    pub l1: f64,
+    /// l21 = L cos γ, equation (7).
+    pub l21: f64,
+    /// l22 = l12, equation (8).
+    pub l22: f64,
+    /// l2 = l21 - l22, of the contact near the pivot, equations (2) and (6).
+    pub l2: f64,
+}
+
+impl Arms {
+    /// The longer arm over the shorter; infinite where one is not positive.
+    #[must_use]
+    pub fn ratio(&self) -> f64 {
+        let (short, long) = (self.l1.min(self.l2), self.l1.max(self.l2));
+        if short > 0.0 {
+            long / short
+        } else {
+            f64::INFINITY
+        }
+    }
+}
+
+impl Lever {
+    /// A lever with angles in their ranges.
+    ///
+    /// # Units
+    /// `[m]`, `[rad]`.
+    ///
+    /// # Errors
+    /// A length that is not positive, α outside (0, 180°), γ outside [0, 180°).
+    pub fn new(length: f64, prism_angle: f64, mounting_angle: f64) -> Result<Lever, LeverError> {
+        if !(length > 0.0 && length.is_finite()) {
+            return Err(LeverError::Length(length));
+        }
+        // An angle this near its limit is the limit, written in decimals.
+        let open = |x: f64| x > 1e-9 && x < PI - 1e-9;
+        if !open(prism_angle) {
+            return Err(LeverError::PrismAngle(prism_angle.to_degrees()));
+        }
+        if !(0.0..PI).contains(&mounting_angle) {
+            return Err(LeverError::MountingAngle(mounting_angle.to_degrees()));
+        }
+        Ok(Lever {
+            length,
+            prism_angle,
+            mounting_angle,
+        })
+    }
+
+    /// The arms of the clamping forces on a part of diameter D.
+    ///
+    /// They do not depend on how far the lever has turned: a force normal to a face has its arm along that face.
+    ///
+    /// # Units
+    /// `[m]`
+    ///
+    /// # Sources
+    /// `[Pavlenko & Godunko 2010]` equations (1) to (8).
+    #[must_use]
+    pub fn arms(&self, diameter: f64) -> Arms {
+        let part = self.face_distance(diameter);
+        let l11 = self.length * (PI - self.prism_angle - self.mounting_angle).cos();
+        let l21 = self.length * self.mounting_angle.cos();
+        Arms {
+            l11,
+            l12: part,
+            l1: l11 + part,
+            l21,
+            l22: part,
+            l2: l21 - part,
+        }
+    }
+
+    /// Distance of the contacts from the vertex along the faces, D/2 cot(α/2). `[m]`
+    #[must_use]
+    pub fn face_distance(&self, diameter: f64) -> f64 {
+        diameter / 2.0 / (self.prism_angle / 2.0).tan()
+    }
+
+    /// Distance of the part's centre from the vertex along the bisector, D/2 / sin(α/2). `[m]`
+    #[must_use]
+    pub fn centre_distance(&self, diameter: f64) -> f64 {
+        diameter / 2.0 / (self.prism_angle / 2.0).sin()
+    }
+
+    /// θ = γ + α/2, between the lever and the bisector of its prism. `[rad]`
+    #[must_use]
+    pub fn bisector_angle(&self) -> f64 {
+        self.mounting_angle + self.prism_angle / 2.0
+    }
+
+    /// Signed distance of the pivot from the gripper's axis at which this diameter is the nominal one, that is, both
+    /// bisectors lie on one line through the part's centre: D/2 / sin(α/2) - L cos(γ + α/2). Its size is a; it is negative
+    /// where the levers cross. `[m]`
+    #[must_use]
+    pub fn nominal_pivot(&self, diameter: f64) -> f64 {
+        self.centre_distance(diameter) - self.length * self.bisector_angle().cos()
+    }
+
+    /// The diameter that is nominal for a pivot at this signed distance from the axis; not positive where there is none.
+    /// `[m]`
+    #[must_use]
+    pub fn nominal_diameter(&self, pivot: f64) -> f64 {
+        2.0 * (pivot + self.length * self.bisector_angle().cos()) * (self.prism_angle / 2.0).sin()
+    }
+}

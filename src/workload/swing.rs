@@ -1,0 +1,358 @@
+//! One swing of a released disc, exact piece by piece: a damped oscillation about an equilibrium that dry friction and the
+//! cam shift.
+//!
+//! The disc starts at rest at -A from the neutral position and moves towards the latch at +φ0; `u` is its place, growing.
+
+use std::f64::consts::PI;
+use thiserror::Error;
+
+/// A disc on a torsion bar. SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Disc {
+    /// I. `[kg·m²]`
+    pub inertia: f64,
+    /// k. `[N·m/rad]`
+    pub stiffness: f64,
+    /// Moment per speed, as of bearings in oil and of air. `[N·m·s/rad]`
+    pub viscous: f64,
+    /// Moment that only has a direction, as of dry bearings. `[N·m]`
+    pub coulomb: f64,
+}
+
+/// The cam's push: a constant moment from one place to the latch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Feed {
+    /// Work over the whole window. `[J]`
+    pub energy: f64,
+    /// Where it begins. `[rad]`
+    pub from: f64,
+}
+
+/// The latch at the far end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Latch {
+    /// φ0, from the neutral position. `[rad]`
+    pub at: f64,
+    /// A disc that stops short by no more than this is caught. `[rad]`
+    pub capture: f64,
+}
+
+/// How a swing ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum End {
+    /// At the latch; what was left of its speed is lost there. `[J]`
+    Latched {
+        /// Kinetic energy on arrival.
+        impact: f64,
+    },
+    /// At rest, short of the latch and within its capture. `[rad]`
+    Caught {
+        /// How far short.
+        missing: f64,
+    },
+    /// At rest and out of the latch's capture: it will swing back. `[rad]`
+    Missed {
+        /// How far short.
+        missing: f64,
+    },
+    /// Friction is stronger than the bar at the start.
+    Stuck,
+}
+
+/// Why a disc does not swing.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SwingError {
+    /// Damped at or beyond the critical rate.
+    #[error(
+        "the damping ratio is {0:.3}; at 1 and above the disc creeps and does not swing: lower the viscous damping"
+    )]
+    Overdamped(f64),
+    /// Not a disc.
+    #[error("inertia and stiffness must be positive and the damping not negative")]
+    Disc,
+}
+
+/// A stretch of motion under constant moments.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Piece {
+    start: f64,
+    length: f64,
+    /// Equilibrium place.
+    middle: f64,
+    /// Place from it and speed, at the start.
+    from: (f64, f64),
+}
+
+/// Where the energy of a swing went. `[J]`
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Balance {
+    /// In the bar at the start.
+    pub initial: f64,
+    /// From the cam.
+    pub fed: f64,
+    /// Into dry friction.
+    pub coulomb: f64,
+    /// Into viscous damping, integrated over the motion.
+    pub viscous: f64,
+    /// Into the latch.
+    pub impact: f64,
+    /// In the bar at the end.
+    pub stored: f64,
+}
+
+impl Balance {
+    /// What the parts fail to add up to; rounding alone.
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        self.initial + self.fed - self.coulomb - self.viscous - self.impact - self.stored
+    }
+}
+
+/// A swing from -A to its end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Swing {
+    disc: Disc,
+    pieces: Vec<Piece>,
+    /// How it ends.
+    pub end: End,
+    /// `[s]`
+    pub duration: f64,
+    /// Where it ends. `[rad]`
+    pub place: f64,
+    /// Where its energy went.
+    pub balance: Balance,
+}
+
+impl Disc {
+    fn rates(&self) -> (f64, f64, f64) {
+        let (decay, square) = (
+            self.viscous / (2.0 * self.inertia),
+            self.stiffness / self.inertia,
+        );
+        (decay, square, (square - decay * decay).sqrt())
+    }
+
+    /// ζ, damping over the critical one.
+    #[must_use]
+    pub fn damping_ratio(&self) -> f64 {
+        self.viscous / (2.0 * (self.stiffness * self.inertia).sqrt())
+    }
+
+    /// The viscous damping with which a free swing from `twist` ends `missing` short, dry friction apart. `[N·m·s/rad]`
+    #[must_use]
+    pub fn viscous_for(inertia: f64, stiffness: f64, twist: f64, missing: f64) -> f64 {
+        let delta = (twist / (twist - missing)).ln();
+        2.0 * (stiffness * inertia).sqrt() * delta / (PI * PI + delta * delta).sqrt()
+    }
+
+    /// How far short of the start's mirror image a swing without the cam ends: closed form. `[rad]`
+    #[must_use]
+    pub fn missing(&self, twist: f64) -> f64 {
+        let (decay, _, turning) = self.rates();
+        let shift = self.coulomb / self.stiffness;
+        let left = (twist - shift) * (-decay * PI / turning).exp();
+        (twist - (left - shift)).clamp(0.0, 2.0 * twist)
+    }
+
+    /// Swings from rest at `-start`.
+    ///
+    /// # Units
+    /// SI, `[rad]`.
+    ///
+    /// # Guarantee
+    /// Places and speeds are closed forms; the moments of stopping are closed forms and those of passing a place are found to
+    /// the last bit, so that [`Balance::residual`] is rounding alone.
+    ///
+    /// # Errors
+    /// A disc that does not swing.
+    pub fn swing(&self, start: f64, latch: Latch, feed: Feed) -> Result<Swing, SwingError> {
+        let positive = self.inertia > 0.0
+            && self.stiffness > 0.0
+            && self.inertia.is_finite()
+            && self.stiffness.is_finite();
+        if !(positive && self.viscous >= 0.0 && self.coulomb >= 0.0) {
+            return Err(SwingError::Disc);
+        }
+        if self.damping_ratio() >= 1.0 {
+            return Err(SwingError::Overdamped(self.damping_ratio()));
+        }
+        let window = latch.at - feed.from;
+        let push = if window > 0.0 {
+            feed.energy / window
+        } else {
+            0.0
+        };
+        let (mut u, mut v, mut t) = (-start, 0.0, 0.0);
+        let mut pieces = Vec::new();
+        let mut balance = Balance {
+            initial: self.stiffness * start * start / 2.0,
+            ..Balance::default()
+        };
+        let mut arrived = false;
+        let bounds = if push > 0.0 {
+            vec![(feed.from, 0.0), (latch.at, push)]
+        } else {
+            vec![(latch.at, 0.0)]
+        };
+        for (bound, moment) in bounds {
+            if u >= bound {
+                continue;
+            }
+            let middle = (moment - self.coulomb) / self.stiffness;
+            // At rest, the bar must be stronger than friction; what is stopped stays so.
+            if v <= 0.0 && u >= middle {
+                break;
+            }
+            let piece = self.piece(t, u, v, middle, bound);
+            let (end, speed) = self.state(&piece, piece.length);
+            arrived = end >= bound;
+            let end = end.min(bound);
+            balance.coulomb += self.coulomb * (end - u);
+            balance.fed += moment * (end - u);
+            balance.viscous += self.viscous * self.speed_squared(&piece);
+            t += piece.length;
+            pieces.push(piece);
+            (u, v) = (end, if arrived { speed.max(0.0) } else { 0.0 });
+            if !arrived {
+                break;
+            }
+        }
+        let missing = latch.at - u;
+        let end = match (pieces.is_empty(), arrived && u >= latch.at) {
+            (true, _) => End::Stuck,
+            (false, true) => {
+                balance.impact = self.inertia * v * v / 2.0;
+                End::Latched {
+                    impact: balance.impact,
+                }
+            }
+            (false, false) if missing <= latch.capture => End::Caught { missing },
+            (false, false) => End::Missed { missing },
+        };
+        balance.stored = self.stiffness * u * u / 2.0;
+        Ok(Swing {
+            disc: *self,
+            pieces,
+            end,
+            duration: t,
+            place: u,
+            balance,
+        })
+    }
+
+    /// The motion from a place and speed until it stops or passes `bound`.
+    fn piece(&self, start: f64, u: f64, v: f64, middle: f64, bound: f64) -> Piece {
+        let (decay, square, turning) = self.rates();
+        let y = u - middle;
+        let stop = if v > 0.0 {
+            (v * turning).atan2(square * y + decay * v)
+        } else {
+            PI
+        } / turning;
+        let mut piece = Piece {
+            start,
+            length: stop,
+            middle,
+            from: (y, v),
+        };
+        if self.state(&piece, stop).0 > bound {
+            // The place grows all the way to the stop, so that there is one crossing: halve until floats run out.
+            let (mut before, mut after) = (0.0, stop);
+            loop {
+                let half = 0.5 * (before + after);
+                if half <= before || half >= after {
+                    break;
+                }
+                if self.state(&piece, half).0 >= bound {
+                    after = half
+                } else {
+                    before = half
+                }
+            }
+            piece.length = after;
+        }
+        piece
+    }
+
+    /// Place and speed at a time into a piece.
+    fn state(&self, p: &Piece, t: f64) -> (f64, f64) {
+        let (decay, square, turning) = self.rates();
+        let (y, v) = p.from;
+        let (s, c) = (turning * t).sin_cos();
+        let fade = (-decay * t).exp();
+        let place = fade * (y * c + (v + decay * y) / turning * s);
+        let speed = fade * (v * c - (square * y + decay * v) / turning * s);
+        (p.middle + place, speed)
+    }
+
+    /// Integral of the square of the speed over a piece.
+    fn speed_squared(&self, p: &Piece) -> f64 {
+        let (decay, square, turning) = self.rates();
+        let (y, v) = p.from;
+        let (cosine, sine) = (v, -(square * y + decay * v) / turning);
+        // Over e^(-at), e^(-at) cos bt and e^(-at) sin bt.
+        let (a, b, t) = (2.0 * decay, 2.0 * turning, p.length);
+        let fade = (-a * t).exp();
+        let (s, c) = (b * t).sin_cos();
+        let plain = if a * t > 1e-12 {
+            -(-a * t).exp_m1() / a
+        } else {
+            t
+        };
+        let norm = a * a + b * b;
+        let with_cosine = (a + fade * (b * s - a * c)) / norm;
+        let with_sine = (b - fade * (a * s + b * c)) / norm;
+        (cosine * cosine + sine * sine) / 2.0 * plain
+            + (cosine * cosine - sine * sine) / 2.0 * with_cosine
+            + cosine * sine * with_sine
+    }
+
+    /// The cam's work with which a swing from `-latch.at` arrives at the latch at rest, pushing from `from` on; `None` where no work
+    /// does, since the disc is stuck or stops before the push begins. `[J]`
+    ///
+    /// # Errors
+    /// As [`Disc::swing`].
+    pub fn needed_feed(&self, latch: Latch, from: f64) -> Result<Option<f64>, SwingError> {
+        let arrives = |energy: f64| -> Result<bool, SwingError> {
+            let swing = self.swing(latch.at, latch, Feed { energy, from })?;
+            Ok(matches!(swing.end, End::Latched { .. }))
+        };
+        if arrives(0.0)? {
+            return Ok(Some(0.0));
+        }
+        let (mut less, mut enough) = (0.0, self.stiffness * latch.at * latch.at);
+        for _ in 0..60 {
+            if arrives(enough)? {
+                break;
+            }
+            enough *= 2.0;
+        }
+        if !arrives(enough)? {
+            return Ok(None);
+        }
+        loop {
+            let half = 0.5 * (less + enough);
+            if half <= less || half >= enough {
+                return Ok(Some(enough));
+            }
+            if arrives(half)? {
+                enough = half
+            } else {
+                less = half
+            }
+        }
+    }
+}
+
+impl Swing {
+    /// Place and speed at a time from the release; at rest at its end afterwards.
+    #[must_use]
+    pub fn at(&self, time: f64) -> (f64, f64) {
+        let now = self.pieces.iter().find(|p| time <= p.start + p.length);
+        match now {
+            Some(p) => self.disc.state(p, (time - p.start).max(0.0)),
+            None => (self.place, 0.0),
+        }
+    }
+}

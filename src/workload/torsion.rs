@@ -1,0 +1,310 @@
+//! The torsion bar of a two-disc drive: its formulas, and its size.
+
+use std::f64::consts::PI;
+
+/// A round bar in torsion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bar {
+    /// l. `[m]`
+    pub length: f64,
+    /// d. `[m]`
+    pub diameter: f64,
+    /// G. `[Pa]`
+    pub shear_modulus: f64,
+}
+
+impl Bar {
+    /// k = π d⁴ G / (32 l). `[N·m/rad]`
+    ///
+    /// # Sources
+    /// `[Klyuchkovskyi 1999]` equation (8).
+    #[must_use]
+    pub fn stiffness(&self) -> f64 {
+        PI * self.diameter.powi(4) * self.shear_modulus / (32.0 * self.length)
+    }
+
+    /// `[φ]` = 2 l `[τ_s]` / (d G), the twist at which the rim reaches the allowable shear stress. `[rad]`
+    ///
+    /// # Sources
+    /// `[Klyuchkovskyi 1999]` equation (11), where the stress shares its letter with the period.
+    #[must_use]
+    pub fn allowable_twist(&self, allowable_stress: f64) -> f64 {
+        2.0 * self.length * allowable_stress / (self.diameter * self.shear_modulus)
+    }
+
+    /// Shear stress at the rim at a twist. `[Pa]`
+    #[must_use]
+    pub fn stress(&self, twist: f64) -> f64 {
+        self.diameter * self.shear_modulus * twist / (2.0 * self.length)
+    }
+
+    /// τ = 8 √(2π I l / (d⁴ G)). `[s]`
+    ///
+    /// # Sources
+    /// `[Klyuchkovskyi 1999]` equation (9).
+    #[must_use]
+    pub fn period(&self, inertia: f64) -> f64 {
+        8.0 * (2.0 * PI * inertia * self.length / (self.diameter.powi(4) * self.shear_modulus))
+            .sqrt()
+    }
+}
+
+/// Π = k φ0² / 2. `[J]`, `[Klyuchkovskyi 1999]` equation (1).
+#[must_use]
+pub fn stored_energy(stiffness: f64, twist: f64) -> f64 {
+    stiffness * twist * twist / 2.0
+}
+
+/// φ = φ0 cos pt + (φ̇0/p) sin pt, without friction. `[rad]`, `[Klyuchkovskyi 1999]` equation (3).
+#[must_use]
+pub fn free_angle(start: f64, speed: f64, frequency: f64, time: f64) -> f64 {
+    let (s, c) = (frequency * time).sin_cos();
+    start * c + speed / frequency * s
+}
+
+/// p = √(k/I). `[rad/s]`, `[Klyuchkovskyi 1999]` equation (4).
+#[must_use]
+pub fn frequency(stiffness: f64, inertia: f64) -> f64 {
+    (stiffness / inertia).sqrt()
+}
+
+/// K = I φ̇² / 2. `[J]`, `[Klyuchkovskyi 1999]` equation (5).
+#[must_use]
+pub fn kinetic_energy(inertia: f64, speed: f64) -> f64 {
+    inertia * speed * speed / 2.0
+}
+
+/// δ = ln(A_k / A_{k+1}) of two maximal deflections that follow each other, half a period apart.
+///
+/// # Sources
+/// `[Klyuchkovskyi 1999]` equation (6), also given there as about ΔA/A.
+#[must_use]
+pub fn decrement(deflection: f64, next: f64) -> f64 {
+    (deflection / next).ln()
+}
+
+/// τ = 2π √(I/k). `[s]`
+///
+/// # Sources
+/// `[Klyuchkovskyi 1999]` equation (7); the scan prints T for k, which (8) and (9) contradict.
+#[must_use]
+pub fn period(inertia: f64, stiffness: f64) -> f64 {
+    2.0 * PI * (inertia / stiffness).sqrt()
+}
+
+/// d = ⁴√(128 π I l / (τ² G)). `[m]`, `[Klyuchkovskyi 1999]` equation (10).
+#[must_use]
+pub fn diameter(inertia: f64, length: f64, period: f64, shear_modulus: f64) -> f64 {
+    (128.0 * PI * inertia * length / (period * period * shear_modulus))
+        .sqrt()
+        .sqrt()
+}
+
+/// E_fr = k/2 (2 φ0 Δφ - Δφ²), what friction takes in a swing that ends Δφ short. `[J]`
+///
+/// # Sources
+/// `[Klyuchkovskyi 1999]` equation (12).
+#[must_use]
+pub fn friction_energy(stiffness: f64, twist: f64, missing: f64) -> f64 {
+    stiffness / 2.0 * (2.0 * twist * missing - missing * missing)
+}
+
+/// The spring behind the cam's follower.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CamSpring {
+    /// c. `[N/m]`
+    pub rate: f64,
+    /// S, stroke of its end. `[m]`
+    pub stroke: f64,
+    /// ψ0, deformation when mounted over the stroke.
+    pub mounting: f64,
+}
+
+impl CamSpring {
+    /// A_spring = ½ [(1 + ψ0)² - ψ0²] c S², what it gives over its stroke. `[J]`
+    ///
+    /// # Sources
+    /// `[Klyuchkovskyi 1999]` equation (13). DIFFERENCE: the scan prints (1 + ψ0²); only the square of the sum agrees with (14).
+    #[must_use]
+    pub fn energy(&self) -> f64 {
+        let psi = self.mounting;
+        0.5 * ((1.0 + psi).powi(2) - psi * psi) * self.rate * self.stroke.powi(2)
+    }
+
+    /// The spring that makes up for friction: c = 2 E_fr / (η (1 + 2 ψ0) S²).
+    ///
+    /// # Sources
+    /// `[Klyuchkovskyi 1999]` equation (14).
+    #[must_use]
+    pub fn for_friction(energy: f64, efficiency: f64, mounting: f64, stroke: f64) -> CamSpring {
+        let rate = 2.0 * energy / (efficiency * (1.0 + 2.0 * mounting) * stroke * stroke);
+        CamSpring {
+            rate,
+            stroke,
+            mounting,
+        }
+    }
+}
+
+/// What a bar is sized for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wanted {
+    /// φ0, half the swing. `[rad]`
+    pub twist: f64,
+    /// τ, of the largest inertia. `[s]`
+    pub period: f64,
+    /// I, the largest. `[kg·m²]`
+    pub inertia: f64,
+    /// G. `[Pa]`
+    pub shear_modulus: f64,
+    /// `[τ_s]`. `[Pa]`
+    pub allowable_stress: f64,
+    /// The length to begin with. `[m]`
+    pub length: Option<f64>,
+    /// The greatest length there is room for. `[m]`
+    pub max_length: Option<f64>,
+    /// Lengths are multiples of this where they are chosen. `[m]`
+    pub length_step: f64,
+    /// Diameters to choose from, ascending; any where empty. `[m]`
+    pub diameters: Vec<f64>,
+}
+
+/// A bar that was tried.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trial {
+    /// The bar.
+    pub bar: Bar,
+    /// `[φ]`. `[rad]`
+    pub allowable_twist: f64,
+    /// Whether (11) holds.
+    pub strong: bool,
+    /// Whether there is room for it.
+    pub fits: bool,
+}
+
+/// What would have to change for a bar to be found, each alone, at the greatest length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Remedy {
+    /// A bar at least this long. `[m]`
+    pub length: f64,
+    /// A material with at least this `[τ_s]`. `[Pa]`
+    pub allowable_stress: f64,
+    /// A period of at least this. `[s]`
+    pub period: f64,
+    /// φ0 of less than this. `[rad]`
+    pub twist: f64,
+    /// I of less than this. `[kg·m²]`
+    pub inertia: f64,
+}
+
+/// A bar, or why there is none.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sizing {
+    /// What was tried, in order; the last is the bar where one was found.
+    pub trials: Vec<Trial>,
+    /// The bar.
+    pub bar: Option<Bar>,
+    /// What would have to change where there is none.
+    pub remedy: Option<Remedy>,
+}
+
+impl Wanted {
+    /// k = I (2π/τ)². `[N·m/rad]`
+    #[must_use]
+    pub fn stiffness(&self) -> f64 {
+        self.inertia * (2.0 * PI / self.period).powi(2)
+    }
+
+    fn trial(&self, length: f64, diameter: f64) -> Trial {
+        let bar = Bar {
+            length,
+            diameter,
+            shear_modulus: self.shear_modulus,
+        };
+        let allowable_twist = bar.allowable_twist(self.allowable_stress);
+        let fits = self
+            .max_length
+            .is_none_or(|most| length <= most * (1.0 + 1e-12));
+        Trial {
+            bar,
+            allowable_twist,
+            strong: allowable_twist > self.twist,
+            fits,
+        }
+    }
+
+    /// The least length at which (11) is an equality: `[φ]` grows as l^(3/4) when d follows (10). `[m]`
+    #[must_use]
+    pub fn least_length(&self) -> f64 {
+        let one = self.trial(
+            1.0,
+            diameter(self.inertia, 1.0, self.period, self.shear_modulus),
+        );
+        (self.twist / one.allowable_twist).powf(4.0 / 3.0)
+    }
+
+    /// Sizes the bar: d by (10) from l, l lengthened until (11) holds; or, from a list of diameters, the least whose length by (8)
+    /// satisfies (11) and has room.
+    ///
+    /// # Units
+    /// SI.
+    ///
+    /// # Sources
+    /// `[Klyuchkovskyi 1999]` equations (8), (10), (11) and the procedure after them.
+    #[must_use]
+    pub fn size(&self) -> Sizing {
+        let mut trials = Vec::new();
+        if self.diameters.is_empty() {
+            let up = |l: f64| (l / self.length_step - 1e-9).ceil().max(1.0) * self.length_step;
+            let mut length = self.length.unwrap_or(self.length_step);
+            for _ in 0..64 {
+                let trial = self.trial(
+                    length,
+                    diameter(self.inertia, length, self.period, self.shear_modulus),
+                );
+                trials.push(trial);
+                if trial.strong || !trial.fits {
+                    break;
+                }
+                length = up(length * (self.twist / trial.allowable_twist).powf(4.0 / 3.0))
+                    .max(length + self.length_step);
+            }
+        } else {
+            let k = self.stiffness();
+            for &d in &self.diameters {
+                let trial = self.trial(PI * d.powi(4) * self.shear_modulus / (32.0 * k), d);
+                trials.push(trial);
+                if trial.strong {
+                    break;
+                }
+            }
+        }
+        let bar = trials.last().filter(|t| t.strong && t.fits).map(|t| t.bar);
+        let remedy = bar.is_none().then(|| self.remedy(&trials));
+        Sizing {
+            trials,
+            bar,
+            remedy,
+        }
+    }
+
+    fn remedy(&self, trials: &[Trial]) -> Remedy {
+        let longest = trials.iter().map(|t| t.bar.length).fold(0.0, f64::max);
+        let length = self.max_length.unwrap_or(longest);
+        let here = self.trial(
+            length,
+            diameter(self.inertia, length, self.period, self.shear_modulus),
+        );
+        // The thickest bar of this length that twists by φ0 within its strength.
+        let thickest = 2.0 * length * self.allowable_stress / (self.shear_modulus * self.twist);
+        Remedy {
+            length: self.least_length(),
+            allowable_stress: here.bar.stress(self.twist),
+            period: (128.0 * PI * self.inertia * length / (thickest.powi(4) * self.shear_modulus))
+                .sqrt(),
+            twist: here.allowable_twist,
+            inertia: thickest.powi(4) * self.period.powi(2) * self.shear_modulus
+                / (128.0 * PI * length),
+        }
+    }
+}

@@ -1,0 +1,380 @@
+//! The torsional drive against `[Klyuchkovskyi 1999]`, and its simulation against a step-by-step integrator.
+
+use ozols::workload::swing::{Disc, End, Feed, Latch, SwingError};
+use ozols::workload::torsion::{
+    Bar, CamSpring, Wanted, decrement, diameter, free_angle, frequency, friction_energy,
+    kinetic_energy, period, stored_energy,
+};
+use proptest::prelude::*;
+use std::f64::consts::PI;
+
+fn near(found: f64, stated: f64, tolerance: f64) {
+    assert!(
+        (found - stated).abs() <= tolerance,
+        "found {found}, stated {stated}"
+    );
+}
+
+const NO_FEED: Feed = Feed {
+    energy: 0.0,
+    from: 0.0,
+};
+
+// The formulas.
+
+/// [Klyuchkovskyi 1999] equations (7) to (10) say the same. The scan prints T for k in (7); with k as in (8), (9) and (10) follow.
+#[test]
+fn period_and_diameter_agree() {
+    let bar = Bar {
+        length: 0.8,
+        diameter: 0.012,
+        shear_modulus: 8e10,
+    };
+    let inertia = 0.05;
+    near(bar.period(inertia), period(inertia, bar.stiffness()), 1e-14);
+    near(
+        diameter(inertia, 0.8, bar.period(inertia), 8e10),
+        0.012,
+        1e-16,
+    );
+    // By hand: k = π · 0.012⁴ · 8e10 / (32 · 0.8) = 203.575 N·m/rad, τ = 2π √(0.05/203.575) = 0.098470 s.
+    near(bar.stiffness(), 203.575, 1e-3);
+    near(bar.period(inertia), 0.098470, 1e-6);
+}
+
+/// [Klyuchkovskyi 1999] equations (1) to (5): all potential energy is kinetic in the middle, and none is lost.
+#[test]
+fn free_motion_trades_its_energy() {
+    let (k, i, twist) = (200.0, 0.05, 0.7);
+    let p = frequency(k, i);
+    let quarter = PI / 2.0 / p;
+    near(free_angle(twist, 0.0, p, quarter), 0.0, 1e-15);
+    near(kinetic_energy(i, twist * p), stored_energy(k, twist), 1e-12);
+    near(free_angle(twist, 0.0, p, 2.0 * quarter), -twist, 1e-15);
+}
+
+/// [Klyuchkovskyi 1999] (13) and (14) agree when (13) has (1 + ψ0)², not the (1 + ψ0²) of the scan.
+#[test]
+fn cam_spring_gives_what_friction_takes() {
+    let (e, eta, psi, s) = (1.7, 0.8, 0.4, 0.02);
+    let spring = CamSpring::for_friction(e, eta, psi, s);
+    near(spring.energy() * eta, e, 1e-14);
+    let as_printed = 0.5 * ((1.0 + psi * psi) - psi * psi) * spring.rate * s * s;
+    assert!(
+        (as_printed * eta - e).abs() > 0.4,
+        "the scan's (13) contradicts (14)"
+    );
+}
+
+/// [Klyuchkovskyi 1999] equation (12): the difference of two potential energies.
+#[test]
+fn friction_energy_is_what_is_missing() {
+    near(
+        friction_energy(200.0, 0.7, 0.05),
+        stored_energy(200.0, 0.7) - stored_energy(200.0, 0.65),
+        1e-13,
+    );
+}
+
+// Sizing.
+
+fn wanted() -> Wanted {
+    Wanted {
+        twist: 45f64.to_radians(),
+        period: 0.8,
+        inertia: 0.4,
+        shear_modulus: 8e10,
+        allowable_stress: 6e8,
+        length: None,
+        max_length: None,
+        length_step: 1e-3,
+        diameters: Vec::new(),
+    }
+}
+
+/// [Klyuchkovskyi 1999]: d and l are tried again until (11) holds; the least length is in closed form.
+#[test]
+fn bars_are_sized_to_the_allowable_twist() {
+    let w = wanted();
+    let sizing = w.size();
+    let bar = sizing.bar.unwrap();
+    assert!(bar.allowable_twist(6e8) > w.twist && bar.stress(w.twist) < 6e8);
+    near(bar.period(0.4), 0.8, 1e-12);
+    assert!(
+        bar.length >= w.least_length() && bar.length < w.least_length() + 2e-3,
+        "{bar:?}"
+    );
+    assert!(sizing.trials.len() > 1 && !sizing.trials[0].strong);
+    // A length that is enough is kept.
+    let long = Wanted {
+        length: Some(3.0),
+        ..wanted()
+    };
+    assert_eq!(long.size().bar.unwrap().length, 3.0);
+}
+
+#[test]
+fn standard_diameters_are_taken_from_the_least() {
+    let w = Wanted {
+        diameters: [6.0, 8.0, 10.0, 12.0, 14.0, 16.0]
+            .map(|d| d * 1e-3)
+            .to_vec(),
+        ..wanted()
+    };
+    let sizing = w.size();
+    let bar = sizing.bar.unwrap();
+    near(bar.stiffness(), w.stiffness(), 1e-10);
+    assert!(bar.allowable_twist(6e8) > w.twist);
+    let before = &sizing.trials[..sizing.trials.len() - 1];
+    assert!(before.iter().all(|t| !t.strong));
+}
+
+/// Each remedy, taken alone, is just enough.
+#[test]
+fn remedies_are_sharp() {
+    let tight = Wanted {
+        max_length: Some(0.2),
+        ..wanted()
+    };
+    let sizing = tight.size();
+    assert!(sizing.bar.is_none());
+    let r = sizing.remedy.unwrap();
+    let works = |w: Wanted| {
+        Wanted {
+            length: w.max_length,
+            ..w
+        }
+        .size()
+        .bar
+        .is_some()
+    };
+    for (factor, should) in [(1.0001, true), (0.9999, false)] {
+        assert_eq!(
+            works(Wanted {
+                max_length: Some(r.length * factor),
+                ..tight.clone()
+            }),
+            should
+        );
+        assert_eq!(
+            works(Wanted {
+                allowable_stress: r.allowable_stress * factor,
+                ..tight.clone()
+            }),
+            should
+        );
+        assert_eq!(
+            works(Wanted {
+                period: r.period * factor,
+                ..tight.clone()
+            }),
+            should
+        );
+        assert_eq!(
+            works(Wanted {
+                twist: r.twist / factor,
+                ..tight.clone()
+            }),
+            should
+        );
+        assert_eq!(
+            works(Wanted {
+                inertia: r.inertia / factor,
+                ..tight.clone()
+            }),
+            should
+        );
+    }
+}
+
+// One swing.
+
+/// Classical Runge and Kutta in small steps, with friction against the motion and the push over its window.
+fn by_steps(disc: &Disc, start: f64, latch: f64, feed: Feed) -> (f64, f64, f64) {
+    let push = feed.energy / (latch - feed.from);
+    let acceleration = |u: f64, v: f64| {
+        let cam = if u >= feed.from { push } else { 0.0 };
+        (cam - disc.coulomb - disc.stiffness * u - disc.viscous * v) / disc.inertia
+    };
+    let h = 1e-4 / (disc.stiffness / disc.inertia).sqrt();
+    let (mut u, mut v, mut t) = (-start, 0.0, 0.0);
+    loop {
+        let k1 = (v, acceleration(u, v));
+        let k2 = (
+            v + h / 2.0 * k1.1,
+            acceleration(u + h / 2.0 * k1.0, v + h / 2.0 * k1.1),
+        );
+        let k3 = (
+            v + h / 2.0 * k2.1,
+            acceleration(u + h / 2.0 * k2.0, v + h / 2.0 * k2.1),
+        );
+        let k4 = (v + h * k3.1, acceleration(u + h * k3.0, v + h * k3.1));
+        let (nu, nv) = (
+            u + h / 6.0 * (k1.0 + 2.0 * k2.0 + 2.0 * k3.0 + k4.0),
+            v + h / 6.0 * (k1.1 + 2.0 * k2.1 + 2.0 * k3.1 + k4.1),
+        );
+        if nv <= 0.0 || nu >= latch {
+            return (u, v, t);
+        }
+        (u, v, t) = (nu, nv, t + h);
+    }
+}
+
+#[test]
+fn without_friction_a_swing_is_half_a_period_and_loses_nothing() {
+    let disc = Disc {
+        inertia: 0.05,
+        stiffness: 200.0,
+        viscous: 0.0,
+        coulomb: 0.0,
+    };
+    let latch = Latch {
+        at: 0.7,
+        capture: 1e-9,
+    };
+    let s = disc.swing(0.7, latch, NO_FEED).unwrap();
+    assert!(
+        matches!(s.end, End::Latched { .. } | End::Caught { .. }),
+        "{:?}",
+        s.end
+    );
+    near(s.duration, PI / frequency(200.0, 0.05), 1e-7);
+    near(s.place, 0.7, 1e-12);
+    let p = frequency(200.0, 0.05);
+    for i in 0..=100 {
+        let t = s.duration * f64::from(i) / 100.0;
+        let (u, v) = s.at(t);
+        near(u, free_angle(-0.7, 0.0, p, t), 1e-12);
+        let energy = stored_energy(200.0, u) + kinetic_energy(0.05, v);
+        near(energy / stored_energy(200.0, 0.7), 1.0, 1e-9);
+    }
+}
+
+#[test]
+fn discs_that_do_not_swing_are_named() {
+    let latch = Latch {
+        at: 0.7,
+        capture: 0.01,
+    };
+    let disc = Disc {
+        inertia: 0.05,
+        stiffness: 200.0,
+        viscous: 0.0,
+        coulomb: 0.0,
+    };
+    let stuck = Disc {
+        coulomb: 150.0,
+        ..disc
+    };
+    assert_eq!(stuck.swing(0.7, latch, NO_FEED).unwrap().end, End::Stuck);
+    assert_eq!(stuck.needed_feed(latch, 0.0).unwrap(), None);
+    let thick = Disc {
+        viscous: 10.0,
+        ..disc
+    };
+    assert!(matches!(thick.swing(0.7, latch, NO_FEED), Err(SwingError::Overdamped(z)) if z > 1.0));
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(
+            Disc {
+                inertia: bad,
+                ..disc
+            }
+            .swing(0.7, latch, NO_FEED)
+            .is_err()
+        );
+        assert!(
+            Disc {
+                stiffness: bad,
+                ..disc
+            }
+            .swing(0.7, latch, NO_FEED)
+            .is_err()
+        );
+    }
+    assert!(
+        Disc {
+            viscous: f64::NAN,
+            ..disc
+        }
+        .swing(0.7, latch, NO_FEED)
+        .is_err()
+    );
+    let missed = Disc {
+        coulomb: 10.0,
+        ..disc
+    }
+    .swing(0.7, latch, NO_FEED)
+    .unwrap();
+    assert!(matches!(missed.end, End::Missed { .. }));
+}
+
+fn disc() -> impl Strategy<Value = Disc> {
+    (0.01..1.0f64, 10.0..1000.0f64, 0.0..0.2f64, 0.0..0.1f64).prop_map(
+        |(inertia, stiffness, ratio, dry)| Disc {
+            inertia,
+            stiffness,
+            viscous: ratio * 2.0 * (stiffness * inertia).sqrt(),
+            coulomb: dry * stiffness,
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// The closed forms follow the integrator, through the cam's push and to the end.
+    #[test]
+    fn swings_agree_with_an_integrator(d in disc(), twist in 0.3..1.5f64, fed in 0.0..0.3f64, from in -0.5..0.9f64) {
+        let feed = Feed { energy: fed * stored_energy(d.stiffness, twist), from: from * twist };
+        let latch = Latch { at: twist, capture: 0.0 };
+        let exact = d.swing(twist, latch, feed).unwrap();
+        let (u, v, t) = by_steps(&d, twist, twist, feed);
+        let p = frequency(d.stiffness, d.inertia);
+        // The integrator steps over the edge of the window and stops a step early.
+        prop_assert!((exact.at(t).0 - u).abs() < 1e-3 * twist, "{} {u}", exact.at(t).0);
+        prop_assert!((exact.at(t).1 - v).abs() < 2e-3 * twist * p, "{} {v}", exact.at(t).1);
+        prop_assert!((exact.place - u).abs() < 1e-3 * twist);
+    }
+
+    /// What the parts of the balance add up to, with every loss integrated by itself.
+    #[test]
+    fn energy_balances(d in disc(), twist in 0.3..1.5f64, fed in 0.0..0.5f64, from in -0.5..0.9f64) {
+        let feed = Feed { energy: fed * stored_energy(d.stiffness, twist), from: from * twist };
+        let s = d.swing(twist, Latch { at: twist, capture: 0.0 }, feed).unwrap();
+        prop_assert!(s.balance.residual().abs() <= 1e-9 * s.balance.initial, "{:?}", s.balance);
+        // Equation (12) is the balance of a swing without the cam.
+        let free = d.swing(twist, Latch { at: twist, capture: 0.0 }, NO_FEED).unwrap();
+        let lost = free.balance.coulomb + free.balance.viscous;
+        let missing = twist - free.place;
+        prop_assert!((lost - friction_energy(d.stiffness, twist, missing)).abs() <= 1e-9 * free.balance.initial);
+        prop_assert!((missing - d.missing(twist)).abs() <= 1e-9 * twist);
+    }
+
+    /// [Klyuchkovskyi 1999] equation (6): with viscous damping the decrement is π ζ/√(1 - ζ²) at any deflection, and a
+    /// damping found from a missing angle gives it back.
+    #[test]
+    fn decrement_is_that_of_the_damping(d in disc(), twist in 0.3..1.5f64) {
+        let d = Disc { coulomb: 0.0, ..d };
+        let zeta = d.damping_ratio();
+        let s = d.swing(twist, Latch { at: 2.0 * twist, capture: 0.0 }, NO_FEED).unwrap();
+        let stated = PI * zeta / (1.0 - zeta * zeta).sqrt();
+        prop_assert!((decrement(twist, s.place) - stated).abs() <= 1e-12);
+        let again = Disc::viscous_for(d.inertia, d.stiffness, twist, twist - s.place);
+        prop_assert!((again - d.viscous).abs() <= 1e-9 * (1.0 + d.viscous));
+    }
+
+    /// The feed that is needed brings the disc to the latch at rest; a little less does not.
+    #[test]
+    fn needed_feed_is_sharp(d in disc(), twist in 0.5..1.5f64) {
+        let latch = Latch { at: twist, capture: 0.0 };
+        if let Some(need) = d.needed_feed(latch, 0.0).unwrap() {
+            let s = d.swing(twist, latch, Feed { energy: need, from: 0.0 }).unwrap();
+            prop_assert!(matches!(s.end, End::Latched { impact } if impact <= 1e-9 * s.balance.initial), "{:?}", s.end);
+            if need > 1e-9 {
+                let less = d.swing(twist, latch, Feed { energy: need * 0.999, from: 0.0 }).unwrap();
+                let missed = matches!(less.end, End::Missed { .. });
+                prop_assert!(missed);
+            }
+        }
+    }
+}

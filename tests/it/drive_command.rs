@@ -1,0 +1,411 @@
+//! `ozols drive` as its users meet it.
+
+use crate::cli::{json, out, ozols};
+use serde_json::Value;
+use std::fs;
+
+fn near(found: f64, stated: f64, tolerance: f64) {
+    assert!(
+        (found - stated).abs() <= tolerance,
+        "found {found}, stated {stated}"
+    );
+}
+
+fn number(v: &Value) -> f64 {
+    v.as_f64().unwrap()
+}
+
+// The command.
+
+const SMALL: &str = r#"
+name = "turner"
+length_unit = "mm"
+
+[workload.drive]
+swing_angle = "pi/2"
+period = 0.8
+inertia = 0.23
+shear_modulus = 8e10
+allowable_stress = 6e8
+missing_angle = 2
+spring_stroke = 15
+swings = 5
+"#;
+
+fn run_file(text: &str, more: &[&str]) -> (Option<i32>, String, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("turner.toml");
+    fs::write(&path, text).unwrap();
+    let args = ["drive", path.to_str().unwrap()]
+        .iter()
+        .chain(more)
+        .copied()
+        .collect::<Vec<_>>();
+    let o = ozols(&args).output().unwrap();
+    let text = |b: Vec<u8>| String::from_utf8(b).unwrap();
+    (o.status.code(), text(o.stdout), text(o.stderr))
+}
+
+fn small_with(from: &str, to: &str) -> String {
+    assert!(SMALL.contains(from), "{from}");
+    SMALL.replacen(from, to, 1)
+}
+
+fn small_json(text: &str, code: i32) -> Value {
+    let (found, said, errors) = run_file(text, &["--format", "json"]);
+    assert_eq!(found, Some(code), "{errors}");
+    serde_json::from_str(&said).unwrap()
+}
+
+#[test]
+fn built_in_module_runs_its_programme() {
+    let text = out(&["drive", "torsion-module"]);
+    assert!(text.starts_with("torsion-module: torsion bar d = 5 mm, l = 346 mm; swings 90° in 0.4 s, all 8 swings latched"), "{text}");
+    let value = json(&["drive", "torsion-module", "--format", "json"]);
+    let design = &value["design"];
+    // I = 0.05 + 2 · 0.3², k = I (2π/0.8)².
+    near(
+        number(&design["stiffness"]),
+        0.23 * (std::f64::consts::TAU / 0.8).powi(2),
+        1e-9,
+    );
+    // Greatest acceleration: r p² φ0, as φ0 < 1.
+    let p2 = number(&design["stiffness"]) / 0.23;
+    near(
+        number(&design["motions"][0]["acceleration"]),
+        0.3 * p2 * std::f64::consts::FRAC_PI_4,
+        1e-9,
+    );
+    for s in design["programme"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|s| !s["swing"].is_null())
+    {
+        near(number(&s["swing"]["energy"]["residual"]), 0.0, 1e-9);
+    }
+}
+
+/// The motion that `drive` prints is what `grip` takes.
+#[test]
+fn the_drive_says_what_the_grip_must_hold() {
+    let text = out(&["drive", "torsion-module"]);
+    let line = text
+        .lines()
+        .find(|l| l.contains("--any-acceleration"))
+        .unwrap();
+    let value = line.rsplit(' ').next().unwrap();
+    let plain = json(&["grip", "lever-gripper", "--format", "json"]);
+    let swung = json(&[
+        "grip",
+        "lever-gripper",
+        "--any-acceleration",
+        value,
+        "--format",
+        "json",
+    ]);
+    let moment = |v: &Value| number(&v["hardest"]["load"]["drive_moment_per_lever"]);
+    assert!(moment(&swung) > moment(&plain));
+}
+
+/// [Klyuchkovskyi 1999] (12) and (14) from a measured missing angle; the simulation, damped to miss as much, agrees with both.
+#[test]
+fn missing_angle_gives_energy_and_spring() {
+    let value = small_json(SMALL, 0);
+    let (d, twist, missing) = (
+        &value["design"],
+        std::f64::consts::FRAC_PI_4,
+        2f64.to_radians(),
+    );
+    let k = number(&d["stiffness"]);
+    let energy = k / 2.0 * (2.0 * twist * missing - missing * missing);
+    near(number(&d["friction_energy"]), energy, 1e-12);
+    near(
+        number(&d["cam"]["spring"]["rate"]),
+        2.0 * energy / 0.015f64.powi(2),
+        1e-8,
+    );
+    near(
+        number(&d["decrement"]),
+        (twist / (twist - missing)).ln(),
+        1e-15,
+    );
+    // Viscous damping takes a little more of a swing that is fed.
+    let needed = number(&d["needed_feed"]);
+    assert!(
+        needed > energy && needed < 1.05 * energy,
+        "{needed} {energy}"
+    );
+    // Without the cam the first swing ends short by the missing angle, and the latch does not catch it.
+    let value = small_json(&small_with("swings = 5", "feed_energy = 0"), 1);
+    let first = &value["design"]["programme"][0]["swing"];
+    assert_eq!(first["end"], "missed");
+    near(number(&first["missing"]), missing, 1e-12);
+}
+
+#[test]
+fn too_short_a_bar_is_explained() {
+    let text = small_with("period = 0.8", "period = 0.8\nmax_length = 100");
+    let (code, said, errors) = run_file(&text, &[]);
+    assert_eq!((code, errors.as_str()), (Some(1), ""));
+    for part in [
+        "turner: no torsion bar swings 90° in 0.4 s",
+        "(11) fails",
+        "a bar longer than",
+        "a material of [τ_s] above",
+        "a period above",
+    ] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    let text = small_with(
+        "period = 0.8",
+        "period = 0.8\nmax_length = 100\ndiameters = [4, 20, 30]",
+    );
+    assert!(
+        run_file(&text, &[])
+            .1
+            .contains("no room: the bar that satisfies (11), d = 20 mm")
+    );
+}
+
+#[test]
+fn discs_that_cannot_swing_are_refused_or_told() {
+    let (code, said, _) = run_file(
+        &small_with("missing_angle = 2", "friction_moment = 1e4"),
+        &[],
+    );
+    assert_eq!(code, Some(1));
+    assert!(
+        said.contains("is stuck: friction is stronger than the wound bar"),
+        "{said}"
+    );
+    let (code, _, errors) = run_file(
+        &small_with("missing_angle = 2", "viscous_damping = 1e4"),
+        &[],
+    );
+    assert_eq!(code, Some(2));
+    assert!(errors.contains("creeps and does not swing"), "{errors}");
+}
+
+#[test]
+fn bad_tables_are_refused_where_they_stand() {
+    for (from, to, line, part) in [
+        (
+            "inertia = 0.23",
+            "inertia = 0",
+            "inertia",
+            "a number above 0",
+        ),
+        (
+            "inertia = 0.23",
+            "inertia = -1",
+            "inertia",
+            "a number above 0",
+        ),
+        ("inertia = 0.23", "inertia = nan", "inertia", "finite"),
+        (
+            "inertia = 0.23",
+            "",
+            "[workload.drive]",
+            "drive needs inertia",
+        ),
+        (
+            "inertia = 0.23",
+            "disc_inertia = 0",
+            "disc_inertia",
+            "a disc or a payload",
+        ),
+        (
+            "inertia = 0.23",
+            "inertia = 1\npayload_mass = 2",
+            "payload_mass",
+            "needs payload_radius",
+        ),
+        (
+            "inertia = 0.23",
+            "inertia = 1\ndisc_inertia = 1",
+            "disc_inertia",
+            "cannot stand beside inertia",
+        ),
+        ("period = 0.8", "", "[workload.drive]", "drive needs period"),
+        (
+            "period = 0.8",
+            "period = 0.8\nswing_time = 0.4",
+            "swing_time",
+            "cannot stand beside period",
+        ),
+        ("period = 0.8", "period = inf", "period", "finite"),
+        ("\"pi/2\"", "0", "swing_angle", "an angle above 0"),
+        (
+            "shear_modulus = 8e10",
+            "shear_modulus = 80",
+            "shear_modulus",
+            "such as 8e10 for steel",
+        ),
+        (
+            "missing_angle = 2",
+            "missing_angle = 50",
+            "missing_angle",
+            "below half the swing",
+        ),
+        (
+            "spring_stroke = 15",
+            "cam_efficiency = 0.5",
+            "cam_efficiency",
+            "needs spring_stroke",
+        ),
+        (
+            "spring_stroke = 15",
+            "spring_stroke = 15\ncam_efficiency = 2",
+            "cam_efficiency",
+            "up to 1",
+        ),
+        ("swings = 5", "swings = 0", "swings", "1 to 10000"),
+        (
+            "swings = 5",
+            "motion = \"both\"",
+            "motion",
+            "known: stepwise, reversing",
+        ),
+        ("swings = 5", "programme = [\"3\"]", "programme", "wait 0.3"),
+        (
+            "swings = 5",
+            "swings = 5\nprogramme = [\"1\"]",
+            "swings",
+            "cannot stand beside programme",
+        ),
+        (
+            "swings = 5",
+            "latch_capture = -1",
+            "latch_capture",
+            "an angle from 0",
+        ),
+        (
+            "swings = 5",
+            "feed_from = 50",
+            "feed_from",
+            "within the swing",
+        ),
+    ] {
+        let text = small_with(from, to);
+        let (code, said, errors) = run_file(&text, &[]);
+        assert_eq!((code, said.as_str()), (Some(2), ""), "{to}: {errors}");
+        let number = text.lines().position(|l| l.contains(line)).unwrap() + 1;
+        assert!(
+            errors.contains(part) && errors.contains(&format!("turner.toml:{number}:")),
+            "{to}: {errors}"
+        );
+    }
+    let (code, _, errors) = run_file("name = \"x\"", &[]);
+    assert_eq!(code, Some(2));
+    assert!(
+        errors.contains("no [workload.drive] table") && errors.contains("torsion-module"),
+        "{errors}"
+    );
+}
+
+/// Inertia of a link that turns about an axis aside of its mass centre, with a payload.
+#[test]
+fn inertia_comes_from_a_link() {
+    let mechanism = r#"
+[[link]]
+id = "0"
+role = "frame"
+[[link]]
+id = "1"
+role = "output"
+mass = 3
+centre = [100, 0, 40]
+inertia = [1, 2, 0.04]
+[[joint]]
+id = "0-1"
+links = ["0", "1"]
+type = "revolute"
+point = [0, 0, 0]
+axis = [0, 0, 5]
+"#;
+    let with_link = |link: &str| {
+        let table = small_with(
+            "inertia = 0.23",
+            &format!("disc_link = \"{link}\"\npayload_mass = 2\npayload_radius = 300"),
+        );
+        table + mechanism
+    };
+    let value = small_json(&with_link("1"), 0);
+    near(
+        number(&value["inertias"][0]),
+        0.04 + 3.0 * 0.01 + 2.0 * 0.09,
+        1e-12,
+    );
+    let (code, _, errors) = run_file(&with_link("7"), &[]);
+    assert_eq!(code, Some(2));
+    assert!(errors.contains("unknown link \"7\""), "{errors}");
+    let (_, _, errors) = run_file(&with_link("0"), &[]);
+    assert!(
+        errors.contains("disc_link needs a link with mass"),
+        "{errors}"
+    );
+    let (_, _, errors) = run_file(&small_with("inertia = 0.23", "disc_link = \"1\""), &[]);
+    assert!(
+        errors.contains("disc_link needs a mechanism in the same file"),
+        "{errors}"
+    );
+}
+
+#[test]
+fn files_of_tables_alone_can_be_checked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("turner.toml");
+    fs::write(&path, SMALL).unwrap();
+    assert_eq!(
+        out(&["check", path.to_str().unwrap()]),
+        "turner: workload drive: valid\n"
+    );
+    fs::write(&path, small_with("inertia = 0.23", "inertia = 0")).unwrap();
+    let o = ozols(&["check", path.to_str().unwrap()]).output().unwrap();
+    assert_eq!(o.status.code(), Some(2));
+}
+
+#[test]
+fn programmes_are_read_step_by_step() {
+    let value = small_json(
+        &small_with(
+            "swings = 5",
+            "programme = [\"2\", \"wait 0.25\", \"2\", \"wait 1 s\", \"1\"]",
+        ),
+        0,
+    );
+    let steps = value["design"]["programme"].as_array().unwrap();
+    let discs: Vec<Value> = steps.iter().map(|s| s["swing"]["disc"].clone()).collect();
+    assert_eq!(
+        discs,
+        [
+            Value::from(2),
+            Value::Null,
+            Value::from(2),
+            Value::Null,
+            Value::from(1)
+        ]
+    );
+    near(number(&steps[1]["duration"]), 0.25, 0.0);
+    near(number(&steps[3]["duration"]), 1.0, 0.0);
+}
+
+#[test]
+fn charts_are_written_as_svg_and_csv() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path().join("charts");
+    out(&["drive", "torsion-module", "--svg", at.to_str().unwrap()]);
+    for name in ["angles", "energy"] {
+        assert!(
+            fs::read_to_string(at.join(format!("{name}.svg")))
+                .unwrap()
+                .starts_with("<svg")
+        );
+        assert!(
+            fs::read_to_string(at.join(format!("{name}.csv")))
+                .unwrap()
+                .contains("disc")
+        );
+    }
+}

@@ -1,0 +1,405 @@
+//! Clamping levers against `[Pavlenko & Godunko 2010]`, and holding forces against independent statics.
+
+use crate::cli::{json, out, ozols};
+use ozols::workload::arm_charts::{figures, findings};
+use ozols::workload::contact::Gripper;
+use ozols::workload::lever_arm::{Lever, LeverError};
+use proptest::prelude::*;
+use serde_json::Value;
+use std::fs;
+
+/// A lever in millimetres and degrees.
+fn lever(length: f64, prism: f64, mounting: f64) -> Lever {
+    Lever::new(length, prism.to_radians(), mounting.to_radians()).unwrap()
+}
+
+fn near(found: f64, stated: f64, tolerance: f64) {
+    assert!(
+        (found - stated).abs() <= tolerance,
+        "found {found}, stated {stated}"
+    );
+}
+
+/// [Pavlenko & Godunko 2010] equations (1) to (8), figures recomputed by hand: L = 100, D = 40, α = 120°, γ = 20°.
+#[test]
+fn arms_have_the_published_figures() {
+    let arms = lever(100.0, 120.0, 20.0).arms(40.0);
+    near(arms.l11, 76.604, 5e-4);
+    near(arms.l12, 11.547, 5e-4);
+    near(arms.l1, 88.151, 5e-4);
+    near(arms.l21, 93.969, 5e-4);
+    near(arms.l22, 11.547, 5e-4);
+    near(arms.l2, 82.422, 5e-4);
+    // The same with α = 120°, γ = 30°: l11 and l21 coincide (line 5 of fig. 3).
+    let arms = lever(100.0, 120.0, 30.0).arms(40.0);
+    near(arms.l11, 86.603, 5e-4);
+    near(arms.l21, 86.603, 5e-4);
+    let arms = lever(100.0, 90.0, 30.0).arms(40.0);
+    near(arms.l1, 70.000, 5e-4);
+    near(arms.l2, 66.603, 5e-4);
+}
+
+#[test]
+fn nominal_pivot_is_where_both_bisectors_are_one_line() {
+    let l = lever(100.0, 120.0, 20.0);
+    near(
+        l.nominal_pivot(40.0),
+        20.0 / 60f64.to_radians().sin() - 100.0 * 80f64.to_radians().cos(),
+        1e-12,
+    );
+    near(l.nominal_diameter(l.nominal_pivot(40.0)), 40.0, 1e-12);
+}
+
+#[test]
+fn impossible_levers_are_refused() {
+    let (a, g) = (2.0, 0.3);
+    assert_eq!(
+        Lever::new(0.1, 180f64.to_radians(), g),
+        Err(LeverError::PrismAngle(180.0))
+    );
+    for bad in [f64::NAN, f64::INFINITY, 0.0, -1.0] {
+        assert!(Lever::new(bad, a, g).is_err());
+        assert!(Lever::new(0.1, bad, g).is_err());
+    }
+    for bad in [f64::NAN, f64::INFINITY, -0.1, 3.2] {
+        assert!(Lever::new(0.1, a, bad).is_err());
+    }
+}
+
+proptest! {
+    /// [Pavlenko & Godunko 2010], findings: linear in L and in D, l1 grows and l2 falls with D by the same amount.
+    #[test]
+    fn arms_are_linear_in_length_and_diameter(
+        length in 0.01..1.0f64, alpha in 30.0..170.0f64, gamma in 0.0..90.0f64, d in 0.001..0.5f64, s in 0.1..10.0f64,
+    ) {
+        let (a, b) = (lever(length, alpha, gamma).arms(d), lever(s * length, alpha, gamma).arms(s * d));
+        let scale = length + d / (alpha / 2.0).to_radians().tan();
+        prop_assert!((b.l1 - s * a.l1).abs() <= 1e-14 * s * scale);
+        prop_assert!((b.l2 - s * a.l2).abs() <= 1e-14 * s * scale);
+        let more = lever(length, alpha, gamma).arms(2.0 * d);
+        prop_assert!(((more.l1 - a.l1) - (a.l2 - more.l2)).abs() <= 1e-14 * scale);
+        prop_assert!(more.l1 > a.l1 && more.l2 < a.l2);
+    }
+}
+
+proptest! {
+    /// l1 - l2 = 2 cos(α/2) a with a signed: the near contact has the longer arm exactly where the levers cross.
+    #[test]
+    fn the_near_arm_is_longer_where_the_levers_cross(
+        length in 0.01..1.0f64, alpha in 30.0..170.0f64, gamma in 0.0..90.0f64, d in 0.001..0.5f64,
+    ) {
+        let l = lever(length, alpha, gamma);
+        let (arms, a) = (l.arms(d), Gripper::nominal(l, d).pivot);
+        let stated = 2.0 * f64::to_radians(alpha / 2.0).cos() * a;
+        prop_assert!((arms.l1 - arms.l2 - stated).abs() <= 1e-13 * (length + d / (alpha / 2.0).to_radians().tan()));
+    }
+}
+
+// The charts.
+
+/// [Pavlenko & Godunko 2010] figs. 2 to 5: as many lines as there, with the figures of equations (1) to (8) on them.
+#[test]
+fn figures_have_the_lines_of_the_paper() {
+    let charts = figures();
+    let lines: Vec<usize> = charts.iter().map(|(_, c)| c.series.len()).collect();
+    assert_eq!(lines, [11, 9, 8, 6]);
+    let at = |f: usize, line: &str, x: f64| {
+        let s = charts[f]
+            .1
+            .series
+            .iter()
+            .find(|s| s.name.starts_with(line))
+            .unwrap();
+        s.points.iter().find(|p| (p.0 - x).abs() < 1e-9).unwrap().1
+    };
+    near(at(0, "1: l1 ", 100.0), 88.151, 5e-4);
+    near(at(0, "2: l11 ", 100.0), 76.604, 5e-4);
+    near(at(0, "3: l2 ", 100.0), 82.422, 5e-4);
+    near(at(0, "7: l1 ", 100.0), 70.000, 5e-4);
+    near(at(0, "9: l2 ", 100.0), 66.603, 5e-4);
+    near(at(1, "1: l1 ", 40.0), 88.151, 5e-4);
+    near(at(1, "5: l11 = l21 ", 40.0), 86.603, 5e-4);
+    near(at(2, "1: l1 ", 90.0), 70.000, 5e-4);
+    near(at(3, "1: l1 ", 20.0), 88.151, 5e-4);
+    // DIFFERENCE: the paper draws lines 10 and 11, a = 40 fixed, less steep; by equation (1) they are parallel to line 1.
+    near(
+        at(0, "10: l1 ", 100.0) - at(0, "10: l1 ", 80.0),
+        at(0, "1: l1 ", 100.0) - at(0, "1: l1 ", 80.0),
+        1e-9,
+    );
+}
+
+/// [Pavlenko & Godunko 2010], discussion and conclusions.
+#[test]
+fn the_findings_of_the_paper_are_confirmed() {
+    let found = findings();
+    assert_eq!(found.len(), 6);
+    found.iter().for_each(|f| assert!(f.holds, "{f:?}"));
+}
+
+// The command.
+
+/// A gripper without a mechanism around it.
+const SMALL: &str = r#"
+name = "clamp"
+length_unit = "mm"
+
+[workload.grip]
+lever_length = 100
+prism_angle = "120deg"
+mounting_angle = "pi/6"
+diameter = 40
+mass = 2
+gravity = [-10, 0, 0]
+friction = 0
+drive_arm = 50
+"#;
+
+fn run_file(text: &str, more: &[&str]) -> (Option<i32>, String, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("clamp.toml");
+    fs::write(&path, text).unwrap();
+    let args = ["grip", path.to_str().unwrap()]
+        .iter()
+        .chain(more)
+        .copied()
+        .collect::<Vec<_>>();
+    let o = ozols(&args).output().unwrap();
+    let text = |b: Vec<u8>| String::from_utf8(b).unwrap();
+    (o.status.code(), text(o.stdout), text(o.stderr))
+}
+
+fn small_with(from: &str, to: &str) -> String {
+    assert!(SMALL.contains(from), "{from}");
+    SMALL.replacen(from, to, 1)
+}
+
+#[test]
+fn built_in_gripper_holds() {
+    let text = out(&["grip", "lever-gripper"]);
+    assert!(
+        text.starts_with("lever-gripper: holds D = 30 to 50 mm; hardest at 50 mm"),
+        "{text}"
+    );
+    assert!(text.contains("6 of 6 confirmed"));
+    let value = json(&["grip", "lever-gripper", "--format", "json"]);
+    assert_eq!(value["holds"], true);
+    assert_eq!(value["diameters"].as_array().unwrap().len(), 5);
+    let number = |v: &Value| v.as_f64().unwrap();
+    let load = &value["hardest"]["load"];
+    near(number(&value["hardest"]["l1"]), 0.101036, 1e-6);
+    near(
+        number(&load["lower_bound"]),
+        number(&load["drive_moment_per_lever"]),
+        1e-6,
+    );
+    // The slider of the file moves 56.906 mm a radian of the levers: rod along (1, 1), tail at (-20, 60 - 40/√3).
+    let arm = (20.0 + 60.0 - 40.0 / 3f64.sqrt()) * 1e-3;
+    let moments: f64 = load["lever_moments"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(number)
+        .sum();
+    near(number(&load["drive_effort"]), moments / arm, 1e-6);
+}
+
+/// A pull of 20 N into the jaws, without friction: both near contacts carry 10 N / cos 60°, at the arm l2.
+#[test]
+fn small_file_has_the_closed_form() {
+    let (code, said, _) = run_file(SMALL, &["--format", "json"]);
+    assert_eq!(code, Some(0), "{said}");
+    let value: Value = serde_json::from_str(&said).unwrap();
+    let load = &value["diameters"][0]["load"];
+    let moment = 20.0 * (86.60254 - 11.54701) * 1e-3;
+    near(
+        load["drive_moment_per_lever"].as_f64().unwrap(),
+        moment,
+        1e-6,
+    );
+    near(
+        load["drive_effort"].as_f64().unwrap(),
+        2.0 * moment / 0.05,
+        1e-4,
+    );
+}
+
+#[test]
+fn what_cannot_be_held_is_said_with_the_reason() {
+    // Friction 0 with gravity along the part.
+    let (code, said, errors) = run_file(&small_with("[-10, 0, 0]", "[0, 0, -10]"), &[]);
+    assert_eq!((code, errors.as_str()), (Some(1), ""));
+    assert!(said.starts_with("clamp: cannot hold D = 40 mm"), "{said}");
+    assert!(
+        said.contains(
+            "slides along its axis (z); faces without friction cannot stop that; give friction"
+        ),
+        "{said}"
+    );
+    // A part larger than the jaws.
+    let (code, said, _) = run_file(
+        &small_with("diameter = 40", "diameter = 40\nface_length = 10"),
+        &[],
+    );
+    assert_eq!(code, Some(1));
+    assert!(
+        said.contains(
+            "larger than the jaws: contacts 11.5470 mm from the vertex on faces of 10.0000 mm"
+        ),
+        "{said}"
+    );
+    // An acceleration from the command line.
+    assert_eq!(run_file(SMALL, &["--acceleration", "0,0,1"]).0, Some(1));
+    assert_eq!(run_file(SMALL, &["--acceleration", "-3,0,0"]).0, Some(0));
+    // One of two diameters.
+    let (code, said, _) = run_file(
+        &small_with("diameter = 40", "diameter = 40\ndiameters = [40, 400]"),
+        &[],
+    );
+    assert_eq!(code, Some(1));
+    assert!(
+        said.contains("1 of 2 diameters, not all") && said.contains("D = 400 mm cannot be held"),
+        "{said}"
+    );
+}
+
+#[test]
+fn bad_tables_are_refused_where_they_stand() {
+    for (from, to, line, part) in [
+        (
+            "mass = 2",
+            "mass = -2",
+            "mass = -2",
+            "mass -2 is out of range; give a number above 0",
+        ),
+        ("mass = 2", "mass = nan", "mass = nan", "finite"),
+        (
+            "mass = 2",
+            "",
+            "gravity",
+            "gravity needs the mass of the part",
+        ),
+        (
+            "mass = 2",
+            "mass = 2\ndensity = 7850",
+            "mass = 2",
+            "mass cannot stand beside density",
+        ),
+        (
+            "mass = 2",
+            "density = 7850",
+            "density",
+            "density needs part_length",
+        ),
+        ("friction = 0", "", "mass = 2", "mass needs friction"),
+        (
+            "friction = 0",
+            "friction = -0.1",
+            "friction",
+            "a coefficient from 0 to 10",
+        ),
+        (
+            "friction = 0",
+            "friction = 0\nsafety = 0.5",
+            "safety",
+            "a factor from 1",
+        ),
+        (
+            "\"120deg\"",
+            "180",
+            "prism_angle",
+            "180 degrees is out of range",
+        ),
+        ("\"120deg\"", "\"soon\"", "prism_angle", "unknown word"),
+        ("\"pi/6\"", "-5", "mounting_angle", "an angle from 0 to 179"),
+        (
+            "lever_length = 100",
+            "lever_length = 0",
+            "lever_length",
+            "a number above 0",
+        ),
+        (
+            "lever_length = 100",
+            "lever_length = inf",
+            "lever_length",
+            "finite",
+        ),
+        (
+            "lever_length = 100",
+            "lever_len = 100",
+            "lever_len",
+            "unknown field",
+        ),
+        (
+            "diameter = 40",
+            "diameter = 40\ndiameters = []",
+            "diameters",
+            "1 to 1000",
+        ),
+        (
+            "diameter = 40",
+            "diameter = 40\ndiameters = { from = 50, to = 40, count = 3 }",
+            "diameters",
+            "not below `from`",
+        ),
+        (
+            "diameter = 40",
+            "diameter = 40\npivots = \"loose\"",
+            "pivots",
+            "known: fixed, nominal",
+        ),
+        ("[-10, 0, 0]", "\"some\"", "gravity", "known: any"),
+        (
+            "drive_arm = 50",
+            "lever_joints = [\"a\", \"b\"]",
+            "lever_joints",
+            "needs a mechanism in the same file",
+        ),
+        ("\"mm\"", "\"ell\"", "ell", "unknown length unit"),
+    ] {
+        let text = small_with(from, to);
+        let (code, said, errors) = run_file(&text, &[]);
+        assert_eq!((code, said.as_str()), (Some(2), ""), "{to}: {errors}");
+        let number = text.lines().position(|l| l.contains(line)).unwrap() + 1;
+        assert!(
+            part.split("; ").all(|p| errors.contains(p))
+                && errors.contains(&format!("clamp.toml:{number}:")),
+            "{to}: {errors}"
+        );
+    }
+    let (code, _, errors) = run_file("name = \"x\"", &[]);
+    assert_eq!(code, Some(2));
+    assert!(
+        errors.contains("no [workload.grip] table") && errors.contains("lever-gripper"),
+        "{errors}"
+    );
+    let (code, _, errors) = run_file(SMALL, &["--acceleration", "1,2"]);
+    assert_eq!(code, Some(2), "{errors}");
+    assert_eq!(run_file(SMALL, &["--any-acceleration", "-1"]).0, Some(2));
+}
+
+#[test]
+fn charts_are_written_as_svg_and_csv() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path().join("charts");
+    out(&["grip", "lever-gripper", "--svg", at.to_str().unwrap()]);
+    for name in [
+        "figure-2",
+        "figure-3",
+        "figure-4",
+        "figure-5",
+        "arms",
+        "drive-moment",
+    ] {
+        assert!(
+            fs::read_to_string(at.join(format!("{name}.svg")))
+                .unwrap()
+                .starts_with("<svg")
+        );
+        assert!(
+            fs::read_to_string(at.join(format!("{name}.csv")))
+                .unwrap()
+                .starts_with("series,x,y")
+        );
+    }
+}

@@ -1,0 +1,478 @@
+//! Holding forces against closed forms, a polyhedral linear programme and plain statics.
+
+use microlp::{ComparisonOp, OptimizationDirection, Problem};
+use ozols::workload::contact::{Gripper, Pose, Unholdable, cross};
+use ozols::workload::holding::{ContactForce, Coupling, Holding, Load, Outcome, Spatial, hold};
+use ozols::workload::lever_arm::Lever;
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+
+const COUPLINGS: [Coupling; 3] = [Coupling::Coupled, Coupling::Equal, Coupling::Independent];
+
+fn lever(length: f64, prism: f64, mounting: f64) -> Lever {
+    Lever::new(length, prism.to_radians(), mounting.to_radians()).unwrap()
+}
+
+fn pose() -> Pose {
+    Gripper::nominal(lever(0.1, 120.0, 30.0), 0.04)
+        .pose(0.04)
+        .unwrap()
+}
+
+fn pull(force: Spatial) -> Load {
+    Load {
+        force,
+        moment: [0.0; 3],
+    }
+}
+
+fn held(pose: &Pose, load: Load, friction: f64, coupling: Coupling) -> Holding {
+    match hold(pose, &load, friction, coupling).unwrap() {
+        Outcome::Held(h) => h,
+        Outcome::Slips(s) => panic!("slips: {s:?}"),
+    }
+}
+
+fn near(found: f64, stated: f64, tolerance: f64) {
+    assert!(
+        (found - stated).abs() <= tolerance,
+        "found {found}, stated {stated}"
+    );
+}
+
+/// Force of a contact in the gripper's axes.
+fn force(pose: &Pose, i: usize, f: &ContactForce) -> Spatial {
+    let c = pose.contacts[i];
+    [
+        f.normal * c.normal[0] + f.along * c.tangent[0],
+        f.normal * c.normal[1] + f.along * c.tangent[1],
+        f.axial,
+    ]
+}
+
+fn cross3(a: Spatial, b: Spatial) -> Spatial {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// Equilibrium, friction and lever moments, from coordinates alone.
+fn assert_statics(pose: &Pose, load: &Load, friction: f64, h: &Holding) {
+    let size = load
+        .force
+        .iter()
+        .chain(&load.moment)
+        .map(|x| x.abs())
+        .sum::<f64>()
+        + h.drive / 0.1;
+    let (mut sum, mut moment, mut levers) = (load.force, load.moment, [0.0; 2]);
+    for (i, f) in h.forces.iter().enumerate() {
+        assert!(f.normal >= 0.0);
+        assert!(f.friction() <= friction * f.normal + 1e-6 * size, "{f:?}");
+        let (c, w) = (pose.contacts[i], force(pose, i, f));
+        let from_centre = [
+            c.point[0] - pose.centre[0],
+            c.point[1] - pose.centre[1],
+            0.0,
+        ];
+        let m = cross3(from_centre, w);
+        (0..3).for_each(|a| {
+            sum[a] += w[a];
+            moment[a] += m[a];
+        });
+        let p = pose.pivots[c.lever];
+        let opening = cross([c.point[0] - p[0], c.point[1] - p[1]], [-w[0], -w[1]]);
+        levers[c.lever] += if c.lever == 0 { opening } else { -opening };
+    }
+    sum.iter().for_each(|x| near(*x, 0.0, 1e-6 * size));
+    moment.iter().for_each(|x| near(*x, 0.0, 1e-7 * size));
+    (0..2).for_each(|k| near(h.moments[k], levers[k], 1e-7 * size));
+    assert!(
+        h.lower_bound <= h.drive + 1e-7 * size && h.drive - h.lower_bound <= 1e-6 * size,
+        "{h:?}"
+    );
+}
+
+/// Drive moment with each friction cone replaced by `facets` edges on it (too few forces, so too much moment), or by edges
+/// outside it (`outer`); `None` where it cannot be held.
+fn polyhedral(
+    pose: &Pose,
+    load: &Load,
+    friction: f64,
+    coupling: Coupling,
+    facets: usize,
+    outer: bool,
+) -> Option<f64> {
+    let mu = if outer {
+        friction / (TAU / 2.0 / facets as f64).cos()
+    } else {
+        friction
+    };
+    let mut lp = Problem::new(OptimizationDirection::Minimize);
+    let t = lp.add_var(1.0, (0.0, f64::INFINITY));
+    let moments = [0, 1].map(|_| {
+        lp.add_var(
+            0.0,
+            (
+                if coupling == Coupling::Independent {
+                    0.0
+                } else {
+                    f64::NEG_INFINITY
+                },
+                f64::INFINITY,
+            ),
+        )
+    });
+    let mut balance: [Vec<(microlp::Variable, f64)>; 6] = Default::default();
+    let mut levers = [vec![(moments[0], -1.0)], vec![(moments[1], -1.0)]];
+    for (i, c) in pose.contacts.iter().enumerate() {
+        for e in 0..facets {
+            let (s, co) = (TAU * e as f64 / facets as f64).sin_cos();
+            let w = force(
+                pose,
+                i,
+                &ContactForce {
+                    normal: 1.0,
+                    along: mu * co,
+                    axial: mu * s,
+                },
+            );
+            let x = lp.add_var(0.0, (0.0, f64::INFINITY));
+            let m = cross3(
+                [
+                    c.point[0] - pose.centre[0],
+                    c.point[1] - pose.centre[1],
+                    0.0,
+                ],
+                w,
+            );
+            (0..3).for_each(|a| {
+                balance[a].push((x, w[a]));
+                balance[a + 3].push((x, m[a]));
+            });
+            let p = pose.pivots[c.lever];
+            let opening = cross([c.point[0] - p[0], c.point[1] - p[1]], [-w[0], -w[1]]);
+            levers[c.lever].push((x, if c.lever == 0 { opening } else { -opening }));
+        }
+    }
+    for a in 0..3 {
+        lp.add_constraint(balance[a].as_slice(), ComparisonOp::Eq, -load.force[a]);
+        lp.add_constraint(balance[a + 3].as_slice(), ComparisonOp::Eq, -load.moment[a]);
+    }
+    levers.iter().for_each(|l| {
+        lp.add_constraint(l.as_slice(), ComparisonOp::Eq, 0.0);
+    });
+    match coupling {
+        Coupling::Coupled => {
+            lp.add_constraint(
+                [(t, 2.0), (moments[0], -1.0), (moments[1], -1.0)],
+                ComparisonOp::Ge,
+                0.0,
+            );
+        }
+        Coupling::Equal => moments.iter().for_each(|m| {
+            lp.add_constraint([(t, 1.0), (*m, -1.0)], ComparisonOp::Eq, 0.0);
+        }),
+        Coupling::Independent => moments.iter().for_each(|m| {
+            lp.add_constraint([(t, 1.0), (*m, -1.0)], ComparisonOp::Ge, 0.0);
+        }),
+    }
+    Some(lp.solve().ok()?.solution()?.objective())
+}
+
+// The pose.
+
+/// [Pavlenko & Godunko 2010]: the arms are those of the contact normals about the pivot, at any turn of the levers.
+#[test]
+fn arms_are_those_of_the_normals_in_every_pose() {
+    for (prism, mounting) in [(120.0, 20.0), (120.0, 30.0), (90.0, 30.0), (100.0, 45.0)] {
+        let l = lever(0.1, prism, mounting);
+        let g = Gripper::nominal(l, 0.04);
+        for d in [0.02, 0.03, 0.04, 0.05, 0.06] {
+            let (pose, arms) = (g.pose(d).unwrap(), l.arms(d));
+            near(pose.turn, 0.0, if d == 0.04 { 1e-12 } else { 1.0 });
+            for c in pose.contacts {
+                let (p, v) = (pose.pivots[c.lever], pose.vertices[c.lever]);
+                near((v[0] - p[0]).hypot(v[1] - p[1]), 0.1, 1e-15);
+                // The contact is on the part's rim, its normal points at the centre, the face passes through the vertex.
+                let face = l.face_distance(d);
+                near(c.point[0] + d / 2.0 * c.normal[0], pose.centre[0], 1e-15);
+                near(c.point[1] + d / 2.0 * c.normal[1], pose.centre[1], 1e-15);
+                near(c.point[0] - face * c.tangent[0], v[0], 1e-15);
+                near(c.point[1] - face * c.tangent[1], v[1], 1e-15);
+                let arm = cross(
+                    [c.point[0] - p[0], c.point[1] - p[1]],
+                    [-c.normal[0], -c.normal[1]],
+                );
+                let stated = if c.far { arms.l1 } else { arms.l2 };
+                near(if c.lever == 0 { arm } else { -arm }, stated, 1e-15);
+            }
+        }
+    }
+}
+
+#[test]
+fn parts_that_cannot_be_held_are_named() {
+    let mut g = Gripper::nominal(lever(0.1, 120.0, 30.0), 0.04);
+    g.face_length = Some(0.02);
+    g.lever_width = 0.01;
+    assert_eq!(g.obstacles(0.04), []);
+    assert!(
+        g.obstacles(0.08)
+            .iter()
+            .any(|o| matches!(o, Unholdable::OffFace { .. }))
+    );
+    assert!(matches!(
+        g.obstacles(1.0)[..],
+        [.., Unholdable::OffFace { .. }] | [Unholdable::OffFace { .. }, ..]
+    ));
+    g.lever_width = 0.06;
+    assert!(matches!(
+        g.obstacles(0.04)[..],
+        [Unholdable::Crossed { .. }]
+    ));
+    // A long near face reaches over the axis before a thin part is touched.
+    g.lever_width = 0.0;
+    g.face_length = Some(0.06);
+    assert!(
+        g.obstacles(0.04)
+            .iter()
+            .any(|o| matches!(o, Unholdable::TipsMeet { .. }))
+    );
+    g.pivot = 0.2;
+    assert!(matches!(
+        g.obstacles(0.04)[..],
+        [Unholdable::OutOfReach { .. }]
+    ));
+    // γ + α/2 small: the levers cross at the nominal diameter.
+    let crossing = Gripper::nominal(lever(0.2, 120.0, 20.0), 0.04);
+    assert!(crossing.pivot < 0.0);
+    assert!(matches!(
+        crossing.obstacles(0.04)[..],
+        [Unholdable::Crossed { .. }]
+    ));
+}
+
+// Closed forms.
+
+/// Without friction, a pull in the plane is carried by two contacts whose forces follow from their directions alone; the
+/// moments are then those forces times the arms l1 and l2 of [Pavlenko & Godunko 2010], which is the arms found by statics.
+#[test]
+fn statics_confirm_the_arms() {
+    for (prism, mounting) in [(120.0, 20.0), (120.0, 30.0), (90.0, 30.0)] {
+        let l = lever(0.1, prism, mounting);
+        let pose = Gripper::nominal(l, 0.04).pose(0.04).unwrap();
+        let (arms, half) = (l.arms(0.04), f64::to_radians(prism / 2.0));
+        for coupling in COUPLINGS {
+            // Outwards: the far contacts of both levers. Inwards: the near ones.
+            near(
+                held(&pose, pull([10.0, 0.0, 0.0]), 0.0, coupling).drive,
+                5.0 * arms.l1 / half.cos(),
+                1e-7,
+            );
+            near(
+                held(&pose, pull([-10.0, 0.0, 0.0]), 0.0, coupling).drive,
+                5.0 * arms.l2 / half.cos(),
+                1e-7,
+            );
+        }
+        // Down: both contacts of the lower lever.
+        let h = held(&pose, pull([0.0, -10.0, 0.0]), 0.0, Coupling::Coupled);
+        let stated = 5.0 / half.sin() * (arms.l1 + arms.l2);
+        near(h.moments[1], stated, 1e-7);
+        near(h.moments[0], 0.0, 1e-7);
+        near(h.drive, stated / 2.0, 1e-7);
+        near(
+            held(&pose, pull([0.0, -10.0, 0.0]), 0.0, Coupling::Independent).drive,
+            stated,
+            1e-7,
+        );
+    }
+}
+
+/// A pull along the part with l1 = l2 forced by no in-plane imbalance: with prism angles near 180° the four normals are
+/// nearly parallel, and the least moment nears W/(4 μ) · (arms) per contact.
+#[test]
+fn symmetric_axial_pull_has_the_textbook_moment() {
+    // α near 180° and γ so that the lever is at right angles to the bisector: both arms near L.
+    let l = lever(0.1, 179.9, 0.05);
+    let pose = Gripper::nominal(l, 0.04).pose(0.04).unwrap();
+    let h = held(&pose, pull([0.0, 0.0, -20.0]), 0.4, Coupling::Equal);
+    // Each lever presses with W/(2μ) in all at the arm L.
+    near(h.drive, 20.0 / (2.0 * 0.4) * 0.1, 20.0 / 0.8 * 0.1 * 5e-3);
+}
+
+// What cannot be held.
+
+#[test]
+fn without_friction_an_axial_pull_slips_along_the_axis() {
+    for coupling in COUPLINGS {
+        match hold(&pose(), &pull([0.0, 0.0, -5.0]), 0.0, coupling).unwrap() {
+            Outcome::Slips(s) => {
+                near(s.velocity[2], -1.0, 1e-6);
+                near(s.velocity[0].hypot(s.velocity[1]), 0.0, 1e-6);
+                s.rotation.iter().for_each(|r| near(*r, 0.0, 1e-6));
+            }
+            Outcome::Held(h) => panic!("{h:?}"),
+        }
+        // Nor can a frictionless part be kept from turning about its axis.
+        let twist = Load {
+            force: [0.0; 3],
+            moment: [0.0, 0.0, 0.1],
+        };
+        assert!(
+            matches!(hold(&pose(), &twist, 0.0, coupling).unwrap(), Outcome::Slips(s) if s.rotation[2] > 0.99)
+        );
+    }
+}
+
+/// The slip a verdict rests on: the load works on it, and no force of any friction cone takes that work away.
+#[test]
+fn slips_are_certificates() {
+    // Made for thin parts, these levers turn so far for thick ones that all four faces push out of the jaws.
+    let g = Gripper::nominal(lever(0.1, 150.0, 80.0), 0.02);
+    let (mut slips, mu) = (0, 0.1);
+    for d in [0.02, 0.05, 0.1, 0.15, 0.2] {
+        for f in [
+            [3.0, 0.0, 0.0],
+            [0.0, -3.0, 0.0],
+            [0.0, 0.0, 3.0],
+            [-3.0, 1.0, 1.0],
+        ] {
+            let Ok(pose) = g.pose(d) else { continue };
+            let Outcome::Slips(s) = hold(&pose, &pull(f), mu, Coupling::Coupled).unwrap() else {
+                continue;
+            };
+            slips += 1;
+            assert!(
+                (0..3).map(|a| f[a] * s.velocity[a]).sum::<f64>() > 0.0,
+                "{s:?}"
+            );
+            for c in pose.contacts {
+                let from_centre = [
+                    (c.point[0] - pose.centre[0]) / 0.1,
+                    (c.point[1] - pose.centre[1]) / 0.1,
+                    0.0,
+                ];
+                let turning = cross3(s.rotation, from_centre);
+                let v = [0, 1, 2].map(|a| s.velocity[a] + turning[a]);
+                let dot = |d: [f64; 2]| d[0] * v[0] + d[1] * v[1];
+                assert!(
+                    dot(c.normal) >= mu * dot(c.tangent).hypot(v[2]) - 1e-6,
+                    "{d} {f:?} {}",
+                    c.name
+                );
+            }
+        }
+    }
+    assert!(slips > 0);
+}
+
+#[test]
+fn bad_numbers_are_refused() {
+    for mu in [-0.1, f64::NAN, f64::INFINITY, 11.0] {
+        assert!(hold(&pose(), &pull([1.0, 0.0, 0.0]), mu, Coupling::Equal).is_err());
+    }
+    assert!(hold(&pose(), &pull([f64::NAN, 0.0, 0.0]), 0.3, Coupling::Equal).is_err());
+    let nothing = held(&pose(), pull([0.0; 3]), 0.0, Coupling::Equal);
+    assert_eq!(nothing.drive, 0.0);
+}
+
+fn direction() -> impl Strategy<Value = Spatial> {
+    [-1.0..1.0f64, -1.0..1.0, -1.0..1.0]
+        .prop_filter("not zero", |v| v.iter().map(|x| x * x).sum::<f64>() > 0.01)
+}
+
+fn coupling() -> impl Strategy<Value = Coupling> {
+    prop::sample::select(COUPLINGS.to_vec())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    /// A linear programme by another solver, with friction cones from inside and from outside, brackets the answer.
+    #[test]
+    fn polyhedral_programmes_bracket_the_answer(
+        f in direction(), m in direction(), mu in 0.1..1.0f64, d in 0.03..0.05f64, by in coupling(),
+    ) {
+        let pose = Gripper::nominal(lever(0.1, 120.0, 30.0), 0.04).pose(d).unwrap();
+        let load = Load { force: f.map(|x| 10.0 * x), moment: m.map(|x| 0.05 * x) };
+        let (inner, outer) = (
+            polyhedral(&pose, &load, mu, by, 24, false),
+            polyhedral(&pose, &load, mu, by, 24, true),
+        );
+        match hold(&pose, &load, mu, by).unwrap() {
+            Outcome::Held(h) => {
+                assert_statics(&pose, &load, mu, &h);
+                if let Some(most) = inner {
+                    prop_assert!(h.drive <= most * (1.0 + 1e-6) + 1e-9, "{} above {most}", h.drive);
+                }
+                let least = outer.unwrap();
+                prop_assert!(h.drive >= least * (1.0 - 1e-6) - 1e-9, "{} below {least}", h.drive);
+                if let Some(most) = inner {
+                    prop_assert!(most <= least * 1.2 + 1e-6, "the bracket is tight: {least} {most}");
+                }
+            }
+            Outcome::Slips(_) => prop_assert!(inner.is_none()),
+        }
+    }
+
+    /// Twice the load takes twice the moment; so does twice the size of everything.
+    #[test]
+    fn moment_scales_with_load_and_size(f in direction(), mu in 0.1..1.0f64, s in 0.01..100.0f64, by in coupling()) {
+        let once = held(&pose(), pull(f), mu, by).drive;
+        let more = held(&pose(), pull(f.map(|x| s * x)), mu, by).drive;
+        prop_assert!((more - s * once).abs() <= 1e-7 * s, "{more} {once}");
+        let large = Gripper::nominal(lever(0.1 * s, 120.0, 30.0), 0.04 * s).pose(0.04 * s).unwrap();
+        let large = held(&large, pull(f), mu, by).drive;
+        prop_assert!((large - s * once).abs() <= 1e-7 * s, "{large} {once}");
+    }
+
+    /// Mirrored in the axis of symmetry or in the plane of motion, the load takes the same moment; opposite axial pulls too.
+    #[test]
+    fn mirror_images_take_the_same_moment(f in direction(), mu in 0.1..1.0f64, by in coupling()) {
+        let once = held(&pose(), pull(f), mu, by);
+        let upside_down = held(&pose(), pull([f[0], -f[1], f[2]]), mu, by);
+        let other_way = held(&pose(), pull([f[0], f[1], -f[2]]), mu, by);
+        prop_assert!((once.drive - upside_down.drive).abs() <= 1e-7);
+        prop_assert!((once.drive - other_way.drive).abs() <= 1e-7);
+    }
+
+    /// More friction never takes more moment.
+    #[test]
+    fn friction_helps(f in direction(), mu in 0.1..0.9f64, by in coupling()) {
+        let (less, more) = (held(&pose(), pull(f), mu, by), held(&pose(), pull(f), mu + 0.1, by));
+        prop_assert!(more.drive <= less.drive + 1e-7);
+    }
+
+    /// Grippers of all sizes and shapes, under loads over eight decades, always get an answer, and its forces balance the load.
+    #[test]
+    fn every_gripper_gets_an_answer(
+        size in -3.0..1.0f64, prism in 20.0..175.0f64, mounting in 0.0..100.0f64, part in -2.0..0.0f64, other in 0.5..1.5f64,
+        f in direction(), m in direction(), decade in -4.0..4.0f64, friction in prop::option::of(-2.5..1.0f64), by in coupling(),
+    ) {
+        let l = lever(10f64.powf(size), prism, mounting);
+        let d = l.length * 10f64.powf(part);
+        let g = Gripper { may_cross: true, ..Gripper::nominal(l, d) };
+        let pose = g.pose(d * other);
+        if let (Ok(pose), true) = (pose, g.obstacles(d * other).is_empty()) {
+            let strength = 10f64.powf(decade);
+            let load = Load { force: f.map(|x| x * strength), moment: m.map(|x| x * strength * l.length) };
+            let mu = friction.map_or(0.0, |e| 10f64.powf(e));
+            let outcome = hold(&pose, &load, mu, by);
+            prop_assert!(outcome.is_ok(), "{outcome:?}");
+            if let Ok(Outcome::Held(h)) = outcome {
+                let mut sum = load.force;
+                for (i, c) in h.forces.iter().enumerate() {
+                    let w = force(&pose, i, c);
+                    (0..3).for_each(|a| sum[a] += w[a]);
+                }
+                let most = strength + h.forces.iter().map(|c| c.normal).sum::<f64>();
+                sum.iter().for_each(|x| near(*x, 0.0, 1e-6 * most));
+                near(h.drive, h.lower_bound, 1e-4 * (h.drive + strength * l.length));
+            }
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! Programmes of swings, and their long run.
+
+use ozols::model::drive::Step;
+use ozols::workload::programme::{Endurance, Module};
+use ozols::workload::swing::{Disc, End, Feed, Latch};
+
+fn near(found: f64, stated: f64, tolerance: f64) {
+    assert!(
+        (found - stated).abs() <= tolerance,
+        "found {found}, stated {stated}"
+    );
+}
+
+fn module(viscous: f64, coulomb: f64, feed: f64) -> Module {
+    let disc = |inertia| Disc {
+        inertia,
+        stiffness: 14.0,
+        viscous,
+        coulomb,
+    };
+    Module {
+        discs: [disc(0.23), disc(0.11)],
+        latch: Latch {
+            at: 0.8,
+            capture: 0.02,
+        },
+        feed: Feed {
+            energy: feed,
+            from: 0.0,
+        },
+    }
+}
+
+/// [Klyuchkovskyi 1999]: discs that take turns both step on the same way by 2φ0; one disc goes to and fro.
+#[test]
+fn taking_turns_steps_on_and_one_disc_reverses() {
+    let m = module(0.0, 0.0, 0.0);
+    let turns: Vec<Step> = (0..6).map(|i| Step::Swing((i + 1) % 2)).collect();
+    let run = m.run(&turns).unwrap();
+    assert!(run.complete());
+    near(run.angles[0], 0.8 + 3.0 * 1.6, 1e-9);
+    near(run.angles[1], 3.0 * 1.6, 1e-9);
+    let run = m
+        .run(&[
+            Step::Swing(1),
+            Step::Dwell(0.3),
+            Step::Swing(1),
+            Step::Swing(1),
+        ])
+        .unwrap();
+    near(run.angles[0], 0.8, 0.0);
+    near(run.angles[1], 1.6, 1e-9);
+    assert_eq!(run.steps[2].start, run.steps[0].duration + 0.3);
+    // Unequal discs keep the bar's energy and their own times.
+    let times: Vec<f64> = m
+        .run(&turns)
+        .unwrap()
+        .swings()
+        .map(|(_, s)| s.duration)
+        .collect();
+    near(times[1] / times[0], (0.23f64 / 0.11).sqrt(), 1e-7);
+}
+
+/// Without friction the energy of a run is that of the wound bar at all times, to 1e-9.
+#[test]
+fn energy_of_a_run_is_conserved() {
+    let m = module(0.0, 0.0, 0.0);
+    let run = m
+        .run(&[
+            Step::Swing(1),
+            Step::Swing(0),
+            Step::Dwell(1.0),
+            Step::Swing(0),
+            Step::Swing(1),
+        ])
+        .unwrap();
+    for s in m.samples(&run, 50) {
+        near((s.potential + s.kinetic) / (14.0 * 0.32), 1.0, 1e-9);
+    }
+}
+
+/// With friction, what a run stores at its end is what it had, plus what was fed, less what was lost.
+#[test]
+fn energy_of_a_run_balances() {
+    let m = module(0.02, 0.1, 0.31);
+    let run = m
+        .run(&[
+            Step::Swing(1),
+            Step::Swing(0),
+            Step::Swing(1),
+            Step::Swing(1),
+        ])
+        .unwrap();
+    assert!(run.complete());
+    let mut had = 14.0 * 0.32;
+    for (_, s) in run.swings() {
+        let b = s.balance;
+        near(b.initial, had, 1e-9);
+        near(b.residual(), 0.0, 1e-9);
+        had = b.stored;
+    }
+}
+
+/// A cam that gives what is needed goes on for ever; one that gives what a swing without it lost, equation (12), loses ground.
+#[test]
+fn the_long_run_tells_enough_from_too_little() {
+    let m = module(0.02, 0.1, 0.0);
+    let need = m.discs[0].needed_feed(m.latch, 0.0).unwrap().unwrap();
+    let fed = |energy| Module {
+        feed: Feed { energy, from: 0.0 },
+        ..m
+    };
+    assert!(
+        matches!(fed(1.001 * need).endurance(&[0]).unwrap(), Endurance::Lasts { missing } if missing == 0.0)
+    );
+    let Endurance::Fails { after } = fed(0.97 * need).endurance(&[0]).unwrap() else {
+        panic!()
+    };
+    // A run of as many swings is latched, and one more is not.
+    let latched = |n: usize| {
+        fed(0.97 * need)
+            .run(&vec![Step::Swing(0); n])
+            .unwrap()
+            .latched
+    };
+    assert_eq!((latched(after), latched(after + 1)), (after, after));
+    // Viscous damping alone takes less from a smaller swing: with much capture, swings settle short of the latch.
+    let soft = Module {
+        latch: Latch {
+            at: 0.8,
+            capture: 0.4,
+        },
+        ..module(0.05, 0.0, 0.3)
+    };
+    assert!(
+        matches!(soft.endurance(&[0]).unwrap(), Endurance::Lasts { missing } if missing > 0.02)
+    );
+    // Two discs of different inertia that take turns end up repeating as well.
+    let both = Module {
+        feed: Feed {
+            energy: 1.2 * need,
+            from: 0.0,
+        },
+        ..m
+    };
+    assert!(matches!(
+        both.endurance(&[0, 1]).unwrap(),
+        Endurance::Lasts { .. }
+    ));
+}
+
+#[test]
+fn a_missed_latch_ends_the_run() {
+    let m = module(0.05, 0.1, 0.0);
+    let run = m
+        .run(&[Step::Swing(1), Step::Swing(0), Step::Swing(1)])
+        .unwrap();
+    assert!(!run.complete() && run.steps.len() < 3 + 1);
+    assert!(matches!(
+        run.swings().last().unwrap().1.end,
+        End::Missed { .. }
+    ));
+}
