@@ -3,5 +3,6 @@
 
 pub mod exact;
 pub mod expr;
+pub mod extent;
 pub mod number_field;
 pub mod scalars;

@@ -3,6 +3,8 @@
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::exact::ExactError;
+use crate::geom::expr::Expr;
+use crate::geom::extent::Extent;
 use crate::geom::scalars::Scalars;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
@@ -29,6 +31,8 @@ pub struct Closure<N> {
     pub contours: Vec<Contour>,
     /// The columns, grouped by joint in file order.
     pub columns: Vec<Column<N>>,
+    /// Where the joints are and how far apart, in real numbers.
+    pub extent: Option<Extent>,
     /// Joints whose freedoms out of the plane were left out, with how many (planar mode only).
     pub left_out: Vec<(JointId, usize)>,
 }
@@ -71,7 +75,12 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
                 twist,
             }));
         }
+        let points: Vec<&[Expr; 3]> = mechanism
+            .joints_in(state)
+            .map(|j| &mechanism.joints[j].frame.point)
+            .collect();
         Ok(Closure {
+            extent: s.extent(&points),
             state,
             dim: space.dim(),
             contours,

@@ -9,6 +9,7 @@
 use super::contour::{Contour, contour_basis};
 use super::twist::{FrameValues, MotionSpace, Twist};
 use crate::geom::exact::ExactError;
+use crate::geom::extent::Extent;
 use crate::geom::scalars::Reals;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
@@ -17,8 +18,6 @@ use faer::linalg::solvers::SolveLstsq;
 
 /// Largest residual of a closed pose: radians, and fractions of the mechanism's size.
 pub const CLOSED: f64 = 1e-12;
-/// A mechanism smaller than this, in the file's unit, is a point and has no size.
-const POINT: f64 = 1e-12;
 /// Newton steps before a pose is given up.
 const STEPS: usize = 60;
 
@@ -206,28 +205,8 @@ impl Pose {
             .iter()
             .map(|&j| FrameValues::new(&Reals, &mechanism.joints[j].frame))
             .collect::<Result<Vec<_>, _>>()?;
-        let bound = |i: usize, pick: fn(f64, f64) -> f64| {
-            frames
-                .iter()
-                .map(|f| f.point[i])
-                .reduce(pick)
-                .unwrap_or(0.0)
-        };
-        let (low, high) = (
-            [0, 1, 2].map(|i| bound(i, f64::min)),
-            [0, 1, 2].map(|i| bound(i, f64::max)),
-        );
-        let middle = [0, 1, 2].map(|i| f64::midpoint(low[i], high[i]));
-        let half = [0, 1, 2].map(|i| (high[i] - low[i]) / 2.0);
-        // Points that differ by rounding alone are one point, and then any length will do.
-        let far = low
-            .iter()
-            .chain(&high)
-            .fold(0.0, |a: f64, x| a.max(x.abs()));
-        let length = [(dot(half, half).sqrt(), 1e-9 * far), (far, 0.0)]
-            .into_iter()
-            .find(|&(l, least)| l > least && l > POINT)
-            .map_or(1.0, |(l, _)| l);
+        let points: Vec<[f64; 3]> = frames.iter().map(|f| f.point).collect();
+        let Extent { middle, length } = Extent::of(&points);
         let (mut columns, mut base) = (Vec::new(), Vec::new());
         let mut of_joint = vec![Vec::new(); mechanism.joints.len()];
         for (&j, frame) in joints.iter().zip(&frames) {

@@ -2,6 +2,7 @@
 
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::expr::Expr;
+use crate::geom::extent::Extent;
 use crate::linalg::modp::Residue;
 use std::fmt::Debug;
 
@@ -27,6 +28,11 @@ pub trait Scalars: Sync {
     fn vanishes(&self, x: Self::Number, square: Self::Number) -> bool {
         let _ = square;
         x == Self::Number::default()
+    }
+
+    /// Where some points are and how large the set is; none where numbers have no size.
+    fn extent(&self, _points: &[&[Expr; 3]]) -> Option<Extent> {
+        None
     }
 
     /// The value of a vector of expressions.
@@ -104,6 +110,14 @@ impl Scalars for Reals {
     fn mul(&self, a: f64, b: f64) -> f64 {
         a * b
     }
+    fn extent(&self, points: &[&[Expr; 3]]) -> Option<Extent> {
+        let values: Vec<[f64; 3]> = points
+            .iter()
+            .map(|p| [p[0].to_f64(), p[1].to_f64(), p[2].to_f64()])
+            .collect();
+        Some(Extent::of(&values))
+    }
+
     fn vanishes(&self, x: f64, square: f64) -> bool {
         x * x <= 1e-20 * square
     }

@@ -6,9 +6,6 @@ use crate::geom::scalars::Reals;
 use faer::traits::ComplexField;
 use faer::{Mat, MatRef};
 
-/// Lever arms shorter than this, in the file's unit, are rounding errors.
-pub(crate) const POINT: f64 = 1e-12;
-
 /// J as it stands: 6k × f, lengths in the file's unit, about the global origin.
 #[must_use]
 pub fn as_it_stands(closure: &Closure<f64>) -> Mat<f64> {
@@ -16,52 +13,99 @@ pub fn as_it_stands(closure: &Closure<f64>) -> Mat<f64> {
     Mat::from_fn(closure.rows(), columns.len(), |r, c| columns[c][r])
 }
 
-/// J with unit turns, lengths divided by the longest lever arm, and columns of unit length.
+/// What J is scaled by.
+#[derive(Debug, Clone)]
+pub struct Scaling {
+    /// The point that twists are taken about, in space.
+    middle: Option<[f64; 3]>,
+    /// Lengths are divided by this.
+    length: f64,
+    /// Columns are then divided by these.
+    columns: Vec<f64>,
+}
+
+impl Scaling {
+    /// The scaling of a J: about the middle of the joints, lengths over half the diagonal of the box round them (or the
+    /// longest translation of a unit turn, a long pitch say), columns of unit length.
+    #[must_use]
+    pub fn of(closure: &Closure<f64>) -> Scaling {
+        let turns = closure.dim / 2;
+        let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let mut scaling = Scaling {
+            middle: closure
+                .extent
+                .filter(|_| closure.dim == 6)
+                .map(|e| e.middle),
+            length: closure.extent.map_or(1.0, |e| e.length),
+            columns: Vec::new(),
+        };
+        let arm = closure
+            .columns
+            .iter()
+            .map(|c| {
+                let t = scaling.about(&c.twist);
+                (norm(&t[..turns]), norm(&t[turns..]))
+            })
+            .filter(|(turn, _)| *turn > 0.0)
+            .map(|(turn, shift)| shift / turn)
+            .fold(0.0, f64::max);
+        scaling.length = scaling.length.max(arm);
+        scaling.columns = closure
+            .columns
+            .iter()
+            .map(|c| {
+                let size = norm(&scaling.length_of(&c.twist));
+                if size > 0.0 { size } else { 1.0 }
+            })
+            .collect();
+        scaling
+    }
+
+    /// A twist about the middle.
+    fn about(&self, twist: &[f64]) -> Vec<f64> {
+        let mut t = twist.to_vec();
+        if let (Some(c), [w0, w1, w2, v0, v1, v2]) = (self.middle, t.as_mut_slice()) {
+            // v + ω × c
+            *v0 += *w1 * c[2] - *w2 * c[1];
+            *v1 += *w2 * c[0] - *w0 * c[2];
+            *v2 += *w0 * c[1] - *w1 * c[0];
+        }
+        t
+    }
+
+    fn length_of(&self, twist: &[f64]) -> Vec<f64> {
+        let mut t = self.about(twist);
+        let turns = t.len() / 2;
+        t[turns..].iter_mut().for_each(|x| *x /= self.length);
+        t
+    }
+
+    /// A twist of column `c`, scaled as J is.
+    #[must_use]
+    pub fn apply(&self, c: usize, twist: &[f64]) -> Vec<f64> {
+        let mut t = self.length_of(twist);
+        t.iter_mut().for_each(|x| *x /= self.columns[c]);
+        t
+    }
+}
+
+/// J about the middle of the mechanism, lengths over its size, columns of unit length.
 #[must_use]
 pub fn scaled(closure: &Closure<f64>) -> Mat<f64> {
-    let mut columns = closure.dense(&Reals);
-    let (dim, turns) = (closure.dim, closure.dim / 2);
-    let is_velocity = |row: usize| row % dim >= turns;
-    // Unit turns first, so that the velocity entries are lever arms, whatever the length of the axes in the file.
-    let normalise = |column: &mut Vec<f64>| {
-        let turn = column
-            .iter()
-            .enumerate()
-            .filter(|(r, _)| !is_velocity(*r))
-            .map(|(_, x)| x * x)
-            .sum::<f64>()
-            .sqrt();
-        if turn > 0.0 {
-            column.iter_mut().for_each(|x| *x /= turn);
-        }
-        turn > 0.0
-    };
-    let turning: Vec<bool> = columns.iter_mut().map(normalise).collect();
-    let arm = columns
+    let scaling = Scaling::of(closure);
+    let columns: Vec<Vec<f64>> = closure
+        .columns
         .iter()
-        .zip(&turning)
-        .filter(|(_, t)| **t)
-        .flat_map(|(c, _)| {
-            c.iter()
-                .enumerate()
-                .filter(|(r, _)| is_velocity(*r))
-                .map(|(_, x)| x.abs())
-        })
-        .fold(0.0, f64::max);
-    // Lever arms of rounding errors are none.
-    let arm = if arm > POINT { arm } else { 1.0 };
-    for column in &mut columns {
-        column
-            .iter_mut()
-            .enumerate()
-            .filter(|(r, _)| is_velocity(*r))
-            .for_each(|(_, x)| *x /= arm);
-        let length = column.iter().map(|x| x * x).sum::<f64>().sqrt();
-        if length > 0.0 {
-            column.iter_mut().for_each(|x| *x /= length);
+        .enumerate()
+        .map(|(c, column)| scaling.apply(c, &column.twist))
+        .collect();
+    Mat::from_fn(closure.rows(), columns.len(), |r, c| {
+        match closure.contours[r / closure.dim].direction(closure.columns[c].joint) {
+            None => 0.0,
+            Some(true) => columns[c][r % closure.dim],
+            Some(false) => -columns[c][r % closure.dim],
         }
-    }
-    Mat::from_fn(closure.rows(), columns.len(), |r, c| columns[c][r])
+    })
 }
 
 /// A numeric rank with the gap it rests on.

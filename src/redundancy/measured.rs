@@ -4,7 +4,7 @@ use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactError;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
-use crate::rank::scaled::{POINT, scaled};
+use crate::rank::scaled::{Scaling, scaled};
 use crate::redundancy::share::ContourShare;
 use faer::Mat;
 
@@ -76,16 +76,20 @@ impl<'a> Measured<'a> {
     /// Dimension of the joint motion of some links.
     #[must_use]
     pub fn span_of_links(&self, links: &[LinkId]) -> usize {
-        let whole = scale_of(&self.closure);
-        let rows: Vec<Vec<Vec<f64>>> = links
+        let scaling = Scaling::of(&self.closure);
+        let twists: Vec<Vec<Vec<f64>>> = links
             .iter()
-            .map(|&l| self.closure.link_motion(&Reals, self.mechanism, l))
+            .map(|&l| {
+                let path = self.closure.link_motion(&Reals, self.mechanism, l);
+                path.iter()
+                    .enumerate()
+                    .map(|(c, t)| scaling.apply(c, t))
+                    .collect()
+            })
             .collect();
         let dim = self.closure.dim;
-        // Speeds in the kernel belong to columns of unit size; lengths are divided by the longest lever arm.
         let motion = Mat::from_fn(dim * links.len(), self.closure.columns.len(), |r, c| {
-            let x = rows[r / dim][c][r % dim] / whole.columns[c];
-            if r % dim >= dim / 2 { x / whole.arm } else { x }
+            twists[r / dim][c][r % dim]
         });
         self.rank_of(&(motion * &self.kernel))
     }
@@ -129,42 +133,4 @@ impl<'a> Measured<'a> {
             })
             .collect()
     }
-}
-
-/// What [`scaled`] divides by: each column's size, and the arm.
-struct Scale {
-    columns: Vec<f64>,
-    arm: f64,
-}
-
-fn scale_of(closure: &Closure<f64>) -> Scale {
-    let turns = closure.dim / 2;
-    let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let arm = closure
-        .columns
-        .iter()
-        .filter(|c| norm(&c.twist[..turns]) > 0.0)
-        .map(|c| {
-            let size = norm(&c.twist[..turns]);
-            c.twist[turns..]
-                .iter()
-                .map(|x| (x / size).abs())
-                .fold(0.0, f64::max)
-        })
-        .fold(0.0, f64::max);
-    let arm = if arm > POINT { arm } else { 1.0 };
-    let columns = closure
-        .columns
-        .iter()
-        .map(|c| {
-            let scaled: Vec<f64> = c
-                .twist
-                .iter()
-                .enumerate()
-                .map(|(i, x)| if i >= turns { x / arm } else { *x })
-                .collect();
-            norm(&scaled)
-        })
-        .collect();
-    Scale { columns, arm }
 }

@@ -48,8 +48,9 @@ fn rotation(random: &mut ChaCha8Rng) -> [[f64; 3]; 3] {
     ]
 }
 
-/// The mechanism as another program would write it: turned, shifted and scaled in doubles, with `noise` on every number.
-fn as_measured(m: &Mechanism, seed: u64, noise: f64) -> Mechanism {
+/// The mechanism as another program would write it: turned, shifted by up to `away` of its size and scaled in doubles, with
+/// `noise` on every number.
+fn as_measured(m: &Mechanism, seed: u64, noise: f64, away: f64) -> Mechanism {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let turn = rotation(&mut random);
     let scale = 10f64.powf(uniform(&mut random));
@@ -59,7 +60,7 @@ fn as_measured(m: &Mechanism, seed: u64, noise: f64) -> Mechanism {
         .flat_map(|j| &j.frame.point)
         .map(|x| x.to_f64().abs())
         .fold(1.0, f64::max);
-    let shift = [(); 3].map(|()| size * uniform(&mut random));
+    let shift = [(); 3].map(|()| away * size * uniform(&mut random));
     let turned = |v: &[Expr; 3]| {
         let v = [0, 1, 2].map(|i| v[i].to_f64());
         [0, 1, 2].map(|i| (0..3).map(|k| turn[i][k] * v[k]).sum::<f64>())
@@ -127,11 +128,18 @@ fn the_automatic_choice_is_right_on_every_built_in_mechanism_turned_and_measured
             // A plane's normal that was measured is a plane no joint fits: planar files are not turned.
             if matches!(m.mode, Mode::Spatial) {
                 let seed = 7 * n as u64;
-                check("turned, rounded".to_owned(), &as_measured(&m, seed, 0.0));
+                check(
+                    "turned, rounded".to_owned(),
+                    &as_measured(&m, seed, 0.0, 1.0),
+                );
+                let far = as_measured(&m, seed + 2, 0.0, 300.0);
+                if name != "wren-platform" {
+                    check("far from the origin".to_owned(), &far);
+                }
                 // Round the upright Wren platform a gap of 1e-12 leaves whole milliradians of play (turn and shift
                 // enter by their product, squared): with noise its branches cannot be told apart.
                 if name != "wren-platform" {
-                    let noisy = as_measured(&m, seed + 1, 1e-12);
+                    let noisy = as_measured(&m, seed + 1, 1e-12, 0.0);
                     check("with noise 1e-12".to_owned(), &noisy);
                 }
             }
@@ -347,7 +355,7 @@ proptest! {
         let m = built_in(names[pick.index(names.len())]);
         prop_assume!(matches!(m.mode, Mode::Spatial) && m.name != "wren-platform");
         let before = decide(&m, 0, None).unwrap();
-        let after = decide(&as_measured(&m, seed, 1e-13), 0, None).unwrap();
+        let after = decide(&as_measured(&m, seed, 1e-13, 1.0), 0, None).unwrap();
         prop_assert_eq!(before.rank, after.rank);
         prop_assert_eq!(before.finite.mobility, after.finite.mobility);
     }

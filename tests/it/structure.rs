@@ -125,6 +125,7 @@ proptest! {
         };
         let columns = twists.iter().enumerate().flat_map(|(j, ts)| ts.iter().map(move |t| (j, t)));
         let closure = Closure {
+            extent: None,
             state: 0,
             dim,
             contours: contours.into_iter().map(|joints| Contour { joints, links: Vec::new() }).collect(),
