@@ -12,6 +12,7 @@ mod progress;
 mod question;
 mod search;
 mod statics;
+mod stroke;
 mod verify;
 
 use clap::Parser;

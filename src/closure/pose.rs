@@ -114,6 +114,15 @@ impl Displacement {
         [0, 1, 2].map(|i| dot(self.rotation[i], d))
     }
 
+    /// The angle of the turn `[rad]`, 0 to π.
+    #[must_use]
+    pub fn angle(&self) -> f64 {
+        let r = &self.rotation;
+        let axis = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]];
+        let (sine, cosine) = (dot(axis, axis).sqrt(), r[0][0] + r[1][1] + r[2][2] - 1.0);
+        sine.atan2(cosine)
+    }
+
     /// A twist carried along.
     #[must_use]
     pub fn twist(&self, t: &Twist<f64>) -> Twist<f64> {
