@@ -40,9 +40,7 @@ const BALL: f64 = 0.7;
 #[non_exhaustive]
 pub enum Why {
     /// The mechanism moves, and the drive does not.
-    #[error(
-        "dead point of this drive: the mechanism can move on only with the drive at rest here and then going back"
-    )]
+    #[error("dead point of this drive: the other joints can move on, the drive only back")]
     DeadPoint,
     /// No motion with the other drives held.
     #[error("nothing can move while the other drives are held")]
@@ -50,11 +48,11 @@ pub enum Why {
     /// Motions on several branches.
     #[error("singular pose: branches of the motion cross or end here, and none goes on smoothly")]
     Singular,
-    /// Newton's method fails for another reason.
+    /// Motions of first order that no pose follows, though nothing shows in the singular values alone.
     #[error(
-        "Newton's method finds no pose further on though this one is regular; report this with the file"
+        "the motion in this pose is instantaneous only: no pose next to it closes on this branch (a shaky pose, or a cusp)"
     )]
-    Lost,
+    Instantaneous,
 }
 
 impl Why {
@@ -65,7 +63,7 @@ impl Why {
             Why::DeadPoint => "dead-point",
             Why::Locked => "locked",
             Why::Singular => "singular",
-            Why::Lost => "lost",
+            Why::Instantaneous => "instantaneous",
         }
     }
 }
@@ -347,7 +345,7 @@ impl Follower {
         } else if t.kept < NEARLY_FLAT || self.branches() {
             Why::Singular
         } else {
-            Why::Lost
+            Why::Instantaneous
         };
         Stop { at: self.at(), why }
     }

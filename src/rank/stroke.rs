@@ -7,12 +7,13 @@
 
 use crate::closure::matrix::path_from_frame;
 use crate::closure::pose::Pose;
-use crate::closure::stroke::{FLAT, Follower, Stop, positions};
+use crate::closure::stroke::{FLAT, Follower, Stop, Why, positions};
 use crate::model::mechanism::{LinkId, Mechanism, Mode, Role, StateId};
 use crate::rank::scaled::{NumericRank, rank_of_values};
 use faer::Mat;
 
-/// Changes of rank are bracketed to this fraction of the stroke.
+/// Changes of rank are bracketed to this fraction of the stroke, or to the stretch where singular values are below the
+/// tolerance where that is longer.
 pub const BRACKET: f64 = 1e-6;
 /// The lowest point of a singular value is found to this fraction of the stroke.
 const LOWEST: f64 = 1e-9;
@@ -202,7 +203,8 @@ impl<'a> Looker<'a> {
     /// Brackets the change between two poses of different ranks.
     fn bisect(&self, low: &Sample, high: &Sample, width: f64, out: &mut Vec<Change>) {
         let (mut low, mut high) = (low.clone(), high.clone());
-        while (high.at - low.at).abs() > width {
+        // Two such brackets and the flat stretch between them make one change in one pose.
+        while (high.at - low.at).abs() > width / 8.0 {
             let Some(middle) = self.from(&low, f64::midpoint(low.at, high.at)) else {
                 break;
             };
@@ -361,6 +363,10 @@ pub fn stroke(request: &StrokeRequest<'_>, pose: &Pose) -> StrokeFigures {
         changes: looker.changes(&way),
         poses,
         stop,
-        undriven: looker.undriven(pose),
+        // Where branches cross there are motions enough, and the drive decides none.
+        undriven: match stop.map(|s| s.why) {
+            Some(Why::Singular | Why::Instantaneous) => 0,
+            _ => looker.undriven(pose),
+        },
     }
 }

@@ -135,13 +135,17 @@ pub fn text(s: &Shown<'_>, width: Option<u16>) -> String {
         s.place(s.range[0], 3),
         s.place(s.range[1], 3)
     );
-    let mut last = f.poses.first().map(|p| p.rank.rank);
+    // Each change stands at the first pose that is not before it.
+    let ahead = (s.range[1] - s.range[0]).signum();
+    let mut changes = f.changes.iter().peekable();
     let rows = f.poses.iter().map(|p| {
-        let flag = if last.replace(p.rank.rank) == Some(p.rank.rank) {
-            ""
-        } else {
-            "rank changes"
-        };
+        let here = changes.peeking_take_while(|c| c.between[0] * ahead <= p.at * ahead);
+        let flag = here
+            .map(|c| {
+                let at = s.place(f64::midpoint(c.between[0], c.between[1]), 4);
+                format!("rank {} at {at}", c.ranks[1])
+            })
+            .join(", ");
         let mut outputs = p.outputs.iter().map(|o| {
             format!(
                 "{}: ({}), {}°",
@@ -158,7 +162,7 @@ pub fn text(s: &Shown<'_>, width: Option<u16>) -> String {
             format!("{:.2e}", p.rank.kept),
             format!("{:.2e}", p.share),
             outputs.join("; "),
-            flag.to_owned(),
+            flag,
         ]
     });
     let header = [
