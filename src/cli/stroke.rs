@@ -3,7 +3,7 @@
 use super::args::Analyze;
 use super::{Done, output, statics};
 use crate::closure::pose::Pose;
-use crate::closure::stroke::{Follower, slides};
+use crate::closure::stroke::{FLAT, Follower, slides};
 use crate::model::joint_type::Freedom;
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
@@ -95,7 +95,10 @@ impl<'a> Asked<'a> {
         let (mut pose, mut tolerance) = (self.pose.clone(), self.tolerance);
         if let (true, Some(n)) = (measured, decision.numeric) {
             pose = pose.with_accuracy((10.0 * n.dropped).clamp(1e-16, decision.tolerance));
-            tolerance = Some(decision.tolerance.max(crate::closure::stroke::FLAT));
+            tolerance = Some(decision.tolerance.max(FLAT));
+        } else if let Some(t) = tolerance {
+            // Singular values below a hundred times the accuracy count as zero on the way.
+            pose = pose.with_accuracy(t / 100.0);
         }
         let request = StrokeRequest {
             mechanism: self.mechanism,

@@ -233,7 +233,7 @@ pub fn chart(s: &Shown<'_>) -> Chart {
             scale: Scale::Linear,
         },
         y: Axis {
-            label: "smallest kept singular value over the largest".to_owned(),
+            label: "smallest kept singular value over the largest; drive share".to_owned(),
             scale: Scale::Log,
         },
         series: vec![
