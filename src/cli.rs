@@ -16,6 +16,7 @@ mod progress;
 mod question;
 mod search;
 mod statics;
+mod stroke;
 mod verify;
 
 use clap::Parser;

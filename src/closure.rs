@@ -3,4 +3,5 @@
 pub mod contour;
 pub mod matrix;
 pub mod pose;
+pub mod stroke;
 pub mod twist;

@@ -18,6 +18,7 @@ pub mod reconstruct;
 pub mod scaled;
 pub mod second_order;
 pub mod snap;
+pub mod stroke;
 pub mod subgroup;
 pub mod trace;
 

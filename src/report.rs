@@ -15,4 +15,5 @@ pub mod statics_charts;
 pub mod statics_data;
 pub mod statics_text;
 pub mod statics_words;
+pub mod stroke;
 pub mod words;

@@ -1,7 +1,7 @@
 //! `ozols analyze`.
 
 use super::args::{Analyze, AnalyzeFormat, Args, RankMethod};
-use super::{Done, load, output, verify};
+use super::{Done, load, output, stroke, verify};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
@@ -20,6 +20,7 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
         mechanism.states.iter().position(|s| *s == a.state),
     ) {
         (_, Some(s)) => vec![s],
+        ("all", None) if a.stroke.is_some() => vec![0],
         ("all", None) => (0..mechanism.states.len()).collect(),
         (other, None) => bail!(
             "{} has no state {other}; it has: {}",
@@ -32,6 +33,7 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     {
         bail!("--tolerance must be between 0 and 1");
     }
+    let stroke = stroke::Asked::new(&mechanism, a)?;
     let eliminate = |e: Elimination, usual: f64| Method::Numeric(e, a.tolerance.unwrap_or(usual));
     let method = match a.method {
         RankMethod::Auto => Method::Auto {
@@ -53,26 +55,42 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     if let Some(path) = &a.certificate {
         verify::write(path, &mechanism, &states)?;
     }
+    let stroke = stroke.map(|s| s.follow()).transpose()?;
+    if let (Some(s), Some(path)) = (&stroke, &a.svg) {
+        s.chart(path)?;
+    }
+    let width = output::width(a.output.as_deref());
     output::to(a.output.as_deref(), |out| {
         match a.format {
             AnalyzeFormat::Json => {
-                writeln!(out, "{:#}", analysis_json::analysis(&mechanism, &found))?
+                let mut value = analysis_json::analysis(&mechanism, &found);
+                if let Some(s) = &stroke {
+                    value["stroke"] = s.json();
+                }
+                writeln!(out, "{value:#}")?;
             }
             AnalyzeFormat::Text => {
-                write!(
-                    out,
-                    "{}",
-                    analysis_text::analysis(&mechanism, &found, output::width(a.output.as_deref()))
-                )?;
+                let text = analysis_text::analysis(&mechanism, &found, width);
+                write!(out, "{text}")?;
+                if let Some(s) = &stroke {
+                    write!(out, "\n{}", s.text(width))?;
+                }
             }
         }
-        Ok(Done::Found)
+        // A stroke that could not be finished is no success.
+        Ok(match stroke {
+            Some(s) if s.stopped() => Done::Nothing,
+            _ => Done::Found,
+        })
     })
 }
 
 /// A method that gives a mobility and nothing else.
 fn by(mechanism: &Mechanism, states: &[StateId], name: &str, a: &Analyze) -> anyhow::Result<Done> {
     let method = method::by_name(name).with_context(|| format!("there is no method {name}"))?;
+    if a.stroke.is_some() {
+        bail!("--stroke needs the rank of J, which --method {name} does not give; use auto or svd");
+    }
     let answers = states
         .iter()
         .map(|&s| Ok((s, method.answer(mechanism, s)?)))

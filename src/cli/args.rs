@@ -17,6 +17,7 @@ use std::path::PathBuf;
 Examples:
   ozols list                                  the built-in mechanisms
   ozols analyze gripper-10                    mobility and redundant constraints, contour by contour
+  ozols analyze four-bar --stroke 0:360deg:12 and in the poses over a turn of its crank
   ozols search gripper-10                     the best statically determinate redesigns
   ozols search gripper-10 --max-mobility 1    only those without idle links
   ozols statics parallel-shears               Assur groups, and joint reactions over the cycle
@@ -207,6 +208,17 @@ pub(super) struct Analyze {
     /// Also write a proof of each state's rank to a JSON file, for `ozols verify`.
     #[arg(long, value_name = "FILE")]
     pub(super) certificate: Option<PathBuf>,
+    /// Also look at the poses over a range of the drive, in steps: 0:360deg:72. Counted from the pose of the file; radians
+    /// where no unit stands, the file's length unit for drives that slide. In the first state unless --state names one.
+    #[arg(long, value_name = "FROM:TO:STEPS", allow_hyphen_values = true)]
+    pub(super) stroke: Option<String>,
+    /// The joint that moves over the stroke, JOINT:FREEDOM where it has several; by default the file's first drive. The
+    /// file's other drives are held, unless this is none of them.
+    #[arg(long, value_name = "JOINT", requires = "stroke")]
+    pub(super) drive: Option<String>,
+    /// Write a chart of the conditioning over the stroke to a file.
+    #[arg(long, value_name = "FILE", requires = "stroke")]
+    pub(super) svg: Option<PathBuf>,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -92,7 +92,8 @@ pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
     })
 }
 
-fn stroke(text: &str) -> anyhow::Result<Stroke> {
+/// A range and its steps, such as "0:360deg:72".
+pub(super) fn stroke(text: &str) -> anyhow::Result<Stroke> {
     let parts: Vec<&str> = text.split(':').collect();
     let parsed = match parts[..] {
         [from, to, steps] => position(from)

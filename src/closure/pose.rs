@@ -2,8 +2,9 @@
 //!
 //! Each freedom is one unit twist at a reference pose; a contour is closed at coordinates q when the product of
 //! exp(±q_i ξ_i) along it is the identity [Brockett 1984; Lynch & Park, "Modern Robotics", 2017, ch. 4 and 7]. Within a
-//! joint the translations come first and then the rotations in the order of the list, so that a guide, a slot or the
-//! first pin of a universal joint belongs to the first link of the joint. Lengths are divided by the size of the
+//! joint the translations come first and then the rotations in the order of the list, so that a guide or the first pin of
+//! a universal joint belongs to the first link of the joint; but a slot (a slide along x and none along y) belongs to its
+//! second, the pin or ball in it to the first. Lengths are divided by the size of the
 //! mechanism and taken from its middle, so that coordinates are radians and fractions of that size.
 
 use super::contour::{Contour, contour_basis};
@@ -111,6 +112,15 @@ impl Displacement {
     #[must_use]
     pub fn direction(&self, d: [f64; 3]) -> [f64; 3] {
         [0, 1, 2].map(|i| dot(self.rotation[i], d))
+    }
+
+    /// The angle of the turn `[rad]`, 0 to π.
+    #[must_use]
+    pub fn angle(&self) -> f64 {
+        let r = &self.rotation;
+        let axis = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]];
+        let (sine, cosine) = (dot(axis, axis).sqrt(), r[0][0] + r[1][1] + r[2][2] - 1.0);
+        sine.atan2(cosine)
     }
 
     /// A twist carried along.
@@ -225,7 +235,10 @@ impl Pose {
             let turned = planar_ball(&space, joint.joint_type.freedoms(), unit);
             let mut freedoms: Vec<Freedom> = kept.into_iter().map(|(f, _)| f).collect();
             let slides = |f: &Freedom| matches!(f, Freedom::Tx | Freedom::Ty | Freedom::Tz);
-            freedoms.sort_by_key(|f| !slides(f));
+            // A pin in a slot: the pin first, as in `workload::planar`.
+            let has = |f| joint.joint_type.freedoms().contains(&f);
+            let slot = has(Freedom::Tx) && !has(Freedom::Ty);
+            freedoms.sort_by_key(|f| slides(f) == slot);
             for (n, freedom) in freedoms.into_iter().enumerate() {
                 of_joint[j].push(columns.len());
                 base.push((joint.links[0], n));

@@ -1,12 +1,15 @@
 //! A mechanism as the entries of its file, exactly.
 
 use crate::geom::expr::Expr;
-use crate::import::loads::WorkloadEntry;
+use crate::import::loads::{
+    ForceEntry, InertiaEntry, Quantities, Quantity, StrokeEntry, WorkloadEntry,
+};
 use crate::import::schema::{
     ContourEntry, Coordinate, ExpectedEntry, JointEntry, LinkEntry, MechanismFile, OptionEntry,
     OptionTable, SearchEntry, Unloading, Words,
 };
 use crate::model::joint_type::{Freedom, JointType};
+use crate::model::loads::Inertia;
 use crate::model::mechanism::{Expected, Frame, Joint, JointOption, Mechanism, Mode, Role};
 use std::collections::BTreeMap;
 
@@ -31,9 +34,9 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
             .map(|l| LinkEntry {
                 id: l.id.clone(),
                 role: role(l.role).map(ToOwned::to_owned),
-                mass: None,
-                centre: None,
-                inertia: None,
+                mass: l.mass.as_ref().map(|p| p.mass),
+                centre: l.mass.as_ref().map(|p| vector(&p.centre)),
+                inertia: l.mass.as_ref().and_then(|p| p.inertia).map(inertia),
             })
             .collect(),
         joint: m.joints.iter().map(|j| joint(m, j)).collect(),
@@ -43,7 +46,7 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
             .map(|c| ContourEntry { joints: ids(c) })
             .collect(),
         search: search(m),
-        workload: WorkloadEntry::default(),
+        workload: workload(m),
         expected: m.expected.iter().map(expected).collect(),
     }
 }
@@ -192,6 +195,42 @@ fn search(m: &Mechanism) -> SearchEntry {
             .collect(),
         costs,
         ..SearchEntry::default()
+    }
+}
+
+fn inertia(i: Inertia) -> InertiaEntry {
+    match i {
+        Inertia::Plane(x) => InertiaEntry::Plane(x),
+        Inertia::Principal(v) => InertiaEntry::List(v.to_vec()),
+        Inertia::Tensor(v) => InertiaEntry::List(v.to_vec()),
+    }
+}
+
+/// Masses aside, what the mechanism carries; positions and speeds as plain numbers.
+fn workload(m: &Mechanism) -> WorkloadEntry {
+    let loads = &m.loads;
+    let end = |x: f64| x.is_finite().then_some(Quantity::Number(x));
+    let force = loads.forces.iter().map(|f| ForceEntry {
+        link: m.links[f.link].id.clone(),
+        point: vector(&f.point),
+        force: vector(&f.force),
+        from: f.range.and_then(|[from, _]| end(from)),
+        to: f.range.and_then(|[_, to]| end(to)),
+    });
+    let speed = |x: &f64| Quantity::Number(*x);
+    WorkloadEntry {
+        gravity: loads.gravity.as_ref().map(vector),
+        force: force.collect(),
+        drive_speed: match &loads.drive_speeds[..] {
+            [] => None,
+            [one] => Some(Quantities::One(speed(one))),
+            all => Some(Quantities::Many(all.iter().map(speed).collect())),
+        },
+        stroke: loads.stroke.map(|s| StrokeEntry {
+            from: Quantity::Number(s.from),
+            to: Quantity::Number(s.to),
+            steps: i64::try_from(s.steps).unwrap_or(i64::MAX),
+        }),
     }
 }
 

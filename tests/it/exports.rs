@@ -166,3 +166,35 @@ fn the_command() {
         .unwrap();
     assert_eq!(o.status.code(), Some(2));
 }
+
+// Masses, gravity, forces, speed and stroke are written, too: the statics of the copy are those of the file.
+#[test]
+fn the_workload_survives() {
+    let folder = tempfile::tempdir().unwrap();
+    for to in ["toml", "json"] {
+        let file = folder.path().join(format!("shears.{to}"));
+        let file = file.to_str().unwrap();
+        out(&["export", "parallel-shears", "--to", to, "-o", file]);
+        let statics = |f: &str| out(&["statics", f, "--format", "json"]);
+        assert_eq!(statics(file), statics("parallel-shears"));
+    }
+    let shears = all().find(|m| m.name == "parallel-shears").unwrap();
+    let text = export::toml(&shears).unwrap();
+    let back = mechanism_from_str("x.toml", &text).unwrap();
+    assert_eq!(back.loads.stroke, shears.loads.stroke);
+    assert_eq!(back.loads.drive_speeds, shears.loads.drive_speeds);
+    for (a, b) in back.links.iter().zip(&shears.links) {
+        let all = |l: &ozols::model::mechanism::Link| {
+            l.mass.as_ref().map(|p| {
+                (
+                    p.mass,
+                    p.centre.each_ref().map(ToString::to_string),
+                    p.inertia,
+                )
+            })
+        };
+        assert_eq!(all(a), all(b));
+    }
+    let forces = |m: &Mechanism| format!("{:?}", m.loads.forces);
+    assert_eq!(forces(&back), forces(&shears));
+}

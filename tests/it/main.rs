@@ -24,6 +24,7 @@ mod robot_sdf;
 mod robots;
 mod statics;
 mod stroke;
+mod stroke_poses;
 mod structure;
 mod twin;
 mod varied;
