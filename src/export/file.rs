@@ -231,6 +231,9 @@ fn workload(m: &Mechanism) -> WorkloadEntry {
             to: Quantity::Number(s.to),
             steps: i64::try_from(s.steps).unwrap_or(i64::MAX),
         }),
+        // Grippers and torsion drives are models of their own, beside the mechanism.
+        grip: None,
+        drive: None,
     }
 }
 
