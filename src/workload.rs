@@ -11,5 +11,6 @@ pub mod planar;
 pub mod planar_motion;
 pub mod pose;
 pub mod projective;
+pub mod reactions;
 pub mod stability;
 pub mod statics;
