@@ -10,6 +10,7 @@ mod load;
 mod output;
 mod progress;
 mod question;
+mod reactions;
 mod search;
 mod statics;
 mod verify;

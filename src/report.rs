@@ -2,6 +2,8 @@
 
 pub mod analysis_json;
 pub mod analysis_text;
+pub mod reactions_data;
+pub mod reactions_text;
 pub mod search_json;
 pub mod search_text;
 pub mod statics_charts;

@@ -353,6 +353,7 @@ pub(super) enum StaticsFormat {
 Examples:
   ozols statics parallel-shears                          groups and reactions over the file's stroke
   ozols statics parallel-shears --stroke 0:360deg:12 --svg charts
+  ozols statics gripper-10 --spatial                     six components a joint, and what redundancy leaves open
   ozols statics parallel-shears --groups                 Assur groups under each possible drive
   ozols statics --stability -o charts                    accuracy of the methods near their failures")]
 pub(super) struct Statics {
@@ -372,6 +373,10 @@ pub(super) struct Statics {
     /// Model the mechanism in its plane (normal z), whatever the file says.
     #[arg(long)]
     pub(super) planar: bool,
+    /// All six components of each joint's reaction, at the pose of the file, redundant constraints and all; by default
+    /// where a mechanism is not planar or not determinate in its plane.
+    #[arg(long, conflicts_with_all = ["planar", "groups", "stability", "svg", "stroke"])]
+    pub(super) spatial: bool,
     /// Only the Assur groups, under each possible drive.
     #[arg(long, conflicts_with_all = ["stability", "svg", "stroke"])]
     pub(super) groups: bool,

@@ -159,4 +159,3 @@ pub(super) fn misalignments(
     }
     found
 }
-

@@ -137,9 +137,11 @@ impl PlanarLoads {
                 period: (!drive_slides).then_some(std::f64::consts::TAU),
             })
         });
-        let moments = mechanism.loads.moments.iter().filter_map(|x| {
-            Some((m.body_of(x.link)?, Reals.dot(normal, real(&x.moment))))
-        });
+        let moments = mechanism
+            .loads
+            .moments
+            .iter()
+            .filter_map(|x| Some((m.body_of(x.link)?, Reals.dot(normal, real(&x.moment)))));
         PlanarLoads {
             gravity: mechanism
                 .loads

@@ -44,9 +44,7 @@ pub enum Unsolved {
     #[error(transparent)]
     Exact(#[from] ExactError),
     /// The singular values did not converge.
-    #[error(
-        "the singular values did not converge; check coordinates and loads for extreme values"
-    )]
+    #[error("the singular values did not converge; check coordinates and loads for extreme values")]
     NoConvergence,
     /// Loads do work on a motion that no drive holds.
     #[error(
@@ -362,8 +360,11 @@ fn residual(m: &Mechanism, geometry: &Geometry, wrenches: &[Six], loads: &[Six])
         }
     }
     sums[m.frame()] = [0.0; 6];
-    let greatest =
-        |of: &[Six]| of.iter().flatten().fold(0.0, |a: f64, x: &f64| a.max(x.abs()));
+    let greatest = |of: &[Six]| {
+        of.iter()
+            .flatten()
+            .fold(0.0, |a: f64, x: &f64| a.max(x.abs()))
+    };
     match greatest(loads) {
         0.0 => greatest(&sums),
         load => greatest(&sums) / load,

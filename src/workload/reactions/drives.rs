@@ -21,7 +21,8 @@ const EQUAL: f64 = 1e-9;
 /// # Complexity
 /// O(f²·6k).
 pub fn driven(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Driven>, Unsolved> {
-    let of = |j: JointId| (0..geometry.columns.len()).filter(move |&c| geometry.columns[c].joint == j);
+    let of =
+        |j: JointId| (0..geometry.columns.len()).filter(move |&c| geometry.columns[c].joint == j);
     let drives: Vec<JointId> = geometry
         .joints
         .iter()
@@ -46,7 +47,10 @@ pub fn driven(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Driven>, Unsolve
     let pick = |j: JointId| {
         let greatest = of(j).map(share).fold(0.0, f64::max);
         let equal = |c: &usize| share(*c) >= greatest * (1.0 - EQUAL);
-        of(j).filter(equal).find(|&c| slides(c)).or(of(j).find(equal))
+        of(j)
+            .filter(equal)
+            .find(|&c| slides(c))
+            .or(of(j).find(equal))
     };
     Ok(drives
         .into_iter()
@@ -83,7 +87,12 @@ fn working_motions(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Vec<f64>>, 
     Ok(moving
         .map(|i| {
             (0..n)
-                .map(|c| null.iter().enumerate().map(|(k, v)| v[c] * svd.V()[(k, i)]).sum())
+                .map(|c| {
+                    null.iter()
+                        .enumerate()
+                        .map(|(k, v)| v[c] * svd.V()[(k, i)])
+                        .sum()
+                })
                 .collect()
         })
         .collect())

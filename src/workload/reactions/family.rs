@@ -37,7 +37,13 @@ fn fit(
 /// The wrenches of least Σ |f|² + |m|²/ℓ² over the joints, about their own points.
 pub(super) fn least_norm(geometry: &Geometry, wrenches: &mut [Six], stresses: &[Vec<Six>]) {
     let n = geometry.joints.len();
-    fit(geometry, wrenches, stresses, &vec![[1.0; 6]; n], &vec![[0.0; 6]; n]);
+    fit(
+        geometry,
+        wrenches,
+        stresses,
+        &vec![[1.0; 6]; n],
+        &vec![[0.0; 6]; n],
+    );
 }
 
 /// The wrenches of elastic joints, made askew as stated: of all that are in equilibrium, those of least energy
