@@ -67,7 +67,11 @@ fn write_solution(
         Choice::Unique => "the only ones in equilibrium".to_owned(),
         Choice::MinimumNorm => format!(
             "of minimum norm among a family with {}: Σ |F|² + |M|²/ℓ² least, ℓ = {} m",
-            plural(open, "self-stress").replace("stresss", "stresses"),
+            if open == 1 {
+                "1 self-stress".to_owned()
+            } else {
+                format!("{open} self-stresses")
+            },
             figure(s.size)
         ),
     };
@@ -127,7 +131,12 @@ fn write_solution(
     if open > 0 {
         writeln!(
             out,
-            "\nRedundant constraints leave these reactions open: any multiple of the {open} self-stresses may be added."
+            "\nRedundant constraints leave these reactions open: any multiples of the {open} {} may be added",
+            if open == 1 {
+                "self-stress"
+            } else {
+                "self-stresses"
+            }
         )?;
         for (i, stress) in s.self_stresses.iter().take(STRESSES).enumerate() {
             let loaded = stress

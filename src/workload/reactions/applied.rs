@@ -10,8 +10,8 @@ fn real(v: &[Expr; 3]) -> [f64; 3] {
     [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()]
 }
 
-/// Weights, forces and moments from outside, by link, about the geometry's middle; those on the frame are left out, and in
-/// planar mode what is across the plane. `drive` is the first drive's position since the pose of the file `[rad]` or in the
+/// Weights, forces and moments from outside, by link, about the geometry's middle; those on the frame and on links
+/// absent from the state are left out, and in planar mode what is across the plane. `drive` is the first drive's position since the pose of the file `[rad]` or in the
 /// file's unit, for forces that act in a range of it; ranges come again after `period`.
 #[must_use]
 pub fn link_loads(
@@ -23,8 +23,10 @@ pub fn link_loads(
     period: Option<f64>,
 ) -> Vec<Six> {
     let mut out = vec![[0.0; 6]; m.links.len()];
+    let mut there = vec![false; m.links.len()];
+    geometry.tree.iter().for_each(|t| there[t.0] = true);
     let mut add = |link: usize, w: Six| {
-        if link != m.frame() {
+        if there[link] {
             for (o, x) in out[link].iter_mut().zip(geometry.within(&w)) {
                 *o += x;
             }
