@@ -5,6 +5,7 @@ pub mod joint_loads;
 pub mod loads;
 pub mod locate;
 pub mod problem;
+pub mod ranking;
 mod resolve;
 pub mod schema;
 pub mod text;

@@ -44,6 +44,8 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
             .collect(),
         search: search(m),
         workload: WorkloadEntry::default(),
+        ranking: None,
+        joint_types: BTreeMap::default(),
         expected: m.expected.iter().map(expected).collect(),
     }
 }

@@ -5,6 +5,7 @@ use crate::geom::expr::Expr;
 use crate::import::loads::{loads, mass};
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
+use crate::import::ranking::{joint_types, ranking};
 use crate::import::resolve::{
     Findings, contains, cost, frame, index, joint_type, key, number, option, vector, zero3,
 };
@@ -135,12 +136,18 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
         contours: Vec::new(),
         search: SearchSpec::default(),
         loads: Loads::default(),
+        ranking: None,
+        joint_types: Vec::new(),
         expected: Vec::new(),
     };
     connected(&mechanism, &mut out);
     mechanism.contours = contours(file, &mechanism, &mut out);
     mechanism.search = search(file, &mechanism, &mut out);
     mechanism.loads = loads(file, &mechanism, &mut out);
+    mechanism.ranking = ranking(file, &mut out);
+    let (joint_types, costs) = joint_types(file, &mechanism, &mut out);
+    mechanism.joint_types = joint_types;
+    mechanism.search.costs.by_type_milli.extend(costs);
     mechanism.expected = expected(file, &mechanism, &mut out);
     if out.found.is_empty() {
         Ok(mechanism)

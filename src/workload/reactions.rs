@@ -15,6 +15,7 @@
 pub mod applied;
 pub mod drives;
 mod family;
+pub mod follow;
 pub mod geometry;
 
 use crate::closure::pose::Pose;
@@ -225,8 +226,9 @@ impl Reactions {
     }
 }
 
-/// Ranges of a drive that turns come again every turn.
-fn period(drives: &[Driven]) -> Option<f64> {
+/// After how much of the first drive the ranges of forces come again: a turn, where it turns.
+#[must_use]
+pub fn period(drives: &[Driven]) -> Option<f64> {
     let slides = |f: Freedom| matches!(f, Freedom::Tx | Freedom::Ty | Freedom::Tz);
     drives
         .first()
