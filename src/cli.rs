@@ -10,6 +10,7 @@ mod load;
 mod output;
 mod progress;
 mod question;
+mod ranked;
 mod reactions;
 mod search;
 mod statics;

@@ -2,6 +2,7 @@
 
 pub mod analysis_json;
 pub mod analysis_text;
+pub mod ranking;
 pub mod reactions_data;
 pub mod reactions_text;
 pub mod search_json;

@@ -279,6 +279,13 @@ pub(super) struct Search {
     /// Most changes allowed.
     #[arg(long, value_name = "N")]
     pub(super) max_changes: Option<u32>,
+    /// Rank under the workload by these terms, in place of the file's [ranking] terms: peak-force=1,cost=0.5. Terms:
+    /// peak-force, peak-moment, conditioning, output-error, changes, cost, idle; weight 1 where none stands.
+    #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',', conflicts_with_all = ["all", "sample", "count"])]
+    pub(super) rank: Vec<String>,
+    /// How many of the cheapest variants a ranking scores.
+    #[arg(long, value_name = "K", default_value_t = 1000)]
+    pub(super) pool: usize,
     /// Also give variants whose outputs move in other ways than now.
     #[arg(long)]
     pub(super) allow_output_change: bool,

@@ -265,6 +265,13 @@ fn change(m: &Mechanism, term: Term, from: &Scores, to: &Scores) -> String {
 }
 
 impl RankedPool {
+    /// The place of a variant in the list, from 1, with what is known of it.
+    #[must_use]
+    pub fn of(&self, variant: &Variant) -> Option<(usize, &Ranked)> {
+        let place = self.list.iter().position(|r| r.variant == *variant)?;
+        Some((place + 1, &self.list[place]))
+    }
+
     /// Why a variant is not where its cost would put it: the term that speaks most for it against the cheapest; `None`
     /// where its place is that by cost.
     #[must_use]
