@@ -31,7 +31,10 @@ fn wanted(search: &Search<'_>, a: &SearchArgs) -> anyhow::Result<Option<Ranking>
         };
         let Some(term) = Term::from_name(name) else {
             let known: Vec<&str> = Term::ALL.iter().map(|t| t.name()).collect();
-            bail!("--rank: unknown term \"{name}\"; known: {}", known.join(", "));
+            bail!(
+                "--rank: unknown term \"{name}\"; known: {}",
+                known.join(", ")
+            );
         };
         match weight.filter(|w| (0.0..=1e12).contains(w)) {
             Some(weight) => ranking.terms.push((term, weight)),

@@ -144,7 +144,13 @@ pub(super) fn ranking(file: &MechanismFile, out: &mut Findings) -> Option<Rankin
         let at = index(&key(&at, "terms"), i);
         let weight = t.weight.unwrap_or(1.0);
         if !(0.0..=1e12).contains(&weight) {
-            bad(out, &key(&at, "weight"), "weight", weight, "a number from 0 to 1e12");
+            bad(
+                out,
+                &key(&at, "weight"),
+                "weight",
+                weight,
+                "a number from 0 to 1e12",
+            );
         }
         let Some(term) = term(&t.term, &at, out) else {
             continue;
@@ -200,7 +206,10 @@ pub(super) fn joint_types(
     let root = [Step::Key("joint_types".to_owned())];
     let (mut found, mut costs) = (Vec::new(), Vec::new());
     let offered = |name: &str| {
-        let mut all = mechanism.joints.iter().flat_map(|j| j.options.iter().chain(&j.unloading));
+        let mut all = mechanism
+            .joints
+            .iter()
+            .flat_map(|j| j.options.iter().chain(&j.unloading));
         all.any(|o| o.name == name)
     };
     for (name, entry) in &file.joint_types {
@@ -217,8 +226,18 @@ pub(super) fn joint_types(
             );
         }
         for (k, what, value, least) in [
-            ("capacity_force", "capacity", entry.capacity_force, f64::MIN_POSITIVE),
-            ("capacity_moment", "capacity", entry.capacity_moment, f64::MIN_POSITIVE),
+            (
+                "capacity_force",
+                "capacity",
+                entry.capacity_force,
+                f64::MIN_POSITIVE,
+            ),
+            (
+                "capacity_moment",
+                "capacity",
+                entry.capacity_moment,
+                f64::MIN_POSITIVE,
+            ),
             ("clearance", "clearance", entry.clearance, 0.0),
         ] {
             if let Some(x) = value.filter(|x| !(least..=1e12).contains(x)) {

@@ -22,10 +22,18 @@ pub fn head(p: &RankedPool) -> String {
             .iter()
             .map(|(t, w)| format!("{w} {}", t.name()))
             .join(" + "),
-        Order::Lexicographic => p.ranking.terms.iter().map(|(t, _)| t.name()).join(", then "),
+        Order::Lexicographic => p
+            .ranking
+            .terms
+            .iter()
+            .map(|(t, _)| t.name())
+            .join(", then "),
         Order::Pareto => p.ranking.terms.iter().map(|(t, _)| t.name()).join(", "),
     };
-    format!("ranked under the workload, {}: {terms}", p.ranking.order.name())
+    format!(
+        "ranked under the workload, {}: {terms}",
+        p.ranking.order.name()
+    )
 }
 
 /// What a list of ranked variants rests on, and why its order is not that of cost.
@@ -43,7 +51,11 @@ pub fn notes(m: &Mechanism, p: &RankedPool) -> String {
         } else {
             String::new()
         },
-        if p.proven { "proven the best of all" } else { "not proven the best of all" },
+        if p.proven {
+            "proven the best of all"
+        } else {
+            "not proven the best of all"
+        },
         p.proof
     );
     if !p.proven {

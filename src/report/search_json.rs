@@ -185,7 +185,10 @@ pub fn tail(summary: &Summary, complete: bool) -> Map<String, Value> {
 #[must_use]
 pub fn variant(found: &Found<'_>, certified: &Certified, position: usize) -> Value {
     let search = found.search;
-    let ranked = found.ranking.as_ref().and_then(|p| Some((p, p.of(&certified.variant)?)));
+    let ranked = found
+        .ranking
+        .as_ref()
+        .and_then(|p| Some((p, p.of(&certified.variant)?)));
     let scores = ranked.map_or_else(Map::new, |(p, (place, r))| {
         ranking::variant(search.mechanism, p, r, place)
     });

@@ -115,12 +115,7 @@ pub fn counts(found: &Found<'_>, width: Option<u16>) -> String {
 
 /// Some variants, numbered on from `first`.
 #[must_use]
-pub fn variants(
-    found: &Found<'_>,
-    best: &[Certified],
-    first: usize,
-    width: Option<u16>,
-) -> String {
+pub fn variants(found: &Found<'_>, best: &[Certified], first: usize, width: Option<u16>) -> String {
     let search = found.search;
     let ranking = found.ranking.as_ref();
     let checked = best.iter().any(|v| v.second != Second::Unasked);

@@ -59,7 +59,8 @@ impl Scratch {
             self.order.swap(c, best.0);
             let from = self.order[c] * width;
             self.pivot.clear();
-            self.pivot.extend_from_slice(&self.rows[from + c..from + width]);
+            self.pivot
+                .extend_from_slice(&self.rows[from + c..from + width]);
             let inverse = 1.0 / self.pivot[0];
             for &row in &self.order[c + 1..] {
                 let row = &mut self.rows[row * width + c..(row + 1) * width];
@@ -132,7 +133,8 @@ impl Scratch {
             // The column below the diagonal, from the symmetric row to its right.
             let below = n - k - 1;
             self.vector.clear();
-            self.vector.extend_from_slice(&self.gram[k * n + k + 1..(k + 1) * n]);
+            self.vector
+                .extend_from_slice(&self.gram[k * n + k + 1..(k + 1) * n]);
             let size = self.vector.iter().map(|x| x * x).sum::<f64>().sqrt();
             if size == 0.0 {
                 continue;
@@ -158,7 +160,12 @@ impl Scratch {
                 }
             }
             self.product.iter_mut().for_each(|p| *p *= scale);
-            let along: f64 = self.product.iter().zip(&self.vector).map(|(p, v)| p * v).sum();
+            let along: f64 = self
+                .product
+                .iter()
+                .zip(&self.vector)
+                .map(|(p, v)| p * v)
+                .sum();
             let half = 0.5 * scale * along;
             for (p, v) in self.product.iter_mut().zip(&self.vector) {
                 *p -= half * v;
@@ -225,7 +232,8 @@ mod tests {
             for r in 0..n {
                 s.rows[r * width..r * width + m].copy_from_slice(&a[r * m..(r + 1) * m]);
                 for c in 0..sides {
-                    s.rows[r * width + m + c] = (0..m).map(|k| a[r * m + k] * x[k * sides + c]).sum();
+                    s.rows[r * width + m + c] =
+                        (0..m).map(|k| a[r * m + k] * x[k * sides + c]).sum();
                 }
             }
             s.gram = vec![0.0; m * m];

@@ -135,9 +135,8 @@ impl<'s, 'm> Evaluator<'s, 'm> {
         let dim = table.basis.len();
         let unknowns = dim * table.contours;
         let width = unknowns + table.cases;
-        let cell = |p: &super::table::Place| {
-            &table.cells[p.variable][variant.choices[p.variable]][p.slot]
-        };
+        let cell =
+            |p: &super::table::Place| &table.cells[p.variable][variant.choices[p.variable]][p.slot];
         scratch.rows.clear();
         scratch.gram.clear();
         scratch.gram.resize(unknowns * unknowns, 0.0);

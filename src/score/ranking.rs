@@ -82,7 +82,10 @@ pub fn compare(ranking: &Ranking, a: &Ranked, b: &Ranked) -> Ordering {
             .map(|(t, _)| a.scores.loss(*t).total_cmp(&b.scores.loss(*t)))
             .find(|o| o.is_ne())
             .unwrap_or(Ordering::Equal),
-        Order::Pareto => a.front.unwrap_or(usize::MAX).cmp(&b.front.unwrap_or(usize::MAX)),
+        Order::Pareto => a
+            .front
+            .unwrap_or(usize::MAX)
+            .cmp(&b.front.unwrap_or(usize::MAX)),
     };
     by_order.then(a.by_cost.cmp(&b.by_cost))
 }
@@ -188,7 +191,13 @@ pub fn rank(
     if ranking.order == Order::Pareto {
         let points: Vec<Vec<f64>> = kept
             .iter()
-            .map(|r| ranking.terms.iter().map(|(t, _)| r.scores.loss(*t)).collect())
+            .map(|r| {
+                ranking
+                    .terms
+                    .iter()
+                    .map(|(t, _)| r.scores.loss(*t))
+                    .collect()
+            })
             .collect();
         for (r, front) in kept.iter_mut().zip(fronts(&points, top)) {
             r.front = front.map(|f| f + 1);
@@ -276,12 +285,19 @@ impl RankedPool {
     /// where its place is that by cost.
     #[must_use]
     pub fn reason(&self, m: &Mechanism, rank: usize) -> Option<String> {
-        let (here, cheapest) = (self.list.get(rank.checked_sub(1)?)?, self.cheapest.as_ref()?);
+        let (here, cheapest) = (
+            self.list.get(rank.checked_sub(1)?)?,
+            self.cheapest.as_ref()?,
+        );
         if here.by_cost == rank || here.by_cost == cheapest.by_cost {
             return None;
         }
         let gain = |(t, w): &(Term, f64)| {
-            let weight = if self.ranking.order == Order::Weighted { *w } else { 1.0 };
+            let weight = if self.ranking.order == Order::Weighted {
+                *w
+            } else {
+                1.0
+            };
             let (from, to) = (cheapest.scores.loss(*t), here.scores.loss(*t));
             match self.ranking.order {
                 Order::Weighted => weight * (from - to),

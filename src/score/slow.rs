@@ -13,7 +13,9 @@ use crate::workload::reactions::{Choice, JointReaction, Reactions, Unsolved};
 /// Force and moment of a joint without what its drive bears.
 fn borne(r: &JointReaction) -> ([f64; 3], [f64; 3]) {
     let (mut f, mut m) = (r.force, r.moment);
-    let held = r.effort.and_then(|(freedom, _): (Freedom, f64)| axis_of(freedom));
+    let held = r
+        .effort
+        .and_then(|(freedom, _): (Freedom, f64)| axis_of(freedom));
     match held {
         Some((i, true)) => f[i] = 0.0,
         Some((i, false)) => m[i] = 0.0,

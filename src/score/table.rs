@@ -83,7 +83,10 @@ impl Table {
             .iter()
             .map(|c| geometry.along_tree(m.joints.len(), c))
             .collect();
-        let scale = along[0].iter().flatten().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let scale = along[0]
+            .iter()
+            .flatten()
+            .fold(0.0, |a: f64, x| a.max(x.abs()));
         let (mut places, mut cells) = (Vec::new(), Vec::new());
         for (v, variable) in search.space.variables.iter().enumerate() {
             let mut of_variable = vec![Vec::new(); variable.choices.len()];

@@ -104,7 +104,12 @@ impl Scores {
 pub fn output_points(m: &Mechanism) -> Vec<(LinkId, [f64; 3])> {
     let outputs = (0..m.links.len()).filter(|&l| m.links[l].role == Role::Output);
     let each = outputs.filter_map(|l| {
-        let force = m.loads.forces.iter().find(|f| f.link == l).map(|f| &f.point);
+        let force = m
+            .loads
+            .forces
+            .iter()
+            .find(|f| f.link == l)
+            .map(|f| &f.point);
         let mass = m.links[l].mass.as_ref().map(|x| &x.centre);
         let joint = m.joints.iter().find(|j| j.links.contains(&l));
         let p = force.or(mass).or(joint.map(|j| &j.frame.point))?;

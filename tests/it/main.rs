@@ -11,6 +11,7 @@ mod exports;
 mod layering;
 mod mobility;
 mod published;
+mod ranking;
 mod reactions;
 mod robot_bytes;
 mod robot_mjcf;

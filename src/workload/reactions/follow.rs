@@ -54,7 +54,8 @@ pub fn follow(
         _ => 1.0,
     };
     #[allow(clippy::cast_precision_loss, reason = "at most 100000 steps")]
-    let at = |i: usize| stroke.from + (stroke.to - stroke.from) * i as f64 / stroke.steps.max(1) as f64;
+    let at =
+        |i: usize| stroke.from + (stroke.to - stroke.from) * i as f64 / stroke.steps.max(1) as f64;
     let mut wanted: Vec<f64> = (0..=stroke.steps.max(1)).map(at).collect();
     wanted.sort_by(f64::total_cmp);
     let (mut poses, mut stopped) = (Vec::new(), None);
