@@ -14,6 +14,8 @@ mod load;
 mod output;
 mod progress;
 mod question;
+mod ranked;
+mod reactions;
 mod search;
 mod statics;
 mod stroke;

@@ -3,10 +3,12 @@
 pub mod build;
 pub mod drive;
 pub mod grip;
+pub mod joint_loads;
 pub mod loads;
 pub mod locate;
 pub mod problem;
 mod quantity;
+pub mod ranking;
 mod resolve;
 pub mod schema;
 pub mod text;

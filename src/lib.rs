@@ -33,8 +33,8 @@
 //!
 //! # Layers
 //!
-//! linalg -> geom, verify -> model -> closure -> import, rank, workload -> robot, export -> redundancy -> search -> report
-//! -> cli. Imports go one way; a test holds them to it. [`chart`] draws finished numbers and imports nothing.
+//! linalg -> geom, verify -> model -> closure -> import, rank, workload -> robot, export -> redundancy -> search -> score ->
+//! report -> cli. Imports go one way; a test holds them to it. [`chart`] draws finished numbers and imports nothing.
 //!
 //! # Sources
 //!
@@ -64,6 +64,7 @@ pub mod rank;
 pub mod redundancy;
 pub mod report;
 pub mod robot;
+pub mod score;
 pub mod search;
 pub mod verify;
 pub mod workload;

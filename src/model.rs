@@ -9,3 +9,4 @@ pub mod joint_type;
 pub mod loads;
 pub mod measured;
 pub mod mechanism;
+pub mod ranking;

@@ -19,6 +19,7 @@ pub mod planar_motion;
 pub mod pose;
 pub mod programme;
 pub mod projective;
+pub mod reactions;
 pub mod stability;
 pub mod statics;
 pub mod swing;

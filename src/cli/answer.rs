@@ -3,6 +3,7 @@
 use super::args::{Search as SearchArgs, SearchFormat};
 use super::output;
 use crate::model::mechanism::JointId;
+use crate::report::ranking;
 use crate::report::search_json::{self, Found};
 use crate::report::search_text;
 use crate::report::words::cost;
@@ -38,10 +39,10 @@ pub(super) fn write_found(
         SearchFormat::Text => {
             let width = output::width(a.output.as_deref());
             write!(out, "{}", search_text::counts(found, width))?;
-            let what = if a.sample.is_some() {
-                "drawn at random"
-            } else {
-                "cheapest first"
+            let what = match &found.ranking {
+                Some(p) => ranking::head(p),
+                None if a.sample.is_some() => "drawn at random".to_owned(),
+                None => "cheapest first".to_owned(),
             };
             // A table is laid out as a whole, so a long list is given as several.
             let (mut block, mut given): (Vec<Certified>, usize) = (Vec::new(), 0);
@@ -54,7 +55,7 @@ pub(super) fn write_found(
                 writeln!(
                     out,
                     "{head}{}",
-                    search_text::variants(search, block, given + 1, width)
+                    search_text::variants(found, block, given + 1, width)
                 )?;
                 given += block.len();
                 block.clear();
@@ -76,6 +77,9 @@ pub(super) fn write_found(
             }
             summary.dropped = whole.dropped;
             write!(out, "{}", search_text::notes(&summary, &notes))?;
+            if let Some(p) = &found.ranking {
+                write!(out, "{}", ranking::notes(search.mechanism, p))?;
+            }
             if whole.interrupted {
                 writeln!(out, "\n  interrupted after {given} variants")?;
             }
@@ -89,7 +93,7 @@ pub(super) fn write_found(
             let whole = give(&mut |i, v| {
                 summary.add(&v);
                 let comma = if i == 1 { "" } else { "," };
-                write!(out, "{comma}\n    {}", search_json::variant(search, &v, i))?;
+                write!(out, "{comma}\n    {}", search_json::variant(found, &v, i))?;
                 Ok(())
             })?;
             summary.dropped = whole.dropped;
@@ -99,7 +103,7 @@ pub(super) fn write_found(
             writeln!(out, "\n  ],\n{rest}")?;
         }
         SearchFormat::Jsonl => {
-            give(&mut |i, v| Ok(writeln!(out, "{}", search_json::variant(search, &v, i))?))?;
+            give(&mut |i, v| Ok(writeln!(out, "{}", search_json::variant(found, &v, i))?))?;
         }
         SearchFormat::Csv => {
             let joints: Vec<(usize, usize, JointId)> = columns(search);
@@ -115,12 +119,19 @@ pub(super) fn write_found(
                 "external_redundant",
                 "changes",
             ];
-            writeln!(
+            write!(
                 out,
                 "{},{},conditioning,agree,lucky",
                 heads.join(","),
                 names.join(",")
             )?;
+            match &found.ranking {
+                Some(_) => writeln!(
+                    out,
+                    ",by_cost,peak_force,peak_moment,singular_ratio,output_error,idle,total,front"
+                )?,
+                None => writeln!(out)?,
+            }
             give(&mut |i, certified| {
                 let v = &certified.variant;
                 let k = v.key;
@@ -152,11 +163,25 @@ pub(super) fn write_found(
                     None => write!(out, ",,")?,
                 }
                 let lucky = certified.stroke.and_then(|s| s.lucky());
-                Ok(writeln!(
-                    out,
-                    ",{}",
-                    lucky.map_or(String::new(), |l| l.to_string())
-                )?)
+                write!(out, ",{}", lucky.map_or(String::new(), |l| l.to_string()))?;
+                if let Some(p) = &found.ranking {
+                    match p.of(v) {
+                        Some((_, r)) => write!(
+                            out,
+                            ",{},{},{},{},{},{},{},{}",
+                            r.by_cost,
+                            r.scores.force.utilisation,
+                            r.scores.moment.utilisation,
+                            r.scores.conditioning,
+                            r.scores.output_error,
+                            r.scores.idle,
+                            r.total.map_or(String::new(), |x| x.to_string()),
+                            r.front.map_or(String::new(), |x| x.to_string())
+                        )?,
+                        None => write!(out, ",,,,,,,,")?,
+                    }
+                }
+                Ok(writeln!(out)?)
             })?;
         }
     }

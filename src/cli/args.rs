@@ -359,6 +359,13 @@ pub(super) struct Search {
     /// Most changes allowed.
     #[arg(long, value_name = "N")]
     pub(super) max_changes: Option<u32>,
+    /// Rank under the workload by these terms, in place of the file's [ranking] terms: peak-force=1,cost=0.5. Terms:
+    /// peak-force, peak-moment, conditioning, output-error, changes, cost, idle; weight 1 where none stands.
+    #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',', conflicts_with_all = ["all", "sample", "count"])]
+    pub(super) rank: Vec<String>,
+    /// How many of the cheapest variants a ranking scores.
+    #[arg(long, value_name = "K", default_value_t = 1000)]
+    pub(super) pool: usize,
     /// Also give variants whose outputs move in other ways than now.
     #[arg(long)]
     pub(super) allow_output_change: bool,
@@ -437,6 +444,7 @@ pub(super) enum StaticsFormat {
 Examples:
   ozols statics parallel-shears                          groups and reactions over the file's stroke
   ozols statics parallel-shears --stroke 0:360deg:12 --svg charts
+  ozols statics gripper-10 --spatial                     six components a joint, and what redundancy leaves open
   ozols statics parallel-shears --groups                 Assur groups under each possible drive
   ozols statics --stability -o charts                    accuracy of the methods near their failures")]
 pub(super) struct Statics {
@@ -456,6 +464,10 @@ pub(super) struct Statics {
     /// Model the mechanism in its plane (normal z), whatever the file says.
     #[arg(long)]
     pub(super) planar: bool,
+    /// All six components of each joint's reaction, at the pose of the file, redundant constraints and all; by default
+    /// where a mechanism is not planar or not determinate in its plane.
+    #[arg(long, conflicts_with_all = ["planar", "groups", "stability", "svg", "stroke"])]
+    pub(super) spatial: bool,
     /// Only the Assur groups, under each possible drive.
     #[arg(long, conflicts_with_all = ["stability", "svg", "stroke"])]
     pub(super) groups: bool,

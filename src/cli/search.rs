@@ -142,6 +142,7 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
         check,
         measured,
         poses: stroke.as_ref().map(|s| (s.asked, s.reached())),
+        ranking: super::ranked::pool(&search, &diagrams, a)?,
     };
     output::to(a.output.as_deref(), |out| {
         let mut give =
@@ -176,6 +177,13 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
                         }
                     }
                     None if a.count => {}
+                    None if let Some(ranked) = &found.ranking => {
+                        for r in &ranked.list {
+                            if visit(r.variant.clone()).is_break() {
+                                break;
+                            }
+                        }
+                    }
                     // Lucky variants make room for others.
                     None if a.generic_only && wanted > 0 => {
                         search.cheapest(&diagrams, wanted.saturating_mul(100).max(CHECKED), visit);
@@ -277,6 +285,7 @@ fn brute(
         check: None,
         measured,
         poses: None,
+        ranking: None,
     };
     output::to(a.output.as_deref(), |out| {
         write_found(out, a, &found, &mut |_| Ok(Given::default()))?;

@@ -1,7 +1,7 @@
 //! `ozols statics`.
 
 use super::args::{Args, Statics, StaticsFormat, StaticsMethod};
-use super::{Done, load, output};
+use super::{Done, load, output, reactions};
 use crate::chart::page;
 use crate::geom::expr::Expr;
 use crate::import::loads::{MAX_STEPS, position};
@@ -47,7 +47,13 @@ pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
     if let (true, Some(folder)) = (a.stability, &a.output) {
         return stability(&m, state, stroke, folder, args.seed);
     }
-    let found = statics(&m, state, stroke)?;
+    if a.spatial {
+        return reactions::run(&m, state, a);
+    }
+    let found = match statics(&m, state, stroke) {
+        Err(e) if reactions::takes(&e, a) => return reactions::run(&m, state, a),
+        found => found?,
+    };
     let methods: &[GroupMethod] = match a.method {
         StaticsMethod::Delta => &[GroupMethod::Delta],
         StaticsMethod::Projective => &[GroupMethod::Projective],

@@ -1,6 +1,7 @@
 //! A mechanism as the entries of its file, exactly.
 
 use crate::geom::expr::Expr;
+use crate::import::joint_loads::{MisalignmentEntry, MomentEntry, StiffnessEntry};
 use crate::import::loads::{
     ForceEntry, InertiaEntry, Quantities, Quantity, StrokeEntry, WorkloadEntry,
 };
@@ -9,7 +10,7 @@ use crate::import::schema::{
     OptionTable, SearchEntry, Unloading, Words,
 };
 use crate::model::joint_type::{Freedom, JointType};
-use crate::model::loads::Inertia;
+use crate::model::loads::{ExternalMoment, Inertia, Stiffness};
 use crate::model::mechanism::{Expected, Frame, Joint, JointOption, Mechanism, Mode, Role};
 use std::collections::BTreeMap;
 
@@ -47,6 +48,8 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
             .collect(),
         search: search(m),
         workload: workload(m),
+        ranking: None,
+        joint_types: BTreeMap::default(),
         expected: m.expected.iter().map(expected).collect(),
     }
 }
@@ -218,9 +221,34 @@ fn workload(m: &Mechanism) -> WorkloadEntry {
         to: f.range.and_then(|[_, to]| end(to)),
     });
     let speed = |x: &f64| Quantity::Number(*x);
+    let moment = |x: &ExternalMoment| MomentEntry {
+        link: m.links[x.link].id.clone(),
+        moment: vector(&x.moment),
+    };
+    let stiffness = |(name, s): &(String, Stiffness)| {
+        let entry = StiffnessEntry {
+            linear: s.linear,
+            angular: s.angular,
+        };
+        (name.clone(), entry)
+    };
+    let misalignment = loads.misalignments.iter().flat_map(|x| {
+        ["x", "y", "z"]
+            .into_iter()
+            .zip(x.turn)
+            .filter(|(_, turn)| *turn != 0.0)
+            .map(|(axis, turn)| MisalignmentEntry {
+                joint: m.joints[x.joint].id.clone(),
+                angle: Quantity::Number(turn),
+                axis: axis.to_owned(),
+            })
+    });
     WorkloadEntry {
         gravity: loads.gravity.as_ref().map(vector),
         force: force.collect(),
+        moment: loads.moments.iter().map(moment).collect(),
+        stiffness: loads.stiffness.iter().map(stiffness).collect(),
+        misalignment: misalignment.collect(),
         drive_speed: match &loads.drive_speeds[..] {
             [] => None,
             [one] => Some(Quantities::One(speed(one))),

@@ -7,6 +7,7 @@ use crate::import::grip::grip;
 use crate::import::loads::{loads, mass};
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
+use crate::import::ranking::{joint_types, ranking};
 use crate::import::resolve::{
     Findings, contains, cost, frame, index, joint_type, key, number, option, vector, zero3,
 };
@@ -122,6 +123,8 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
         contours: Vec::new(),
         search: SearchSpec::default(),
         loads: Loads::default(),
+        ranking: None,
+        joint_types: Vec::new(),
         expected: Vec::new(),
     };
     connected(&mechanism, &mut out);
@@ -130,6 +133,10 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     mechanism.loads = loads(file, &mechanism, &mut out);
     grip(file, length_unit.metres, Some(&mechanism), &mut out);
     drive(file, length_unit.metres, Some(&mechanism), &mut out);
+    mechanism.ranking = ranking(file, &mut out);
+    let (joint_types, costs) = joint_types(file, &mechanism, &mut out);
+    mechanism.joint_types = joint_types;
+    mechanism.search.costs.by_type_milli.extend(costs);
     mechanism.expected = expected(file, &mechanism, &mut out);
     if out.found.is_empty() {
         Ok(mechanism)

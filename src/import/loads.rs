@@ -2,6 +2,9 @@
 
 use crate::import::drive::DriveEntry;
 use crate::import::grip::GripEntry;
+use crate::import::joint_loads::{
+    MisalignmentEntry, MomentEntry, StiffnessEntry, misalignments, moments, stiffness,
+};
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
 use crate::import::resolve::{Findings, index, key, vector};
@@ -11,11 +14,12 @@ use crate::model::mechanism::Mechanism;
 use itertools::Itertools;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// Most steps of a stroke.
 pub const MAX_STEPS: usize = 100_000;
 /// Most forces from outside.
-const MAX_FORCES: usize = 10_000;
+pub(super) const MAX_FORCES: usize = 10_000;
 /// Largest mass, inertia or speed.
 const LARGEST: f64 = 1e12;
 
@@ -65,6 +69,15 @@ pub struct WorkloadEntry {
     /// Forces from outside.
     #[serde(default)]
     pub force: Vec<ForceEntry>,
+    /// Moments from outside.
+    #[serde(default)]
+    pub moment: Vec<MomentEntry>,
+    /// Stiffness of joints by the name of their type, `default` for the rest: `[workload.stiffness.spherical]`.
+    #[serde(default)]
+    pub stiffness: BTreeMap<String, StiffnessEntry>,
+    /// Joints made or mounted askew.
+    #[serde(default)]
+    pub misalignment: Vec<MisalignmentEntry>,
     /// Speed of the drive in rad/s, or the file's length unit per second; "60rpm" and "30deg/s" will do too. One for
     /// each drive where there are several.
     #[serde(default)]
@@ -134,7 +147,7 @@ fn with_units(text: &str, units: &[(&str, f64)]) -> Option<f64> {
     (value.abs() <= LARGEST).then_some(value)
 }
 
-fn quantity(
+pub(super) fn quantity(
     q: &Quantity,
     parse: fn(&str) -> Option<f64>,
     what: &'static str,
@@ -267,8 +280,7 @@ pub(super) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findi
             );
         }
         let Some(link) = mechanism.link(&f.link) else {
-            let mut known = mechanism.links.iter().take(30).map(|l| l.id.as_str());
-            let known = known.join(", ");
+            let known = known_links(mechanism);
             let id = f.link.clone();
             out.add(&key(&at, "link"), ProblemKind::UnknownLink { id, known });
             continue;
@@ -280,6 +292,9 @@ pub(super) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findi
             range: (f.from.is_some() || f.to.is_some()).then_some([from, to]),
         });
     }
+    let moments = moments(entry, mechanism, &at, out);
+    let stiffness = stiffness(entry, &at, out);
+    let misalignments = misalignments(entry, mechanism, &at, out);
     let path = key(&at, "drive_speed");
     let drive_speeds = match &entry.drive_speed {
         None => Vec::new(),
@@ -307,12 +322,20 @@ pub(super) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findi
             .as_ref()
             .map(|g| vector(g, &key(&at, "gravity"), out)),
         forces,
+        moments,
+        stiffness,
+        misalignments,
         drive_speeds,
         stroke: entry
             .stroke
             .as_ref()
             .map(|s| stroke(s, &key(&at, "stroke"), out)),
     }
+}
+
+pub(super) fn known_links(mechanism: &Mechanism) -> String {
+    let mut known = mechanism.links.iter().take(30).map(|l| l.id.as_str());
+    known.join(", ")
 }
 
 fn stroke(s: &StrokeEntry, at: &[Step], out: &mut Findings) -> Stroke {

@@ -1,6 +1,7 @@
 //! The mechanism file: one schema for TOML and JSON.
 
 use crate::import::loads::{InertiaEntry, WorkloadEntry};
+use crate::import::ranking::{JointTypeEntry, RankingEntry};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -41,6 +42,12 @@ pub struct MechanismFile {
     /// Loads and drive, for `ozols statics`.
     #[serde(default)]
     pub workload: WorkloadEntry,
+    /// How `ozols search` ranks variants under the workload; by cost alone where left out.
+    #[serde(default)]
+    pub ranking: Option<RankingEntry>,
+    /// What joint types bear, in place of the built-in catalogue: `[joint_types.spherical]`.
+    #[serde(default)]
+    pub joint_types: BTreeMap<String, JointTypeEntry>,
     /// Known figures, checked by tests.
     #[serde(default)]
     pub expected: Vec<ExpectedEntry>,

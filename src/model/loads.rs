@@ -1,7 +1,7 @@
 //! What a mechanism carries: masses of links, gravity, forces from outside, and how it is driven.
 
 use crate::geom::expr::Expr;
-use crate::model::mechanism::LinkId;
+use crate::model::mechanism::{JointId, LinkId};
 
 /// Inertia of a link about its mass centre `[kg·m²]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +39,50 @@ pub struct ExternalForce {
     pub range: Option<[f64; 2]>,
 }
 
+impl ExternalForce {
+    /// Whether it acts when the first drive is at a position, counted from the pose of the file; its range comes again
+    /// after `period`, where there is one.
+    #[must_use]
+    pub fn acts_at(&self, drive: f64, period: Option<f64>) -> bool {
+        /// Drive positions nearer than this to the end of a range are in it.
+        const AT_END: f64 = 1e-9;
+        let Some([from, to]) = self.range else {
+            return true;
+        };
+        match period.filter(|_| from.is_finite() && to.is_finite()) {
+            Some(period) => (drive - from + AT_END).rem_euclid(period) <= to - from + 2.0 * AT_END,
+            None => (from - AT_END..=to + AT_END).contains(&drive),
+        }
+    }
+}
+
+/// A moment from outside, of fixed direction, on a link.
+#[derive(Debug, Clone)]
+pub struct ExternalMoment {
+    /// The link it acts on.
+    pub link: LinkId,
+    /// The moment `[N·m]` in global axes.
+    pub moment: [Expr; 3],
+}
+
+/// How stiff a joint is where it does not move, alike in all directions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stiffness {
+    /// Force by displacement `[N/m]`, positive.
+    pub linear: f64,
+    /// Moment by turn `[N·m/rad]`, positive.
+    pub angular: f64,
+}
+
+/// A joint made or mounted askew: its second link is turned by this against its first where nothing strains it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Misalignment {
+    /// The joint.
+    pub joint: JointId,
+    /// The turn `[rad]` about x, y and z of the joint's own frame, small.
+    pub turn: [f64; 3],
+}
+
 /// A range of the first drive's position, from the pose of the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
@@ -57,6 +101,12 @@ pub struct Loads {
     pub gravity: Option<[Expr; 3]>,
     /// Forces from outside.
     pub forces: Vec<ExternalForce>,
+    /// Moments from outside.
+    pub moments: Vec<ExternalMoment>,
+    /// Stiffness by the name of a joint type; `default` for the rest.
+    pub stiffness: Vec<(String, Stiffness)>,
+    /// Joints made askew.
+    pub misalignments: Vec<Misalignment>,
     /// Speed of each drive `[rad/s]` or in the file's length unit per second; those not stated stand still.
     pub drive_speeds: Vec<f64>,
     /// The cycle, where the file states one.

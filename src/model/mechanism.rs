@@ -3,6 +3,7 @@
 use crate::geom::expr::Expr;
 use crate::model::joint_type::JointType;
 use crate::model::loads::{Loads, MassProperties};
+use crate::model::ranking::{Ranking, TypeOverride};
 
 /// Index of a link in [`Mechanism::links`].
 pub type LinkId = usize;
@@ -171,6 +172,10 @@ pub struct Mechanism {
     pub search: SearchSpec,
     /// Loads and drive.
     pub loads: Loads,
+    /// How variants are ranked, where the file says so.
+    pub ranking: Option<Ranking>,
+    /// What the file says of joint types.
+    pub joint_types: Vec<TypeOverride>,
     /// Known figures.
     pub expected: Vec<Expected>,
 }

@@ -2,6 +2,8 @@
 
 use crate::model::measured::Measured;
 use crate::rank::measured::Verdicts;
+use crate::report::ranking;
+use crate::score::ranking::RankedPool;
 use crate::search::best::Variant;
 use crate::search::certify::{Certified, Opinion, Summary};
 use crate::search::counts::Counts;
@@ -35,6 +37,8 @@ pub struct Found<'a> {
     pub measured: Option<(Measured, Vec<Verdicts>)>,
     /// Other poses asked for and reached; `None` where none were asked for.
     pub poses: Option<(usize, usize)>,
+    /// The ranking under a workload; `None` where the order is that of cost.
+    pub ranking: Option<RankedPool>,
 }
 
 fn counts<K: ToString>(of: &BTreeMap<K, BigUint>) -> Map<String, Value> {
@@ -135,6 +139,9 @@ pub fn header(found: &Found<'_>) -> Map<String, Value> {
         "poses",
         json!(poses.map(|(asked, reached)| json!({"asked": asked, "reached": reached}))),
     );
+    if let Some(p) = &found.ranking {
+        put("ranking", ranking::json(p));
+    }
     put("exact", json!(found.stop == "exhausted"));
     out
 }
@@ -176,7 +183,15 @@ pub fn tail(summary: &Summary, complete: bool) -> Map<String, Value> {
 
 /// One variant; `position` counts from 1.
 #[must_use]
-pub fn variant(search: &Search<'_>, certified: &Certified, position: usize) -> Value {
+pub fn variant(found: &Found<'_>, certified: &Certified, position: usize) -> Value {
+    let search = found.search;
+    let ranked = found
+        .ranking
+        .as_ref()
+        .and_then(|p| Some((p, p.of(&certified.variant)?)));
+    let scores = ranked.map_or_else(Map::new, |(p, (place, r))| {
+        ranking::variant(search.mechanism, p, r, place)
+    });
     let (variant, opinion) = (&certified.variant, certified.second.opinion());
     let svd = |o: &Opinion| {
         json!({
@@ -207,7 +222,7 @@ pub fn variant(search: &Search<'_>, certified: &Certified, position: usize) -> V
         "external_redundant": search.request.state.map(|_| variant.key.external()),
         "changes": changes(search, variant).into_iter()
             .map(|(joint, from, to)| json!({"joint": joint, "from": from, "to": to})).collect::<Vec<_>>(),
-        "scores": {},
+        "scores": scores,
         "conditioning": opinion.map(|o| o.conditioning),
         "agree": opinion.map(|o| o.agree),
         "svd": opinion.map(svd),

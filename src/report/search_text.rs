@@ -1,10 +1,10 @@
 //! A search for people.
 
+use crate::report::ranking;
 use crate::report::search_json::{Found, changes};
 use crate::report::words::{cost, grouped, table};
 use crate::search::certify::{Certified, NEARLY_SINGULAR, Second, Summary};
 use crate::search::primes::Verdict;
-use crate::search::request::Search;
 use itertools::Itertools;
 use num_traits::Zero;
 use std::collections::BTreeSet;
@@ -115,12 +115,9 @@ pub fn counts(found: &Found<'_>, width: Option<u16>) -> String {
 
 /// Some variants, numbered on from `first`.
 #[must_use]
-pub fn variants(
-    search: &Search<'_>,
-    best: &[Certified],
-    first: usize,
-    width: Option<u16>,
-) -> String {
+pub fn variants(found: &Found<'_>, best: &[Certified], first: usize, width: Option<u16>) -> String {
+    let search = found.search;
+    let ranking = found.ranking.as_ref();
     let checked = best.iter().any(|v| v.second != Second::Unasked);
     let rows = best.iter().enumerate().map(|(i, certified)| {
         let v = &certified.variant;
@@ -149,6 +146,10 @@ pub fn variants(
             let of = |o: &crate::search::certify::Opinion| format!("{:.1e}", o.conditioning);
             row.push(certified.second.opinion().map_or(String::new(), of));
         }
+        if let Some(p) = ranking {
+            let cells = p.of(v).map(|(_, r)| ranking::cells(p, r));
+            row.extend(cells.unwrap_or_default());
+        }
         row.push(if changed.is_empty() {
             "none: the mechanism as it is".to_owned()
         } else {
@@ -156,12 +157,11 @@ pub fn variants(
         });
         row
     });
-    let head: &[&str] = if checked {
-        &["", "cost", "W", "σ", "cond.", "changes"]
-    } else {
-        &["", "cost", "W", "σ", "changes"]
-    };
-    table(head, rows.collect(), width)
+    let mut head = vec!["", "cost", "W", "σ"];
+    head.extend(checked.then_some("cond."));
+    head.extend(ranking.into_iter().flat_map(ranking::columns));
+    head.push("changes");
+    table(&head, rows.collect(), width)
 }
 
 /// The mark of a variant that a footnote tells about.

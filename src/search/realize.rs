@@ -60,6 +60,8 @@ impl Search<'_> {
             contours,
             search: Default::default(),
             loads: old.loads.clone(),
+            ranking: old.ranking.clone(),
+            joint_types: old.joint_types.clone(),
             expected: Vec::new(),
         }
     }

@@ -99,6 +99,8 @@ pub struct PlanarLoads {
     pub masses: Vec<Option<BodyMass>>,
     /// Forces from outside.
     pub forces: Vec<PlanarForce>,
+    /// Moments from outside, about the plane's normal `[N·m]`.
+    pub moments: Vec<(BodyId, f64)>,
 }
 
 impl PlanarLoads {
@@ -135,6 +137,11 @@ impl PlanarLoads {
                 period: (!drive_slides).then_some(std::f64::consts::TAU),
             })
         });
+        let moments = mechanism
+            .loads
+            .moments
+            .iter()
+            .filter_map(|x| Some((m.body_of(x.link)?, Reals.dot(normal, real(&x.moment)))));
         PlanarLoads {
             gravity: mechanism
                 .loads
@@ -143,6 +150,7 @@ impl PlanarLoads {
                 .map_or([0.0; 2], |g| m.across(real(g))),
             masses: masses.collect(),
             forces: forces.collect(),
+            moments: moments.collect(),
         }
     }
 
@@ -177,6 +185,17 @@ impl PlanarLoads {
             ));
             let moment = -mass.inertia * now.acceleration[body][2];
             out.push(load(Source::Inertia, a.map(|a| -a * mass.mass), moment));
+        }
+        for &(body, moment) in &self.moments {
+            if body != linkage.mechanism.frame {
+                out.push(Load {
+                    body,
+                    source: Source::External,
+                    point: [now.pose[body][0], now.pose[body][1]],
+                    force: [0.0; 2],
+                    moment,
+                });
+            }
         }
         for f in &self.forces {
             if f.acts_at(now.drive) && f.body != linkage.mechanism.frame {

@@ -17,6 +17,8 @@ mod layering;
 mod mobility;
 mod programmes;
 mod published;
+mod ranking;
+mod reactions;
 mod robot_bytes;
 mod robot_mjcf;
 mod robot_models;

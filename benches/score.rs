@@ -1,0 +1,77 @@
+//! How fast variants of the ten-link gripper are scored under a workload: figures for the documentation of `score`.
+
+#![allow(missing_docs, reason = "a bench")]
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use ozols::builtin;
+use ozols::import::text::mechanism_from_str;
+use ozols::model::mechanism::Mechanism;
+use ozols::model::ranking::ClearanceSum;
+use ozols::redundancy::analysis::exact_field;
+use ozols::score::elimination::Scratch;
+use ozols::score::evaluate::Evaluator;
+use ozols::search::best::Variant;
+use ozols::search::request::{Request, Search};
+use rayon::prelude::*;
+use std::hint::black_box;
+use std::ops::ControlFlow;
+
+/// Variants scored a round.
+const POOL: usize = 20_000;
+
+fn gripper() -> Mechanism {
+    let text = builtin::text("gripper-10-loaded").expect("built in");
+    mechanism_from_str("gripper-10-loaded.toml", text).expect("valid")
+}
+
+fn pool(search: &Search<'_>, n: usize) -> Vec<Variant> {
+    let diagrams = search.build(&|| false, &mut |_| {});
+    let mut out = Vec::new();
+    search.cheapest(&diagrams, n, |v| {
+        out.push(v);
+        ControlFlow::Continue(())
+    });
+    out
+}
+
+fn scoring(c: &mut Criterion) {
+    let m = gripper();
+    let exact = exact_field(&m, 0).expect("exact");
+    let search = Search::new(exact, &m, Request::default()).expect("valid");
+    let variants = pool(&search, POOL);
+    let evaluator = Evaluator::new(&search, ClearanceSum::Worst).expect("solved");
+    let mut group = c.benchmark_group("scores of gripper-10 variants under its workload");
+    group.throughput(Throughput::Elements(variants.len() as u64));
+    group.sample_size(10);
+    group.bench_function("all terms, all threads", |b| {
+        b.iter(|| {
+            variants
+                .par_iter()
+                .map_init(Scratch::default, |s, v| evaluator.scores(v, s).is_ok())
+                .filter(|ok| *ok)
+                .count()
+        })
+    });
+    group.bench_function("all terms, one thread", |b| {
+        let mut s = Scratch::default();
+        b.iter(|| {
+            variants
+                .iter()
+                .filter(|v| evaluator.scores(v, &mut s).is_ok())
+                .count()
+        })
+    });
+    group.throughput(Throughput::Elements(100));
+    group.bench_function("by realizing each and singular values, one thread", |b| {
+        b.iter(|| {
+            variants[..100]
+                .iter()
+                .filter(|v| black_box(evaluator.slowly(v)).is_ok())
+                .count()
+        })
+    });
+    group.finish();
+}
+
+criterion_group!(benches, scoring);
+criterion_main!(benches);

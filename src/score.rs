@@ -1,0 +1,23 @@
+//! Scores of variants under a workload, and the order they make.
+//!
+//! The cost of a variant adds up joint by joint, so the diagram gives variants in its order. What the joints bear, how well
+//! conditioned the equations are and what clearances do to the outputs does not add up; it is computed variant by variant
+//! ([`evaluate`]) for a pool of the cheapest, and [`ranking`] says whether a variant outside of the pool could still win.
+//!
+//! # Speed
+//!
+//! The motion of a variant is that of the mechanism as it is, so the poses, the twists of every option, their powers on the
+//! loads sent along the spanning tree and their Gram matrices are computed once. What is left for a variant of the ten-link
+//! gripper is to copy some 24 rows of 24 + 7 numbers, one elimination with seven right sides (the loads, and a unit force
+//! along each axis on each jaw), 13 sums of wrenches and the two ends of a spectrum of 24 values. `benches/score.rs` measures
+//! it; the tridiagonal form for the conditioning and the elimination are the two limits, both bound by arithmetic on small
+//! dense blocks and not by memory.
+
+pub mod elimination;
+pub mod evaluate;
+pub mod joint_types;
+pub mod pareto;
+pub mod ranking;
+pub mod slow;
+pub mod table;
+pub mod terms;

@@ -1,0 +1,86 @@
+//! What joint types bear and how much play they have.
+
+use crate::model::mechanism::{JointOption, Mechanism};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+const TEXT: &str = include_str!("joint_types.toml");
+
+/// What a joint bears.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JointType {
+    /// Its cost in revolute joints.
+    pub cost: f64,
+    /// Force `[N]`.
+    pub capacity_force: f64,
+    /// Moment `[N·m]`; `None` where it bears none and need not.
+    #[serde(default)]
+    pub capacity_moment: Option<f64>,
+    /// Half its play `[m]`.
+    pub clearance: f64,
+}
+
+/// Joint types by name.
+#[derive(Debug, Clone)]
+pub struct JointTypes {
+    by_name: BTreeMap<String, JointType>,
+}
+
+impl JointTypes {
+    /// The built-in catalogue.
+    ///
+    /// # Panics
+    /// Never: the text is part of the program, and a test reads it.
+    #[must_use]
+    pub fn built_in() -> JointTypes {
+        JointTypes {
+            by_name: toml::from_str(TEXT).expect("the built-in catalogue is valid"),
+        }
+    }
+
+    /// The catalogue with what a mechanism's file replaces.
+    #[must_use]
+    pub fn of(mechanism: &Mechanism) -> JointTypes {
+        let mut all = JointTypes::built_in();
+        for o in &mechanism.joint_types {
+            let base = match all.by_name.get(&o.name).copied() {
+                Some(t) => Some(t),
+                // An option by its own name starts from its type.
+                None => mechanism
+                    .joints
+                    .iter()
+                    .flat_map(|j| j.options.iter().chain(&j.unloading))
+                    .find(|x| x.name == o.name)
+                    .and_then(|x| all.by_name.get(x.joint_type.name()).copied()),
+            };
+            let Some(mut t) = base else { continue };
+            t.capacity_force = o.capacity_force.unwrap_or(t.capacity_force);
+            t.capacity_moment = o.capacity_moment.or(t.capacity_moment);
+            t.clearance = o.clearance.unwrap_or(t.clearance);
+            all.by_name.insert(o.name.clone(), t);
+        }
+        all
+    }
+
+    /// A type by its name.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<&JointType> {
+        self.by_name.get(name)
+    }
+
+    /// What an option bears: by its own name, else by its type's.
+    #[must_use]
+    pub fn option(&self, option: &JointOption) -> JointType {
+        let bears_nothing = JointType {
+            cost: 0.0,
+            capacity_force: 1.0,
+            capacity_moment: None,
+            clearance: 0.0,
+        };
+        self.get(&option.name)
+            .or_else(|| self.get(option.joint_type.name()))
+            .copied()
+            .unwrap_or(bears_nothing)
+    }
+}

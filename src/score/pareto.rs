@@ -1,0 +1,44 @@
+//! Fronts of variants that no other is better than in every term.
+
+/// Whether `a` is nowhere worse than `b` and somewhere better.
+#[must_use]
+pub fn dominates(a: &[f64], b: &[f64]) -> bool {
+    a.iter().zip(b).all(|(x, y)| x <= y) && a.iter().zip(b).any(|(x, y)| x < y)
+}
+
+/// The front of each point, from 0: the points that none dominates, then those that only the first front dominates, and so
+/// on, until `enough` points have one; `None` for the rest. Smaller is better.
+///
+/// # Complexity
+/// O(n · front · terms) a front, after sorting.
+#[must_use]
+pub fn fronts(points: &[Vec<f64>], enough: usize) -> Vec<Option<usize>> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    // A point can be dominated only by those before it in this order.
+    let key = |a: usize, b: usize| {
+        let pairs = points[a].iter().zip(&points[b]);
+        let mut differing = pairs.map(|(x, y)| x.total_cmp(y)).filter(|o| o.is_ne());
+        differing.next().unwrap_or(std::cmp::Ordering::Equal)
+    };
+    order.sort_by(|&a, &b| key(a, b).then(a.cmp(&b)));
+    let mut out = vec![None; points.len()];
+    let (mut given, mut front) = (0, 0);
+    while given < enough.min(points.len()) {
+        let mut members: Vec<usize> = Vec::new();
+        for &i in &order {
+            let better = |&m: &usize| dominates(&points[m], &points[i]);
+            if out[i].is_none() && !members.iter().any(better) {
+                members.push(i);
+            }
+        }
+        for &i in &members {
+            out[i] = Some(front);
+        }
+        given += members.len();
+        front += 1;
+        if members.is_empty() {
+            break;
+        }
+    }
+    out
+}

@@ -1,0 +1,323 @@
+//! The order of a pool of variants, why it is what it is, and whether a variant outside of the pool could win.
+
+use crate::model::mechanism::Mechanism;
+use crate::model::ranking::{Order, Ranking, Term};
+use crate::score::elimination::Scratch;
+use crate::score::evaluate::Evaluator;
+use crate::score::pareto::fronts;
+use crate::score::terms::Scores;
+use crate::search::best::Variant;
+use crate::workload::reactions::Unsolved;
+use rayon::prelude::*;
+use std::cmp::Ordering;
+
+/// Variants scored between two looks at the proof.
+const BLOCK: usize = 4096;
+
+/// A variant with its place in both orders.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ranked {
+    /// The variant.
+    pub variant: Variant,
+    /// Its place by cost, from 1.
+    pub by_cost: usize,
+    /// Its scores.
+    pub scores: Scores,
+    /// The weighted sum, where that is the order.
+    pub total: Option<f64>,
+    /// Its front from 1, where the order is Pareto's.
+    pub front: Option<usize>,
+}
+
+/// A ranked pool.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RankedPool {
+    /// The best, in order.
+    pub list: Vec<Ranked>,
+    /// What is ranked by.
+    pub ranking: Ranking,
+    /// Most variants allowed in the pool.
+    pub pool: usize,
+    /// Variants scored.
+    pub scored: usize,
+    /// Those whose loads have no equilibrium.
+    pub unheld: usize,
+    /// Those beyond a limit.
+    pub limited: usize,
+    /// Those that redundant constraints leave open, scored by reactions of minimum norm.
+    pub open: usize,
+    /// Whether no variant outside of the pool can be among the list.
+    pub proven: bool,
+    /// Why it is proven, or is not.
+    pub proof: &'static str,
+    /// The cheapest that could be scored, as a measure for the others.
+    pub cheapest: Option<Ranked>,
+    /// Poses looked at.
+    pub poses: usize,
+    /// Whether the stroke ended early.
+    pub stroke_stopped: Option<f64>,
+}
+
+fn within(ranking: &Ranking, s: &Scores) -> bool {
+    ranking.limits.iter().all(|l| {
+        let x = s.value(l.term);
+        l.min.is_none_or(|min| x >= min) && l.max.is_none_or(|max| x <= max)
+    })
+}
+
+/// Σ weight · loss.
+#[must_use]
+pub fn weighted(ranking: &Ranking, s: &Scores) -> f64 {
+    ranking.terms.iter().map(|(t, w)| w * s.loss(*t)).sum()
+}
+
+/// Which of two comes first, the cheaper one where the order does not say.
+#[must_use]
+pub fn compare(ranking: &Ranking, a: &Ranked, b: &Ranked) -> Ordering {
+    let by_order = match ranking.order {
+        Order::Weighted => weighted(ranking, &a.scores).total_cmp(&weighted(ranking, &b.scores)),
+        Order::Lexicographic => ranking
+            .terms
+            .iter()
+            .map(|(t, _)| a.scores.loss(*t).total_cmp(&b.scores.loss(*t)))
+            .find(|o| o.is_ne())
+            .unwrap_or(Ordering::Equal),
+        Order::Pareto => a
+            .front
+            .unwrap_or(usize::MAX)
+            .cmp(&b.front.unwrap_or(usize::MAX)),
+    };
+    by_order.then(a.by_cost.cmp(&b.by_cost))
+}
+
+/// Whether a variant of at least this cost could still come before the last of `list`: the proof where it could not.
+fn settled(ranking: &Ranking, list: &[Ranked], least_milli: i64) -> Option<&'static str> {
+    let last = list.last()?;
+    #[allow(clippy::cast_precision_loss, reason = "costs are small")]
+    let least = least_milli as f64 / 1000.0;
+    match ranking.order {
+        Order::Weighted => {
+            let weight = ranking.terms.iter().find(|(t, _)| *t == Term::Cost)?.1;
+            (weight > 0.0 && weight * least >= weighted(ranking, &last.scores)).then_some(
+                "cost alone puts every later variant behind, the other terms being at least 0",
+            )
+        }
+        Order::Lexicographic => {
+            let (first, _) = ranking.terms.first()?;
+            (*first == Term::Cost && least > last.scores.value(Term::Cost))
+                .then_some("cost comes first and every later variant costs more")
+        }
+        Order::Pareto => None,
+    }
+}
+
+/// Scores a pool in parallel, in its order: the same for any number of threads.
+fn score_all(evaluator: &Evaluator<'_, '_>, pool: &[Variant]) -> Vec<Result<Scores, Unsolved>> {
+    pool.par_iter()
+        .map_init(Scratch::default, |scratch, v| evaluator.scores(v, scratch))
+        .collect()
+}
+
+/// Ranks a pool of variants given in order of cost, and gives the best `top`. `all` says that the pool holds every
+/// admissible variant.
+///
+/// # Complexity
+/// One scoring a variant, in parallel; then a sort, or for Pareto's order O(pool · front).
+#[must_use]
+pub fn rank(
+    evaluator: &Evaluator<'_, '_>,
+    ranking: &Ranking,
+    pool: &[Variant],
+    limit: usize,
+    all: bool,
+    top: usize,
+) -> RankedPool {
+    let cost = |v: &Variant| evaluator.search.steps.milli(v.key.cost());
+    let mut out = RankedPool {
+        list: Vec::new(),
+        ranking: ranking.clone(),
+        pool: limit,
+        scored: 0,
+        unheld: 0,
+        limited: 0,
+        open: 0,
+        proven: all,
+        proof: if all {
+            "every admissible variant was scored"
+        } else {
+            "dearer variants were not looked at"
+        },
+        cheapest: None,
+        poses: evaluator.poses.poses.len(),
+        stroke_stopped: evaluator.poses.stopped,
+    };
+    let mut kept: Vec<Ranked> = Vec::new();
+    for block in pool.chunks(BLOCK) {
+        for (variant, scores) in block.iter().zip(score_all(evaluator, block)) {
+            out.scored += 1;
+            let Ok(scores) = scores else {
+                out.unheld += 1;
+                continue;
+            };
+            out.open += usize::from(scores.minimum_norm);
+            let ranked = Ranked {
+                variant: variant.clone(),
+                by_cost: out.scored,
+                scores,
+                total: (ranking.order == Order::Weighted).then(|| weighted(ranking, &scores)),
+                front: None,
+            };
+            if out.cheapest.is_none() {
+                out.cheapest = Some(ranked.clone());
+            }
+            if within(ranking, &scores) {
+                kept.push(ranked);
+            } else {
+                out.limited += 1;
+            }
+        }
+        if ranking.order == Order::Pareto {
+            continue;
+        }
+        kept.sort_by(|a, b| compare(ranking, a, b));
+        if kept.len() >= top.max(1)
+            && let Some(last) = block.last()
+            && let Some(proof) = settled(ranking, &kept[..top.max(1)], cost(last))
+        {
+            (out.proven, out.proof) = (true, proof);
+            break;
+        }
+    }
+    if ranking.order == Order::Pareto {
+        let points: Vec<Vec<f64>> = kept
+            .iter()
+            .map(|r| {
+                ranking
+                    .terms
+                    .iter()
+                    .map(|(t, _)| r.scores.loss(*t))
+                    .collect()
+            })
+            .collect();
+        for (r, front) in kept.iter_mut().zip(fronts(&points, top)) {
+            r.front = front.map(|f| f + 1);
+        }
+        kept.sort_by(|a, b| compare(ranking, a, b));
+    }
+    kept.truncate(top);
+    out.list = kept;
+    out
+}
+
+/// 1st, 2nd, 3rd, 4th.
+fn ordinal(n: usize) -> String {
+    let end = match (n % 100, n % 10) {
+        (11..=13, _) => "th",
+        (_, 1) => "st",
+        (_, 2) => "nd",
+        (_, 3) => "rd",
+        _ => "th",
+    };
+    format!("{n}{end}")
+}
+
+fn three(x: f64) -> String {
+    if x == 0.0 {
+        return "0".to_owned();
+    }
+    if !(1e-3..1e6).contains(&x.abs()) {
+        return format!("{x:.1e}");
+    }
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0 to 6"
+    )]
+    let decimals = (2.0 - x.abs().log10().floor()).clamp(0.0, 6.0) as usize;
+    format!("{x:.decimals$}")
+}
+
+/// What a term came from and went to, in words.
+fn change(m: &Mechanism, term: Term, from: &Scores, to: &Scores) -> String {
+    let joint = |j: usize| m.joints.get(j).map_or("", |j| j.id.as_str());
+    match term {
+        Term::PeakForce => format!(
+            "peak force {} N ({} of capacity, joint {}) instead of {} N ({}, joint {})",
+            three(to.force.value),
+            three(to.force.utilisation),
+            joint(to.force.joint),
+            three(from.force.value),
+            three(from.force.utilisation),
+            joint(from.force.joint)
+        ),
+        Term::PeakMoment => format!(
+            "peak moment {} N·m ({} of capacity, joint {}) instead of {} N·m ({}, joint {})",
+            three(to.moment.value),
+            three(to.moment.utilisation),
+            joint(to.moment.joint),
+            three(from.moment.value),
+            three(from.moment.utilisation),
+            joint(from.moment.joint)
+        ),
+        Term::OutputError => format!(
+            "output error {} mm instead of {} mm",
+            three(1e3 * to.output_error),
+            three(1e3 * from.output_error)
+        ),
+        _ => format!(
+            "{} {} instead of {}",
+            term.name(),
+            three(to.value(term)),
+            three(from.value(term))
+        ),
+    }
+}
+
+impl RankedPool {
+    /// The place of a variant in the list, from 1, with what is known of it.
+    #[must_use]
+    pub fn of(&self, variant: &Variant) -> Option<(usize, &Ranked)> {
+        let place = self.list.iter().position(|r| r.variant == *variant)?;
+        Some((place + 1, &self.list[place]))
+    }
+
+    /// Why a variant is not where its cost would put it: the term that speaks most for it against the cheapest; `None`
+    /// where its place is that by cost.
+    #[must_use]
+    pub fn reason(&self, m: &Mechanism, rank: usize) -> Option<String> {
+        let (here, cheapest) = (
+            self.list.get(rank.checked_sub(1)?)?,
+            self.cheapest.as_ref()?,
+        );
+        if here.by_cost == rank || here.by_cost == cheapest.by_cost {
+            return None;
+        }
+        let gain = |(t, w): &(Term, f64)| {
+            let weight = if self.ranking.order == Order::Weighted {
+                *w
+            } else {
+                1.0
+            };
+            let (from, to) = (cheapest.scores.loss(*t), here.scores.loss(*t));
+            match self.ranking.order {
+                Order::Weighted => weight * (from - to),
+                _ => (from - to) / from.abs().max(to.abs()).max(1e-300),
+            }
+        };
+        let better = |tw: &&(Term, f64)| gain(tw) > 0.0;
+        let term = match self.ranking.order {
+            Order::Lexicographic => self.ranking.terms.iter().find(better),
+            _ => self
+                .ranking
+                .terms
+                .iter()
+                .filter(better)
+                .max_by(|a, b| gain(a).total_cmp(&gain(b))),
+        }?;
+        Some(format!(
+            "rank {rank} was {} by cost: {}",
+            ordinal(here.by_cost),
+            change(m, term.0, &cheapest.scores, &here.scores)
+        ))
+    }
+}

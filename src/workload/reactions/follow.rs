@@ -1,0 +1,86 @@
+//! Poses along the stroke of the first drive.
+
+use crate::closure::pose::Pose;
+use crate::model::joint_type::Freedom;
+use crate::model::loads::Stroke;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::workload::reactions::Unsolved;
+use crate::workload::reactions::drives::Driven;
+
+/// Greatest change of the drive between two poses that are closed: radians, or fractions of the mechanism's size.
+const STEP: f64 = 0.05;
+
+/// Poses by position of the drive, with the position it could not go on from, if any.
+#[derive(Debug)]
+pub struct Followed {
+    /// Position of the drive since the pose of the file `[rad]` or in the file's unit, and the pose.
+    pub poses: Vec<(f64, Pose)>,
+    /// First position that could not be reached.
+    pub stopped: Option<f64>,
+}
+
+/// The poses of a stroke, outward from that of the file on its branch; that of the file alone without a stroke. Freedoms
+/// that no drive holds move as little as they need.
+///
+/// # Errors
+/// Where a coordinate has no value.
+///
+/// # Complexity
+/// O((6k)²·f) a Newton step, for k contours and f freedoms.
+pub fn follow(
+    m: &Mechanism,
+    state: StateId,
+    drives: &[Driven],
+    stroke: Option<Stroke>,
+) -> Result<Followed, Unsolved> {
+    let start = Pose::of_file(m, state)?;
+    let column = drives.first().and_then(|d| {
+        start
+            .columns
+            .iter()
+            .position(|c| (c.joint, c.freedom) == *d)
+    });
+    let (Some(stroke), Some(column)) = (stroke, column) else {
+        return Ok(Followed {
+            poses: vec![(0.0, start)],
+            stopped: None,
+        });
+    };
+    let held: Vec<usize> = (0..start.columns.len())
+        .filter(|&c| drives.contains(&(start.columns[c].joint, start.columns[c].freedom)))
+        .collect();
+    let unit = match start.columns[column].freedom {
+        Freedom::Tx | Freedom::Ty | Freedom::Tz => start.length,
+        _ => 1.0,
+    };
+    #[allow(clippy::cast_precision_loss, reason = "at most 100000 steps")]
+    let at =
+        |i: usize| stroke.from + (stroke.to - stroke.from) * i as f64 / stroke.steps.max(1) as f64;
+    let mut wanted: Vec<f64> = (0..=stroke.steps.max(1)).map(at).collect();
+    wanted.sort_by(f64::total_cmp);
+    let (mut poses, mut stopped) = (Vec::new(), None);
+    let mut go = |positions: &mut dyn Iterator<Item = f64>| {
+        let (mut now, mut position) = (start.clone(), 0.0);
+        'positions: for to in positions {
+            let parts = ((to - position).abs() / unit / STEP).ceil().max(1.0);
+            let part = (to - position) / unit / parts;
+            let mut left = parts;
+            while left > 0.0 {
+                let mut q = vec![0.0; now.columns.len()];
+                q[column] = part;
+                let Ok(q) = now.close(q, &held) else {
+                    stopped = stopped.or(Some(to));
+                    break 'positions;
+                };
+                now = now.moved(&q);
+                left -= 1.0;
+            }
+            position = to;
+            poses.push((to, now.clone()));
+        }
+    };
+    go(&mut wanted.iter().copied().filter(|x| *x >= 0.0));
+    go(&mut wanted.iter().rev().copied().filter(|x| *x < 0.0));
+    poses.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(Followed { poses, stopped })
+}

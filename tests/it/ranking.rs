@@ -1,0 +1,445 @@
+//! Ranking of variants under a workload.
+
+use crate::cli::{json, out, ozols};
+use ozols::builtin;
+use ozols::import::text::mechanism_from_str;
+use ozols::model::joint_type::JointType;
+use ozols::model::mechanism::Mechanism;
+use ozols::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term};
+use ozols::redundancy::analysis::exact_field;
+use ozols::score::elimination::Scratch;
+use ozols::score::evaluate::Evaluator;
+use ozols::score::joint_types::JointTypes;
+use ozols::score::pareto::{dominates, fronts};
+use ozols::score::ranking::{RankedPool, compare, rank, weighted};
+use ozols::search::best::Variant;
+use ozols::search::request::{Request, Search};
+use proptest::prelude::*;
+use std::ops::ControlFlow;
+
+fn loaded() -> Mechanism {
+    let text = builtin::text("gripper-10-loaded").unwrap();
+    mechanism_from_str("gripper-10-loaded.toml", text).unwrap()
+}
+
+fn search(m: &Mechanism, redundant: u32) -> Search<'_> {
+    let request = Request {
+        max_redundant: redundant,
+        ..Request::default()
+    };
+    Search::new(exact_field(m, 0).unwrap(), m, request).unwrap()
+}
+
+fn cheapest(s: &Search<'_>, n: usize) -> Vec<Variant> {
+    let d = s.build(&|| false, &mut |_| {});
+    let mut out = Vec::new();
+    s.cheapest(&d, n, |v| {
+        out.push(v);
+        ControlFlow::Continue(())
+    });
+    out
+}
+
+fn sampled(s: &Search<'_>, n: usize) -> Vec<Variant> {
+    s.sample(&s.build(&|| false, &mut |_| {}), n, 7)
+}
+
+fn near(a: f64, b: f64, tolerance: f64) -> bool {
+    (a - b).abs() <= tolerance * a.abs().max(b.abs()).max(1e-12)
+}
+
+fn both_ways(m: &Mechanism, redundant: u32, clearance: ClearanceSum, n: usize) -> (usize, usize) {
+    let s = search(m, redundant);
+    let e = Evaluator::new(&s, clearance).unwrap();
+    let mut scratch = Scratch::default();
+    let mut variants = cheapest(&s, n / 2);
+    variants.extend(sampled(&s, n / 2));
+    let (mut solved, mut refused) = (0, 0);
+    for v in &variants {
+        match (e.scores(v, &mut scratch), e.slowly(v)) {
+            (Ok(fast), Ok(slow)) => {
+                solved += 1;
+                for t in Term::ALL {
+                    // Small singular values are good to eight digits of the greatest.
+                    let tolerance = 1e-8 / slow.conditioning.clamp(1e-7, 1.0);
+                    assert!(
+                        near(fast.value(t), slow.value(t), tolerance),
+                        "{} {:?}: {fast:?} {slow:?}",
+                        t.name(),
+                        v.choices
+                    );
+                }
+                assert!(near(fast.force.value, slow.force.value, 1e-6));
+            }
+            (Err(_), Err(_)) => refused += 1,
+            (fast, slow) => panic!("{:?}: {fast:?} {slow:?}", v.choices),
+        }
+    }
+    (solved, refused)
+}
+
+/// Nothing is shared but the options' frames: the fast way precomputes and eliminates, the slow way builds the variant as a
+/// mechanism and takes singular values.
+#[test]
+fn the_fast_scores_are_those_of_the_variant_built_and_solved() {
+    let m = loaded();
+    let (solved, refused) = both_ways(&m, 0, ClearanceSum::Worst, 120);
+    assert!(solved > 50, "{solved} {refused}");
+    both_ways(&m, 0, ClearanceSum::Rms, 20);
+    // With redundant constraints left.
+    both_ways(&m, 3, ClearanceSum::Worst, 20);
+}
+
+#[test]
+fn over_a_stroke_the_scores_are_the_worst_of_its_poses() {
+    let mut m = loaded();
+    m.loads.stroke = Some(ozols::model::loads::Stroke {
+        from: -0.3,
+        to: 0.3,
+        steps: 2,
+    });
+    let s = search(&m, 0);
+    let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
+    assert_eq!(e.poses.poses.len(), 3);
+    assert!(e.poses.stopped.is_none());
+    let still = loaded();
+    let t = search(&still, 0);
+    let at_rest = Evaluator::new(&t, ClearanceSum::Worst).unwrap();
+    let mut scratch = Scratch::default();
+    let mut compared = 0;
+    for v in cheapest(&s, 20) {
+        let (Ok(fast), Ok(slow)) = (e.scores(&v, &mut scratch), e.slowly(&v)) else {
+            continue;
+        };
+        compared += 1;
+        let one = at_rest.scores(&v, &mut scratch).unwrap();
+        assert!(fast.force.utilisation >= one.force.utilisation * (1.0 - 1e-9));
+        assert!(fast.conditioning <= one.conditioning * (1.0 + 1e-9));
+        for t in Term::ALL {
+            assert!(
+                near(fast.value(t), slow.value(t), 1e-6),
+                "{}: {fast:?} {slow:?}",
+                t.name()
+            );
+        }
+    }
+    assert!(compared > 5);
+}
+
+fn ranking(order: Order, terms: &[(Term, f64)]) -> Ranking {
+    Ranking {
+        order,
+        terms: terms.to_vec(),
+        ..Ranking::default()
+    }
+}
+
+const TERMS: [(Term, f64); 3] = [
+    (Term::PeakMoment, 10.0),
+    (Term::PeakForce, 3.0),
+    (Term::Cost, 0.5),
+];
+
+fn ranked(m: &Mechanism, r: &Ranking, n: usize, top: usize) -> RankedPool {
+    let s = search(m, 0);
+    let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
+    rank(&e, r, &cheapest(&s, n), n, false, top)
+}
+
+#[test]
+fn orders_keep_their_laws() {
+    let m = loaded();
+    let n = 400;
+    let weight = ranked(&m, &ranking(Order::Weighted, &TERMS), n, n);
+    assert_eq!(weight.scored, n);
+    for pair in weight.list.windows(2) {
+        assert!(pair[0].total <= pair[1].total);
+        assert_eq!(
+            pair[0].total.unwrap(),
+            weighted(&weight.ranking, &pair[0].scores)
+        );
+        assert!(compare(&weight.ranking, &pair[0], &pair[1]).is_lt());
+    }
+    let lexical = ranked(&m, &ranking(Order::Lexicographic, &TERMS), n, n);
+    for pair in lexical.list.windows(2) {
+        let key = |i: usize| TERMS.map(|(t, _)| pair[i].scores.loss(t));
+        assert!(key(0) <= key(1));
+    }
+    // The same variants in all orders.
+    let pareto = ranked(&m, &ranking(Order::Pareto, &TERMS), n, n);
+    let set = |p: &RankedPool| {
+        let mut all: Vec<usize> = p.list.iter().map(|r| r.by_cost).collect();
+        all.sort_unstable();
+        all
+    };
+    assert_eq!(set(&weight), set(&lexical));
+    assert_eq!(set(&weight), set(&pareto));
+    // Nobody of the first front is dominated by anybody.
+    let point = |r: &ozols::score::ranking::Ranked| TERMS.map(|(t, _)| r.scores.loss(t)).to_vec();
+    for a in &pareto.list {
+        let beaten = pareto.list.iter().any(|b| dominates(&point(b), &point(a)));
+        assert_eq!(a.front == Some(1), !beaten);
+    }
+    // By cost alone, the order is that of cost, and proven as soon as a dearer one follows.
+    let cost = ranked(&m, &ranking(Order::Weighted, &[(Term::Cost, 1.0)]), n, 5);
+    let places: Vec<usize> = cost.list.iter().map(|r| r.by_cost).collect();
+    assert!(places.is_sorted());
+    assert!((1..=5).all(|i| cost.reason(&m, i).is_none()));
+}
+
+#[test]
+fn a_proof_holds_for_a_pool_ten_times_as_large() {
+    let m = loaded();
+    let heavy = ranking(
+        Order::Weighted,
+        &[(Term::Cost, 1.0), (Term::PeakForce, 1.0)],
+    );
+    let small = ranked(&m, &heavy, 1500, 3);
+    let large = ranked(&m, &heavy, 15_000, 3);
+    let places = |p: &RankedPool| -> Vec<usize> { p.list.iter().map(|r| r.by_cost).collect() };
+    assert!(small.proven, "{}", small.proof);
+    assert_eq!(places(&small), places(&large));
+    let none = ranked(
+        &m,
+        &ranking(Order::Weighted, &[(Term::PeakForce, 1.0)]),
+        100,
+        3,
+    );
+    assert!(!none.proven);
+}
+
+#[test]
+fn limits_filter() {
+    let m = loaded();
+    let free = ranked(&m, &ranking(Order::Weighted, &TERMS), 300, 300);
+    let mut forces: Vec<f64> = free
+        .list
+        .iter()
+        .map(|r| r.scores.force.utilisation)
+        .collect();
+    forces.sort_by(f64::total_cmp);
+    let middle = forces[forces.len() / 2];
+    let mut r = ranking(Order::Weighted, &TERMS);
+    r.limits = vec![Limit {
+        term: Term::PeakForce,
+        min: None,
+        max: Some(middle),
+    }];
+    let kept = ranked(&m, &r, 300, 300);
+    assert!(kept.limited > 0 && !kept.list.is_empty());
+    assert_eq!(kept.list.len() + kept.limited, free.list.len());
+    assert!(
+        kept.list
+            .iter()
+            .all(|x| x.scores.force.utilisation <= middle)
+    );
+}
+
+#[test]
+fn the_order_does_not_depend_on_the_number_of_threads() {
+    let args = [
+        "search",
+        "gripper-10-loaded",
+        "--pool",
+        "6000",
+        "--format",
+        "json",
+    ];
+    let with = |n: &str| out(&[&args[..], &["--threads", n]].concat());
+    let one = with("1");
+    assert_eq!(one, with("2"));
+    assert_eq!(one, with("5"));
+}
+
+proptest! {
+    #[test]
+    fn fronts_are_those_of_brute_force(
+        points in prop::collection::vec(prop::collection::vec(0u8..5, 3), 0..60),
+    ) {
+        let points: Vec<Vec<f64>> = points.iter().map(|p| p.iter().map(|&x| f64::from(x)).collect()).collect();
+        let found = fronts(&points, points.len());
+        let mut left: Vec<usize> = (0..points.len()).collect();
+        let mut front = 0;
+        while !left.is_empty() {
+            let best: Vec<usize> = left
+                .iter()
+                .copied()
+                .filter(|&i| !left.iter().any(|&j| dominates(&points[j], &points[i])))
+                .collect();
+            for &i in &best {
+                prop_assert_eq!(found[i], Some(front));
+            }
+            left.retain(|i| !best.contains(i));
+            front += 1;
+        }
+    }
+}
+
+#[test]
+fn the_catalogue_of_joint_types_is_whole_and_costs_what_the_search_counts() {
+    let types = JointTypes::built_in();
+    for t in JointType::NAMED {
+        let found = types
+            .get(t.name())
+            .unwrap_or_else(|| panic!("{}", t.name()));
+        assert!(found.capacity_force > 0.0 && found.clearance >= 0.0);
+        assert!(found.capacity_moment.is_none_or(|m| m > 0.0));
+        let cost = ozols::search::cost::DEFAULTS
+            .iter()
+            .find(|(n, _)| *n == t.name())
+            .unwrap()
+            .1;
+        #[allow(clippy::cast_precision_loss, reason = "small")]
+        let cost = cost as f64 / 1000.0;
+        assert_eq!(found.cost, cost, "{}", t.name());
+    }
+    assert!(types.get("custom").is_some());
+}
+
+#[test]
+fn the_command_changes_the_order_and_says_why() {
+    let v = json(&["search", "gripper-10-loaded", "--format", "json"]);
+    let ranking = &v["ranking"];
+    assert_eq!(ranking["order"], "weighted");
+    assert_eq!(ranking["pool"], 1000);
+    assert!(ranking["proven"].is_boolean());
+    let first = &v["variants"][0];
+    assert!(first["scores"]["peak-force"].as_f64().unwrap() > 0.0);
+    assert!(first["scores"]["by_cost"].as_u64().unwrap() > 1, "{first}");
+    let reason = first["scores"]["reason"].as_str().unwrap();
+    assert!(
+        reason.starts_with("rank 1 was ") && reason.contains("instead of"),
+        "{reason}"
+    );
+    let text = out(&["search", "gripper-10-loaded"]);
+    assert!(
+        text.contains("rank 1 was ") && text.contains("ranked under the workload"),
+        "{text}"
+    );
+    let csv = out(&[
+        "search",
+        "gripper-10-loaded",
+        "--format",
+        "csv",
+        "--top",
+        "3",
+    ]);
+    let heads = csv.lines().next().unwrap();
+    assert!(
+        heads.ends_with(
+            "by_cost,peak_force,peak_moment,singular_ratio,output_error,idle,total,front"
+        )
+    );
+    assert!(
+        csv.lines()
+            .all(|l| l.split(',').count() == heads.split(',').count()),
+        "{csv}"
+    );
+    // Without a [ranking], the scores stay empty and the order is that of cost.
+    let plain = json(&["search", "gripper-10", "--top", "1", "--format", "json"]);
+    assert!(plain.get("ranking").is_none());
+    assert_eq!(plain["variants"][0]["scores"], serde_json::json!({}));
+    // Asked for on the command line.
+    let asked = json(&[
+        "search",
+        "gripper-10-loaded",
+        "--rank",
+        "peak-moment=2,cost",
+        "--pool",
+        "50",
+        "--format",
+        "json",
+    ]);
+    assert_eq!(asked["ranking"]["terms"][0]["weight"], 2.0);
+    assert_eq!(asked["ranking"]["scored"], 50);
+}
+
+#[test]
+fn bad_rankings_are_refused_with_line_item_and_remedy() {
+    let good = builtin::text("gripper-10-loaded").unwrap();
+    let with = |from: &str, to: &str| {
+        assert!(good.contains(from), "{from}");
+        good.replacen(from, to, 1)
+    };
+    let more = |text: &str| format!("{good}\n{text}\n");
+    for (text, parts) in [
+        (
+            with("term = \"cost\"", "term = \"price\""),
+            &["unknown term \"price\"", "peak-force"][..],
+        ),
+        (
+            with("weight = 0.2", "weight = nan"),
+            &["weight NaN", "from 0 to 1e12"],
+        ),
+        (with("weight = 0.2", "weight = -1"), &["weight -1"]),
+        (
+            with("order = \"weighted\"", "order = \"best\""),
+            &["unknown order \"best\"", "lexicographic"],
+        ),
+        (with("min = 1e-4", "min = inf"), &["limit inf"]),
+        (
+            with("mass = 0.25", "mass = -0.25"),
+            &["mass -0.25", "from 0 to 1e12"],
+        ),
+        (
+            more("[joint_types.spherical]\ncapacity_force = 0"),
+            &["capacity 0", "above 0"],
+        ),
+        (
+            more("[joint_types.spherical]\ncapacity_moment = -1"),
+            &["capacity -1"],
+        ),
+        (
+            more("[joint_types.spherical]\nclearance = -1"),
+            &["clearance -1"],
+        ),
+        (
+            more("[joint_types.ball]\nclearance = 1"),
+            &["unknown joint type \"ball\"", "spherical"],
+        ),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("bad.toml");
+        std::fs::write(&path, text).unwrap();
+        let o = ozols(&["search", path.to_str().unwrap()]).output().unwrap();
+        let said = String::from_utf8(o.stderr).unwrap();
+        assert_eq!(o.status.code(), Some(2), "{said}");
+        assert!(said.contains("bad.toml:"), "{said}");
+        for p in parts {
+            assert!(said.contains(p), "no {p:?} in: {said}");
+        }
+    }
+    for args in [["--rank", "price"], ["--rank", "cost=nan"], ["--pool", "0"]] {
+        let o = ozols(&[&["search", "gripper-10-loaded"], &args[..]].concat())
+            .output()
+            .unwrap();
+        assert_eq!(o.status.code(), Some(2), "{args:?}");
+    }
+}
+
+/// A file's own figures of a joint type change the scores, and its cost the additive part.
+#[test]
+fn joint_types_can_be_overridden() {
+    let text = builtin::text("gripper-10-loaded").unwrap();
+    let text = format!(
+        "{text}\n[joint_types.revolute]\ncapacity_force = 96\n[joint_types.spherical]\ncost = 7\n"
+    );
+    let weak = mechanism_from_str("weak.toml", &text).unwrap();
+    let strong = loaded();
+    let of = |m: &Mechanism| {
+        let s = search(m, 11);
+        let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
+        let present = Variant {
+            choices: vec![0; s.space.variables.len()],
+            key: cheapest(&s, 1)[0].key,
+        };
+        e.slowly(&present).unwrap().force.utilisation
+    };
+    assert!(near(of(&weak), 10.0 * of(&strong), 1e-9));
+    assert!(
+        weak.search
+            .costs
+            .by_type_milli
+            .contains(&("spherical".to_owned(), 7000))
+    );
+}

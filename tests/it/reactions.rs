@@ -1,0 +1,534 @@
+//! Joint reactions of any mechanism: equilibrium, virtual work, frames, linearity, energy, self-stresses.
+
+use crate::cli::{json, out, ozols};
+use ozols::builtin;
+use ozols::closure::pose::Pose;
+use ozols::geom::expr::Expr;
+use ozols::import::text::mechanism_from_str;
+use ozols::model::loads::{ExternalForce, MassProperties, Misalignment, Stiffness};
+use ozols::model::mechanism::{Mechanism, Role};
+use ozols::redundancy::analysis::{Method, analyse};
+use ozols::workload::reactions::drives::driven;
+use ozols::workload::reactions::geometry::{Geometry, cross, dot};
+use ozols::workload::reactions::{Choice, JointReaction, Reactions, Solution, Unsolved};
+use proptest::prelude::*;
+
+fn built_in(name: &str) -> Mechanism {
+    mechanism_from_str(name, builtin::text(name).unwrap()).unwrap()
+}
+
+/// A number as written with nine decimals, so that the file's exactness is kept.
+fn expr(x: f64) -> Expr {
+    format!("{x:.9}").parse().unwrap()
+}
+
+fn vector(v: [f64; 3]) -> [Expr; 3] {
+    v.map(expr)
+}
+
+fn real(v: &[Expr; 3]) -> [f64; 3] {
+    [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()]
+}
+
+/// Masses at the places of the joints, a little beside, from a seed of numbers between 0 and 1.
+fn with_masses(m: &mut Mechanism, seed: &[f64]) {
+    let mut next = seed.iter().copied().cycle();
+    let mut draw = || next.next().unwrap();
+    m.loads.gravity = Some(vector([draw() * 9.0, -9.81 * draw(), 5.0 * draw() - 2.0]));
+    for l in 0..m.links.len() {
+        let at = m.joints.iter().find(|j| j.links.contains(&l)).unwrap();
+        let near = real(&at.frame.point).map(|x| x + draw() - 0.5);
+        if !matches!(m.links[l].role, Role::Frame | Role::Object) {
+            m.links[l].mass = Some(MassProperties {
+                mass: 0.1 + 3.0 * draw(),
+                centre: vector(near),
+                inertia: None,
+            });
+        }
+    }
+    let output = m.links.iter().position(|l| l.role == Role::Output).unwrap();
+    m.loads.forces.push(ExternalForce {
+        link: output,
+        point: vector([draw(), draw(), draw()]),
+        force: vector([20.0 * draw() - 10.0, 20.0 * draw(), 5.0 - 10.0 * draw()]),
+        range: None,
+    });
+}
+
+/// Greatest force, or moment about a far point, left over on a link, over the greatest load: summed up from the file.
+fn left_over(m: &Mechanism, list: &[JointReaction]) -> f64 {
+    let metres = m.length_unit.metres;
+    let place = |p: &[Expr; 3]| real(p).map(|x| x * metres);
+    let about = [0.3, -0.2, 0.5];
+    let planar = matches!(m.mode, ozols::model::mechanism::Mode::Planar { .. });
+    let (mut worst, mut greatest) = (0.0f64, 1e-300f64);
+    let loaded = |l: usize| !matches!(m.links[l].role, Role::Frame | Role::Object);
+    for l in (0..m.links.len()).filter(|&l| loaded(l)) {
+        let mut sum = [0.0; 6];
+        let mut add = |sign: f64, p: [f64; 3], f: [f64; 3], moment: [f64; 3]| {
+            let turn = cross([0, 1, 2].map(|i| p[i] - about[i]), f);
+            for i in 0..3 {
+                sum[i] += sign * f[i];
+                sum[3 + i] += sign * (turn[i] + moment[i]);
+                greatest = greatest.max(f[i].abs());
+            }
+        };
+        if let (Some(g), Some(mass)) = (&m.loads.gravity, &m.links[l].mass) {
+            let weight = real(g).map(|x| x * mass.mass);
+            add(1.0, place(&mass.centre), weight, [0.0; 3]);
+        }
+        for f in m.loads.forces.iter().filter(|f| f.link == l) {
+            add(1.0, place(&f.point), real(&f.force), [0.0; 3]);
+        }
+        for x in m.loads.moments.iter().filter(|x| x.link == l) {
+            add(1.0, [0.0; 3], [0.0; 3], real(&x.moment));
+        }
+        for r in list {
+            let [a, b] = m.joints[r.joint].links;
+            for (link, sign) in [(a, -1.0), (b, 1.0)] {
+                if link == l {
+                    add(sign, r.point, r.global_force(), r.global_moment());
+                }
+            }
+        }
+        // In planar mode, what is across the plane is not modelled.
+        let kept: &[usize] = if planar {
+            &[0, 1, 5]
+        } else {
+            &[0, 1, 2, 3, 4, 5]
+        };
+        worst = kept.iter().fold(worst, |w, &i| w.max(sum[i].abs()));
+    }
+    worst / greatest
+}
+
+fn solve(m: &Mechanism) -> Solution {
+    Reactions::solve(m, 0, &m.loads).unwrap()
+}
+
+/// Mechanisms of one drive that holds them.
+const SOLVED: [&str; 9] = [
+    "four-bar-planar",
+    "slider-crank-determinate",
+    "slider-crank-spatial",
+    "four-bar",
+    "bennett",
+    "gripper-10",
+    "parallelogram-3-rods-planar",
+    "rsur",
+    "gripper-10-planar",
+];
+
+#[test]
+fn every_link_is_in_equilibrium_and_joints_do_no_work() {
+    for name in SOLVED {
+        let mut m = built_in(name);
+        with_masses(&mut m, &[0.3, 0.9, 0.1, 0.7, 0.45, 0.62, 0.21]);
+        let s = match Reactions::solve(&m, 0, &m.loads) {
+            Ok(s) => s,
+            Err(e) => panic!("{name}: {e}"),
+        };
+        assert!(s.residual < 1e-10, "{name}: {}", s.residual);
+        assert!(left_over(&m, &s.reactions) < 1e-10, "{name}");
+        assert_eq!(s.choice == Choice::Unique, s.self_stresses.is_empty());
+        let greatest = s
+            .reactions
+            .iter()
+            .map(JointReaction::force_size)
+            .fold(0.0, f64::max);
+        for r in &s.reactions {
+            let joint = &m.joints[r.joint];
+            for f in joint.joint_type.freedoms() {
+                use ozols::model::joint_type::Freedom as F;
+                let planar = matches!(m.mode, ozols::model::mechanism::Mode::Planar { .. });
+                let work = match f {
+                    F::Rx => r.moment[0] / s.size,
+                    F::Ry => r.moment[1] / s.size,
+                    F::Rz => r.moment[2] / s.size,
+                    F::Tx => r.force[0],
+                    F::Ty => r.force[1],
+                    F::Tz => r.force[2],
+                    F::Screw => continue,
+                };
+                let held = r.effort.is_some_and(|(d, _)| d == *f);
+                assert!(
+                    held || planar || work.abs() < 1e-9 * greatest,
+                    "{name} {} {f:?}: {work}",
+                    joint.id
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn self_stresses_are_in_equilibrium_and_as_many_as_the_redundant_constraints() {
+    for name in SOLVED {
+        let mut m = built_in(name);
+        let s = solve(&m);
+        let by_rank = analyse(&m, &[0], Method::Modular).unwrap()[0].redundant;
+        assert_eq!(s.self_stresses.len(), by_rank, "{name}");
+        m.loads = Default::default();
+        for stress in &s.self_stresses {
+            assert!(left_over(&m, stress) < 1e-9, "{name}");
+        }
+    }
+}
+
+/// Takes a mechanism along its drive by ±h and gives the work of its loads for a unit of drive [J/rad] or [J/m].
+fn work_by_differences(m: &Mechanism, effort_of: usize, h: f64) -> f64 {
+    let pose = Pose::of_file(m, 0).unwrap();
+    let drives = driven(m, &Geometry::new(m, 0, &pose).unwrap()).unwrap();
+    let (joint, freedom) = drives[0];
+    assert_eq!(joint, effort_of);
+    let column = pose
+        .columns
+        .iter()
+        .position(|c| c.joint == joint && c.freedom == freedom)
+        .unwrap();
+    let metres = m.length_unit.metres;
+    let energy = |step: f64| {
+        let mut q = vec![0.0; pose.columns.len()];
+        q[column] = step;
+        let q = pose.close(q, &[column]).unwrap();
+        let moved = pose.moved(&q);
+        let shift = |link: usize, p: &[Expr; 3]| {
+            let from = real(p);
+            let at = [0, 1, 2].map(|i| (from[i] - pose.middle[i]) / pose.length);
+            let to = moved.links[link].point(at);
+            [0, 1, 2].map(|i| (to[i] - at[i]) * pose.length * metres)
+        };
+        let mut work = 0.0;
+        for (l, link) in m.links.iter().enumerate() {
+            if let (Some(mass), Some(g)) = (&link.mass, &m.loads.gravity) {
+                work += mass.mass * dot(real(g), shift(l, &mass.centre));
+            }
+        }
+        for f in &m.loads.forces {
+            work += dot(real(&f.force), shift(f.link, &f.point));
+        }
+        work
+    };
+    use ozols::model::joint_type::Freedom as F;
+    let unit = match freedom {
+        F::Tx | F::Ty | F::Tz => pose.length * metres,
+        _ => 1.0,
+    };
+    // Four points: the error falls with h⁴.
+    (8.0 * (energy(h) - energy(-h)) - (energy(2.0 * h) - energy(-2.0 * h))) / (12.0 * h * unit)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    #[test]
+    fn the_drive_balances_the_energy_of_random_masses(
+        which in 0..SOLVED.len(),
+        seed in prop::collection::vec(0.0..1.0f64, 11..40),
+    ) {
+        let mut m = built_in(SOLVED[which]);
+        with_masses(&mut m, &seed);
+        let s = solve(&m);
+        let (joint, effort) = s.reactions.iter().find_map(|r| Some((r.joint, r.effort?.1))).unwrap();
+        let work = work_by_differences(&m, joint, 2e-3);
+        let greatest = s.reactions.iter().map(JointReaction::force_size).fold(0.0, f64::max);
+        prop_assert!((effort + work).abs() < 1e-6 * (work.abs() + greatest * s.size), "{}: {effort} {work}", m.name);
+    }
+
+    /// Loads twice as great, reactions twice as great; loads together, reactions together.
+    #[test]
+    fn reactions_are_linear_in_the_loads(which in 0..SOLVED.len(), seed in prop::collection::vec(0.0..1.0f64, 11..40)) {
+        let mut m = built_in(SOLVED[which]);
+        with_masses(&mut m, &seed);
+        let both = solve(&m);
+        let (mut weight, mut force) = (m.clone(), m.clone());
+        weight.loads.forces.clear();
+        force.loads.gravity = None;
+        let (a, b) = (solve(&weight), solve(&force));
+        let greatest = both.reactions.iter().map(JointReaction::force_size).fold(0.0, f64::max);
+        for ((x, y), z) in a.reactions.iter().zip(&b.reactions).zip(&both.reactions) {
+            for i in 0..3 {
+                prop_assert!((x.force[i] + y.force[i] - z.force[i]).abs() < 1e-8 * greatest);
+                prop_assert!((x.moment[i] + y.moment[i] - z.moment[i]).abs() < 1e-8 * greatest * both.size);
+            }
+        }
+    }
+
+    /// Turned about an axis and moved, in another unit of length, each joint's reaction in its own frame is the same.
+    #[test]
+    fn reactions_do_not_depend_on_the_frame(which in 0..SOLVED.len(), seed in prop::collection::vec(0.0..1.0f64, 11..40)) {
+        let mut m = built_in(SOLVED[which]);
+        prop_assume!(!matches!(m.mode, ozols::model::mechanism::Mode::Planar { .. }));
+        with_masses(&mut m, &seed);
+        let before = solve(&m);
+        // A turn with rational entries, so that expressions stay short.
+        let turn = [[2.0, -2.0, 1.0], [1.0, 2.0, 2.0], [-2.0, -1.0, 2.0]];
+        let turn = turn.map(|r: [f64; 3]| r.map(|x| x / 3.0));
+        let by = |v: &[Expr; 3], shift: [i64; 3]| -> [Expr; 3] {
+            let v = real(v);
+            let u = [0, 1, 2].map(|i| {
+                #[allow(clippy::cast_precision_loss, reason = "small")]
+                let s = shift[i] as f64;
+                dot(turn[i], v) + s
+            });
+            u.map(|x| format!("{x:.15}").parse().unwrap())
+        };
+        for j in &mut m.joints {
+            j.frame.point = by(&j.frame.point, [3, -7, 2]);
+            j.frame.axis = by(&j.frame.axis, [0; 3]);
+            j.frame.reference = by(&j.frame.reference, [0; 3]);
+        }
+        for l in &mut m.links {
+            if let Some(mass) = &mut l.mass {
+                mass.centre = by(&mass.centre, [3, -7, 2]);
+            }
+        }
+        for f in &mut m.loads.forces {
+            f.point = by(&f.point, [3, -7, 2]);
+            f.force = by(&f.force, [0; 3]);
+        }
+        m.loads.gravity = m.loads.gravity.as_ref().map(|g| by(g, [0; 3]));
+        let after = solve(&m);
+        let greatest = before.reactions.iter().map(JointReaction::force_size).fold(0.0, f64::max);
+        for (x, y) in before.reactions.iter().zip(&after.reactions) {
+            for i in 0..3 {
+                prop_assert!((x.force[i] - y.force[i]).abs() < 1e-7 * greatest, "{} {:?} {:?}", m.name, x, y);
+                prop_assert!((x.moment[i] - y.moment[i]).abs() < 1e-7 * greatest * before.size);
+            }
+        }
+        prop_assert!((before.condition - after.condition).abs() < 1e-6 * before.condition);
+    }
+}
+
+/// The planar solver is another formulation: bodies and pairs instead of contours.
+#[test]
+fn planar_mechanisms_agree_with_the_planar_solver() {
+    for name in [
+        "four-bar-planar",
+        "gripper-10-planar",
+        "watt-six-bar",
+        "stephenson-six-bar",
+    ] {
+        let mut m = built_in(name);
+        with_masses(&mut m, &[0.3, 0.9, 0.1, 0.7, 0.45, 0.62, 0.21]);
+        m.mode = ozols::model::mechanism::Mode::Planar {
+            normal: [0, 0, 1].map(Expr::from),
+        };
+        for l in &mut m.links {
+            if let Some(mass) = &mut l.mass {
+                mass.centre[2] = Expr::from(0);
+            }
+        }
+        let s = solve(&m);
+        assert_eq!(s.choice, Choice::Unique, "{name}");
+        let planar = ozols::workload::statics::statics(&m, 0, None).unwrap();
+        let whole = planar.moments[0].whole.as_ref().unwrap();
+        let greatest = s
+            .reactions
+            .iter()
+            .map(JointReaction::force_size)
+            .fold(0.0, f64::max);
+        let linkage = &planar.linkage.mechanism;
+        for r in &whole.reactions {
+            let name = &linkage.pairs[r.pair].name;
+            let Some(own) = s.reactions.iter().find(|x| m.joints[x.joint].id == *name) else {
+                panic!("{name}");
+            };
+            let bodies = linkage.pairs[r.pair].bodies.map(|b| linkage.bodies[b].link);
+            let sign = if bodies[1] == Some(m.joints[own.joint].links[1]) {
+                1.0
+            } else {
+                -1.0
+            };
+            let f = own.global_force();
+            for k in 0..3 {
+                let other =
+                    sign * (r.force[0] * linkage.axes[0][k] + r.force[1] * linkage.axes[1][k]);
+                assert!(
+                    (f[k] - other).abs() < 1e-9 * greatest,
+                    "{name}: {f:?} {r:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn loads_on_a_motion_that_nothing_holds_are_told_with_the_link() {
+    // Ball joints at both ends of the rod 5 let it spin; a moment along it turns it.
+    let mut m = built_in("gripper-10-redesign");
+    with_masses(&mut m, &[0.3, 0.9, 0.1, 0.7, 0.45, 0.62, 0.21]);
+    match Reactions::solve(&m, 0, &m.loads) {
+        Err(Unsolved::Moves { link, mobility }) => {
+            assert!(["5", "9"].contains(&link.as_str()), "{link}");
+            assert_eq!(mobility, 2);
+        }
+        other => panic!("{other:?}"),
+    }
+    // Without loads on the rods all is well, and the spin is told.
+    for l in ["5", "9"] {
+        let l = m.link(l).unwrap();
+        m.links[l].mass = None;
+    }
+    let s = solve(&m);
+    assert_eq!(s.undriven, 2);
+    assert_eq!(s.self_stresses.len(), 1);
+    assert!(left_over(&m, &s.reactions) < 1e-10);
+}
+
+/// A bar between two walls, both ends fixed: a turn of one end by θ bends it against the two joints' angular stiffness in
+/// series with what their linear stiffness gives way at the arm's length. By hand: the ends at distance L take a moment
+/// each and forces ±F; least energy under M1 + M2 = F L gives the stiffness.
+#[test]
+fn a_misaligned_joint_strains_as_by_hand() {
+    let text = r#"
+name = "bar"
+[[link]]
+id = "0"
+role = "frame"
+[[link]]
+id = "1"
+role = "output"
+[[joint]]
+id = "a"
+links = ["0", "1"]
+type = "fixed"
+point = [0, 0, 0]
+[[joint]]
+id = "b"
+links = ["0", "1"]
+type = "fixed"
+point = [2, 0, 0]
+[workload.stiffness.default]
+linear = 1000
+angular = 300
+[[workload.misalignment]]
+joint = "b"
+angle = 0.01
+axis = "z"
+"#;
+    let m = mechanism_from_str("bar.toml", text).unwrap();
+    let s = solve(&m);
+    assert_eq!(s.self_stresses.len(), 6);
+    let elastic = s.elastic.as_ref().unwrap();
+    assert!(left_over(&m, elastic) < 1e-12);
+    // Round the contour: M about b = m, force F along y at b; at a the opposite, moment -(m + F L).
+    // Energy ½(m² + (m + F L)²)/ka + ½·2F²/kl - m θ: its gradient vanishes.
+    let (ka, kl, l, theta) = (300.0, 1000.0, 2.0, 0.01);
+    // (2m + F L)/ka = θ, L(m + F L)/ka + 2F/kl = 0
+    let det = (2.0 / ka) * (l * l / ka + 2.0 / kl) - (l / ka) * (l / ka);
+    let (moment, force) = (
+        theta * (l * l / ka + 2.0 / kl) / det,
+        -theta * (l / ka) / det,
+    );
+    let b = &elastic[1];
+    assert!(
+        (b.global_moment()[2] - moment).abs() < 1e-9 * moment,
+        "{b:?} {moment}"
+    );
+    assert!(
+        (b.global_force()[1] - force).abs() < 1e-9 * moment,
+        "{b:?} {force}"
+    );
+    // Without strain, nothing.
+    assert!(s.reactions.iter().all(|r| r.force_size() < 1e-12));
+}
+
+#[test]
+fn stiffness_decides_among_the_family_and_equilibrium_stays() {
+    let mut m = built_in("gripper-10-loaded");
+    let soft = Stiffness {
+        linear: 1e7,
+        angular: 1e3,
+    };
+    m.loads.stiffness = vec![("default".into(), soft)];
+    let s = solve(&m);
+    let straight = s.elastic.clone().unwrap();
+    assert!(left_over(&m, &straight) < 1e-9);
+    m.loads.misalignments.push(Misalignment {
+        joint: m.joint("2-3").unwrap(),
+        turn: [0.001, 0.0, 0.0],
+    });
+    let askew = solve(&m).elastic.unwrap();
+    assert!(left_over(&m, &askew) < 1e-9);
+    let moment = |l: &[JointReaction]| l.iter().map(JointReaction::moment_size).fold(0.0, f64::max);
+    assert!(moment(&askew) > 1.01 * moment(&straight));
+    // A hinge turned about its own axis strains nothing.
+    m.loads.misalignments[0].turn = [0.0, 0.0, 0.001];
+    let free = solve(&m).elastic.unwrap();
+    for (x, y) in free.iter().zip(&straight) {
+        assert!((x.force_size() - y.force_size()).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn the_command_gives_six_components_a_joint() {
+    let v = json(&[
+        "statics",
+        "gripper-10-loaded",
+        "--spatial",
+        "--format",
+        "json",
+    ]);
+    assert_eq!(v["choice"], "minimum-norm");
+    assert_eq!(v["self_stresses"].as_array().unwrap().len(), 11);
+    assert_eq!(v["reactions"].as_array().unwrap().len(), 13);
+    assert!(v["residual"].as_f64().unwrap() < 1e-12);
+    assert_eq!(v["reactions"][0]["drive"]["freedom"], "tz");
+    let text = out(&["statics", "gripper-10-loaded", "--spatial"]);
+    assert!(
+        text.contains("minimum norm") && text.contains("11 self-stresses"),
+        "{text}"
+    );
+    assert!(text.contains("Drive 0-1 holds tz"), "{text}");
+    let csv = out(&[
+        "statics",
+        "slider-crank-determinate",
+        "--spatial",
+        "--format",
+        "csv",
+    ]);
+    assert!(csv.starts_with("kind,joint,type,Fx"), "{csv}");
+    // Spatial and redundant mechanisms come here by themselves.
+    assert!(out(&["statics", "bennett"]).contains("states no loads"));
+    assert!(out(&["statics", "parallelogram-3-rods"]).contains("self-stress"));
+}
+
+#[test]
+fn bad_workloads_are_refused_with_line_item_and_remedy() {
+    let good = builtin::text("gripper-10-loaded").unwrap();
+    for (more, parts) in [
+        (
+            "[workload.stiffness.default]\nlinear = 0\nangular = 1\n",
+            &["stiffness 0", "above 0"][..],
+        ),
+        (
+            "[workload.stiffness.ball]\nlinear = 1\nangular = 1\n",
+            &["unknown joint type \"ball\"", "spherical"],
+        ),
+        (
+            "[[workload.misalignment]]\njoint = \"9-9\"\nangle = 0.1\naxis = \"x\"\n",
+            &["unknown joint \"9-9\""],
+        ),
+        (
+            "[[workload.misalignment]]\njoint = \"2-3\"\nangle = 0.1\naxis = \"w\"\n",
+            &["unknown axis \"w\"", "x, y, z"],
+        ),
+        (
+            "[[workload.moment]]\nlink = \"x\"\nmoment = [0, 0, 1]\n",
+            &["unknown link \"x\""],
+        ),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("bad.toml");
+        std::fs::write(&path, format!("{good}\n{more}")).unwrap();
+        let o = ozols(&["statics", path.to_str().unwrap()])
+            .output()
+            .unwrap();
+        let said = String::from_utf8(o.stderr).unwrap();
+        assert_eq!(o.status.code(), Some(2), "{said}");
+        assert!(said.contains("bad.toml:"), "{said}");
+        for p in parts {
+            assert!(said.contains(p), "no {p:?} in: {said}");
+        }
+    }
+}
