@@ -227,8 +227,10 @@ mod tests {
             let a = numbers(seed, n * m);
             let x = numbers(seed + 9, m * sides);
             let width = m + sides;
-            let mut s = Scratch::default();
-            s.rows = vec![0.0; n * width];
+            let mut s = Scratch {
+                rows: vec![0.0; n * width],
+                ..Scratch::default()
+            };
             for r in 0..n {
                 s.rows[r * width..r * width + m].copy_from_slice(&a[r * m..(r + 1) * m]);
                 for c in 0..sides {

@@ -187,6 +187,8 @@ pub fn rank(
             (out.proven, out.proof) = (true, proof);
             break;
         }
+        // What is behind the best so far stays behind.
+        kept.truncate(top.max(1));
     }
     if ranking.order == Order::Pareto {
         let points: Vec<Vec<f64>> = kept
