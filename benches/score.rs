@@ -1,6 +1,5 @@
 //! How fast variants of the ten-link gripper are scored under a workload: figures for the documentation of `score`.
 #![allow(missing_docs, reason = "criterion's macros")]
-#![allow(missing_docs, reason = "a bench")]
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use ozols::builtin;
