@@ -10,8 +10,10 @@
 //! loads sent along the spanning tree and their Gram matrices are computed once. What is left for a variant of the ten-link
 //! gripper is to copy some 24 rows of 24 + 7 numbers, one elimination with seven right sides (the loads, and a unit force
 //! along each axis on each jaw), 13 sums of wrenches and the two ends of a spectrum of 24 values. `benches/score.rs` measures
-//! it; the tridiagonal form for the conditioning and the elimination are the two limits, both bound by arithmetic on small
-//! dense blocks and not by memory.
+//! it. `ozols search gripper-10-loaded --pool 400000 --check none --threads 1` takes 6.5 s of processor time (release build,
+//! other work on the machine), that is 16 µs a variant and core with the giving and sorting of the variants: 6e4 variants a
+//! second and core, 1.2e5 on two cores by processor time. By count of operations (not profiled) the tridiagonal form for
+//! the conditioning, some 18,000, and the elimination, some 14,000 less what its zeros save, are what limits it.
 
 pub mod elimination;
 pub mod evaluate;
