@@ -293,7 +293,7 @@ impl Follower {
     /// Where it goes no further; the pose is then the last one reached.
     ///
     /// # Complexity
-    /// A closing and singular values, O((6k + f)³), a step; steps of at most [`LONGEST`].
+    /// A closing and singular values, O((6k + f)³), a step; steps of at most `LONGEST`.
     pub fn advance(&mut self, to: f64, mut visit: impl FnMut(&Follower)) -> Result<(), Stop> {
         let mut longest = LONGEST;
         loop {
