@@ -71,10 +71,11 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
             .collect();
         for (i, row) in rows.iter_mut().enumerate() {
             let mut tally = Tally::default();
-            right
-                .iter()
-                .enumerate()
-                .for_each(|(at, r)| tally.add(at / seeds, r[i]));
+            for (at, found) in right.iter().enumerate() {
+                if let Some(&ok) = found.get(i) {
+                    tally.add(at / seeds, ok);
+                }
+            }
             row.1.push(tally);
         }
     }
