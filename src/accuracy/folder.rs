@@ -23,14 +23,15 @@ pub fn files(survey: &Survey, studies: &[Study]) -> Vec<(String, String)> {
     ];
     for study in studies {
         files.push((format!("{}.csv", study.name), study.csv.clone()));
+        // The sentence stands over the first picture of its study.
         let mut sentence = study.sentence.clone();
-        for (n, (name, svg)) in study.pictures.iter().enumerate() {
-            files.push((format!("{name}.svg"), svg.clone()));
-            let title = match n {
-                0 => study.title.clone(),
-                _ => format!("{} ({})", study.title, n + 1),
-            };
-            parts.push((title, std::mem::take(&mut sentence), svg.clone()));
+        for picture in &study.pictures {
+            files.push((format!("{}.svg", picture.name), picture.svg.clone()));
+            parts.push((
+                picture.title.clone(),
+                std::mem::take(&mut sentence),
+                picture.svg.clone(),
+            ));
         }
     }
     files.push((

@@ -10,7 +10,19 @@ pub mod sweep;
 mod tolerance;
 
 use super::survey::Case;
+use crate::chart::{Bands, Chart};
 use crate::import::problem::ImportError;
+
+/// A picture of a study.
+#[derive(Debug, Clone)]
+pub struct Picture {
+    /// The stem of its file.
+    pub name: String,
+    /// What is shown.
+    pub title: String,
+    /// The picture.
+    pub svg: String,
+}
 
 /// A series of experiments with what it shows.
 #[derive(Debug, Clone)]
@@ -21,10 +33,28 @@ pub struct Study {
     pub title: String,
     /// What came of it, from the data.
     pub sentence: String,
-    /// Names and texts of its SVG pictures.
-    pub pictures: Vec<(String, String)>,
+    /// Its pictures.
+    pub pictures: Vec<Picture>,
     /// Its data.
     pub csv: String,
+}
+
+impl Picture {
+    fn of_bands(name: impl Into<String>, bands: &Bands) -> Picture {
+        Picture {
+            name: name.into(),
+            title: bands.title.clone(),
+            svg: bands.svg(),
+        }
+    }
+
+    fn of_chart(name: impl Into<String>, chart: &Chart) -> Picture {
+        Picture {
+            name: name.into(),
+            title: chart.title.clone(),
+            svg: chart.svg(),
+        }
+    }
 }
 
 /// How much to do.

@@ -2,7 +2,7 @@
 
 use super::change::power_of_ten;
 use super::sweep::bands;
-use super::{Effort, Progress, Study};
+use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::csv::Csv;
 use crate::accuracy::words::{list, scientific};
 use crate::accuracy::{Truth, Verdict};
@@ -236,15 +236,10 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
             }
             rows.push((method.name().to_owned(), bands(&xs, kinds)));
         }
-        pictures.push((
+        let far = found.last().map_or(at_zero, |a| a.truth);
+        pictures.push(Picture::of_bands(
             format!("stability-distance-{}", special.name),
-            picture(
-                special,
-                rows,
-                at_zero,
-                found.last().map_or(at_zero, |a| a.truth),
-            )
-            .svg(),
+            &picture(special, rows, at_zero, far),
         ));
         values.push(Series {
             name: special.name.to_owned(),
@@ -252,7 +247,10 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
             style: Style::Line,
         });
     }
-    pictures.push(("stability-distance-values".to_owned(), chart(values).svg()));
+    pictures.push(Picture::of_chart(
+        "stability-distance-values",
+        &chart(values),
+    ));
     Ok(Study {
         name: "stability-distance",
         title: "Distance from special geometry".to_owned(),

@@ -3,7 +3,7 @@
 use super::change::{Noise, shaken};
 use super::numeric::Numeric;
 use super::sweep::{Sweep, Tally};
-use super::{Effort, Progress, Study};
+use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::Verdict;
 use crate::accuracy::survey::Case;
 use crate::accuracy::words::{list, scientific};
@@ -19,7 +19,7 @@ const ASKED: [(Numeric, &[f64]); 4] = [
     (Numeric::Qr, &[1e-9, 1e-6]),
     (Numeric::Svd, &[1e-12, 1e-9, 1e-6, 1e-3]),
 ];
-/// and these methods as they are.
+/// and these methods as they are, for the first seed only, since following a motion takes its time.
 const WHOLE: [&str; 2] = ["modular", "auto"];
 
 fn names() -> Vec<String> {
@@ -30,8 +30,8 @@ fn names() -> Vec<String> {
     numeric.chain(WHOLE.map(str::to_owned)).collect()
 }
 
-/// Whether each of [`names`] is right on a shaken case.
-fn ask(case: &Case, level: f64, noise: &mut Noise) -> Vec<bool> {
+/// Whether each of [`names`] is right on a shaken case; without those of [`WHOLE`] where `whole` is not set.
+fn ask(case: &Case, level: f64, noise: &mut Noise, whole: bool) -> Vec<bool> {
     let m = shaken(&case.mechanism, level, noise);
     let closure = Closure::new(&Reals, &m, case.state).ok();
     let mut out = Vec::new();
@@ -46,7 +46,7 @@ fn ask(case: &Case, level: f64, noise: &mut Noise) -> Vec<bool> {
             None => out.extend(tolerances.iter().map(|_| false)),
         }
     }
-    for name in WHOLE {
+    for name in WHOLE.iter().filter(|_| whole) {
         let answer = method::by_name(name).map(|x| x.answer(&m, case.state));
         out.push(answer.is_some_and(|a| Verdict::keeps_promise(&a, case.truth)));
     }
@@ -66,15 +66,16 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
             .map(|i| {
                 let (c, seed) = (i / seeds, (i % seeds) as u64);
                 let mut noise = Noise::new(effort.seed.wrapping_add(seed), c);
-                ask(&cases[c], 10f64.powi(e), &mut noise)
+                ask(&cases[c], 10f64.powi(e), &mut noise, seed == 0)
             })
             .collect();
         for (i, row) in rows.iter_mut().enumerate() {
             let mut tally = Tally::default();
-            right
-                .iter()
-                .enumerate()
-                .for_each(|(at, r)| tally.add(at / seeds, r[i]));
+            for (at, found) in right.iter().enumerate() {
+                if let Some(&ok) = found.get(i) {
+                    tally.add(at / seeds, ok);
+                }
+            }
             row.1.push(tally);
         }
     }
@@ -91,15 +92,17 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         name: "stability-noise",
         title: sweep.title.clone(),
         pictures: vec![
-            ("stability-noise".to_owned(), sweep.bands(&sentence).svg()),
-            (
-                "stability-noise-share".to_owned(),
-                sweep
-                    .chart(&format!(
-                        "Share of {} noisy mechanisms whose mobility without noise is found: at the pose, and for auto the finite one.",
-                        cases.len() * seeds
-                    ))
-                    .svg(),
+            Picture::of_bands("stability-noise", &sweep.bands()),
+            Picture::of_chart(
+                "stability-noise-share",
+                &sweep.chart(
+                    "Share right against noise",
+                    &format!(
+                        "{} noisy mechanisms ({} for modular and auto) whose mobility without noise is found: at the pose, and for auto the finite one.",
+                        cases.len() * seeds,
+                        cases.len()
+                    ),
+                ),
             ),
         ],
         sentence,
@@ -109,7 +112,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
 
 fn sentence(sweep: &Sweep) -> String {
     let part = |name: &str| {
-        let region = sweep.region(sweep.row(name)?)?;
+        let region = sweep.region(sweep.row(name)?, 1)?;
         Some(format!(
             "{name} up to noise of {} {}",
             scientific(sweep.values[region.last]),
@@ -122,7 +125,7 @@ fn sentence(sweep: &Sweep) -> String {
         .chain(["auto".to_owned()])
         .filter_map(|name| part(&name))
         .collect();
-    let exact = sweep.row("modular").and_then(|row| sweep.region(row));
+    let exact = sweep.row("modular").and_then(|row| sweep.region(row, 0));
     let exact = exact.map_or_else(String::new, |r| {
         format!(
             " Exact ranks take every digit at its word: with any noise modular finds it {} only.",

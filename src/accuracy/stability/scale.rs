@@ -3,7 +3,7 @@
 use super::change::resized;
 use super::numeric::Numeric;
 use super::sweep::{Sweep, Tally};
-use super::{Effort, Progress, Study};
+use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::Verdict;
 use crate::accuracy::survey::Case;
 use crate::accuracy::words::{list, scientific};
@@ -57,15 +57,13 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         name: "stability-scale",
         title: sweep.title.clone(),
         pictures: vec![
-            (
-                "stability-scale".to_owned(),
-                sweep.bands(&sentence).svg(),
-            ),
-            (
-                "stability-scale-share".to_owned(),
-                sweep
-                    .chart("Share of all cases in which a method keeps its promise: the mobility at the pose, and for auto the finite one.")
-                    .svg(),
+            Picture::of_bands("stability-scale", &sweep.bands()),
+            Picture::of_chart(
+                "stability-scale-share",
+                &sweep.chart(
+                    "Share right against scale",
+                    "Cases in which a method keeps its promise: the mobility at the pose, and for auto the finite one.",
+                ),
             ),
         ],
         sentence,
@@ -76,7 +74,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
 fn sentence(sweep: &Sweep) -> String {
     let (mut always, mut rest) = (Vec::new(), Vec::new());
     for (n, (name, tallies)) in sweep.rows.iter().enumerate() {
-        let Some(region) = sweep.region(n) else {
+        let Some(region) = sweep.region(n, 0) else {
             continue;
         };
         if sweep.is_whole(&region) && region.missed.is_empty() {

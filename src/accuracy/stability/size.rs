@@ -1,7 +1,7 @@
 //! Size: 1 to 200 contours.
 
 use super::sweep::{Tally, bands};
-use super::{Effort, Progress, Study};
+use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::csv::Csv;
 use crate::accuracy::lattice::{self, Kind as Shape};
 use crate::accuracy::survey::{median, time};
@@ -103,11 +103,8 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
         name: "stability-size",
         title: "Size".to_owned(),
         pictures: vec![
-            (
-                "stability-size-time".to_owned(),
-                chart(sizes, &records).svg(),
-            ),
-            ("stability-size".to_owned(), picture(sizes, &records).svg()),
+            Picture::of_chart("stability-size-time", &chart(sizes, &records)),
+            Picture::of_bands("stability-size", &picture(sizes, &records)),
         ],
         sentence,
         csv: csv.finish(),

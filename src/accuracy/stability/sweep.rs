@@ -91,32 +91,36 @@ pub fn bands(values: &[f64], kinds: impl IntoIterator<Item = Kind>) -> Vec<Band>
 }
 
 impl Sweep {
-    /// The longest stretch of values over which a row misses as few cases as it ever does, and always the same ones.
+    /// The longest stretch of values over which a row misses as few cases as it ever does, or `slack` more.
     #[must_use]
-    pub fn region(&self, row: usize) -> Option<Region> {
+    pub fn region(&self, row: usize, slack: usize) -> Option<Region> {
         let tallies = &self.rows[row].1;
         let asked = tallies.iter().filter(|t| t.of > 0);
         let fewest = asked.map(|t| t.missed.len()).min()?;
-        let mut best: Option<Region> = None;
-        let mut begun: Option<usize> = None;
+        let good = |t: &Tally| t.of > 0 && t.missed.len() <= fewest + slack;
+        let (mut best, mut begun) = (None::<(usize, usize)>, None);
         for (n, tally) in tallies.iter().enumerate() {
-            if tally.of == 0 || tally.missed.len() > fewest {
+            if !good(tally) {
                 begun = None;
                 continue;
             }
-            let from = begun
-                .filter(|&b| tallies[b].missed == tally.missed)
-                .unwrap_or(n);
-            begun = Some(from);
-            if best.as_ref().is_none_or(|b| n - from > b.last - b.first) {
-                best = Some(Region {
-                    first: from,
-                    last: n,
-                    missed: tally.missed.clone(),
-                });
+            let from = *begun.get_or_insert(n);
+            if best.is_none_or(|(first, last)| n - from > last - first) {
+                best = Some((from, n));
             }
         }
-        best
+        let (first, last) = best?;
+        let mut missed: Vec<usize> = tallies[first..=last]
+            .iter()
+            .flat_map(|t| t.missed.iter().copied())
+            .collect();
+        missed.sort_unstable();
+        missed.dedup();
+        Some(Region {
+            first,
+            last,
+            missed,
+        })
     }
 
     /// Whether the stretch is the whole range.
@@ -146,10 +150,11 @@ impl Sweep {
 
     /// Where each row is right on all, on at least nine in ten, on fewer.
     #[must_use]
-    pub fn bands(&self, subtitle: &str) -> Bands {
+    pub fn bands(&self) -> Bands {
         Bands {
             title: self.title.clone(),
-            subtitle: subtitle.to_owned(),
+            subtitle: "Right: in all cases; in doubt: in nine of ten or more; wrong: in fewer."
+                .to_owned(),
             x: self.axis(),
             rows: self
                 .rows
@@ -164,11 +169,11 @@ impl Sweep {
         }
     }
 
-    /// The share of right answers.
+    /// The share of right answers as lines.
     #[must_use]
-    pub fn chart(&self, subtitle: &str) -> Chart {
+    pub fn chart(&self, title: &str, subtitle: &str) -> Chart {
         Chart {
-            title: self.title.clone(),
+            title: title.to_owned(),
             subtitle: subtitle.to_owned(),
             x: self.axis(),
             y: Axis {
@@ -246,12 +251,17 @@ mod tests {
 
     #[test]
     fn the_region_is_the_longest_stretch_with_the_fewest_misses() {
-        let ends = |s: Sweep| s.region(0).map(|r| (r.first, r.last, s.but(&r.missed)));
+        let ends = |s: Sweep| s.region(0, 0).map(|r| (r.first, r.last, s.but(&r.missed)));
         let all = || "in all cases".to_owned();
         assert_eq!(ends(sweep([&[], &[3], &[], &[]])), Some((2, 3, all())));
         assert_eq!(ends(sweep([&[], &[], &[], &[1]])), Some((0, 2, all())));
         let but = "in all cases but c3".to_owned();
         assert_eq!(ends(sweep([&[3], &[3], &[1, 3], &[2]])), Some((0, 1, but)));
+        let slack = sweep([&[], &[3], &[2, 3], &[]]).region(0, 1);
+        assert_eq!(
+            slack.map(|r| (r.first, r.last, r.missed)),
+            Some((0, 1, vec![3]))
+        );
         let many = "in 6 of 10 cases".to_owned();
         assert_eq!(ends(sweep([&[1, 2, 3, 4]; 4])), Some((0, 3, many)));
     }

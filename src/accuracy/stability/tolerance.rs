@@ -3,7 +3,7 @@
 use super::change::{Noise, shaken};
 use super::numeric::Numeric;
 use super::sweep::{Sweep, Tally};
-use super::{Effort, Progress, Study};
+use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::survey::Case;
 use crate::accuracy::words::{list, scientific};
 use crate::closure::matrix::Closure;
@@ -87,41 +87,34 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         cases: cases.iter().map(Case::name).collect(),
         rows,
     };
-    let part = |title: &str, names: Vec<String>| Sweep {
-        title: title.to_owned(),
-        rows: all
-            .rows
-            .iter()
-            .filter(|r| names.contains(&r.0))
-            .cloned()
-            .collect(),
-        ..all.clone()
+    let part = |names: Vec<String>| {
+        let rows = all.rows.iter().filter(|r| names.contains(&r.0));
+        Sweep {
+            rows: rows.cloned().collect(),
+            ..all.clone()
+        }
     };
-    let methods = part(
-        "Tolerance, coordinates as in the catalogue",
-        Numeric::ALL.map(|m| name(m, 0.0)).to_vec(),
-    );
-    let levels = part(
-        "Tolerance of singular values, with noise",
-        LEVELS.map(|l| name(Numeric::Svd, l)).to_vec(),
-    );
+    let methods = part(Numeric::ALL.map(|m| name(m, 0.0)).to_vec());
+    let levels = part(LEVELS.map(|l| name(Numeric::Svd, l)).to_vec());
     let sentence = sentence(&all);
     Study {
         name: "stability-tolerance",
         title: all.title.clone(),
         pictures: vec![
-            ("stability-tolerance".to_owned(), all.bands(&sentence).svg()),
-            (
-                "stability-tolerance-methods".to_owned(),
-                methods
-                    .chart("Share of all cases in which the mobility at the pose is found.")
-                    .svg(),
+            Picture::of_bands("stability-tolerance", &all.bands()),
+            Picture::of_chart(
+                "stability-tolerance-methods",
+                &methods.chart(
+                    "Share right against tolerance, by method",
+                    "Coordinates as in the catalogue; cases in which the mobility at the pose is found.",
+                ),
             ),
-            (
-                "stability-tolerance-noise".to_owned(),
-                levels
-                    .chart("Share of all cases in which singular values find the mobility at the pose of the mechanism without noise.")
-                    .svg(),
+            Picture::of_chart(
+                "stability-tolerance-noise",
+                &levels.chart(
+                    "Share right against tolerance, by noise",
+                    "Singular values; cases in which the mobility at the pose of the mechanism without noise is found.",
+                ),
             ),
         ],
         sentence,
@@ -131,7 +124,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
 
 /// The tolerances at which a row does best, in words, and their middle on a log scale.
 fn best(sweep: &Sweep, row: &str) -> Option<(String, f64)> {
-    let region = sweep.region(sweep.row(row)?)?;
+    let region = sweep.region(sweep.row(row)?, 0)?;
     let (from, to) = (sweep.values[region.first], sweep.values[region.last]);
     let least = if region.first == 0 {
         " (the least tried)"
