@@ -296,6 +296,12 @@ impl Pose {
         self
     }
 
+    /// Relative error of the coordinates, 0 where they are exact.
+    #[must_use]
+    pub fn accuracy(&self) -> f64 {
+        self.accuracy
+    }
+
     /// The largest gap of a pose that counts as closed: radians, and fractions of [`Pose::length`].
     #[must_use]
     pub fn closed(&self) -> f64 {
@@ -350,7 +356,8 @@ impl Pose {
         let closed = self.closed();
         // Errors of the coordinates must not be mended by running along the motion.
         let floor = (1e3 * self.accuracy).clamp(1e-11, 1e-2);
-        let (mut residual, mut best) = (f64::INFINITY, (f64::INFINITY, q.clone()));
+        let (mut residual, mut before) = (f64::INFINITY, f64::INFINITY);
+        let mut best = (f64::INFINITY, q.clone());
         for _ in 0..STEPS {
             let gaps = self.gaps(&q);
             residual = gaps.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -361,6 +368,11 @@ impl Pose {
             if residual < 1e-14 || !residual.is_finite() {
                 break;
             }
+            // Measured contours never close quite: further steps would creep along the motion, to where they close better.
+            if self.accuracy > 0.0 && residual < closed && residual > before / 2.0 {
+                break;
+            }
+            before = residual;
             let mut jacobian = self.jacobian(&q);
             for &c in hold {
                 jacobian.col_mut(c).fill(0.0);

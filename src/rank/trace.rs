@@ -130,7 +130,13 @@ impl Search {
                 *correction = norm(q.iter().zip(&d).map(|(q, d)| q - step * d));
             }
             // 16 for a quadratic, 4 where the direction is not that of a motion.
-            if corrections[0] > 1e-9 && corrections[1] > corrections[0] / 8.0 {
+            // Errors of the coordinates alone make some correction, whatever the step.
+            let least = if pose.accuracy() > 0.0 {
+                first / 1e3
+            } else {
+                1e-9
+            };
+            if corrections[0] > least && corrections[1] > corrections[0] / 8.0 {
                 return Some(false);
             }
             if corrections[0] > first / 2.0 {
