@@ -4,6 +4,7 @@ mod analyze;
 mod answer;
 mod args;
 mod check;
+mod draw;
 mod export;
 mod import;
 mod load;
@@ -44,6 +45,7 @@ pub fn run() -> ExitCode {
         args::Command::Statics(a) => statics::run(&args, a),
         args::Command::Verify(a) => verify::run(&args, a),
         args::Command::Import(a) => import::run(&args, a),
+        args::Command::Draw(a) => draw::run(&args, a),
         args::Command::Export(a) => export::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::List => check::list(),

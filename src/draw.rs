@@ -1,0 +1,138 @@
+//! Drawings of a mechanism as self-contained SVG: the structural scheme, and the kinematic scheme from the coordinates.
+//!
+//! Both are for printing as well as for the screen: light and dark by the reader's setting, no script, no font file, the
+//! same bytes for the same input. Labels never touch each other or a symbol; where there is no room beside what they
+//! name, they stand farther away on a leader.
+
+mod crowding;
+mod labels;
+mod layout;
+pub mod marks;
+mod scheme;
+mod sheet;
+mod starts;
+
+pub use labels::Rect;
+pub use scheme::scheme;
+
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::redundancy::analysis::StateAnalysis;
+
+/// What is to be drawn.
+#[derive(Debug, Clone)]
+pub struct Subject<'a> {
+    /// The mechanism.
+    pub mechanism: &'a Mechanism,
+    /// The state it is drawn in.
+    pub state: StateId,
+    /// Its figures in that state, where they are known: contours are tinted by their share of the redundant constraints.
+    pub analysis: Option<&'a StateAnalysis>,
+    /// What a redesign changed, where the mechanism is one.
+    pub marks: Option<Marks>,
+}
+
+/// What a redesign changed.
+#[derive(Debug, Clone, Default)]
+pub struct Marks {
+    /// What the redesign is called, such as `variant 1`.
+    pub name: String,
+    /// Changed joints, with their classes and the words for it: `2-3: V → III spherical`.
+    pub changed: Vec<(JointId, String)>,
+    /// Joints from this one on are added.
+    pub joints: usize,
+    /// Links from this one on are added.
+    pub links: usize,
+}
+
+/// A text of a drawing and the room it takes at 0.6 of its size a character.
+#[derive(Debug, Clone)]
+pub struct Label {
+    /// The text.
+    pub text: String,
+    /// Its room.
+    pub rect: Rect,
+}
+
+/// A finished drawing.
+#[derive(Debug, Clone)]
+pub struct Drawing {
+    /// The picture.
+    pub svg: String,
+    /// Its width in pixels.
+    pub width: f64,
+    /// Its height in pixels.
+    pub height: f64,
+    /// Every text.
+    pub labels: Vec<Label>,
+    /// The room of the joints' symbols; a joint's class stands inside its own.
+    pub symbols: Vec<Rect>,
+}
+
+/// How a part of the drawing is marked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Mark {
+    None,
+    Changed,
+    New,
+}
+
+impl Mark {
+    /// The class of the style sheet that shows it, with a space before it.
+    fn class(self) -> &'static str {
+        match self {
+            Mark::None => "",
+            Mark::Changed => " changed",
+            Mark::New => " new",
+        }
+    }
+}
+
+impl Subject<'_> {
+    fn joint_mark(&self, joint: JointId) -> Mark {
+        match &self.marks {
+            Some(m) if joint >= m.joints => Mark::New,
+            Some(m) if m.changed.iter().any(|(j, _)| *j == joint) => Mark::Changed,
+            _ => Mark::None,
+        }
+    }
+
+    fn link_mark(&self, link: usize) -> Mark {
+        match &self.marks {
+            Some(m) if link >= m.links => Mark::New,
+            _ => Mark::None,
+        }
+    }
+
+    /// Whether a joint is there in this state and not in the free one.
+    fn only_here(&self, joint: JointId) -> bool {
+        self.mechanism.joints[joint]
+            .states
+            .as_ref()
+            .is_some_and(|s| !s.contains(&0))
+    }
+
+    fn title(&self) -> String {
+        let name = &self.mechanism.name;
+        match &self.marks {
+            Some(m) if !m.name.is_empty() => format!("{name}, {}", m.name),
+            _ => name.clone(),
+        }
+    }
+
+    /// The figures in one line.
+    fn figures(&self, what: &str) -> String {
+        let state = &self.mechanism.states[self.state];
+        let state = if self.mechanism.states.len() > 1 {
+            format!(", state {state}")
+        } else {
+            String::new()
+        };
+        match self.analysis {
+            Some(a) => format!(
+                "{what}{state}: n = {}, p = {}, k = {}, W = {}, σ = {}",
+                a.links, a.joints, a.contours, a.mobility, a.redundant
+            ),
+            None => format!("{what}{state}"),
+        }
+    }
+}
