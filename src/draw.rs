@@ -5,18 +5,23 @@
 //! name, they stand farther away on a leader.
 
 mod crowding;
+mod kinematic;
 mod labels;
 mod layout;
 pub mod marks;
+mod projection;
 mod scheme;
 mod sheet;
 mod starts;
+mod symbols;
 
+pub use kinematic::kinematic;
 pub use labels::Rect;
 pub use scheme::scheme;
 
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::redundancy::analysis::StateAnalysis;
+use sheet::{Shape, Swatch};
 
 /// What is to be drawn.
 #[derive(Debug, Clone)]
@@ -134,5 +139,31 @@ impl Subject<'_> {
             ),
             None => format!("{what}{state}"),
         }
+    }
+
+    /// Rows of the legend for what a redesign changed.
+    fn mark_rows(&self) -> Vec<(Swatch, String)> {
+        let Some(marks) = &self.marks else {
+            return Vec::new();
+        };
+        let m = self.mechanism;
+        let mut out = Vec::new();
+        for (j, words) in &marks.changed {
+            let class = m.joints[*j].joint_type.class().to_owned();
+            out.push((Swatch::Joint("joint changed", class), words.clone()));
+        }
+        for joint in m.joints.iter().skip(marks.joints) {
+            let class = joint.joint_type.class();
+            out.push((
+                Swatch::Joint("joint new", class.to_owned()),
+                format!("{}: added, {class} {}", joint.id, joint.joint_type),
+            ));
+        }
+        for link in m.links.iter().skip(marks.links) {
+            let bar = Shape::line("bone new".to_owned(), vec![[-9.0, 0.0], [9.0, 0.0]]);
+            let text = format!("link {}: added", link.id);
+            out.push((Swatch::Shapes(vec![bar]), text));
+        }
+        out
     }
 }

@@ -34,7 +34,7 @@ pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     };
     let drawing = match a.kind {
         DrawKind::Scheme => draw::scheme(&subject),
-        DrawKind::Kinematic => draw::scheme(&subject),
+        DrawKind::Kinematic => draw::kinematic(&subject),
     };
     output::to(a.output.as_deref(), |out| {
         out.write_all(drawing.svg.as_bytes())?;

@@ -36,7 +36,6 @@ pub(super) struct Layout {
 /// The nodes of the graph that is relaxed: the joints, then a hub for each link that is not a plain bar.
 #[derive(Debug)]
 pub(super) struct Net {
-    pub(super) joints: usize,
     pub(super) hub: Vec<Option<usize>>,
     pub(super) edges: Vec<Vec<(usize, f64)>>,
 }
@@ -66,11 +65,7 @@ pub(super) fn net(graph: &Graph) -> Net {
         }
         hub.push(Some(h));
     }
-    Net {
-        joints: graph.joints,
-        hub,
-        edges,
-    }
+    Net { hub, edges }
 }
 
 /// The distance of a link's joints from its middle.

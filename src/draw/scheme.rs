@@ -5,7 +5,7 @@ use super::layout::{
     Graph, Layout, Point, add, cross, dot, inside, layout, mean, norm, ring, scale, sub,
     to_segment, unit,
 };
-use super::sheet::{Anchor, Caption, PAD, SMALL, Sheet, Swatch, plan, polyline};
+use super::sheet::{Anchor, Caption, SMALL, Sheet, Swatch, plan, polyline};
 use super::{Drawing, Mark, Subject};
 use crate::chart::look::{cut, width};
 use crate::chart::xml::number;
@@ -375,8 +375,7 @@ impl<'a> Scheme<'a> {
                 ("small soft", SMALL, mark)
             } else if n < joints + links {
                 let link = self.parts.links[n - joints];
-                if self.subject.mechanism.links[link].role == Role::Frame || place.leader.is_none()
-                {
+                if self.subject.mechanism.links[link].role == Role::Frame {
                     sheet.rect("link-back", &rect, 3.0);
                 }
                 ("name", 12.0, self.subject.link_mark(link))
@@ -441,32 +440,7 @@ impl<'a> Scheme<'a> {
             let state = &m.states[self.subject.state];
             out.push((Swatch::Symbol(draw), format!("in state {state} only")));
         }
-        if let Some(marks) = &self.subject.marks {
-            for (j, words) in &marks.changed {
-                let class = m.joints[*j].joint_type.class().to_owned();
-                out.push((Swatch::Joint("joint changed", class), words.clone()));
-            }
-            for j in self.parts.joints.iter().filter(|j| **j >= marks.joints) {
-                let joint = &m.joints[*j];
-                let class = joint.joint_type.class();
-                out.push((
-                    Swatch::Joint("joint new", class.to_owned()),
-                    format!("{}: added, {class} {}", joint.id, joint.joint_type),
-                ));
-            }
-            for l in self.parts.links.iter().filter(|l| **l >= marks.links) {
-                let draw = |s: &mut Sheet, p: Point| {
-                    s.path(
-                        "link new",
-                        &rounded(&[add(p, [-7.0, 0.0]), add(p, [7.0, 0.0])], 6.0),
-                    );
-                };
-                out.push((
-                    Swatch::Symbol(draw),
-                    format!("link {}: added", m.links[*l].id),
-                ));
-            }
-        }
+        out.extend(self.subject.mark_rows());
         out
     }
 

@@ -1,7 +1,7 @@
 //! The sheet a drawing is on: title, style, legend, and a record of every label and symbol.
 
 use super::labels::Rect;
-use super::layout::Point;
+use super::layout::{Point, add};
 use super::{Drawing, Label};
 use crate::chart::look::{cut, width};
 use crate::chart::xml::{Xml, number};
@@ -91,17 +91,36 @@ pub(super) enum Swatch {
     Symbol(fn(&mut Sheet, Point)),
     /// A joint with text in it.
     Joint(&'static str, String),
-    /// A shape drawn earlier.
-    Raw(Vec<Shape>),
+    /// Shapes round the origin.
+    Shapes(Vec<Shape>),
 }
 
 /// A finished piece of drawing.
 #[derive(Debug, Clone)]
 pub(super) enum Shape {
-    /// A path with a class.
-    Path(String, String),
-    /// A circle with a class.
-    Circle(Point, f64, String),
+    /// A path.
+    Path {
+        class: String,
+        points: Vec<Point>,
+        closed: bool,
+    },
+    /// A circle.
+    Circle {
+        at: Point,
+        radius: f64,
+        class: String,
+    },
+}
+
+impl Shape {
+    /// An open path.
+    pub(super) fn line(class: String, points: Vec<Point>) -> Shape {
+        Shape::Path {
+            class,
+            points,
+            closed: false,
+        }
+    }
 }
 
 /// A drawing under way.
@@ -127,10 +146,10 @@ pub(super) struct Caption<'a> {
 pub(super) struct Plan {
     /// What to add to the drawing's coordinates.
     pub(super) shift: Point,
-    size: Point,
+    pub(super) size: Point,
     columns: usize,
     column: f64,
-    legend_top: f64,
+    pub(super) legend_top: f64,
 }
 
 /// How wide a sheet with such a drawing is at least.
@@ -141,7 +160,10 @@ pub(super) fn plan(caption: &Caption<'_>, area: Rect, strip: f64) -> Plan {
     let rows = &caption.legend;
     let widest = rows.iter().map(|(_, t)| width(t, TEXT));
     let column = SWATCH + widest.fold(0.0, f64::max).min(WIDEST) + 24.0;
-    let inner = (area.right - area.left).max(LEAST).max(column - 24.0);
+    let inner = (area.right - area.left)
+        .max(LEAST)
+        .max(column - 24.0)
+        .max(width(caption.subtitle, 13.0).min(WIDEST));
     let columns = (((inner + 24.0) / column) as usize).clamp(1, 4);
     let lines = rows.len().div_ceil(columns);
     let head = PAD + 46.0;
@@ -278,11 +300,20 @@ impl Sheet {
             .close();
     }
 
-    /// A finished piece, moved.
-    pub(super) fn shape(&mut self, shape: &Shape) {
-        match shape {
-            Shape::Path(class, d) => self.path(class, d),
-            Shape::Circle(at, radius, class) => self.circle(class, *at, *radius),
+    /// Finished pieces, moved.
+    pub(super) fn shapes(&mut self, shapes: &[Shape], by: Point) {
+        for shape in shapes {
+            match shape {
+                Shape::Path {
+                    class,
+                    points,
+                    closed,
+                } => {
+                    let moved: Vec<Point> = points.iter().map(|&p| add(p, by)).collect();
+                    self.path(class, &polyline(&moved, *closed));
+                }
+                Shape::Circle { at, radius, class } => self.circle(class, add(*at, by), *radius),
+            }
         }
     }
 
@@ -310,19 +341,7 @@ impl Sheet {
                     self.circle(class, middle, 9.5);
                     self.text("class", 9.0, middle, Anchor::Middle, label);
                 }
-                Swatch::Raw(shapes) => {
-                    self.xml
-                        .tag("g")
-                        .set(
-                            "transform",
-                            &format!("translate({} {})", number(middle[0]), number(middle[1])),
-                        )
-                        .open();
-                    for s in shapes {
-                        self.shape(s);
-                    }
-                    self.xml.end();
-                }
+                Swatch::Shapes(shapes) => self.shapes(shapes, middle),
             }
             let room = plan.column - SWATCH - 20.0;
             let shown = cut(text, TEXT, room.min(self.size[0] - x - SWATCH - PAD));
