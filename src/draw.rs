@@ -9,6 +9,7 @@ mod kinematic;
 mod labels;
 mod layout;
 pub mod marks;
+mod mirror;
 mod projection;
 mod scheme;
 mod sheet;
@@ -124,20 +125,30 @@ impl Subject<'_> {
         }
     }
 
-    /// The figures in one line.
-    fn figures(&self, what: &str) -> String {
+    /// What the drawing is, and the mechanism's figures.
+    fn subtitle(&self, what: &str) -> [String; 2] {
         let state = &self.mechanism.states[self.state];
-        let state = if self.mechanism.states.len() > 1 {
-            format!(", state {state}")
+        let what = if self.mechanism.states.len() > 1 {
+            format!("{what}, state {state}")
         } else {
-            String::new()
+            what.to_owned()
         };
-        match self.analysis {
-            Some(a) => format!(
-                "{what}{state}: n = {}, p = {}, k = {}, W = {}, σ = {}",
-                a.links, a.joints, a.contours, a.mobility, a.redundant
-            ),
-            None => format!("{what}{state}"),
+        let figures = self.analysis.map_or(String::new(), |a| {
+            format!(
+                "n = {}, p = {}, k = {}, f = {}, W = {}, σ = {}",
+                a.links, a.joints, a.contours, a.freedoms, a.mobility, a.redundant
+            )
+        });
+        [what, figures]
+    }
+
+    /// The same as the beginning of a text.
+    fn summary(&self, what: &str) -> String {
+        let [what, figures] = self.subtitle(what);
+        if figures.is_empty() {
+            format!("{what}.")
+        } else {
+            format!("{what}: {figures}.")
         }
     }
 

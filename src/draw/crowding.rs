@@ -3,6 +3,7 @@
 use super::layout::{
     Graph, Point, add, cross, inside, mean, norm, radius, ring, segments_cross, sub, to_segment,
 };
+use super::mirror::Mirror;
 use super::starts::Dice;
 
 /// Joints nearer than this are too near.
@@ -87,7 +88,7 @@ impl<'a> Crowding<'a> {
                 let turn = cross(sub(at[b], at[a]), sub(at[c], at[b]));
                 let least = if m == 3 { 0.45 } else { 0.0 };
                 if turn < least {
-                    sum += 1.5 * (least - turn).min(1.5);
+                    sum += 1.5 * (least - turn).min(1.5) + if turn < -0.02 { 3.0 } else { 0.0 };
                 }
             }
         }
@@ -148,7 +149,7 @@ impl<'a> Crowding<'a> {
                     .count();
                 let c = mean(polygon.iter().copied());
                 let round: f64 = polygon.iter().map(|&p| norm(sub(p, c))).fold(0.0, f64::max);
-                1.2 * within as f64 + if round < 0.5 { 1.0 } else { 0.0 }
+                0.5 * within as f64 + if round < 0.5 { 1.0 } else { 0.0 }
             })
             .sum()
     }
@@ -173,8 +174,16 @@ impl<'a> Crowding<'a> {
         sum + others.map(|i| near(at[i], at[j])).sum::<f64>()
     }
 
+    fn twin_about(&self, j: usize, twin: usize, rings: &[Vec<usize>], at: &[Point]) -> f64 {
+        if twin == j {
+            0.0
+        } else {
+            self.about(twin, rings, at)
+        }
+    }
+
     /// Annealing by moves of single joints; the same for the same graph.
-    pub(super) fn polish(&self, at: &mut Vec<Point>) {
+    pub(super) fn polish(&self, at: &mut Vec<Point>, mirror: Option<&Mirror>) {
         let n = at.len();
         if n < 2 {
             return;
@@ -188,20 +197,25 @@ impl<'a> Crowding<'a> {
         for step in 0..moves {
             let cool = 1.0 - step as f64 / moves as f64;
             let j = dice.below(n);
-            let before = self.about(j, &rings, &now);
+            let twin = mirror.map_or(j, |m| m.image(j));
+            let before = self.about(j, &rings, &now) + self.twin_about(j, twin, &rings, &now);
             let reach = 1.6 * cool * cool + 0.05;
-            let old = now[j];
-            now[j] = add(old, [reach * dice.signed(), reach * dice.signed()]);
-            let kept: Vec<(usize, Vec<usize>)> = self.of_joint[j]
-                .iter()
-                .map(|&l| (l, rings[l].clone()))
-                .collect();
-            for &l in &self.of_joint[j] {
+            let old = [now[j], now[twin]];
+            now[j] = add(now[j], [reach * dice.signed(), reach * dice.signed()]);
+            if twin != j {
+                now[twin] = [now[j][0], -now[j][1]];
+            } else if mirror.is_some() {
+                now[j][1] = 0.0;
+            }
+            let moved = || self.of_joint[j].iter().chain(&self.of_joint[twin]);
+            let kept: Vec<(usize, Vec<usize>)> = moved().map(|&l| (l, rings[l].clone())).collect();
+            for &l in moved() {
                 rings[l] = ring(&self.graph.links[l], &now);
             }
-            let gain = before - self.about(j, &rings, &now);
+            let after = self.about(j, &rings, &now) + self.twin_about(j, twin, &rings, &now);
+            let gain = before - after;
             if gain < 0.0 && dice.even() > (gain / (1.2 * cool * cool + 1e-9)).exp() {
-                now[j] = old;
+                (now[j], now[twin]) = (old[0], old[1]);
                 for (l, ring) in kept {
                     rings[l] = ring;
                 }

@@ -154,10 +154,10 @@ impl<'a> Kinematic<'a> {
         }
         let title = self.subject.title();
         let what = format!("Kinematic scheme {}", self.view.name);
-        let subtitle = self.subject.figures(&what);
+        let subtitle = self.subject.subtitle(&what);
         let caption = Caption {
             title: &title,
-            subtitle: &subtitle,
+            subtitle: [&subtitle[0], &subtitle[1]],
             description: &self.description(),
             legend: self.legend(),
         };
@@ -432,7 +432,7 @@ impl<'a> Kinematic<'a> {
         out.extend(self.subject.mark_rows());
         if self.moved {
             let none = |_: &mut Sheet, _: Point| {};
-            let text = "joints of one point are drawn apart".to_owned();
+            let text = "coincident joints are drawn apart".to_owned();
             out.push((Swatch::Symbol(none), text));
         }
         out
@@ -442,7 +442,7 @@ impl<'a> Kinematic<'a> {
     fn description(&self) -> String {
         let m = self.subject.mechanism;
         let what = format!("Kinematic scheme {}", self.view.name);
-        let mut out = format!("{}.", self.subject.figures(&what));
+        let mut out = self.subject.summary(&what);
         for s in &self.spots {
             let joint = &m.joints[s.joint];
             let [a, b] = joint.links.map(|l| &m.links[l].id);
@@ -517,7 +517,8 @@ fn grounds(spots: &[Spot], links: &[(LinkId, Vec<usize>)], frame: LinkId) -> Vec
             let to = add(at, scale(dir, reach));
             let ground = Ground { from: at, to };
             // straight down is best, then what is clear
-            let mut cost = 0.25 * (1.0 - dir[1]) + 0.1 * (2.0 * angle).sin().abs();
+            let aslant = if step % 4 == 0 { 0.0 } else { 0.9 };
+            let mut cost = 0.25 * (1.0 - dir[1]) + aslant;
             let near = ground.rect().grown(1.0);
             for s in spots.iter().filter(|s| s.at != at) {
                 cost += if near.overlaps(&s.rect) { 4.0 } else { 0.0 };

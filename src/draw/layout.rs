@@ -8,7 +8,8 @@
 //! Gansner, Koren & North, "Graph drawing by stress majorization", GD 2004. Tutte, "How to draw a graph", 1963.
 
 use super::crowding::Crowding;
-use super::starts;
+use super::mirror::Mirror;
+use super::starts::{self, Start};
 
 /// A point of the picture; y goes down.
 pub(super) type Point = [f64; 2];
@@ -78,6 +79,16 @@ pub(super) fn radius(joints: usize) -> f64 {
     }
 }
 
+/// A layout to choose from.
+#[derive(Debug)]
+struct Candidate {
+    cost: f64,
+    /// What the cost is multiplied with.
+    favour: f64,
+    mirror: Option<Mirror>,
+    joints: Vec<Point>,
+}
+
 /// A layout of the graph, starting also from the places given for the joints.
 pub(super) fn layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
     let net = net(graph);
@@ -85,38 +96,45 @@ pub(super) fn layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
     let far = distances(&net);
     let nodes = net.edges.len();
     let rounds = (4_000_000 / (nodes * nodes).max(1)).clamp(4, 80);
-    let mut candidates: Vec<(f64, Vec<Point>)> = Vec::new();
-    let mut take = |mut at: Vec<Point>, favour: f64| {
-        centre(&mut at);
+    let mut candidates: Vec<Candidate> = Vec::new();
+    let mut take = |mut at: Vec<Point>, start: &Start, favour: f64| {
+        match &start.mirror {
+            Some(mirror) => mirror.apply(&mut at),
+            None => centre(&mut at),
+        }
+        let favour = favour * if start.drawn { 0.85 } else { 1.0 };
+        let favour = favour * if start.mirror.is_some() { 0.6 } else { 1.0 };
         let cost = crowding.cost(&at[..graph.joints]) * favour;
         if cost.is_finite() {
-            candidates.push((cost, at));
+            candidates.push(Candidate {
+                cost,
+                favour,
+                mirror: start.mirror.clone(),
+                joints: at[..graph.joints].to_vec(),
+            });
         }
     };
-    for (start, drawn) in starts::all(graph, &net, hints) {
-        let favour = if drawn { 0.85 } else { 1.0 };
-        take(start.clone(), favour);
-        let mut relaxed = start;
+    for start in starts::all(graph, &net, hints) {
+        take(start.at.clone(), &start, 1.0);
+        let mut relaxed = start.at.clone();
         for part in 0..4 {
             relax(&mut relaxed, &far, rounds / 4 + 1);
-            take(relaxed.clone(), favour * (1.0 - 1e-3 * f64::from(part)));
+            take(relaxed.clone(), &start, 1.0 - 1e-3 * f64::from(part));
         }
     }
-    candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
-    candidates.truncate(4);
-    let mut best: Option<(f64, Vec<Point>)> = None;
-    for (cost, at) in candidates {
-        let mut joints = at[..graph.joints].to_vec();
-        let mut cost = cost;
-        if crowding.violated(&joints) {
-            crowding.polish(&mut joints);
-            cost = crowding.cost(&joints);
+    candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    candidates.truncate(6);
+    let mut best: Option<Candidate> = None;
+    for mut c in candidates {
+        if crowding.violated(&c.joints) {
+            crowding.polish(&mut c.joints, c.mirror.as_ref());
+            c.cost = crowding.cost(&c.joints) * c.favour;
         }
-        if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-            best = Some((cost, joints));
+        if best.as_ref().is_none_or(|b| c.cost < b.cost) {
+            best = Some(c);
         }
     }
-    let joints = best.map_or_else(|| vec![[0.0; 2]; graph.joints], |(_, at)| at);
+    let joints = best.map_or_else(|| vec![[0.0; 2]; graph.joints], |c| c.joints);
     let hubs = hubs(graph, &net, &joints);
     Layout { joints, hubs }
 }

@@ -40,6 +40,8 @@ pub(super) struct Place {
     pub(super) x: Vector,
     pub(super) y: Vector,
     pub(super) z: Vector,
+    /// Whether it turns about its axis and does not slide along it.
+    hinge: bool,
     /// Whether the point was moved.
     pub(super) moved: bool,
 }
@@ -47,6 +49,9 @@ pub(super) struct Place {
 /// Joints as they are shown: those that meet in a point with axes of different directions are moved along them.
 pub(super) fn places(mechanism: &Mechanism, joints: &[JointId]) -> Vec<Place> {
     let mut out: Vec<Place> = joints.iter().map(|&j| frame(mechanism, j)).collect();
+    if planar(&out).is_some() {
+        return out;
+    }
     let size = extent(&out);
     let near = |a: Vector, b: Vector| norm(sub(a, b)) <= 1e-6 * size;
     let step = if size > 0.0 { 0.2 * size } else { 1.0 };
@@ -133,6 +138,10 @@ fn frame(mechanism: &Mechanism, joint: JointId) -> Place {
         x,
         y: cross(z, x),
         z,
+        hinge: matches!(
+            mechanism.joints[joint].joint_type,
+            JointType::Revolute | JointType::Universal | JointType::Slotted
+        ),
         moved: false,
     }
 }
@@ -251,23 +260,18 @@ pub(super) fn best(
     }
 }
 
-/// The common normal, where all points lie in one plane and all axes along or across it.
+/// The common normal, where all points lie in one plane, hinges turn in it, and other axes are along or across it.
 fn planar(places: &[Place]) -> Option<Vector> {
     let size = extent(places);
     [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]
         .into_iter()
         .find(|&n| {
             let first = places.first().map_or(0.0, |p| dot(p.point, n));
-            let along = places
-                .iter()
-                .filter(|p| dot(p.z, n).abs() > 1.0 - 1e-6)
-                .count();
-            2 * along >= places.len()
-                && places.iter().all(|p| {
-                    let c = dot(p.z, n).abs();
-                    (dot(p.point, n) - first).abs() <= 1e-6 * size
-                        && !(1e-6..1.0 - 1e-6).contains(&c)
-                })
+            places.iter().all(|p| {
+                let c = dot(p.z, n).abs();
+                let across = c < 1e-6 && !p.hinge;
+                (dot(p.point, n) - first).abs() <= 1e-6 * size && (across || c > 1.0 - 1e-6)
+            })
         })
 }
 

@@ -168,11 +168,27 @@ impl<'a> Scheme<'a> {
         let mut lines = Vec::new();
         for l in 0..self.rings.len() {
             let corners = self.corners(l);
-            for (a, b) in outline(&corners) {
+            let frame = m.links[self.parts.links[l]].role == Role::Frame;
+            let weight = if frame || corners.len() < 3 { 2.5 } else { 0.6 };
+            for &corner in &corners {
                 lines.push(Line {
-                    ends: (a, b),
-                    weight: 2.0,
+                    ends: (self.at.hubs[l], corner),
+                    weight,
                 });
+            }
+            for (a, b) in outline(&corners) {
+                let along = unit(sub(b, a));
+                let off = scale([-along[1], along[0]], HALF);
+                for side in [off, scale(off, -1.0)] {
+                    // the inner one is no line where the link is a polygon
+                    let middle = add(scale(add(a, b), 0.5), side);
+                    if corners.len() < 3 || !inside(middle, &corners) {
+                        lines.push(Line {
+                            ends: (add(a, side), add(b, side)),
+                            weight: 2.0,
+                        });
+                    }
+                }
             }
         }
         let mut wishes = Vec::new();
@@ -277,12 +293,28 @@ impl<'a> Scheme<'a> {
                 (p, d)
             })
             .collect();
+        // nearest to what is the contour's own
+        let before = &self.parts.graph.contours[..c];
+        let own: Vec<Point> = of
+            .iter()
+            .filter(|j| !before.iter().any(|b| b.contains(j)))
+            .map(|&j| self.at.joints[j])
+            .collect();
+        let own = mean(
+            if own.is_empty() {
+                polygon.iter()
+            } else {
+                own.iter()
+            }
+            .copied(),
+        );
         near.sort_by(|a, b| b.1.total_cmp(&a.1));
-        near.truncate(40);
+        near.retain(|(_, d)| *d > 14.0);
         let mut out: Vec<(Point, f64)> = near
             .iter()
-            .map(|&(p, d)| (p, 0.02 * (60.0 - d).max(0.0)))
+            .map(|&(p, d)| (p, 0.02 * (40.0 - d).max(0.0) + 0.012 * norm(sub(p, own))))
             .collect();
+        out.sort_by(|a, b| a.1.total_cmp(&b.1));
         if out.is_empty() {
             out.push((mean(polygon.iter().copied()), 3.0));
         }
@@ -303,10 +335,10 @@ impl<'a> Scheme<'a> {
             area = area.with(&place.rect);
         }
         let title = self.subject.title();
-        let subtitle = self.subject.figures("Structural scheme");
+        let subtitle = self.subject.subtitle("Structural scheme");
         let caption = Caption {
             title: &title,
-            subtitle: &subtitle,
+            subtitle: [&subtitle[0], &subtitle[1]],
             description: &self.description(),
             legend: self.legend(),
         };
@@ -325,12 +357,22 @@ impl<'a> Scheme<'a> {
 
     fn draw_contours(&self, sheet: &mut Sheet) {
         let m = self.subject.mechanism;
-        for (c, (contour, share)) in self.parts.contours.iter().enumerate() {
-            let of = &self.parts.graph.contours[c];
+        // the smallest on top, so that each stretch has the colour of the contour it is next to
+        let mut order: Vec<(f64, usize, Vec<Point>)> = Vec::new();
+        for (c, of) in self.parts.graph.contours.iter().enumerate() {
             let polygon: Vec<Point> = of.iter().map(|&j| self.at.joints[j]).collect();
+            let n = polygon.len();
+            let area: f64 = (0..n)
+                .map(|i| cross(polygon[i], polygon[(i + 1) % n]))
+                .sum();
+            order.push((area.abs(), c, polygon));
+        }
+        order.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for (_, c, polygon) in order {
+            let (contour, share) = &self.parts.contours[c];
             let redundant = share.map_or(0, |(r, _)| r).min(6);
             sheet.path_with_tip(
-                &format!("s tint s{redundant}"),
+                &format!("s s{redundant}"),
                 &polyline(&polygon, true),
                 &words(c, &contour.name(m), *share),
             );
@@ -372,6 +414,9 @@ impl<'a> Scheme<'a> {
             let rect = place.rect.moved(shift);
             let (class, size, mark) = if n < joints {
                 let mark = self.subject.joint_mark(self.parts.joints[n]);
+                if self.on_frame(rect.middle()) {
+                    sheet.rect("link-back", &rect, 3.0);
+                }
                 ("small soft", SMALL, mark)
             } else if n < joints + links {
                 let link = self.parts.links[n - joints];
@@ -386,6 +431,19 @@ impl<'a> Scheme<'a> {
             let class = format!("{class}{}", mark.class());
             sheet.text(&class, size, rect.middle(), Anchor::Middle, text);
         }
+    }
+
+    /// Whether a point is on the hatching.
+    fn on_frame(&self, p: Point) -> bool {
+        let frame = self.subject.mechanism.frame();
+        let Some(l) = self.parts.links.iter().position(|&l| l == frame) else {
+            return false;
+        };
+        let corners = self.corners(l);
+        inside(p, &corners)
+            || outline(&corners)
+                .iter()
+                .any(|&(a, b)| to_segment(p, a, b) < HALF + 6.0)
     }
 
     fn draw_joint(&self, sheet: &mut Sheet, i: usize) {
@@ -447,12 +505,7 @@ impl<'a> Scheme<'a> {
     /// The drawing in words, for those who do not see it.
     fn description(&self) -> String {
         let m = self.subject.mechanism;
-        let mut out = format!(
-            "{}. {} links, {} joints.",
-            self.subject.figures("Structural scheme"),
-            self.parts.links.len(),
-            self.parts.joints.len()
-        );
+        let mut out = self.subject.summary("Structural scheme");
         for &j in &self.parts.joints {
             let joint = &m.joints[j];
             let [a, b] = joint.links.map(|l| &m.links[l].id);

@@ -28,7 +28,7 @@ const STYLE: &str = "
 .ozd .sub,.ozd .soft{fill:#59636e}
 .ozd .small{font-size:11px}
 .ozd .class{font-size:10px}
-.ozd .name{font-weight:700}
+.ozd .name{font-weight:700;paint-order:stroke;stroke:#f3f5f7;stroke-width:3px;stroke-linejoin:round}
 .ozd .bg{fill:#fff}
 .ozd .link{fill:#f3f5f7;stroke:#3b444d;stroke-width:1.3;stroke-linejoin:round}
 .ozd .bone{fill:none;stroke:#3b444d;stroke-width:2.2;stroke-linecap:round;stroke-linejoin:round}
@@ -51,13 +51,13 @@ const STYLE: &str = "
 .ozd .s{stroke:#b4bcc4;stroke-width:.6}
 .ozd .s0{fill:#eef1f4}.ozd .s1{fill:#fff0c2}.ozd .s2{fill:#ffe08f}.ozd .s3{fill:#ffc46b}
 .ozd .s4{fill:#fca35a}.ozd .s5{fill:#f2814f}.ozd .s6{fill:#dd5f45}
-.ozd .tint{fill-opacity:.6}
 .ozd .badge{fill:#fff;stroke:#59636e;stroke-width:1}
 .ozd .link-back{fill:#f3f5f7}
 @media screen and (prefers-color-scheme:dark){
 .ozd text{fill:#e8ebee}
 .ozd .sub,.ozd .soft{fill:#a3adb7}
 .ozd .bg{fill:#15191d}
+.ozd .name{stroke:#232a31}
 .ozd .link{fill:#232a31;stroke:#aeb7c0}
 .ozd .bone{stroke:#aeb7c0}
 .ozd .plate{fill:#a3adb7;stroke:#aeb7c0}
@@ -136,7 +136,8 @@ pub(super) struct Sheet {
 #[derive(Debug)]
 pub(super) struct Caption<'a> {
     pub(super) title: &'a str,
-    pub(super) subtitle: &'a str,
+    /// Two lines.
+    pub(super) subtitle: [&'a str; 2],
     pub(super) description: &'a str,
     pub(super) legend: Vec<(Swatch, String)>,
 }
@@ -153,20 +154,17 @@ pub(super) struct Plan {
 }
 
 /// How wide a sheet with such a drawing is at least.
-const LEAST: f64 = 480.0;
+const LEAST: f64 = 580.0;
 
 /// Lays the sheet out round a drawing that covers `area`, with `strip` pixels below it for other things.
 pub(super) fn plan(caption: &Caption<'_>, area: Rect, strip: f64) -> Plan {
     let rows = &caption.legend;
     let widest = rows.iter().map(|(_, t)| width(t, TEXT));
     let column = SWATCH + widest.fold(0.0, f64::max).min(WIDEST) + 24.0;
-    let inner = (area.right - area.left)
-        .max(LEAST)
-        .max(column - 24.0)
-        .max(width(caption.subtitle, 13.0).min(WIDEST));
+    let inner = (area.right - area.left).max(LEAST).max(column - 24.0);
     let columns = (((inner + 24.0) / column) as usize).clamp(1, 4);
     let lines = rows.len().div_ceil(columns);
-    let head = PAD + 46.0;
+    let head = PAD + 62.0;
     let legend_top = head + (area.bottom - area.top) + 18.0 + strip;
     let shift = [
         PAD + (inner - (area.right - area.left)) / 2.0 - area.left,
@@ -220,8 +218,11 @@ impl Sheet {
         let room = w - 2.0 * PAD;
         let title = cut(caption.title, 18.0, room);
         sheet.text("title", 18.0, [PAD, PAD + 8.0], Anchor::Start, &title);
-        let sub = cut(caption.subtitle, 13.0, room);
-        sheet.text("sub", 13.0, [PAD, PAD + 30.0], Anchor::Start, &sub);
+        for (i, line) in caption.subtitle.iter().enumerate() {
+            let y = PAD + 30.0 + 17.0 * i as f64;
+            let line = cut(line, 13.0, room);
+            sheet.text("sub", 13.0, [PAD, y], Anchor::Start, &line);
+        }
         sheet
     }
 

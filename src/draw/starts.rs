@@ -1,6 +1,7 @@
 //! First places for the joints of a scheme.
 
 use super::layout::{Graph, Net, Point, add, mean, norm, scale, sub};
+use super::mirror::Mirror;
 use std::f64::consts::TAU;
 
 /// Numbers that look random and are the same each time.
@@ -31,28 +32,61 @@ impl Dice {
     }
 }
 
-/// Every start, with whether it is how the mechanism is drawn in its file.
-pub(super) fn all(graph: &Graph, net: &Net, hints: &[Vec<Point>]) -> Vec<(Vec<Point>, bool)> {
+/// Where to begin.
+#[derive(Debug)]
+pub(super) struct Start {
+    /// The nodes.
+    pub(super) at: Vec<Point>,
+    /// Whether it is how the mechanism is drawn in its file.
+    pub(super) drawn: bool,
+    /// Its symmetry, if it has one.
+    pub(super) mirror: Option<Mirror>,
+}
+
+/// Every start.
+pub(super) fn all(graph: &Graph, net: &Net, hints: &[Vec<Point>]) -> Vec<Start> {
     let mut out = Vec::new();
+    let plain = |at| Start {
+        at,
+        drawn: false,
+        mirror: None,
+    };
     for hint in hints.iter().filter(|h| h.len() == graph.joints) {
         if let Some(fitted) = fitted(graph, hint) {
-            out.push((with_hubs(graph, net, &fitted), true));
+            let at = with_hubs(graph, net, &fitted);
+            if let Some(mirror) = Mirror::find(graph, net, &fitted) {
+                out.push(Start {
+                    at: at.clone(),
+                    drawn: true,
+                    mirror: Some(mirror),
+                });
+            }
+            out.push(Start {
+                at,
+                drawn: true,
+                mirror: None,
+            });
         }
     }
     let few = graph.joints <= 120;
+    let mut roots: Vec<usize> = (0..graph.links.len()).collect();
+    roots.sort_by_key(|&l| (std::cmp::Reverse(graph.links[l].len()), l));
+    for root in roots.into_iter().take(3) {
+        out.push(plain(layers(graph, net, root)));
+    }
     let mut outer: Vec<&Vec<usize>> = graph.contours.iter().filter(|c| c.len() > 2).collect();
     outer.sort_by_key(|c| std::cmp::Reverse(c.len()));
     for contour in outer.into_iter().take(if few { 6 } else { 1 }) {
-        out.push((tutte(net, contour), false));
+        out.push(plain(tutte(net, contour)));
     }
     for turn in 0..if few { 10 } else { 2 } {
-        out.push((bundles(graph, net, turn), false));
+        out.push(plain(bundles(graph, net, turn)));
     }
     let mut dice = Dice::new(7);
     for _ in 0..if few { 6 } else { 1 } {
         let reach = (net.edges.len() as f64).sqrt();
         let scatter = |_: &Vec<(usize, f64)>| [reach * dice.signed(), reach * dice.signed()];
-        out.push((net.edges.iter().map(scatter).collect(), false));
+        out.push(plain(net.edges.iter().map(scatter).collect()));
     }
     out
 }
@@ -87,6 +121,80 @@ fn with_hubs(graph: &Graph, net: &Net, joints: &[Point]) -> Vec<Point> {
             at.push(add(middle, out));
         }
     }
+    at
+}
+
+/// Links by their distance from one of them, each layer in the order of what it hangs on.
+fn layers(graph: &Graph, net: &Net, root: usize) -> Vec<Point> {
+    // links and joints in turn: link l is l, joint j is links + j
+    let links = graph.links.len();
+    let mut near: Vec<Vec<usize>> = vec![Vec::new(); links + graph.joints];
+    for (l, of) in graph.links.iter().enumerate() {
+        for &j in of {
+            near[l].push(links + j);
+            near[links + j].push(l);
+        }
+    }
+    let mut depth: Vec<Option<usize>> = vec![None; near.len()];
+    let mut rows: Vec<Vec<usize>> = Vec::new();
+    for from in std::iter::once(root).chain(0..near.len()) {
+        if depth[from].is_some() {
+            continue;
+        }
+        depth[from] = Some(0);
+        let mut queue = std::collections::VecDeque::from([from]);
+        while let Some(x) = queue.pop_front() {
+            let d = depth[x].unwrap_or(0);
+            if rows.len() <= d {
+                rows.push(Vec::new());
+            }
+            rows[d].push(x);
+            for &y in &near[x] {
+                if depth[y].is_none() {
+                    depth[y] = Some(d + 1);
+                    queue.push_back(y);
+                }
+            }
+        }
+    }
+    let mut x = vec![0.0; near.len()];
+    let spread = |row: &[usize], x: &mut [f64]| {
+        for (i, &n) in row.iter().enumerate() {
+            x[n] = i as f64 - (row.len() as f64 - 1.0) / 2.0;
+        }
+    };
+    rows.iter().for_each(|row| spread(row, &mut x));
+    for sweep in 0..8 {
+        for i in 0..rows.len() {
+            let r = if sweep % 2 == 0 {
+                i
+            } else {
+                rows.len() - 1 - i
+            };
+            let mut keyed: Vec<(f64, usize)> = rows[r]
+                .iter()
+                .map(|&n| {
+                    let beside = near[n].iter().map(|&m| [x[m], 0.0]);
+                    (mean(beside)[0], n)
+                })
+                .collect();
+            keyed.sort_by(|a, b| a.0.total_cmp(&b.0));
+            rows[r] = keyed.into_iter().map(|(_, n)| n).collect();
+            spread(&rows[r], &mut x);
+        }
+    }
+    let place = |n: usize| [1.0 * x[n], 0.62 * depth[n].unwrap_or(0) as f64];
+    let mut at: Vec<Point> = (0..graph.joints).map(|j| place(links + j)).collect();
+    // a link alone in its layer is round on the side of the others
+    for l in (0..links).filter(|&l| rows[depth[l].unwrap_or(0)].len() == 1) {
+        let of = &graph.links[l];
+        let wide = of.iter().map(|&j| x[links + j].abs()).fold(1e-9, f64::max);
+        for &j in of {
+            let away = (at[j][1] - place(l)[1]).signum();
+            at[j][1] += 0.3 * away * (1.0 - (x[links + j] / wide).powi(2)) * wide.min(2.0);
+        }
+    }
+    at.extend((0..links).filter(|&l| net.hub[l].is_some()).map(place));
     at
 }
 
