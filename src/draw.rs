@@ -5,13 +5,18 @@
 //! name, they stand farther away on a leader.
 
 mod crowding;
+mod ground;
 mod kinematic;
 mod labels;
 mod layout;
 pub mod marks;
 mod mirror;
+mod naming;
+#[cfg(feature = "png")]
+pub mod png;
 mod projection;
 mod scheme;
+mod shapes;
 mod sheet;
 mod starts;
 mod symbols;

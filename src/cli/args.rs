@@ -165,6 +165,9 @@ pub(super) struct Draw {
     /// Draw variant K of the list that `ozols search FILE` gives, with its changes marked.
     #[arg(long, value_name = "K")]
     pub(super) variant: Option<usize>,
+    /// PNG instead of SVG (where built with the feature `png`).
+    #[arg(long)]
+    pub(super) png: bool,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,

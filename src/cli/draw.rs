@@ -2,7 +2,7 @@
 
 use super::args::{Args, Draw, DrawKind};
 use super::{Done, load, output};
-use crate::draw::{self, Marks, Subject};
+use crate::draw::{self, Drawing, Marks, Subject};
 use crate::model::mechanism::Mechanism;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::redundancy::analysis::{Method, analyse, exact_field};
@@ -36,10 +36,28 @@ pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
         DrawKind::Scheme => draw::scheme(&subject),
         DrawKind::Kinematic => draw::kinematic(&subject),
     };
+    let bytes = if a.png {
+        png(&drawing)?
+    } else {
+        drawing.svg.into_bytes()
+    };
     output::to(a.output.as_deref(), |out| {
-        out.write_all(drawing.svg.as_bytes())?;
+        out.write_all(&bytes)?;
         Ok(Done::Found)
     })
+}
+
+/// Two pixels for each of the drawing's.
+#[cfg(feature = "png")]
+fn png(drawing: &Drawing) -> anyhow::Result<Vec<u8>> {
+    Ok(draw::png::png(drawing, 2.0)?)
+}
+
+#[cfg(not(feature = "png"))]
+fn png(_: &Drawing) -> anyhow::Result<Vec<u8>> {
+    bail!(
+        "this ozols was built without PNG; build it with `--features png`, or turn the SVG into PNG by another program"
+    )
 }
 
 /// The k-th of the list that `ozols search FILE` gives.

@@ -1,21 +1,18 @@
 //! The kinematic scheme: links and the symbols of joints where the coordinates have them.
 
-use super::labels::{self, Line, Rect, Wish};
-use super::layout::{Point, add, dot, mean, norm, scale, sub, unit};
+use super::ground::{Ground, grounds, part};
+use super::labels::{self, Rect, Wish};
+use super::layout::{Point, add, mean, norm, scale, sub, unit};
 use super::projection::{self, View, bounds};
-use super::sheet::{Anchor, Caption, PAD, SMALL, Shape, Sheet, Swatch, plan, polyline};
+use super::sheet::{Anchor, Caption, PAD, Shape, Sheet, Swatch, plan, polyline};
 use super::symbols::{self, Pose, hull};
 use super::{Drawing, Subject};
-use crate::chart::look::{cut, width};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Role};
-use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 /// The room for the joints.
 const ROOM: Point = [560.0, 400.0];
-/// Joints of one point are drawn so far from it.
-const APART: f64 = 17.0;
 /// The room below for the axes and the scale.
 const STRIP: f64 = 84.0;
 
@@ -26,32 +23,27 @@ pub fn kinematic(subject: &Subject<'_>) -> Drawing {
 }
 
 /// A joint on paper.
-struct Spot {
-    joint: JointId,
-    at: Point,
-    shapes: Vec<Shape>,
+pub(super) struct Spot {
+    pub(super) joint: JointId,
+    pub(super) at: Point,
+    pub(super) shapes: Vec<Shape>,
     /// The room of the symbol, the ring of a drive included.
-    rect: Rect,
+    pub(super) rect: Rect,
     /// The radius of that ring.
-    ring: Option<f64>,
+    pub(super) ring: Option<f64>,
 }
 
-/// The ground at a joint: from the joint to the middle of the hatched line.
-struct Ground {
-    from: Point,
-    to: Point,
-}
-
-struct Kinematic<'a> {
-    subject: &'a Subject<'a>,
-    spots: Vec<Spot>,
-    links: Vec<(LinkId, Vec<usize>)>,
-    grounds: Vec<Ground>,
-    view: View,
+/// A scheme under way.
+pub(super) struct Kinematic<'a> {
+    pub(super) subject: &'a Subject<'a>,
+    pub(super) spots: Vec<Spot>,
+    pub(super) links: Vec<(LinkId, Vec<usize>)>,
+    pub(super) grounds: Vec<Ground>,
+    pub(super) view: View,
     /// Pixels in a unit of length.
-    scale: f64,
+    pub(super) scale: f64,
     /// Whether some joints stand beside their points.
-    moved: bool,
+    pub(super) moved: bool,
 }
 
 impl<'a> Kinematic<'a> {
@@ -80,9 +72,11 @@ impl<'a> Kinematic<'a> {
                 let shapes = symbols::symbol(&of.joint_type, &Pose::new(place, &view), mark);
                 let own = symbols::extent(&shapes);
                 let reach = (own.right - own.left).max(own.bottom - own.top) / 2.0 + 3.0;
-                let ring = of.drive.then_some(reach);
+                let ring = of.drive.then_some(reach.min(14.0));
                 let rect = match ring {
-                    Some(r) => Rect::around(at, 2.0 * r + 1.4, 2.0 * r + 1.4),
+                    Some(r) => own
+                        .moved(at)
+                        .with(&Rect::around(at, 2.0 * r + 1.4, 2.0 * r + 1.4)),
                     None => own.moved(at),
                 };
                 Spot {
@@ -94,7 +88,8 @@ impl<'a> Kinematic<'a> {
                 }
             })
             .collect();
-        let grounds = grounds(&spots, &links, m.frame());
+        let rooms: Vec<(Point, Rect)> = spots.iter().map(|s| (s.at, s.rect)).collect();
+        let grounds = grounds(&rooms, &links, m.frame());
         Kinematic {
             subject,
             spots,
@@ -107,7 +102,7 @@ impl<'a> Kinematic<'a> {
     }
 
     /// The outline of a link: a bar, or the polygon round its joints.
-    fn outline(&self, of: &[usize]) -> Vec<Point> {
+    pub(super) fn outline(&self, of: &[usize]) -> Vec<Point> {
         let points: Vec<Point> = of.iter().map(|&i| self.spots[i].at).collect();
         if points.len() > 2 {
             hull(points)
@@ -117,7 +112,7 @@ impl<'a> Kinematic<'a> {
     }
 
     /// The end of a link with one joint.
-    fn loose(&self, of: &[usize]) -> Option<Point> {
+    pub(super) fn loose(&self, of: &[usize]) -> Option<Point> {
         let &[only] = of else { return None };
         let at = self.spots[only].at;
         let others = self
@@ -134,7 +129,7 @@ impl<'a> Kinematic<'a> {
         Some(add(at, scale(unit(away), 48.0)))
     }
 
-    fn is_frame(&self, link: LinkId) -> bool {
+    pub(super) fn is_frame(&self, link: LinkId) -> bool {
         self.subject.mechanism.links[link].role == Role::Frame
     }
 
@@ -174,6 +169,7 @@ impl<'a> Kinematic<'a> {
         let mut sheet = Sheet::new(&caption, &plan);
         self.draw_links(&mut sheet);
         for g in &self.grounds {
+            sheet.symbol(g.rect());
             g.draw(&mut sheet);
         }
         for p in &places {
@@ -200,91 +196,6 @@ impl<'a> Kinematic<'a> {
         self.draw_axes(&mut sheet, plan.legend_top - STRIP + 34.0);
         self.draw_scale(&mut sheet, plan.legend_top - STRIP + 40.0);
         sheet.finish(&caption, &plan)
-    }
-
-    fn place_labels(&self) -> (Vec<labels::Place>, Vec<(String, f64, String)>) {
-        let m = self.subject.mechanism;
-        let mut taken: Vec<Rect> = self.spots.iter().map(|s| s.rect).collect();
-        taken.extend(self.grounds.iter().map(Ground::rect));
-        let mut lines = Vec::new();
-        let mut add_line = |a: Point, b: Point| {
-            lines.push(Line {
-                ends: (a, b),
-                weight: 1.6,
-            });
-        };
-        for (l, of) in self.links.iter().filter(|(l, _)| !self.is_frame(*l)) {
-            let outline = self.outline(of);
-            for i in 0..outline.len() {
-                if outline.len() > 2 || i + 1 < outline.len() {
-                    add_line(outline[i], outline[(i + 1) % outline.len()]);
-                }
-            }
-            if let Some(end) = self.loose(of).filter(|_| !self.is_frame(*l)) {
-                add_line(self.spots[of[0]].at, end);
-            }
-        }
-        for g in &self.grounds {
-            add_line(g.from, g.to);
-        }
-        let (mut wishes, mut texts) = (Vec::new(), Vec::new());
-        for s in &self.spots {
-            let text = cut(&m.joints[s.joint].id, SMALL, 150.0);
-            let half = [s.rect.right - s.rect.left, s.rect.bottom - s.rect.top];
-            wishes.push(Wish {
-                width: width(&text, SMALL),
-                height: 12.0,
-                anchor: s.at,
-                clear: half[0].min(half[1]) / 2.0,
-                first: Vec::new(),
-            });
-            let mark = self.subject.joint_mark(s.joint).class();
-            texts.push((format!("small soft{mark}"), SMALL, text));
-        }
-        for (l, of) in &self.links {
-            let text = cut(&m.links[*l].id, 12.0, 150.0);
-            let size = [width(&text, 12.0), 13.0];
-            let (anchor, first) = self.link_places(*l, of, size);
-            wishes.push(Wish {
-                width: size[0],
-                height: size[1],
-                anchor,
-                clear: 2.0,
-                first,
-            });
-            let mark = self.subject.link_mark(*l).class();
-            texts.push((format!("name{mark}"), 12.0, text));
-        }
-        (labels::place(&wishes, &mut taken, &lines), texts)
-    }
-
-    /// What the name of a link belongs to, and middles for it.
-    fn link_places(&self, l: LinkId, of: &[usize], size: Point) -> (Point, Vec<(Point, f64)>) {
-        if self.is_frame(l) {
-            let first = self.grounds.first();
-            return (first.map_or([0.0; 2], |g| g.to), Vec::new());
-        }
-        let mut outline = self.outline(of);
-        let middle = mean(outline.iter().copied());
-        if outline.len() > 2 {
-            return (middle, vec![(middle, 0.0)]);
-        }
-        outline.extend(self.loose(of));
-        let (Some(&a), Some(&b)) = (outline.first(), outline.last()) else {
-            return (middle, Vec::new());
-        };
-        let along = sub(b, a);
-        let side = unit([-along[1], along[0]]);
-        // so far that the box just misses the bar
-        let off = (size[0] * side[0].abs() + size[1] * side[1].abs()) / 2.0 + 4.0;
-        let mut first = Vec::new();
-        for (n, t) in [0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74].iter().enumerate() {
-            let on = add(a, scale(along, *t));
-            for s in [off, -off] {
-                first.push((add(on, scale(side, s)), 0.08 * n as f64));
-            }
-        }
-        (add(a, scale(along, 0.5)), first)
     }
 
     fn draw_links(&self, sheet: &mut Sheet) {
@@ -460,138 +371,6 @@ impl<'a> Kinematic<'a> {
         }
         out
     }
-}
-
-impl Ground {
-    fn across(&self) -> (Point, Point) {
-        let out = unit(sub(self.to, self.from));
-        ([-out[1], out[0]], out)
-    }
-
-    fn rect(&self) -> Rect {
-        let (side, out) = self.across();
-        let far = add(self.to, scale(out, 6.0));
-        let corners = [
-            add(self.to, scale(side, 11.0)),
-            sub(self.to, scale(side, 11.0)),
-            add(far, scale(side, 14.0)),
-            sub(far, scale(side, 14.0)),
-        ];
-        bounds(&corners)
-    }
-
-    fn draw(&self, sheet: &mut Sheet) {
-        let (side, out) = self.across();
-        sheet.line("bone", self.from, self.to);
-        sheet.line(
-            "bone",
-            add(self.to, scale(side, 11.0)),
-            sub(self.to, scale(side, 11.0)),
-        );
-        let mut d = String::new();
-        for i in 0..5 {
-            let a = add(self.to, scale(side, 10.0 - 5.0 * f64::from(i)));
-            let b = add(add(a, scale(out, 6.0)), scale(side, -4.0));
-            d += &polyline(&[a, b], false);
-        }
-        sheet.path("fine", &d);
-    }
-}
-
-/// The ground at each joint of the frame, where there is most room.
-fn grounds(spots: &[Spot], links: &[(LinkId, Vec<usize>)], frame: LinkId) -> Vec<Ground> {
-    let mut out: Vec<Ground> = Vec::new();
-    let Some((_, of)) = links.iter().find(|(l, _)| *l == frame) else {
-        return out;
-    };
-    for &i in of {
-        let at = spots[i].at;
-        let reach = (spots[i].rect.right - spots[i].rect.left)
-            .min(spots[i].rect.bottom - spots[i].rect.top)
-            / 2.0
-            + 9.0;
-        let mut best: Option<(f64, Ground)> = None;
-        for step in 0..16 {
-            let angle = TAU * f64::from(step) / 16.0;
-            let dir = [angle.cos(), angle.sin()];
-            let to = add(at, scale(dir, reach));
-            let ground = Ground { from: at, to };
-            // straight down is best, then what is clear
-            let aslant = if step % 4 == 0 { 0.0 } else { 0.9 };
-            let mut cost = 0.25 * (1.0 - dir[1]) + aslant;
-            let near = ground.rect().grown(1.0);
-            for s in spots.iter().filter(|s| s.at != at) {
-                cost += if near.overlaps(&s.rect) { 4.0 } else { 0.0 };
-            }
-            cost += 3.0 * out.iter().filter(|g| g.rect().overlaps(&near)).count() as f64;
-            for (_, other) in links.iter().filter(|(l, o)| *l != frame && o.contains(&i)) {
-                for &j in other.iter().filter(|&&j| j != i) {
-                    let away = dot(dir, unit(sub(spots[j].at, at)));
-                    cost += if away > 0.5 { 2.5 * away } else { 0.0 };
-                }
-            }
-            if best.as_ref().is_none_or(|(least, _)| cost < least - 1e-9) {
-                best = Some((cost, ground));
-            }
-        }
-        out.extend(best.map(|(_, g)| g));
-    }
-    out
-}
-
-/// Parts joints that lie in one place on paper, each towards its links; sliding pairs along their axes.
-fn part(
-    at: &mut [Point],
-    links: &[(LinkId, Vec<usize>)],
-    places: &[projection::Place],
-    view: &View,
-) -> bool {
-    let old = at.to_vec();
-    let mut done = vec![false; at.len()];
-    let mut any = false;
-    for i in 0..old.len() {
-        let group: Vec<usize> = (i..old.len())
-            .filter(|&k| !done[k] && norm(sub(old[k], old[i])) < 3.0)
-            .collect();
-        if done[i] || group.len() < 2 {
-            continue;
-        }
-        any = true;
-        let mut wishes: Vec<(f64, usize)> = group
-            .iter()
-            .map(|&k| {
-                done[k] = true;
-                let others = links.iter().filter(|(_, of)| of.contains(&k));
-                let others = others.flat_map(|(_, of)| of).filter(|o| !group.contains(o));
-                let toward = mean(others.map(|&o| unit(sub(old[o], old[k]))));
-                let toward = if norm(toward) > 1e-6 {
-                    toward
-                } else {
-                    view.flat(places[k].z)
-                };
-                (toward[1].atan2(toward[0]), k)
-            })
-            .collect();
-        wishes.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let n = wishes.len() as f64;
-        let reach = APART / (std::f64::consts::PI / n).sin();
-        // the turn that suits all best
-        let slots = (0..wishes.len()).map(|s| TAU * s as f64 / n);
-        let off: Point = mean(slots.zip(&wishes).map(|(slot, (angle, _))| {
-            let d = angle - slot;
-            [d.cos(), d.sin()]
-        }));
-        let turn = if norm(off) > 1e-6 {
-            off[1].atan2(off[0])
-        } else {
-            0.4
-        };
-        for (s, (_, k)) in wishes.iter().enumerate() {
-            let angle = turn + TAU * s as f64 / n;
-            at[*k] = add(old[*k], [reach * angle.cos(), reach * angle.sin()]);
-        }
-    }
-    any
 }
 
 /// The largest of 1, 2 and 5 times a power of ten that is not above.

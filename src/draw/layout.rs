@@ -21,6 +21,8 @@ pub(super) struct Graph {
     pub(super) links: Vec<Vec<usize>>,
     /// How many joints there are.
     pub(super) joints: usize,
+    /// The link that is the frame.
+    pub(super) frame: Option<usize>,
     /// The joints of each contour, in order.
     pub(super) contours: Vec<Vec<usize>>,
 }
@@ -80,7 +82,7 @@ pub(super) fn radius(joints: usize) -> f64 {
 }
 
 /// A layout to choose from.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Candidate {
     cost: f64,
     /// What the cost is multiplied with.
@@ -103,7 +105,7 @@ pub(super) fn layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
             None => centre(&mut at),
         }
         let favour = favour * if start.drawn { 0.85 } else { 1.0 };
-        let favour = favour * if start.mirror.is_some() { 0.6 } else { 1.0 };
+        let favour = favour * if start.mirror.is_some() { 0.75 } else { 1.0 };
         let cost = crowding.cost(&at[..graph.joints]) * favour;
         if cost.is_finite() {
             candidates.push(Candidate {
@@ -123,20 +125,61 @@ pub(super) fn layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
         }
     }
     candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    candidates.truncate(6);
+    // the best symmetric ones have their chance, whatever they cost before they are polished
+    let symmetric = candidates.iter().filter(|c| c.mirror.is_some());
+    let symmetric: Vec<Candidate> = symmetric.take(2).cloned().collect();
+    candidates.truncate(5);
+    candidates.extend(symmetric);
     let mut best: Option<Candidate> = None;
     for mut c in candidates {
         if crowding.violated(&c.joints) {
             crowding.polish(&mut c.joints, c.mirror.as_ref());
-            c.cost = crowding.cost(&c.joints) * c.favour;
+            // a symmetric or familiar drawing is worth something, not a crossing
+            let favour = if crowding.violated(&c.joints) {
+                1.0
+            } else {
+                c.favour
+            };
+            c.cost = crowding.cost(&c.joints) * favour;
         }
         if best.as_ref().is_none_or(|b| c.cost < b.cost) {
             best = Some(c);
         }
     }
-    let joints = best.map_or_else(|| vec![[0.0; 2]; graph.joints], |c| c.joints);
+    let joints = best.map_or_else(
+        || vec![[0.0; 2]; graph.joints],
+        |mut c| {
+            if c.mirror.is_none() {
+                level(graph, &mut c.joints);
+            }
+            c.joints
+        },
+    );
     let hubs = hubs(graph, &net, &joints);
     Layout { joints, hubs }
+}
+
+/// Lays the longest direction level, if there is one, with the frame below.
+fn level(graph: &Graph, at: &mut [Point]) {
+    centre(at);
+    let sum = |f: &dyn Fn(&Point) -> f64| at.iter().map(f).sum::<f64>();
+    let (xx, yy, xy) = (
+        sum(&|p| p[0] * p[0]),
+        sum(&|p| p[1] * p[1]),
+        sum(&|p| p[0] * p[1]),
+    );
+    let spread = (xx - yy).hypot(2.0 * xy);
+    if spread > 0.15 * (xx + yy) {
+        let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
+        let (c, s) = (angle.cos(), angle.sin());
+        at.iter_mut()
+            .for_each(|p| *p = [c * p[0] + s * p[1], c * p[1] - s * p[0]]);
+    }
+    let frame = graph.frame.and_then(|l| graph.links.get(l));
+    let down = mean(frame.into_iter().flatten().map(|&j| at[j]));
+    if down[1] < -0.1 {
+        at.iter_mut().for_each(|p| p[1] = -p[1]);
+    }
 }
 
 /// The middles of links; of bars between the same two joints, each bows its own way; loose ends point outward.

@@ -57,11 +57,6 @@ impl Pose {
             })
             .collect()
     }
-
-    /// The projected direction of z, for leaders and arrows.
-    pub(super) fn axis(&self) -> Point {
-        self.axes[2]
-    }
 }
 
 /// The symbol of a joint round the origin; `mark` is added to the classes.

@@ -7,6 +7,7 @@ mod certificates;
 mod certify;
 mod cli;
 mod contours;
+mod drawings;
 mod exports;
 mod layering;
 mod mobility;
