@@ -312,7 +312,7 @@ fn any_mechanism() -> impl Strategy<Value = Mechanism> {
     let id = prop_oneof![
         "[a-z0-9]{1,3}",
         "[<>&\"' \u{3c3}\u{4e00}]{1,4}",
-        "[a-z]{40}"
+        "[a-z]{24}"
     ];
     let links = prop::collection::vec((id, joint.clone()), 1..9);
     let more = prop::collection::vec((any::<prop::sample::Index>(), joint), 0..7);
