@@ -19,11 +19,14 @@ const JOINT: f64 = 11.5;
 /// The radius of the second circle of a driving pair.
 const DRIVE: f64 = 15.5;
 
+/// σ_i of a contour and its range over all orders, where known.
+type Share = Option<(usize, (usize, usize))>;
+
 /// What is drawn, by place in the drawing rather than in the mechanism.
 pub(super) struct Parts {
     pub(super) joints: Vec<JointId>,
     pub(super) links: Vec<LinkId>,
-    pub(super) contours: Vec<(Contour, Option<(usize, (usize, usize))>)>,
+    pub(super) contours: Vec<(Contour, Share)>,
     pub(super) graph: Graph,
 }
 
@@ -356,7 +359,7 @@ impl<'a> Scheme<'a> {
 }
 
 /// A contour in words.
-fn words(c: usize, name: &str, share: Option<(usize, (usize, usize))>) -> String {
+fn words(c: usize, name: &str, share: Share) -> String {
     match share {
         Some((r, (low, high))) if low != high => {
             format!("contour {}: {name}, σ = {r} ({low} to {high})", c + 1)

@@ -32,19 +32,16 @@ pub(super) fn rounded(corners: &[Point], r: f64) -> String {
         let along = unit(sub(corners[(i + 1) % n], corners[i % n]));
         [along[1], -along[0]]
     };
-    for i in 0..n {
+    for (i, &corner) in corners.iter().enumerate() {
         let (before, after) = (normal(i + n - 1), normal(i));
         let hollow = cross(before, after) < -1e-9;
         let c = if i == 0 { 'M' } else { 'L' };
         if hollow {
             let miter = (1.0 + dot(before, after)).max(0.3);
-            let p = add(corners[i], scale(add(before, after), r / miter));
+            let p = add(corner, scale(add(before, after), r / miter));
             let _ = write!(d, "{c}{} {}", number(p[0]), number(p[1]));
         } else {
-            let (p, q) = (
-                add(corners[i], scale(before, r)),
-                add(corners[i], scale(after, r)),
-            );
+            let (p, q) = (add(corner, scale(before, r)), add(corner, scale(after, r)));
             let _ = write!(
                 d,
                 "{c}{} {}A{r} {r} 0 0 1 {} {}",

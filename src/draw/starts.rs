@@ -297,10 +297,10 @@ fn bundles(graph: &Graph, net: &Net, turn: u64) -> Vec<Point> {
     if branches.is_empty() {
         let radius = 0.19 * graph.joints as f64;
         let ring = graph.contours.first().cloned().unwrap_or_default();
-        for j in 0..graph.joints {
+        for (j, p) in at.iter_mut().enumerate().take(graph.joints) {
             let i = ring.iter().position(|&r| r == j).unwrap_or(j);
             let angle = TAU * (i as f64 + 0.5) / graph.joints.max(1) as f64 + TAU / 4.0;
-            at[j] = [radius * angle.cos(), radius * angle.sin()];
+            *p = [radius * angle.cos(), radius * angle.sin()];
         }
     }
     for (l, of) in graph.links.iter().enumerate() {
