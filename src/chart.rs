@@ -14,10 +14,10 @@ mod drawn;
 mod frame;
 mod labels;
 mod line;
-mod look;
+pub(crate) mod look;
 mod matrix;
 mod page;
-mod xml;
+pub(crate) mod xml;
 
 pub use page::page;
 

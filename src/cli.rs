@@ -6,6 +6,7 @@ mod answer;
 mod args;
 mod charts;
 mod check;
+mod draw;
 mod drive;
 mod export;
 mod grip;
@@ -53,6 +54,7 @@ pub fn run() -> ExitCode {
         args::Command::Drive(a) => drive::run(&args, a),
         args::Command::Verify(a) => verify::run(&args, a),
         args::Command::Import(a) => import::run(&args, a),
+        args::Command::Draw(a) => draw::run(&args, a),
         args::Command::Export(a) => export::run(&args, a),
         args::Command::Accuracy(a) => accuracy::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),

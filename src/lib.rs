@@ -33,8 +33,8 @@
 //!
 //! # Layers
 //!
-//! linalg -> geom, verify -> model -> closure -> import, rank, workload -> robot, export -> redundancy -> search -> score ->
-//! report -> cli. Imports go one way; a test holds them to it. [`chart`] draws finished numbers and imports nothing.
+//! linalg -> geom, verify -> model -> closure -> import, rank, workload -> robot, export -> redundancy -> search -> score,
+//! draw -> report -> cli. Imports go one way; a test holds them to it. [`chart`] draws finished numbers and imports nothing.
 //!
 //! # Sources
 //!
@@ -55,6 +55,7 @@ pub mod builtin;
 pub mod chart;
 pub mod cli;
 pub mod closure;
+pub mod draw;
 pub mod export;
 pub mod geom;
 pub mod import;

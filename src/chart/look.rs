@@ -74,7 +74,7 @@ pub(super) const STYLE: &str = "
 ";
 
 /// The width of `text` at `size` pixels, taken wide: the fonts are not known here.
-pub(super) fn width(text: &str, size: f64) -> f64 {
+pub(crate) fn width(text: &str, size: f64) -> f64 {
     let of = |c| {
         if c < '\u{1100}' || ('\u{2000}'..'\u{2070}').contains(&c) {
             0.6
@@ -86,7 +86,7 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
 }
 
 /// `text` in one line, cut to `room` pixels.
-pub(super) fn cut(text: &str, size: f64, room: f64) -> String {
+pub(crate) fn cut(text: &str, size: f64, room: f64) -> String {
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     if width(&text, size) <= room {
         return text;
@@ -103,7 +103,7 @@ pub(super) fn cut(text: &str, size: f64, room: f64) -> String {
 }
 
 /// `text` in lines of at most `room` pixels; a longer word is cut.
-pub(super) fn wrap(text: &str, size: f64, room: f64) -> Vec<String> {
+pub(crate) fn wrap(text: &str, size: f64, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         let word = cut(word, size, room);

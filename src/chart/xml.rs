@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 /// A document being written.
 #[derive(Debug, Default)]
-pub(super) struct Xml {
+pub(crate) struct Xml {
     out: String,
     open: Vec<&'static str>,
 }
@@ -12,31 +12,31 @@ pub(super) struct Xml {
 /// A start tag being written; it is closed by one of the methods that take it.
 #[must_use]
 #[derive(Debug)]
-pub(super) struct Tag<'a> {
+pub(crate) struct Tag<'a> {
     xml: &'a mut Xml,
     name: &'static str,
 }
 
 impl Xml {
     /// Begins an element.
-    pub(super) fn tag(&mut self, name: &'static str) -> Tag<'_> {
+    pub(crate) fn tag(&mut self, name: &'static str) -> Tag<'_> {
         self.out.push('<');
         self.out.push_str(name);
         Tag { xml: self, name }
     }
 
     /// Text inside the innermost open element.
-    pub(super) fn text(&mut self, text: &str) {
+    pub(crate) fn text(&mut self, text: &str) {
         escape(&mut self.out, text);
     }
 
     /// Text that is known to be plain already.
-    pub(super) fn raw(&mut self, text: &'static str) {
+    pub(crate) fn raw(&mut self, text: &'static str) {
         self.out.push_str(text);
     }
 
     /// Ends the innermost open element.
-    pub(super) fn end(&mut self) {
+    pub(crate) fn end(&mut self) {
         if let Some(name) = self.open.pop() {
             self.out.push_str("</");
             self.out.push_str(name);
@@ -48,7 +48,7 @@ impl Xml {
     }
 
     /// Ends every open element and gives the document.
-    pub(super) fn finish(mut self) -> String {
+    pub(crate) fn finish(mut self) -> String {
         while !self.open.is_empty() {
             self.end();
         }
@@ -58,7 +58,7 @@ impl Xml {
 
 impl Tag<'_> {
     /// An attribute with text.
-    pub(super) fn set(self, name: &str, value: &str) -> Self {
+    pub(crate) fn set(self, name: &str, value: &str) -> Self {
         self.xml.out.push(' ');
         self.xml.out.push_str(name);
         self.xml.out.push_str("=\"");
@@ -68,23 +68,23 @@ impl Tag<'_> {
     }
 
     /// An attribute with a number.
-    pub(super) fn num(self, name: &str, value: f64) -> Self {
+    pub(crate) fn num(self, name: &str, value: f64) -> Self {
         self.set(name, &number(value))
     }
 
     /// Leaves the element open.
-    pub(super) fn open(self) {
+    pub(crate) fn open(self) {
         self.xml.out.push('>');
         self.xml.open.push(self.name);
     }
 
     /// Ends the element with nothing inside.
-    pub(super) fn close(self) {
+    pub(crate) fn close(self) {
         self.xml.out.push_str("/>\n");
     }
 
     /// Ends the element with text inside.
-    pub(super) fn text(self, text: &str) {
+    pub(crate) fn text(self, text: &str) {
         self.xml.out.push('>');
         escape(&mut self.xml.out, text);
         self.xml.open.push(self.name);
@@ -92,7 +92,7 @@ impl Tag<'_> {
     }
 
     /// Ends the element with text inside and the whole of it as a tooltip, should it differ.
-    pub(super) fn text_and_tip(self, text: &str, whole: &str) {
+    pub(crate) fn text_and_tip(self, text: &str, whole: &str) {
         self.xml.out.push('>');
         self.xml.open.push(self.name);
         if text != whole {
@@ -103,7 +103,7 @@ impl Tag<'_> {
     }
 
     /// Ends the element with a tooltip inside, if there is one to show.
-    pub(super) fn tip(self, tip: &str) {
+    pub(crate) fn tip(self, tip: &str) {
         if tip.is_empty() {
             return self.close();
         }
@@ -115,7 +115,7 @@ impl Tag<'_> {
 }
 
 /// A coordinate: at most two decimals, no trailing zeros, no negative zero.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let mut text = String::new();
     // writing to a string does not fail
     let _ = write!(text, "{value:.2}");
@@ -124,7 +124,7 @@ pub(super) fn number(value: f64) -> String {
 }
 
 /// Appends `text` so that it is plain character data anywhere in XML or HTML; a character XML forbids becomes U+FFFD.
-pub(super) fn escape(out: &mut String, text: &str) {
+pub(crate) fn escape(out: &mut String, text: &str) {
     for c in text.chars() {
         match c {
             '&' => out.push_str("&amp;"),

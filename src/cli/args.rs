@@ -23,6 +23,7 @@ Examples:
   ozols statics parallel-shears               Assur groups, and joint reactions over the cycle
   ozols grip lever-gripper                    what its levers can hold, and with what drive moment
   ozols drive torsion-module                  the torsion bar, the cam spring, and the programme run
+  ozols draw gripper-10 -o gripper.svg        its structural scheme; --kind kinematic, --variant 1
   ozols show four-bar > mine.toml             a file to start from
   ozols check mine.toml                       what is wrong with it, if anything
   ozols accuracy -o accuracy                  accuracy against speed of every method, as charts
@@ -61,6 +62,8 @@ pub(super) enum Command {
     Verify(Verify),
     /// Make a mechanism file of a robot description: URDF, MJCF or SDF.
     Import(Import),
+    /// Draw the structural or the kinematic scheme as SVG.
+    Draw(Draw),
     /// Write a mechanism in another format: TOML, JSON, URDF, SDF, Graphviz DOT, GraphML.
     Export(Export),
     /// How right and how fast each method is on every built-in mechanism, and where its numbers fail.
@@ -140,6 +143,41 @@ pub(super) struct Export {
     /// The format.
     #[arg(long, value_enum)]
     pub(super) to: ExportFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum DrawKind {
+    /// Links as polygons, joints as circles with their class, contours tinted by their redundant constraints.
+    Scheme,
+    /// Links and the symbols of joints in place, from the coordinates.
+    Kinematic,
+}
+
+#[derive(Debug, ClapArgs)]
+#[command(after_help = "\
+Examples:
+  ozols draw gripper-10 -o gripper.svg                   structural scheme
+  ozols draw bennett --kind kinematic -o bennett.svg     kinematic scheme
+  ozols draw gripper-10 --state clamped -o clamped.svg   with the part it holds
+  ozols draw gripper-10 --variant 1 -o first.svg         the best redesign, its changes in colour")]
+pub(super) struct Draw {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// What is drawn.
+    #[arg(long, value_enum, default_value = "scheme")]
+    pub(super) kind: DrawKind,
+    /// A state named in the file.
+    #[arg(long, default_value = "free")]
+    pub(super) state: String,
+    /// Draw variant K of the list that `ozols search FILE` gives, with its changes marked.
+    #[arg(long, value_name = "K")]
+    pub(super) variant: Option<usize>,
+    /// PNG instead of SVG (where built with the feature `png`).
+    #[arg(long)]
+    pub(super) png: bool,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,

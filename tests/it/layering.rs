@@ -14,7 +14,7 @@ const LAYERS: [&[&str]; 12] = [
     &["export"],
     &["redundancy"],
     &["search", "builtin"],
-    &["accuracy", "score"],
+    &["accuracy", "score", "draw"],
     &["report"],
     &["cli"],
 ];

@@ -1,0 +1,91 @@
+//! `ozols draw`.
+
+use super::args::{Args, Draw, DrawKind};
+use super::{Done, load, output};
+use crate::draw::{self, Drawing, Marks, Subject};
+use crate::model::mechanism::Mechanism;
+use crate::rank::numeric::DEFAULT_TOLERANCE;
+use crate::redundancy::analysis::{Method, analyse, exact_field};
+use crate::search::request::{Request, Search};
+use anyhow::{Context, bail, ensure};
+use std::ops::ControlFlow;
+
+pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
+    let mut mechanism = load::mechanism(&a.file.file)?;
+    let Some(state) = mechanism.states.iter().position(|s| *s == a.state) else {
+        bail!(
+            "{} has no state {}; it has: {}",
+            mechanism.name,
+            a.state,
+            mechanism.states.join(", ")
+        );
+    };
+    let mut marks = None;
+    if let Some(k) = a.variant {
+        let (realized, changes) = variant(&mechanism, k)?;
+        (mechanism, marks) = (realized, Some(changes));
+    }
+    let found = analyse(&mechanism, &[state], Method::Auto { tolerance: None })?;
+    let subject = Subject {
+        mechanism: &mechanism,
+        state,
+        analysis: found.first(),
+        marks,
+    };
+    let drawing = match a.kind {
+        DrawKind::Scheme => draw::scheme(&subject),
+        DrawKind::Kinematic => draw::kinematic(&subject),
+    };
+    let bytes = if a.png {
+        png(&drawing)?
+    } else {
+        drawing.svg.into_bytes()
+    };
+    output::to(a.output.as_deref(), |out| {
+        out.write_all(&bytes)?;
+        Ok(Done::Found)
+    })
+}
+
+/// Two pixels for each of the drawing's.
+#[cfg(feature = "png")]
+fn png(drawing: &Drawing) -> anyhow::Result<Vec<u8>> {
+    Ok(draw::png::png(drawing, 2.0)?)
+}
+
+#[cfg(not(feature = "png"))]
+fn png(_: &Drawing) -> anyhow::Result<Vec<u8>> {
+    bail!(
+        "this ozols was built without PNG; build it with `--features png`, or turn the SVG into PNG by another program"
+    )
+}
+
+/// The k-th of the list that `ozols search FILE` gives.
+fn variant(mechanism: &Mechanism, k: usize) -> anyhow::Result<(Mechanism, Marks)> {
+    ensure!(k > 0, "variants are numbered from 1");
+    let tolerance = super::question::measured(mechanism, None, false)?
+        .map_or(DEFAULT_TOLERANCE, |(m, _)| m.tolerance());
+    let request = Request {
+        tolerance,
+        ..Request::default()
+    };
+    let search = Search::new(exact_field(mechanism, 0)?, mechanism, request)?;
+    let diagrams = search.build(&|| false, &mut |_| {});
+    let (mut last, mut seen) = (None, 0);
+    search.cheapest(&diagrams, k, |v| {
+        seen += 1;
+        last = Some(v);
+        ControlFlow::Continue(())
+    });
+    let variant = last.filter(|_| seen == k).with_context(|| {
+        format!(
+            "{} has no variant {k}: the search gives {seen}",
+            mechanism.name
+        )
+    })?;
+    Ok(draw::marks::of_variant(
+        &search,
+        &variant,
+        &format!("variant {k}"),
+    ))
+}

@@ -1,0 +1,399 @@
+//! The kinematic scheme: links and the symbols of joints where the coordinates have them.
+
+use super::ground::{Ground, grounds, part};
+use super::labels::{self, Rect, Wish};
+use super::layout::{Point, add, mean, norm, scale, sub, unit};
+use super::projection::{self, View, bounds};
+use super::sheet::{Anchor, Caption, PAD, Shape, Sheet, Swatch, plan, polyline};
+use super::symbols::{self, Pose, hull};
+use super::{Drawing, Subject};
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{JointId, LinkId, Role};
+use std::fmt::Write as _;
+
+/// The room for the joints.
+const ROOM: Point = [560.0, 400.0];
+/// The room below for the axes and the scale.
+const STRIP: f64 = 84.0;
+
+/// Draws the kinematic scheme.
+#[must_use]
+pub fn kinematic(subject: &Subject<'_>) -> Drawing {
+    Kinematic::new(subject).draw()
+}
+
+/// A joint on paper.
+pub(super) struct Spot {
+    pub(super) joint: JointId,
+    pub(super) at: Point,
+    pub(super) shapes: Vec<Shape>,
+    /// The room of the symbol, the ring of a drive included.
+    pub(super) rect: Rect,
+    /// The radius of that ring.
+    pub(super) ring: Option<f64>,
+}
+
+/// A scheme under way.
+pub(super) struct Kinematic<'a> {
+    pub(super) subject: &'a Subject<'a>,
+    pub(super) spots: Vec<Spot>,
+    pub(super) links: Vec<(LinkId, Vec<usize>)>,
+    pub(super) grounds: Vec<Ground>,
+    pub(super) view: View,
+    /// Pixels in a unit of length.
+    pub(super) scale: f64,
+    /// Whether some joints stand beside their points.
+    pub(super) moved: bool,
+}
+
+impl<'a> Kinematic<'a> {
+    fn new(subject: &'a Subject<'a>) -> Kinematic<'a> {
+        let m = subject.mechanism;
+        let joints: Vec<JointId> = m.joints_in(subject.state).collect();
+        let mut links: Vec<(LinkId, Vec<usize>)> = Vec::new();
+        for l in 0..m.links.len() {
+            let of: Vec<usize> = (0..joints.len())
+                .filter(|&i| m.joints[joints[i]].links.contains(&l))
+                .collect();
+            if !of.is_empty() {
+                links.push((l, of));
+            }
+        }
+        let places = projection::places(m, &joints);
+        let (view, mut at, scale) = projection::best(&places, &links, m.frame(), ROOM);
+        let apart = part(&mut at, &links, &places, &view);
+        let spots: Vec<Spot> = joints
+            .iter()
+            .zip(&at)
+            .zip(&places)
+            .map(|((&joint, &at), place)| {
+                let mark = subject.joint_mark(joint).class();
+                let of = &m.joints[joint];
+                let shapes = symbols::symbol(&of.joint_type, &Pose::new(place, &view), mark);
+                let own = symbols::extent(&shapes);
+                let reach = (own.right - own.left).max(own.bottom - own.top) / 2.0 + 3.0;
+                let ring = of.drive.then_some(reach.min(14.0));
+                let rect = match ring {
+                    Some(r) => own
+                        .moved(at)
+                        .with(&Rect::around(at, 2.0 * r + 1.4, 2.0 * r + 1.4)),
+                    None => own.moved(at),
+                };
+                Spot {
+                    joint,
+                    at,
+                    shapes,
+                    rect,
+                    ring,
+                }
+            })
+            .collect();
+        let rooms: Vec<(Point, Rect)> = spots.iter().map(|s| (s.at, s.rect)).collect();
+        let grounds = grounds(&rooms, &links, m.frame());
+        Kinematic {
+            subject,
+            spots,
+            links,
+            grounds,
+            view,
+            scale,
+            moved: apart || places.iter().any(|p| p.moved),
+        }
+    }
+
+    /// The outline of a link: a bar, or the polygon round its joints.
+    pub(super) fn outline(&self, of: &[usize]) -> Vec<Point> {
+        let points: Vec<Point> = of.iter().map(|&i| self.spots[i].at).collect();
+        if points.len() > 2 {
+            hull(points)
+        } else {
+            points
+        }
+    }
+
+    /// The end of a link with one joint.
+    pub(super) fn loose(&self, of: &[usize]) -> Option<Point> {
+        let &[only] = of else { return None };
+        let at = self.spots[only].at;
+        let others = self
+            .links
+            .iter()
+            .filter(|(_, o)| o.len() > 1 && o.contains(&only));
+        let others = others.flat_map(|(_, o)| o).filter(|&&i| i != only);
+        let dirs: Vec<Point> = others.map(|&i| unit(sub(at, self.spots[i].at))).collect();
+        let away = if dirs.is_empty() {
+            [0.8, -0.6]
+        } else {
+            mean(dirs.into_iter())
+        };
+        Some(add(at, scale(unit(away), 48.0)))
+    }
+
+    pub(super) fn is_frame(&self, link: LinkId) -> bool {
+        self.subject.mechanism.links[link].role == Role::Frame
+    }
+
+    fn draw(mut self) -> Drawing {
+        let (places, texts) = self.place_labels();
+        let mut area = bounds(&self.spots.iter().map(|s| s.at).collect::<Vec<_>>());
+        let all = self.spots.iter().map(|s| s.rect);
+        let all = all.chain(self.grounds.iter().map(Ground::rect));
+        let all = all.chain(places.iter().map(|p| p.rect));
+        let ends = self
+            .links
+            .iter()
+            .filter_map(|(l, of)| self.loose(of).filter(|_| !self.is_frame(*l)));
+        let ends: Vec<Rect> = ends.map(|p| Rect::around(p, 8.0, 8.0)).collect();
+        for r in all.chain(ends) {
+            area = area.with(&r);
+        }
+        let title = self.subject.title();
+        let what = format!("Kinematic scheme {}", self.view.name);
+        let subtitle = self.subject.subtitle(&what);
+        let caption = Caption {
+            title: &title,
+            subtitle: [&subtitle[0], &subtitle[1]],
+            description: &self.description(),
+            legend: self.legend(),
+        };
+        let plan = plan(&caption, area, STRIP);
+        let by = plan.shift;
+        for s in &mut self.spots {
+            s.at = add(s.at, by);
+            s.rect = s.rect.moved(by);
+        }
+        for g in &mut self.grounds {
+            g.from = add(g.from, by);
+            g.to = add(g.to, by);
+        }
+        let mut sheet = Sheet::new(&caption, &plan);
+        self.draw_links(&mut sheet);
+        for g in &self.grounds {
+            sheet.symbol(g.rect());
+            g.draw(&mut sheet);
+        }
+        for p in &places {
+            if let Some((a, b)) = p.leader {
+                sheet.line("lead", add(a, by), add(b, by));
+            }
+        }
+        for s in &self.spots {
+            sheet.symbol(s.rect);
+            let mark = self.subject.joint_mark(s.joint).class();
+            if let Some(r) = s.ring {
+                sheet.circle(&format!("line{mark}"), s.at, r);
+            }
+            sheet.shapes(&s.shapes, s.at);
+            if self.subject.only_here(s.joint) {
+                let r = s.ring.unwrap_or(10.0) + 2.5;
+                sheet.circle("fine dash", s.at, r);
+            }
+        }
+        for (place, (class, size, text)) in places.iter().zip(&texts) {
+            let at = place.rect.moved(by).middle();
+            sheet.text(class, *size, at, Anchor::Middle, text);
+        }
+        self.draw_axes(&mut sheet, plan.legend_top - STRIP + 34.0);
+        self.draw_scale(&mut sheet, plan.legend_top - STRIP + 40.0);
+        sheet.finish(&caption, &plan)
+    }
+
+    fn draw_links(&self, sheet: &mut Sheet) {
+        for (l, of) in self.links.iter().filter(|(l, _)| !self.is_frame(*l)) {
+            let joints = of.iter().map(|&i| self.spots[i].joint);
+            let dash = if joints.clone().all(|j| self.subject.only_here(j)) {
+                " dash"
+            } else {
+                ""
+            };
+            let mark = self.subject.link_mark(*l).class();
+            let outline = self.outline(of);
+            let (class, closed) = if outline.len() > 2 {
+                ("plate", true)
+            } else {
+                ("bone", false)
+            };
+            let mut points = outline;
+            points.extend(self.loose(of));
+            let tip = format!("link {}", self.subject.mechanism.links[*l].id);
+            sheet.path_with_tip(
+                &format!("{class}{mark}{dash}"),
+                &polyline(&points, closed),
+                &tip,
+            );
+        }
+    }
+
+    /// The directions of the coordinates.
+    fn draw_axes(&self, sheet: &mut Sheet, y: f64) {
+        let origin = [PAD + 44.0, y + 8.0];
+        let mut taken = vec![Rect::around(origin, 9.0, 9.0)];
+        let mut wishes = Vec::new();
+        for axis in 0..3 {
+            let mut unit = [0.0; 3];
+            unit[axis] = 1.0;
+            let tip = scale(self.view.flat(unit), 30.0);
+            let length = norm(tip);
+            if length < 4.0 {
+                sheet.circle("joint", origin, 4.5);
+                if projection::dot(unit, self.view.toward) > 0.0 {
+                    sheet.circle("ink", origin, 1.6);
+                } else {
+                    let d = 3.0;
+                    sheet.line("line", add(origin, [-d, -d]), add(origin, [d, d]));
+                    sheet.line("line", add(origin, [-d, d]), add(origin, [d, -d]));
+                }
+            } else {
+                let end = add(origin, tip);
+                sheet.line("line", origin, end);
+                let back = scale(tip, -6.5 / length);
+                let side = [-back[1] * 0.42, back[0] * 0.42];
+                let corners = [end, add(add(end, back), side), sub(add(end, back), side)];
+                sheet.path("ink", &polyline(&corners, true));
+                taken.push(Rect::around(
+                    add(origin, scale(tip, 0.5)),
+                    tip[0].abs() + 3.0,
+                    tip[1].abs() + 3.0,
+                ));
+            }
+            wishes.push((axis, add(origin, tip), length));
+        }
+        let wishes: Vec<Wish> = wishes
+            .into_iter()
+            .map(|(_, anchor, length)| Wish {
+                width: 0.6 * 12.0,
+                height: 12.0,
+                anchor,
+                clear: if length < 4.0 { 5.0 } else { 1.0 },
+                first: Vec::new(),
+            })
+            .collect();
+        for (place, name) in labels::place(&wishes, &mut taken, &[])
+            .iter()
+            .zip(["x", "y", "z"])
+        {
+            sheet.text("axis", 12.0, place.rect.middle(), Anchor::Middle, name);
+        }
+    }
+
+    /// A bar of a round length.
+    fn draw_scale(&self, sheet: &mut Sheet, y: f64) {
+        let longest = 150.0 / self.scale;
+        let (Some(length), unit) = (
+            round_below(longest),
+            self.subject.mechanism.length_unit.symbol,
+        ) else {
+            return;
+        };
+        if self.spots.len() < 2 {
+            return;
+        }
+        let x = PAD + 130.0;
+        let end = x + length * self.scale;
+        let d = format!(
+            "M{x} {}V{}M{x} {y}H{end:.2}M{end:.2} {}V{}",
+            y - 4.0,
+            y + 4.0,
+            y - 4.0,
+            y + 4.0
+        );
+        sheet.path("line", &d);
+        let text = format!("{length} {unit}");
+        sheet.text("legend", 12.0, [x, y + 16.0], Anchor::Start, &text);
+    }
+
+    fn legend(&self) -> Vec<(Swatch, String)> {
+        let m = self.subject.mechanism;
+        let mut types: Vec<&JointType> = Vec::new();
+        for s in &self.spots {
+            let t = &m.joints[s.joint].joint_type;
+            if !types.contains(&t) {
+                types.push(t);
+            }
+        }
+        let mut out: Vec<(Swatch, String)> = types
+            .into_iter()
+            .map(|t| {
+                let shapes = symbols::symbol(t, &Pose::legend(), "");
+                (Swatch::Shapes(shapes), format!("{t}, class {}", t.class()))
+            })
+            .collect();
+        if self.spots.iter().any(|s| s.ring.is_some()) {
+            let draw = |s: &mut Sheet, p: Point| s.circle("line", p, 9.5);
+            out.push((Swatch::Symbol(draw), "driving pair".to_owned()));
+        }
+        if !self.grounds.is_empty() {
+            let draw = |s: &mut Sheet, p: Point| {
+                Ground {
+                    from: add(p, [0.0, -7.0]),
+                    to: add(p, [0.0, -1.0]),
+                }
+                .draw(s);
+            };
+            out.push((
+                Swatch::Symbol(draw),
+                format!("frame {}", m.links[m.frame()].id),
+            ));
+        }
+        if self.spots.iter().any(|s| self.subject.only_here(s.joint)) {
+            let draw = |s: &mut Sheet, p: Point| s.circle("fine dash", p, 9.5);
+            let state = &m.states[self.subject.state];
+            out.push((Swatch::Symbol(draw), format!("in state {state} only")));
+        }
+        out.extend(self.subject.mark_rows());
+        if self.moved {
+            let none = |_: &mut Sheet, _: Point| {};
+            let text = "coincident joints are drawn apart".to_owned();
+            out.push((Swatch::Symbol(none), text));
+        }
+        out
+    }
+
+    /// The drawing in words, for those who do not see it.
+    fn description(&self) -> String {
+        let m = self.subject.mechanism;
+        let what = format!("Kinematic scheme {}", self.view.name);
+        let mut out = self.subject.summary(&what);
+        for s in &self.spots {
+            let joint = &m.joints[s.joint];
+            let [a, b] = joint.links.map(|l| &m.links[l].id);
+            let p = [0, 1, 2].map(|i| joint.frame.point[i].to_f64());
+            let _ = write!(
+                out,
+                " Joint {} ({}) between {a} and {b} at {}, {}, {} {}.",
+                joint.id,
+                joint.joint_type,
+                short(p[0]),
+                short(p[1]),
+                short(p[2]),
+                m.length_unit.symbol
+            );
+        }
+        out
+    }
+}
+
+/// The largest of 1, 2 and 5 times a power of ten that is not above.
+fn round_below(x: f64) -> Option<f64> {
+    if !(x.is_finite() && x > 1e-200) {
+        return None;
+    }
+    let power = 10f64.powi(x.log10().floor() as i32);
+    let step = [5.0, 2.0, 1.0].into_iter().find(|s| s * power <= x)?;
+    // through text, so that 0.2 is 0.2
+    let text = format!("{:e}", step * power);
+    let (mantissa, exponent) = text.split_once('e')?;
+    let mantissa: f64 = mantissa.parse().ok()?;
+    format!("{}e{exponent}", mantissa.round()).parse().ok()
+}
+
+/// A coordinate in words.
+fn short(x: f64) -> String {
+    let text = format!("{x:.4}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" {
+        "0".to_owned()
+    } else {
+        text.to_owned()
+    }
+}

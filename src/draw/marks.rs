@@ -1,0 +1,37 @@
+//! What a variant of a search changed.
+
+use super::Marks;
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::search::best::Variant;
+use crate::search::request::Search;
+use crate::search::space::choice_name;
+
+/// The mechanism that a variant is, with its changes marked for drawing.
+#[must_use]
+pub fn of_variant(search: &Search<'_>, variant: &Variant, name: &str) -> (Mechanism, Marks) {
+    let old = search.mechanism;
+    let realized = search.realize(&variant.choices);
+    let mut changed: Vec<(JointId, String)> = Vec::new();
+    for (v, &choice) in search.space.variables.iter().zip(&variant.choices) {
+        if choice == 0 {
+            continue;
+        }
+        for &j in &v.joints {
+            let joint = &old.joints[j];
+            let to = choice_name(old, j, &v.choices[choice]);
+            let (from, now) = (
+                joint.joint_type.class(),
+                realized.joints[j].joint_type.class(),
+            );
+            changed.push((j, format!("{}: {from} → {now} {to}", joint.id)));
+        }
+    }
+    changed.sort_unstable();
+    let marks = Marks {
+        name: name.to_owned(),
+        changed,
+        joints: old.joints.len(),
+        links: old.links.len(),
+    };
+    (realized, marks)
+}

@@ -1,0 +1,376 @@
+//! Where joints are shown and from which side.
+
+use super::labels::Rect;
+use super::layout::{Point, norm as norm2, segments_cross, sub as sub2, to_segment};
+use crate::geom::expr::Expr;
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::mechanism::{JointId, LinkId, Mechanism};
+
+/// A vector of space.
+pub(super) type Vector = [f64; 3];
+
+/// A side to look from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct View {
+    /// To the right on paper.
+    pub(super) right: Vector,
+    /// Up on paper.
+    pub(super) up: Vector,
+    /// Towards the reader.
+    pub(super) toward: Vector,
+    /// What it is called.
+    pub(super) name: &'static str,
+    /// Along an axis of the coordinates.
+    axis: bool,
+}
+
+impl View {
+    /// A vector on paper, where y goes down.
+    pub(super) fn flat(&self, v: Vector) -> Point {
+        [dot(self.right, v), -dot(self.up, v)]
+    }
+}
+
+/// A joint in space.
+#[derive(Debug, Clone)]
+pub(super) struct Place {
+    /// Its point, perhaps moved along its axis.
+    pub(super) point: Vector,
+    /// Its frame.
+    pub(super) x: Vector,
+    pub(super) y: Vector,
+    pub(super) z: Vector,
+    /// Whether it turns about its axis and does not slide along it.
+    hinge: bool,
+    /// Whether the point was moved.
+    pub(super) moved: bool,
+}
+
+/// Joints as they are shown: those that meet in a point with axes of different directions are moved along them.
+pub(super) fn places(mechanism: &Mechanism, joints: &[JointId]) -> Vec<Place> {
+    let mut out: Vec<Place> = joints.iter().map(|&j| frame(mechanism, j)).collect();
+    if planar(&out).is_some() {
+        return out;
+    }
+    let size = extent(&out);
+    let near = |a: Vector, b: Vector| norm(sub(a, b)) <= 1e-6 * size;
+    let step = if size > 0.0 { 0.2 * size } else { 1.0 };
+    let old = out.clone();
+    let links = |i: usize| mechanism.joints[joints[i]].links;
+    for i in 0..out.len() {
+        let group: Vec<usize> = (0..old.len())
+            .filter(|&k| k != i && near(old[k].point, old[i].point))
+            .collect();
+        if group.is_empty() {
+            continue;
+        }
+        let joint = &mechanism.joints[joints[i]];
+        let (p, z) = (old[i].point, old[i].z);
+        if matches!(joint.joint_type, JointType::Prismatic)
+            && let Some(middle) = between(mechanism, joints, &old, i)
+            && !near(middle, p)
+        {
+            (out[i].point, out[i].moved) = (middle, true);
+            continue;
+        }
+        let slides = joint
+            .joint_type
+            .freedoms()
+            .iter()
+            .all(|f| matches!(f, Freedom::Rz | Freedom::Tz | Freedom::Screw));
+        let slanted = group.iter().any(|&k| norm(cross(old[k].z, z)) > 1e-6);
+        if !slides || !slanted || joint.joint_type == JointType::Fixed {
+            continue;
+        }
+        // where the axes of joints on the same links meet this one
+        let mut meets: Vec<f64> = (0..old.len())
+            .filter(|&k| k != i && links(k).iter().any(|l| links(i).contains(l)))
+            .filter_map(|k| meet(p, z, old[k].point, old[k].z, 1e-5 * size.max(1e-12)))
+            .collect();
+        meets.sort_by(f64::total_cmp);
+        let (low, high) = match (meets.first(), meets.last()) {
+            (Some(&a), Some(&b)) => (a, b),
+            _ => (0.0, 0.0),
+        };
+        let t = if high - low > 1e-5 * size {
+            (low + high) / 2.0
+        } else {
+            let middle = middle(&old);
+            let outward = dot(sub(add(p, scale(z, low)), middle), z);
+            low + if outward < -1e-9 * size { -step } else { step }
+        };
+        let twins = group
+            .iter()
+            .filter(|&&k| k < i && norm(cross(old[k].z, z)) <= 1e-6)
+            .count();
+        let t = t * (1.0 + 0.5 * twins as f64);
+        if t.abs() > 1e-6 * size {
+            (out[i].point, out[i].moved) = (add(p, scale(z, t)), true);
+        }
+    }
+    out
+}
+
+/// The frame of a joint; numbers that are none count as 0.
+fn frame(mechanism: &Mechanism, joint: JointId) -> Place {
+    let f = &mechanism.joints[joint].frame;
+    let real = |v: &[Expr; 3]| {
+        [0, 1, 2].map(|i| {
+            let x = v[i].to_f64();
+            if x.is_finite() && x.abs() < 1e120 {
+                x
+            } else {
+                0.0
+            }
+        })
+    };
+    let z = unit(real(&f.axis), [0.0, 0.0, 1.0]);
+    let reference = real(&f.reference);
+    let other = if z[0].abs() < 0.9 {
+        [1.0, 0.0, 0.0]
+    } else {
+        [0.0, 1.0, 0.0]
+    };
+    let across = |v: Vector| sub(v, scale(z, dot(v, z)));
+    let x = unit(across(reference), unit(across(other), other));
+    Place {
+        point: real(&f.point),
+        x,
+        y: cross(z, x),
+        z,
+        hinge: matches!(
+            mechanism.joints[joint].joint_type,
+            JointType::Revolute | JointType::Universal | JointType::Slotted
+        ),
+        moved: false,
+    }
+}
+
+/// The middle between the other joints of the two bars that a sliding pair joins.
+fn between(mechanism: &Mechanism, joints: &[JointId], at: &[Place], i: usize) -> Option<Vector> {
+    let ends = mechanism.joints[joints[i]].links.map(|l| {
+        let mut others =
+            (0..joints.len()).filter(|&k| k != i && mechanism.joints[joints[k]].links.contains(&l));
+        let one = others.next();
+        one.filter(|_| others.next().is_none())
+    });
+    let (a, b) = (at[ends[0]?].point, at[ends[1]?].point);
+    Some(scale(add(a, b), 0.5))
+}
+
+/// Where on the line p + t·z the line q + s·w meets it.
+fn meet(p: Vector, z: Vector, q: Vector, w: Vector, near: f64) -> Option<f64> {
+    let n = cross(z, w);
+    let nn = dot(n, n);
+    if nn < 1e-12 {
+        return None;
+    }
+    let apart = sub(q, p);
+    let gap = dot(apart, n).abs() / nn.sqrt();
+    (gap <= near).then(|| dot(cross(apart, w), n) / nn)
+}
+
+/// The views to choose from.
+fn views() -> Vec<View> {
+    let mut out = vec![
+        View {
+            right: [1.0, 0.0, 0.0],
+            up: [0.0, 1.0, 0.0],
+            toward: [0.0, 0.0, 1.0],
+            name: "seen along z",
+            axis: true,
+        },
+        View {
+            right: [1.0, 0.0, 0.0],
+            up: [0.0, 0.0, 1.0],
+            toward: [0.0, -1.0, 0.0],
+            name: "seen along y",
+            axis: true,
+        },
+        View {
+            right: [0.0, 1.0, 0.0],
+            up: [0.0, 0.0, 1.0],
+            toward: [1.0, 0.0, 0.0],
+            name: "seen along x",
+            axis: true,
+        },
+    ];
+    let iso = (1.0f64 / 3.0).sqrt().asin().to_degrees();
+    let slanted = [(45.0, iso), (-45.0, iso), (135.0, iso), (-135.0, iso)];
+    let others = [
+        (-60.0, 20.0),
+        (-30.0, 25.0),
+        (25.0, 20.0),
+        (60.0, 30.0),
+        (-20.0, 50.0),
+    ];
+    for (n, (azimuth, height)) in slanted.into_iter().chain(others).enumerate() {
+        let (a, h): (f64, f64) = (f64::to_radians(azimuth), f64::to_radians(height));
+        let toward = [a.cos() * h.cos(), a.sin() * h.cos(), h.sin()];
+        let right = [-a.sin(), a.cos(), 0.0];
+        out.push(View {
+            right,
+            up: cross(toward, right),
+            toward,
+            name: if n < 4 { "isometric" } else { "seen aslant" },
+            axis: false,
+        });
+    }
+    out
+}
+
+/// The view with least overlap, with the joints on paper in a picture of the given size.
+pub(super) fn best(
+    places: &[Place],
+    links: &[(LinkId, Vec<usize>)],
+    frame: LinkId,
+    room: Point,
+) -> (View, Vec<Point>, f64) {
+    let middle = middle(places);
+    let mut best: Option<(f64, View, Vec<Point>, f64)> = None;
+    let flat = planar(places);
+    for view in views() {
+        let on: Vec<Point> = places
+            .iter()
+            .map(|p| view.flat(sub(p.point, middle)))
+            .collect();
+        let area = bounds(&on);
+        let (w, h) = (area.right - area.left, area.bottom - area.top);
+        let scale = (room[0] / w.max(1e-300)).min(room[1] / h.max(1e-300));
+        let scale = if w.max(h) > 0.0 && scale.is_finite() {
+            scale
+        } else {
+            1.0
+        };
+        let on: Vec<Point> = on.iter().map(|p| [p[0] * scale, p[1] * scale]).collect();
+        let mut cost = crowd(places, &on, links, frame);
+        match flat {
+            Some(normal) if norm(cross(normal, view.toward)) < 1e-6 => cost -= 1e3,
+            _ if view.axis => cost += 1.0 + 0.15 * places.len() as f64,
+            _ if view.name != "isometric" => cost += 0.4 + 0.02 * places.len() as f64,
+            _ => {}
+        }
+        if best.as_ref().is_none_or(|(least, ..)| cost < least - 1e-9) {
+            best = Some((cost, view, on, scale));
+        }
+    }
+    match best {
+        Some((_, view, on, scale)) => (view, on, scale),
+        None => (views()[0], Vec::new(), 1.0),
+    }
+}
+
+/// The common normal, where all points lie in one plane, hinges turn in it, and other axes are along or across it.
+fn planar(places: &[Place]) -> Option<Vector> {
+    let size = extent(places);
+    [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]
+        .into_iter()
+        .find(|&n| {
+            let first = places.first().map_or(0.0, |p| dot(p.point, n));
+            places.iter().all(|p| {
+                let c = dot(p.z, n).abs();
+                let across = c < 1e-6 && !p.hinge;
+                (dot(p.point, n) - first).abs() <= 1e-6 * size && (across || c > 1.0 - 1e-6)
+            })
+        })
+}
+
+/// How much joints and links lie on each other.
+fn crowd(places: &[Place], on: &[Point], links: &[(LinkId, Vec<usize>)], frame: LinkId) -> f64 {
+    const NEAR: f64 = 34.0;
+    const CLEAR: f64 = 14.0;
+    let mut cost = 0.0;
+    for i in 0..on.len() {
+        for j in 0..i {
+            let d = norm2(sub2(on[i], on[j]));
+            if d < NEAR && norm(sub(places[i].point, places[j].point)) > 0.0 {
+                cost += 2.0 * ((NEAR - d) / NEAR).powi(2);
+            }
+        }
+    }
+    let moving = || links.iter().filter(|(l, _)| *l != frame);
+    for (n, (_, of)) in moving().enumerate() {
+        for (a, b) in pairs(of) {
+            for (j, &p) in on.iter().enumerate() {
+                if !of.contains(&j) {
+                    let d = to_segment(p, on[a], on[b]);
+                    cost += 0.8 * ((CLEAR - d) / CLEAR).max(0.0);
+                }
+            }
+            for (_, other) in moving().take(n) {
+                let crossing =
+                    |&(c, d): &(usize, usize)| segments_cross(on[a], on[b], on[c], on[d]);
+                cost += 0.12 * pairs(other).iter().filter(|p| crossing(p)).count() as f64;
+            }
+        }
+    }
+    cost
+}
+
+/// The sides of a link.
+fn pairs(of: &[usize]) -> Vec<(usize, usize)> {
+    let n = of.len();
+    let count = if n > 2 { n } else { n.saturating_sub(1) };
+    (0..count).map(|i| (of[i], of[(i + 1) % n])).collect()
+}
+
+/// The rectangle round some points.
+pub(super) fn bounds(points: &[Point]) -> Rect {
+    let first = points.first().copied().unwrap_or([0.0; 2]);
+    points.iter().fold(Rect::around(first, 0.0, 0.0), |r, &p| {
+        r.with(&Rect::around(p, 0.0, 0.0))
+    })
+}
+
+fn extent(places: &[Place]) -> f64 {
+    let span = |i: usize| {
+        let all = places.iter().map(|p| p.point[i]);
+        let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
+            (l.min(v), h.max(v))
+        });
+        if high > low { high - low } else { 0.0 }
+    };
+    norm([span(0), span(1), span(2)])
+}
+
+fn middle(places: &[Place]) -> Vector {
+    let sum = places.iter().fold([0.0; 3], |s, p| add(s, p.point));
+    scale(sum, 1.0 / places.len().max(1) as f64)
+}
+
+pub(super) fn add(a: Vector, b: Vector) -> Vector {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+pub(super) fn sub(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+pub(super) fn scale(a: Vector, by: f64) -> Vector {
+    a.map(|x| x * by)
+}
+
+pub(super) fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub(super) fn cross(a: Vector, b: Vector) -> Vector {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+pub(super) fn norm(a: Vector) -> f64 {
+    a[0].hypot(a[1]).hypot(a[2])
+}
+
+fn unit(a: Vector, or: Vector) -> Vector {
+    let length = norm(a);
+    if length > 1e-300 && length.is_finite() {
+        scale(a, 1.0 / length)
+    } else {
+        or
+    }
+}

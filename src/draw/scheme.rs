@@ -1,0 +1,370 @@
+//! The structural scheme: links as polygons, joints as circles with their class, contours tinted by what is redundant.
+
+use super::labels::{Place, Rect};
+use super::layout::{
+    Graph, Layout, Point, add, cross, inside, layout, mean, norm, ring, scale, sub, to_segment,
+};
+use super::shapes::{HALF, hatch, hatch_with, outline, rounded};
+use super::sheet::{Anchor, Caption, SMALL, Sheet, Swatch, plan, polyline};
+use super::{Drawing, Mark, Subject};
+use crate::closure::contour::{Contour, contour_basis};
+use crate::geom::expr::Expr;
+use crate::model::mechanism::{JointId, LinkId, Role};
+use std::fmt::Write as _;
+
+/// Pixels of a bar.
+const UNIT: f64 = 96.0;
+/// The radius of a joint.
+const JOINT: f64 = 11.5;
+/// The radius of the second circle of a driving pair.
+const DRIVE: f64 = 15.5;
+
+/// σ_i of a contour and its range over all orders, where known.
+type Share = Option<(usize, (usize, usize))>;
+
+/// What is drawn, by place in the drawing rather than in the mechanism.
+pub(super) struct Parts {
+    pub(super) joints: Vec<JointId>,
+    pub(super) links: Vec<LinkId>,
+    pub(super) contours: Vec<(Contour, Share)>,
+    pub(super) graph: Graph,
+}
+
+/// Draws the structural scheme.
+#[must_use]
+pub fn scheme(subject: &Subject<'_>) -> Drawing {
+    let parts = parts(subject);
+    let mut at = layout(&parts.graph, &hints(subject, &parts));
+    for p in at.joints.iter_mut().chain(at.hubs.iter_mut()) {
+        *p = scale(*p, UNIT);
+    }
+    Scheme::new(subject, parts, at).draw()
+}
+
+fn parts(subject: &Subject<'_>) -> Parts {
+    let m = subject.mechanism;
+    let joints: Vec<JointId> = m.joints_in(subject.state).collect();
+    let mut links: Vec<LinkId> = joints.iter().flat_map(|&j| m.joints[j].links).collect();
+    links.sort_unstable();
+    links.dedup();
+    let local = |j: JointId| joints.iter().position(|&k| k == j);
+    let contours: Vec<(Contour, Option<_>)> = match subject.analysis {
+        Some(a) => {
+            let shares = a.per_contour.iter();
+            shares
+                .map(|s| (s.contour.clone(), Some((s.redundant, s.range))))
+                .collect()
+        }
+        None => {
+            let basis = contour_basis(m, subject.state);
+            basis.into_iter().map(|c| (c, None)).collect()
+        }
+    };
+    let graph = Graph {
+        links: links
+            .iter()
+            .map(|&l| {
+                let of = joints.iter().enumerate();
+                of.filter(|(_, j)| m.joints[**j].links.contains(&l))
+                    .map(|(i, _)| i)
+                    .collect()
+            })
+            .collect(),
+        joints: joints.len(),
+        frame: links.iter().position(|&l| l == m.frame()),
+        contours: contours
+            .iter()
+            .map(|(c, _)| c.joints.iter().filter_map(|&(j, _)| local(j)).collect())
+            .collect(),
+    };
+    Parts {
+        joints,
+        links,
+        contours,
+        graph,
+    }
+}
+
+/// The joints as the coordinates have them, seen along each axis and aslant.
+fn hints(subject: &Subject<'_>, parts: &Parts) -> Vec<Vec<Point>> {
+    let at = |j: &JointId| {
+        let p = &subject.mechanism.joints[*j].frame.point;
+        [0, 1, 2].map(|i| Expr::to_f64(&p[i]))
+    };
+    let points: Vec<[f64; 3]> = parts.joints.iter().map(at).collect();
+    let views: [fn(&[f64; 3]) -> Point; 4] = [
+        |p| [p[0], -p[1]],
+        |p| [p[0], -p[2]],
+        |p| [p[1], -p[2]],
+        |p| [0.87 * (p[0] - p[1]), 0.5 * (p[0] + p[1]) - p[2]],
+    ];
+    views
+        .iter()
+        .map(|view| points.iter().map(view).collect())
+        .collect()
+}
+
+/// A scheme under way.
+pub(super) struct Scheme<'a> {
+    pub(super) subject: &'a Subject<'a>,
+    pub(super) parts: Parts,
+    pub(super) at: Layout,
+    pub(super) rings: Vec<Vec<usize>>,
+}
+
+impl<'a> Scheme<'a> {
+    fn new(subject: &'a Subject<'a>, parts: Parts, at: Layout) -> Scheme<'a> {
+        let rings = parts
+            .graph
+            .links
+            .iter()
+            .map(|of| ring(of, &at.joints))
+            .collect();
+        Scheme {
+            subject,
+            parts,
+            at,
+            rings,
+        }
+    }
+
+    /// The corners of a link: its joints, and its hub where it is loose or bowed.
+    pub(super) fn corners(&self, l: usize) -> Vec<Point> {
+        let ring = &self.rings[l];
+        let mut out: Vec<Point> = ring.iter().map(|&j| self.at.joints[j]).collect();
+        match out.len() {
+            0 => out.push(self.at.hubs[l]),
+            1 => out.push(self.at.hubs[l]),
+            2 => {
+                let middle = mean(out.iter().copied());
+                if norm(sub(middle, self.at.hubs[l])) > 1.0 {
+                    out.insert(1, self.at.hubs[l]);
+                }
+            }
+            _ => {}
+        }
+        out
+    }
+
+    pub(super) fn radius(&self, i: usize) -> f64 {
+        if self.subject.mechanism.joints[self.parts.joints[i]].drive {
+            DRIVE
+        } else {
+            JOINT
+        }
+    }
+
+    fn draw(mut self) -> Drawing {
+        let labels = self.place_labels();
+        let mut area = Rect::around(
+            self.at.joints.first().copied().unwrap_or([0.0; 2]),
+            40.0,
+            40.0,
+        );
+        for p in self.at.joints.iter().chain(&self.at.hubs) {
+            area = area.with(&Rect::around(*p, 2.0 * DRIVE + 4.0, 2.0 * DRIVE + 4.0));
+        }
+        for (place, _) in &labels {
+            area = area.with(&place.rect);
+        }
+        let title = self.subject.title();
+        let subtitle = self.subject.subtitle("Structural scheme");
+        let caption = Caption {
+            title: &title,
+            subtitle: [&subtitle[0], &subtitle[1]],
+            description: &self.description(),
+            legend: self.legend(),
+        };
+        let plan = plan(&caption, area, 0.0);
+        for p in self.at.joints.iter_mut().chain(self.at.hubs.iter_mut()) {
+            *p = add(*p, plan.shift);
+        }
+        let mut sheet = Sheet::new(&caption, &plan);
+        self.draw_contours(&mut sheet);
+        for l in 0..self.rings.len() {
+            self.draw_link(&mut sheet, l);
+        }
+        self.draw_labels(&mut sheet, &labels, plan.shift);
+        sheet.finish(&caption, &plan)
+    }
+
+    fn draw_contours(&self, sheet: &mut Sheet) {
+        let m = self.subject.mechanism;
+        // the smallest on top, so that each stretch has the colour of the contour it is next to
+        let mut order: Vec<(f64, usize, Vec<Point>)> = Vec::new();
+        for (c, of) in self.parts.graph.contours.iter().enumerate() {
+            let polygon: Vec<Point> = of.iter().map(|&j| self.at.joints[j]).collect();
+            let n = polygon.len();
+            let area: f64 = (0..n)
+                .map(|i| cross(polygon[i], polygon[(i + 1) % n]))
+                .sum();
+            order.push((area.abs(), c, polygon));
+        }
+        order.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for (_, c, polygon) in order {
+            let (contour, share) = &self.parts.contours[c];
+            let redundant = share.map_or(0, |(r, _)| r).min(6);
+            sheet.path_with_tip(
+                &format!("s s{redundant}"),
+                &polyline(&polygon, true),
+                &words(c, &contour.name(m), *share),
+            );
+        }
+    }
+
+    fn draw_link(&self, sheet: &mut Sheet, l: usize) {
+        let link = self.parts.links[l];
+        let of = &self.subject.mechanism.links[link];
+        let corners = self.corners(l);
+        let dashed = self.rings[l]
+            .iter()
+            .all(|&i| self.subject.only_here(self.parts.joints[i]));
+        let class = format!(
+            "link{}{}",
+            self.subject.link_mark(link).class(),
+            if dashed { " dash" } else { "" }
+        );
+        sheet.path_with_tip(&class, &rounded(&corners, HALF), &format!("link {}", of.id));
+        if of.role == Role::Frame {
+            let d = hatch(&corners);
+            if !d.is_empty() {
+                sheet.path("fine", &d);
+            }
+        }
+    }
+
+    fn draw_labels(&self, sheet: &mut Sheet, labels: &[(Place, String)], shift: Point) {
+        let (joints, links) = (self.parts.joints.len(), self.parts.links.len());
+        for (place, _) in labels {
+            if let Some((a, b)) = place.leader {
+                sheet.line("lead", add(a, shift), add(b, shift));
+            }
+        }
+        for i in 0..joints {
+            self.draw_joint(sheet, i);
+        }
+        for (n, (place, text)) in labels.iter().enumerate() {
+            let rect = place.rect.moved(shift);
+            let (class, size, mark) = if n < joints {
+                let mark = self.subject.joint_mark(self.parts.joints[n]);
+                if self.on_frame(rect.middle()) {
+                    sheet.rect("link-back", &rect, 3.0);
+                }
+                ("small soft", SMALL, mark)
+            } else if n < joints + links {
+                let link = self.parts.links[n - joints];
+                if self.subject.mechanism.links[link].role == Role::Frame {
+                    sheet.rect("link-back", &rect, 3.0);
+                }
+                ("name", 12.0, self.subject.link_mark(link))
+            } else {
+                sheet.rect("badge", &rect, 8.0);
+                ("small", SMALL, Mark::None)
+            };
+            let class = format!("{class}{}", mark.class());
+            sheet.text(&class, size, rect.middle(), Anchor::Middle, text);
+        }
+    }
+
+    /// Whether a point is on the hatching.
+    fn on_frame(&self, p: Point) -> bool {
+        let frame = self.subject.mechanism.frame();
+        let Some(l) = self.parts.links.iter().position(|&l| l == frame) else {
+            return false;
+        };
+        let corners = self.corners(l);
+        inside(p, &corners)
+            || outline(&corners)
+                .iter()
+                .any(|&(a, b)| to_segment(p, a, b) < HALF + 6.0)
+    }
+
+    fn draw_joint(&self, sheet: &mut Sheet, i: usize) {
+        let id = self.parts.joints[i];
+        let joint = &self.subject.mechanism.joints[id];
+        let mut class = format!("joint{}", self.subject.joint_mark(id).class());
+        if self.subject.only_here(id) {
+            class += " dash";
+        }
+        let at = self.at.joints[i];
+        if joint.drive {
+            sheet.circle(&class, at, DRIVE);
+        }
+        sheet.circle(&class, at, JOINT);
+        let r = 2.0 * self.radius(i);
+        sheet.symbol(Rect::around(at, r, r));
+        sheet.text("class", 10.0, at, Anchor::Middle, joint.joint_type.class());
+    }
+
+    fn legend(&self) -> Vec<(Swatch, String)> {
+        let m = self.subject.mechanism;
+        let mut out = Vec::new();
+        for (c, (contour, share)) in self.parts.contours.iter().enumerate() {
+            let redundant = share.map_or(0, |(r, _)| r);
+            let name = contour.name(m);
+            let words = words(c, &name, *share);
+            let words = words.split_once(": ").map_or(words.as_str(), |(_, w)| w);
+            out.push((
+                Swatch::Tint(redundant, format!("{}", c + 1)),
+                words.to_owned(),
+            ));
+        }
+        let any = |of: &dyn Fn(JointId) -> bool| self.parts.joints.iter().any(|&j| of(j));
+        if any(&|j| m.joints[j].drive) {
+            let draw = |s: &mut Sheet, p: Point| {
+                s.circle("joint", p, 9.5);
+                s.circle("joint", p, 6.5);
+            };
+            out.push((Swatch::Symbol(draw), "driving pair".to_owned()));
+        }
+        let frame = |s: &mut Sheet, p: Point| {
+            let ends = [add(p, [-7.0, 0.0]), add(p, [7.0, 0.0])];
+            s.path("link", &rounded(&ends, 7.0));
+            s.path("fine", &hatch_with(&ends, 6.4, 4.0));
+        };
+        out.push((
+            Swatch::Symbol(frame),
+            format!("frame {}", m.links[m.frame()].id),
+        ));
+        if any(&|j| self.subject.only_here(j)) {
+            let draw = |s: &mut Sheet, p: Point| s.circle("joint dash", p, 9.5);
+            let state = &m.states[self.subject.state];
+            out.push((Swatch::Symbol(draw), format!("in state {state} only")));
+        }
+        out.extend(self.subject.mark_rows());
+        out
+    }
+
+    /// The drawing in words, for those who do not see it.
+    fn description(&self) -> String {
+        let m = self.subject.mechanism;
+        let mut out = self.subject.summary("Structural scheme");
+        for &j in &self.parts.joints {
+            let joint = &m.joints[j];
+            let [a, b] = joint.links.map(|l| &m.links[l].id);
+            let _ = write!(
+                out,
+                " Joint {} of class {} ({}) between {a} and {b}{}.",
+                joint.id,
+                joint.joint_type.class(),
+                joint.joint_type,
+                if joint.drive { ", driven" } else { "" }
+            );
+        }
+        for (c, (contour, share)) in self.parts.contours.iter().enumerate() {
+            let _ = write!(out, " {}.", words(c, &contour.name(m), *share));
+        }
+        out
+    }
+}
+
+/// A contour in words.
+fn words(c: usize, name: &str, share: Share) -> String {
+    match share {
+        Some((r, (low, high))) if low != high => {
+            format!("contour {}: {name}, σ = {r} ({low} to {high})", c + 1)
+        }
+        Some((r, _)) => format!("contour {}: {name}, σ = {r}", c + 1),
+        None => format!("contour {}: {name}", c + 1),
+    }
+}

@@ -1,0 +1,382 @@
+//! The sheet a drawing is on: title, style, legend, and a record of every label and symbol.
+
+use super::labels::Rect;
+use super::layout::{Point, add};
+use super::{Drawing, Label};
+use crate::chart::look::{cut, width};
+use crate::chart::xml::{Xml, number};
+use std::fmt::Write as _;
+
+/// The space around everything.
+pub(super) const PAD: f64 = 20.0;
+/// The size of ids.
+pub(super) const SMALL: f64 = 11.0;
+/// The size of the legend.
+const TEXT: f64 = 12.0;
+const ROW: f64 = 22.0;
+const SWATCH: f64 = 40.0;
+/// A legend's row is cut beyond this.
+const WIDEST: f64 = 560.0;
+
+/// The look. Its classes are its own, so that charts and drawings may share a page; colours stand outright, since many
+/// viewers of files know no CSS variables.
+const STYLE: &str = "
+.ozd{font-family:system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif;font-size:12px}
+.ozd text{fill:#1c2126;font-variant-numeric:tabular-nums}
+.ozd .title{font-size:18px;font-weight:600}
+.ozd .sub{font-size:13px}
+.ozd .sub,.ozd .soft{fill:#59636e}
+.ozd .small{font-size:11px}
+.ozd .class{font-size:10px}
+.ozd .name{font-weight:700;paint-order:stroke;stroke:#f3f5f7;stroke-width:3px;stroke-linejoin:round}
+.ozd .bg{fill:#fff}
+.ozd .link{fill:#f3f5f7;stroke:#3b444d;stroke-width:1.3;stroke-linejoin:round}
+.ozd .bone{fill:none;stroke:#3b444d;stroke-width:2.2;stroke-linecap:round;stroke-linejoin:round}
+.ozd .plate{fill:#59636e;fill-opacity:.12;stroke:#3b444d;stroke-width:1.6;stroke-linejoin:round}
+.ozd .joint{fill:#fff;stroke:#1c2126;stroke-width:1.4;stroke-linejoin:round}
+.ozd .line{fill:none;stroke:#1c2126;stroke-width:1.2;stroke-linecap:round;stroke-linejoin:round}
+.ozd .ink{fill:#1c2126}
+.ozd .fine{fill:none;stroke:#59636e;stroke-width:.9}
+.ozd .lead{fill:none;stroke:#8b949e;stroke-width:.8}
+.ozd .dash{stroke-dasharray:4 3}
+.ozd .link.new,.ozd .plate.new{fill:#d8f0e4;stroke:#00674a}
+.ozd .bone.new{stroke:#00674a}
+.ozd .joint.new{fill:#d8f0e4;stroke:#00674a;stroke-width:2}
+.ozd .line.new{stroke:#00674a}
+.ozd .joint.changed{fill:#d4e4ff;stroke:#0b4fc4;stroke-width:2}
+.ozd .line.changed{stroke:#0b4fc4}
+.ozd .ink.changed{fill:#0b4fc4}
+.ozd text.changed{fill:#0b4fc4;font-weight:700}
+.ozd text.new{fill:#00674a;font-weight:700}
+.ozd .s{stroke:#b4bcc4;stroke-width:.6}
+.ozd .s0{fill:#eef1f4}.ozd .s1{fill:#fff0c2}.ozd .s2{fill:#ffe08f}.ozd .s3{fill:#ffc46b}
+.ozd .s4{fill:#fca35a}.ozd .s5{fill:#f2814f}.ozd .s6{fill:#dd5f45}
+.ozd .badge{fill:#fff;stroke:#59636e;stroke-width:1}
+.ozd .link-back{fill:#f3f5f7}
+@media screen and (prefers-color-scheme:dark){
+.ozd text{fill:#e8ebee}
+.ozd .sub,.ozd .soft{fill:#a3adb7}
+.ozd .bg{fill:#15191d}
+.ozd .name{stroke:#232a31}
+.ozd .link{fill:#232a31;stroke:#aeb7c0}
+.ozd .bone{stroke:#aeb7c0}
+.ozd .plate{fill:#a3adb7;stroke:#aeb7c0}
+.ozd .joint{fill:#15191d;stroke:#e8ebee}
+.ozd .line{stroke:#e8ebee}
+.ozd .ink{fill:#e8ebee}
+.ozd .fine{stroke:#a3adb7}
+.ozd .lead{stroke:#7a848e}
+.ozd .link.new,.ozd .plate.new{fill:#123c2d;stroke:#5fd0a4}
+.ozd .bone.new,.ozd .line.new{stroke:#5fd0a4}
+.ozd .joint.new{fill:#123c2d;stroke:#5fd0a4}
+.ozd .joint.changed{fill:#16304f;stroke:#7db4ff}
+.ozd .line.changed{stroke:#7db4ff}
+.ozd .ink.changed{fill:#7db4ff}
+.ozd text.changed{fill:#9cc6ff}
+.ozd text.new{fill:#7fe0b8}
+.ozd .s{stroke:#4b555f}
+.ozd .s0{fill:#20262c}.ozd .s1{fill:#3d3513}.ozd .s2{fill:#554312}.ozd .s3{fill:#6b4713}
+.ozd .s4{fill:#7d4318}.ozd .s5{fill:#8b3a1c}.ozd .s6{fill:#962d22}
+.ozd .badge{fill:#15191d;stroke:#a3adb7}
+.ozd .link-back{fill:#232a31}
+}
+";
+
+/// What stands in front of a legend's text.
+#[derive(Debug, Clone)]
+pub(super) enum Swatch {
+    /// The tint of a contour with so many redundant constraints, and its number.
+    Tint(usize, String),
+    /// Drawn by the caller's function into the middle given.
+    Symbol(fn(&mut Sheet, Point)),
+    /// A joint with text in it.
+    Joint(&'static str, String),
+    /// Shapes round the origin.
+    Shapes(Vec<Shape>),
+}
+
+/// A finished piece of drawing.
+#[derive(Debug, Clone)]
+pub(super) enum Shape {
+    /// A path.
+    Path {
+        class: String,
+        points: Vec<Point>,
+        closed: bool,
+    },
+    /// A circle.
+    Circle {
+        at: Point,
+        radius: f64,
+        class: String,
+    },
+}
+
+impl Shape {
+    /// An open path.
+    pub(super) fn line(class: String, points: Vec<Point>) -> Shape {
+        Shape::Path {
+            class,
+            points,
+            closed: false,
+        }
+    }
+}
+
+/// A drawing under way.
+#[derive(Debug)]
+pub(super) struct Sheet {
+    xml: Xml,
+    size: Point,
+    labels: Vec<Label>,
+    symbols: Vec<Rect>,
+}
+
+/// The texts round a drawing.
+#[derive(Debug)]
+pub(super) struct Caption<'a> {
+    pub(super) title: &'a str,
+    /// Two lines.
+    pub(super) subtitle: [&'a str; 2],
+    pub(super) description: &'a str,
+    pub(super) legend: Vec<(Swatch, String)>,
+}
+
+/// The room that title and legend leave: where the drawing's own rectangle is moved to.
+#[derive(Debug)]
+pub(super) struct Plan {
+    /// What to add to the drawing's coordinates.
+    pub(super) shift: Point,
+    pub(super) size: Point,
+    columns: usize,
+    column: f64,
+    pub(super) legend_top: f64,
+}
+
+/// How wide a sheet with such a drawing is at least.
+const LEAST: f64 = 580.0;
+
+/// Lays the sheet out round a drawing that covers `area`, with `strip` pixels below it for other things.
+pub(super) fn plan(caption: &Caption<'_>, area: Rect, strip: f64) -> Plan {
+    let rows = &caption.legend;
+    let widest = rows.iter().map(|(_, t)| width(t, TEXT));
+    let column = SWATCH + widest.fold(0.0, f64::max).min(WIDEST) + 24.0;
+    let inner = (area.right - area.left).max(LEAST).max(column - 24.0);
+    let columns = (((inner + 24.0) / column) as usize).clamp(1, 4);
+    let lines = rows.len().div_ceil(columns);
+    let head = PAD + 62.0;
+    let legend_top = head + (area.bottom - area.top) + 18.0 + strip;
+    let shift = [
+        PAD + (inner - (area.right - area.left)) / 2.0 - area.left,
+        head - area.top,
+    ];
+    Plan {
+        shift,
+        size: [
+            inner + 2.0 * PAD,
+            legend_top + ROW * lines as f64 + PAD - if lines == 0 { 10.0 } else { 0.0 },
+        ],
+        columns,
+        column,
+        legend_top,
+    }
+}
+
+impl Sheet {
+    /// Begins a sheet.
+    pub(super) fn new(caption: &Caption<'_>, plan: &Plan) -> Sheet {
+        let [w, h] = plan.size;
+        let mut xml = Xml::default();
+        xml.tag("svg")
+            .set("xmlns", "http://www.w3.org/2000/svg")
+            .set("class", "ozd")
+            .num("width", w.ceil())
+            .num("height", h.ceil())
+            .set(
+                "viewBox",
+                &format!("0 0 {} {}", number(w.ceil()), number(h.ceil())),
+            )
+            .set("role", "img")
+            .open();
+        xml.tag("title").text(caption.title);
+        xml.raw("\n");
+        xml.tag("desc").text(caption.description);
+        xml.tag("style").open();
+        xml.raw(STYLE);
+        xml.end();
+        xml.tag("rect")
+            .set("class", "bg")
+            .num("width", w.ceil())
+            .num("height", h.ceil())
+            .close();
+        let mut sheet = Sheet {
+            xml,
+            size: plan.size,
+            labels: Vec::new(),
+            symbols: Vec::new(),
+        };
+        let room = w - 2.0 * PAD;
+        let title = cut(caption.title, 18.0, room);
+        sheet.text("title", 18.0, [PAD, PAD + 8.0], Anchor::Start, &title);
+        for (i, line) in caption.subtitle.iter().enumerate() {
+            let y = PAD + 30.0 + 17.0 * i as f64;
+            let line = cut(line, 13.0, room);
+            sheet.text("sub", 13.0, [PAD, y], Anchor::Start, &line);
+        }
+        sheet
+    }
+
+    /// Text whose middle line is at `at`.
+    pub(super) fn text(&mut self, class: &str, size: f64, at: Point, anchor: Anchor, text: &str) {
+        let wide = width(text, size);
+        let left = match anchor {
+            Anchor::Start => at[0],
+            Anchor::Middle => at[0] - wide / 2.0,
+        };
+        if text.trim().is_empty() {
+            return;
+        }
+        self.labels.push(Label {
+            text: text.to_owned(),
+            rect: Rect {
+                left,
+                top: at[1] - size / 2.0,
+                right: left + wide,
+                bottom: at[1] + size / 2.0,
+            },
+        });
+        let mut tag = self
+            .xml
+            .tag("text")
+            .set("class", class)
+            .num("x", at[0])
+            .num("y", at[1] + 0.36 * size)
+            .num("font-size", size);
+        if anchor == Anchor::Middle {
+            tag = tag.set("text-anchor", "middle");
+        }
+        tag.text(text);
+    }
+
+    /// A path.
+    pub(super) fn path(&mut self, class: &str, d: &str) {
+        self.xml.tag("path").set("class", class).set("d", d).close();
+    }
+
+    /// A path that says something when one points at it.
+    pub(super) fn path_with_tip(&mut self, class: &str, d: &str, tip: &str) {
+        self.xml
+            .tag("path")
+            .set("class", class)
+            .set("d", d)
+            .tip(tip);
+    }
+
+    /// A segment.
+    pub(super) fn line(&mut self, class: &str, a: Point, b: Point) {
+        self.path(class, &polyline(&[a, b], false));
+    }
+
+    /// A circle.
+    pub(super) fn circle(&mut self, class: &str, at: Point, radius: f64) {
+        self.xml
+            .tag("circle")
+            .set("class", class)
+            .num("cx", at[0])
+            .num("cy", at[1])
+            .num("r", radius)
+            .close();
+    }
+
+    /// A rectangle with round corners.
+    pub(super) fn rect(&mut self, class: &str, rect: &Rect, round: f64) {
+        self.xml
+            .tag("rect")
+            .set("class", class)
+            .num("x", rect.left)
+            .num("y", rect.top)
+            .num("width", rect.right - rect.left)
+            .num("height", rect.bottom - rect.top)
+            .num("rx", round)
+            .close();
+    }
+
+    /// Finished pieces, moved.
+    pub(super) fn shapes(&mut self, shapes: &[Shape], by: Point) {
+        for shape in shapes {
+            match shape {
+                Shape::Path {
+                    class,
+                    points,
+                    closed,
+                } => {
+                    let moved: Vec<Point> = points.iter().map(|&p| add(p, by)).collect();
+                    self.path(class, &polyline(&moved, *closed));
+                }
+                Shape::Circle { at, radius, class } => self.circle(class, add(*at, by), *radius),
+            }
+        }
+    }
+
+    /// Notes that a symbol covers a rectangle.
+    pub(super) fn symbol(&mut self, rect: Rect) {
+        self.symbols.push(rect);
+    }
+
+    /// Draws the legend and ends the sheet.
+    pub(super) fn finish(mut self, caption: &Caption<'_>, plan: &Plan) -> Drawing {
+        let lines = caption.legend.len().div_ceil(plan.columns).max(1);
+        for (i, (swatch, text)) in caption.legend.iter().enumerate() {
+            let x = PAD + plan.column * (i / lines) as f64;
+            let y = plan.legend_top + ROW * ((i % lines) as f64 + 0.5);
+            let middle = [x + 15.0, y];
+            match swatch {
+                Swatch::Tint(redundant, label) => {
+                    let rect = Rect::around(middle, 30.0, 16.0);
+                    let class = format!("s s{}", redundant.min(&6));
+                    self.rect(&class, &rect, 3.0);
+                    self.text("small", SMALL, middle, Anchor::Middle, label);
+                }
+                Swatch::Symbol(draw) => draw(&mut self, middle),
+                Swatch::Joint(class, label) => {
+                    self.circle(class, middle, 9.5);
+                    self.text("class", 9.0, middle, Anchor::Middle, label);
+                }
+                Swatch::Shapes(shapes) => self.shapes(shapes, middle),
+            }
+            let room = plan.column - SWATCH - 20.0;
+            let shown = cut(text, TEXT, room.min(self.size[0] - x - SWATCH - PAD));
+            self.text("legend", TEXT, [x + SWATCH, y], Anchor::Start, &shown);
+        }
+        Drawing {
+            svg: self.xml.finish(),
+            width: self.size[0].ceil(),
+            height: self.size[1].ceil(),
+            labels: self.labels,
+            symbols: self.symbols,
+        }
+    }
+}
+
+/// Which part of a text is at its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Anchor {
+    /// Its left end.
+    Start,
+    /// Its middle.
+    Middle,
+}
+
+/// The path through some points.
+pub(super) fn polyline(points: &[Point], closed: bool) -> String {
+    let mut d = String::new();
+    for (i, p) in points.iter().enumerate() {
+        let c = if i == 0 { 'M' } else { 'L' };
+        // writing to a string does not fail
+        let _ = write!(d, "{c}{} {}", number(p[0]), number(p[1]));
+    }
+    if closed {
+        d.push('Z');
+    }
+    d
+}

@@ -1,0 +1,371 @@
+//! Drawings: labels that touch nothing, well-formed SVG, the same bytes each time.
+
+use crate::cli::{out, ozols};
+use ozols::builtin;
+use ozols::draw::{Drawing, Rect, Subject, kinematic, marks, scheme};
+use ozols::import::text::mechanism_from_str;
+use ozols::model::mechanism::Mechanism;
+use ozols::redundancy::analysis::{Method, analyse, exact_field};
+use ozols::search::request::{Request, Search};
+use proptest::prelude::*;
+use std::fmt::Write as _;
+use std::ops::ControlFlow;
+
+fn built_in(name: &str) -> Mechanism {
+    mechanism_from_str(&format!("{name}.toml"), builtin::text(name).unwrap()).unwrap()
+}
+
+/// Every text of the SVG as a reader would measure it: 0.6 of its size a character, one for wide ones.
+fn texts(svg: &str) -> Vec<(String, Rect)> {
+    let doc = roxmltree::Document::parse(svg).unwrap_or_else(|e| panic!("{e}\n{svg}"));
+    let root = doc.root_element();
+    assert_eq!(root.attribute("role"), Some("img"));
+    for name in ["title", "desc"] {
+        let child = root.children().find(|c| c.has_tag_name(name)).unwrap();
+        assert!(child.text().is_some_and(|t| !t.is_empty()), "{name}");
+    }
+    let of = |n: roxmltree::Node<'_, '_>, a: &str| n.attribute(a).unwrap().parse::<f64>().unwrap();
+    doc.descendants()
+        .filter(|n| n.has_tag_name("text"))
+        .map(|n| {
+            let text = n.text().unwrap().to_owned();
+            let size = of(n, "font-size");
+            let wide = 0.6 * size * text.chars().count() as f64;
+            let (x, base) = (of(n, "x"), of(n, "y"));
+            let middle = n.attribute("text-anchor") == Some("middle");
+            let left = if middle { x - wide / 2.0 } else { x };
+            let rect = Rect {
+                left,
+                top: base - 0.75 * size,
+                right: left + wide,
+                bottom: base + 0.1 * size,
+            };
+            (text, rect)
+        })
+        .collect()
+}
+
+fn within(a: &Rect, b: &Rect) -> bool {
+    a.left > b.left - 0.1
+        && a.top > b.top - 0.1
+        && a.right < b.right + 0.1
+        && a.bottom < b.bottom + 0.1
+}
+
+/// What touches what it should not.
+fn collisions(d: &Drawing) -> Vec<String> {
+    let all = texts(&d.svg);
+    assert_eq!(all.len(), d.labels.len());
+    let sheet = Rect {
+        left: 0.0,
+        top: 0.0,
+        right: d.width,
+        bottom: d.height,
+    };
+    let mut out = Vec::new();
+    for (i, (text, rect)) in all.iter().enumerate() {
+        for (other, there) in &all[..i] {
+            if rect.overlaps(there) {
+                out.push(format!("{text:?} on {other:?}"));
+            }
+        }
+        // the class of a joint stands within its symbol
+        let on = d
+            .symbols
+            .iter()
+            .filter(|s| s.overlaps(rect) && !within(rect, s));
+        out.extend(on.map(|_| format!("{text:?} on a symbol")));
+        if !within(rect, &sheet) {
+            out.push(format!("{text:?} outside"));
+        }
+    }
+    let boxes = d.labels.iter().enumerate();
+    for (i, label) in boxes {
+        for other in &d.labels[..i] {
+            if label.rect.overlaps(&other.rect) {
+                out.push(format!("box of {:?} on {:?}", label.text, other.text));
+            }
+        }
+    }
+    out
+}
+
+#[test]
+fn no_label_touches_another_or_a_symbol() {
+    let mut wrong = Vec::new();
+    let mut drawn = 0;
+    for name in builtin::names() {
+        let m = built_in(name);
+        let states: Vec<usize> = (0..m.states.len()).collect();
+        let found = analyse(&m, &states, Method::Modular).unwrap();
+        for (state, analysis) in found.iter().enumerate() {
+            let subject = Subject {
+                mechanism: &m,
+                state,
+                analysis: Some(analysis),
+                marks: None,
+            };
+            for (kind, d) in [
+                ("scheme", scheme(&subject)),
+                ("kinematic", kinematic(&subject)),
+            ] {
+                drawn += 1;
+                let joints = m.joints_in(state).count();
+                assert!(
+                    d.symbols.len() >= joints,
+                    "{name}: each joint has its symbol"
+                );
+                for c in collisions(&d) {
+                    wrong.push(format!("{name} {state} {kind}: {c}"));
+                }
+            }
+        }
+    }
+    assert!(drawn >= 212, "{drawn}");
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn the_scheme_says_what_the_field_says() {
+    let m = built_in("gripper-10");
+    let found = analyse(&m, &[0, 1], Method::Modular).unwrap();
+    let subject = |state: usize| Subject {
+        mechanism: &m,
+        state,
+        analysis: Some(&found[state]),
+        marks: None,
+    };
+    let free = scheme(&subject(0));
+    let says = |d: &Drawing, text: &str| d.labels.iter().any(|l| l.text == text);
+    // [Pogrebnyak 2018]: shares 2, 3, 3, 3; twelve hinges of class V and the driving pair of class IV
+    for row in [
+        "0-1-2-3, σ = 2 (2 to 3)",
+        "0-1-6-7, σ = 3 (2 to 3)",
+        "1-2-4-5, σ = 3",
+        "1-6-8-9, σ = 3",
+        "driving pair",
+        "frame 0",
+        "n = 10, p = 13, k = 4, f = 14, W = 1, σ = 11",
+    ] {
+        assert!(says(&free, row), "{row}: {:?}", free.labels);
+    }
+    let count = |d: &Drawing, text: &str| d.labels.iter().filter(|l| l.text == text).count();
+    assert_eq!((count(&free, "V"), count(&free, "IV")), (12, 1));
+    assert_eq!(free.symbols.len(), 13);
+    // the driving pair's symbol is the larger one
+    let large = free.symbols.iter().filter(|s| s.right - s.left > 25.0);
+    assert_eq!(large.count(), 1);
+    assert_eq!(count(&free, "a"), 0, "the clamped part is not there");
+    let clamped = scheme(&subject(1));
+    assert_eq!((count(&clamped, "VI"), count(&clamped, "a")), (2, 1));
+    assert!(says(&clamped, "in state clamped only"));
+    assert!(clamped.svg.contains("joint dash"));
+}
+
+#[test]
+fn variants_are_marked() {
+    let m = built_in("gripper-10");
+    let request = Request {
+        state: Some((1, 2)),
+        ..Request::default()
+    };
+    let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
+    let diagrams = search.build(&|| false, &mut |_| {});
+    let mut first = None;
+    search.cheapest(&diagrams, 1, |v| {
+        first = Some(v);
+        ControlFlow::Break(())
+    });
+    let (realized, marks) = marks::of_variant(&search, &first.unwrap(), "variant 1");
+    assert_eq!(marks.links, 11);
+    assert!(
+        realized.links.len() > 11,
+        "an unloading joint has a link of its own"
+    );
+    let changed: Vec<String> = marks.changed.iter().map(|(_, w)| w.clone()).collect();
+    let subject = Subject {
+        mechanism: &realized,
+        state: 1,
+        analysis: None,
+        marks: Some(marks),
+    };
+    for d in [scheme(&subject), kinematic(&subject)] {
+        assert_eq!(collisions(&d), [""; 0]);
+        for words in &changed {
+            assert!(d.labels.iter().any(|l| l.text == *words), "{words}");
+        }
+        assert!(d.labels.iter().any(|l| l.text == "link a-8 pad: added"));
+        assert!(d.svg.contains(" changed\"") && d.svg.contains(" new\""));
+    }
+}
+
+#[test]
+fn the_same_bytes_each_time() {
+    for name in ["gripper-10", "double-banana", "stewart-gough"] {
+        let m = built_in(name);
+        let subject = Subject {
+            mechanism: &m,
+            state: 0,
+            analysis: None,
+            marks: None,
+        };
+        assert_eq!(scheme(&subject).svg, scheme(&subject).svg);
+        assert_eq!(kinematic(&subject).svg, kinematic(&subject).svg);
+    }
+}
+
+#[test]
+fn command_line() {
+    let svg = out(&["draw", "gripper-10"]);
+    assert!(svg.starts_with("<svg "), "{svg}");
+    assert!(svg.contains("Structural scheme, state free"));
+    let svg = out(&[
+        "draw",
+        "gripper-10",
+        "--kind",
+        "kinematic",
+        "--state",
+        "clamped",
+    ]);
+    assert!(svg.contains("Kinematic scheme seen along z, state clamped"));
+    // the same variant as in the list of `ozols search`
+    let list = out(&["search", "gripper-10", "--top", "2", "--format", "json"]);
+    let list: serde_json::Value = serde_json::from_str(&list).unwrap();
+    let svg = out(&["draw", "gripper-10", "--variant", "2"]);
+    assert!(svg.contains("gripper-10, variant 2"));
+    let changes = list["variants"][1]["changes"].as_array().unwrap();
+    assert!(!changes.is_empty());
+    for c in changes {
+        let words = format!("{}: ", c["joint"].as_str().unwrap());
+        let to = c["to"].as_str().unwrap();
+        let says = texts(&svg)
+            .iter()
+            .any(|(t, _)| t.starts_with(&words) && t.ends_with(to));
+        assert!(says, "{words}{to}");
+    }
+    for (args, what) in [
+        (
+            vec!["draw", "gripper-10", "--state", "folded"],
+            "it has: free, clamped",
+        ),
+        (
+            vec!["draw", "gripper-10", "--variant", "0"],
+            "numbered from 1",
+        ),
+        (
+            vec!["draw", "slider-crank-determinate", "--variant", "99999999"],
+            "no variant",
+        ),
+    ] {
+        let done = ozols(&args).output().unwrap();
+        assert_eq!(done.status.code(), Some(2), "{args:?}");
+        let said = String::from_utf8_lossy(&done.stderr).into_owned();
+        assert!(said.contains(what), "{said}");
+    }
+}
+
+#[cfg(not(feature = "png"))]
+#[test]
+fn a_build_without_png_says_so() {
+    let done = ozols(&["draw", "bennett", "--png"]).output().unwrap();
+    assert_eq!(done.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&done.stderr).contains("--features png"));
+}
+
+#[cfg(feature = "png")]
+#[test]
+fn png() {
+    let done = ozols(&["draw", "bennett", "--png"]).output().unwrap();
+    let said = String::from_utf8_lossy(&done.stderr).into_owned();
+    if done.status.code() == Some(2) && said.contains("no font") {
+        return;
+    }
+    assert!(done.stdout.starts_with(b"\x89PNG\r\n"), "{said}");
+}
+
+const TYPES: [&str; 13] = [
+    "revolute",
+    "prismatic",
+    "helical",
+    "cylindrical",
+    "universal",
+    "slotted",
+    "spherical",
+    "planar",
+    "cylindrical-universal",
+    "sphere-in-cylinder",
+    "cylinder-on-plane",
+    "sphere-on-plane",
+    "fixed",
+];
+
+/// A connected mechanism: each link after the first hangs on one before it, and some joints close contours.
+fn any_mechanism() -> impl Strategy<Value = Mechanism> {
+    let number = prop_oneof![Just(0.0), -2.0..2.0f64, -1e6..1e6f64];
+    let joint = (
+        any::<prop::sample::Index>(),
+        0..TYPES.len(),
+        [number.clone(), number.clone(), number],
+        [-1i32..=1, -1..=1, 1..=2],
+        any::<bool>(),
+    );
+    let id = prop_oneof![
+        "[a-z0-9]{1,3}",
+        "[<>&\"' \u{3c3}\u{4e00}]{1,4}",
+        "[a-z]{24}"
+    ];
+    let links = prop::collection::vec((id, joint.clone()), 1..9);
+    let more = prop::collection::vec((any::<prop::sample::Index>(), joint), 0..7);
+    (links, more).prop_map(|(links, more)| {
+        let mut text = String::from("name = \"<&>\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n");
+        let names: Vec<String> = std::iter::once("0".to_owned())
+            .chain(links.iter().enumerate().map(|(i, (id, _))| format!("{id}{i}")))
+            .collect();
+        for (i, name) in names[1..].iter().enumerate() {
+            writeln!(text, "[[link]]\nid = {name:?}").unwrap();
+            if i == 0 {
+                text += "role = \"output\"\n";
+            }
+        }
+        let tree = links.iter().enumerate().map(|(i, (_, j))| (i + 1, j.0.index(i + 1), j));
+        let closing = more.iter().map(|(a, j)| (a.index(names.len()), j.0.index(names.len()), j));
+        for (n, (a, b, (_, t, point, axis, drive))) in tree.chain(closing).enumerate() {
+            if a == b {
+                continue;
+            }
+            writeln!(
+                text,
+                "[[joint]]\nid = {:?}\nlinks = [{:?}, {:?}]\ntype = {:?}\npoint = {point:?}\naxis = {axis:?}",
+                format!("{}-{}-{n}", names[a], names[b]),
+                names[a],
+                names[b],
+                TYPES[*t]
+            )
+            .unwrap();
+            if TYPES[*t] == "helical" {
+                text += "pitch = 1\n";
+            }
+            if *drive && TYPES[*t] != "fixed" {
+                text += "drive = true\n";
+            }
+        }
+        mechanism_from_str("random.toml", &text).unwrap_or_else(|e| panic!("{e}\n{text}"))
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_graph_is_drawn(m in any_mechanism()) {
+        let found = analyse(&m, &[0], Method::Modular).ok();
+        for analysis in [None, found.as_ref().and_then(|f| f.first())] {
+            let subject = Subject { mechanism: &m, state: 0, analysis, marks: None };
+            for d in [scheme(&subject), kinematic(&subject)] {
+                prop_assert!(!d.svg.contains("NaN") && !d.svg.contains("inf "));
+                let wrong = collisions(&d);
+                prop_assert!(wrong.is_empty(), "{:?}", wrong);
+            }
+        }
+    }
+}
