@@ -195,11 +195,11 @@ pub fn analyse(
         .iter()
         .map(|&s| match method {
             Method::Auto { tolerance } => chosen(mechanism, s, tolerance),
-            Method::Modular => exactly(mechanism, s),
+            Method::Modular => exactly(mechanism, s, None),
             Method::Numeric(elimination, tolerance) => {
                 let real = Closure::new(&Reals, mechanism, s)?;
                 let rank = elimination.rank(&real, tolerance)?;
-                let whole = exactly(mechanism, s)?;
+                let whole = exactly(mechanism, s, None)?;
                 let certainty = numeric_certainty(elimination.name(), rank, tolerance);
                 if rank.rank == whole.rank {
                     Ok(StateAnalysis { certainty, ..whole })
@@ -228,15 +228,18 @@ fn chosen(
 ) -> Result<StateAnalysis, AnalysisError> {
     let decision = auto::decide(mechanism, state, tolerance)?;
     let as_written = (decision.as_written != decision.rank).then_some(decision.as_written);
+    let known = Some(decision.finite);
     let (whole, snapped) = match &decision.geometry {
-        Geometry::Exact | Geometry::MeasuredAgreeing(_) => (exactly(mechanism, state)?, Vec::new()),
+        Geometry::Exact | Geometry::MeasuredAgreeing(_) => {
+            (exactly(mechanism, state, known)?, Vec::new())
+        }
         Geometry::Snapped {
             mechanism: snapped,
             moved,
             ..
-        } => (exactly(snapped, state)?, moved.clone()),
+        } => (exactly(snapped, state, known)?, moved.clone()),
         Geometry::Measured(_) => {
-            let whole = exactly(mechanism, state)?;
+            let whole = exactly(mechanism, state, known)?;
             let certainty = decision.numeric.map_or(whole.certainty, |n| {
                 numeric_certainty("svd", n, decision.tolerance)
             });
@@ -252,7 +255,6 @@ fn chosen(
         }
     };
     Ok(StateAnalysis {
-        finite: decision.finite,
         choice: Some(decision.line),
         snapped,
         as_written,
@@ -332,8 +334,12 @@ fn proven(mechanism: &Mechanism, state: StateId, rank: usize) -> bool {
         .is_ok_and(|c| c.rank == rank)
 }
 
-/// On exact geometry.
-fn exactly(mechanism: &Mechanism, state: StateId) -> Result<StateAnalysis, AnalysisError> {
+/// On exact geometry; `known` is the finite mobility where it was found already, since following a motion takes the most.
+fn exactly(
+    mechanism: &Mechanism,
+    state: StateId,
+    known: Option<Finite>,
+) -> Result<StateAnalysis, AnalysisError> {
     let fields = [
         rank::field_of(mechanism, state, 0)?,
         rank::field_of(mechanism, state, 1)?,
@@ -380,7 +386,10 @@ fn exactly(mechanism: &Mechanism, state: StateId) -> Result<StateAnalysis, Analy
         rows: closure.rows(),
         rank,
         mobility: freedoms - rank,
-        finite: finite(exact, mechanism, &closure, rank)?,
+        finite: match known {
+            Some(known) => known,
+            None => finite(exact, mechanism, &closure, rank)?,
+        },
         working_mobility,
         local_mobility: kernel.len() - working_mobility,
         redundant: closure.rows() - rank,
