@@ -12,4 +12,5 @@ pub mod ranking;
 mod resolve;
 pub mod schema;
 pub mod text;
+mod unit;
 pub mod workload;

@@ -257,6 +257,14 @@ pub(super) fn cost(value: f64, path: &[Step], out: &mut Findings) -> Option<i64>
     Some((value * 1000.0).round() as i64)
 }
 
+/// What an option without a name of its own is called.
+pub(super) fn motion_name(joint_type: &JointType) -> String {
+    match joint_type {
+        JointType::Custom(list) => list.iter().map(|f| f.name()).join("+"),
+        other => other.name().to_owned(),
+    }
+}
+
 /// An option at a joint's place.
 pub(super) fn option(
     joint: &str,
@@ -300,10 +308,10 @@ pub(super) fn option(
         &at,
         out,
     );
-    let name = table.name.clone().unwrap_or_else(|| match &joint_type {
-        JointType::Custom(list) => list.iter().map(|f| f.name()).join("+"),
-        other => other.name().to_owned(),
-    });
+    let name = table
+        .name
+        .clone()
+        .unwrap_or_else(|| motion_name(&joint_type));
     let cost_milli = table.cost.and_then(|c| cost(c, &key(&at, "cost"), out));
     Some(JointOption {
         name,

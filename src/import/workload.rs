@@ -1,6 +1,6 @@
 //! Reading the workload tables of a file, with or without a mechanism around them.
 
-use crate::import::build::{Finding, build, length_unit};
+use crate::import::build::{Finding, build};
 use crate::import::drive::drive;
 use crate::import::grip::grip;
 use crate::import::locate::Step;
@@ -8,6 +8,7 @@ use crate::import::problem::{ImportError, ProblemKind};
 use crate::import::resolve::Findings;
 use crate::import::schema::MechanismFile;
 use crate::import::text::{read, text_of};
+use crate::import::unit::length_unit;
 use crate::model::drive::DriveSpec;
 use crate::model::grip::GripSpec;
 use crate::model::mechanism::{LengthUnit, Mechanism};

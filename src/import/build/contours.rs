@@ -1,0 +1,35 @@
+//! The contours the designer chose.
+
+use crate::closure::contour::closed_walk;
+use crate::import::build::names::joint_by_id;
+use crate::import::locate::Step;
+use crate::import::problem::ProblemKind;
+use crate::import::resolve::{Findings, index};
+use crate::import::schema::MechanismFile;
+use crate::model::mechanism::{JointId, Mechanism};
+
+pub(super) fn contours(
+    file: &MechanismFile,
+    mechanism: &Mechanism,
+    out: &mut Findings,
+) -> Vec<Vec<JointId>> {
+    let mut contours = Vec::new();
+    for (i, entry) in file.contour.iter().enumerate() {
+        let at = [
+            Step::Key("contour".to_owned()),
+            Step::Index(i),
+            Step::Key("joints".to_owned()),
+        ];
+        let joints: Vec<JointId> = entry
+            .joints
+            .iter()
+            .enumerate()
+            .filter_map(|(n, id)| joint_by_id(mechanism, id, &index(&at, n), out))
+            .collect();
+        if joints.len() == entry.joints.len() && closed_walk(mechanism, &joints).is_none() {
+            out.add(&at, ProblemKind::OpenContour);
+        }
+        contours.push(joints);
+    }
+    contours
+}

@@ -1,0 +1,63 @@
+//! The links.
+
+use crate::import::build::names::check_id;
+use crate::import::loads::mass;
+use crate::import::locate::Step;
+use crate::import::problem::ProblemKind;
+use crate::import::resolve::{Findings, key};
+use crate::import::schema::MechanismFile;
+use crate::model::mechanism::{Link, Role};
+
+pub(super) fn links(file: &MechanismFile, out: &mut Findings) -> Vec<Link> {
+    let mut links: Vec<Link> = Vec::new();
+    for (i, entry) in file.link.iter().enumerate() {
+        let at = [Step::Key("link".to_owned()), Step::Index(i)];
+        check_id(
+            "link",
+            &entry.id,
+            links.iter().any(|l| l.id == entry.id),
+            &key(&at, "id"),
+            out,
+        );
+        let role = match entry.role.as_deref() {
+            None => Role::Inner,
+            Some("frame") => Role::Frame,
+            Some("output") => Role::Output,
+            Some("object") => Role::Object,
+            Some(word) => {
+                let known = "frame, output, object".to_owned();
+                out.add(
+                    &key(&at, "role"),
+                    ProblemKind::UnknownWord {
+                        what: "role",
+                        word: word.to_owned(),
+                        known,
+                    },
+                );
+                Role::Inner
+            }
+        };
+        if let (Role::Frame, Some(first)) = (role, links.iter().find(|l| l.role == Role::Frame)) {
+            out.add(
+                &key(&at, "role"),
+                ProblemKind::SecondFrame {
+                    first: first.id.clone(),
+                    second: entry.id.clone(),
+                },
+            );
+        }
+        links.push(Link {
+            id: entry.id.clone(),
+            role,
+            mass: mass(entry, &at, out),
+        });
+    }
+    let has = |role| links.iter().any(|l| l.role == role);
+    if !has(Role::Frame) {
+        out.add(&[Step::Key("link".to_owned())], ProblemKind::NoFrame);
+    }
+    if !has(Role::Output) {
+        out.add(&[Step::Key("link".to_owned())], ProblemKind::NoOutput);
+    }
+    links
+}

@@ -1,0 +1,96 @@
+//! What the search may change and what it costs.
+
+use crate::import::build::names::joint_by_id;
+use crate::import::locate::Step;
+use crate::import::problem::ProblemKind;
+use crate::import::resolve::{Findings, cost, index, key};
+use crate::import::schema::MechanismFile;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Mechanism, SearchSpec};
+use itertools::Itertools;
+
+pub(super) fn search(
+    file: &MechanismFile,
+    mechanism: &Mechanism,
+    out: &mut Findings,
+) -> SearchSpec {
+    let at = [Step::Key("search".to_owned())];
+    let mut spec = SearchSpec::default();
+    for (i, id) in file.search.hold.iter().enumerate() {
+        match mechanism.link(id) {
+            Some(l) => spec.hold.push(l),
+            None => {
+                let known = mechanism
+                    .links
+                    .iter()
+                    .take(30)
+                    .map(|l| l.id.as_str())
+                    .join(", ");
+                out.add(
+                    &index(&key(&at, "hold"), i),
+                    ProblemKind::UnknownLink {
+                        id: id.clone(),
+                        known,
+                    },
+                );
+            }
+        }
+    }
+    let mut paired = Vec::new();
+    for (i, pair) in file.search.mirror.iter().enumerate() {
+        let path = index(&key(&at, "mirror"), i);
+        let joints = pair
+            .iter()
+            .filter_map(|id| joint_by_id(mechanism, id, &path, out))
+            .collect_vec();
+        for &j in &joints {
+            if paired.contains(&j) {
+                out.add(
+                    &path,
+                    ProblemKind::RepeatedMirror {
+                        joint: mechanism.joints[j].id.clone(),
+                    },
+                );
+            }
+            paired.push(j);
+        }
+        if let [a, b] = joints[..] {
+            spec.mirror.push((a, b));
+        }
+    }
+    for (name, &value) in &file.search.costs {
+        let path = key(&key(&at, "costs"), name);
+        let Some(milli) = cost(value, &path, out) else {
+            continue;
+        };
+        let option_names = || {
+            mechanism
+                .joints
+                .iter()
+                .flat_map(|j| j.options.iter().chain(&j.unloading))
+                .map(|o| &o.name)
+        };
+        match name.as_str() {
+            "change" => spec.costs.change_milli = Some(milli),
+            "link" => spec.costs.link_milli = Some(milli),
+            n if JointType::from_name(n).is_some() || option_names().any(|o| o == n) => {
+                spec.costs.by_type_milli.push((name.clone(), milli));
+            }
+            _ => {
+                let known = ["change", "link"]
+                    .into_iter()
+                    .chain(JointType::NAMED.iter().map(JointType::name))
+                    .join(", ");
+                out.add(
+                    &path,
+                    ProblemKind::UnknownWord {
+                        what: "cost",
+                        word: name.clone(),
+                        known,
+                    },
+                );
+            }
+        }
+    }
+    spec
+}
