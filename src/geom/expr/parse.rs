@@ -1,6 +1,22 @@
 //! From text to an expression: a recursive descent with limits on size and depth.
 
-use super::*;
+use super::node::{Function, Kind};
+use super::{Expr, ExprError, MAX_BITS, bits, decimal};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{ToPrimitive, Zero};
+use std::str::FromStr;
+
+/// The longest text [`Expr`] is read from, in bytes.
+pub const MAX_TEXT: usize = 1000;
+/// The deepest nesting of parentheses and functions in a text.
+pub const MAX_NESTING: usize = 64;
+/// The largest decimal exponent (`1e400`), either sign.
+pub const MAX_EXPONENT: i64 = 400;
+/// The largest power (`x^64`), either sign.
+pub const MAX_POWER: i64 = 64;
+/// The largest denominator of an angle in turns; finer angles leave no primes of 61 bits to compute with.
+pub const MAX_ANGLE_DENOMINATOR: u64 = 1 << 44;
 
 impl FromStr for Expr {
     type Err = ExprError;

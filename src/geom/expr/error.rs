@@ -1,0 +1,137 @@
+//! Why a text or a float is not an exact number.
+
+/// Why a text or a float is not an exact number.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExprError {
+    /// The text has no content.
+    #[error("the expression is empty; write a number such as `1.5` or `sqrt(3)/2`")]
+    Empty,
+    /// The text exceeds [`MAX_TEXT`](super::MAX_TEXT) bytes.
+    #[error("the expression is {len} bytes long, over the limit of 1000; shorten it")]
+    TooLong {
+        /// The length of the text in bytes.
+        len: usize,
+    },
+    /// Parentheses are nested over [`MAX_NESTING`](super::MAX_NESTING) deep.
+    #[error("the parentheses at byte {at} are nested more than 64 deep; simplify the expression")]
+    TooDeep {
+        /// Byte offset.
+        at: usize,
+    },
+    /// A character that cannot stand here.
+    #[error(
+        "found {found} at byte {at} where {expected} should stand; correct the expression there"
+    )]
+    Unexpected {
+        /// Byte offset.
+        at: usize,
+        /// What stands there.
+        found: String,
+        /// What may stand there.
+        expected: &'static str,
+    },
+    /// A word that is no function, constant or unit.
+    #[error(
+        "unknown word `{word}` at byte {at}; known are the functions sqrt, cos, sin, tan and cot, and within their \
+         angles the constant pi and the suffix deg"
+    )]
+    UnknownWord {
+        /// Byte offset.
+        at: usize,
+        /// The word.
+        word: String,
+    },
+    /// A decimal without digits.
+    #[error("malformed number at byte {at}; write decimals like `12`, `0.5` or `1.5e-3`")]
+    BadNumber {
+        /// Byte offset.
+        at: usize,
+    },
+    /// A decimal exponent beyond [`MAX_EXPONENT`](super::MAX_EXPONENT).
+    #[error("the decimal exponent at byte {at} is beyond 400; choose other units")]
+    ExponentOutOfRange {
+        /// Byte offset.
+        at: usize,
+    },
+    /// A power beyond [`MAX_POWER`](super::MAX_POWER).
+    #[error("the power at byte {at} is beyond 64; keep the integer after `^` between -64 and 64")]
+    PowerOutOfRange {
+        /// Byte offset.
+        at: usize,
+    },
+    /// A divisor that is zero.
+    #[error(
+        "division by zero at byte {at}: the divisor vanishes (to 60 digits at least); correct the divisor"
+    )]
+    DivisionByZero {
+        /// Byte offset.
+        at: usize,
+    },
+    /// The square root of a negative number.
+    #[error(
+        "square root of a negative number at byte {at}; coordinates are real, check the sign of the radicand"
+    )]
+    NegativeRoot {
+        /// Byte offset.
+        at: usize,
+    },
+    /// A trigonometric argument that is no angle.
+    #[error(
+        "the argument of {function} at byte {at} is not a rational angle; give degrees (`36deg`, `360deg/7`) or a \
+         rational multiple of pi (`pi/8`)"
+    )]
+    NotAnAngle {
+        /// Byte offset.
+        at: usize,
+        /// The function.
+        function: &'static str,
+    },
+    /// An angle (`pi`, `36deg`) used as a number.
+    #[error(
+        "the angle at byte {at} is used as a plain number; `pi` and `deg` may only stand inside cos, sin, tan or cot, \
+         and angles may only be added to angles and scaled by rationals"
+    )]
+    AngleOutside {
+        /// Byte offset.
+        at: usize,
+    },
+    /// A tangent or cotangent at its pole.
+    #[error("{function} at byte {at} is infinite at this angle; choose another angle")]
+    Pole {
+        /// Byte offset.
+        at: usize,
+        /// The function.
+        function: &'static str,
+    },
+    /// An angle with a denominator beyond [`MAX_ANGLE_DENOMINATOR`](super::MAX_ANGLE_DENOMINATOR).
+    #[error(
+        "the angle at byte {at} is too finely divided to be kept exact; write it with at most ten decimals"
+    )]
+    AngleTooFine {
+        /// Byte offset.
+        at: usize,
+    },
+    /// The value exceeds the range of `f64`.
+    #[error(
+        "the value at byte {at} exceeds the range of floating-point numbers; choose other units"
+    )]
+    NotFinite {
+        /// Byte offset.
+        at: usize,
+    },
+    /// An exact rational with too many digits.
+    #[error(
+        "the exact value at byte {at} has thousands of digits; lower the powers or round the numbers"
+    )]
+    TooManyDigits {
+        /// Byte offset.
+        at: usize,
+    },
+    /// A float that is infinite or not a number.
+    #[error("the number {value} is not finite; give a finite coordinate")]
+    NonFiniteFloat {
+        /// The float as text.
+        value: String,
+    },
+}

@@ -1,0 +1,99 @@
+//! Sums, differences, products and negatives, folded where they are rational.
+
+use super::Expr;
+use super::node::Kind;
+use num_traits::{One, Zero};
+use std::ops::{Add, Mul, Neg, Sub};
+
+impl Add for &Expr {
+    type Output = Expr;
+    fn add(self, other: &Expr) -> Expr {
+        if let Some(e) = Expr::combine(self, other, |a, b| a + b) {
+            return e;
+        }
+        match (self.is_zero_rational(), other.is_zero_rational()) {
+            (true, _) => other.clone(),
+            (_, true) => self.clone(),
+            _ => Expr::new(Kind::Add(self.clone(), other.clone())),
+        }
+    }
+}
+
+impl Sub for &Expr {
+    type Output = Expr;
+    fn sub(self, other: &Expr) -> Expr {
+        if let Some(e) = Expr::combine(self, other, |a, b| a - b) {
+            return e;
+        }
+        match (self.is_zero_rational(), other.is_zero_rational()) {
+            (true, _) => -other,
+            (_, true) => self.clone(),
+            _ => Expr::new(Kind::Sub(self.clone(), other.clone())),
+        }
+    }
+}
+
+impl Mul for &Expr {
+    type Output = Expr;
+    fn mul(self, other: &Expr) -> Expr {
+        if let Some(e) = Expr::combine(self, other, |a, b| a * b) {
+            return e;
+        }
+        for (a, b) in [(self, other), (other, self)] {
+            if let Some(r) = a.rational_ref() {
+                if r.is_zero() {
+                    return a.clone();
+                }
+                if r.is_one() {
+                    return b.clone();
+                }
+                if (-r).is_one() {
+                    return -b;
+                }
+            }
+        }
+        Expr::new(Kind::Mul(self.clone(), other.clone()))
+    }
+}
+
+impl Neg for &Expr {
+    type Output = Expr;
+    fn neg(self) -> Expr {
+        match &self.0.kind {
+            Kind::Rational(r) => Expr::rational(-r),
+            Kind::Neg(a) => a.clone(),
+            _ => Expr::new(Kind::Neg(self.clone())),
+        }
+    }
+}
+
+impl Neg for Expr {
+    type Output = Expr;
+    fn neg(self) -> Expr {
+        -&self
+    }
+}
+
+macro_rules! owned_operators {
+    ($($trait:ident $method:ident),*) => {$(
+        impl $trait for Expr {
+            type Output = Expr;
+            fn $method(self, other: Expr) -> Expr {
+                $trait::$method(&self, &other)
+            }
+        }
+        impl $trait<&Expr> for Expr {
+            type Output = Expr;
+            fn $method(self, other: &Expr) -> Expr {
+                $trait::$method(&self, other)
+            }
+        }
+        impl $trait<Expr> for &Expr {
+            type Output = Expr;
+            fn $method(self, other: Expr) -> Expr {
+                $trait::$method(self, &other)
+            }
+        }
+    )*};
+}
+owned_operators!(Add add, Sub sub, Mul mul);

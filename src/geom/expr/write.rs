@@ -1,0 +1,128 @@
+//! From an expression to text that reads back as the same number.
+
+use super::Expr;
+use super::node::{Function, Kind};
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Signed};
+use std::fmt;
+
+/// Trees with more leaves than this are displayed as decimals: shared nodes make the full text exponentially long.
+const MAX_SHOWN: u64 = 4096;
+
+// Binding strengths in the written form.
+const SUM: u8 = 1;
+const PRODUCT: u8 = 2;
+const UNARY: u8 = 3;
+const ATOM: u8 = 5;
+
+/// A rational as text, a terminating decimal where that is short, with its binding strength.
+fn show_rational(r: &BigRational) -> (String, u8) {
+    let sign = if r.is_negative() { "-" } else { "" };
+    let strength = if r.is_negative() { UNARY } else { ATOM };
+    let (n, d) = (r.numer().abs(), r.denom());
+    if d.is_one() {
+        return (format!("{sign}{n}"), strength);
+    }
+    let (twos, mut rest) = (
+        d.trailing_zeros().unwrap_or(0),
+        d >> d.trailing_zeros().unwrap_or(0),
+    );
+    let mut fives = 0u64;
+    let five = BigInt::from(5);
+    while fives <= 20 && rest.is_multiple_of(&five) {
+        rest /= &five;
+        fives += 1;
+    }
+    let places = twos.max(fives) as usize;
+    if !rest.is_one() || places > 20 {
+        return (format!("{sign}{n}/{d}"), PRODUCT);
+    }
+    let scaled = n * BigInt::from(10).pow(places as u32) / d;
+    let digits = format!(
+        "{scaled:0>width$}",
+        scaled = scaled.to_string(),
+        width = places + 1
+    );
+    let (whole, fraction) = digits.split_at(digits.len() - places);
+    (format!("{sign}{whole}.{fraction}"), strength)
+}
+
+/// Writes a text that [`FromStr`] reads back as the same number (as long as it stays within the limits on texts).
+/// Trees of several thousand leaves are written as a decimal approximation instead.
+impl fmt::Display for Expr {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        enum Task<'a> {
+            Text(&'static str),
+            Power(i64),
+            Tree(&'a Expr, u8),
+        }
+        use Task::{Power, Text, Tree};
+        if self.0.size > MAX_SHOWN {
+            return write!(f, "{:?}", self.to_f64());
+        }
+        let mut tasks = vec![Tree(self, 0)];
+        while let Some(task) = tasks.pop() {
+            let (e, least) = match task {
+                Text(t) => {
+                    f.write_str(t)?;
+                    continue;
+                }
+                Power(n) => {
+                    write!(f, "^{n}")?;
+                    continue;
+                }
+                Tree(e, least) => (e, least),
+            };
+            // In reverse: the stack is written from its end.
+            let (strength, mut parts) = match &e.0.kind {
+                Kind::Rational(r) => {
+                    let (text, strength) = show_rational(r);
+                    if strength < least {
+                        write!(f, "({text})")?
+                    } else {
+                        f.write_str(&text)?
+                    }
+                    continue;
+                }
+                Kind::Trig(function, k, n) => {
+                    let name = match function {
+                        Function::Cos => "cos",
+                        Function::Sin => "sin",
+                        Function::Tan => "tan",
+                    };
+                    let (angle, strength) =
+                        show_rational(&BigRational::new(BigInt::from(*k) * 360, (*n).into()));
+                    if strength == ATOM {
+                        write!(f, "{name}({angle}deg)")?
+                    } else {
+                        write!(f, "{name}(({angle})deg)")?
+                    }
+                    continue;
+                }
+                Kind::Add(a, b) => (SUM, vec![Tree(b, PRODUCT), Text("+"), Tree(a, SUM)]),
+                Kind::Sub(a, b) => (SUM, vec![Tree(b, PRODUCT), Text("-"), Tree(a, SUM)]),
+                Kind::Mul(a, b) => (PRODUCT, vec![Tree(b, UNARY), Text("*"), Tree(a, PRODUCT)]),
+                Kind::Div(a, b) => (PRODUCT, vec![Tree(b, UNARY), Text("/"), Tree(a, PRODUCT)]),
+                Kind::Neg(a) => (UNARY, vec![Tree(a, UNARY), Text("-")]),
+                Kind::Pow(a, n) => (UNARY + 1, vec![Power(*n), Tree(a, ATOM)]),
+                Kind::Sqrt(a) => (ATOM, vec![Text(")"), Tree(a, 0), Text("sqrt(")]),
+            };
+            if strength < least {
+                tasks.push(Text(")"));
+                tasks.append(&mut parts);
+                tasks.push(Text("("));
+            } else {
+                tasks.append(&mut parts);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Debug for Expr {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Expr({self})")
+    }
+}
