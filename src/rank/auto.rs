@@ -2,8 +2,9 @@
 //! why, and what was left out.
 
 use super::finite::{Finite, finite, finite_within, followed};
+use super::measured::Verdicts;
 use super::method::{Answer, Certainty as Sure, MobilityMethod, NoAnswer, Quantity};
-use super::numeric::{NumericRank, rank_with_tolerance};
+use super::numeric::NumericRank;
 use super::qr::Qr;
 use super::scaled::scaled;
 use super::snap::snap;
@@ -67,7 +68,6 @@ pub fn decide(
 ) -> Result<Decision, NoAnswer> {
     let exact = field_of(mechanism, state, 0)?;
     let closure = Closure::new(&exact, mechanism, state)?;
-    let freedoms = closure.columns.len();
     let group = whole_group(&exact, mechanism, state)?;
     let (as_written, needed) = if closure.contours.is_empty() || closure.dim == group.dimension() {
         (modular::rank(&exact, &closure), String::new())
@@ -94,8 +94,9 @@ pub fn decide(
     };
     let tolerance = tolerance.unwrap_or_else(|| measured.tolerance());
     let real = Closure::new(&Reals, mechanism, state)?;
-    let numeric =
-        rank_with_tolerance(&real, tolerance).map_err(|e| NoAnswer::Failed(e.to_string()))?;
+    let verdicts = Verdicts::beside(as_written, &mechanism.states[state], &real, tolerance)
+        .map_err(|e| NoAnswer::Failed(e.to_string()))?;
+    let numeric = verdicts.numeric;
     // What rounding and noise leave of a zero says how well poses can close.
     let accuracy = (10.0 * numeric.dropped).clamp(1e-16, tolerance);
     let second = Qr::<f64>::with_tolerance(tolerance).rank_of(&scaled(&real));
@@ -121,7 +122,7 @@ pub fn decide(
         finite,
         line,
     };
-    if numeric.rank == as_written {
+    if verdicts.agree() {
         let found = finite_within(&exact, mechanism, &closure, as_written, Some(accuracy))?;
         let line = format!("{why}; exact rank as written and {gap} agree{doubt}{needed}");
         return Ok(base(
@@ -137,9 +138,9 @@ pub fn decide(
     let snapped_rank = modular::rank(&snapped_exact, &snapped_closure);
     let both = format!(
         "as written, every digit at its word, the rank would be {as_written} (mobility {}) instead of {} (mobility {})",
-        freedoms - as_written,
+        verdicts.figures(as_written).0,
         numeric.rank,
-        freedoms - numeric.rank
+        verdicts.figures(numeric.rank).0
     );
     if snapped_rank == numeric.rank {
         let found = finite_within(
@@ -164,7 +165,7 @@ pub fn decide(
             line,
         ));
     }
-    let found = followed(mechanism, state, freedoms - numeric.rank, accuracy)?;
+    let found = followed(mechanism, state, verdicts.figures(numeric.rank).0, accuracy)?;
     let line = format!("{why}; {gap}{doubt}; {both}");
     Ok(base(
         Geometry::Measured(measured),

@@ -5,7 +5,7 @@ use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::modular;
-use crate::rank::numeric::{self, NumericError, NumericRank};
+use crate::rank::numeric::{NumericError, NumericRank, rank_with_tolerance};
 use thiserror::Error;
 
 /// Why no verdicts could be had.
@@ -53,12 +53,26 @@ impl Verdicts {
             exact = exact.max(modular::rank(field, &residues));
         }
         let reals = Closure::new(&Reals, mechanism, state)?;
+        let name = &mechanism.states[state];
+        Ok(Verdicts::beside(exact, name, &reals, tolerance)?)
+    }
+
+    /// The tolerant verdict beside an exact one that is known.
+    ///
+    /// # Errors
+    /// Where the singular values fail.
+    pub(super) fn beside(
+        exact: usize,
+        state: &str,
+        reals: &Closure<f64>,
+        tolerance: f64,
+    ) -> Result<Verdicts, NumericError> {
         Ok(Verdicts {
-            state: mechanism.states[state].clone(),
+            state: state.to_owned(),
             freedoms: reals.columns.len(),
             rows: reals.rows(),
             exact,
-            numeric: numeric::rank_with_tolerance(&reals, tolerance)?,
+            numeric: rank_with_tolerance(reals, tolerance)?,
         })
     }
 
