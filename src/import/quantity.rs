@@ -93,6 +93,26 @@ impl Table<'_> {
         c.map(|c| self.number(k, c, unit, bound))
     }
 
+    /// A number above 0 that may be missing.
+    pub(super) fn positive(
+        &mut self,
+        k: &'static str,
+        c: &Option<Coordinate>,
+        unit: f64,
+    ) -> Option<f64> {
+        self.optional(k, c.as_ref(), unit, Bound::Positive)
+    }
+
+    /// A number from 0 that may be missing.
+    pub(super) fn not_negative(
+        &mut self,
+        k: &'static str,
+        c: &Option<Coordinate>,
+        unit: f64,
+    ) -> Option<f64> {
+        self.optional(k, c.as_ref(), unit, Bound::NotNegative)
+    }
+
     /// Three numbers.
     pub(super) fn vector(&mut self, k: &'static str, v: &[Coordinate; 3], unit: f64) -> [f64; 3] {
         crate::import::resolve::vector(v, &key(&self.at, k), self.out).map(|e| e.to_f64() * unit)

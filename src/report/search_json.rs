@@ -47,67 +47,47 @@ fn counts<K: ToString>(of: &BTreeMap<K, BigUint>) -> Map<String, Value> {
         .collect()
 }
 
+fn nested(of: &BTreeMap<(i64, u32), BigUint>) -> Map<String, Value> {
+    let mut out: Map<String, Value> = Map::new();
+    for ((w, c), n) in of {
+        let by = out
+            .entry(w.to_string())
+            .or_insert_with(|| Value::Object(Map::new()));
+        if let Value::Object(by) = by {
+            by.insert(c.to_string(), Value::String(n.to_string()));
+        }
+    }
+    out
+}
+
+/// One kind of variants, told apart in every way; keys begin with `prefix`.
+fn put_counts<R>(put: &mut impl FnMut(&str, Value) -> R, prefix: &str, of: &Counts) {
+    let told = [
+        ("by_mobility", counts(&of.by_mobility)),
+        (
+            "by_mobility_and_changes",
+            nested(&of.by_mobility_and_changes),
+        ),
+        ("by_redundant", counts(&of.by_redundant)),
+        ("by_changes", counts(&of.by_changes)),
+        ("by_freedoms", counts(&of.by_freedoms)),
+    ];
+    for (key, map) in told {
+        put(&format!("{prefix}{key}"), Value::Object(map));
+    }
+}
+
 /// Everything but the variants.
 #[must_use]
 pub fn header(found: &Found<'_>) -> Map<String, Value> {
-    let nested = |of: &BTreeMap<(i64, u32), BigUint>| {
-        let mut out: Map<String, Value> = Map::new();
-        for ((w, c), n) in of {
-            let by = out
-                .entry(w.to_string())
-                .or_insert_with(|| Value::Object(Map::new()));
-            if let Value::Object(by) = by {
-                by.insert(c.to_string(), Value::String(n.to_string()));
-            }
-        }
-        out
-    };
     let mut out = Map::new();
     let mut put = |k: &str, v: Value| out.insert(k.to_owned(), v);
     put("mechanism", json!(found.search.mechanism.name));
     put("space", json!(found.search.size().to_string()));
     put("determinate", json!(found.determinate.total.to_string()));
-    put(
-        "by_mobility",
-        Value::Object(counts(&found.determinate.by_mobility)),
-    );
-    put(
-        "by_mobility_and_changes",
-        Value::Object(nested(&found.determinate.by_mobility_and_changes)),
-    );
-    put(
-        "by_redundant",
-        Value::Object(counts(&found.determinate.by_redundant)),
-    );
-    put(
-        "by_changes",
-        Value::Object(counts(&found.determinate.by_changes)),
-    );
-    put(
-        "by_freedoms",
-        Value::Object(counts(&found.determinate.by_freedoms)),
-    );
+    put_counts(&mut put, "", &found.determinate);
     put("admissible", json!(found.admissible.total.to_string()));
-    put(
-        "admissible_by_mobility",
-        Value::Object(counts(&found.admissible.by_mobility)),
-    );
-    put(
-        "admissible_by_mobility_and_changes",
-        Value::Object(nested(&found.admissible.by_mobility_and_changes)),
-    );
-    put(
-        "admissible_by_redundant",
-        Value::Object(counts(&found.admissible.by_redundant)),
-    );
-    put(
-        "admissible_by_changes",
-        Value::Object(counts(&found.admissible.by_changes)),
-    );
-    put(
-        "admissible_by_freedoms",
-        Value::Object(counts(&found.admissible.by_freedoms)),
-    );
+    put_counts(&mut put, "admissible_", &found.admissible);
     let by_cost = found
         .by_cost
         .iter()
