@@ -6,6 +6,7 @@ pub mod grip;
 pub mod joint_loads;
 pub mod loads;
 pub mod locate;
+mod names;
 pub mod problem;
 mod quantity;
 pub mod ranking;

@@ -6,7 +6,6 @@ mod expected;
 mod joints;
 mod links;
 mod mode;
-mod names;
 mod options;
 mod search;
 

@@ -1,7 +1,7 @@
 //! The `[workload.grip]` table.
 
 use crate::import::locate::Step;
-use crate::import::problem::ProblemKind;
+use crate::import::names::joint_by_id;
 use crate::import::quantity::{Bound, Table, word};
 use crate::import::resolve::{Findings, index, key};
 use crate::import::schema::{Coordinate, MechanismFile};
@@ -315,20 +315,10 @@ fn transmission(
                 t.needs("lever_joints", "one joint with drive = true");
             }
             let at = key(&t.at, "lever_joints");
-            let found = ids.iter().enumerate().filter_map(|(i, id)| {
-                let found = m.joint(id);
-                if found.is_none() {
-                    let known = m.joints.iter().take(30).map(|j| j.id.as_str()).join(", ");
-                    t.out.add(
-                        &index(&at, i),
-                        ProblemKind::UnknownJoint {
-                            id: id.clone(),
-                            known,
-                        },
-                    );
-                }
-                found
-            });
+            let found = ids
+                .iter()
+                .enumerate()
+                .filter_map(|(i, id)| joint_by_id(m, id, &index(&at, i), t.out));
             match found.collect_vec()[..] {
                 [a, b] => Transmission::Joints([a, b]),
                 _ => Transmission::Unknown,

@@ -1,7 +1,8 @@
 //! What `[workload]` says of moments, of the stiffness of joints, and of joints made askew.
 
-use crate::import::loads::{MAX_FORCES, Quantity, WorkloadEntry, known_links, position, quantity};
+use crate::import::loads::{MAX_FORCES, Quantity, WorkloadEntry, position, quantity};
 use crate::import::locate::Step;
+use crate::import::names::{joint_by_id, link_by_id};
 use crate::import::problem::ProblemKind;
 use crate::import::resolve::{Findings, index, key, vector};
 use crate::import::schema::Coordinate;
@@ -55,16 +56,8 @@ pub(super) fn moments(
     for (i, m) in entry.moment.iter().enumerate().take(MAX_FORCES) {
         let at = index(&key(at, "moment"), i);
         let moment = vector(&m.moment, &key(&at, "moment"), out);
-        match mechanism.link(&m.link) {
-            Some(link) => found.push(ExternalMoment { link, moment }),
-            None => out.add(
-                &key(&at, "link"),
-                ProblemKind::UnknownLink {
-                    id: m.link.clone(),
-                    known: known_links(mechanism),
-                },
-            ),
-        }
+        let link = link_by_id(&mechanism.links, &m.link, &key(&at, "link"), out);
+        found.extend(link.map(|link| ExternalMoment { link, moment }));
     }
     found
 }
@@ -140,17 +133,7 @@ pub(super) fn misalignments(
                 },
             );
         }
-        let joint = mechanism.joint(&m.joint);
-        if joint.is_none() {
-            let mut known = mechanism.joints.iter().take(30).map(|j| j.id.as_str());
-            out.add(
-                &key(&at, "joint"),
-                ProblemKind::UnknownJoint {
-                    id: m.joint.clone(),
-                    known: known.join(", "),
-                },
-            );
-        }
+        let joint = joint_by_id(mechanism, &m.joint, &key(&at, "joint"), out);
         if let (Some(joint), Some(axis)) = (joint, axis) {
             let mut turn = [0.0; 3];
             turn[axis] = angle;

@@ -6,12 +6,12 @@ use crate::import::joint_loads::{
     MisalignmentEntry, MomentEntry, StiffnessEntry, misalignments, moments, stiffness,
 };
 use crate::import::locate::Step;
+use crate::import::names::link_by_id;
 use crate::import::problem::ProblemKind;
 use crate::import::resolve::{Findings, index, key, vector};
 use crate::import::schema::{Coordinate, LinkEntry, MechanismFile};
 use crate::model::loads::{ExternalForce, Inertia, Loads, MassProperties, Stroke};
 use crate::model::mechanism::Mechanism;
-use itertools::Itertools;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -279,10 +279,7 @@ pub(super) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findi
                 },
             );
         }
-        let Some(link) = mechanism.link(&f.link) else {
-            let known = known_links(mechanism);
-            let id = f.link.clone();
-            out.add(&key(&at, "link"), ProblemKind::UnknownLink { id, known });
+        let Some(link) = link_by_id(&mechanism.links, &f.link, &key(&at, "link"), out) else {
             continue;
         };
         forces.push(ExternalForce {
@@ -331,11 +328,6 @@ pub(super) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findi
             .as_ref()
             .map(|s| stroke(s, &key(&at, "stroke"), out)),
     }
-}
-
-pub(super) fn known_links(mechanism: &Mechanism) -> String {
-    let mut known = mechanism.links.iter().take(30).map(|l| l.id.as_str());
-    known.join(", ")
 }
 
 fn stroke(s: &StrokeEntry, at: &[Step], out: &mut Findings) -> Stroke {

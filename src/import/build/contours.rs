@@ -1,8 +1,8 @@
 //! The contours the designer chose.
 
 use crate::closure::contour::closed_walk;
-use crate::import::build::names::joint_by_id;
 use crate::import::locate::Step;
+use crate::import::names::joint_by_id;
 use crate::import::problem::ProblemKind;
 use crate::import::resolve::{Findings, index};
 use crate::import::schema::MechanismFile;

@@ -1,9 +1,9 @@
 //! The joints: ends, type, place, the states they act in.
 
 use crate::geom::expr::Expr;
-use crate::import::build::names::check_id;
 use crate::import::build::options::options;
 use crate::import::locate::Step;
+use crate::import::names::{check_id, link_by_id};
 use crate::import::problem::ProblemKind;
 use crate::import::resolve::{
     Findings, frame, index, joint_type, key, motion_name, number, option, vector, zero3,
@@ -60,19 +60,8 @@ fn joint(
     );
     let mut ends = [0; 2];
     for (e, id) in entry.links.iter().enumerate() {
-        match links.iter().position(|l| l.id == *id) {
-            Some(l) => ends[e] = l,
-            None => {
-                let known = links.iter().take(30).map(|l| l.id.as_str()).join(", ");
-                out.add(
-                    &index(&key(&at, "links"), e),
-                    ProblemKind::UnknownLink {
-                        id: id.clone(),
-                        known,
-                    },
-                );
-            }
-        }
+        let path = index(&key(&at, "links"), e);
+        ends[e] = link_by_id(links, id, &path, out).unwrap_or(0);
     }
     if entry.links[0] == entry.links[1] {
         let (joint, link) = (entry.id.clone(), entry.links[0].clone());

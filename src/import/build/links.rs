@@ -1,8 +1,8 @@
 //! The links.
 
-use crate::import::build::names::check_id;
 use crate::import::loads::mass;
 use crate::import::locate::Step;
+use crate::import::names::check_id;
 use crate::import::problem::ProblemKind;
 use crate::import::resolve::{Findings, key};
 use crate::import::schema::MechanismFile;

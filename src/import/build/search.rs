@@ -1,7 +1,7 @@
 //! What the search may change and what it costs.
 
-use crate::import::build::names::joint_by_id;
 use crate::import::locate::Step;
+use crate::import::names::{joint_by_id, link_by_id};
 use crate::import::problem::ProblemKind;
 use crate::import::resolve::{Findings, cost, index, key};
 use crate::import::schema::MechanismFile;
@@ -17,24 +17,9 @@ pub(super) fn search(
     let at = [Step::Key("search".to_owned())];
     let mut spec = SearchSpec::default();
     for (i, id) in file.search.hold.iter().enumerate() {
-        match mechanism.link(id) {
-            Some(l) => spec.hold.push(l),
-            None => {
-                let known = mechanism
-                    .links
-                    .iter()
-                    .take(30)
-                    .map(|l| l.id.as_str())
-                    .join(", ");
-                out.add(
-                    &index(&key(&at, "hold"), i),
-                    ProblemKind::UnknownLink {
-                        id: id.clone(),
-                        known,
-                    },
-                );
-            }
-        }
+        let path = index(&key(&at, "hold"), i);
+        spec.hold
+            .extend(link_by_id(&mechanism.links, id, &path, out));
     }
     let mut paired = Vec::new();
     for (i, pair) in file.search.mirror.iter().enumerate() {

@@ -2,14 +2,13 @@
 
 use crate::geom::expr::Expr;
 use crate::import::drive::DriveEntry;
-use crate::import::problem::ProblemKind;
+use crate::import::names::link_by_id;
 use crate::import::quantity::Table;
 use crate::import::resolve::key;
 use crate::model::drive::Payload;
 use crate::model::joint_type::JointType;
 use crate::model::loads::Inertia;
 use crate::model::mechanism::Mechanism;
-use itertools::Itertools;
 
 /// Inertia of a link about the axis it turns on the frame about.
 fn link_inertia(
@@ -26,17 +25,7 @@ fn link_inertia(
         );
         return None;
     };
-    let Some(l) = m.link(id) else {
-        let known = m.links.iter().take(30).map(|l| l.id.as_str()).join(", ");
-        t.out.add(
-            &path,
-            ProblemKind::UnknownLink {
-                id: id.to_owned(),
-                known,
-            },
-        );
-        return None;
-    };
+    let l = link_by_id(&m.links, id, &path, t.out)?;
     let hinge = m.joints_in(0).map(|j| &m.joints[j]).find(|j| {
         j.joint_type == JointType::Revolute && j.links.contains(&l) && j.links.contains(&m.frame())
     });

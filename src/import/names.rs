@@ -1,10 +1,13 @@
-//! Names: of links and joints as they are declared, and as others refer to them.
+//! Names of links and joints: as they are declared, and as others refer to them.
 
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
 use crate::import::resolve::Findings;
-use crate::model::mechanism::{JointId, Mechanism};
+use crate::model::mechanism::{JointId, Link, LinkId, Mechanism};
 use itertools::Itertools;
+
+/// Most names listed where one is not known.
+const LISTED: usize = 30;
 
 pub(super) fn check_id(
     what: &'static str,
@@ -27,6 +30,28 @@ pub(super) fn check_id(
     }
 }
 
+/// The link that an entry means.
+pub(super) fn link_by_id(
+    links: &[Link],
+    id: &str,
+    path: &[Step],
+    out: &mut Findings,
+) -> Option<LinkId> {
+    let found = links.iter().position(|l| l.id == *id);
+    if found.is_none() {
+        let mut known = links.iter().take(LISTED).map(|l| l.id.as_str());
+        out.add(
+            path,
+            ProblemKind::UnknownLink {
+                id: id.to_owned(),
+                known: known.join(", "),
+            },
+        );
+    }
+    found
+}
+
+/// The joint that an entry means.
 pub(super) fn joint_by_id(
     mechanism: &Mechanism,
     id: &str,
@@ -35,17 +60,13 @@ pub(super) fn joint_by_id(
 ) -> Option<JointId> {
     let found = mechanism.joint(id);
     if found.is_none() {
-        let known = mechanism
-            .joints
-            .iter()
-            .take(30)
-            .map(|j| j.id.as_str())
-            .join(", ");
+        let joints = mechanism.joints.iter();
+        let mut known = joints.take(LISTED).map(|j| j.id.as_str());
         out.add(
             path,
             ProblemKind::UnknownJoint {
                 id: id.to_owned(),
-                known,
+                known: known.join(", "),
             },
         );
     }
