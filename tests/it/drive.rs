@@ -1,5 +1,6 @@
 //! The torsional drive against `[Klyuchkovskyi 1999]`, and its simulation against a step-by-step integrator.
 
+use crate::common::near;
 use ozols::workload::swing::{Disc, End, Feed, Latch, SwingError};
 use ozols::workload::torsion::{
     Bar, CamSpring, Wanted, decrement, diameter, free_angle, frequency, friction_energy,
@@ -7,13 +8,6 @@ use ozols::workload::torsion::{
 };
 use proptest::prelude::*;
 use std::f64::consts::PI;
-
-fn near(found: f64, stated: f64, tolerance: f64) {
-    assert!(
-        (found - stated).abs() <= tolerance,
-        "found {found}, stated {stated}"
-    );
-}
 
 const NO_FEED: Feed = Feed {
     energy: 0.0,

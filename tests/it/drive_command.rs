@@ -1,15 +1,9 @@
 //! `ozols drive` as its users meet it.
 
 use crate::cli::{json, out, ozols};
+use crate::common::{changed, near, run_on};
 use serde_json::Value;
 use std::fs;
-
-fn near(found: f64, stated: f64, tolerance: f64) {
-    assert!(
-        (found - stated).abs() <= tolerance,
-        "found {found}, stated {stated}"
-    );
-}
 
 fn number(v: &Value) -> f64 {
     v.as_f64().unwrap()
@@ -33,22 +27,11 @@ swings = 5
 "#;
 
 fn run_file(text: &str, more: &[&str]) -> (Option<i32>, String, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("turner.toml");
-    fs::write(&path, text).unwrap();
-    let args = ["drive", path.to_str().unwrap()]
-        .iter()
-        .chain(more)
-        .copied()
-        .collect::<Vec<_>>();
-    let o = ozols(&args).output().unwrap();
-    let text = |b: Vec<u8>| String::from_utf8(b).unwrap();
-    (o.status.code(), text(o.stdout), text(o.stderr))
+    run_on("drive", "turner.toml", text, more)
 }
 
 fn small_with(from: &str, to: &str) -> String {
-    assert!(SMALL.contains(from), "{from}");
-    SMALL.replacen(from, to, 1)
+    changed(SMALL, from, to)
 }
 
 fn small_json(text: &str, code: i32) -> Value {

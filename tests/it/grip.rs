@@ -1,6 +1,7 @@
 //! Clamping levers against `[Pavlenko & Godunko 2010]`, and holding forces against independent statics.
 
-use crate::cli::{json, out, ozols};
+use crate::cli::{json, out};
+use crate::common::{changed, near, run_on};
 use ozols::workload::arm_charts::{figures, findings};
 use ozols::workload::contact::Gripper;
 use ozols::workload::lever_arm::{Lever, LeverError};
@@ -11,13 +12,6 @@ use std::fs;
 /// A lever in millimetres and degrees.
 fn lever(length: f64, prism: f64, mounting: f64) -> Lever {
     Lever::new(length, prism.to_radians(), mounting.to_radians()).unwrap()
-}
-
-fn near(found: f64, stated: f64, tolerance: f64) {
-    assert!(
-        (found - stated).abs() <= tolerance,
-        "found {found}, stated {stated}"
-    );
 }
 
 /// [Pavlenko & Godunko 2010] equations (1) to (8), figures recomputed by hand: L = 100, D = 40, α = 120°, γ = 20°.
@@ -156,22 +150,11 @@ drive_arm = 50
 "#;
 
 fn run_file(text: &str, more: &[&str]) -> (Option<i32>, String, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("clamp.toml");
-    fs::write(&path, text).unwrap();
-    let args = ["grip", path.to_str().unwrap()]
-        .iter()
-        .chain(more)
-        .copied()
-        .collect::<Vec<_>>();
-    let o = ozols(&args).output().unwrap();
-    let text = |b: Vec<u8>| String::from_utf8(b).unwrap();
-    (o.status.code(), text(o.stdout), text(o.stderr))
+    run_on("grip", "clamp.toml", text, more)
 }
 
 fn small_with(from: &str, to: &str) -> String {
-    assert!(SMALL.contains(from), "{from}");
-    SMALL.replacen(from, to, 1)
+    changed(SMALL, from, to)
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Holding forces against closed forms, a polyhedral linear programme and plain statics.
 
+use crate::common::near;
 use microlp::{ComparisonOp, OptimizationDirection, Problem};
 use ozols::workload::contact::{Gripper, Pose, Unholdable, cross};
 use ozols::workload::holding::{ContactForce, Coupling, Holding, Load, Outcome, Spatial, hold};
@@ -31,13 +32,6 @@ fn held(pose: &Pose, load: Load, friction: f64, coupling: Coupling) -> Holding {
         Outcome::Held(h) => h,
         Outcome::Slips(s) => panic!("slips: {s:?}"),
     }
-}
-
-fn near(found: f64, stated: f64, tolerance: f64) {
-    assert!(
-        (found - stated).abs() <= tolerance,
-        "found {found}, stated {stated}"
-    );
 }
 
 /// Force of a contact in the gripper's axes.

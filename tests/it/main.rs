@@ -7,6 +7,7 @@ mod catalogs;
 mod certificates;
 mod certify;
 mod cli;
+mod common;
 mod contours;
 mod drawings;
 mod drive;

@@ -1,15 +1,9 @@
 //! Programmes of swings, and their long run.
 
+use crate::common::near;
 use ozols::model::drive::Step;
 use ozols::workload::programme::{Endurance, Module};
 use ozols::workload::swing::{Disc, End, Feed, Latch};
-
-fn near(found: f64, stated: f64, tolerance: f64) {
-    assert!(
-        (found - stated).abs() <= tolerance,
-        "found {found}, stated {stated}"
-    );
-}
 
 fn module(viscous: f64, coulomb: f64, feed: f64) -> Module {
     let disc = |inertia| Disc {

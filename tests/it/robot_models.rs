@@ -47,6 +47,18 @@ struct Peer {
     ours: [i64; 6],
 }
 
+/// A model whose loops stand in a file beside it, with exact coordinates and no couplings.
+const fn beside(path: &'static str, loops: &'static str, peer: [i64; 3], ours: [i64; 6]) -> Peer {
+    Peer {
+        path,
+        loops: Some(loops),
+        tolerance: 1e-9,
+        couplings: 0,
+        peer,
+        ours,
+    }
+}
+
 const PEERS: [Peer; 8] = [
     Peer {
         path: "robotiq_2f85_v4/2f85.nomesh.xml",
@@ -73,47 +85,37 @@ const PEERS: [Peer; 8] = [
         peer: [50, 21, 12],
         ours: [46, 49, 4, 62, 47, 9],
     },
-    Peer {
-        path: "epr_5bar_linkage/robot.urdf",
-        loops: Some("epr_5bar_linkage/robot.yaml"),
-        tolerance: 1e-9,
-        couplings: 0,
-        peer: [6, 6, 3],
-        ours: [7, 7, 1, 6, 3, 3],
-    },
-    Peer {
-        path: "epr_5bar_linkage_iso6d/robot.urdf",
-        loops: Some("epr_5bar_linkage_iso6d/robot.yaml"),
-        tolerance: 1e-9,
-        couplings: 0,
-        peer: [8, 6, 6],
-        ours: [9, 9, 1, 8, 2, 0],
-    },
-    Peer {
-        path: "epr_digit_like/robot.urdf",
-        loops: Some("epr_digit_like/robot.yaml"),
-        tolerance: 1e-9,
-        couplings: 0,
-        peer: [27, 18, 18],
-        ours: [28, 30, 3, 27, 9, 0],
-    },
-    Peer {
-        path: "epr_talos_like/robot.urdf",
-        loops: Some("epr_talos_like/robot.yaml"),
-        tolerance: 1e-9,
-        couplings: 0,
-        peer: [13, 6, 6],
-        ours: [14, 14, 1, 13, 7, 0],
-    },
+    beside(
+        "epr_5bar_linkage/robot.urdf",
+        "epr_5bar_linkage/robot.yaml",
+        [6, 6, 3],
+        [7, 7, 1, 6, 3, 3],
+    ),
+    beside(
+        "epr_5bar_linkage_iso6d/robot.urdf",
+        "epr_5bar_linkage_iso6d/robot.yaml",
+        [8, 6, 6],
+        [9, 9, 1, 8, 2, 0],
+    ),
+    beside(
+        "epr_digit_like/robot.urdf",
+        "epr_digit_like/robot.yaml",
+        [27, 18, 18],
+        [28, 30, 3, 27, 9, 0],
+    ),
+    beside(
+        "epr_talos_like/robot.urdf",
+        "epr_talos_like/robot.yaml",
+        [13, 6, 6],
+        [14, 14, 1, 13, 7, 0],
+    ),
     // The peer's figures are of an open pose (residual 0.9 m); at the closed pose found here they are the same.
-    Peer {
-        path: "drake_strandbeest/strandbeest_nomesh.urdf",
-        loops: Some("drake_strandbeest/strandbeest_ball_constraints.json"),
-        tolerance: 1e-9,
-        couplings: 0,
-        peer: [73, 108, 72],
-        ours: [74, 109, 36, 181, 1, 36],
-    },
+    beside(
+        "drake_strandbeest/strandbeest_nomesh.urdf",
+        "drake_strandbeest/strandbeest_ball_constraints.json",
+        [73, 108, 72],
+        [74, 109, 36, 181, 1, 36],
+    ),
 ];
 
 fn with_loops(side: Option<&str>) -> Options {
