@@ -2,6 +2,7 @@
 
 pub mod build;
 pub mod drive;
+pub mod findings;
 pub mod grip;
 pub mod joint_loads;
 pub mod loads;

@@ -10,12 +10,12 @@ mod options;
 mod search;
 
 use crate::import::drive::drive;
+use crate::import::findings::{Finding, Findings};
 use crate::import::grip::grip;
 use crate::import::loads::loads;
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
 use crate::import::ranking::{joint_types, ranking};
-use crate::import::resolve::Findings;
 use crate::import::schema::MechanismFile;
 use crate::import::unit::length_unit;
 use crate::model::loads::Loads;
@@ -28,21 +28,19 @@ use links::links;
 use mode::mode;
 use search::search;
 
-/// A problem and the path of the item it concerns.
-pub type Finding = (Vec<Step>, ProblemKind);
-
-/// Most links, joints, and options of one joint in a file.
+/// Most links, joints (and as many contours), and options of one joint in a file.
 pub const LIMITS: (usize, usize, usize) = (2000, 4000, 64);
 
 /// Builds a mechanism.
 ///
 /// # Errors
-/// Every problem found.
+/// The problems found, the first hundred of them.
 pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     let mut out = Findings::default();
     for (what, count, limit) in [
         ("links", file.link.len(), LIMITS.0),
         ("joints", file.joint.len(), LIMITS.1),
+        ("contours", file.contour.len(), LIMITS.1),
     ] {
         if count > limit {
             return Err(vec![(
@@ -54,10 +52,10 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     let length_unit = length_unit(file, &mut out);
     let mode = mode(file, &mut out);
     let links = links(file, &mut out);
-    let states = states(file);
+    let states = states(file, &mut out);
     let joints = joints(file, &links, &states, &mut out);
-    if !out.found.is_empty() {
-        return Err(out.found);
+    if out.count() > 0 {
+        return Err(out.told());
     }
     let mut mechanism = Mechanism {
         name: file.name.clone(),
@@ -86,9 +84,5 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     mechanism.joint_types = joint_types;
     mechanism.search.costs.by_type_milli.extend(costs);
     mechanism.expected = expected(file, &mechanism, &mut out);
-    if out.found.is_empty() {
-        Ok(mechanism)
-    } else {
-        Err(out.found)
-    }
+    out.unless(mechanism)
 }

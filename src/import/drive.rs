@@ -3,9 +3,10 @@
 mod inertias;
 mod programme;
 
+use crate::import::findings::Findings;
 use crate::import::locate::Step as Place;
 use crate::import::quantity::{Bound, Table};
-use crate::import::resolve::{Findings, index, key};
+use crate::import::resolve::{index, key};
 use crate::import::schema::{Coordinate, MechanismFile};
 use crate::model::drive::{Cam, Damping, DriveSpec};
 use crate::model::mechanism::Mechanism;

@@ -1,9 +1,10 @@
 //! The `[workload.grip]` table.
 
+use crate::import::findings::Findings;
 use crate::import::locate::Step;
 use crate::import::names::joint_by_id;
 use crate::import::quantity::{Bound, Table, word};
-use crate::import::resolve::{Findings, index, key};
+use crate::import::resolve::{index, key};
 use crate::import::schema::{Coordinate, MechanismFile};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
 use crate::model::mechanism::Mechanism;

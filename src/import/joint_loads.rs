@@ -1,10 +1,11 @@
 //! What `[workload]` says of moments, of the stiffness of joints, and of joints made askew.
 
+use crate::import::findings::Findings;
 use crate::import::loads::{MAX_FORCES, Quantity, WorkloadEntry, position, quantity};
 use crate::import::locate::Step;
 use crate::import::names::{joint_by_id, link_by_id};
 use crate::import::problem::ProblemKind;
-use crate::import::resolve::{Findings, index, key, vector};
+use crate::import::resolve::{index, key, vector};
 use crate::import::schema::Coordinate;
 use crate::model::joint_type::JointType;
 use crate::model::loads::{ExternalMoment, Misalignment, Stiffness};

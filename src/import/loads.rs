@@ -1,6 +1,7 @@
 //! Masses of links and the `[workload]` table.
 
 use crate::import::drive::DriveEntry;
+use crate::import::findings::Findings;
 use crate::import::grip::GripEntry;
 use crate::import::joint_loads::{
     MisalignmentEntry, MomentEntry, StiffnessEntry, misalignments, moments, stiffness,
@@ -8,7 +9,7 @@ use crate::import::joint_loads::{
 use crate::import::locate::Step;
 use crate::import::names::link_by_id;
 use crate::import::problem::ProblemKind;
-use crate::import::resolve::{Findings, index, key, vector};
+use crate::import::resolve::{index, key, vector};
 use crate::import::schema::{Coordinate, LinkEntry, MechanismFile};
 use crate::model::loads::{ExternalForce, Inertia, Loads, MassProperties, Stroke};
 use crate::model::mechanism::Mechanism;

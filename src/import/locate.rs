@@ -13,19 +13,42 @@ pub enum Step {
     Index(usize),
 }
 
-/// Bytes of the item at a path, or of the deepest part of the path that exists.
-#[must_use]
-pub fn locate(text: &str, json: bool, path: &[Step]) -> Option<Range<usize>> {
-    if json {
-        in_json(text, path)
-    } else {
-        in_toml(text, path)
+/// A document whose items can be found; read once for all its problems.
+#[derive(Debug)]
+pub enum Document<'t> {
+    /// TOML.
+    Toml(toml_edit::Document<&'t str>),
+    /// JSON.
+    Json(ast::Value<'t>),
+}
+
+impl<'t> Document<'t> {
+    /// Reads a text; `None` where it cannot be read.
+    #[must_use]
+    pub fn new(text: &'t str, json: bool) -> Option<Document<'t>> {
+        if !json {
+            return toml_edit::Document::parse(text).ok().map(Document::Toml);
+        }
+        let parsed = jsonc_parser::parse_to_ast(
+            text,
+            &jsonc_parser::CollectOptions::default(),
+            &Default::default(),
+        );
+        parsed.ok()?.value.map(Document::Json)
+    }
+
+    /// Bytes of the item at a path, or of the deepest part of the path that exists.
+    #[must_use]
+    pub fn span(&self, path: &[Step]) -> Option<Range<usize>> {
+        match self {
+            Document::Toml(document) => in_toml(document.as_item(), path),
+            Document::Json(root) => in_json(root, path),
+        }
     }
 }
 
-fn in_toml(text: &str, path: &[Step]) -> Option<Range<usize>> {
-    let document = toml_edit::Document::parse(text).ok()?;
-    let mut item = document.as_item();
+fn in_toml(root: &toml_edit::Item, path: &[Step]) -> Option<Range<usize>> {
+    let mut item = root;
     let mut found = None;
     for step in path {
         let next = match step {
@@ -39,15 +62,8 @@ fn in_toml(text: &str, path: &[Step]) -> Option<Range<usize>> {
     found
 }
 
-fn in_json(text: &str, path: &[Step]) -> Option<Range<usize>> {
-    let parsed = jsonc_parser::parse_to_ast(
-        text,
-        &jsonc_parser::CollectOptions::default(),
-        &Default::default(),
-    )
-    .ok()?;
-    let root = parsed.value?;
-    let mut at: &ast::Value = &root;
+fn in_json(root: &ast::Value<'_>, path: &[Step]) -> Option<Range<usize>> {
+    let mut at = root;
     let mut found = None;
     for step in path {
         let next = match (step, at) {

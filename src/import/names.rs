@@ -1,8 +1,8 @@
 //! Names of links and joints: as they are declared, and as others refer to them.
 
+use crate::import::findings::Findings;
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
-use crate::import::resolve::Findings;
 use crate::model::mechanism::{JointId, Link, LinkId, Mechanism};
 use itertools::Itertools;
 

@@ -124,6 +124,8 @@ pub enum ProblemKind {
         count: usize,
         limit: usize,
     },
+    #[error("{count} more problems are not listed; mend those above first")]
+    More { count: usize },
 }
 
 /// A problem and where it stands.

@@ -1,8 +1,9 @@
 //! Numbers with a meaning: angles, and values that must lie in a range.
 
+use crate::import::findings::Findings;
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
-use crate::import::resolve::{Findings, key, number};
+use crate::import::resolve::{key, number};
 use crate::import::schema::Coordinate;
 use itertools::Itertools;
 use std::f64::consts::PI;
@@ -70,9 +71,9 @@ impl Table<'_> {
         unit: f64,
         bound: Bound,
     ) -> f64 {
-        let before = self.out.found.len();
+        let before = self.out.count();
         let value = number(c, path, self.out).to_f64();
-        if self.out.found.len() > before {
+        if self.out.count() > before {
             return 1.0;
         }
         if !bound.holds(value) {

@@ -1,8 +1,9 @@
 //! `[ranking]` and `[joint_types]`.
 
+use crate::import::findings::Findings;
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
-use crate::import::resolve::{Findings, cost, index, key};
+use crate::import::resolve::{cost, index, key};
 use crate::import::schema::MechanismFile;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::Mechanism;

@@ -1,24 +1,13 @@
 //! Joint frames and options from their entries.
 
 use crate::geom::expr::Expr;
+use crate::import::findings::Findings;
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
 use crate::import::schema::{Coordinate, OptionEntry, OptionTable};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, JointOption};
 use itertools::Itertools;
-
-/// Problems found so far, with where they stand.
-#[derive(Default)]
-pub(super) struct Findings {
-    pub(super) found: Vec<(Vec<Step>, ProblemKind)>,
-}
-
-impl Findings {
-    pub(super) fn add(&mut self, path: &[Step], kind: ProblemKind) {
-        self.found.push((path.to_vec(), kind));
-    }
-}
 
 pub(super) fn key(path: &[Step], k: &str) -> Vec<Step> {
     path.iter()

@@ -1,7 +1,8 @@
 //! Reading a mechanism from text.
 
-use crate::import::build::{Finding, build};
-use crate::import::locate::locate;
+use crate::import::build::build;
+use crate::import::findings::Finding;
+use crate::import::locate::Document;
 use crate::import::problem::{ImportError, Problem, ProblemKind};
 use crate::import::schema::MechanismFile;
 use crate::model::mechanism::Mechanism;
@@ -72,11 +73,12 @@ pub(super) fn read<T>(
     };
     let file = file.map_err(|p| fail(vec![p]))?;
     make(&file).map_err(|found| {
+        let document = Document::new(text, json);
         let mut problems: Vec<Problem> = found
             .into_iter()
             .map(|(path, kind)| Problem {
                 kind,
-                span: locate(text, json, &path),
+                span: document.as_ref().and_then(|d| d.span(&path)),
             })
             .collect();
         problems.sort_by_key(|p| p.span.as_ref().map_or(usize::MAX, |s| s.start));

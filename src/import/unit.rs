@@ -1,8 +1,8 @@
 //! The file's unit of length.
 
+use crate::import::findings::Findings;
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
-use crate::import::resolve::Findings;
 use crate::import::schema::MechanismFile;
 use crate::model::mechanism::LengthUnit;
 use itertools::Itertools;

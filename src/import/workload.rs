@@ -1,11 +1,11 @@
 //! Reading the workload tables of a file, with or without a mechanism around them.
 
-use crate::import::build::{Finding, build};
+use crate::import::build::build;
 use crate::import::drive::drive;
+use crate::import::findings::{Finding, Findings};
 use crate::import::grip::grip;
 use crate::import::locate::Step;
 use crate::import::problem::{ImportError, ProblemKind};
-use crate::import::resolve::Findings;
 use crate::import::schema::MechanismFile;
 use crate::import::text::{read, text_of};
 use crate::import::unit::length_unit;
@@ -81,11 +81,7 @@ pub fn tables_alone(
         let unit = length_unit(file, &mut out).metres;
         grip(file, unit, None, &mut out);
         drive(file, unit, None, &mut out);
-        if out.found.is_empty() {
-            Ok(Some((file.name.clone(), tables)))
-        } else {
-            Err(out.found)
-        }
+        out.unless(Some((file.name.clone(), tables)))
     })
 }
 
@@ -101,17 +97,17 @@ fn workload<T>(
     };
     let length_unit = length_unit(file, &mut out);
     let spec = table(file, length_unit.metres, mechanism.as_ref(), &mut out);
-    if spec.is_none() && out.found.is_empty() {
+    if spec.is_none() && out.count() == 0 {
         out.add(&[Step::Key("workload".to_owned())], missing);
     }
     match spec {
-        Some(spec) if out.found.is_empty() => Ok(Workload {
+        Some(spec) if out.count() == 0 => Ok(Workload {
             name: file.name.clone(),
             sources: file.sources.clone(),
             length_unit,
             mechanism,
             spec,
         }),
-        _ => Err(out.found),
+        _ => Err(out.told()),
     }
 }

@@ -1,8 +1,8 @@
 //! Every link hangs on the frame.
 
+use crate::import::findings::Findings;
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
-use crate::import::resolve::Findings;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
 
 /// Every link must hang on the frame in each state it has joints in.

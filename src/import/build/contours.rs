@@ -1,10 +1,11 @@
 //! The contours the designer chose.
 
 use crate::closure::contour::closed_walk;
+use crate::import::findings::Findings;
 use crate::import::locate::Step;
 use crate::import::names::joint_by_id;
 use crate::import::problem::ProblemKind;
-use crate::import::resolve::{Findings, index};
+use crate::import::resolve::index;
 use crate::import::schema::MechanismFile;
 use crate::model::mechanism::{JointId, Mechanism};
 

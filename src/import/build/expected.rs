@@ -1,8 +1,8 @@
 //! Figures a published analysis gives.
 
+use crate::import::findings::Findings;
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
-use crate::import::resolve::Findings;
 use crate::import::schema::MechanismFile;
 use crate::model::mechanism::{Expected, Mechanism};
 

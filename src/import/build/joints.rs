@@ -1,26 +1,43 @@
 //! The joints: ends, type, place, the states they act in.
 
 use crate::geom::expr::Expr;
+use crate::import::build::LIMITS;
 use crate::import::build::options::options;
+use crate::import::findings::Findings;
 use crate::import::locate::Step;
 use crate::import::names::{check_id, link_by_id};
 use crate::import::problem::ProblemKind;
 use crate::import::resolve::{
-    Findings, frame, index, joint_type, key, motion_name, number, option, vector, zero3,
+    frame, index, joint_type, key, motion_name, number, option, vector, zero3,
 };
 use crate::import::schema::{JointEntry, MechanismFile, Unloading, Words};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, Joint, JointOption, Link};
 use itertools::Itertools;
 
+/// Most states of a mechanism.
+const MOST_STATES: usize = 100;
+
 /// The names of the states, `free` first.
-pub(super) fn states(file: &MechanismFile) -> Vec<String> {
+pub(super) fn states(file: &MechanismFile, out: &mut Findings) -> Vec<String> {
     let named = file.joint.iter().flat_map(|j| words(j.state.as_ref()));
-    ["free".to_owned()]
+    let mut states: Vec<String> = ["free".to_owned()]
         .into_iter()
         .chain(named)
         .unique()
-        .collect()
+        .collect();
+    if states.len() > MOST_STATES {
+        out.add(
+            &[Step::Key("joint".to_owned())],
+            ProblemKind::TooMany {
+                what: "states",
+                count: states.len(),
+                limit: MOST_STATES,
+            },
+        );
+        states.truncate(MOST_STATES);
+    }
+    states
 }
 
 pub(super) fn joints(
@@ -89,25 +106,7 @@ fn joint(
     let in_free = states_of.as_ref().is_none_or(|s| s.contains(&0));
     let changeable = in_free && !entry.drive && joint_type != JointType::Fixed;
     let options = options(file, entry, &present, changeable, &at, out);
-    let unloading = match &entry.unloading {
-        None | Some(Unloading::Allowed(false)) => Vec::new(),
-        Some(Unloading::Allowed(true)) => {
-            let from = key(&[Step::Key("search".to_owned())], "unloading");
-            file.search
-                .unloading
-                .iter()
-                .enumerate()
-                .filter_map(|(n, e)| option(&entry.id, &frame, e, &index(&from, n), out))
-                .collect()
-        }
-        Some(Unloading::List(list)) => {
-            let from = key(&at, "unloading");
-            list.iter()
-                .enumerate()
-                .filter_map(|(n, e)| option(&entry.id, &frame, e, &index(&from, n), out))
-                .collect()
-        }
-    };
+    let unloading = unloading(file, entry, &frame, &at, out);
     Some(Joint {
         id: entry.id.clone(),
         links: ends,
@@ -118,6 +117,39 @@ fn joint(
         options,
         unloading,
     })
+}
+
+/// What may be inserted in series with a joint.
+fn unloading(
+    file: &MechanismFile,
+    entry: &JointEntry,
+    frame: &Frame,
+    at: &[Step],
+    out: &mut Findings,
+) -> Vec<JointOption> {
+    let (list, from) = match &entry.unloading {
+        None | Some(Unloading::Allowed(false)) => return Vec::new(),
+        Some(Unloading::Allowed(true)) => {
+            let from = key(&[Step::Key("search".to_owned())], "unloading");
+            (&file.search.unloading, from)
+        }
+        Some(Unloading::List(list)) => (list, key(at, "unloading")),
+    };
+    if list.len() > LIMITS.2 {
+        out.add(
+            &from,
+            ProblemKind::TooMany {
+                what: "unloading joints in one place",
+                count: list.len(),
+                limit: LIMITS.2,
+            },
+        );
+        return Vec::new();
+    }
+    list.iter()
+        .enumerate()
+        .filter_map(|(n, e)| option(&entry.id, frame, e, &index(&from, n), out))
+        .collect()
 }
 
 fn place(entry: &JointEntry, joint_type: &JointType, at: &[Step], out: &mut Findings) -> Frame {

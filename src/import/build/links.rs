@@ -1,10 +1,11 @@
 //! The links.
 
+use crate::import::findings::Findings;
 use crate::import::loads::mass;
 use crate::import::locate::Step;
 use crate::import::names::check_id;
 use crate::import::problem::ProblemKind;
-use crate::import::resolve::{Findings, key};
+use crate::import::resolve::key;
 use crate::import::schema::MechanismFile;
 use crate::model::mechanism::{Link, Role};
 

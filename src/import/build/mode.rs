@@ -1,9 +1,10 @@
 //! Whether the mechanism moves in space or in a plane.
 
 use crate::geom::expr::Expr;
+use crate::import::findings::Findings;
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
-use crate::import::resolve::{Findings, vector};
+use crate::import::resolve::vector;
 use crate::import::schema::MechanismFile;
 use crate::model::mechanism::Mode;
 

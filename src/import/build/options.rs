@@ -1,9 +1,10 @@
 //! What a joint may become.
 
 use crate::import::build::LIMITS;
+use crate::import::findings::Findings;
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
-use crate::import::resolve::{Findings, contains, index, key, option};
+use crate::import::resolve::{contains, index, key, option};
 use crate::import::schema::{JointEntry, MechanismFile, OptionEntry};
 use crate::model::mechanism::JointOption;
 
@@ -42,12 +43,12 @@ pub(super) fn options(
         let path = index(&from, n);
         // A bad entry of the common list would be reported once per joint.
         let (before, Some(option)) = (
-            out.found.len(),
+            out.count(),
             option(&entry.id, &present.frame, item, &path, out),
         ) else {
             continue;
         };
-        if out.found.len() > before || entry.forbid.contains(&option.name) {
+        if out.count() > before || entry.forbid.contains(&option.name) {
             continue;
         }
         let same =

@@ -1,13 +1,15 @@
 //! What the search may change and what it costs.
 
+use crate::import::findings::Findings;
 use crate::import::locate::Step;
 use crate::import::names::{joint_by_id, link_by_id};
 use crate::import::problem::ProblemKind;
-use crate::import::resolve::{Findings, cost, index, key};
+use crate::import::resolve::{cost, index, key};
 use crate::import::schema::MechanismFile;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Mechanism, SearchSpec};
 use itertools::Itertools;
+use std::collections::BTreeSet;
 
 pub(super) fn search(
     file: &MechanismFile,
@@ -43,22 +45,18 @@ pub(super) fn search(
             spec.mirror.push((a, b));
         }
     }
+    let options = mechanism.joints.iter().flat_map(|j| &j.options);
+    let unloading = mechanism.joints.iter().flat_map(|j| &j.unloading);
+    let option_names: BTreeSet<&str> = options.chain(unloading).map(|o| o.name.as_str()).collect();
     for (name, &value) in &file.search.costs {
         let path = key(&key(&at, "costs"), name);
         let Some(milli) = cost(value, &path, out) else {
             continue;
         };
-        let option_names = || {
-            mechanism
-                .joints
-                .iter()
-                .flat_map(|j| j.options.iter().chain(&j.unloading))
-                .map(|o| &o.name)
-        };
         match name.as_str() {
             "change" => spec.costs.change_milli = Some(milli),
             "link" => spec.costs.link_milli = Some(milli),
-            n if JointType::from_name(n).is_some() || option_names().any(|o| o == n) => {
+            n if JointType::from_name(n).is_some() || option_names.contains(n) => {
                 spec.costs.by_type_milli.push((name.clone(), milli));
             }
             _ => {
