@@ -42,24 +42,21 @@ fn scoring(c: &mut Criterion) {
     let mut group = c.benchmark_group("scores of gripper-10 variants under its workload");
     group.throughput(Throughput::Elements(variants.len() as u64));
     group.sample_size(10);
-    group.bench_function("all terms, all threads", |b| {
-        b.iter(|| {
-            variants
-                .par_iter()
-                .map_init(Scratch::default, |s, v| evaluator.scores(v, s).is_ok())
-                .filter(|ok| *ok)
-                .count()
-        })
-    });
-    group.bench_function("all terms, one thread", |b| {
-        let mut s = Scratch::default();
-        b.iter(|| {
-            variants
-                .iter()
-                .filter(|v| evaluator.scores(v, &mut s).is_ok())
-                .count()
-        })
-    });
+    for threads in [1, 2] {
+        let workers = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let workers = workers.build().expect("threads");
+        group.bench_function(format!("all terms, {threads} threads"), |b| {
+            b.iter(|| {
+                workers.install(|| {
+                    variants
+                        .par_iter()
+                        .map_init(Scratch::default, |s, v| evaluator.scores(v, s).is_ok())
+                        .filter(|ok| *ok)
+                        .count()
+                })
+            })
+        });
+    }
     group.throughput(Throughput::Elements(100));
     group.bench_function("by realizing each and singular values, one thread", |b| {
         b.iter(|| {

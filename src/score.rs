@@ -21,5 +21,6 @@ pub mod joint_types;
 pub mod pareto;
 pub mod ranking;
 pub mod slow;
+pub mod spectrum;
 pub mod table;
 pub mod terms;

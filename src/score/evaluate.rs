@@ -156,7 +156,8 @@ impl<'s, 'm> Evaluator<'s, 'm> {
                 count += 1;
             }
             for &(k, s) in &place.contours {
-                for &(l, t) in &place.contours {
+                // The upper triangle is enough.
+                for &(l, t) in place.contours.iter().filter(|(l, _)| *l >= k) {
                     for a in 0..dim {
                         let from = (k * dim + a) * unknowns + l * dim;
                         let out = &mut scratch.gram[from..from + dim];
@@ -223,7 +224,7 @@ impl<'s, 'm> Evaluator<'s, 'm> {
             }
             out.output_error = out.output_error.max(error.error());
         }
-        out.conditioning = scratch.conditioning(unknowns);
+        out.conditioning = scratch.spectrum.conditioning(&mut scratch.gram, unknowns);
         Ok(Some(out))
     }
 }
