@@ -17,6 +17,7 @@
 
 pub mod elimination;
 pub mod evaluate;
+pub mod floor;
 pub mod joint_types;
 pub mod pareto;
 pub mod ranking;

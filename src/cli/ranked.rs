@@ -3,12 +3,11 @@
 use super::args::Search as SearchArgs;
 use crate::model::ranking::{Ranking, Term};
 use crate::score::evaluate::Evaluator;
-use crate::score::ranking::{RankedPool, rank};
+use crate::score::ranking::{RankedPool, Ranker};
 use crate::search::building::Diagrams;
 use crate::search::diagram::Stop;
 use crate::search::request::Search;
 use anyhow::{Context, bail, ensure};
-use std::ops::ControlFlow;
 
 /// Largest pool.
 const MOST: usize = 100_000_000;
@@ -59,17 +58,16 @@ pub(super) fn pool(
     );
     let evaluator = Evaluator::new(search, ranking.clearance)
         .with_context(|| format!("cannot score variants of {}", search.mechanism.name))?;
-    let mut variants = Vec::new();
-    search.cheapest(diagrams, a.pool + 1, |v| {
-        variants.push(v);
-        ControlFlow::Continue(())
-    });
-    let exhausted = diagrams.stop() == Stop::Exhausted;
-    let all = exhausted && variants.len() <= a.pool;
-    variants.truncate(a.pool);
     // Further poses may drop some of the best, so that others must stand by.
     let top = if a.generic_only { a.pool } else { a.top };
-    let mut out = rank(&evaluator, &ranking, &variants, a.pool, all, top);
+    let mut ranker = Ranker::new(&evaluator, &ranking, a.pool, top);
+    let mut given = 0;
+    search.cheapest(diagrams, a.pool + 1, |v| {
+        given += 1;
+        ranker.take(v)
+    });
+    let exhausted = diagrams.stop() == Stop::Exhausted;
+    let mut out = ranker.finish(exhausted && given <= a.pool);
     if !exhausted {
         (out.proven, out.proof) = (false, "the search stopped early");
     }

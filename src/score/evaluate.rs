@@ -6,12 +6,12 @@ use crate::redundancy::analysis::{AnalysisError, Method, analyse};
 use crate::score::elimination::{Ended, Scratch};
 use crate::score::joint_types::JointTypes;
 use crate::score::table::Table;
-use crate::score::terms::{ErrorSum, Peak, Scores, across, output_points};
+use crate::score::terms::{ErrorSum, Peak, Scores, output_points};
 use crate::search::best::Variant;
 use crate::search::request::Search;
 use crate::workload::reactions::drives::{Driven, driven};
 use crate::workload::reactions::follow::{Followed, follow};
-use crate::workload::reactions::geometry::{Geometry, Six, about, dot};
+use crate::workload::reactions::geometry::{Geometry, dot};
 use crate::workload::reactions::{Unsolved, period};
 use thiserror::Error;
 
@@ -112,6 +112,10 @@ impl<'s, 'm> Evaluator<'s, 'm> {
         worst.map_or_else(|| self.slowly(variant), Ok)
     }
 
+    pub(super) fn tables(&self) -> &[Table] {
+        &self.tables
+    }
+
     /// What needs no equations.
     pub(super) fn plain(&self, variant: &Variant) -> Scores {
         Scores {
@@ -180,29 +184,10 @@ impl<'s, 'm> Evaluator<'s, 'm> {
         }
         let mut out = self.plain(variant);
         let mut errors = vec![ErrorSum::new(self.clearance); self.outputs.len()];
-        let forces = |place: &super::table::Place, case: usize| -> Six {
-            let mut w = place.along_tree[case];
-            for &(k, sign) in &place.contours {
-                for (b, i) in table.basis.iter().zip(k * dim..) {
-                    let x = sign * scratch.solution[i * table.cases + case];
-                    for (w, b) in w.iter_mut().zip(b) {
-                        *w += x * b;
-                    }
-                }
-            }
-            w
-        };
+        let x = &scratch.solution;
         for place in &table.places {
-            let w = about(&forces(place, 0), place.point);
-            let (mut f, mut m) = ([w[3], w[4], w[5]], [w[0], w[1], w[2]]);
-            if let Some((axis, shift)) = place.held {
-                if shift {
-                    f = across(f, axis);
-                } else {
-                    m = across(m, axis);
-                }
-            }
-            let (f, m) = (dot(f, f).sqrt(), dot(m, m).sqrt() * table.size);
+            let (f, m) = table.borne(place, &table.wrench(place, 0, x));
+            let (f, m) = (dot(f, f).sqrt(), dot(m, m).sqrt());
             for &(force, moment) in &cell(place).bears {
                 out.force.raise(f, force, place.joint);
                 if let Some(moment) = moment {
@@ -213,11 +198,7 @@ impl<'s, 'm> Evaluator<'s, 'm> {
         for (o, error) in errors.iter_mut().enumerate() {
             for axis in 0..3 {
                 for place in &table.places {
-                    let w = forces(place, 1 + 3 * o + axis);
-                    let mut f = [w[3], w[4], w[5]];
-                    if let Some((axis, true)) = place.held {
-                        f = across(f, axis);
-                    }
+                    let (f, _) = table.borne(place, &table.wrench(place, 1 + 3 * o + axis, x));
                     error.joint(cell(place).clearance, dot(f, f));
                 }
                 error.end_axis();

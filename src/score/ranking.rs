@@ -10,6 +10,7 @@ use crate::search::best::Variant;
 use crate::workload::reactions::Unsolved;
 use rayon::prelude::*;
 use std::cmp::Ordering;
+use std::ops::ControlFlow;
 
 /// Variants scored between two looks at the proof.
 const BLOCK: usize = 4096;
@@ -90,16 +91,23 @@ pub fn compare(ranking: &Ranking, a: &Ranked, b: &Ranked) -> Ordering {
     by_order.then(a.by_cost.cmp(&b.by_cost))
 }
 
-/// Whether a variant of at least this cost could still come before the last of `list`: the proof where it could not.
-fn settled(ranking: &Ranking, list: &[Ranked], least_milli: i64) -> Option<&'static str> {
+/// Whether a variant of at least this cost, and with the other terms at least `floor`, could still come before the last of
+/// `list`: the proof where it could not.
+fn settled(
+    ranking: &Ranking,
+    list: &[Ranked],
+    least_milli: i64,
+    floor: f64,
+) -> Option<&'static str> {
     let last = list.last()?;
     #[allow(clippy::cast_precision_loss, reason = "costs are small")]
     let least = least_milli as f64 / 1000.0;
     match ranking.order {
         Order::Weighted => {
             let weight = ranking.terms.iter().find(|(t, _)| *t == Term::Cost)?.1;
-            (weight > 0.0 && weight * least >= weighted(ranking, &last.scores)).then_some(
-                "cost alone puts every later variant behind, the other terms being at least 0",
+            let behind = weight * least + floor >= weighted(ranking, &last.scores);
+            (weight > 0.0 && behind).then_some(
+                "cost puts every later variant behind, with the least the other terms can be",
             )
         }
         Order::Lexicographic => {
@@ -118,97 +126,142 @@ fn score_all(evaluator: &Evaluator<'_, '_>, pool: &[Variant]) -> Vec<Result<Scor
         .collect()
 }
 
-/// Ranks a pool of variants given in order of cost, and gives the best `top`. `all` says that the pool holds every
-/// admissible variant.
-///
-/// # Complexity
-/// One scoring a variant, in parallel; then a sort, or for Pareto's order O(pool · front).
-#[must_use]
-pub fn rank(
-    evaluator: &Evaluator<'_, '_>,
-    ranking: &Ranking,
-    pool: &[Variant],
-    limit: usize,
-    all: bool,
+/// Ranks variants given one by one in order of cost, and keeps the best: no more of them are held than a block, and in
+/// Pareto's order all.
+#[derive(Debug)]
+pub struct Ranker<'e, 's, 'm> {
+    evaluator: &'e Evaluator<'s, 'm>,
+    /// Least weighted sum of the terms but cost.
+    floor: f64,
     top: usize,
-) -> RankedPool {
-    let cost = |v: &Variant| evaluator.search.steps.milli(v.key.cost());
-    let mut out = RankedPool {
-        list: Vec::new(),
-        ranking: ranking.clone(),
-        pool: limit,
-        scored: 0,
-        unheld: 0,
-        limited: 0,
-        open: 0,
-        proven: all,
-        proof: if all {
-            "every admissible variant was scored"
-        } else {
-            "dearer variants were not looked at"
-        },
-        cheapest: None,
-        poses: evaluator.poses.poses.len(),
-        stroke_stopped: evaluator.poses.stopped,
-    };
-    let mut kept: Vec<Ranked> = Vec::new();
-    for block in pool.chunks(BLOCK) {
-        for (variant, scores) in block.iter().zip(score_all(evaluator, block)) {
-            out.scored += 1;
+    block: Vec<Variant>,
+    kept: Vec<Ranked>,
+    out: RankedPool,
+}
+
+impl<'e, 's, 'm> Ranker<'e, 's, 'm> {
+    /// For a pool of at most `limit` variants, of which the best `top` are wanted.
+    #[must_use]
+    pub fn new(
+        evaluator: &'e Evaluator<'s, 'm>,
+        ranking: &Ranking,
+        limit: usize,
+        top: usize,
+    ) -> Self {
+        let floor = match ranking.order {
+            Order::Weighted => evaluator.floor().weighted(ranking),
+            Order::Lexicographic | Order::Pareto => 0.0,
+        };
+        Ranker {
+            evaluator,
+            floor,
+            top,
+            block: Vec::new(),
+            kept: Vec::new(),
+            out: RankedPool {
+                list: Vec::new(),
+                ranking: ranking.clone(),
+                pool: limit,
+                scored: 0,
+                unheld: 0,
+                limited: 0,
+                open: 0,
+                proven: false,
+                proof: "dearer variants were not looked at",
+                cheapest: None,
+                poses: evaluator.poses.poses.len(),
+                stroke_stopped: evaluator.poses.stopped,
+            },
+        }
+    }
+
+    /// Takes the next variant; breaks once no later one can be among the best, or the pool is full.
+    pub fn take(&mut self, variant: Variant) -> ControlFlow<()> {
+        if self.out.proven || self.out.scored + self.block.len() >= self.out.pool {
+            return ControlFlow::Break(());
+        }
+        self.block.push(variant);
+        if self.block.len() == BLOCK {
+            self.score();
+        }
+        if self.out.proven {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Scores the block in parallel and keeps what may be among the best.
+    fn score(&mut self) {
+        let block = std::mem::take(&mut self.block);
+        let ranking = &self.out.ranking;
+        for (variant, scores) in block.iter().zip(score_all(self.evaluator, &block)) {
+            self.out.scored += 1;
             let Ok(scores) = scores else {
-                out.unheld += 1;
+                self.out.unheld += 1;
                 continue;
             };
-            out.open += usize::from(scores.minimum_norm);
+            self.out.open += usize::from(scores.minimum_norm);
             let ranked = Ranked {
                 variant: variant.clone(),
-                by_cost: out.scored,
+                by_cost: self.out.scored,
                 scores,
                 total: (ranking.order == Order::Weighted).then(|| weighted(ranking, &scores)),
                 front: None,
             };
-            if out.cheapest.is_none() {
-                out.cheapest = Some(ranked.clone());
+            if self.out.cheapest.is_none() {
+                self.out.cheapest = Some(ranked.clone());
             }
             if within(ranking, &scores) {
-                kept.push(ranked);
+                self.kept.push(ranked);
             } else {
-                out.limited += 1;
+                self.out.limited += 1;
             }
         }
         if ranking.order == Order::Pareto {
-            continue;
+            return;
         }
-        kept.sort_by(|a, b| compare(ranking, a, b));
-        if kept.len() >= top.max(1)
+        let top = self.top.max(1);
+        self.kept.sort_by(|a, b| compare(ranking, a, b));
+        if self.kept.len() >= top
             && let Some(last) = block.last()
-            && let Some(proof) = settled(ranking, &kept[..top.max(1)], cost(last))
         {
-            (out.proven, out.proof) = (true, proof);
-            break;
+            let cost = self.evaluator.search.steps.milli(last.key.cost());
+            if let Some(proof) = settled(ranking, &self.kept[..top], cost, self.floor) {
+                (self.out.proven, self.out.proof) = (true, proof);
+            }
         }
         // What is behind the best so far stays behind.
-        kept.truncate(top.max(1));
+        self.kept.truncate(top);
     }
-    if ranking.order == Order::Pareto {
-        let points: Vec<Vec<f64>> = kept
-            .iter()
-            .map(|r| {
-                ranking
-                    .terms
-                    .iter()
-                    .map(|(t, _)| r.scores.loss(*t))
-                    .collect()
-            })
-            .collect();
-        for (r, front) in kept.iter_mut().zip(fronts(&points, top)) {
-            r.front = front.map(|f| f + 1);
+
+    /// The ranked pool. `all` says that every admissible variant was given.
+    ///
+    /// # Complexity
+    /// One scoring a variant, in parallel, and a sort a block; for Pareto's order O(pool · front).
+    #[must_use]
+    pub fn finish(mut self, all: bool) -> RankedPool {
+        if !self.block.is_empty() {
+            self.score();
         }
-        kept.sort_by(|a, b| compare(ranking, a, b));
+        if all && !self.out.proven {
+            (self.out.proven, self.out.proof) = (true, "every admissible variant was scored");
+        }
+        let ranking = &self.out.ranking;
+        if ranking.order == Order::Pareto {
+            let point = |r: &Ranked| -> Vec<f64> {
+                let terms = ranking.terms.iter();
+                terms.map(|(t, _)| r.scores.loss(*t)).collect()
+            };
+            let points: Vec<Vec<f64>> = self.kept.iter().map(point).collect();
+            for (r, front) in self.kept.iter_mut().zip(fronts(&points, self.top)) {
+                r.front = front.map(|f| f + 1);
+            }
+            self.kept.sort_by(|a, b| compare(ranking, a, b));
+        }
+        self.kept.truncate(self.top);
+        self.out.list = self.kept;
+        self.out
     }
-    kept.truncate(top);
-    out.list = kept;
-    out
 }
 
 /// 1st, 2nd, 3rd, 4th.

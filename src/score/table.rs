@@ -6,12 +6,12 @@ use crate::geom::scalars::Reals;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism};
 use crate::score::joint_types::JointTypes;
-use crate::score::terms::axis_of;
+use crate::score::terms::{across, axis_of};
 use crate::search::request::Search;
 use crate::workload::reactions::Unsolved;
 use crate::workload::reactions::applied::link_loads;
 use crate::workload::reactions::drives::Driven;
-use crate::workload::reactions::geometry::{Geometry, Six, cross, power, wrench};
+use crate::workload::reactions::geometry::{Geometry, Six, about, cross, power, wrench};
 
 /// What a choice puts at one joint.
 #[derive(Debug, Clone)]
@@ -139,6 +139,35 @@ impl Table {
             cells,
             scale,
         })
+    }
+
+    /// Wrench of a place in a load case, for the contours' wrenches `x`, unknowns × cases.
+    pub(super) fn wrench(&self, place: &Place, case: usize, x: &[f64]) -> Six {
+        let dim = self.basis.len();
+        let mut w = place.along_tree[case];
+        for &(k, sign) in &place.contours {
+            for (b, i) in self.basis.iter().zip(k * dim..) {
+                let x = sign * x[i * self.cases + case];
+                for (w, b) in w.iter_mut().zip(b) {
+                    *w += x * b;
+                }
+            }
+        }
+        w
+    }
+
+    /// Force `[N]` and moment about the place `[N·m]` of a wrench, without what a drive bears.
+    pub(super) fn borne(&self, place: &Place, wrench: &Six) -> ([f64; 3], [f64; 3]) {
+        let w = about(wrench, place.point);
+        let (mut f, mut m) = ([w[3], w[4], w[5]], [w[0], w[1], w[2]]);
+        if let Some((axis, shift)) = place.held {
+            if shift {
+                f = across(f, axis);
+            } else {
+                m = across(m, axis);
+            }
+        }
+        (f, m.map(|x| x * self.size))
     }
 }
 

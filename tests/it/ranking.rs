@@ -11,7 +11,7 @@ use ozols::score::elimination::Scratch;
 use ozols::score::evaluate::Evaluator;
 use ozols::score::joint_types::JointTypes;
 use ozols::score::pareto::{dominates, fronts};
-use ozols::score::ranking::{RankedPool, compare, rank, weighted};
+use ozols::score::ranking::{RankedPool, Ranker, compare, weighted};
 use ozols::search::best::Variant;
 use ozols::search::request::{Request, Search};
 use proptest::prelude::*;
@@ -143,7 +143,13 @@ const TERMS: [(Term, f64); 3] = [
 fn ranked(m: &Mechanism, r: &Ranking, n: usize, top: usize) -> RankedPool {
     let s = search(m, 0);
     let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
-    rank(&e, r, &cheapest(&s, n), n, false, top)
+    let mut ranker = Ranker::new(&e, r, n, top);
+    for v in cheapest(&s, n) {
+        if ranker.take(v).is_break() {
+            break;
+        }
+    }
+    ranker.finish(false)
 }
 
 #[test]
@@ -206,6 +212,42 @@ fn a_proof_holds_for_a_pool_ten_times_as_large() {
         3,
     );
     assert!(!none.proven);
+}
+
+/// No variant is better in any term than the bounds say, and the bounds say something.
+#[test]
+fn no_variant_is_below_the_floor() {
+    let m = loaded();
+    for (clearance, redundant) in [
+        (ClearanceSum::Worst, 0),
+        (ClearanceSum::Rms, 0),
+        (ClearanceSum::Worst, 3),
+    ] {
+        let s = search(&m, redundant);
+        let e = Evaluator::new(&s, clearance).unwrap();
+        let floor = e.floor();
+        assert!(floor.force > 0.0 && floor.output_error > 0.0, "{floor:?}");
+        let mut scratch = Scratch::default();
+        let mut variants = cheapest(&s, 2000 / (1 + 9 * redundant as usize));
+        variants.extend(sampled(&s, 2000 / (1 + 9 * redundant as usize)));
+        let mut least = [f64::INFINITY; 3];
+        for v in &variants {
+            let Ok(scores) = e.scores(v, &mut scratch) else {
+                continue;
+            };
+            let found = [
+                scores.force.utilisation,
+                scores.moment.utilisation,
+                scores.output_error,
+            ];
+            for (l, f) in least.iter_mut().zip(found) {
+                *l = l.min(f);
+            }
+        }
+        eprintln!("{floor:?} {least:?}");
+        assert!(floor.force <= least[0] && floor.moment <= least[1]);
+        assert!(floor.output_error <= least[2], "{floor:?} {least:?}");
+    }
 }
 
 #[test]
