@@ -2,6 +2,7 @@
 
 use crate::closure::contour::closed_walk;
 use crate::geom::expr::Expr;
+use crate::import::coupling::couplings;
 use crate::import::drive::drive;
 use crate::import::grip::grip;
 use crate::import::loads::{loads, mass};
@@ -59,6 +60,7 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     for (what, count, limit) in [
         ("links", file.link.len(), LIMITS.0),
         ("joints", file.joint.len(), LIMITS.1),
+        ("couplings", file.coupling.len(), LIMITS.1),
     ] {
         if count > limit {
             return Err(vec![(
@@ -119,6 +121,7 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
         mode,
         links,
         joints,
+        couplings: Vec::new(),
         states,
         contours: Vec::new(),
         search: SearchSpec::default(),
@@ -128,6 +131,7 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
         expected: Vec::new(),
     };
     connected(&mechanism, &mut out);
+    couplings(file, &mut mechanism, &mut out);
     mechanism.contours = contours(file, &mechanism, &mut out);
     mechanism.search = search(file, &mechanism, &mut out);
     mechanism.loads = loads(file, &mechanism, &mut out);

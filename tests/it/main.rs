@@ -8,6 +8,7 @@ mod certificates;
 mod certify;
 mod cli;
 mod contours;
+mod couplings;
 mod drawings;
 mod drive;
 mod drive_command;
