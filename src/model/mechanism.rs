@@ -205,6 +205,12 @@ impl Mechanism {
             .filter(move |c| c.ends.iter().all(|e| present(e.joint)))
     }
 
+    /// The couplings of a joint, by index, each with the end that is this joint's.
+    pub fn couplings_of(&self, joint: JointId) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let of = move |(q, c): (usize, &Coupling)| Some((q, c.end_at(joint)?));
+        self.couplings.iter().enumerate().filter_map(of)
+    }
+
     /// The frame link.
     ///
     /// # Panics

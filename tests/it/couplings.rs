@@ -366,3 +366,169 @@ fn the_file_comes_back_from_export() {
         m.couplings[0].ratio.to_string()
     );
 }
+
+/// Couplings survive as mimic joints, with lengths in metres; those of joints that close loops, or that a tree of mimic
+/// joints cannot hold, are comments.
+#[test]
+fn exported_as_mimic_joints() {
+    use ozols::export;
+    let m = mechanism(&pair(SLIDE, TURN, &coupled("a", "b", "\"1/20\"")));
+    let urdf = export::urdf(&m).unwrap();
+    // 1/20 rad a mm is 50 rad a m.
+    assert!(
+        urdf.contains("<mimic joint=\"a\" multiplier=\"50\" offset=\"0\"/>"),
+        "{urdf}"
+    );
+    let sdf = export::sdf(&m);
+    assert!(
+        sdf.contains("<sdf version=\"1.11\">") && sdf.contains("<multiplier>50</multiplier>"),
+        "{sdf}"
+    );
+    let gear = builtin("planetary-gear");
+    let sdf = export::sdf(&gear);
+    assert_eq!(
+        (
+            sdf.matches("<mimic ").count(),
+            sdf.matches("<!-- coupled, ").count()
+        ),
+        (4, 2),
+        "{sdf}"
+    );
+    assert!(!sdf.contains('\0'));
+    let urdf = export::urdf(&builtin("geared-gripper")).unwrap();
+    assert!(
+        urdf.contains("<mimic joint=\"0-1\" multiplier=\"-1\" offset=\"0\"/>"),
+        "{urdf}"
+    );
+}
+
+const MJCF: &str = r#"<mujoco><worldbody>
+  <body name="1"><joint name="a" type="hinge" axis="0 0 2"/><geom size="1"/>
+    <body name="2" pos="1 0 0"><joint name="b" type="slide" axis="1 0 0"/><geom size="1"/></body></body>
+  <body name="3" pos="0 1 0"><joint name="c" type="hinge" axis="0 1 1"/><geom size="1"/></body>
+</worldbody><equality>EQUALITY</equality></mujoco>"#;
+
+fn mjcf(equality: &str) -> ozols::robot::Imported {
+    let text = MJCF.replace("EQUALITY", equality);
+    let none = |_: &str| Err(std::io::Error::other("no files"));
+    ozols::robot::import(
+        "x.xml",
+        text.as_bytes(),
+        &none,
+        &ozols::robot::Options::default(),
+    )
+    .unwrap()
+}
+
+/// MuJoCo: joint1 = c0 + c1 joint2 + ...; the linear ones are couplings, the others are left out and said so.
+#[test]
+fn equalities_of_mujoco() {
+    let i = mjcf(
+        r#"<joint joint1="b" joint2="a" polycoef="0.1 -0.25"/><joint joint1="c" joint2="a"/>"#,
+    );
+    let m = mechanism(&i.toml);
+    let ends = |q: usize| m.couplings[q].ends.map(|e| m.joints[e.joint].id.as_str());
+    assert_eq!((ends(0), ends(1)), (["a", "b"], ["a", "c"]));
+    assert_eq!([0, 1].map(|q| m.couplings[q].ratio.to_f64()), [-0.25, 1.0]);
+    let kept = i.report.kept.unwrap();
+    assert_eq!((kept.couplings, kept.mobility), (2, Some((3, 1))));
+    // Rates are those of the joints, whatever the length of their axes.
+    let rows = ozols::closure::coupling::coefficients(&m, 0);
+    assert!(
+        rows.iter()
+            .zip([0.25, -1.0])
+            .all(|(x, y)| (x.to_f64() - y).abs() < 1e-12)
+    );
+    for (equality, why) in [
+        (
+            r#"<joint joint1="b" joint2="a" polycoef="0 1 0.5 0 0"/>"#,
+            "it is not linear",
+        ),
+        (
+            r#"<joint joint1="b" joint2="a" polycoef="0 0"/>"#,
+            "times 0",
+        ),
+        (r#"<joint joint1="b"/>"#, "equality to a constant"),
+    ] {
+        let i = mjcf(equality);
+        assert_eq!(
+            (i.report.coupling_rows, i.report.kept),
+            (1, None),
+            "{equality}"
+        );
+        assert!(
+            i.report.text("x.xml").contains(why),
+            "{}",
+            i.report.text("x.xml")
+        );
+        assert_eq!(exact(&mechanism(&i.toml)).mobility, 3);
+    }
+}
+
+#[test]
+fn drawn_as_a_dashed_line() {
+    for kind in ["scheme", "kinematic"] {
+        let o = ozols(&["draw", "geared-gripper", "--kind", kind])
+            .output()
+            .unwrap();
+        let svg = String::from_utf8(o.stdout).unwrap();
+        assert!(
+            svg.contains("coupled joints") && svg.contains("Coupled: 0-1 ~ 0-4, ratio -1."),
+            "{kind}"
+        );
+    }
+}
+
+/// Gears between the fingers of a gripper stay in every redesign, and the counts know them.
+#[test]
+fn redesigns_of_a_geared_gripper() {
+    let run = |name: &str| {
+        let o = ozols(&["search", name, "--top", "3", "--format", "json"])
+            .output()
+            .unwrap();
+        assert_eq!(
+            o.status.code(),
+            Some(0),
+            "{}",
+            String::from_utf8_lossy(&o.stderr)
+        );
+        serde_json::from_slice::<serde_json::Value>(&o.stdout).unwrap()
+    };
+    let geared = run("geared-five-bar");
+    let best = &geared["variants"][0];
+    assert_eq!(
+        (&best["mobility"], &best["redundant"]),
+        (&1.into(), &0.into()),
+        "{best}"
+    );
+    assert_eq!(run("geared-gripper")["variants"][0]["redundant"], 0);
+}
+
+#[test]
+fn couplings_have_mirror_images() {
+    use ozols::redundancy::analysis::exact_field;
+    use ozols::search::request::{Request, Search, Symmetry};
+    let text = pair(
+        TURN,
+        TURN,
+        "[search]\noptions = [\"cylindrical\"]\nmirror = [[\"a\", \"b\"]]\n",
+    );
+    let with = |ratio: &str| {
+        mechanism(&text.replacen("[search]", &(coupled("a", "b", ratio) + "[search]"), 1))
+    };
+    let request = || Request {
+        symmetry: Symmetry::OnePerOrbit,
+        ..Request::default()
+    };
+    let made = |m: &Mechanism| {
+        Search::new(exact_field(m, 0).unwrap(), m, request())
+            .map(|_| ())
+            .map_err(|e| e.to_string())
+    };
+    assert_eq!(made(&with("-1")), Ok(()));
+    assert!(
+        made(&with("2"))
+            .unwrap_err()
+            .contains("their mirror images are not")
+    );
+}
