@@ -1,6 +1,7 @@
 //! Loop closure: which contours a mechanism has, and the matrix that says how joint speeds must agree round them.
 
 pub mod contour;
+pub mod coupling;
 pub mod matrix;
 pub mod pose;
 pub mod stroke;

@@ -4,6 +4,7 @@
 //! same bytes for the same input. Labels never touch each other or a symbol; where there is no room beside what they
 //! name, they stand farther away on a leader.
 
+mod couplings;
 mod crowding;
 mod ground;
 mod kinematic;

@@ -2,6 +2,7 @@
 
 mod file;
 mod graph;
+mod mimic;
 mod parts;
 mod sdf;
 mod urdf;

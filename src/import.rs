@@ -1,6 +1,7 @@
 //! From text to a validated mechanism, with every problem found pointed at.
 
 pub mod build;
+mod coupling;
 pub mod drive;
 pub mod findings;
 pub mod grip;

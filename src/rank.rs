@@ -22,6 +22,7 @@ pub mod stroke;
 pub mod subgroup;
 pub mod trace;
 
+use crate::closure::coupling::coefficients;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::expr::Expr;
 use crate::model::mechanism::{Frame, Mechanism, Mode, StateId};
@@ -56,7 +57,9 @@ pub fn field_of(
     let frames = mechanism
         .joints_in(state)
         .map(|j| &mechanism.joints[j].frame);
-    ExactField::for_expressions(frames.flat_map(coordinates).chain(normal(mechanism)), nth)
+    let couplings = coefficients(mechanism, state);
+    let of_frames = frames.flat_map(coordinates);
+    ExactField::for_expressions(of_frames.chain(normal(mechanism)).chain(&couplings), nth)
 }
 
 /// How sure the rank of an analysis is.

@@ -7,6 +7,7 @@
 
 mod build;
 mod close;
+mod coupling;
 mod emit;
 mod kinematics;
 mod loops;
@@ -20,7 +21,7 @@ mod warning;
 mod xml;
 
 pub use parts::Format;
-pub use warning::{Note, Report};
+pub use warning::{Kept, Note, Report};
 
 use crate::import::problem::ImportError;
 use crate::import::text::mechanism_from_str;
@@ -118,7 +119,8 @@ pub fn import(
     close_loops(&mut robot, &tree, options).map_err(fail)?;
     let toml = write(&mut robot, &tree, name, options).map_err(fail)?;
     // What is written must read back; limits on size are found here.
-    mechanism_from_str("the imported mechanism", &toml)?;
+    let mechanism = mechanism_from_str("the imported mechanism", &toml)?;
+    robot.report.kept = coupling::kept(&mechanism);
     Ok(Imported {
         toml,
         format: robot.format,

@@ -1,6 +1,7 @@
-//! The loop-closure matrix J: rows of closed contours, one column per joint freedom.
+//! The loop-closure matrix J: rows of closed contours, then one row per coupling; one column per joint freedom.
 
 use crate::closure::contour::{Contour, contour_basis};
+use crate::closure::coupling::coefficient;
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
@@ -20,7 +21,15 @@ pub struct Column<N> {
     pub twist: Vec<N>,
 }
 
-/// J of a state, kept as its columns and contours: entry blocks are ± the twist where the contour passes the joint.
+/// The row of a coupling: entries at the columns of the two freedoms.
+#[derive(Debug, Clone)]
+pub struct CouplingRow<N> {
+    /// The columns, with the entry there.
+    pub entries: [(usize, N); 2],
+}
+
+/// J of a state, kept as its columns, contours and couplings: entry blocks are ± the twist where the contour passes the
+/// joint.
 #[derive(Debug, Clone)]
 pub struct Closure<N> {
     /// The state.
@@ -31,6 +40,8 @@ pub struct Closure<N> {
     pub contours: Vec<Contour>,
     /// The columns, grouped by joint in file order.
     pub columns: Vec<Column<N>>,
+    /// The couplings of the state, in file order.
+    pub couplings: Vec<CouplingRow<N>>,
     /// Where the joints are and how far apart, in real numbers.
     pub extent: Option<Extent>,
     /// Joints whose freedoms out of the plane were left out, with how many (planar mode only).
@@ -75,6 +86,7 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
                 twist,
             }));
         }
+        let couplings = coupling_rows(s, mechanism, state, &columns)?;
         let points: Vec<&[Expr; 3]> = mechanism
             .joints_in(state)
             .map(|j| &mechanism.joints[j].frame.point)
@@ -85,17 +97,24 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
             dim: space.dim(),
             contours,
             columns,
+            couplings,
             left_out,
         })
     }
 
-    /// Number of rows, 6k (3k in a plane).
+    /// Number of rows, 6k + c for c couplings (3k + c in a plane).
     #[must_use]
     pub fn rows(&self) -> usize {
+        self.contour_rows() + self.couplings.len()
+    }
+
+    /// Number of rows of the contours, 6k (3k in a plane).
+    #[must_use]
+    pub fn contour_rows(&self) -> usize {
         self.dim * self.contours.len()
     }
 
-    /// Column `c` written out in full, for the chosen contours in the given order.
+    /// The contour rows of column `c` written out in full, for the chosen contours in the given order.
     pub fn dense_column<S: Scalars<Number = N>>(
         &self,
         s: &S,
@@ -121,9 +140,18 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
     /// J written out, as a list of columns.
     pub fn dense<S: Scalars<Number = N>>(&self, s: &S) -> Vec<Vec<N>> {
         let all: Vec<usize> = (0..self.contours.len()).collect();
-        (0..self.columns.len())
+        let mut columns: Vec<Vec<N>> = (0..self.columns.len())
             .map(|c| self.dense_column(s, c, &all))
-            .collect()
+            .collect();
+        for coupling in &self.couplings {
+            columns.iter_mut().for_each(|c| c.push(N::default()));
+            for (c, entry) in &coupling.entries {
+                if let Some(last) = columns[*c].last_mut() {
+                    *last = entry.clone();
+                }
+            }
+        }
+        columns
     }
 
     /// For each column, the twist it gives a link when the joint moves at unit speed along the path from the frame:
@@ -148,6 +176,31 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
             })
             .collect()
     }
+}
+
+/// The rows of a state's couplings.
+fn coupling_rows<N: Clone + Default + PartialEq, S: Scalars<Number = N>>(
+    s: &S,
+    mechanism: &Mechanism,
+    state: StateId,
+    columns: &[Column<N>],
+) -> Result<Vec<CouplingRow<N>>, ExactError> {
+    let mut rows = Vec::new();
+    for coupling in mechanism.couplings_in(state) {
+        let at = coupling.ends.map(|e| {
+            columns
+                .iter()
+                .position(|c| (c.joint, c.freedom) == (e.joint, e.freedom))
+        });
+        // The importer sees to it that coupled freedoms are there.
+        if let [Some(a), Some(b)] = at {
+            let first = s.eval(&coefficient(mechanism, coupling))?;
+            rows.push(CouplingRow {
+                entries: [(a, first), (b, s.eval(&Expr::from(1))?)],
+            });
+        }
+    }
+    Ok(rows)
 }
 
 /// Joints on a shortest path from the frame to a link, with the direction they are passed in; empty where there is none.

@@ -1,4 +1,5 @@
-//! Poses of a closed mechanism: every contour as a product of exponentials, and Newton's method to close them.
+//! Poses of a closed mechanism: every contour as a product of exponentials, every coupling as a linear equation, and
+//! Newton's method to close them.
 //!
 //! Each freedom is one unit twist at a reference pose; a contour is closed at coordinates q when the product of
 //! exp(±q_i ξ_i) along it is the identity [Brockett 1984; Lynch & Park, "Modern Robotics", 2017, ch. 4 and 7]. Within a
@@ -12,6 +13,7 @@ use super::twist::{FrameValues, MotionSpace, Twist};
 use crate::geom::exact::ExactError;
 use crate::geom::extent::Extent;
 use crate::geom::scalars::Reals;
+use crate::model::coupling::{CoupledFreedom, Coupling};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use faer::Mat;
@@ -181,6 +183,8 @@ pub struct Pose {
     accuracy: f64,
     /// Contours as (column, direction).
     contours: Vec<Walk>,
+    /// Couplings as sums of two coordinates with factors, of unit length, that must stay zero.
+    couplings: Vec<[(usize, f64); 2]>,
     /// Links in the order they are reached from the frame: link, the joint that leads to it, its columns in order.
     tree: Vec<(LinkId, LinkId, Walk)>,
     /// First link of every column's joint, and the columns of that joint before it.
@@ -257,6 +261,10 @@ impl Pose {
                 of_joint[j].iter().rev().map(|&c| (c, -1.0)).collect()
             }
         };
+        let couplings = mechanism
+            .couplings_in(state)
+            .filter_map(|c| coupled(c, &columns, length))
+            .collect();
         let contours = contour_basis(mechanism, state)
             .iter()
             .map(|c: &Contour| c.joints.iter().flat_map(|&(j, d)| walk(j, d)).collect())
@@ -284,6 +292,7 @@ impl Pose {
             links: vec![Displacement::IDENTITY; mechanism.links.len()],
             accuracy: 0.0,
             contours,
+            couplings,
             tree,
             base,
         })
@@ -308,13 +317,20 @@ impl Pose {
         CLOSED.max(10.0 * self.accuracy)
     }
 
-    /// Rows of the closure equations, 6 per contour.
+    /// Rows of the closure equations, 6 per contour and one per coupling.
     #[must_use]
     pub fn rows(&self) -> usize {
-        6 * self.contours.len()
+        self.constraints(6)
     }
 
-    /// Gaps of the contours at coordinates `q` from this pose, six numbers each.
+    /// Rows of the closure matrix with so many per contour, 6 or 3, and one per coupling.
+    #[must_use]
+    pub fn constraints(&self, dim: usize) -> usize {
+        dim * self.contours.len() + self.couplings.len()
+    }
+
+    /// Gaps of the contours at coordinates `q` from this pose, six numbers each, then those of the couplings since the
+    /// pose of the file.
     #[must_use]
     pub fn gaps(&self, q: &[f64]) -> Vec<f64> {
         let mut out = Vec::with_capacity(self.rows());
@@ -325,10 +341,16 @@ impl Pose {
             }
             out.extend(at.defect());
         }
+        let from_file = |&(c, factor): &(usize, f64)| factor * (self.columns[c].moved + q[c]);
+        out.extend(
+            self.couplings
+                .iter()
+                .map(|c| c.iter().map(from_file).sum::<f64>()),
+        );
         out
     }
 
-    /// J at coordinates `q` from this pose, 6k × f.
+    /// J at coordinates `q` from this pose, (6k + c) × f.
     #[must_use]
     pub fn jacobian(&self, q: &[f64]) -> Mat<f64> {
         let mut matrix = Mat::zeros(self.rows(), self.columns.len());
@@ -340,6 +362,11 @@ impl Pose {
                     matrix[(6 * k + i, c)] += sign * x;
                 }
                 at = at.after(&Displacement::exp(&self.columns[c].twist, sign * q[c]));
+            }
+        }
+        for (row, coupling) in (6 * self.contours.len()..).zip(&self.couplings) {
+            for &(c, factor) in coupling {
+                matrix[(row, c)] = factor;
             }
         }
         matrix
@@ -423,6 +450,23 @@ impl Pose {
         }
         next
     }
+}
+
+/// A coupling in the coordinates of a pose, where slides are counted in `length`.
+fn coupled(coupling: &Coupling, columns: &[PoseColumn], length: f64) -> Option<[(usize, f64); 2]> {
+    let unit = |f: Freedom| match f {
+        Freedom::Tx | Freedom::Ty | Freedom::Tz => length,
+        _ => 1.0,
+    };
+    let [a, b] = coupling.ends;
+    let at = |e: CoupledFreedom| {
+        columns
+            .iter()
+            .position(|c| (c.joint, c.freedom) == (e.joint, e.freedom))
+    };
+    let factors = [-coupling.ratio.to_f64() * unit(a.freedom), unit(b.freedom)];
+    let size = factors[0].hypot(factors[1]);
+    Some([(at(a)?, factors[0] / size), (at(b)?, factors[1] / size)])
 }
 
 /// In a plane, joints with all three turns turn about the normal, as in [`crate::closure::twist::joint_twists`].

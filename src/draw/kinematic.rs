@@ -168,6 +168,8 @@ impl<'a> Kinematic<'a> {
         }
         let mut sheet = Sheet::new(&caption, &plan);
         self.draw_links(&mut sheet);
+        let spot = |j| self.spots.iter().find(|s| s.joint == j).map(|s| s.at);
+        self.subject.draw_couplings(&mut sheet, spot);
         for g in &self.grounds {
             sheet.symbol(g.rect());
             g.draw(&mut sheet);
@@ -340,6 +342,7 @@ impl<'a> Kinematic<'a> {
             let state = &m.states[self.subject.state];
             out.push((Swatch::Symbol(draw), format!("in state {state} only")));
         }
+        out.extend(self.subject.coupling_row());
         out.extend(self.subject.mark_rows());
         if self.moved {
             let none = |_: &mut Sheet, _: Point| {};
@@ -369,7 +372,7 @@ impl<'a> Kinematic<'a> {
                 m.length_unit.symbol
             );
         }
-        out
+        out + &self.subject.coupling_words()
     }
 }
 

@@ -184,6 +184,10 @@ impl<'a> Scheme<'a> {
         for l in 0..self.rings.len() {
             self.draw_link(&mut sheet, l);
         }
+        self.subject.draw_couplings(&mut sheet, |j| {
+            let i = self.parts.joints.iter().position(|&x| x == j)?;
+            Some(self.at.joints[i])
+        });
         self.draw_labels(&mut sheet, &labels, plan.shift);
         sheet.finish(&caption, &plan)
     }
@@ -331,6 +335,7 @@ impl<'a> Scheme<'a> {
             let state = &m.states[self.subject.state];
             out.push((Swatch::Symbol(draw), format!("in state {state} only")));
         }
+        out.extend(self.subject.coupling_row());
         out.extend(self.subject.mark_rows());
         out
     }
@@ -354,7 +359,7 @@ impl<'a> Scheme<'a> {
         for (c, (contour, share)) in self.parts.contours.iter().enumerate() {
             let _ = write!(out, " {}.", words(c, &contour.name(m), *share));
         }
-        out
+        out + &self.subject.coupling_words()
     }
 }
 

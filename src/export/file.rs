@@ -6,9 +6,10 @@ use crate::import::loads::{
     ForceEntry, InertiaEntry, Quantities, Quantity, StrokeEntry, WorkloadEntry,
 };
 use crate::import::schema::{
-    ContourEntry, Coordinate, ExpectedEntry, JointEntry, LinkEntry, MechanismFile, OptionEntry,
-    OptionTable, SearchEntry, Unloading, Words,
+    ContourEntry, Coordinate, CouplingEntry, ExpectedEntry, JointEntry, LinkEntry, MechanismFile,
+    OptionEntry, OptionTable, SearchEntry, Unloading, Words,
 };
+use crate::model::coupling::Coupling;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::loads::{ExternalMoment, Inertia, Stiffness};
 use crate::model::mechanism::{Expected, Frame, Joint, JointOption, Mechanism, Mode, Role};
@@ -41,6 +42,7 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
             })
             .collect(),
         joint: m.joints.iter().map(|j| joint(m, j)).collect(),
+        coupling: m.couplings.iter().map(|c| coupling(m, c)).collect(),
         contour: m
             .contours
             .iter()
@@ -145,6 +147,20 @@ fn joint(m: &Mechanism, j: &Joint) -> JointEntry {
         options,
         forbid: Vec::new(),
         unloading,
+    }
+}
+
+fn coupling(m: &Mechanism, c: &Coupling) -> CouplingEntry {
+    let end = |i: usize| {
+        let joint = &m.joints[c.ends[i].joint];
+        match joint.joint_type.freedoms() {
+            [_] => joint.id.clone(),
+            _ => format!("{}:{}", joint.id, c.ends[i].freedom.name()),
+        }
+    };
+    CouplingEntry {
+        joints: [end(0), end(1)],
+        ratio: coordinate(&c.ratio),
     }
 }
 

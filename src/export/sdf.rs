@@ -1,6 +1,7 @@
 //! SDF: every joint of the free state as it stands, loops closed by joints.
 
-use super::parts::{Names, Place, Single, comment, escape, numbers, place, singles};
+use super::mimic::{Follows, mimics, settled, stand_in};
+use super::parts::{Names, Place, Single, comment, escape, number, numbers, place, singles};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Mechanism, Mode, Role};
 use std::fmt::Write;
@@ -9,7 +10,13 @@ use std::fmt::Write;
 /// know become joints in series through links without mass.
 #[must_use]
 pub fn sdf(m: &Mechanism) -> String {
-    let mut out = String::from("<?xml version=\"1.0\"?>\n<sdf version=\"1.9\">\n");
+    // Mimic joints are of 1.11.
+    let version = if m.couplings_in(0).next().is_some() {
+        "1.11"
+    } else {
+        "1.9"
+    };
+    let mut out = format!("<?xml version=\"1.0\"?>\n<sdf version=\"{version}\">\n");
     let _ = writeln!(
         out,
         "  <model name=\"{}\">",
@@ -22,6 +29,9 @@ pub fn sdf(m: &Mechanism) -> String {
         );
     }
     let joints: Vec<usize> = m.joints_in(0).collect();
+    let written: Vec<bool> = (0..m.joints.len()).map(|j| joints.contains(&j)).collect();
+    let (follows, unsaid) = mimics(m, &written);
+    let mut ids = vec![String::new(); m.joints.len()];
     let mut names = Names::default();
     let world = names.fit("world");
     let mut links: Vec<Option<String>> = vec![None; m.links.len()];
@@ -57,11 +67,16 @@ pub fn sdf(m: &Mechanism) -> String {
         let joint = &m.joints[j];
         let p = place(m, joint);
         let id = names.fit(&joint.id);
+        ids[j].clone_from(&id);
         if joint.drive {
             let _ = writeln!(body, "    <!-- {} is driven -->", comment(&id));
         }
         let ends = joint.links.map(name);
         if let Some((kind, more)) = known(&joint.joint_type, &p) {
+            let more = match follows[j] {
+                Some(f) => more.replacen("</axis>", &format!("{}</axis>", follow(f)), 1),
+                None => more,
+            };
             write_joint(&mut body, &id, kind, ends, p.point, &more);
             continue;
         }
@@ -82,7 +97,10 @@ pub fn sdf(m: &Mechanism) -> String {
             } else {
                 names.fit(&format!("{id}~joint{}", i + 1))
             };
-            let (kind, more) = elementary(*single);
+            let (kind, mut more) = elementary(*single);
+            if let Some(f) = follows[j] {
+                more = more.replacen("</axis>", &format!("{}</axis>", follow(f)), 1);
+            }
             write_joint(&mut body, &part, kind, [&from, &to], p.point, &more);
             from = to;
         }
@@ -90,9 +108,22 @@ pub fn sdf(m: &Mechanism) -> String {
             write_joint(&mut body, &id, "fixed", ends, p.point, "");
         }
     }
-    out.push_str(&body);
+    for name in unsaid {
+        let what = format!("coupled, which no mimic joint says: {name}");
+        let _ = writeln!(body, "    <!-- {} -->", comment(&what));
+    }
+    // Joints may follow later ones, whose names were not settled yet.
+    out.push_str(&settled(&body, |j| escape(&ids[j])));
     out.push_str("  </model>\n</sdf>\n");
     out
+}
+
+fn follow(f: Follows) -> String {
+    format!(
+        "<mimic joint=\"{}\" axis=\"axis\"><multiplier>{}</multiplier><offset>0</offset><reference>0</reference></mimic>",
+        stand_in(f.leader),
+        number(f.ratio)
+    )
 }
 
 fn axis(tag: &str, d: [f64; 3]) -> String {

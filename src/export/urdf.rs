@@ -1,7 +1,8 @@
 //! URDF: a spanning tree of the free state; the joints that close loops are comments.
 
 use super::ExportError;
-use super::parts::{Names, Single, comment, escape, numbers, place, singles};
+use super::mimic::{mimics, settled, stand_in};
+use super::parts::{Names, Single, comment, escape, number, numbers, place, singles};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use std::fmt::Write;
@@ -17,6 +18,8 @@ pub fn urdf(m: &Mechanism) -> Result<String, ExportError> {
     let mut head = String::new();
     let mut body = String::new();
     let mut used = vec![false; m.joints.len()];
+    let mut ids = vec![String::new(); m.joints.len()];
+    let mut single = vec![false; m.joints.len()];
     let frame = m.frame();
     let link = |l: LinkId, head: &mut String, names: &mut Names| {
         let n = names.fit(&m.links[l].id);
@@ -43,10 +46,12 @@ pub fn urdf(m: &Mechanism) -> Result<String, ExportError> {
             let p = place(m, joint);
             let at = [0, 1, 2].map(|i| p.point[i] - origin[i]);
             let id = joint_names.fit(&joint.id);
+            ids[j].clone_from(&id);
             let child = link(to, &mut head, &mut names);
             // The child moves the other way where the joint is passed backwards.
             let sign = if end == 0 { 1.0 } else { -1.0 };
             let parts = kinds(m, j, sign)?;
+            single[j] = parts.len() == 1;
             let (mut holder, mut origin) = (parent, at);
             for (i, (kind, axis)) in parts.iter().enumerate() {
                 let last = i + 1 == parts.len();
@@ -62,7 +67,7 @@ pub fn urdf(m: &Mechanism) -> Result<String, ExportError> {
                 } else {
                     joint_names.fit(&format!("{id}~{}", i + 1))
                 };
-                write_joint(&mut body, &part, kind, [&holder, &held], origin, *axis);
+                write_joint(&mut body, &part, kind, [&holder, &held], origin, *axis, j);
                 (holder, origin) = (held, [0.0; 3]);
             }
             if joint.drive {
@@ -83,6 +88,19 @@ pub fn urdf(m: &Mechanism) -> Result<String, ExportError> {
         );
         let _ = writeln!(body, "  <!-- {} -->", comment(&what));
     }
+    let (follows, unsaid) = mimics(m, &single);
+    for name in unsaid {
+        let what = format!("coupled, which no mimic joint says: {name}");
+        let _ = writeln!(body, "  <!-- {} -->", comment(&what));
+    }
+    // Only now is it known which joints are of the tree, and what they are called.
+    let body = settled(&body, |j| {
+        follows[j].map_or(String::new(), |f| {
+            let leader = escape(&ids[f.leader]);
+            let ratio = number(f.ratio);
+            format!("    <mimic joint=\"{leader}\" multiplier=\"{ratio}\" offset=\"0\"/>\n")
+        })
+    });
     let name = escape(&m.name);
     Ok(format!(
         "<?xml version=\"1.0\"?>\n<robot name=\"{name}\">\n{head}{body}</robot>\n"
@@ -126,6 +144,7 @@ fn write_joint(
     ends: [&str; 2],
     at: [f64; 3],
     axis: Option<[f64; 3]>,
+    joint: JointId,
 ) {
     let [parent, child] = ends.map(escape);
     let _ = writeln!(out, "  <joint name=\"{}\" type=\"{kind}\">", escape(id));
@@ -144,5 +163,6 @@ fn write_joint(
             "    <limit lower=\"-1\" upper=\"1\" effort=\"0\" velocity=\"0\"/>"
         );
     }
+    out.push_str(&stand_in(joint));
     out.push_str("  </joint>\n");
 }

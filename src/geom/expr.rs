@@ -151,7 +151,7 @@ impl Expr {
     }
 
     /// The quotient, or `None` where the divisor cannot be told from zero.
-    fn div(&self, other: &Expr) -> Option<Expr> {
+    pub(crate) fn div(&self, other: &Expr) -> Option<Expr> {
         if other.0.enclosure.has_zero() {
             return None;
         }

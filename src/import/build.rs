@@ -9,6 +9,7 @@ mod mode;
 mod options;
 mod search;
 
+use crate::import::coupling::couplings;
 use crate::import::drive::drive;
 use crate::import::findings::{Finding, Findings};
 use crate::import::grip::grip;
@@ -41,6 +42,7 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
         ("links", file.link.len(), LIMITS.0),
         ("joints", file.joint.len(), LIMITS.1),
         ("contours", file.contour.len(), LIMITS.1),
+        ("couplings", file.coupling.len(), LIMITS.1),
     ] {
         if count > limit {
             return Err(vec![(
@@ -65,6 +67,7 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
         mode,
         links,
         joints,
+        couplings: Vec::new(),
         states,
         contours: Vec::new(),
         search: SearchSpec::default(),
@@ -74,6 +77,7 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
         expected: Vec::new(),
     };
     connected(&mechanism, &mut out);
+    couplings(file, &mut mechanism, &mut out);
     mechanism.contours = contours(file, &mechanism, &mut out);
     mechanism.search = search(file, &mechanism, &mut out);
     mechanism.loads = loads(file, &mechanism, &mut out);

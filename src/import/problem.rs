@@ -114,6 +114,34 @@ pub enum ProblemKind {
         "the joints of this contour do not form one closed walk; list them in order round the contour"
     )]
     OpenContour,
+    #[error(
+        "joint \"{joint}\" is coupled with itself; name two joints (a turn and a slide that go together are a helical joint)"
+    )]
+    CouplesItself { joint: String },
+    #[error("joints \"{first}\" and \"{second}\" are coupled twice; keep one of the couplings")]
+    CoupledTwice { first: String, second: String },
+    #[error(
+        "joints \"{first}\" and \"{second}\" are coupled but not present in the same states; give both the same state"
+    )]
+    CouplesStates { first: String, second: String },
+    #[error(
+        "the ratio of the axes' lengths of joints \"{first}\" and \"{second}\" has no exact value; give both an axis of length 1"
+    )]
+    CouplingInexact { first: String, second: String },
+    #[error(
+        "the ratio of a coupling is zero, which would hold the second joint still; give another ratio, or make that joint fixed"
+    )]
+    ZeroRatio,
+    #[error(
+        "joint \"{joint}\" of type {kind} has no freedom that can be coupled; couple turns about one axis and slides (a ball's turns have no axis of their own)"
+    )]
+    NothingToCouple { joint: String, kind: String },
+    #[error("joint \"{joint}\" has several freedoms; say which is coupled: {known}")]
+    WhichFreedom { joint: String, known: String },
+    #[error(
+        "option \"{option}\" of joint \"{joint}\" does not keep the freedom that is coupled, about the same axis; leave it out"
+    )]
+    LosesCoupling { joint: String, option: String },
     #[error("joint \"{joint}\" is in more than one mirror pair; pair each joint once")]
     RepeatedMirror { joint: String },
     #[error("cost {value} must be a finite number from 0 to 1e6")]

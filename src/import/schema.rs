@@ -33,6 +33,9 @@ pub struct MechanismFile {
     /// The joints.
     #[serde(default)]
     pub joint: Vec<JointEntry>,
+    /// Joints that move in a fixed ratio: gears, belts, racks, mimic joints.
+    #[serde(default)]
+    pub coupling: Vec<CouplingEntry>,
     /// A basis of contours, where a particular one is wanted.
     #[serde(default)]
     pub contour: Vec<ContourEntry>,
@@ -192,6 +195,17 @@ pub struct OptionTable {
     /// Cost, in place of the table's.
     #[serde(default)]
     pub cost: Option<f64>,
+}
+
+/// Two joints that move in a fixed ratio.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CouplingEntry {
+    /// The two joints; "joint:freedom", such as "a:tz", for a joint of several freedoms.
+    pub joints: [String; 2],
+    /// Rate of the second joint over that of the first, in radians and the file's length unit: "-1/2" for a pair of
+    /// gears of 20 and 40 teeth, the pitch radius for a pinion and its rack.
+    pub ratio: Coordinate,
 }
 
 /// A contour of the basis, by its joints in order.

@@ -1,6 +1,7 @@
 //! The validated mechanism and its parts.
 
 use crate::geom::expr::Expr;
+use crate::model::coupling::Coupling;
 use crate::model::joint_type::JointType;
 use crate::model::loads::{Loads, MassProperties};
 use crate::model::ranking::{Ranking, TypeOverride};
@@ -164,6 +165,8 @@ pub struct Mechanism {
     pub links: Vec<Link>,
     /// The joints.
     pub joints: Vec<Joint>,
+    /// Joints that move in a fixed ratio, in file order.
+    pub couplings: Vec<Coupling>,
     /// Names of the states; the first is `free`.
     pub states: Vec<String>,
     /// The contour basis the file names, as lists of joints, if any.
@@ -189,6 +192,23 @@ impl Mechanism {
                 .as_ref()
                 .is_none_or(|s| s.contains(&state))
         })
+    }
+
+    /// The couplings of a state, those whose joints are present in it, in file order.
+    pub fn couplings_in(&self, state: StateId) -> impl Iterator<Item = &Coupling> + '_ {
+        let present = move |j: JointId| {
+            let states = self.joints[j].states.as_ref();
+            states.is_none_or(|s| s.contains(&state))
+        };
+        self.couplings
+            .iter()
+            .filter(move |c| c.ends.iter().all(|e| present(e.joint)))
+    }
+
+    /// The couplings of a joint, by index, each with the end that is this joint's.
+    pub fn couplings_of(&self, joint: JointId) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let of = move |(q, c): (usize, &Coupling)| Some((q, c.end_at(joint)?));
+        self.couplings.iter().enumerate().filter_map(of)
     }
 
     /// The frame link.

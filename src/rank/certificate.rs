@@ -20,6 +20,7 @@ use thiserror::Error;
 
 pub use super::kernel::Budget;
 use super::kernel::Kernel;
+use crate::closure::coupling::coefficients;
 use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactError;
 use crate::geom::number_field::{NumberField, NumberFieldError};
@@ -76,10 +77,12 @@ pub fn number_field(
     let frames = mechanism
         .joints_in(state)
         .map(|j| &mechanism.joints[j].frame);
+    let couplings = coefficients(mechanism, state);
     NumberField::for_expressions(
         frames
             .flat_map(super::coordinates)
-            .chain(super::normal(mechanism)),
+            .chain(super::normal(mechanism))
+            .chain(&couplings),
     )
 }
 

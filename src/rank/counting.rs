@@ -12,7 +12,7 @@ pub struct Spatial;
 #[derive(Debug, Clone, Copy)]
 pub struct Planar;
 
-/// `dim`·(n - 1) - Σ (`dim` - f_i) over the joints of a state.
+/// `dim`·(n - 1) - Σ (`dim` - f_i) over the joints of a state, less one for each coupling.
 #[must_use]
 pub fn count(mechanism: &Mechanism, state: StateId, dim: i64) -> i64 {
     let mut links: Vec<_> = mechanism
@@ -25,7 +25,8 @@ pub fn count(mechanism: &Mechanism, state: StateId, dim: i64) -> i64 {
         .joints_in(state)
         .map(|j| dim - i64::try_from(mechanism.joints[j].joint_type.freedoms().len()).unwrap_or(0))
         .sum();
-    dim * (i64::try_from(links.len()).unwrap_or(i64::MAX).max(1) - 1) - constraints
+    let couplings = i64::try_from(mechanism.couplings_in(state).count()).unwrap_or(0);
+    dim * (i64::try_from(links.len()).unwrap_or(i64::MAX).max(1) - 1) - constraints - couplings
 }
 
 fn counted(mobility: i64) -> Answer {

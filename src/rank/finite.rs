@@ -19,9 +19,9 @@ const WORK: usize = 5_000_000_000;
 pub enum How {
     /// Nothing moves even instantaneously.
     Rigid,
-    /// J has the full rank of the groups its contours move in: the motion is a manifold. Proven.
+    /// J has the full rank of the groups its contours move in and of its couplings: the motion is a manifold. Proven.
     Submersion {
-        /// Σ of the dimensions of those groups.
+        /// Σ of the dimensions of those groups, and the rank of the couplings.
         dimension: usize,
     },
     /// The one instantaneous motion is stopped by second order: a shaky pose. Proven.
@@ -127,7 +127,8 @@ pub fn finite_within(
             how: How::Rigid,
         });
     }
-    let mut dimension = 0;
+    // Couplings are linear in the joints' coordinates, so those that depend on others do so all along the motion.
+    let mut dimension = coupling_rank(exact, closure);
     for contour in &closure.contours {
         dimension += subgroup::group_dimension(exact, mechanism, contour)?;
     }
@@ -155,6 +156,22 @@ pub fn finite_within(
         instantaneous,
         accuracy.unwrap_or(0.0),
     )
+}
+
+/// Rank of the rows of the couplings alone.
+fn coupling_rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
+    let rows: Vec<Vec<Residue>> = closure
+        .couplings
+        .iter()
+        .map(|coupling| {
+            let mut row = vec![0; closure.columns.len()];
+            for &(c, x) in &coupling.entries {
+                row[c] = x;
+            }
+            row
+        })
+        .collect();
+    echelon::rank(exact.field(), rows.iter().map(Vec::as_slice))
 }
 
 /// The finite mobility by following the motion alone; `instantaneous` where it is too large for that. `accuracy` is the

@@ -100,6 +100,11 @@ impl MobilityMethod for Generic {
         "Tay 1984; Lee & Streinu 2008"
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+        if mechanism.couplings_in(state).next().is_some() {
+            return Err(NoAnswer::DoesNotApply(
+                "the pebble game has no couplings of joints",
+            ));
+        }
         let dim = match mechanism.mode {
             Mode::Spatial => 6,
             Mode::Planar { .. } => 3,

@@ -39,7 +39,7 @@ pub fn rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
     let mut work = Work {
         field: exact.field(),
         plan: &plan,
-        rest: vec![Rest::default(); closure.contours.len()],
+        rest: vec![Rest::default(); plan.order.len()],
         left: Vec::with_capacity(16 * closure.dim),
         front: Vec::with_capacity(closure.columns.len().min(64) * 4 * closure.dim),
         rank: 0,
@@ -109,7 +109,8 @@ impl Sets {
     }
 }
 
-/// What is known before any arithmetic.
+/// What is known before any arithmetic. A coupling takes part as one more contour, of whose rows all but the first are
+/// zeros.
 struct Plan {
     /// Per joint, where its columns begin and end.
     columns_of: Vec<(usize, usize)>,
@@ -128,7 +129,7 @@ struct Plan {
 impl Plan {
     fn new(closure: &Closure<Residue>) -> Plan {
         let (k, joints) = (
-            closure.contours.len(),
+            closure.contours.len() + closure.couplings.len(),
             closure.columns.last().map_or(0, |c| c.joint + 1),
         );
         // Joints without columns (rigid ones) link no contours.
@@ -143,9 +144,15 @@ impl Plan {
         let with_columns = |j: usize| columns_of.get(j).is_some_and(|r| r.1 > 0);
         let incidences = || {
             let contours = closure.contours.iter().enumerate();
+            let couplings = (closure.contours.len()..).zip(&closure.couplings);
             contours
                 .flat_map(|(i, c)| c.joints.iter().map(move |&(j, forward)| (i, j, forward)))
                 .filter(|&(_, j, _)| with_columns(j))
+                .chain(couplings.flat_map(|(i, c)| {
+                    c.entries
+                        .each_ref()
+                        .map(|(at, _)| (i, closure.columns[*at].joint, true))
+                }))
         };
         let mut passes_from = vec![0; joints + 1];
         for (_, j, _) in incidences() {
@@ -189,9 +196,13 @@ impl Plan {
         }
     }
 
-    fn columns<'a>(&self, closure: &'a Closure<Residue>, joint: usize) -> &'a [Column<Residue>] {
+    fn columns<'a>(
+        &self,
+        closure: &'a Closure<Residue>,
+        joint: usize,
+    ) -> impl Iterator<Item = (usize, &'a Column<Residue>)> {
         let (from, to) = self.columns_of[joint];
-        &closure.columns[from..to]
+        (from..).zip(&closure.columns[from..to])
     }
 }
 
@@ -275,7 +286,19 @@ impl Work<'_> {
             }
         });
         self.front.clear();
-        let joints = || closure.contours[c].joints.iter().map(|&(j, _)| j);
+        let joints = || {
+            let contour = closure.contours.get(c).into_iter();
+            let coupling = c.checked_sub(closure.contours.len());
+            let coupling = coupling.map(|q| &closure.couplings[q].entries);
+            contour
+                .flat_map(|contour| contour.joints.iter().map(|&(j, _)| j))
+                .chain(
+                    coupling
+                        .into_iter()
+                        .flatten()
+                        .map(|(at, _)| closure.columns[*at].joint),
+                )
+        };
         // Columns with entries in this contour only, then those shared with others.
         for own in [true, false] {
             for j in joints().filter(|&j| (plan.passes(j).len() == 1) == own) {
@@ -284,11 +307,17 @@ impl Work<'_> {
                 if plan.passes(j).is_empty() || !plan.passes(j).iter().all(first) {
                     continue;
                 }
-                for column in plan.columns(closure, j) {
+                for (index, column) in plan.columns(closure, j) {
                     let at = self.front.len();
                     self.front.resize(at + height, 0);
                     for &(i, forward) in plan.passes(j) {
                         let block = &mut self.front[at + self.rest[i].slot..][..dim];
+                        if let Some(q) = i.checked_sub(closure.contours.len()) {
+                            let entries = &closure.couplings[q].entries;
+                            let own = entries.iter().find(|(c, _)| *c == index);
+                            block[0] = own.map_or(0, |(_, x)| *x);
+                            continue;
+                        }
                         for (o, &t) in block.iter_mut().zip(&column.twist) {
                             *o = if forward { t } else { self.field.neg(t) };
                         }

@@ -99,13 +99,26 @@ pub fn scaled(closure: &Closure<f64>) -> Mat<f64> {
         .enumerate()
         .map(|(c, column)| scaling.apply(c, &column.twist))
         .collect();
-    Mat::from_fn(closure.rows(), columns.len(), |r, c| {
-        match closure.contours[r / closure.dim].direction(closure.columns[c].joint) {
+    let mut matrix = Mat::from_fn(closure.rows(), columns.len(), |r, c| {
+        let contour = closure.contours.get(r / closure.dim);
+        match contour.and_then(|k| k.direction(closure.columns[c].joint)) {
             None => 0.0,
             Some(true) => columns[c][r % closure.dim],
             Some(false) => -columns[c][r % closure.dim],
         }
-    })
+    });
+    // Rows of couplings in the speeds of the scaled columns, of unit length.
+    for (r, coupling) in (closure.contour_rows()..).zip(&closure.couplings) {
+        let entries = coupling
+            .entries
+            .each_ref()
+            .map(|(c, x)| (*c, x / scaling.columns[*c]));
+        let size = entries[0].1.hypot(entries[1].1);
+        for (c, x) in entries {
+            matrix[(r, c)] = x / size;
+        }
+    }
+    matrix
 }
 
 /// A numeric rank with the gap it rests on.

@@ -59,6 +59,8 @@ pub fn stops(
         }
         right.extend(sum);
     }
+    // Couplings are linear in the coordinates: they have no second order.
+    right.resize(closure.rows(), 0);
     let mut columns = closure.dense(exact);
     let before = echelon::rank(field, columns.iter().map(Vec::as_slice));
     columns.push(right);

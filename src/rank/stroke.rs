@@ -186,7 +186,7 @@ impl<'a> Looker<'a> {
             at: sample.at * self.unit,
             rank,
             mobility: pose.columns.len() - rank.rank,
-            redundant: (pose.rows() / 6 * self.dim).saturating_sub(rank.rank),
+            redundant: pose.constraints(self.dim).saturating_sub(rank.rank),
             share: sample.follower.share(),
             gap: sample.follower.gap(),
             outputs: outputs.collect(),

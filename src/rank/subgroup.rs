@@ -4,7 +4,8 @@
 //! the joints' twists generate under the bracket: 1 dimension for coaxial hinges, 3 for a planar or spherical contour,
 //! 4 for a Schoenflies one, 6 in general [Hervé 1978]. Closing all contours is a map into the product of these groups.
 //! Where J has the full rank of that product, the map is a submersion and the closed poses near this one form a
-//! manifold of dimension f - rank J: the instantaneous mobility is then the finite one, proven, whatever σ is.
+//! manifold of dimension f - rank J: the instantaneous mobility is then the finite one, proven, whatever σ is. Couplings
+//! are linear maps of the joints' coordinates besides, and add the rank of their own rows to the product.
 
 use crate::closure::contour::Contour;
 use crate::closure::matrix::{Closure, Column};

@@ -1,11 +1,13 @@
 //! The structure of a mechanism in each of its states.
 
+use crate::closure::coupling::{coefficient, length_ratio};
 use crate::closure::matrix::Closure;
 use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::expr::Expr;
 use crate::geom::scalars::Reals;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
+use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism, Role, StateId};
 use crate::rank::auto::{self, Geometry};
 use crate::rank::certificate::{self, Budget};
 use crate::rank::finite::{Finite, finite};
@@ -17,8 +19,8 @@ use crate::rank::{self, Certainty, modular};
 use crate::redundancy::idle::{Idle, idle_motions};
 use crate::redundancy::measured::Measured;
 use crate::redundancy::motion::{Speeds, motions, twist};
-pub use crate::redundancy::share::ContourShare;
-use crate::redundancy::share::shares;
+pub use crate::redundancy::share::{ContourShare, CouplingShare};
+use crate::redundancy::share::{coupling_shares, shares};
 use crate::redundancy::stress::{SelfStress, self_stresses};
 use thiserror::Error;
 
@@ -105,7 +107,7 @@ pub enum AnalysisError {
 /// The external constraints of a state, counted and by rank.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct External {
-    /// Σα: constraints of the joints that the state adds.
+    /// Σα: constraints of the joints that the state adds, and their couplings.
     pub constraints: i64,
     /// W_a: mobility with the object absent.
     pub actual_mobility: i64,
@@ -132,7 +134,7 @@ pub struct StateAnalysis {
     pub contours: usize,
     /// f.
     pub freedoms: usize,
-    /// Rows of J, 6k or 3k.
+    /// Rows of J, 6k or 3k and one for each coupling.
     pub rows: usize,
     /// Rank of J.
     pub rank: usize,
@@ -144,12 +146,14 @@ pub struct StateAnalysis {
     pub working_mobility: usize,
     /// Dimension of the motions that leave every output at rest.
     pub local_mobility: usize,
-    /// σ = 6k - rank.
+    /// σ = 6k + c - rank for c couplings.
     pub redundant: usize,
-    /// W by Malyshev's formula, 6(n-1) - Σ constraints (3(n-1) - Σ in a plane): right only where σ = 0.
+    /// W by Malyshev's formula, 6(n-1) - Σ constraints (3(n-1) - Σ in a plane) less the couplings: right only where σ = 0.
     pub formula_mobility: i64,
     /// Shares of the contours, in the order used.
     pub per_contour: Vec<ContourShare>,
+    /// Shares of the couplings, which come after the contours.
+    pub per_coupling: Vec<CouplingShare>,
     /// What the state adds to the free one.
     pub external: Option<External>,
     /// Links that move while every output rests.
@@ -178,8 +182,25 @@ pub fn exact_field(mechanism: &Mechanism, nth: usize) -> Result<ExactField, Exac
             .chain(j.options.iter().map(|o| &o.frame))
             .chain(j.unloading.iter().map(|o| &o.frame))
     });
+    let couplings = coupling_expressions(mechanism);
     let of_frames = frames.flat_map(rank::coordinates);
-    ExactField::for_expressions(of_frames.chain(rank::normal(mechanism)), nth)
+    let others = rank::normal(mechanism).iter().chain(&couplings);
+    ExactField::for_expressions(of_frames.chain(others), nth)
+}
+
+/// What the rows of couplings need values of: their entries, for the present joints and for every option of them.
+fn coupling_expressions(mechanism: &Mechanism) -> Vec<Expr> {
+    let mut out = Vec::new();
+    for coupling in &mechanism.couplings {
+        out.push(coefficient(mechanism, coupling));
+        for end in coupling.ends {
+            let joint = &mechanism.joints[end.joint];
+            let present = (&joint.frame, end.freedom);
+            let length = |o: &JointOption| length_ratio((&o.frame, end.freedom), present);
+            out.extend(joint.options.iter().map(length));
+        }
+    }
+    out
 }
 
 /// Analyses the given states.
@@ -301,6 +322,7 @@ fn numerically(
         working_mobility,
         local_mobility: measured.mobility().saturating_sub(working_mobility),
         per_contour: measured.shares(),
+        per_coupling: measured.coupling_shares(),
         external,
         idle: Vec::new(),
         self_stresses: Vec::new(),
@@ -393,8 +415,11 @@ fn exactly(
         working_mobility,
         local_mobility: kernel.len() - working_mobility,
         redundant: closure.rows() - rank,
-        formula_mobility: int(closure.dim) * (int(links.len()) - 1) - constraints,
+        formula_mobility: int(closure.dim) * (int(links.len()) - 1)
+            - constraints
+            - int(closure.couplings.len()),
         per_contour: shares(exact, &closure),
+        per_coupling: coupling_shares(exact, mechanism, &closure),
         external: if state == 0 {
             None
         } else {
@@ -460,9 +485,10 @@ fn external(
     let own: Vec<JointId> = mechanism.joints_in(0).collect();
     let all: Vec<JointId> = mechanism.joints_in(closure.state).collect();
     let added = || all.iter().filter(|j| !own.contains(j));
-    let constraints = added()
+    let of_joints: i64 = added()
         .map(|&j| int(closure.dim) - int(freedoms_of(closure, j)))
         .sum();
+    let constraints = of_joints + int(closure.couplings.len()) - int(free.couplings.len());
     let bodies = present_links(mechanism, &all).len() - present_links(mechanism, &own).len();
     // The mechanism's own part of each motion.
     let mut span = Echelon::new(exact.field());

@@ -5,7 +5,7 @@ use crate::geom::exact::ExactError;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::rank::scaled::{Scaling, scaled};
-use crate::redundancy::share::ContourShare;
+use crate::redundancy::share::{ContourShare, CouplingShare};
 use faer::Mat;
 
 /// Ranks and motions of one J at one relative tolerance.
@@ -106,6 +106,19 @@ impl<'a> Measured<'a> {
         self.rank_of(&part)
     }
 
+    /// Rank of the rows of some contours and couplings.
+    fn rank_of_rows(&self, contours: &[usize], couplings: &[usize]) -> usize {
+        let (dim, first) = (self.closure.dim, self.closure.contour_rows());
+        let of_contours = contours.iter().flat_map(|k| dim * k..dim * (k + 1));
+        let rows: Vec<usize> = of_contours
+            .chain(couplings.iter().map(|q| first + q))
+            .collect();
+        let part = Mat::from_fn(rows.len(), self.matrix.ncols(), |r, c| {
+            self.matrix[(rows[r], c)]
+        });
+        self.rank_of(&part)
+    }
+
     /// σ_i of each contour in the order of the basis, and its range over all orders.
     ///
     /// # Complexity
@@ -113,22 +126,47 @@ impl<'a> Measured<'a> {
     #[must_use]
     pub fn shares(&self) -> Vec<ContourShare> {
         let dim = self.closure.dim;
-        let rank = |contours: &[usize]| {
-            self.rank_of(&Mat::from_fn(
-                dim * contours.len(),
-                self.matrix.ncols(),
-                |r, c| self.matrix[(dim * contours[r / dim] + r % dim, c)],
-            ))
-        };
         let all: Vec<usize> = (0..self.closure.contours.len()).collect();
-        let prefix: Vec<usize> = (0..=all.len()).map(|i| rank(&all[..i])).collect();
+        let couplings: Vec<usize> = (0..self.closure.couplings.len()).collect();
+        let prefix: Vec<usize> = (0..=all.len())
+            .map(|i| self.rank_of_rows(&all[..i], &[]))
+            .collect();
+        let whole = self.rank_of_rows(&all, &couplings);
         all.iter()
             .map(|&i| {
                 let others: Vec<usize> = all.iter().copied().filter(|&j| j != i).collect();
                 ContourShare {
                     contour: self.closure.contours[i].clone(),
                     redundant: dim + prefix[i] - prefix[i + 1],
-                    range: (dim - rank(&[i]), dim + rank(&others) - prefix[all.len()]),
+                    range: (
+                        dim - self.rank_of_rows(&[i], &[]),
+                        dim + self.rank_of_rows(&others, &couplings) - whole,
+                    ),
+                }
+            })
+            .collect()
+    }
+
+    /// Shares of the couplings, which come after the contours.
+    ///
+    /// # Complexity
+    /// 2c + 1 decompositions.
+    #[must_use]
+    pub fn coupling_shares(&self) -> Vec<CouplingShare> {
+        let all: Vec<usize> = (0..self.closure.contours.len()).collect();
+        let couplings: Vec<usize> = (0..self.closure.couplings.len()).collect();
+        let whole = self.rank_of_rows(&all, &couplings);
+        let of_state = self.mechanism.couplings_in(self.closure.state);
+        of_state
+            .enumerate()
+            .map(|(q, coupling)| {
+                let others: Vec<usize> = couplings.iter().copied().filter(|&x| x != q).collect();
+                let before = self.rank_of_rows(&all, &couplings[..q]);
+                let with = self.rank_of_rows(&all, &couplings[..=q]);
+                CouplingShare {
+                    name: coupling.name(self.mechanism),
+                    redundant: usize::from(with == before),
+                    most: usize::from(self.rank_of_rows(&all, &others) == whole),
                 }
             })
             .collect()

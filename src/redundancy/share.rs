@@ -5,6 +5,7 @@ use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactField;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
+use crate::model::mechanism::Mechanism;
 use crate::redundancy::stress::stress_basis;
 
 /// Redundant constraints of one contour.
@@ -16,6 +17,45 @@ pub struct ContourShare {
     pub redundant: usize,
     /// Least and greatest σ_i over all orders.
     pub range: (usize, usize),
+}
+
+/// The redundant constraint that a coupling is, or not.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CouplingShare {
+    /// Names of the two freedoms, as the file writes them.
+    pub name: String,
+    /// 1 where the contours and the couplings before it imply it already, else 0.
+    pub redundant: usize,
+    /// 1 where all else implies it, else 0: the greatest over all orders. Alone it never is redundant.
+    pub most: usize,
+}
+
+/// Shares of the couplings, which come after all contours.
+///
+/// # Complexity
+/// As [`shares`].
+#[must_use]
+pub fn coupling_shares(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+) -> Vec<CouplingShare> {
+    if closure.couplings.is_empty() {
+        return Vec::new();
+    }
+    let stresses = stress_basis(exact, closure);
+    mechanism
+        .couplings_in(closure.state)
+        .zip(closure.contour_rows()..)
+        .map(|(coupling, row)| {
+            let ends = |s: &&Vec<Residue>| s.iter().rposition(|&x| x != 0) == Some(row);
+            CouplingShare {
+                name: coupling.name(mechanism),
+                redundant: stresses.iter().filter(ends).count(),
+                most: usize::from(stresses.iter().any(|s| s[row] != 0)),
+            }
+        })
+        .collect()
 }
 
 /// σ_i of each contour in the order of the basis, and its range over all orders.
@@ -38,8 +78,10 @@ pub fn shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShar
     let stresses = stress_basis(exact, closure);
     let mut ending = vec![0; closure.contours.len()];
     for s in &stresses {
-        if let Some(last) = s.iter().rposition(|&x| x != 0) {
-            ending[last / dim] += 1;
+        // Those that end in the row of a coupling are the coupling's.
+        let last = s.iter().rposition(|&x| x != 0);
+        if let Some(of) = last.and_then(|last| ending.get_mut(last / dim)) {
+            *of += 1;
         }
     }
     let ranks = |vectors: &mut dyn Iterator<Item = &[Residue]>| {

@@ -1,6 +1,6 @@
 //! Self-stresses: the wrenches that an over-constrained mechanism carries with no load at all, once a part is a little
 //! out of true. They are the left null vectors of the closure matrix; each row block is the wrench that a contour
-//! passes round.
+//! passes round, and the entry of a coupling's row the force or moment that it passes from one joint to the other.
 
 use crate::closure::matrix::Closure;
 use crate::closure::twist::FrameValues;
@@ -37,7 +37,9 @@ pub struct JointWrench {
 pub struct SelfStress {
     /// Indices of the contours that pass a wrench round.
     pub contours: Vec<usize>,
-    /// What each joint of those contours carries.
+    /// Indices of the couplings that pass a force or moment from joint to joint, among those of the state.
+    pub couplings: Vec<usize>,
+    /// What each joint of those contours carries, its couplings included.
     pub joints: Vec<JointWrench>,
     /// Whether the self-stress exists only with the state's additional joints.
     pub external: bool,
@@ -140,6 +142,9 @@ pub fn self_stresses(
                     .any(|&x| x != 0)
             })
             .collect_vec();
+        let couplings = (0..closure.couplings.len())
+            .filter(|q| s[closure.contour_rows() + q] != 0)
+            .collect();
         let joints = mechanism
             .joints_in(closure.state)
             .filter_map(|j| at_joint(exact, &frames[j], j, &wrench(s, j)));
@@ -147,6 +152,7 @@ pub fn self_stresses(
             is_external && closure.dim == 6 && !faces.is_empty() && harm(s).iter().all(|&x| x == 0);
         SelfStress {
             contours,
+            couplings,
             joints: joints.collect(),
             external: is_external,
             verdict: if friction {

@@ -47,7 +47,7 @@ fn state(mechanism: &Mechanism, s: &StateAnalysis) -> Value {
         })
     });
     let stresses = s.self_stresses.iter().map(|t| {
-        json!({
+        let mut value = json!({
             "contours": t.contours.iter().map(|&c| s.per_contour[c].contour.name(mechanism)).collect::<Vec<_>>(),
             "external": t.external,
             "verdict": if t.verdict == Verdict::Harmless { "harmless" } else { "harmful" },
@@ -56,9 +56,14 @@ fn state(mechanism: &Mechanism, s: &StateAnalysis) -> Value {
                 "moments": axes(w.moments),
                 "forces": axes(w.forces),
             })).collect::<Vec<_>>(),
-        })
+        });
+        if !s.per_coupling.is_empty() {
+            let names = t.couplings.iter().map(|&q| s.per_coupling[q].name.as_str());
+            value["couplings"] = names.collect::<Vec<_>>().into();
+        }
+        value
     });
-    json!({
+    let mut value = json!({
         "state": s.state,
         "links": s.links,
         "joints": s.joints,
@@ -86,7 +91,20 @@ fn state(mechanism: &Mechanism, s: &StateAnalysis) -> Value {
         "as_written": s.as_written.map(|rank| json!({
             "rank": rank, "mobility": s.freedoms - rank, "redundant": s.rows - rank,
         })),
-    })
+    });
+    // Where there are couplings only: other mechanisms keep their keys.
+    if !s.per_coupling.is_empty() {
+        let each = s.per_coupling.iter().map(|c| {
+            json!({
+                "coupling": c.name,
+                "redundant": c.redundant,
+                "least": 0,
+                "greatest": c.most,
+            })
+        });
+        value["per_coupling"] = each.collect::<Vec<_>>().into();
+    }
+    value
 }
 
 /// A mobility by one method, where that is all there is.

@@ -39,9 +39,13 @@ fn state(
     )?;
     writeln!(out)?;
     let rows = s.rows;
+    let couplings = match s.per_coupling.len() {
+        0 => String::new(),
+        c => format!(", c = {}", plural(c, "coupling")),
+    };
     writeln!(
         out,
-        "  n = {} links, p = {} joints, k = {} contours, f = {} freedoms",
+        "  n = {} links, p = {} joints, k = {} contours, f = {} freedoms{couplings}",
         s.links, s.joints, s.contours, s.freedoms
     )?;
     writeln!(
@@ -98,7 +102,7 @@ fn state(
             s.rows - rank
         )?;
     }
-    if !s.per_contour.is_empty() {
+    if !s.per_contour.is_empty() || !s.per_coupling.is_empty() {
         let rows = s.per_contour.iter().map(|c| {
             let (least, greatest) = c.range;
             let range = if least == greatest {
@@ -117,12 +121,21 @@ fn state(
                 range,
             ]
         });
+        let couplings = s.per_coupling.iter().map(|c| {
+            let range = if c.most == 0 { "0" } else { "0 to 1" };
+            vec![
+                "coupling".to_owned(),
+                c.name.clone(),
+                c.redundant.to_string(),
+                range.to_owned(),
+            ]
+        });
         writeln!(
             out,
             "\n{}",
             table(
                 &["contour", "joints", "σ in this order", "σ over all orders"],
-                rows.collect(),
+                rows.chain(couplings).collect(),
                 width
             )
         )?;
@@ -196,6 +209,12 @@ fn stress_row(mechanism: &Mechanism, s: &StateAnalysis, stress: &SelfStress) -> 
         .contours
         .iter()
         .map(|&c| s.per_contour[c].contour.name(mechanism))
+        .chain(
+            stress
+                .couplings
+                .iter()
+                .map(|&q| s.per_coupling[q].name.clone()),
+        )
         .join(" + ");
     // At the contacts, where there are any, since that is where external redundancy is felt.
     let shown = stress

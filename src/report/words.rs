@@ -162,7 +162,7 @@ pub struct Shape {
     pub contours: i64,
     /// f, in the plane those of the plane.
     pub freedoms: i64,
-    /// 6k, or 3k in the plane.
+    /// 6k, or 3k in the plane, and one for each coupling.
     pub rows: i64,
 }
 
@@ -193,7 +193,7 @@ impl Shape {
             joints,
             contours,
             freedoms,
-            rows: dim * contours,
+            rows: dim * contours + int(mechanism.couplings_in(state).count()),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Options;
 use super::close::{self, CLOSED, close, gaps, size, worst};
+use super::coupling;
 use super::emit::{self, Bodies, Content};
 use super::kinematics::{Tree, places, spanning_tree};
 use super::parts::{Part, Robot, free};
@@ -236,6 +237,7 @@ pub(super) fn write(
             ),
         });
     }
+    let couplings = coupling::usable(robot, &joints);
     let frame = bodies.of[tree.roots[0]];
     let outputs = output_links(robot, &bodies, &joints, frame, options)?;
     let mut report = std::mem::take(&mut robot.report);
@@ -270,6 +272,7 @@ pub(super) fn write(
         frame,
         outputs: &outputs,
         joints: &joints,
+        couplings: &couplings,
     }))
 }
 

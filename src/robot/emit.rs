@@ -70,6 +70,15 @@ pub(super) struct Content<'a> {
     pub(super) outputs: &'a [usize],
     /// Joints to write, in order.
     pub(super) joints: &'a [usize],
+    /// Joints that lead and follow, with the ratio of their rates.
+    pub(super) couplings: &'a [([usize; 2], f64)],
+}
+
+impl Content<'_> {
+    /// Whether the rates of a joint matter: its axis is then of length 1, so that they are exact.
+    fn coupled(&self, joint: usize) -> bool {
+        self.couplings.iter().any(|(ends, _)| ends.contains(&joint))
+    }
 }
 
 /// The file's text.
@@ -82,7 +91,7 @@ pub(super) fn toml(c: &Content<'_>) -> String {
         one_line(c.file),
         c.robot.format.name(),
         if c.robot.report.coupling_rows > 0 {
-            " Couplings between joint angles are left out."
+            " Some couplings of joints are left out."
         } else {
             ""
         }
@@ -125,10 +134,21 @@ pub(super) fn toml(c: &Content<'_>) -> String {
     doc["link"] = Item::ArrayOfTables(links);
     let mut names = Names::default();
     let mut joints = ArrayOfTables::new();
+    let mut joint_ids: BTreeMap<usize, String> = BTreeMap::new();
     for &j in c.joints {
-        joints.push(joint(&c.robot.joints[j], c, &ids, &mut names));
+        let id = names.fit(&c.robot.joints[j].id);
+        joints.push(joint(j, &id, c, &ids));
+        joint_ids.insert(j, id);
     }
     doc["joint"] = Item::ArrayOfTables(joints);
+    let couplings: ArrayOfTables = c
+        .couplings
+        .iter()
+        .map(|x| coupling(x, &joint_ids))
+        .collect();
+    if !couplings.is_empty() {
+        doc["coupling"] = Item::ArrayOfTables(couplings);
+    }
     let mut options = Array::new();
     for o in ["revolute", "cylindrical", "universal", "spherical"] {
         options.push(o);
@@ -188,9 +208,17 @@ fn direction(v: V3) -> Item {
     })
 }
 
-fn joint(p: &Part, c: &Content<'_>, ids: &BTreeMap<usize, String>, names: &mut Names) -> Table {
+fn coupling((ends, ratio): &([usize; 2], f64), ids: &BTreeMap<usize, String>) -> Table {
     let mut t = Table::new();
-    t["id"] = toml_edit::value(names.fit(&p.id));
+    t["joints"] = toml_edit::value(ends.iter().map(|j| ids[j].as_str()).collect::<Array>());
+    t["ratio"] = toml_edit::value(number(*ratio));
+    t
+}
+
+fn joint(j: usize, id: &str, c: &Content<'_>, ids: &BTreeMap<usize, String>) -> Table {
+    let p: &Part = &c.robot.joints[j];
+    let mut t = Table::new();
+    t["id"] = toml_edit::value(id);
     let ends: Array = p
         .links
         .iter()
@@ -210,7 +238,12 @@ fn joint(p: &Part, c: &Content<'_>, ids: &BTreeMap<usize, String>, names: &mut N
     };
     if !matches!(p.joint_type, JointType::Spherical | JointType::Fixed) {
         let z = about(&[Freedom::Rz, Freedom::Tz, Freedom::Screw]);
-        t["axis"] = direction(z.unwrap_or_else(|| place.direction(p.axis)));
+        let z = z.unwrap_or_else(|| place.direction(p.axis));
+        t["axis"] = if c.coupled(j) {
+            vector(unit(z))
+        } else {
+            direction(z)
+        };
     }
     if let (JointType::Universal, Some(x)) = (&p.joint_type, about(&[Freedom::Rx])) {
         t["reference"] = direction(x);

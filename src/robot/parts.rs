@@ -1,6 +1,7 @@
 //! What the three formats have in common: links, joints with a place on either side, named frames.
 
 use crate::model::joint_type::{Freedom, JointType};
+use crate::robot::coupling::Ratio;
 use crate::robot::pose::{Pose, V3, X, Z, across, cross};
 use crate::robot::warning::Report;
 use std::collections::BTreeMap;
@@ -113,6 +114,8 @@ pub(super) struct Robot {
     /// Names of the links.
     pub(super) links: Vec<String>,
     pub(super) joints: Vec<Part>,
+    /// Joints that move in a fixed ratio.
+    pub(super) couplings: Vec<Ratio>,
     /// The link that is the world, where the format has one.
     pub(super) world: Option<usize>,
     /// Named frames: the link they are fixed to and their place on it.
@@ -129,6 +132,7 @@ impl Robot {
             format,
             links: Vec::new(),
             joints: Vec::new(),
+            couplings: Vec::new(),
             world: None,
             frames: BTreeMap::new(),
             places: Vec::new(),

@@ -2,6 +2,7 @@
 
 use crate::import::problem::ImportError;
 use crate::model::joint_type::JointType;
+use crate::robot::coupling::Ratio;
 use crate::robot::parts::{Format, Part, Robot, free};
 use crate::robot::pose::{Pose, V3, X, length};
 use crate::robot::problem::{RobotProblem, known};
@@ -146,18 +147,14 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     robot.report.map(word);
     if let Some(m) = e.child("mimic") {
         let leader = m.required("joint")?;
-        for k in ["multiplier", "offset"] {
-            m.numbers::<1>(k)?;
-        }
-        let factor = m.attribute("multiplier").unwrap_or("1");
-        let what = format!(
-            "independent joint; its coupling to {leader} (times {factor}, 1 row) is left out"
-        );
-        part.comment = Some(format!(
-            "mimics {leader} times {factor}; here an independent joint"
-        ));
-        robot.report.coupling_rows += 1;
-        robot.report.approximate(&e.label(), what);
+        let ratio = m.numbers::<1>("multiplier")?.map_or(1.0, |[x]| x);
+        m.numbers::<1>("offset")?;
+        part.comment = Some(format!("mimics {leader} times {ratio}"));
+        robot.couplings.push(Ratio {
+            joints: [leader.to_owned(), name.to_owned()],
+            ratio,
+            element: e.label(),
+        });
     }
     for c in e.children() {
         if !["origin", "parent", "child", "axis", "limit", "mimic"].contains(&c.name()) {

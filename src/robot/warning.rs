@@ -15,6 +15,15 @@ pub struct Note {
     pub what: String,
 }
 
+/// Couplings of joint values that went into the mechanism file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Kept {
+    /// How many.
+    pub couplings: usize,
+    /// W without them and with them in the pose found, by singular values, where these converge.
+    pub mobility: Option<(usize, usize)>,
+}
+
 /// What became of a file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Report {
@@ -24,7 +33,9 @@ pub struct Report {
     pub approximated: Vec<Note>,
     /// Elements that bear no kinematics, by kind: how many, and some names.
     pub dropped: BTreeMap<String, (usize, Vec<String>)>,
-    /// Rows of constraints between joint angles (mimic joints, gears) that are left out.
+    /// Couplings of joint values (mimic joints, equalities) that are kept.
+    pub kept: Option<Kept>,
+    /// Rows of constraints between joint values that are left out.
     pub coupling_rows: usize,
     /// How the pose was found and how well the loops close.
     pub pose: Vec<String>,
@@ -72,6 +83,16 @@ impl Report {
         for p in &self.pose {
             line(&mut out, "pose", p);
         }
+        if let Some(kept) = &self.kept {
+            let n = match kept.couplings {
+                1 => "1 coupling of joints".to_owned(),
+                n => format!("{n} couplings of joints"),
+            };
+            let figures = kept.mobility.map_or(String::new(), |(without, with)| {
+                format!(": W = {without} without, {with} with")
+            });
+            line(&mut out, "coupled", &format!("{n}{figures}"));
+        }
         out.push_str(&self.doubts());
         for (kind, (count, names)) in &self.dropped {
             let more = if *count > names.len() { ", ..." } else { "" };
@@ -113,7 +134,7 @@ impl Report {
                 ("rows", "them")
             };
             let what = format!(
-                "{n} coupling {rows} between joint angles: W is up to {n} too high without {them}, σ may be too low"
+                "{n} coupling {rows} between joint values: W is up to {n} too high without {them}, σ may be too low"
             );
             line(&mut out, "left out", &what);
         }

@@ -12,7 +12,7 @@ use crate::search::request::Search;
 use crate::workload::reactions::drives::{Driven, driven};
 use crate::workload::reactions::follow::{Followed, follow};
 use crate::workload::reactions::geometry::{Geometry, dot};
-use crate::workload::reactions::{Unsolved, period};
+use crate::workload::reactions::{Unsolved, no_couplings, period};
 use thiserror::Error;
 
 /// Work of the loads on undriven motions below this fraction of them is none.
@@ -52,7 +52,7 @@ impl<'s, 'm> Evaluator<'s, 'm> {
     /// Makes everything ready that does not depend on the variant.
     ///
     /// # Errors
-    /// Where a coordinate has no value or singular values do not converge.
+    /// Where a coordinate has no value, singular values do not converge, or joints are coupled.
     ///
     /// # Complexity
     /// O(poses · options · loads), and the poses of the stroke.
@@ -61,6 +61,7 @@ impl<'s, 'm> Evaluator<'s, 'm> {
         clearance: ClearanceSum,
     ) -> Result<Evaluator<'s, 'm>, ScoreError> {
         let m = search.mechanism;
+        no_couplings(m, 0)?;
         let types = JointTypes::of(m);
         let start = follow(m, 0, &[], None)?;
         let drives = match start.poses.first() {

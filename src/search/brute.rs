@@ -28,7 +28,8 @@ pub struct Matrices {
     free_rows: usize,
     kept_rows: usize,
     state_rows: usize,
-    /// `columns[variable][choice]`: full columns (free contours, kept links, the state's own contours).
+    /// `columns[variable][choice]`: full columns (free contours and couplings, kept links, the state's own contours and
+    /// couplings).
     columns: Vec<Vec<Vec<Vec<Residue>>>>,
 }
 
@@ -57,25 +58,48 @@ impl Matrices {
             let added = all[free.len()..].iter().map(move |c| c.direction(j));
             contours.chain(links).chain(added).collect::<Vec<_>>()
         };
-        let column = |signs: &[Option<bool>], twist: &[Residue]| {
-            let mut out = vec![0; signs.len() * d];
-            for (block, sign) in out.chunks_exact_mut(d).zip(signs) {
+        // Couplings by index, those of the free state and those that the state adds.
+        let present = |q: usize, s: StateId| {
+            let states = &mechanism.joints[mechanism.couplings[q].ends[0].joint].states;
+            states.as_ref().is_none_or(|of| of.contains(&s))
+        };
+        let all_couplings = 0..mechanism.couplings.len();
+        let coupled: Vec<usize> = all_couplings.clone().filter(|&q| present(q, 0)).collect();
+        let adds = |q: &usize| present(*q, state) && !present(*q, 0);
+        let added_couplings: Vec<usize> = all_couplings.filter(adds).collect();
+        let column = |j: JointId, signs: &[Option<bool>], twist: &[Residue]| {
+            let mut blocks = signs.iter().map(|sign| {
+                let mut block = vec![0; d];
                 if let Some(plus) = sign {
-                    f.accumulate(block, twist, *plus);
+                    f.accumulate(&mut block, &twist[..d], *plus);
                 }
-            }
+                block
+            });
+            let rates = |list: &[usize]| -> Vec<Residue> {
+                let at = |q: usize| mechanism.couplings_of(j).position(|(c, _)| c == q);
+                let entry = |&q: &usize| at(q).map_or(0, |i| twist[d + i]);
+                list.iter().map(entry).collect()
+            };
+            let mut out = blocks
+                .by_ref()
+                .take(free.len())
+                .flatten()
+                .collect::<Vec<_>>();
+            out.extend(rates(&coupled));
+            out.extend(blocks.flatten());
+            out.extend(rates(&added_couplings));
             out
         };
         let columns = space
             .variables
             .iter()
             .map(|v| {
-                let signs: Vec<_> = v.joints.iter().map(|&j| signs(j)).collect();
+                let signs: Vec<_> = v.joints.iter().map(|&j| (j, signs(j))).collect();
                 let of_choice = |spans: &[Vec<Vec<Residue>>]| {
                     spans
                         .iter()
                         .zip(&signs)
-                        .flat_map(|(span, s)| span.iter().map(|t| column(s, t)))
+                        .flat_map(|(span, (j, s))| span.iter().map(|t| column(*j, s, t)))
                         .collect()
                 };
                 v.choices.iter().map(|c| of_choice(&c.spans)).collect()
@@ -83,9 +107,9 @@ impl Matrices {
             .collect();
         Matrices {
             field: f,
-            free_rows: free.len() * d,
+            free_rows: free.len() * d + coupled.len(),
             kept_rows: kept.len() * d,
-            state_rows: (all.len() - free.len()) * d,
+            state_rows: (all.len() - free.len()) * d + added_couplings.len(),
             columns,
         }
     }

@@ -161,7 +161,7 @@ impl Search<'_> {
                 &self.exact,
                 self.mechanism,
                 self.space.dim,
-                &last.live,
+                (&last.live, &last.pending),
                 &left,
                 kept,
                 allowed,

@@ -191,8 +191,10 @@ impl Search<'_> {
 
     fn opinion(&self, variant: &Variant, m: &Mechanism, shape: &Shape) -> Option<Opinion> {
         let (free, f) = self.decompose(m, 0, &shape.free)?;
-        let rows = |contours: &[Contour]| int(contours.len() * self.space.dim);
-        let redundant = rows(&shape.free) - int(free.rank);
+        let rows = |contours: &[Contour], state: StateId| {
+            int(contours.len() * self.space.dim + m.couplings_in(state).count())
+        };
+        let redundant = rows(&shape.free, 0) - int(free.rank);
         let output = match &shape.locked {
             None => None,
             Some(contours) => {
@@ -207,7 +209,7 @@ impl Search<'_> {
                 let (state, _) = self.decompose(m, *s, contours)?;
                 conditioning = conditioning.min(state.kept);
                 dropped = dropped.max(state.dropped);
-                Some(rows(contours) - int(state.rank) - redundant)
+                Some(rows(contours, *s) - int(state.rank) - redundant)
             }
         };
         let key = variant.key;

@@ -24,14 +24,18 @@ pub struct Lookahead {
     pub allowed: usize,
 }
 
-/// Makes the test for nodes whose live links are `live` (root, link), as in [`crate::search::plan::Step::live`], when
-/// the joints `left`, with their present spans, are still to come.
+/// Makes the test for nodes whose live links are `live` (root, link) and whose `pending` couplings come after, as in
+/// [`crate::search::plan::Step`], when the joints `left`, with their present spans, are still to come.
 #[must_use]
+#[allow(
+    clippy::too_many_arguments,
+    reason = "the parts of a node, and what is asked of it"
+)]
 pub fn lookahead(
     exact: &ExactField,
     mechanism: &Mechanism,
     dim: usize,
-    live: &[(LinkId, LinkId)],
+    (live, pending): (&[(LinkId, LinkId)], &[usize]),
     left: &[(JointId, Vec<Vec<Residue>>)],
     kept: &[LinkId],
     allowed: usize,
@@ -67,14 +71,22 @@ pub fn lookahead(
     inner.retain(|l| !outer.contains(l) && *l != frame);
     inner.sort_unstable();
     inner.dedup();
-    // Inner links first, so that elimination leaves constraints on outer links alone at the end.
-    let place: BTreeMap<LinkId, usize> = inner
+    let mut unmet: Vec<usize> = left
         .iter()
-        .chain(&outer)
-        .enumerate()
-        .map(|(i, &l)| (l, i * dim))
+        .flat_map(|(j, _)| mechanism.couplings_of(*j).map(|(q, _)| q))
+        .filter(|q| !pending.contains(q))
         .collect();
-    let width = place.len() * dim;
+    unmet.sort_unstable();
+    unmet.dedup();
+    // Inner links and couplings first, so that elimination leaves constraints on outer ones alone at the end.
+    let first = inner.len() * dim + unmet.len();
+    let inner_places = inner.iter().enumerate().map(|(i, &l)| (l, i * dim));
+    let outer_places = outer.iter().enumerate().map(|(i, &l)| (l, first + i * dim));
+    let place: BTreeMap<LinkId, usize> = inner_places.chain(outer_places).collect();
+    let unmet_at = |q: usize| Some(inner.len() * dim + unmet.iter().position(|&x| x == q)?);
+    let pending_at =
+        |q: usize| Some(first + outer.len() * dim + pending.iter().position(|&x| x == q)?);
+    let width = first + outer.len() * dim + pending.len();
     let mut constraints = Echelon::new(f);
     for (j, span) in left {
         let [u, v] = mechanism.joints[*j].links;
@@ -89,7 +101,15 @@ pub fn lookahead(
             let mut row = vec![0; width];
             for (link, plus) in [(u, false), (v, true)] {
                 if let Some(&at) = place.get(&link) {
-                    f.accumulate(&mut row[at..at + dim], &wrench, plus);
+                    f.accumulate(&mut row[at..at + dim], &wrench[..dim], plus);
+                }
+            }
+            // The entries of a coupling's two joints are opposite: that of a joint to come is less what is pending, or less
+            // that of the other joint to come.
+            for (i, (q, end)) in mechanism.couplings_of(*j).enumerate() {
+                let plus = !pending.contains(&q) && end == 0;
+                if let Some(at) = pending_at(q).or_else(|| unmet_at(q)) {
+                    f.accumulate(&mut row[at..=at], &wrench[dim + i..=dim + i], plus);
                 }
             }
             constraints.insert(&row);
@@ -98,7 +118,7 @@ pub fn lookahead(
     let locks: Vec<Vec<Residue>> = constraints
         .reduced()
         .into_iter()
-        .filter(|r| r[..inner.len() * dim].iter().all(|&x| x == 0))
+        .filter(|r| r[..first].iter().all(|&x| x == 0))
         .collect();
     // Image of "these links move with unit component c": the locks it meets, then the kept links' twists.
     let image = |links: &[(LinkId, bool)], c: usize| {
@@ -151,6 +171,17 @@ pub fn lookahead(
         }
         for c in 0..dim {
             let mut v = image(&moved, c);
+            free.reduce(&mut v);
+            map.push(open.iter().map(|&i| v[i]).collect());
+        }
+    }
+    for &q in pending {
+        // A unit of the rate: the locks it meets; the rest of its block is zeros.
+        for c in 0..dim {
+            let mut v = vec![0; total];
+            if let Some(at) = pending_at(q).filter(|_| c == 0) {
+                v.iter_mut().zip(&locks).for_each(|(o, lock)| *o = lock[at]);
+            }
             free.reduce(&mut v);
             map.push(open.iter().map(|&i| v[i]).collect());
         }

@@ -4,6 +4,10 @@
 //! links (those with joints to come, and those pinned) relative to the component's root. Adding a joint merges two
 //! components, or closes a contour within one; a link with no joints to come is forgotten. All three are one block map
 //! of twists with entries 0, +1, -1, so a step is a list of blocks.
+//!
+//! A coupling whose first joint is chosen is *pending*: the rate it gives the second joint is one more coordinate, a block
+//! of its own of which only the first number is used. The second joint closes it, as a joint closes a contour, with a gap
+//! of one number.
 
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use std::collections::BTreeMap;
@@ -15,6 +19,8 @@ enum Source {
     Block(usize),
     /// The twist of the joint being added.
     Joint,
+    /// The rate of the joint being added in one of its couplings, counted along them.
+    Rate(usize),
 }
 
 /// One joint added to the chosen part.
@@ -24,16 +30,22 @@ pub struct Step {
     pub joint: JointId,
     /// Whether it closes a contour: then new block 0 is the gap that must vanish.
     pub closing: bool,
+    /// Couplings it closes: the gaps of their rates are the blocks after that.
+    pub coupled: usize,
     /// New coordinates from old ones: (new block, old block, plus).
     pub blocks: Vec<(usize, usize, bool)>,
     /// New coordinates from the joint's twist: (new block, plus).
     pub twist: Vec<(usize, bool)>,
+    /// New coordinates from the joint's rates: (new block, rate, plus).
+    pub rates: Vec<(usize, usize, bool)>,
     /// Number of old blocks.
     pub old_width: usize,
-    /// Number of new blocks, the gap included.
+    /// Number of new blocks, gaps included.
     pub width: usize,
-    /// Blocks of live links after the step, as (root, link), gap excluded.
+    /// Blocks of live links after the step, as (root, link), gaps excluded.
     pub live: Vec<(LinkId, LinkId)>,
+    /// Couplings that are pending after the step; their blocks come after those of the links.
+    pub pending: Vec<usize>,
 }
 
 /// The steps for an order of joints.
@@ -68,6 +80,7 @@ pub fn plan(
     start: &[Vec<LinkId>],
 ) -> Plan {
     let mut components: Vec<Vec<LinkId>> = start.to_vec();
+    let mut pending: Vec<usize> = Vec::new();
     let mut steps = Vec::with_capacity(order.len());
     for (at, &joint) in order.iter().enumerate() {
         let [u, v] = mechanism.joints[joint].links;
@@ -93,6 +106,14 @@ pub fn plan(
                 .expect("both links have one")
         };
         let (a, b) = (home(u, &components), home(v, &components));
+        // The rates of pending couplings come after the links' twists.
+        let mut waiting: Vec<(usize, Combination)> = pending
+            .iter()
+            .map(|&q| {
+                next += 1;
+                (q, Combination::from([(Source::Block(next - 1), 1)]))
+            })
+            .collect();
         let twist = Combination::from([(Source::Joint, 1)]);
         // The frame stays the root wherever it is, so that its component's coordinates are absolute.
         let frame = mechanism.frame();
@@ -122,6 +143,7 @@ pub fn plan(
             components[a].extend(moved);
             components.remove(b);
         }
+        let coupled = couple(mechanism, joint, &mut waiting, &mut rows);
         let live = |l: &LinkId| {
             pinned.contains(l)
                 || order[at + 1..]
@@ -143,24 +165,53 @@ pub fn plan(
                 names.push((c[0], *l));
             }
         }
-        let (mut blocks, mut from_joint) = (Vec::new(), Vec::new());
+        rows.extend(waiting.iter().map(|(_, rate)| rate.clone()));
+        pending = waiting.iter().map(|(q, _)| *q).collect();
+        let (mut blocks, mut from_joint, mut rates) = (Vec::new(), Vec::new(), Vec::new());
         for (new, row) in rows.iter().enumerate() {
             for (source, sign) in row {
                 match source {
                     Source::Block(old) => blocks.push((new, *old, *sign > 0)),
                     Source::Joint => from_joint.push((new, *sign > 0)),
+                    Source::Rate(i) => rates.push((new, *i, *sign > 0)),
                 }
             }
         }
         steps.push(Step {
             joint,
             closing,
+            coupled,
             blocks,
             twist: from_joint,
+            rates,
             old_width: next,
             width: rows.len(),
             live: names,
+            pending: pending.clone(),
         });
     }
     Plan { steps }
+}
+
+/// Adds a joint's rates to its couplings: pending ones are closed, their gaps go to `rows`, and new ones begin to wait.
+/// Returns the number of couplings closed.
+fn couple(
+    mechanism: &Mechanism,
+    joint: JointId,
+    waiting: &mut Vec<(usize, Combination)>,
+    rows: &mut Vec<Combination>,
+) -> usize {
+    let mut closed = 0;
+    for (i, (q, _)) in mechanism.couplings_of(joint).enumerate() {
+        let rate = Combination::from([(Source::Rate(i), 1)]);
+        match waiting.iter().position(|(w, _)| *w == q) {
+            Some(at) => {
+                let (_, other) = waiting.remove(at);
+                rows.push(plus(&other, 1, &rate));
+                closed += 1;
+            }
+            None => waiting.push((q, rate)),
+        }
+    }
+    closed
 }

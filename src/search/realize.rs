@@ -56,6 +56,7 @@ impl Search<'_> {
             mode: old.mode.clone(),
             links,
             joints,
+            couplings: old.couplings.clone(),
             states: old.states.clone(),
             contours,
             search: Default::default(),

@@ -3,7 +3,8 @@
 use crate::closure::contour::contour_basis;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::{LinkId, Mechanism, Role, StateId};
+use crate::model::coupling::{CoupledFreedom, Coupling};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::redundancy::motion::joint_motion;
 use crate::search::best::{self, Variant};
@@ -81,6 +82,14 @@ pub enum SearchError {
         /// Name of the mechanism.
         mechanism: String,
     },
+    /// A coupling without a mirror image.
+    #[error(
+        "joints {coupling} are coupled, their mirror images are not, or in another ratio; couple both pairs alike, or search without symmetry"
+    )]
+    UnlikeCoupling {
+        /// The coupling.
+        coupling: String,
+    },
     /// Mirrored joints that offer different options.
     #[error(
         "joints {first} and {second} are mirror images but offer different options; give both the same list"
@@ -143,6 +152,11 @@ impl<'m> Search<'m> {
                     });
                 }
             }
+            if let Some(c) = mechanism.couplings.iter().find(|c| !mirrored(mechanism, c)) {
+                return Err(SearchError::UnlikeCoupling {
+                    coupling: c.name(mechanism),
+                });
+            }
         }
         let costs = CostTable::new(&mechanism.search.costs);
         let symmetric = request.symmetry == Symmetry::SymmetricOnly;
@@ -162,7 +176,9 @@ impl<'m> Search<'m> {
         kept.sort_unstable();
         kept.dedup();
         let present = joint_motion(&exact, mechanism, 0, &kept)?;
-        let rows = i64::try_from(space.dim * contour_basis(mechanism, 0).len()).unwrap_or(i64::MAX);
+        let rows =
+            space.dim * contour_basis(mechanism, 0).len() + mechanism.couplings_in(0).count();
+        let rows = i64::try_from(rows).unwrap_or(i64::MAX);
         Ok(Search {
             mechanism,
             request,
@@ -299,4 +315,27 @@ impl<'m> Search<'m> {
         }
         (all, good)
     }
+}
+
+/// Whether the mirror images of two coupled joints are coupled alike, whichever way they turn.
+fn mirrored(mechanism: &Mechanism, coupling: &Coupling) -> bool {
+    /// Relative difference of equal ratios.
+    const EQUAL: f64 = 1e-12;
+    let image = |j: JointId| {
+        let pairs = mechanism.search.mirror.iter();
+        let other = pairs
+            .flat_map(|&(a, b)| [(a, b), (b, a)])
+            .find(|p| p.0 == j);
+        other.map_or(j, |p| p.1)
+    };
+    let [a, b] = coupling.ends.map(|e| CoupledFreedom {
+        joint: image(e.joint),
+        ..e
+    });
+    let ratio = coupling.ratio.to_f64().abs();
+    mechanism.couplings.iter().any(|c| {
+        let other = c.ratio.to_f64().abs();
+        let near = |x: f64| (x / ratio - 1.0).abs() < EQUAL;
+        (c.ends == [a, b] && near(other)) || (c.ends == [b, a] && near(1.0 / other))
+    })
 }

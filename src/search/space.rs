@@ -1,10 +1,11 @@
 //! The space of variants: for each joint, or each mirrored pair of joints, the choices and what they do.
 
+use crate::closure::coupling::{coefficient, length_ratio};
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
-use crate::model::joint_type::JointType;
+use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
 use crate::search::cost::CostTable;
 use num_bigint::BigUint;
@@ -16,7 +17,8 @@ pub struct Choice {
     pub option: usize,
     /// Index into the joint's unloading joints, where one is inserted.
     pub unloading: Option<usize>,
-    /// For each joint of the variable, independent twists that span its motion.
+    /// For each joint of the variable, independent twists that span its motion, each with the joint's entry in the row of
+    /// every coupling it is in behind it.
     pub spans: Vec<Vec<Vec<Residue>>>,
     /// Freedoms the joints put here have in the free state, those of an unloading joint included.
     pub freedoms: u32,
@@ -130,18 +132,21 @@ fn choices(
     exact: &ExactField,
     motion: &MotionSpace<Residue>,
     mechanism: &Mechanism,
-    joint: JointId,
+    id: JointId,
     external: bool,
     costs: &CostTable,
 ) -> Result<Vec<Choice>, ExactError> {
-    let joint = &mechanism.joints[joint];
+    let joint = &mechanism.joints[id];
     let twists = |o: &JointOption| joint_twists(exact, motion, &o.frame, &o.joint_type);
+    let rates = mechanism.couplings_of(id).count();
     let mut out = Vec::new();
     let inserted = std::iter::once(None).chain((0..joint.unloading.len()).map(Some));
     for unloading in inserted {
         for (i, option) in joint.options.iter().enumerate() {
-            let mut columns: Vec<Vec<Residue>> =
-                twists(option)?.into_iter().map(|(_, t)| t).collect();
+            let mut columns = twists(option)?
+                .into_iter()
+                .map(|(f, t)| with_rates(exact, mechanism, id, option, f, t))
+                .collect::<Result<Vec<Vec<Residue>>, _>>()?;
             // W is the free state's: a contact is absent there, its unloading joint is not.
             let absent = if external { columns.len() } else { 0 };
             let mut cost_milli = if i == 0 {
@@ -150,7 +155,11 @@ fn choices(
                 costs.option(option) - costs.option(&joint.options[0]) + costs.change
             };
             if let Some(u) = unloading {
-                columns.extend(twists(&joint.unloading[u])?.into_iter().map(|(_, t)| t));
+                let series = twists(&joint.unloading[u])?.into_iter();
+                columns.extend(series.map(|(_, mut t)| {
+                    t.resize(t.len() + rates, 0);
+                    t
+                }));
                 cost_milli += costs.option(&joint.unloading[u]) + costs.link + costs.change;
             }
             let freedoms = u32::try_from(columns.len() - absent).unwrap_or(u32::MAX);
@@ -169,6 +178,33 @@ fn choices(
         }
     }
     Ok(out)
+}
+
+/// A twist of an option with its entries in the rows of the joint's couplings behind it.
+fn with_rates(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    joint: JointId,
+    option: &JointOption,
+    freedom: Freedom,
+    mut twist: Vec<Residue>,
+) -> Result<Vec<Residue>, ExactError> {
+    let present = &mechanism.joints[joint].frame;
+    for (q, end) in mechanism.couplings_of(joint) {
+        let coupling = &mechanism.couplings[q];
+        if coupling.ends[end].freedom != freedom {
+            twist.push(0);
+            continue;
+        }
+        // An option may have its axis written in another length.
+        let mut entry = exact.eval(&length_ratio((&option.frame, freedom), (present, freedom)))?;
+        if end == 0 {
+            let first = exact.eval(&coefficient(mechanism, coupling))?;
+            entry = exact.field().mul(entry, first);
+        }
+        twist.push(entry);
+    }
+    Ok(twist)
 }
 
 /// The name of what a choice puts at a joint, for people and programs.

@@ -183,7 +183,7 @@ impl Search<'_> {
         let rank = rank(&jacobian)?;
         let int = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
         let mobility = int(f) - int(rank);
-        let redundant = int(pose.rows() / 6 * self.space.dim) - int(rank);
+        let redundant = int(pose.constraints(self.space.dim)) - int(rank);
         if !self.request.keep_output {
             return Some(Figures {
                 mobility,

@@ -123,7 +123,7 @@ impl Worker {
         }
     }
 
-    /// Ends a step: adds the joint's twists and drops the gap. The result is in `work`; returns the redundancy.
+    /// Ends a step: adds the joint's twists and drops the gaps. The result is in `work`; returns the redundancy.
     fn finish(&mut self, step: &Step, span: &[Vec<Residue>]) -> u32 {
         let (f, d) = (self.arithmetic.field, self.dim);
         self.work.clone_from(&self.base);
@@ -131,28 +131,38 @@ impl Worker {
             self.vector.clear();
             self.vector.resize(step.width * d, 0);
             for &(new, plus) in &step.twist {
-                f.accumulate(&mut self.vector[new * d..(new + 1) * d], twist, plus);
+                f.accumulate(&mut self.vector[new * d..(new + 1) * d], &twist[..d], plus);
+            }
+            for &(new, rate, plus) in &step.rates {
+                f.accumulate(
+                    &mut self.vector[new * d..=new * d],
+                    &twist[d + rate..=d + rate],
+                    plus,
+                );
             }
             self.work.insert(&mut self.arithmetic, &mut self.vector);
         }
-        if !step.closing {
+        let gaps = usize::from(step.closing) + step.coupled;
+        if gaps == 0 {
             return 0;
         }
-        // Rows that bridge the gap are motions the contour forbids; directions that no row bridges are redundant.
-        let bridged = self.work.pivots.partition_point(|&p| p < d);
-        let (width, narrow) = (self.work.width, self.work.width - d);
+        // Rows that bridge a gap are motions the contour forbids; directions that no row bridges are redundant.
+        let gap = gaps * d;
+        let directions = if step.closing { d } else { 0 } + step.coupled;
+        let bridged = self.work.pivots.partition_point(|&p| p < gap);
+        let (width, narrow) = (self.work.width, self.work.width - gap);
         for r in bridged..self.work.pivots.len() {
             self.work
                 .data
-                .copy_within(r * width + d..(r + 1) * width, (r - bridged) * narrow);
+                .copy_within(r * width + gap..(r + 1) * width, (r - bridged) * narrow);
         }
         self.work
             .data
             .truncate((self.work.pivots.len() - bridged) * narrow);
         self.work.pivots.drain(..bridged);
-        self.work.pivots.iter_mut().for_each(|p| *p -= d);
+        self.work.pivots.iter_mut().for_each(|p| *p -= gap);
         self.work.width = narrow;
-        u32::try_from(d - bridged).expect("at most six")
+        u32::try_from(directions - bridged).expect("few directions")
     }
 
     /// All children of a node, in order of choices.

@@ -47,6 +47,15 @@ pub enum PlanarError {
         /// The joint.
         joint: String,
     },
+    /// Joints are coupled.
+    #[error(
+        "joints {coupling} are coupled, and what gears or belts pass from joint to joint is not part of the statics; take the \
+         coupling out and drive both joints"
+    )]
+    Coupled {
+        /// The coupling.
+        coupling: String,
+    },
     /// A coordinate has no value.
     #[error(transparent)]
     Exact(#[from] ExactError),
@@ -163,8 +172,12 @@ impl PlanarMechanism {
     /// joint's first link, the slot in its second.
     ///
     /// # Errors
-    /// Where a joint fits no planar pair.
+    /// Where a joint fits no planar pair, or joints are coupled.
     pub fn new(m: &Mechanism, state: StateId) -> Result<Self, PlanarError> {
+        if let Some(c) = m.couplings_in(state).next() {
+            let coupling = c.name(m);
+            return Err(PlanarError::Coupled { coupling });
+        }
         let normal = match &m.mode {
             Mode::Planar { normal } => unit(Reals.eval3(normal)?),
             Mode::Spatial => spatial_normal(m, state)?,

@@ -47,6 +47,15 @@ pub enum Unsolved {
     /// The singular values did not converge.
     #[error("the singular values did not converge; check coordinates and loads for extreme values")]
     NoConvergence,
+    /// Joints are coupled.
+    #[error(
+        "joints {coupling} are coupled, and what gears or belts pass from joint to joint is not part of the statics; take the \
+         coupling out and drive both joints, or rank by cost alone"
+    )]
+    Coupled {
+        /// The coupling.
+        coupling: String,
+    },
     /// Loads do work on a motion that no drive holds.
     #[error(
         "no equilibrium: link {link} would move under the loads, and no drive holds it ({mobility} undriven freedoms); \
@@ -178,6 +187,7 @@ impl Reactions {
         drive: f64,
         drives: &[Driven],
     ) -> Result<Solution, Unsolved> {
+        no_couplings(m, state)?;
         let geometry = Geometry::new(m, state, pose)?;
         let loads_of_links = link_loads(m, loads, &geometry, pose, drive, period(drives));
         let system = System::new(&geometry, drives)?;
@@ -223,6 +233,19 @@ impl Reactions {
             residual,
             size: geometry.size,
         })
+    }
+}
+
+/// Refuses a mechanism with coupled joints, whose reactions are not those of the joints alone.
+///
+/// # Errors
+/// [`Unsolved::Coupled`] with the first coupling.
+pub fn no_couplings(m: &Mechanism, state: StateId) -> Result<(), Unsolved> {
+    match m.couplings_in(state).next() {
+        None => Ok(()),
+        Some(c) => Err(Unsolved::Coupled {
+            coupling: c.name(m),
+        }),
     }
 }
 

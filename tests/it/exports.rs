@@ -85,11 +85,13 @@ fn sdf_there_and_back() {
         let i = import("x.sdf", text.as_bytes(), &none, &Options::default())
             .unwrap_or_else(|e| panic!("{}: {e}\n{text}", m.name));
         let back = mechanism_from_str("x.toml", &i.toml).unwrap();
-        let figures = |m: &Mechanism| {
+        // A joint mimics one other: couplings beyond a tree, which are redundant where the mechanism moves, are comments.
+        let unsaid = text.matches("<!-- coupled, ").count();
+        let figures = |m: &Mechanism, unsaid: usize| {
             let s = &analyse(m, &[0], Method::Numeric(Elimination::Svd, 1e-9)).unwrap()[0];
-            (s.contours, s.mobility, s.redundant)
+            (s.contours, s.mobility, s.redundant - unsaid)
         };
-        assert_eq!(figures(&back), figures(&m), "{}\n{text}", m.name);
+        assert_eq!(figures(&back, 0), figures(&m, unsaid), "{}\n{text}", m.name);
         tried += 1;
     }
     assert!(tried > 25);

@@ -9,6 +9,7 @@ mod certify;
 mod cli;
 mod common;
 mod contours;
+mod couplings;
 mod drawings;
 mod drive;
 mod drive_command;

@@ -4,22 +4,26 @@ use crate::cli::ozols;
 use crate::robots::{ARM, figures, folder, model, none, refused};
 use ozols::robot::{Options, import};
 
-// Mimic joints are couplings of one row each; the mechanism file has none, so that W = 6 where the gripper's is 1.
+// Five mimic joints follow the sixth: W = 6 of the tree of joints alone, 1 with the couplings.
 #[test]
-fn mimic_joints_are_counted_and_left_out() {
+fn mimic_joints_are_couplings() {
     let i = model(
         "robotiq_ros_urdf/robotiq_arg2f_85_model.expanded.urdf",
         &Options::default(),
     );
-    assert_eq!(figures(&i, 1e-9), [7, 6, 0, 6, 6, 0]);
+    assert_eq!(figures(&i, 1e-9), [7, 6, 0, 6, 1, 0]);
     assert_eq!(
         (i.report.coupling_rows, i.report.approximated.len()),
-        (5, 5)
+        (0, 0)
     );
+    let kept = i.report.kept.unwrap();
+    assert_eq!((kept.couplings, kept.mobility), (5, Some((6, 1))));
     assert!(
-        i.toml
-            .contains("# mimics finger_joint times 1; here an independent joint")
+        i.report
+            .text("x.urdf")
+            .contains("5 couplings of joints: W = 6 without, 1 with")
     );
+    assert!(i.toml.contains("# mimics finger_joint times 1"));
     assert_eq!(i.report.dropped["visual"].0, 11);
 }
 
@@ -33,8 +37,8 @@ fn nothing_moves() {
 // The models of ../shared/models against the peers' figures there: MuJoCo 4.0 and Pinocchio 4.1 on the same files.
 //
 // A peer counts rows of the constraints that cut the loops; ozols counts 6 for each contour and gives the cutting joint
-// its freedoms, so that σ is the same. A coupling of joint angles is a row of theirs and none of ours: W is higher by
-// the number of independent couplings, as long as they are independent of the loops, which the equal σ shows.
+// its freedoms, so that σ is the same. A coupling of joint angles is a row of theirs and of ours, so that W is the same
+// too; the report also has W without the couplings, which is higher by their number where none of them is redundant.
 struct Peer {
     path: &'static str,
     loops: Option<&'static str>,
@@ -66,7 +70,7 @@ const PEERS: [Peer; 8] = [
         tolerance: 1e-9,
         couplings: 1,
         peer: [6, 7, 5],
-        ours: [7, 8, 2, 12, 2, 2],
+        ours: [7, 8, 2, 12, 1, 2],
     },
     Peer {
         path: "xarm7_hand/hand.nomesh.xml",
@@ -74,7 +78,7 @@ const PEERS: [Peer; 8] = [
         tolerance: 1e-9,
         couplings: 1,
         peer: [6, 7, 5],
-        ours: [7, 8, 2, 12, 2, 2],
+        ours: [7, 8, 2, 12, 1, 2],
     },
     // Its coordinates are rounded to 1e-8 m: the peer's dropped singular values reach 2.9e-8.
     Peer {
@@ -83,7 +87,7 @@ const PEERS: [Peer; 8] = [
         tolerance: 1e-6,
         couplings: 9,
         peer: [50, 21, 12],
-        ours: [46, 49, 4, 62, 47, 9],
+        ours: [46, 49, 4, 62, 38, 9],
     },
     beside(
         "epr_5bar_linkage/robot.urdf",
@@ -131,15 +135,13 @@ fn peers() {
         let i = model(p.path, &with_loops(p.loops));
         let found = figures(&i, p.tolerance);
         assert_eq!(found, p.ours, "{}", p.path);
-        assert_eq!(i.report.coupling_rows, p.couplings, "{}", p.path);
+        assert_eq!(i.report.coupling_rows, 0, "{}", p.path);
         let ([nv, rows, rank], [.., w, sigma]) = (p.peer, found);
-        let couplings = i64::try_from(p.couplings).unwrap();
-        assert_eq!(
-            (w - couplings, sigma),
-            (nv - rank, rows - rank),
-            "{}",
-            p.path
-        );
+        assert_eq!((w, sigma), (nv - rank, rows - rank), "{}", p.path);
+        let kept = i.report.kept.map(|k| (k.couplings, k.mobility.unwrap()));
+        let both = |w: usize| (p.couplings, (w + p.couplings, w));
+        let wanted = (p.couplings > 0).then(|| both(usize::try_from(w).unwrap()));
+        assert_eq!(kept, wanted, "{}", p.path);
     }
 }
 
@@ -247,14 +249,10 @@ fn descriptions_as_files() {
     .output()
     .unwrap();
     assert_eq!(o.status.code(), Some(0));
-    assert!(
-        String::from_utf8(o.stderr)
-            .unwrap()
-            .contains("1 coupling row")
-    );
+    assert!(!String::from_utf8(o.stderr).unwrap().contains("coupling"));
     let v: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
     assert_eq!(
         (&v["states"][0]["redundant"], &v["states"][0]["mobility"]),
-        (&2.into(), &2.into())
+        (&2.into(), &1.into())
     );
 }

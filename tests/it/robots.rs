@@ -239,7 +239,7 @@ fn the_command() {
     assert!(
         String::from_utf8(o.stderr)
             .unwrap()
-            .contains("5 coupling rows")
+            .contains("5 couplings of joints: W = 6 without, 1 with")
     );
     let checked = ozols(&["check", target.to_str().unwrap()])
         .output()

@@ -5,7 +5,7 @@ use crate::twin;
 use ozols::accuracy::lattice::{self, Kind};
 use ozols::builtin;
 use ozols::closure::contour::Contour;
-use ozols::closure::matrix::{Closure, Column};
+use ozols::closure::matrix::{Closure, Column, CouplingRow};
 use ozols::geom::exact::ExactField;
 use ozols::import::text::mechanism_from_str;
 use ozols::linalg::echelon;
@@ -116,7 +116,10 @@ fn structured() -> impl Strategy<Value = Structure> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 256, ..ProptestConfig::default() })]
     #[test]
-    fn random_structures((dim, contours, twists) in structured()) {
+    fn random_structures(
+        (dim, contours, twists) in structured(),
+        pairs in proptest::collection::vec((0..100usize, 0..100usize, 1..4i64), 0..5),
+    ) {
         let exact = ExactField::for_expressions([], 0).unwrap();
         let column = |(joint, t): (usize, &Vec<i64>)| Column {
             joint,
@@ -124,18 +127,30 @@ proptest! {
             twist: t[..dim].iter().map(|&x| exact.field().from_i64(x)).collect(),
         };
         let columns = twists.iter().enumerate().flat_map(|(j, ts)| ts.iter().map(move |t| (j, t)));
-        let closure = Closure {
+        let mut closure = Closure {
             extent: None,
             state: 0,
             dim,
             contours: contours.into_iter().map(|joints| Contour { joints, links: Vec::new() }).collect(),
             columns: columns.map(column).collect(),
+            couplings: Vec::new(),
             left_out: Vec::new(),
         };
         prop_assert_eq!(modular::rank(&exact, &closure), modular::rank_dense(&exact, &closure));
         let found: Vec<[usize; 3]> =
             shares(&exact, &closure).iter().map(|s| [s.redundant, s.range.0, s.range.1]).collect();
         prop_assert_eq!(found, shares_by_definition(&exact, &closure));
+        // Couplings of columns of different joints: fronts of their own, against J written out.
+        let f = closure.columns.len().max(1);
+        for (a, b, ratio) in pairs {
+            let (a, b) = (a % f, b % f);
+            if closure.columns.get(a).map(|c| c.joint) != closure.columns.get(b).map(|c| c.joint) {
+                let field = exact.field();
+                let entries = [(a, field.from_i64(-ratio)), (b, field.one())];
+                closure.couplings.push(CouplingRow { entries });
+            }
+        }
+        prop_assert_eq!(modular::rank(&exact, &closure), modular::rank_dense(&exact, &closure));
     }
 }
 

@@ -4,6 +4,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 use ozols::import::text::mechanism_from_str;
+use ozols::model::coupling::CoupledFreedom;
 use ozols::model::joint_type::{Freedom, JointType};
 use ozols::model::mechanism::{Frame, JointId, LinkId, Mechanism, Mode, Role};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
@@ -23,21 +24,43 @@ fn dot(a: &[Q], b: &[Q]) -> Q {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// Twists of a joint, from the conventions of the design: z the axis, x the reference made perpendicular, y = z × x.
+/// Axes z, x, y of a frame, from the conventions of the design: z the axis, x the reference made perpendicular, y = z × x.
+fn axes(frame: &Frame) -> [Vec<Q>; 3] {
+    let value = |v: &[ozols::geom::expr::Expr; 3]| {
+        v.iter()
+            .map(|e| e.as_rational().unwrap())
+            .collect::<Vec<Q>>()
+    };
+    let (z, r) = (value(&frame.axis), value(&frame.reference));
+    let (zz, zr) = (dot(&z, &z), dot(&z, &r));
+    let x: Vec<Q> = (0..3).map(|i| &r[i] * &zz - &z[i] * &zr).collect();
+    let y = cross(&z, &x);
+    [z, x, y]
+}
+
+/// The length of the axis of a freedom, which must be rational.
+fn length(frame: &Frame, freedom: Freedom) -> Q {
+    let [z, x, y] = axes(frame);
+    let along = match freedom {
+        Freedom::Rz | Freedom::Tz | Freedom::Screw => z,
+        Freedom::Rx | Freedom::Tx => x,
+        Freedom::Ry | Freedom::Ty => y,
+    };
+    let square = dot(&along, &along);
+    let root = Q::new(square.numer().sqrt(), square.denom().sqrt());
+    assert_eq!(&root * &root, square, "an axis of irrational length");
+    root
+}
+
+/// Twists of a joint.
 fn twists(frame: &Frame, kind: &JointType) -> Vec<Vec<Q>> {
     let value = |v: &[ozols::geom::expr::Expr; 3]| {
         v.iter()
             .map(|e| e.as_rational().unwrap())
             .collect::<Vec<Q>>()
     };
-    let (p, z, r) = (
-        value(&frame.point),
-        value(&frame.axis),
-        value(&frame.reference),
-    );
-    let (zz, zr) = (dot(&z, &z), dot(&z, &r));
-    let x: Vec<Q> = (0..3).map(|i| &r[i] * &zz - &z[i] * &zr).collect();
-    let y = cross(&z, &x);
+    let p = value(&frame.point);
+    let [z, x, y] = axes(frame);
     let turn = |u: &Vec<Q>| [u.clone(), cross(&p, u)].concat();
     let slide = |u: &Vec<Q>| [vec![Q::zero(); 3], u.clone()].concat();
     let one = |f: &Freedom| match f {
@@ -104,7 +127,8 @@ fn reduce(mut rows: Vec<Vec<Q>>) -> (Vec<Vec<Q>>, Vec<usize>) {
 }
 
 /// Joint motion written out with a twist for every link: unknowns are link twists and joint speeds; each joint demands
-/// t_b - t_a = Σ speeds · twists, and the frame rests. No contours, no spanning tree.
+/// t_b - t_a = Σ speeds · twists, and the frame rests; `coupled` are sums of two speeds with factors that must vanish. No
+/// contours, no spanning tree.
 struct Figures {
     mobility: usize,
     freedoms: usize,
@@ -115,6 +139,7 @@ fn figures(
     links: usize,
     frame: LinkId,
     joints: &[([LinkId; 2], Vec<Vec<Q>>)],
+    coupled: &[[(usize, Q); 2]],
     outputs: &[LinkId],
 ) -> Figures {
     let freedoms: usize = joints.iter().map(|(_, t)| t.len()).sum();
@@ -132,6 +157,13 @@ fn figures(
             rows.push(row);
         }
         at += columns.len();
+    }
+    for entries in coupled {
+        let mut row = vec![Q::zero(); width];
+        for (column, factor) in entries {
+            row[links * 6 + column] += factor;
+        }
+        rows.push(row);
     }
     let rest = |l: LinkId, c: usize| {
         let mut row = vec![Q::zero(); width];
@@ -182,7 +214,9 @@ pub(crate) fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>
     let of = |state: usize| {
         // An unloading joint is a joint in series with an extra link at the end of the list.
         let mut links = m.links.len();
-        let mut joints = Vec::new();
+        let mut joints: Vec<([LinkId; 2], Vec<Vec<Q>>)> = Vec::new();
+        // Where the columns of each joint's own option begin.
+        let mut own = vec![None; m.joints.len()];
         for (j, joint) in m.joints.iter().enumerate() {
             let present = m.joints_in(state).any(|x| x == j);
             let (option, unloading) = choice[j];
@@ -199,17 +233,39 @@ pub(crate) fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>
                     let extra = allowed_twists(&m.mode, &pad_joint.frame, &pad_joint.joint_type);
                     joints.push(([joint.links[0], pad], extra));
                     if present {
+                        own[j] = Some(joints.iter().map(|(_, t)| t.len()).sum::<usize>());
                         joints.push(([pad, joint.links[1]], span));
                     }
                 }
-                None if present => joints.push((joint.links, span)),
+                None if present => {
+                    own[j] = Some(joints.iter().map(|(_, t)| t.len()).sum());
+                    joints.push((joint.links, span));
+                }
                 None => {}
             }
         }
+        // Rates are in units of length 1, whatever the axis.
+        let entry = |e: CoupledFreedom| {
+            let option = &m.joints[e.joint].options[choice[e.joint].0];
+            let at = option
+                .joint_type
+                .freedoms()
+                .iter()
+                .position(|f| *f == e.freedom);
+            Some((own[e.joint]? + at?, length(&option.frame, e.freedom)))
+        };
+        let coupled: Vec<[(usize, Q); 2]> = m
+            .couplings
+            .iter()
+            .filter_map(|c| {
+                let ((a, x), (b, y)) = (entry(c.ends[0])?, entry(c.ends[1])?);
+                Some([(a, -c.ratio.as_rational()? * x), (b, y)])
+            })
+            .collect();
         let used: std::collections::BTreeSet<usize> = joints.iter().flat_map(|(l, _)| *l).collect();
         let contours = joints.len() + 1 - used.len();
-        let f = figures(links, m.frame(), &joints, &outputs);
-        let sigma = f.mobility + rows * contours - f.freedoms;
+        let f = figures(links, m.frame(), &joints, &coupled, &outputs);
+        let sigma = f.mobility + rows * contours + coupled.len() - f.freedoms;
         (f, sigma)
     };
     let (free, internal) = of(0);
@@ -320,70 +376,156 @@ pub(crate) fn random() -> impl Strategy<Value = String> {
         })
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, max_shrink_iters: 200, ..ProptestConfig::default() })]
-    #[test]
-    fn the_search_agrees_with_its_twins(text in random(), allowed in 0u32..3, keep in any::<bool>()) {
+/// A random mechanism with up to three couplings, of contacts too; `None` where no two joints can be coupled.
+fn random_coupled() -> impl Strategy<Value = Option<String>> {
+    let coupling = (
+        any::<prop::sample::Index>(),
+        any::<prop::sample::Index>(),
+        prop::sample::select(vec!["-1", "2", "-3", "\"1/2\""]),
+    );
+    (random(), prop::collection::vec(coupling, 1..4)).prop_map(|(text, wanted)| {
+        // Balls cannot be coupled; axes of several lengths that are all rational.
+        let text = text
+            .replace(
+                "[\"universal\", \"spherical\"]",
+                "[\"universal\", \"cylindrical\"]",
+            )
+            .replace(
+                "\noptions = [\"spherical\"]\nunloading",
+                "\noptions = [\"cylindrical-universal\"]\nunloading",
+            )
+            .replace("\noptions = [\"spherical\"]", "\noptions = [\"universal\"]")
+            .replace("type = \"fixed\"", "type = \"revolute\"\naxis = [0, 2, 0]")
+            .replace("axis = [1, 2, -1]", "axis = [1, 2, -2]")
+            .replace("axis = [0, 1, 0]", "axis = [0, 3, 0]");
         let m = mechanism_from_str("random.toml", &text).unwrap();
-        let clamped = m.states.len() > 1;
-        let all = variants(&m, clamped);
-        prop_assume!(all.len() <= 64);
-        let present = look(&m, clamped, &vec![(0, None); m.joints.len()]);
-        // The analysis of the mechanism as it is.
-        let states: Vec<usize> = (0..m.states.len()).collect();
-        let found = analyse(&m, &states, Method::Modular).unwrap();
-        prop_assert_eq!(found[0].redundant, present.internal as usize);
-        prop_assert_eq!(found[0].mobility as i64, present.mobility);
-        prop_assert_eq!(found[0].working_mobility, present.motion);
-        if clamped {
-            let e = found[1].external.unwrap();
-            prop_assert_eq!(e.redundant, i64::from(present.external));
-            prop_assert_eq!(e.by_rank, i64::from(present.external));
-        }
-        // Every variant.
-        let external = if clamped { allowed * 2 } else { 0 };
-        let request = Request {
-            max_redundant: allowed,
-            state: clamped.then_some((1, external)),
-            keep_output: keep,
-            symmetry: Symmetry::All,
-            ..Request::default()
-        };
-        let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
-        let diagrams = search.build(&|| false, &mut |_| {});
-        let determinate = search.counts(&diagrams.determinate, false);
-        let admissible = search.counts(&diagrams.admissible, true);
-        prop_assert_eq!(search.size(), all.len().into());
-        let seen: Vec<Twin> = all.iter().map(|c| look(&m, clamped, c)).collect();
-        let good = |t: &&Twin| t.internal <= allowed;
-        let better = |t: &&Twin| good(t) && t.external <= external && (!keep || t.motion == present.motion);
-        let tally = |list: Vec<&Twin>| {
-            let mut out: BTreeMap<(i64, u32), num_bigint::BigUint> = BTreeMap::new();
-            for t in list {
-                *out.entry((t.mobility, t.changes)).or_default() += 1u8;
+        let mut ends = Vec::new();
+        for (j, joint) in m.joints.iter().enumerate() {
+            let ball = joint.joint_type == JointType::Spherical;
+            for f in joint.joint_type.freedoms().iter().filter(|_| !ball) {
+                let [z, x, _] = axes(&joint.frame);
+                let rational = |v: &[Q]| {
+                    let square = dot(v, v);
+                    let root = Q::new(square.numer().sqrt(), square.denom().sqrt());
+                    &root * &root == square
+                };
+                if matches!(f, Freedom::Rz | Freedom::Tz) && rational(&z) || rational(&x) {
+                    ends.push((j, f.name()));
+                }
             }
-            out
-        };
-        prop_assert_eq!(&determinate.by_mobility_and_changes, &tally(seen.iter().filter(good).collect()));
-        prop_assert_eq!(&admissible.by_mobility_and_changes, &tally(seen.iter().filter(better).collect()));
-        prop_assert_eq!((determinate, admissible.clone()), search.brute());
-        // The k best: all of them, each once, cheapest first; a shorter list is a prefix of a longer one.
-        let mut list = Vec::new();
-        search.cheapest(&diagrams, usize::MAX / 4, |v| { list.push(v); ControlFlow::Continue(()) });
-        prop_assert_eq!(admissible.total, list.len().into());
-        let mut distinct: Vec<_> = list.iter().map(|v| v.choices.clone()).collect();
-        distinct.sort();
-        distinct.dedup();
-        prop_assert_eq!(distinct.len(), list.len());
-        prop_assert!(list.windows(2).all(|w| w[0].key.cost() <= w[1].key.cost()));
-        let mut three = Vec::new();
-        search.cheapest(&diagrams, 3, |v| { three.push(v); ControlFlow::Continue(()) });
-        prop_assert_eq!(&three[..], &list[..list.len().min(3)]);
-        for v in search.sample(&diagrams, 5, 7) {
-            prop_assert!(list.contains(&v));
         }
+        let (mut out, mut pairs) = (text, Vec::new());
+        for (a, b, ratio) in wanted {
+            if ends.is_empty() {
+                break;
+            }
+            let (a, b) = (ends[a.index(ends.len())], ends[b.index(ends.len())]);
+            if a.0 == b.0 || m.joints[a.0].states != m.joints[b.0].states || pairs.contains(&[a, b])
+            {
+                continue;
+            }
+            pairs.extend([[a, b], [b, a]]);
+            let [x, y] = [a, b].map(|(j, f)| format!("{}:{f}", m.joints[j].id));
+            out += &format!("[[coupling]]\njoints = [\"{x}\", \"{y}\"]\nratio = {ratio}\n");
+        }
+        (!pairs.is_empty()).then_some(out)
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, max_shrink_iters: 200, ..ProptestConfig::default() })]
+    #[test]
+    fn the_search_agrees_with_its_twins_on_coupled_joints(
+        text in random_coupled(), allowed in 0u32..3, keep in any::<bool>(),
+    ) {
+        prop_assume!(text.is_some());
+        agrees(&text.unwrap(), allowed, keep)?;
     }
 
+    #[test]
+    fn the_search_agrees_with_its_twins(text in random(), allowed in 0u32..3, keep in any::<bool>()) {
+        agrees(&text, allowed, keep)?;
+    }
+}
+
+/// The analysis and the search of a mechanism, against every variant looked at in rational arithmetic.
+fn agrees(text: &str, allowed: u32, keep: bool) -> Result<(), TestCaseError> {
+    let m = mechanism_from_str("random.toml", text).unwrap();
+    let clamped = m.states.len() > 1;
+    let all = variants(&m, clamped);
+    prop_assume!(all.len() <= 64);
+    let present = look(&m, clamped, &vec![(0, None); m.joints.len()]);
+    // The analysis of the mechanism as it is.
+    let states: Vec<usize> = (0..m.states.len()).collect();
+    let found = analyse(&m, &states, Method::Modular).unwrap();
+    prop_assert_eq!(found[0].redundant, present.internal as usize);
+    prop_assert_eq!(found[0].mobility as i64, present.mobility);
+    prop_assert_eq!(found[0].working_mobility, present.motion);
+    if clamped {
+        let e = found[1].external.unwrap();
+        prop_assert_eq!(e.redundant, i64::from(present.external));
+        prop_assert_eq!(e.by_rank, i64::from(present.external));
+    }
+    // Every variant.
+    let external = if clamped { allowed * 2 } else { 0 };
+    let request = Request {
+        max_redundant: allowed,
+        state: clamped.then_some((1, external)),
+        keep_output: keep,
+        symmetry: Symmetry::All,
+        ..Request::default()
+    };
+    let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
+    let diagrams = search.build(&|| false, &mut |_| {});
+    let determinate = search.counts(&diagrams.determinate, false);
+    let admissible = search.counts(&diagrams.admissible, true);
+    prop_assert_eq!(search.size(), all.len().into());
+    let seen: Vec<Twin> = all.iter().map(|c| look(&m, clamped, c)).collect();
+    let good = |t: &&Twin| t.internal <= allowed;
+    let better =
+        |t: &&Twin| good(t) && t.external <= external && (!keep || t.motion == present.motion);
+    let tally = |list: Vec<&Twin>| {
+        let mut out: BTreeMap<(i64, u32), num_bigint::BigUint> = BTreeMap::new();
+        for t in list {
+            *out.entry((t.mobility, t.changes)).or_default() += 1u8;
+        }
+        out
+    };
+    prop_assert_eq!(
+        &determinate.by_mobility_and_changes,
+        &tally(seen.iter().filter(good).collect())
+    );
+    prop_assert_eq!(
+        &admissible.by_mobility_and_changes,
+        &tally(seen.iter().filter(better).collect())
+    );
+    prop_assert_eq!((determinate, admissible.clone()), search.brute());
+    // The k best: all of them, each once, cheapest first; a shorter list is a prefix of a longer one.
+    let mut list = Vec::new();
+    search.cheapest(&diagrams, usize::MAX / 4, |v| {
+        list.push(v);
+        ControlFlow::Continue(())
+    });
+    prop_assert_eq!(admissible.total, list.len().into());
+    let mut distinct: Vec<_> = list.iter().map(|v| v.choices.clone()).collect();
+    distinct.sort();
+    distinct.dedup();
+    prop_assert_eq!(distinct.len(), list.len());
+    prop_assert!(list.windows(2).all(|w| w[0].key.cost() <= w[1].key.cost()));
+    let mut three = Vec::new();
+    search.cheapest(&diagrams, 3, |v| {
+        three.push(v);
+        ControlFlow::Continue(())
+    });
+    prop_assert_eq!(&three[..], &list[..list.len().min(3)]);
+    for v in search.sample(&diagrams, 5, 7) {
+        prop_assert!(list.contains(&v));
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, max_shrink_iters: 200, ..ProptestConfig::default() })]
     #[test]
     fn adding_freedoms_never_raises_redundancy_and_the_frame_does_not_matter(text in random(), move_by in -5i32..6) {
         let m = mechanism_from_str("random.toml", &text).unwrap();

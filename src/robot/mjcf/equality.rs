@@ -3,6 +3,7 @@
 use super::{Context, unsupported};
 use crate::import::problem::ImportError;
 use crate::model::joint_type::JointType;
+use crate::robot::coupling::Ratio;
 use crate::robot::parts::{Part, Robot};
 use crate::robot::pose::Pose;
 use crate::robot::problem::{RobotProblem, known};
@@ -143,20 +144,71 @@ fn coupling(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
             return Err(unknown(e, key, "joint", name, known));
         }
     }
-    robot.report.coupling_rows += 1;
-    let what = match names[..] {
-        [a, b] => format!("{a} and {b} are independent joints; their coupling (1 row) is left out"),
-        _ => format!(
+    let element = e.label();
+    let left_out = |robot: &mut Robot, what: String| {
+        robot.report.coupling_rows += 1;
+        robot.report.approximate(&element, what);
+    };
+    let [a, b] = names[..] else {
+        let what = format!(
             "{} can move; its equality to a constant (1 row) is left out",
             names[0]
-        ),
+        );
+        left_out(robot, what);
+        comment(names[0], "held at a constant; here it can move", robot);
+        return Ok(());
     };
-    robot.report.approximate(&e.label(), what);
-    if let Some(j) = robot.joints.iter_mut().find(|j| j.id == names[0]) {
-        j.comment = Some(match names[..] {
-            [_, b] => format!("coupled to {b}; here an independent joint"),
-            _ => "held at a constant; here it can move".to_owned(),
-        });
+    // Value of joint 1 less its reference, as a polynomial of that of joint 2 less its own.
+    let polynomial = polynomial(e)?;
+    let [_, ratio, higher @ ..] = polynomial;
+    if higher.iter().any(|x| *x != 0.0) {
+        let what = format!(
+            "{a} and {b} are independent joints; their coupling (1 row) is left out, for it is not linear"
+        );
+        left_out(robot, what);
+        let what = format!("coupled to {b}, not linearly; here an independent joint");
+        comment(a, &what, robot);
+        return Ok(());
     }
+    comment(a, &format!("coupled to {b} times {ratio}"), robot);
+    robot.couplings.push(Ratio {
+        joints: [b.to_owned(), a.to_owned()],
+        ratio,
+        element,
+    });
     Ok(())
+}
+
+fn comment(joint: &str, what: &str, robot: &mut Robot) {
+    if let Some(j) = robot.joints.iter_mut().find(|j| j.id == joint) {
+        j.comment = Some(what.to_owned());
+    }
+}
+
+/// The five coefficients of `polycoef`, lowest first; those left out are as MuJoCo has them, 0 1 0 0 0.
+fn polynomial(e: Element<'_>) -> Result<[f64; 5], ImportError> {
+    let mut out = [0.0, 1.0, 0.0, 0.0, 0.0];
+    let Some(text) = e.attribute("polycoef") else {
+        return Ok(out);
+    };
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let read: Option<Vec<f64>> = words
+        .iter()
+        .map(|w| w.parse::<f64>().ok().filter(|x| x.abs() <= 1e9))
+        .collect();
+    match read {
+        Some(read) if read.len() <= out.len() => {
+            out[..read.len()].copy_from_slice(&read);
+            Ok(out)
+        }
+        _ => Err(e.fail(
+            Some("polycoef"),
+            RobotProblem::BadValue {
+                element: e.label(),
+                what: "polycoef".to_owned(),
+                found: text.to_owned(),
+                want: "give at most 5 finite numbers".to_owned(),
+            },
+        )),
+    }
 }

@@ -4,6 +4,7 @@ use super::scene::{Scene, absolute, located};
 use super::{end, unsupported};
 use crate::import::problem::ImportError;
 use crate::model::joint_type::JointType;
+use crate::robot::coupling::Ratio;
 use crate::robot::parts::{Part, Robot, free};
 use crate::robot::pose::{Pose, V3, Z, cross, dot, length, sub, unit};
 use crate::robot::problem::RobotProblem;
@@ -118,6 +119,7 @@ pub(super) fn joint(
     match word {
         "ball" | "fixed" | "floating" => {}
         "universal" | "revolute2" => {
+            mimic(e, &name, scope, robot)?;
             let first = axis(e, "axis", scope, scene, &world)?;
             let second = axis(e, "axis2", scope, scene, &world)?;
             return two_axes(e, part, [local(first), local(second)], robot);
@@ -138,17 +140,34 @@ pub(super) fn joint(
         let what = format!("its parent frame and the joint are {d:.3} m apart in the file; {done}");
         robot.report.approximate(&e.label(), what);
     }
-    if let Some(m) = e.children().find_map(|a| a.child("mimic")) {
-        robot.report.coupling_rows += 1;
-        let leader = m.attribute("joint").unwrap_or("another joint");
-        robot.report.approximate(
-            &e.label(),
-            format!("independent joint; its coupling to {leader} (1 row) is left out"),
-        );
-        part.comment = Some(format!("mimics {leader}; here an independent joint"));
+    if let Some(leader) = mimic(e, &name, scope, robot)? {
+        part.comment = Some(format!("mimics {leader}"));
     }
     robot.joints.push(part);
     Ok(())
+}
+
+/// Notes the coupling of a joint whose axis follows that of another, which it gives the name of.
+fn mimic(
+    e: Element<'_>,
+    name: &str,
+    scope: &str,
+    robot: &mut Robot,
+) -> Result<Option<String>, ImportError> {
+    let Some(m) = e.children().find_map(|a| a.child("mimic")) else {
+        return Ok(None);
+    };
+    let leader = absolute(scope, m.required("joint")?);
+    let ratio = match m.child("multiplier") {
+        Some(x) => x.text_numbers::<1>()?[0],
+        None => 1.0,
+    };
+    robot.couplings.push(Ratio {
+        joints: [leader.clone(), name.to_owned()],
+        ratio,
+        element: e.label(),
+    });
+    Ok(Some(leader))
 }
 
 pub(super) fn limits(e: Element<'_>) -> Result<Option<(f64, f64)>, ImportError> {

@@ -1,0 +1,62 @@
+//! Couplings as rows of the closure matrix.
+//!
+//! A column of J is the twist of a freedom about or along an axis of any length, so that a speed of 1 is a rate of that
+//! length in radians or length units. A coupling is about rates, and its row takes the lengths out again:
+//! s_b - ratio·(|a|/|b|)·s_a = 0 for speeds s on axes a and b.
+
+use crate::geom::expr::Expr;
+use crate::model::coupling::Coupling;
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{Frame, Mechanism, StateId};
+
+/// Squares of lengths that differ by less than this part are those of two axes of one length, written in decimals.
+const UNIT: f64 = 1e-12;
+
+/// The square of the length of the axis that a freedom turns about or slides along; see [`super::twist::FrameValues`].
+fn square(frame: &Frame, freedom: Freedom) -> Expr {
+    let dot = |a: &[Expr; 3], b: &[Expr; 3]| &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2];
+    let z = || dot(&frame.axis, &frame.axis);
+    // x = r (z·z) - z (z·r), so x·x = (z·z)((z·z)(r·r) - (z·r)²); y = z × x.
+    let x = || {
+        let (r, zr) = (&frame.reference, dot(&frame.axis, &frame.reference));
+        let zz = z();
+        &zz * &(&zz * &dot(r, r) - &zr * &zr)
+    };
+    match freedom {
+        Freedom::Rz | Freedom::Tz | Freedom::Screw => z(),
+        Freedom::Rx | Freedom::Tx => x(),
+        Freedom::Ry | Freedom::Ty => z() * x(),
+    }
+}
+
+/// The length of the axis of a freedom in one frame over that in another; 1 where they differ by rounding only.
+#[must_use]
+pub fn length_ratio(of: (&Frame, Freedom), over: (&Frame, Freedom)) -> Expr {
+    let (a, b) = (square(of.0, of.1), square(over.0, over.1));
+    let ratio = a.to_f64() / b.to_f64();
+    if (ratio - 1.0).abs() < UNIT {
+        return Expr::from(1);
+    }
+    // Axes are not zero, so that the quotient and its root are there.
+    a.div(&b)
+        .and_then(|q| q.sqrt())
+        .unwrap_or_else(|| Expr::from(1))
+}
+
+/// The entry of a coupling's row at the speed of its first freedom, where that of the second is 1.
+#[must_use]
+pub fn coefficient(mechanism: &Mechanism, coupling: &Coupling) -> Expr {
+    let [a, b] = coupling.ends;
+    let frame = |j: usize| &mechanism.joints[j].frame;
+    let length = length_ratio((frame(a.joint), a.freedom), (frame(b.joint), b.freedom));
+    -(&coupling.ratio * &length)
+}
+
+/// The entries of all couplings of a state, for the field that they are to have values in.
+#[must_use]
+pub fn coefficients(mechanism: &Mechanism, state: StateId) -> Vec<Expr> {
+    mechanism
+        .couplings_in(state)
+        .map(|c| coefficient(mechanism, c))
+        .collect()
+}

@@ -1,0 +1,534 @@
+//! Couplings of joints: figures derived by hand, what the file may say, and every method on the same rows.
+
+use crate::cli::ozols;
+use ozols::import::text::mechanism_from_str;
+use ozols::model::mechanism::Mechanism;
+use ozols::rank::method::{NoAnswer, by_name};
+use ozols::redundancy::analysis::{Method, StateAnalysis, analyse};
+
+const FRAME: &str = r#"
+name = "pair"
+length_unit = "mm"
+[[link]]
+id = "0"
+role = "frame"
+[[link]]
+id = "1"
+[[link]]
+id = "2"
+role = "output"
+"#;
+
+/// Two joints on the frame, with couplings.
+fn pair(first: &str, second: &str, couplings: &str) -> String {
+    format!(
+        "{FRAME}\n[[joint]]\nid = \"a\"\nlinks = [\"0\", \"1\"]\npoint = [0, 0, 0]\n{first}\n\
+         [[joint]]\nid = \"b\"\nlinks = [\"0\", \"2\"]\npoint = [100, 0, 0]\n{second}\n{couplings}\n"
+    )
+}
+
+const TURN: &str = "type = \"revolute\"\naxis = [0, 0, 1]";
+const SLIDE: &str = "type = \"prismatic\"\naxis = [1, 0, 0]";
+
+fn coupled(a: &str, b: &str, ratio: &str) -> String {
+    format!("[[coupling]]\njoints = [\"{a}\", \"{b}\"]\nratio = {ratio}\n")
+}
+
+fn mechanism(text: &str) -> Mechanism {
+    mechanism_from_str("pair.toml", text).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn builtin(name: &str) -> Mechanism {
+    mechanism(ozols::builtin::text(name).unwrap())
+}
+
+fn exact(m: &Mechanism) -> StateAnalysis {
+    analyse(m, &[0], Method::Modular).unwrap().remove(0)
+}
+
+fn problem(text: &str) -> String {
+    mechanism_from_str("pair.toml", text)
+        .unwrap_err()
+        .to_string()
+}
+
+#[test]
+fn what_a_file_may_not_say() {
+    let bad = |first: &str, second: &str, coupling: &str, wanted: &str| {
+        let e = problem(&pair(first, second, coupling));
+        assert!(e.contains(wanted), "{e}\nnot: {wanted}");
+    };
+    bad(TURN, TURN, &coupled("a", "c", "1"), "unknown joint \"c\"");
+    bad(
+        TURN,
+        TURN,
+        &coupled("a", "b", "0"),
+        "ratio of a coupling is zero",
+    );
+    bad(
+        TURN,
+        TURN,
+        &coupled("a", "b", "\"sqrt(2)-sqrt(2)\""),
+        "ratio of a coupling is zero",
+    );
+    bad(TURN, TURN, &coupled("a", "a", "1"), "coupled with itself");
+    let twice = coupled("a", "b", "1") + &coupled("b", "a", "1");
+    bad(TURN, TURN, &twice, "coupled twice");
+    let ball = "type = \"spherical\"";
+    bad(
+        TURN,
+        ball,
+        &coupled("a", "b", "1"),
+        "no freedom that can be coupled",
+    );
+    bad(
+        TURN,
+        ball,
+        &coupled("a", "b:rz", "1"),
+        "no freedom that can be coupled",
+    );
+    let fixed = "type = \"fixed\"";
+    bad(
+        fixed,
+        TURN,
+        &coupled("a", "b", "1"),
+        "no freedom that can be coupled",
+    );
+    let both = "type = \"cylindrical\"\naxis = [0, 0, 1]";
+    bad(
+        TURN,
+        both,
+        &coupled("a", "b", "1"),
+        "several freedoms; say which is coupled: b:rz, b:tz",
+    );
+    bad(TURN, both, &coupled("a", "b:rx", "1"), "known: b:rz, b:tz");
+    let clamped = format!("{TURN}\nstate = \"clamped\"");
+    bad(
+        &clamped,
+        TURN,
+        &coupled("a", "b", "1"),
+        "not present in the same states",
+    );
+    let own = format!("{TURN}\noptions = [\"spherical\"]");
+    bad(
+        &own,
+        TURN,
+        &coupled("a", "b", "1"),
+        "does not keep the freedom that is coupled",
+    );
+    let tilted = "type = \"revolute\"\naxis = [1, 0, 0]";
+    let planar = pair(tilted, TURN, &coupled("a", "b", "1")).replacen(
+        "length_unit",
+        "mode = \"planar\"\nlength_unit",
+        1,
+    );
+    assert!(problem(&planar).contains("no freedom that can be coupled"));
+    assert!(
+        problem(&pair(
+            TURN,
+            TURN,
+            "[[coupling]]\njoints = [\"a\"]\nratio = 1"
+        ))
+        .contains("length")
+    );
+}
+
+#[test]
+fn options_that_cannot_be_coupled_are_not_offered() {
+    let search = "[search]\noptions = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\", \"planar\"]\n";
+    let m = mechanism(&pair(TURN, TURN, &(coupled("a", "b", "-1") + search)));
+    let names: Vec<&str> = m.joints[0]
+        .options
+        .iter()
+        .map(|o| o.name.as_str())
+        .collect();
+    assert_eq!(names, ["revolute", "cylindrical", "universal", "planar"]);
+}
+
+/// Rates do not depend on the length of the axes in the file.
+#[test]
+fn axes_of_any_length_make_the_same_row() {
+    use ozols::closure::coupling::coefficient;
+    let of = |first: &str, second: &str| {
+        let m = mechanism(&pair(first, second, &coupled("a", "b", "\"-1/2\"")));
+        coefficient(&m, &m.couplings[0]).to_f64()
+    };
+    let long = "type = \"revolute\"\naxis = [0, 0, 3]";
+    let skew = "type = \"revolute\"\naxis = [1, 1, 0]";
+    let turned = "type = \"revolute\"\naxis = [\"cos(36deg)\", \"sin(36deg)\", 0]";
+    assert_eq!(of(TURN, TURN), 0.5);
+    assert_eq!((of(long, TURN), of(TURN, long)), (1.5, 0.5 / 3.0));
+    assert!((of(skew, TURN) - 0.5 * 2f64.sqrt()).abs() < 1e-15);
+    assert_eq!(of(turned, TURN), 0.5);
+    // x and y of a frame are made of axis and reference, and longer still.
+    let slot = "type = \"slotted\"\naxis = [0, 0, 2]\nreference = [1, 1, 0]";
+    let m = mechanism(&pair(slot, SLIDE, &coupled("a:tx", "b", "1")));
+    assert!((coefficient(&m, &m.couplings[0]).to_f64() + 4.0 * 2f64.sqrt()).abs() < 1e-14);
+}
+
+/// A rack moves by the pitch radius for each radian of its pinion, over the stroke too.
+#[test]
+fn rack_and_pinion() {
+    use ozols::closure::pose::Pose;
+    use ozols::closure::stroke::follow;
+    let m = mechanism(&pair(TURN, SLIDE, &coupled("a", "b", "12.5")));
+    let s = exact(&m);
+    assert_eq!(
+        (s.mobility, s.redundant, s.rows, s.finite.mobility),
+        (1, 0, 1, 1)
+    );
+    assert!(s.finite.is_proven());
+    let pose = Pose::of_file(&m, 0).unwrap();
+    let way = follow(&pose, 0, &[], [0.0, 7.0], 7);
+    assert!(way.stop.is_none());
+    let last = way.reached.last().unwrap().pose();
+    assert!((last.columns[0].moved - 7.0).abs() < 1e-12);
+    assert!((last.columns[1].moved * last.length - 87.5).abs() < 1e-9);
+}
+
+/// Two parallelograms driven by one slider move alike already: gears between them are one more redundant constraint,
+/// and lock the mechanism where their ratio is another.
+#[test]
+fn gears_that_repeat_or_contradict() {
+    let text = ozols::builtin::text("parallelogram-gripper").unwrap();
+    let base = exact(&mechanism(text));
+    let geared = |ratio: &str| {
+        let coupling =
+            format!("[[coupling]]\njoints = [\"3-0\", \"7-0\"]\nratio = {ratio}\n\n[search]");
+        let text = text.replacen("[search]", &coupling, 1);
+        let cut = text.find("[[expected]]").unwrap();
+        exact(&mechanism(&text[..cut]))
+    };
+    let repeats = geared("-1");
+    assert_eq!(
+        (repeats.mobility, repeats.redundant),
+        (1, base.redundant + 1)
+    );
+    assert_eq!(
+        (
+            repeats.per_coupling[0].redundant,
+            repeats.per_coupling[0].most
+        ),
+        (1, 1)
+    );
+    assert!(repeats.self_stresses.iter().any(|s| s.couplings == [0]));
+    assert_eq!(
+        (repeats.finite.mobility, repeats.self_stresses.len()),
+        (1, repeats.redundant)
+    );
+    let contradicts = geared("2");
+    assert_eq!(
+        (contradicts.mobility, contradicts.redundant),
+        (0, base.redundant)
+    );
+    assert_eq!(contradicts.per_coupling[0].redundant, 0);
+}
+
+/// Willis: the sun of an epicyclic gear turns four times as fast as the carrier where the ring has three times its teeth.
+#[test]
+fn the_carrier_follows_the_sun() {
+    use ozols::closure::pose::Pose;
+    use ozols::closure::stroke::follow;
+    let m = builtin("planetary-gear");
+    let pose = Pose::of_file(&m, 0).unwrap();
+    let way = follow(&pose, 0, &[], [0.0, 1.0], 4);
+    let last = way.reached.last().unwrap().pose();
+    let at = |id: &str| {
+        let j = m.joint(id).unwrap();
+        last.columns.iter().find(|c| c.joint == j).unwrap().moved
+    };
+    let (carrier, sun) = (at("0-c"), at("0-c") + at("c-s"));
+    assert!((sun / carrier - 4.0).abs() < 1e-9);
+    // One planet alone is not redundant.
+    let text = ozols::builtin::text("planetary-gear").unwrap();
+    let s = exact(&m);
+    assert_eq!((s.mobility, s.redundant), (1, 2));
+    assert!(
+        s.finite.is_proven(),
+        "linear couplings alone: no pose differs from another"
+    );
+    let other = text.replacen(
+        "joints = [\"0-c\", \"c-3\"]\nratio = -3",
+        "joints = [\"0-c\", \"c-3\"]\nratio = -2",
+        1,
+    );
+    assert_ne!(other, text);
+    let cut = other.find("[[expected]]").unwrap();
+    assert_eq!(
+        exact(&mechanism(&other[..cut])).mobility,
+        0,
+        "a planet of other teeth locks it"
+    );
+}
+
+#[test]
+fn every_method_counts_the_rows() {
+    for (name, w) in [
+        ("geared-five-bar", 1),
+        ("geared-gripper", 1),
+        ("planetary-gear", 1),
+    ] {
+        let m = builtin(name);
+        for method in [
+            "lu32", "lu", "qr32", "qr", "svd", "modular", "finite", "auto",
+        ] {
+            let answer = by_name(method).unwrap().answer(&m, 0).unwrap();
+            assert_eq!(answer.mobility, w, "{name} by {method}");
+        }
+        match by_name("rational").unwrap().answer(&m, 0) {
+            Ok(answer) => assert_eq!(answer.mobility, w),
+            Err(e) => assert!(matches!(e, NoAnswer::DoesNotApply(_)) && name == "planetary-gear"),
+        }
+        let e = by_name("generic").unwrap().answer(&m, 0).unwrap_err();
+        assert!(e.to_string().contains("no couplings of joints"));
+    }
+    // 6·4 - 25 - 1, 3·4 - 10 - 1, and 5 - 3 - 1 by contours.
+    let m = builtin("geared-five-bar");
+    for (method, w) in [("count", -2), ("count-planar", 1), ("loops", 1)] {
+        assert_eq!(by_name(method).unwrap().answer(&m, 0).unwrap().mobility, w);
+    }
+}
+
+/// A certificate proves the rank with the coupling of its file, and of no other.
+#[test]
+fn certificates_hold_the_coupling() {
+    use ozols::rank::certificate::{certify, matrix, number_field};
+    let text = ozols::builtin::text("geared-five-bar").unwrap();
+    let m = mechanism(text);
+    let certificate = certify(&m, 0).unwrap();
+    assert_eq!(
+        (certificate.rows, certificate.columns, certificate.rank),
+        (7, 5, 4)
+    );
+    let of = |m: &Mechanism| matrix(&number_field(m, 0).unwrap(), m, 0).unwrap();
+    assert_eq!(ozols::verify::check(&of(&m), &certificate), Ok(4));
+    let other = mechanism(&text.replacen("ratio = \"-1/2\"", "ratio = \"-1/3\"", 1));
+    assert!(ozols::verify::check(&of(&other), &certificate).is_err());
+    let without = mechanism(&text.replacen(
+        "[[coupling]]\njoints = [\"0-1\", \"0-4\"]\nratio = \"-1/2\"",
+        "",
+        1,
+    ));
+    assert!(ozols::verify::check(&of(&without), &certificate).is_err());
+}
+
+/// What gears pass from joint to joint is not in the reactions: refused, not left out.
+#[test]
+fn statics_is_refused() {
+    for more in [&[][..], &["--spatial"], &["--groups"]] {
+        let o = ozols(&[&["statics", "geared-gripper"][..], more].concat())
+            .output()
+            .unwrap();
+        assert_eq!(o.status.code(), Some(2), "{more:?}");
+        let e = String::from_utf8(o.stderr).unwrap();
+        assert!(e.contains("joints 0-1 ~ 0-4 are coupled"), "{e}");
+    }
+}
+
+#[test]
+fn the_report_has_a_row_for_each_coupling() {
+    let o = ozols(&["analyze", "planetary-gear", "--format", "json"])
+        .output()
+        .unwrap();
+    let v: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
+    let shares = &v["states"][0]["per_coupling"];
+    assert_eq!(shares.as_array().unwrap().len(), 6);
+    assert_eq!(shares[5]["coupling"], "0-c ~ c-3");
+    assert_eq!(
+        (&shares[5]["redundant"], &shares[0]["greatest"]),
+        (&1.into(), &1.into())
+    );
+    let text = String::from_utf8(
+        ozols(&["analyze", "geared-gripper"])
+            .output()
+            .unwrap()
+            .stdout,
+    )
+    .unwrap();
+    assert!(
+        text.contains("c = 1 coupling") && text.contains("0-1 ~ 0-4"),
+        "{text}"
+    );
+}
+
+#[test]
+fn the_file_comes_back_from_export() {
+    let m = mechanism(&pair(
+        TURN,
+        "type = \"cylindrical\"\naxis = [0, 0, 2]",
+        &coupled("a", "b:tz", "\"sqrt(2)/3\""),
+    ));
+    let again = mechanism(&ozols::export::toml(&m).unwrap());
+    assert_eq!(again.couplings.len(), 1);
+    assert_eq!(again.couplings[0].ends, m.couplings[0].ends);
+    assert_eq!(
+        again.couplings[0].ratio.to_string(),
+        m.couplings[0].ratio.to_string()
+    );
+}
+
+/// Couplings survive as mimic joints, with lengths in metres; those of joints that close loops, or that a tree of mimic
+/// joints cannot hold, are comments.
+#[test]
+fn exported_as_mimic_joints() {
+    use ozols::export;
+    let m = mechanism(&pair(SLIDE, TURN, &coupled("a", "b", "\"1/20\"")));
+    let urdf = export::urdf(&m).unwrap();
+    // 1/20 rad a mm is 50 rad a m.
+    assert!(
+        urdf.contains("<mimic joint=\"a\" multiplier=\"50\" offset=\"0\"/>"),
+        "{urdf}"
+    );
+    let sdf = export::sdf(&m);
+    assert!(
+        sdf.contains("<sdf version=\"1.11\">") && sdf.contains("<multiplier>50</multiplier>"),
+        "{sdf}"
+    );
+    let gear = builtin("planetary-gear");
+    let sdf = export::sdf(&gear);
+    assert_eq!(
+        (
+            sdf.matches("<mimic ").count(),
+            sdf.matches("<!-- coupled, ").count()
+        ),
+        (4, 2),
+        "{sdf}"
+    );
+    assert!(!sdf.contains('\0'));
+    let urdf = export::urdf(&builtin("geared-gripper")).unwrap();
+    assert!(
+        urdf.contains("<mimic joint=\"0-1\" multiplier=\"-1\" offset=\"0\"/>"),
+        "{urdf}"
+    );
+}
+
+const MJCF: &str = r#"<mujoco><worldbody>
+  <body name="1"><joint name="a" type="hinge" axis="0 0 2"/><geom size="1"/>
+    <body name="2" pos="1 0 0"><joint name="b" type="slide" axis="1 0 0"/><geom size="1"/></body></body>
+  <body name="3" pos="0 1 0"><joint name="c" type="hinge" axis="0 1 1"/><geom size="1"/></body>
+</worldbody><equality>EQUALITY</equality></mujoco>"#;
+
+fn mjcf(equality: &str) -> ozols::robot::Imported {
+    let text = MJCF.replace("EQUALITY", equality);
+    let none = |_: &str| Err(std::io::Error::other("no files"));
+    ozols::robot::import(
+        "x.xml",
+        text.as_bytes(),
+        &none,
+        &ozols::robot::Options::default(),
+    )
+    .unwrap()
+}
+
+/// MuJoCo: joint1 = c0 + c1 joint2 + ...; the linear ones are couplings, the others are left out and said so.
+#[test]
+fn equalities_of_mujoco() {
+    let i = mjcf(
+        r#"<joint joint1="b" joint2="a" polycoef="0.1 -0.25"/><joint joint1="c" joint2="a"/>"#,
+    );
+    let m = mechanism(&i.toml);
+    let ends = |q: usize| m.couplings[q].ends.map(|e| m.joints[e.joint].id.as_str());
+    assert_eq!((ends(0), ends(1)), (["a", "b"], ["a", "c"]));
+    assert_eq!([0, 1].map(|q| m.couplings[q].ratio.to_f64()), [-0.25, 1.0]);
+    let kept = i.report.kept.unwrap();
+    assert_eq!((kept.couplings, kept.mobility), (2, Some((3, 1))));
+    // Rates are those of the joints, whatever the length of their axes.
+    let rows = ozols::closure::coupling::coefficients(&m, 0);
+    assert!(
+        rows.iter()
+            .zip([0.25, -1.0])
+            .all(|(x, y)| (x.to_f64() - y).abs() < 1e-12)
+    );
+    for (equality, why) in [
+        (
+            r#"<joint joint1="b" joint2="a" polycoef="0 1 0.5 0 0"/>"#,
+            "it is not linear",
+        ),
+        (
+            r#"<joint joint1="b" joint2="a" polycoef="0 0"/>"#,
+            "times 0",
+        ),
+        (r#"<joint joint1="b"/>"#, "equality to a constant"),
+    ] {
+        let i = mjcf(equality);
+        assert_eq!(
+            (i.report.coupling_rows, i.report.kept),
+            (1, None),
+            "{equality}"
+        );
+        assert!(
+            i.report.text("x.xml").contains(why),
+            "{}",
+            i.report.text("x.xml")
+        );
+        assert_eq!(exact(&mechanism(&i.toml)).mobility, 3);
+    }
+}
+
+#[test]
+fn drawn_as_a_dashed_line() {
+    for kind in ["scheme", "kinematic"] {
+        let o = ozols(&["draw", "geared-gripper", "--kind", kind])
+            .output()
+            .unwrap();
+        let svg = String::from_utf8(o.stdout).unwrap();
+        assert!(
+            svg.contains("coupled joints") && svg.contains("Coupled: 0-1 ~ 0-4, ratio -1."),
+            "{kind}"
+        );
+    }
+}
+
+/// Gears between the fingers of a gripper stay in every redesign, and the counts know them.
+#[test]
+fn redesigns_of_a_geared_gripper() {
+    let run = |name: &str| {
+        let o = ozols(&["search", name, "--top", "3", "--format", "json"])
+            .output()
+            .unwrap();
+        assert_eq!(
+            o.status.code(),
+            Some(0),
+            "{}",
+            String::from_utf8_lossy(&o.stderr)
+        );
+        serde_json::from_slice::<serde_json::Value>(&o.stdout).unwrap()
+    };
+    let geared = run("geared-five-bar");
+    let best = &geared["variants"][0];
+    assert_eq!(
+        (&best["mobility"], &best["redundant"]),
+        (&1.into(), &0.into()),
+        "{best}"
+    );
+    assert_eq!(run("geared-gripper")["variants"][0]["redundant"], 0);
+}
+
+#[test]
+fn couplings_have_mirror_images() {
+    use ozols::redundancy::analysis::exact_field;
+    use ozols::search::request::{Request, Search, Symmetry};
+    let text = pair(
+        TURN,
+        TURN,
+        "[search]\noptions = [\"cylindrical\"]\nmirror = [[\"a\", \"b\"]]\n",
+    );
+    let with = |ratio: &str| {
+        mechanism(&text.replacen("[search]", &(coupled("a", "b", ratio) + "[search]"), 1))
+    };
+    let request = || Request {
+        symmetry: Symmetry::OnePerOrbit,
+        ..Request::default()
+    };
+    let made = |m: &Mechanism| {
+        Search::new(exact_field(m, 0).unwrap(), m, request())
+            .map(|_| ())
+            .map_err(|e| e.to_string())
+    };
+    assert_eq!(made(&with("-1")), Ok(()));
+    assert!(
+        made(&with("2"))
+            .unwrap_err()
+            .contains("their mirror images are not")
+    );
+}
