@@ -76,6 +76,7 @@ pub(super) fn symbol(joint: &JointType, pose: &Pose, mark: &str) -> Vec<Shape> {
         JointType::Prismatic => {
             s.rod("line", 17.0);
             s.cuboid([5.0, 5.0, 9.5]);
+            s.rod_end();
         }
         JointType::Helical => {
             s.rod("line", 16.0);
@@ -85,6 +86,7 @@ pub(super) fn symbol(joint: &JointType, pose: &Pose, mark: &str) -> Vec<Shape> {
         JointType::Cylindrical => {
             s.rod("line", 17.0);
             s.cylinder(5.5, 9.5, 0.0);
+            s.rod_end();
         }
         JointType::Universal => s.cross(),
         JointType::CylindricalUniversal => {
@@ -195,6 +197,13 @@ impl Symbol {
     fn rod(&mut self, class: &str, half: f64) {
         let ends = vec![self.pose.at(0.0, 0.0, -half), self.pose.at(0.0, 0.0, half)];
         self.shapes.push(Shape::line(self.class(class), ends));
+    }
+
+    /// The end of the rod, where the axis points at the reader and the rod itself is not to be seen.
+    fn rod_end(&mut self) {
+        if self.pose.toward[2].abs() > 0.9 {
+            self.ball(2.0, "ink");
+        }
     }
 
     fn cylinder(&mut self, radius: f64, half: f64, middle: f64) {

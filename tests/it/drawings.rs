@@ -264,25 +264,6 @@ fn command_line() {
     }
 }
 
-#[cfg(not(feature = "png"))]
-#[test]
-fn a_build_without_png_says_so() {
-    let done = ozols(&["draw", "bennett", "--png"]).output().unwrap();
-    assert_eq!(done.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&done.stderr).contains("--features png"));
-}
-
-#[cfg(feature = "png")]
-#[test]
-fn png() {
-    let done = ozols(&["draw", "bennett", "--png"]).output().unwrap();
-    let said = String::from_utf8_lossy(&done.stderr).into_owned();
-    if done.status.code() == Some(2) && said.contains("no font") {
-        return;
-    }
-    assert!(done.stdout.starts_with(b"\x89PNG\r\n"), "{said}");
-}
-
 const TYPES: [&str; 13] = [
     "revolute",
     "prismatic",

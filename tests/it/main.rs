@@ -16,6 +16,7 @@ mod grip;
 mod holding;
 mod layering;
 mod mobility;
+mod png;
 mod programmes;
 mod published;
 mod ranking;
