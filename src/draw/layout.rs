@@ -96,6 +96,10 @@ struct Candidate {
 /// A layout of the graph, starting also from the places given for the joints.
 pub(super) fn layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
     let net = net(graph);
+    if let Some(joints) = starts::ladder(graph) {
+        let hubs = hubs(graph, &net, &joints);
+        return Layout { joints, hubs };
+    }
     let crowding = Crowding::new(graph);
     let far = distances(&net);
     let nodes = net.edges.len();

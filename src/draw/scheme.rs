@@ -347,7 +347,7 @@ impl<'a> Scheme<'a> {
             };
             out.push((Swatch::Symbol(draw), "driving pair".to_owned()));
         }
-        let class = "joint with its class, the constraints it imposes";
+        let class = "joint with its class";
         out.push((Swatch::Joint("joint", "V".to_owned()), class.to_owned()));
         let frame = |s: &mut Sheet, p: Point| {
             let ends = [add(p, [-7.0, 0.0]), add(p, [7.0, 0.0])];

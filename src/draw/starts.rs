@@ -79,7 +79,6 @@ pub(super) fn all(graph: &Graph, net: &Net, hints: &[Vec<Point>]) -> Vec<Start> 
     for contour in outer.into_iter().take(if few { 6 } else { 1 }) {
         out.push(plain(tutte(net, contour)));
     }
-    out.extend(ladder(graph, net).map(plain));
     for turn in 0..if few { 10 } else { 2 } {
         out.push(plain(bundles(graph, net, turn)));
     }
@@ -313,40 +312,37 @@ fn bundles(graph: &Graph, net: &Net, turn: u64) -> Vec<Point> {
     at
 }
 
-/// Two links side by side, and the chains between them as rungs.
-fn ladder(graph: &Graph, net: &Net) -> Option<Vec<Point>> {
+/// Two links above each other and legs of one kind between them, as parallel manipulators have: the legs stand side by
+/// side, the frame is below. There is nothing to search for then.
+pub(super) fn ladder(graph: &Graph) -> Option<Vec<Point>> {
     let mut branches = (0..graph.links.len()).filter(|&l| graph.links[l].len() > 2);
-    let (one, other) = (branches.next()?, branches.next()?);
+    let (mut above, mut below) = (branches.next()?, branches.next()?);
     if branches.next().is_some() {
         return None;
     }
+    if graph.frame == Some(above) {
+        (above, below) = (below, above);
+    }
     let mut seen = vec![false; graph.joints];
-    let rungs: Vec<Vec<usize>> = graph.links[one]
+    let legs: Vec<Vec<usize>> = graph.links[above]
         .iter()
-        .map(|&j| chain(graph, one, j, &mut seen))
+        .map(|&j| chain(graph, above, j, &mut seen))
         .collect();
-    let whole = seen.iter().all(|&s| s) && rungs.len() == graph.links[other].len();
-    let long = rungs.iter().map(Vec::len).max()?;
-    if !whole || long < 2 {
+    let long = legs.first()?.len();
+    let alike = legs.iter().all(|leg| leg.len() == long);
+    let whole = seen.iter().all(|&s| s) && legs.len() == graph.links[below].len();
+    if !alike || !whole || long < 2 {
         return None;
     }
-    let mut at = vec![[0.0; 2]; net.edges.len()];
-    let middle = (rungs.len() as f64 - 1.0) / 2.0;
-    for (i, rung) in rungs.iter().enumerate() {
-        let x = 0.95 * (i as f64 - middle);
-        // a little round, so that both links are polygons
-        let half = 0.575 * (long as f64 - 1.0) + 0.3 * (1.0 - (i as f64 / middle - 1.0).powi(2));
-        for (n, &j) in rung.iter().enumerate() {
-            let t = match rung.len() {
-                1 => 0.0,
-                m => 2.0 * n as f64 / (m as f64 - 1.0) - 1.0,
-            };
+    let mut at = vec![[0.0; 2]; graph.joints];
+    let middle = (legs.len() as f64 - 1.0) / 2.0;
+    for (i, leg) in legs.iter().enumerate() {
+        let x = i as f64 - middle;
+        // longest at the ends, so that both links are polygons with the legs on one side
+        let half = 0.5 * (long as f64 - 1.0) + 0.3 * (x / middle).powi(2);
+        for (n, &j) in leg.iter().enumerate() {
+            let t = 2.0 * n as f64 / (long as f64 - 1.0) - 1.0;
             at[j] = [x, half * t];
-        }
-    }
-    for (of, hub) in graph.links.iter().zip(&net.hub) {
-        if let Some(h) = *hub {
-            at[h] = mean(of.iter().map(|&j| at[j]));
         }
     }
     Some(at)

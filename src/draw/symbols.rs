@@ -330,3 +330,31 @@ pub(super) fn hull(mut points: Vec<Point>) -> Vec<Point> {
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_type_of_joint_has_a_symbol_of_its_own_from_every_side() {
+        let types = JointType::NAMED;
+        let end_on = Pose {
+            axes: [[1.0, 0.0], [0.0, -1.0], [0.0, 0.0]],
+            toward: [0.0, 0.0, 1.0],
+        };
+        let from_the_side = end_on.along_x();
+        for pose in [
+            end_on,
+            from_the_side,
+            from_the_side.along_x(),
+            Pose::legend(),
+        ] {
+            let drawn = types
+                .each_ref()
+                .map(|t| format!("{:?}", symbol(t, &pose, "")));
+            for (i, one) in drawn.iter().enumerate() {
+                assert!(!drawn[..i].contains(one), "{} as another", types[i]);
+            }
+        }
+    }
+}
