@@ -299,14 +299,13 @@ impl<'a> Kinematic<'a> {
         }
         let x = PAD + 130.0;
         let end = x + length * self.scale;
-        let d = format!(
-            "M{x} {}V{}M{x} {y}H{end:.2}M{end:.2} {}V{}",
-            y - 4.0,
-            y + 4.0,
-            y - 4.0,
-            y + 4.0
-        );
-        sheet.path("line", &d);
+        for [a, b] in [
+            [[x, y], [end, y]],
+            [[x, y - 4.0], [x, y + 4.0]],
+            [[end, y - 4.0], [end, y + 4.0]],
+        ] {
+            sheet.line("line", a, b);
+        }
         let text = format!("{length} {unit}");
         sheet.text("legend", 12.0, [x, y + 16.0], Anchor::Start, &text);
     }

@@ -52,7 +52,7 @@ pub fn png(drawing: &Drawing, size: Size) -> Result<Picture, PngError> {
     let (width, height) = (zoom * drawing.width, zoom * drawing.height);
     let too_large = || PngError::TooLarge { width, height };
     let pixels = |x: f64| x.round().max(1.0);
-    let fits = pixels(width) * pixels(height) <= MOST;
+    let fits = zoom.is_finite() && pixels(width) * pixels(height) <= MOST;
     if !fits {
         return Err(too_large());
     }
