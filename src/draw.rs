@@ -80,6 +80,15 @@ pub struct Drawing {
     pub symbols: Vec<Rect>,
 }
 
+/// How large a picture of a drawing is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Size {
+    /// Pixels for each of the drawing's.
+    Scale(f64),
+    /// Its width in pixels.
+    Width(u32),
+}
+
 /// How a part of the drawing is marked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Mark {

@@ -172,15 +172,23 @@ pub(super) struct Draw {
     /// A state named in the file.
     #[arg(long, default_value = "free")]
     pub(super) state: String,
-    /// Draw variant K of the list that `ozols search FILE` gives, with its changes marked.
+    /// Draw variant K of the list that `ozols search FILE` gives with the same options, its changes marked.
     #[arg(long, value_name = "K")]
     pub(super) variant: Option<usize>,
-    /// PNG instead of SVG (where built with the feature `png`).
+    /// PNG instead of SVG (where built with the feature `png`); a file named .png is one anyway.
     #[arg(long)]
     pub(super) png: bool,
+    /// Pixels of a PNG for each of the drawing's; 2 by default.
+    #[arg(long, value_name = "X")]
+    pub(super) scale: Option<f64>,
+    /// Width of a PNG in pixels.
+    #[arg(long, value_name = "PIXELS", conflicts_with = "scale")]
+    pub(super) width: Option<u32>,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
+    #[command(flatten, next_help_heading = "The list that --variant is of")]
+    pub(super) question: Question,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -364,23 +372,10 @@ pub(super) enum Check {
     Full,
 }
 
+/// What is searched for: with the file it settles the list of variants.
 #[derive(Debug, ClapArgs)]
 #[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
-pub(super) struct Search {
-    #[command(flatten)]
-    pub(super) file: File,
-    /// How many of the best variants to give.
-    #[arg(long, value_name = "K", default_value_t = 10)]
-    pub(super) top: usize,
-    /// Give every admissible variant, cheapest first.
-    #[arg(long, conflicts_with_all = ["top", "sample", "count"])]
-    pub(super) all: bool,
-    /// Give N admissible variants drawn at random, each with the same chance, instead of the best.
-    #[arg(long, value_name = "N", conflicts_with_all = ["top", "count"])]
-    pub(super) sample: Option<usize>,
-    /// Counts only.
-    #[arg(long)]
-    pub(super) count: bool,
+pub(super) struct Question {
     /// Redundant constraints allowed within the mechanism.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) max_redundant: u32,
@@ -388,9 +383,6 @@ pub(super) struct Search {
     /// places) into the search.
     #[arg(long, value_name = "N")]
     pub(super) max_external: Option<u32>,
-    /// The state meant by --max-external; the file's first besides free by default.
-    #[arg(long, value_name = "STATE")]
-    pub(super) state: Option<String>,
     /// Largest mobility W allowed.
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(super) max_mobility: Option<i64>,
@@ -399,7 +391,7 @@ pub(super) struct Search {
     pub(super) max_changes: Option<u32>,
     /// Rank under the workload by these terms, in place of the file's [ranking] terms: peak-force=1,cost=0.5. Terms:
     /// peak-force, peak-moment, conditioning, output-error, changes, cost, idle; weight 1 where none stands.
-    #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',', conflicts_with_all = ["all", "sample", "count"])]
+    #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',')]
     pub(super) rank: Vec<String>,
     /// How many of the cheapest variants a ranking scores.
     #[arg(long, value_name = "K", default_value_t = 1000)]
@@ -425,6 +417,41 @@ pub(super) struct Search {
     /// Of a variant and its mirror image, only one.
     #[arg(long, conflicts_with = "symmetric")]
     pub(super) one_per_orbit: bool,
+    /// Search a file whose coordinates look measured exactly as it is written, though rounding errors in it change the
+    /// figures.
+    #[arg(long)]
+    pub(super) as_written: bool,
+    /// Make axes exactly parallel, square, coaxial or concurrent that are so to within T (radians, and fractions of the
+    /// largest coordinate), for files whose coordinates were measured or rounded; lists what was moved.
+    #[arg(long, value_name = "T")]
+    pub(super) snap: Option<f64>,
+    /// Node budget of each diagram, about 1 KB of memory a node (twice that with a check).
+    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
+    pub(super) nodes: usize,
+}
+
+#[derive(Debug, ClapArgs)]
+#[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
+pub(super) struct Search {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// How many of the best variants to give.
+    #[arg(long, value_name = "K", default_value_t = 10)]
+    pub(super) top: usize,
+    /// Give every admissible variant, cheapest first.
+    #[arg(long, conflicts_with_all = ["top", "sample", "count", "rank"])]
+    pub(super) all: bool,
+    /// Give N admissible variants drawn at random, each with the same chance, instead of the best.
+    #[arg(long, value_name = "N", conflicts_with_all = ["top", "count", "rank"])]
+    pub(super) sample: Option<usize>,
+    /// Counts only.
+    #[arg(long, conflicts_with = "rank")]
+    pub(super) count: bool,
+    #[command(flatten)]
+    pub(super) question: Question,
+    /// The state meant by --max-external; the file's first besides free by default.
+    #[arg(long, value_name = "STATE")]
+    pub(super) state: Option<String>,
     /// Diagram, or brute force for checking.
     #[arg(long, value_enum, default_value = "diagram")]
     pub(super) method: SearchMethod,
@@ -435,20 +462,9 @@ pub(super) struct Search {
     /// Leave out the variants that further poses (3 unless --poses says otherwise) show to be lucky.
     #[arg(long)]
     pub(super) generic_only: bool,
-    /// Search a file whose coordinates look measured exactly as it is written, though rounding errors in it change the
-    /// figures.
-    #[arg(long)]
-    pub(super) as_written: bool,
-    /// Make axes exactly parallel, square, coaxial or concurrent that are so to within T (radians, and fractions of the
-    /// largest coordinate), for files whose coordinates were measured or rounded; lists what was moved.
-    #[arg(long, value_name = "T")]
-    pub(super) snap: Option<f64>,
     /// How the search is checked.
     #[arg(long, value_enum, default_value = "full")]
     pub(super) check: Check,
-    /// Node budget of each diagram, about 1 KB of memory a node (twice that with a check).
-    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
-    pub(super) nodes: usize,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     pub(super) format: SearchFormat,

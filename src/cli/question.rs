@@ -1,20 +1,16 @@
 //! The question a search answers, from its arguments.
 
-use super::args::Search as SearchArgs;
+use super::args::Question;
 use crate::model::measured::{Measured, looks_measured};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::measured::Verdicts;
+use crate::rank::snap::snap;
 use crate::redundancy::analysis::exact_field;
 use crate::search::request::{Request, Symmetry};
 use anyhow::{bail, ensure};
 
-pub(super) fn request(
-    mechanism: &Mechanism,
-    a: &SearchArgs,
-    tolerance: f64,
-) -> anyhow::Result<Request> {
-    let state = state(mechanism, a)?;
-    Ok(Request {
+pub(super) fn request(a: &Question, state: Option<(StateId, u32)>, tolerance: f64) -> Request {
+    Request {
         max_redundant: a.max_redundant,
         state,
         max_mobility: a.max_mobility,
@@ -27,15 +23,32 @@ pub(super) fn request(
         },
         nodes: a.nodes.clamp(1, u32::MAX as usize / 2),
         tolerance,
-    })
+    }
+}
+
+/// The mechanism with its measured geometry made exact, where that was asked for.
+pub(super) fn snapped(mechanism: Mechanism, a: &Question) -> anyhow::Result<Mechanism> {
+    let Some(tolerance) = a.snap else {
+        return Ok(mechanism);
+    };
+    ensure!(
+        tolerance > 0.0 && tolerance < 1.0,
+        "--snap must be between 0 and 1"
+    );
+    let snapped = snap(&mechanism, tolerance);
+    for moved in &snapped.moved {
+        eprintln!("snapped: {moved}");
+    }
+    Ok(snapped.mechanism)
 }
 
 /// The state that takes part, with the external redundancy allowed there.
 pub(super) fn state(
     mechanism: &Mechanism,
-    a: &SearchArgs,
+    a: &Question,
+    state: Option<&str>,
 ) -> anyhow::Result<Option<(StateId, u32)>> {
-    Ok(match (&a.state, a.max_external) {
+    Ok(match (state, a.max_external) {
         (None, None) => None,
         (None, Some(external)) => {
             ensure!(
@@ -105,7 +118,7 @@ pub(super) fn measured(
 }
 
 /// Applies --hold, --options, --allow and --forbid.
-pub(super) fn restrict(mechanism: &mut Mechanism, a: &SearchArgs) -> anyhow::Result<()> {
+pub(super) fn restrict(mechanism: &mut Mechanism, a: &Question) -> anyhow::Result<()> {
     for id in &a.hold {
         let Some(link) = mechanism.link(id) else {
             bail!("--hold: {} has no link {id}", mechanism.name)

@@ -1,6 +1,6 @@
 //! The ranking that a search was asked for.
 
-use super::args::Search as SearchArgs;
+use super::args::Question;
 use crate::model::ranking::{Ranking, Term};
 use crate::score::evaluate::Evaluator;
 use crate::score::ranking::{RankedPool, Ranker};
@@ -13,10 +13,7 @@ use anyhow::{Context, bail, ensure};
 const MOST: usize = 100_000_000;
 
 /// The ranking of the file, with the terms of the command line where it names some; `None` where neither asks for one.
-fn wanted(search: &Search<'_>, a: &SearchArgs) -> anyhow::Result<Option<Ranking>> {
-    if a.all || a.count || a.sample.is_some() {
-        return Ok(None);
-    }
+fn wanted(search: &Search<'_>, a: &Question) -> anyhow::Result<Option<Ranking>> {
     let file = search.mechanism.ranking.clone();
     if a.rank.is_empty() {
         return Ok(file);
@@ -43,11 +40,12 @@ fn wanted(search: &Search<'_>, a: &SearchArgs) -> anyhow::Result<Option<Ranking>
     Ok(Some(ranking))
 }
 
-/// Scores the cheapest variants and puts them in order, where that was asked for.
+/// Scores the cheapest variants and puts the best `top` of them in order, where that was asked for.
 pub(super) fn pool(
     search: &Search<'_>,
     diagrams: &Diagrams,
-    a: &SearchArgs,
+    a: &Question,
+    top: usize,
 ) -> anyhow::Result<Option<RankedPool>> {
     let Some(ranking) = wanted(search, a)? else {
         return Ok(None);
@@ -58,8 +56,6 @@ pub(super) fn pool(
     );
     let evaluator = Evaluator::new(search, ranking.clearance)
         .with_context(|| format!("cannot score variants of {}", search.mechanism.name))?;
-    // Further poses may drop some of the best, so that others must stand by.
-    let top = if a.generic_only { a.pool } else { a.top };
     let mut ranker = Ranker::new(&evaluator, &ranking, a.pool, top);
     let mut given = 0;
     search.cheapest(diagrams, a.pool + 1, |v| {

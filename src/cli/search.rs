@@ -2,12 +2,11 @@
 
 use super::answer::{Given, write_found};
 use super::args::{Args, Check, Search as SearchArgs, SearchFormat, SearchMethod};
-use super::question::{measured, request, restrict, state};
+use super::question::{measured, request, restrict, snapped, state};
 use super::{Done, load, output, progress};
 use crate::model::measured::Measured;
 use crate::rank::measured::Verdicts;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::rank::snap::snap;
 use crate::redundancy::analysis::exact_field;
 use crate::report::search_json::Found;
 use crate::search::best::Variant;
@@ -29,25 +28,15 @@ const POSES: usize = 3;
 const BRUTE_LIMIT: u64 = 1 << 32;
 
 pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
-    let mut mechanism = load::mechanism(&a.file.file)?;
-    if let Some(tolerance) = a.snap {
-        ensure!(
-            tolerance > 0.0 && tolerance < 1.0,
-            "--snap must be between 0 and 1"
-        );
-        let snapped = snap(&mechanism, tolerance);
-        for moved in &snapped.moved {
-            eprintln!("snapped: {moved}");
-        }
-        mechanism = snapped.mechanism;
-    }
-    restrict(&mut mechanism, a)?;
-    let state = state(&mechanism, a)?.map(|(s, _)| s);
-    let measured = measured(&mechanism, state, a.as_written)?;
+    let question = &a.question;
+    let mut mechanism = snapped(load::mechanism(&a.file.file)?, question)?;
+    restrict(&mut mechanism, question)?;
+    let state = state(&mechanism, question, a.state.as_deref())?;
+    let measured = measured(&mechanism, state.map(|(s, _)| s), question.as_written)?;
     let tolerance = measured
         .as_ref()
         .map_or(DEFAULT_TOLERANCE, |(m, _)| m.tolerance());
-    let request = request(&mechanism, a, tolerance)?;
+    let request = request(question, state, tolerance);
     if a.method == SearchMethod::Brute {
         let search = Search::new(exact_field(&mechanism, 0)?, &mechanism, request)?;
         return brute(&search, a, measured);
@@ -95,7 +84,7 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
     stop.store(false, Ordering::SeqCst);
     let mut determinate = search.counts(&diagrams.determinate, false);
     let mut admissible = search.counts(&diagrams.admissible, true);
-    if a.one_per_orbit {
+    if question.one_per_orbit {
         let all = (determinate, admissible);
         let orbits = match &twin {
             None => search.orbits(all, &cancelled)?,
@@ -113,7 +102,7 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
         };
         (determinate, admissible) = orbits;
     }
-    let by_cost = if a.format == SearchFormat::Json && !a.one_per_orbit {
+    let by_cost = if a.format == SearchFormat::Json && !question.one_per_orbit {
         search.counts_by_cost(&diagrams.admissible)
     } else {
         BTreeMap::new()
@@ -132,6 +121,13 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
             mechanism.name
         );
     }
+    let ranking = if a.all || a.count || a.sample.is_some() {
+        None
+    } else {
+        // Further poses may drop some of the best, so that others must stand by.
+        let top = if a.generic_only { question.pool } else { a.top };
+        super::ranked::pool(&search, &diagrams, question, top)?
+    };
     let found = Found {
         search: &search,
         determinate,
@@ -142,7 +138,7 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
         check,
         measured,
         poses: stroke.as_ref().map(|s| (s.asked, s.reached())),
-        ranking: super::ranked::pool(&search, &diagrams, a)?,
+        ranking,
     };
     output::to(a.output.as_deref(), |out| {
         let mut give =

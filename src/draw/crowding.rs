@@ -1,7 +1,8 @@
 //! How bad a layout is, and small moves that make it better.
 
 use super::layout::{
-    Graph, Point, add, cross, inside, mean, norm, radius, ring, segments_cross, sub, to_segment,
+    Graph, Point, add, area, cross, inside, mean, norm, radius, ring, segments_cross, sub,
+    to_segment,
 };
 use super::mirror::Mirror;
 use super::starts::Dice;
@@ -149,7 +150,9 @@ impl<'a> Crowding<'a> {
                     .count();
                 let c = mean(polygon.iter().copied());
                 let round: f64 = polygon.iter().map(|&p| norm(sub(p, c))).fold(0.0, f64::max);
-                0.5 * within as f64 + if round < 0.5 { 1.0 } else { 0.0 }
+                // a tint must be seen
+                let small = (0.6 - area(&polygon)).max(0.0);
+                0.5 * within as f64 + 2.0 * small + if round < 0.5 { 1.0 } else { 0.0 }
             })
             .sum()
     }

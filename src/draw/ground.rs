@@ -51,11 +51,18 @@ impl Ground {
     }
 }
 
-/// The ground at each joint of the frame, where there is most room.
+/// How much two directions are one.
+fn beside(dir: Point, other: Point) -> f64 {
+    let along = dot(dir, unit(other));
+    if along > 0.5 { along } else { 0.0 }
+}
+
+/// The ground at each joint of the frame, where there is most room; the free ends of links are given with their joints.
 pub(super) fn grounds(
     spots: &[(Point, Rect)],
     links: &[(LinkId, Vec<usize>)],
     frame: LinkId,
+    loose: &[(usize, Point)],
 ) -> Vec<Ground> {
     let mut out: Vec<Ground> = Vec::new();
     let Some((_, of)) = links.iter().find(|(l, _)| *l == frame) else {
@@ -80,9 +87,11 @@ pub(super) fn grounds(
             cost += 3.0 * out.iter().filter(|g| g.rect().overlaps(&near)).count() as f64;
             for (_, other) in links.iter().filter(|(l, o)| *l != frame && o.contains(&i)) {
                 for &j in other.iter().filter(|&&j| j != i) {
-                    let away = dot(dir, unit(sub(spots[j].0, at)));
-                    cost += if away > 0.5 { 2.5 * away } else { 0.0 };
+                    cost += 2.5 * beside(dir, sub(spots[j].0, at));
                 }
+            }
+            for (_, end) in loose.iter().filter(|(j, _)| *j == i) {
+                cost += 2.5 * beside(dir, sub(*end, at));
             }
             if best.as_ref().is_none_or(|(least, _)| cost < least - 1e-9) {
                 best = Some((cost, ground));

@@ -4,6 +4,7 @@ use super::ground::{Ground, grounds, part};
 use super::labels::{self, Rect, Wish};
 use super::layout::{Point, add, mean, norm, scale, sub, unit};
 use super::projection::{self, View, bounds};
+use super::scheme::roominess;
 use super::sheet::{Anchor, Caption, PAD, Shape, Sheet, Swatch, plan, polyline};
 use super::symbols::{self, Pose, hull};
 use super::{Drawing, Subject};
@@ -60,7 +61,10 @@ impl<'a> Kinematic<'a> {
             }
         }
         let places = projection::places(m, &joints);
-        let (view, mut at, scale) = projection::best(&places, &links, m.frame(), ROOM);
+        // symbols do not grow, so that many of them need more paper
+        let more = roominess(m, &joints) * (joints.len() as f64 / 12.0).sqrt().clamp(1.0, 3.0);
+        let room = ROOM.map(|r| r * more);
+        let (view, mut at, scale) = projection::best(&places, &links, m.frame(), room);
         let apart = part(&mut at, &links, &places, &view);
         let spots: Vec<Spot> = joints
             .iter()
@@ -88,17 +92,22 @@ impl<'a> Kinematic<'a> {
                 }
             })
             .collect();
-        let rooms: Vec<(Point, Rect)> = spots.iter().map(|s| (s.at, s.rect)).collect();
-        let grounds = grounds(&rooms, &links, m.frame());
-        Kinematic {
+        let mut out = Kinematic {
             subject,
             spots,
             links,
-            grounds,
+            grounds: Vec::new(),
             view,
             scale,
             moved: apart || places.iter().any(|p| p.moved),
-        }
+        };
+        let loose = out.links.iter().filter(|(l, _)| *l != m.frame());
+        let loose: Vec<(usize, Point)> = loose
+            .filter_map(|(_, of)| Some((of[0], out.loose(of)?)))
+            .collect();
+        let rooms: Vec<(Point, Rect)> = out.spots.iter().map(|s| (s.at, s.rect)).collect();
+        out.grounds = grounds(&rooms, &out.links, m.frame(), &loose);
+        out
     }
 
     /// The outline of a link: a bar, or the polygon round its joints.
@@ -118,7 +127,7 @@ impl<'a> Kinematic<'a> {
         let others = self
             .links
             .iter()
-            .filter(|(_, o)| o.len() > 1 && o.contains(&only));
+            .filter(|(l, o)| o.len() > 1 && o.contains(&only) && !self.is_frame(*l));
         let others = others.flat_map(|(_, o)| o).filter(|&&i| i != only);
         let dirs: Vec<Point> = others.map(|&i| unit(sub(at, self.spots[i].at))).collect();
         let away = if dirs.is_empty() {
@@ -292,14 +301,13 @@ impl<'a> Kinematic<'a> {
         }
         let x = PAD + 130.0;
         let end = x + length * self.scale;
-        let d = format!(
-            "M{x} {}V{}M{x} {y}H{end:.2}M{end:.2} {}V{}",
-            y - 4.0,
-            y + 4.0,
-            y - 4.0,
-            y + 4.0
-        );
-        sheet.path("line", &d);
+        for [a, b] in [
+            [[x, y], [end, y]],
+            [[x, y - 4.0], [x, y + 4.0]],
+            [[end, y - 4.0], [end, y + 4.0]],
+        ] {
+            sheet.line("line", a, b);
+        }
         let text = format!("{length} {unit}");
         sheet.text("legend", 12.0, [x, y + 16.0], Anchor::Start, &text);
     }

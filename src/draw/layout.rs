@@ -49,9 +49,11 @@ pub(super) fn net(graph: &Graph) -> Net {
     let mut hub = Vec::new();
     for (l, joints) in graph.links.iter().enumerate() {
         let twin = joints.len() == 2
-            && graph.links.iter().enumerate().any(|(m, other)| {
-                m != l && other.len() == 2 && joints.iter().all(|j| other.contains(j))
-            });
+            && graph
+                .links
+                .iter()
+                .enumerate()
+                .any(|(m, other)| m != l && joints.iter().all(|j| other.contains(j)));
         if joints.len() == 2 && !twin {
             let (a, b) = (joints[0], joints[1]);
             edges[a].push((b, 1.15));
@@ -94,6 +96,10 @@ struct Candidate {
 /// A layout of the graph, starting also from the places given for the joints.
 pub(super) fn layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
     let net = net(graph);
+    if let Some(joints) = starts::ladder(graph) {
+        let hubs = hubs(graph, &net, &joints);
+        return Layout { joints, hubs };
+    }
     let crowding = Crowding::new(graph);
     let far = distances(&net);
     let nodes = net.edges.len();
@@ -214,7 +220,13 @@ fn hubs(graph: &Graph, net: &Net, joints: &[Point]) -> Vec<Point> {
                     .filter(|o| o.len() == 2 && ends.iter().all(|e| o.contains(e)))
                     .count();
                 let bow = 0.42 * if twins % 2 == 0 { 1.0 } else { -1.0 } * (1 + twins / 2) as f64;
-                let turn = if of[0] == ends[0] { bow } else { -bow };
+                let mut turn = if of[0] == ends[0] { bow } else { -bow };
+                let mut polygons = graph.links.iter().filter(|o| o.len() > 2);
+                if let Some(p) = polygons.find(|o| of.iter().all(|j| o.contains(j))) {
+                    // away from the polygon it lies along
+                    let from = sub(centre, mean(p.iter().map(|&j| joints[j])));
+                    turn = turn.abs().max(0.5) * dot(from, [-along[1], along[0]]).signum();
+                }
                 add(centre, [-along[1] * turn, along[0] * turn])
             }
             _ => centre,
@@ -342,6 +354,15 @@ pub(super) fn segments_cross(a: Point, b: Point, c: Point, d: Point) -> bool {
     side(a, b, c) * side(a, b, d) < -1e-15 && side(c, d, a) * side(c, d, b) < -1e-15
 }
 
+/// The area of a polygon.
+pub(super) fn area(polygon: &[Point]) -> f64 {
+    let n = polygon.len();
+    let twice: f64 = (0..n)
+        .map(|i| cross(polygon[i], polygon[(i + 1) % n]))
+        .sum();
+    twice.abs() / 2.0
+}
+
 /// Whether a point is inside a polygon (even-odd).
 pub(super) fn inside(p: Point, polygon: &[Point]) -> bool {
     let mut odd = false;
@@ -360,7 +381,19 @@ pub(super) fn inside(p: Point, polygon: &[Point]) -> bool {
 pub(super) fn ring(of: &[usize], joints: &[Point]) -> Vec<usize> {
     let centre = mean(of.iter().map(|&j| joints[j]));
     let mut ring = of.to_vec();
-    if ring.len() > 2 {
+    // in a row: there, and straight back
+    let far = |from: Point| {
+        let far = of.iter().map(|&j| sub(joints[j], from));
+        far.max_by(|a, b| norm(*a).total_cmp(&norm(*b)))
+            .unwrap_or([0.0; 2])
+    };
+    let along = unit(far(centre));
+    let off = of
+        .iter()
+        .map(|&j| cross(along, sub(joints[j], centre)).abs());
+    if off.fold(0.0, f64::max) <= 0.02 * norm(far(centre)) {
+        ring.sort_by(|&a, &b| dot(along, joints[a]).total_cmp(&dot(along, joints[b])));
+    } else if ring.len() > 2 {
         ring.sort_by(|&a, &b| {
             let angle = |j: usize| (joints[j][1] - centre[1]).atan2(joints[j][0] - centre[0]);
             angle(a).total_cmp(&angle(b))

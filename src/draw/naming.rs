@@ -3,7 +3,7 @@
 use super::ground::Ground;
 use super::kinematic::Kinematic;
 use super::labels::{self, Line, Place, Rect, Wish, place};
-use super::layout::{Point, add, inside, mean, norm, scale, sub, to_segment, unit};
+use super::layout::{Point, add, area, inside, mean, norm, scale, sub, to_segment, unit};
 use super::scheme::Scheme;
 use super::shapes::{HALF, grid, outline};
 use super::sheet::SMALL;
@@ -128,7 +128,7 @@ impl Scheme<'_> {
                 out.push((p, 0.05 * step as f64));
             }
         }
-        if corners.len() == 3 {
+        if corners.len() > 2 {
             out.insert(0, (corners[1], 0.0));
         }
         if self.rings[l].len() == 1 {
@@ -140,7 +140,13 @@ impl Scheme<'_> {
     /// Middles for the number within a contour, the best first.
     fn inside_contour(&self, c: usize) -> Vec<(Point, f64)> {
         let of = &self.parts.graph.contours[c];
-        let polygon: Vec<Point> = of.iter().map(|&j| self.at.joints[j]).collect();
+        let polygon = self.round(c);
+        let covers: Vec<Vec<Point>> = (0..self.parts.contours.len())
+            .filter(|&other| other != c)
+            .map(|other| self.round(other))
+            .filter(|other| area(other) < area(&polygon))
+            .chain((0..self.rings.len()).map(|l| self.corners(l)))
+            .collect();
         let mut near: Vec<(Point, f64)> = grid(&polygon, 15)
             .into_iter()
             .map(|p| {
@@ -170,7 +176,13 @@ impl Scheme<'_> {
         near.retain(|(_, d)| *d > 14.0);
         let mut out: Vec<(Point, f64)> = near
             .iter()
-            .map(|&(p, d)| (p, 0.02 * (40.0 - d).max(0.0) + 0.012 * norm(sub(p, own))))
+            .map(|&(p, d)| {
+                // on its own tint, if any of that can be seen
+                let hidden = covers.iter().any(|c| inside(p, c));
+                let hidden = if hidden { 6.0 } else { 0.0 };
+                let crowded = 0.02 * (40.0 - d).max(0.0);
+                (p, hidden + crowded + 0.012 * norm(sub(p, own)))
+            })
             .collect();
         out.sort_by(|a, b| a.1.total_cmp(&b.1));
         if out.is_empty() {

@@ -1,79 +1,100 @@
-//! A drawing as PNG, with the fonts of the system.
+//! A drawing as PNG. DejaVu Sans is built in, so that the picture is the same on every machine, one without fonts
+//! included; the system's fonts are looked at only for characters it lacks.
 
-use super::Drawing;
+use super::{Drawing, Size};
+use resvg::usvg::fontdb::Database;
 use resvg::{tiny_skia, usvg};
+use skrifa::{FontRef, MetadataProvider};
+use std::collections::BTreeSet;
 use thiserror::Error;
+
+/// Most pixels of a picture, at four bytes each.
+const MOST: f64 = 1e8;
 
 /// Why there is no picture.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PngError {
-    /// Text needs a font.
-    #[error(
-        "no font was found on this system, and text needs one; install one (such as fonts-dejavu), or write SVG"
-    )]
-    NoFont,
     /// The drawing could not be read back.
     #[error("cannot read the drawing back: {0}")]
     Svg(#[from] usvg::Error),
     /// The picture is too large to be held.
-    #[error("a picture of {width} x {height} pixels is too large")]
+    #[error("a picture of {width:.0} x {height:.0} pixels is too large; ask for a smaller one")]
     TooLarge {
         /// Its width.
-        width: u32,
+        width: f64,
         /// Its height.
-        height: u32,
+        height: f64,
     },
     /// The picture could not be written.
     #[error("cannot write PNG: {0}")]
     Encode(String),
 }
 
-/// Families for text without serifs, the best first.
-const FAMILIES: [&str; 6] = [
-    "DejaVu Sans",
-    "Liberation Sans",
-    "Noto Sans",
-    "Arial",
-    "Helvetica",
-    "Segoe UI",
-];
+/// A picture.
+#[derive(Debug)]
+pub struct Picture {
+    /// The file.
+    pub png: Vec<u8>,
+    /// Characters that no font of this machine has.
+    pub missing: BTreeSet<char>,
+}
 
-/// The drawing as PNG, `zoom` pixels for each of its own, on white.
+/// The drawing as PNG on white.
 ///
 /// # Errors
-/// Where the system has no font, or the picture would be too large.
-pub fn png(drawing: &Drawing, zoom: f64) -> Result<Vec<u8>, PngError> {
-    let mut options = usvg::Options::default();
-    let fonts = options.fontdb_mut();
-    fonts.load_system_fonts();
-    let known = |family: &str| {
-        fonts
-            .faces()
-            .any(|f| f.families.iter().any(|(name, _)| name == family))
+/// Where the picture would be too large to be held.
+pub fn png(drawing: &Drawing, size: Size) -> Result<Picture, PngError> {
+    let zoom = match size {
+        Size::Scale(zoom) => zoom,
+        Size::Width(width) => f64::from(width) / drawing.width,
     };
-    let chosen = FAMILIES.iter().find(|f| known(f)).map(|f| (*f).to_owned());
-    let any = || {
-        fonts
-            .faces()
-            .next()
-            .and_then(|f| f.families.first().map(|(n, _)| n.clone()))
-    };
-    let family = chosen.or_else(any).ok_or(PngError::NoFont)?;
-    fonts.set_sans_serif_family(family.as_str());
-    options.font_family = family;
-    let tree = usvg::Tree::from_str(&drawing.svg, &options)?;
-    let size = |x: f64| (x * zoom).ceil().clamp(1.0, f64::from(u32::MAX)) as u32;
-    let (width, height) = (size(drawing.width), size(drawing.height));
-    if f64::from(width) * f64::from(height) > 4e8 {
-        return Err(PngError::TooLarge { width, height });
+    let (width, height) = (zoom * drawing.width, zoom * drawing.height);
+    let too_large = || PngError::TooLarge { width, height };
+    let pixels = |x: f64| x.round().max(1.0);
+    let fits = zoom.is_finite() && pixels(width) * pixels(height) <= MOST;
+    if !fits {
+        return Err(too_large());
     }
-    let mut pixels =
-        tiny_skia::Pixmap::new(width, height).ok_or(PngError::TooLarge { width, height })?;
-    pixels.fill(tiny_skia::Color::WHITE);
+    let mut options = usvg::Options::default();
+    let missing = fonts(drawing, options.fontdb_mut());
+    let tree = usvg::Tree::from_str(&drawing.svg, &options)?;
+    let mut canvas = tiny_skia::Pixmap::new(pixels(width) as u32, pixels(height) as u32)
+        .ok_or_else(too_large)?;
+    canvas.fill(tiny_skia::Color::WHITE);
     let scale = tiny_skia::Transform::from_scale(zoom as f32, zoom as f32);
-    resvg::render(&tree, scale, &mut pixels.as_mut());
-    pixels
+    resvg::render(&tree, scale, &mut canvas.as_mut());
+    let png = canvas
         .encode_png()
-        .map_err(|e| PngError::Encode(e.to_string()))
+        .map_err(|e| PngError::Encode(e.to_string()))?;
+    Ok(Picture { png, missing })
+}
+
+/// Loads what the drawing's texts need; the characters for which there is nothing.
+fn fonts(drawing: &Drawing, fonts: &mut Database) -> BTreeSet<char> {
+    fonts.load_font_data(dejavu::sans_condensed::regular().to_vec());
+    fonts.load_font_data(dejavu::sans_condensed::bold().to_vec());
+    fonts.set_sans_serif_family("DejaVu Sans");
+    let texts = drawing.labels.iter().flat_map(|l| l.text.chars());
+    let mut missing: BTreeSet<char> = texts.filter(|c| !c.is_whitespace()).collect();
+    remove_known(&mut missing, fonts);
+    if !missing.is_empty() {
+        fonts.load_system_fonts();
+        remove_known(&mut missing, fonts);
+    }
+    missing
+}
+
+fn remove_known(missing: &mut BTreeSet<char>, fonts: &Database) {
+    for face in fonts.faces() {
+        if missing.is_empty() {
+            return;
+        }
+        fonts.with_face_data(face.id, |data, index| {
+            if let Ok(font) = FontRef::from_index(data, index) {
+                let map = font.charmap();
+                missing.retain(|&c| map.map(c).is_none());
+            }
+        });
+    }
 }

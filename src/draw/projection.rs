@@ -31,6 +31,21 @@ impl View {
     }
 }
 
+/// Points and axes nearer than this to a plane, relative to the size of the whole, lie in it: files of robots have some
+/// six digits.
+const FLAT: f64 = 1e-5;
+
+/// What the axis of a joint means for a plane of motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Turn {
+    /// It turns about the axis and does not slide along it.
+    Hinge,
+    /// It may slide along the axis.
+    Slide,
+    /// No direction of it is special.
+    Any,
+}
+
 /// A joint in space.
 #[derive(Debug, Clone)]
 pub(super) struct Place {
@@ -40,8 +55,8 @@ pub(super) struct Place {
     pub(super) x: Vector,
     pub(super) y: Vector,
     pub(super) z: Vector,
-    /// Whether it turns about its axis and does not slide along it.
-    hinge: bool,
+    /// What its axis means.
+    turn: Turn,
     /// Whether the point was moved.
     pub(super) moved: bool,
 }
@@ -138,10 +153,11 @@ fn frame(mechanism: &Mechanism, joint: JointId) -> Place {
         x,
         y: cross(z, x),
         z,
-        hinge: matches!(
-            mechanism.joints[joint].joint_type,
-            JointType::Revolute | JointType::Universal | JointType::Slotted
-        ),
+        turn: match mechanism.joints[joint].joint_type {
+            JointType::Revolute | JointType::Universal | JointType::Slotted => Turn::Hinge,
+            JointType::Spherical | JointType::Fixed => Turn::Any,
+            _ => Turn::Slide,
+        },
         moved: false,
     }
 }
@@ -197,26 +213,42 @@ fn views() -> Vec<View> {
     ];
     let iso = (1.0f64 / 3.0).sqrt().asin().to_degrees();
     let slanted = [(45.0, iso), (-45.0, iso), (135.0, iso), (-135.0, iso)];
-    let others = [
-        (-60.0, 20.0),
-        (-30.0, 25.0),
-        (25.0, 20.0),
-        (60.0, 30.0),
-        (-20.0, 50.0),
-    ];
+    let turns = (0..24).map(|n| 15.0 * f64::from(n) - 172.5);
+    let others = turns.flat_map(|turn| [16.0, 28.0, 42.0, 58.0].map(|height| (turn, height)));
     for (n, (azimuth, height)) in slanted.into_iter().chain(others).enumerate() {
         let (a, h): (f64, f64) = (f64::to_radians(azimuth), f64::to_radians(height));
         let toward = [a.cos() * h.cos(), a.sin() * h.cos(), h.sin()];
-        let right = [-a.sin(), a.cos(), 0.0];
-        out.push(View {
-            right,
-            up: cross(toward, right),
-            toward,
-            name: if n < 4 { "isometric" } else { "seen aslant" },
-            axis: false,
-        });
+        let name = if n < 4 { "isometric" } else { "seen aslant" };
+        out.push(upright(toward, name));
     }
     out
+}
+
+/// Towards a direction that is not z, with z going up.
+fn upright(toward: Vector, name: &'static str) -> View {
+    let right = unit(cross([0.0, 0.0, 1.0], toward), [1.0, 0.0, 0.0]);
+    View {
+        right,
+        up: cross(toward, right),
+        toward,
+        name,
+        axis: false,
+    }
+}
+
+/// Along a normal, from the side that the isometric views are on.
+fn face_on(normal: Vector) -> View {
+    let mut all = views().into_iter();
+    if let Some(view) = all.find(|v| v.axis && norm(cross(v.toward, normal)) < FLAT) {
+        return view;
+    }
+    let side = dot(normal, [1.0, -1.1, 1.2]);
+    let toward = if side < 0.0 {
+        scale(normal, -1.0)
+    } else {
+        normal
+    };
+    upright(toward, "seen face-on")
 }
 
 /// The view with least overlap, with the joints on paper in a picture of the given size.
@@ -228,8 +260,23 @@ pub(super) fn best(
 ) -> (View, Vec<Point>, f64) {
     let middle = middle(places);
     let mut best: Option<(f64, View, Vec<Point>, f64)> = None;
-    let flat = planar(places);
-    for view in views() {
+    let candidates = match planar(places) {
+        Some(normal) => vec![(face_on(normal), 0.0)],
+        None => {
+            let few = places.len() as f64;
+            let dear = |v: &View| match v.name {
+                _ if v.axis => 1.0 + 0.15 * few,
+                "isometric" => 0.0,
+                _ => 0.4 + 0.02 * few,
+            };
+            // links in layers move in a plane as well
+            let layers = hinge(places).filter(|&n| moves_across(places, n));
+            let layers = layers.map(|n| (face_on(n), 0.0));
+            let views = views().into_iter().map(|v| (v, dear(&v)));
+            layers.into_iter().chain(views).collect()
+        }
+    };
+    for (view, dear) in candidates {
         let on: Vec<Point> = places
             .iter()
             .map(|p| view.flat(sub(p.point, middle)))
@@ -243,13 +290,7 @@ pub(super) fn best(
             1.0
         };
         let on: Vec<Point> = on.iter().map(|p| [p[0] * scale, p[1] * scale]).collect();
-        let mut cost = crowd(places, &on, links, frame);
-        match flat {
-            Some(normal) if norm(cross(normal, view.toward)) < 1e-6 => cost -= 1e3,
-            _ if view.axis => cost += 1.0 + 0.15 * places.len() as f64,
-            _ if view.name != "isometric" => cost += 0.4 + 0.02 * places.len() as f64,
-            _ => {}
-        }
+        let cost = dear + crowd(places, &on, links, frame);
         if best.as_ref().is_none_or(|(least, ..)| cost < least - 1e-9) {
             best = Some((cost, view, on, scale));
         }
@@ -260,19 +301,44 @@ pub(super) fn best(
     }
 }
 
-/// The common normal, where all points lie in one plane, hinges turn in it, and other axes are along or across it.
+/// The common normal, in any direction, where all points lie in one plane and the mechanism moves in it; an axis of the
+/// coordinates where there is a choice.
 fn planar(places: &[Place]) -> Option<Vector> {
     let size = extent(places);
-    [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]
-        .into_iter()
-        .find(|&n| {
-            let first = places.first().map_or(0.0, |p| dot(p.point, n));
-            places.iter().all(|p| {
-                let c = dot(p.z, n).abs();
-                let across = c < 1e-6 && !p.hinge;
-                (dot(p.point, n) - first).abs() <= 1e-6 * size && (across || c > 1.0 - 1e-6)
-            })
-        })
+    let first = places.first()?.point;
+    // without a hinge: the plane through the points, if they are not all in a row
+    let far = |of: &dyn Fn(Vector) -> Vector| {
+        let all = places.iter().map(|p| of(sub(p.point, first)));
+        all.max_by(|a, b| norm(*a).total_cmp(&norm(*b)))
+    };
+    let along = unit(far(&|p| p)?, [0.0; 3]);
+    let spread = far(&|p| cross(along, p))?;
+    let spanned = (norm(spread) > 1e-3 * size).then(|| unit(spread, [0.0; 3]));
+    let axes = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
+    let normals = axes.into_iter().chain(hinge(places)).chain(spanned);
+    let off = |p: &Place, n: Vector| dot(sub(p.point, first), n).abs();
+    normals
+        .filter(|&n| moves_across(places, n))
+        .find(|&n| places.iter().all(|p| off(p, n) <= FLAT * size))
+}
+
+/// The direction of the first hinge.
+fn hinge(places: &[Place]) -> Option<Vector> {
+    let mut hinges = places.iter().filter(|p| p.turn == Turn::Hinge);
+    hinges.next().map(|p| p.z)
+}
+
+/// Whether hinges turn about this direction and other axes are along or across it.
+fn moves_across(places: &[Place], n: Vector) -> bool {
+    places.iter().all(|p| {
+        let along = norm(cross(p.z, n)) < FLAT;
+        let across = dot(p.z, n).abs() < FLAT;
+        match p.turn {
+            Turn::Hinge => along,
+            Turn::Slide => along || across,
+            Turn::Any => true,
+        }
+    })
 }
 
 /// How much joints and links lie on each other.

@@ -2,14 +2,15 @@
 
 use super::labels::{Place, Rect};
 use super::layout::{
-    Graph, Layout, Point, add, cross, inside, layout, mean, norm, ring, scale, sub, to_segment,
+    Graph, Layout, Point, add, area, inside, layout, mean, norm, ring, scale, sub, to_segment,
 };
 use super::shapes::{HALF, hatch, hatch_with, outline, rounded};
 use super::sheet::{Anchor, Caption, SMALL, Sheet, Swatch, plan, polyline};
 use super::{Drawing, Mark, Subject};
+use crate::chart::look::width;
 use crate::closure::contour::{Contour, contour_basis};
 use crate::geom::expr::Expr;
-use crate::model::mechanism::{JointId, LinkId, Role};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
 use std::fmt::Write as _;
 
 /// Pixels of a bar.
@@ -35,10 +36,20 @@ pub(super) struct Parts {
 pub fn scheme(subject: &Subject<'_>) -> Drawing {
     let parts = parts(subject);
     let mut at = layout(&parts.graph, &hints(subject, &parts));
+    let unit = UNIT * roominess(subject.mechanism, &parts.joints);
     for p in at.joints.iter_mut().chain(at.hubs.iter_mut()) {
-        *p = scale(*p, UNIT);
+        *p = scale(*p, unit);
     }
     Scheme::new(subject, parts, at).draw()
+}
+
+/// How much larger than usual a drawing is, for long names to have room.
+pub(super) fn roominess(m: &Mechanism, joints: &[JointId]) -> f64 {
+    let wide = joints
+        .iter()
+        .map(|&j| width(&m.joints[j].id, SMALL).min(150.0));
+    let usual = wide.sum::<f64>() / joints.len().max(1) as f64;
+    1.0 + 0.5 * ((usual - 40.0) / 60.0).clamp(0.0, 1.0)
 }
 
 fn parts(subject: &Subject<'_>) -> Parts {
@@ -137,11 +148,34 @@ impl<'a> Scheme<'a> {
             1 => out.push(self.at.hubs[l]),
             2 => {
                 let middle = mean(out.iter().copied());
+                // there and back: a bar with a bend, which leaves its contour open to sight
                 if norm(sub(middle, self.at.hubs[l])) > 1.0 {
                     out.insert(1, self.at.hubs[l]);
+                    out.push(self.at.hubs[l]);
                 }
             }
             _ => {}
+        }
+        out
+    }
+
+    /// What a contour goes round: its joints, and the bends of bars between them.
+    pub(super) fn round(&self, c: usize) -> Vec<Point> {
+        let of = &self.parts.graph.contours[c];
+        let mut used = Vec::new();
+        let mut out = Vec::new();
+        for (i, &j) in of.iter().enumerate() {
+            out.push(self.at.joints[j]);
+            let next = of[(i + 1) % of.len()];
+            let bent = (0..self.rings.len()).find(|l| {
+                let ring = &self.rings[*l];
+                let joins = ring.len() == 2 && ring.contains(&j) && ring.contains(&next);
+                joins && j != next && !used.contains(l) && self.corners(*l).len() > 2
+            });
+            if let Some(l) = bent {
+                used.push(l);
+                out.push(self.at.hubs[l]);
+            }
         }
         out
     }
@@ -196,13 +230,9 @@ impl<'a> Scheme<'a> {
         let m = self.subject.mechanism;
         // the smallest on top, so that each stretch has the colour of the contour it is next to
         let mut order: Vec<(f64, usize, Vec<Point>)> = Vec::new();
-        for (c, of) in self.parts.graph.contours.iter().enumerate() {
-            let polygon: Vec<Point> = of.iter().map(|&j| self.at.joints[j]).collect();
-            let n = polygon.len();
-            let area: f64 = (0..n)
-                .map(|i| cross(polygon[i], polygon[(i + 1) % n]))
-                .sum();
-            order.push((area.abs(), c, polygon));
+        for c in 0..self.parts.contours.len() {
+            let polygon = self.round(c);
+            order.push((area(&polygon), c, polygon));
         }
         order.sort_by(|a, b| b.0.total_cmp(&a.0));
         for (_, c, polygon) in order {
@@ -321,6 +351,8 @@ impl<'a> Scheme<'a> {
             };
             out.push((Swatch::Symbol(draw), "driving pair".to_owned()));
         }
+        let class = "joint with its class";
+        out.push((Swatch::Joint("joint", "V".to_owned()), class.to_owned()));
         let frame = |s: &mut Sheet, p: Point| {
             let ends = [add(p, [-7.0, 0.0]), add(p, [7.0, 0.0])];
             s.path("link", &rounded(&ends, 7.0));

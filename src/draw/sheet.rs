@@ -27,6 +27,7 @@ const STYLE: &str = "
 .ozd .sub{font-size:13px}
 .ozd .sub,.ozd .soft{fill:#59636e}
 .ozd .small{font-size:11px}
+.ozd .soft{paint-order:stroke;stroke:#fff;stroke-opacity:.7;stroke-width:2.5px;stroke-linejoin:round}
 .ozd .class{font-size:10px}
 .ozd .name{font-weight:700;paint-order:stroke;stroke:#f3f5f7;stroke-width:3px;stroke-linejoin:round}
 .ozd .bg{fill:#fff}
@@ -58,6 +59,7 @@ const STYLE: &str = "
 .ozd .sub,.ozd .soft{fill:#a3adb7}
 .ozd .bg{fill:#15191d}
 .ozd .name{stroke:#232a31}
+.ozd .soft{stroke:#15191d}
 .ozd .link{fill:#232a31;stroke:#aeb7c0}
 .ozd .bone{stroke:#aeb7c0}
 .ozd .plate{fill:#a3adb7;stroke:#aeb7c0}
@@ -161,7 +163,11 @@ pub(super) fn plan(caption: &Caption<'_>, area: Rect, strip: f64) -> Plan {
     let rows = &caption.legend;
     let widest = rows.iter().map(|(_, t)| width(t, TEXT));
     let column = SWATCH + widest.fold(0.0, f64::max).min(WIDEST) + 24.0;
-    let inner = (area.right - area.left).max(LEAST).max(column - 24.0);
+    // a long legend has two columns, however narrow the drawing is
+    let least = if rows.len() > 8 { 2.0 } else { 1.0 };
+    let inner = (area.right - area.left)
+        .max(LEAST)
+        .max(least * column - 24.0);
     let columns = (((inner + 24.0) / column) as usize).clamp(1, 4);
     let lines = rows.len().div_ceil(columns);
     let head = PAD + 62.0;

@@ -312,6 +312,42 @@ fn bundles(graph: &Graph, net: &Net, turn: u64) -> Vec<Point> {
     at
 }
 
+/// Two links above each other and legs of one kind between them, as parallel manipulators have: the legs stand side by
+/// side, the frame is below. There is nothing to search for then.
+pub(super) fn ladder(graph: &Graph) -> Option<Vec<Point>> {
+    let mut branches = (0..graph.links.len()).filter(|&l| graph.links[l].len() > 2);
+    let (mut above, mut below) = (branches.next()?, branches.next()?);
+    if branches.next().is_some() {
+        return None;
+    }
+    if graph.frame == Some(above) {
+        (above, below) = (below, above);
+    }
+    let mut seen = vec![false; graph.joints];
+    let legs: Vec<Vec<usize>> = graph.links[above]
+        .iter()
+        .map(|&j| chain(graph, above, j, &mut seen))
+        .collect();
+    let long = legs.first()?.len();
+    let alike = legs.iter().all(|leg| leg.len() == long);
+    let whole = seen.iter().all(|&s| s) && legs.len() == graph.links[below].len();
+    if !alike || !whole || long < 2 {
+        return None;
+    }
+    let mut at = vec![[0.0; 2]; graph.joints];
+    let middle = (legs.len() as f64 - 1.0) / 2.0;
+    for (i, leg) in legs.iter().enumerate() {
+        let x = i as f64 - middle;
+        // longest at the ends, so that both links are polygons with the legs on one side
+        let half = 0.5 * (long as f64 - 1.0) + 0.3 * (x / middle).powi(2);
+        for (n, &j) in leg.iter().enumerate() {
+            let t = 2.0 * n as f64 / (long as f64 - 1.0) - 1.0;
+            at[j] = [x, half * t];
+        }
+    }
+    Some(at)
+}
+
 /// The joints from a link on through bars.
 fn chain(graph: &Graph, from: usize, joint: usize, seen: &mut [bool]) -> Vec<usize> {
     let (mut at, mut j, mut out) = (from, joint, Vec::new());

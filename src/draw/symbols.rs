@@ -76,6 +76,7 @@ pub(super) fn symbol(joint: &JointType, pose: &Pose, mark: &str) -> Vec<Shape> {
         JointType::Prismatic => {
             s.rod("line", 17.0);
             s.cuboid([5.0, 5.0, 9.5]);
+            s.rod_end();
         }
         JointType::Helical => {
             s.rod("line", 16.0);
@@ -85,6 +86,7 @@ pub(super) fn symbol(joint: &JointType, pose: &Pose, mark: &str) -> Vec<Shape> {
         JointType::Cylindrical => {
             s.rod("line", 17.0);
             s.cylinder(5.5, 9.5, 0.0);
+            s.rod_end();
         }
         JointType::Universal => s.cross(),
         JointType::CylindricalUniversal => {
@@ -195,6 +197,13 @@ impl Symbol {
     fn rod(&mut self, class: &str, half: f64) {
         let ends = vec![self.pose.at(0.0, 0.0, -half), self.pose.at(0.0, 0.0, half)];
         self.shapes.push(Shape::line(self.class(class), ends));
+    }
+
+    /// The end of the rod, where the axis points at the reader and the rod itself is not to be seen.
+    fn rod_end(&mut self) {
+        if self.pose.toward[2].abs() > 0.9 {
+            self.ball(2.0, "ink");
+        }
     }
 
     fn cylinder(&mut self, radius: f64, half: f64, middle: f64) {
@@ -320,4 +329,32 @@ pub(super) fn hull(mut points: Vec<Point>) -> Vec<Point> {
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_type_of_joint_has_a_symbol_of_its_own_from_every_side() {
+        let types = JointType::NAMED;
+        let end_on = Pose {
+            axes: [[1.0, 0.0], [0.0, -1.0], [0.0, 0.0]],
+            toward: [0.0, 0.0, 1.0],
+        };
+        let from_the_side = end_on.along_x();
+        for pose in [
+            end_on,
+            from_the_side,
+            from_the_side.along_x(),
+            Pose::legend(),
+        ] {
+            let drawn = types
+                .each_ref()
+                .map(|t| format!("{:?}", symbol(t, &pose, "")));
+            for (i, one) in drawn.iter().enumerate() {
+                assert!(!drawn[..i].contains(one), "{} as another", types[i]);
+            }
+        }
+    }
 }

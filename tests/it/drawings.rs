@@ -5,7 +5,7 @@ use ozols::builtin;
 use ozols::draw::{Drawing, Rect, Subject, kinematic, marks, scheme};
 use ozols::import::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
-use ozols::redundancy::analysis::{Method, analyse, exact_field};
+use ozols::redundancy::analysis::{Method, StateAnalysis, analyse, exact_field};
 use ozols::search::request::{Request, Search};
 use proptest::prelude::*;
 use std::fmt::Write as _;
@@ -90,8 +90,110 @@ fn collisions(d: &Drawing) -> Vec<String> {
     out
 }
 
+/// What a path, circle or rectangle covers: ends of segments and arcs, in absolute commands.
+fn covers(n: roxmltree::Node<'_, '_>) -> Vec<[f64; 2]> {
+    let of = |a: &str| n.attribute(a).map_or(0.0, |v| v.parse::<f64>().unwrap());
+    match n.tag_name().name() {
+        "rect" => {
+            let (x, y) = (of("x"), of("y"));
+            vec![[x, y], [x + of("width"), y + of("height")]]
+        }
+        "circle" => {
+            let (x, y, r) = (of("cx"), of("cy"), of("r"));
+            vec![[x - r, y - r], [x + r, y + r]]
+        }
+        "path" => path(n.attribute("d").unwrap()),
+        _ => Vec::new(),
+    }
+}
+
+/// The points of a path of `M`, `L` and `A`.
+fn path(d: &str) -> Vec<[f64; 2]> {
+    let commands = d.split(|c: char| c.is_ascii_alphabetic());
+    let numbers = commands.map(|c| {
+        c.split_whitespace()
+            .map(|v| v.parse().unwrap())
+            .collect::<Vec<f64>>()
+    });
+    let ends = numbers.filter(|n| !n.is_empty());
+    ends.map(|n| match n[..] {
+        [.., x, y] => [x, y],
+        _ => panic!("{d}"),
+    })
+    .collect()
+}
+
+/// Shapes outside of the sheet, and a sheet that is not the viewBox.
+fn outside(d: &Drawing) -> Vec<String> {
+    let doc = roxmltree::Document::parse(&d.svg).unwrap();
+    let root = doc.root_element();
+    let size = format!("0 0 {} {}", d.width, d.height);
+    assert_eq!(root.attribute("viewBox"), Some(size.as_str()));
+    let out = |p: &[f64; 2]| {
+        let inside = p[0] >= 0.0 && p[1] >= 0.0 && p[0] <= d.width && p[1] <= d.height;
+        !inside
+    };
+    let shapes = doc.descendants().filter(|n| covers(*n).iter().any(out));
+    shapes
+        .map(|n| format!("{:?} outside", n.attributes().collect::<Vec<_>>()))
+        .collect()
+}
+
+/// Whether each joint has its class, and each contour its tint.
+fn misread(d: &Drawing, m: &Mechanism, state: usize, analysis: &StateAnalysis) -> Vec<String> {
+    let mut out = Vec::new();
+    for (joint, symbol) in m.joints_in(state).zip(&d.symbols) {
+        let within: Vec<&str> = d
+            .labels
+            .iter()
+            .filter(|l| within(&l.rect, symbol))
+            .map(|l| l.text.as_str())
+            .collect();
+        let joint = &m.joints[joint];
+        if within != [joint.joint_type.class()] {
+            out.push(format!("{} of class {within:?}", joint.id));
+        }
+    }
+    let doc = roxmltree::Document::parse(&d.svg).unwrap();
+    let mut tints: Vec<(String, String)> = doc
+        .descendants()
+        .filter(|n| n.has_tag_name("path"))
+        .filter_map(|n| Some((n, n.attribute("class")?.strip_prefix("s s")?)))
+        .map(|(n, tint)| {
+            (
+                n.first_element_child().unwrap().text().unwrap().to_owned(),
+                tint.to_owned(),
+            )
+        })
+        .collect();
+    tints.sort();
+    let shares = analysis.per_contour.iter().enumerate();
+    let mut right: Vec<(String, String)> = shares
+        .map(|(c, s)| {
+            let (low, high) = s.range;
+            let range = if low == high {
+                String::new()
+            } else {
+                format!(" ({low} to {high})")
+            };
+            let words = format!(
+                "contour {}: {}, σ = {}{range}",
+                c + 1,
+                s.contour.name(m),
+                s.redundant
+            );
+            (words, s.redundant.min(6).to_string())
+        })
+        .collect();
+    right.sort();
+    if tints != right {
+        out.push(format!("{tints:?} for {right:?}"));
+    }
+    out
+}
+
 #[test]
-fn no_label_touches_another_or_a_symbol() {
+fn every_built_in_is_drawn_right() {
     let mut wrong = Vec::new();
     let mut drawn = 0;
     for name in builtin::names() {
@@ -115,7 +217,12 @@ fn no_label_touches_another_or_a_symbol() {
                     d.symbols.len() >= joints,
                     "{name}: each joint has its symbol"
                 );
-                for c in collisions(&d) {
+                let mut all = collisions(&d);
+                all.extend(outside(&d));
+                if kind == "scheme" {
+                    all.extend(misread(&d, &m, state, analysis));
+                }
+                for c in all {
                     wrong.push(format!("{name} {state} {kind}: {c}"));
                 }
             }
@@ -150,7 +257,8 @@ fn the_scheme_says_what_the_field_says() {
         assert!(says(&free, row), "{row}: {:?}", free.labels);
     }
     let count = |d: &Drawing, text: &str| d.labels.iter().filter(|l| l.text == text).count();
-    assert_eq!((count(&free, "V"), count(&free, "IV")), (12, 1));
+    // and one in the legend
+    assert_eq!((count(&free, "V"), count(&free, "IV")), (12 + 1, 1));
     assert_eq!(free.symbols.len(), 13);
     // the driving pair's symbol is the larger one
     let large = free.symbols.iter().filter(|s| s.right - s.left > 25.0);
@@ -199,9 +307,97 @@ fn variants_are_marked() {
     }
 }
 
+/// A four-bar in the plane that these two vectors span.
+fn tilted(across: [f64; 3], up: [f64; 3]) -> Mechanism {
+    let normal = [
+        across[1] * up[2] - across[2] * up[1],
+        across[2] * up[0] - across[0] * up[2],
+        across[0] * up[1] - across[1] * up[0],
+    ];
+    let at = |x: f64, y: f64| [0, 1, 2].map(|i| 7.0 + across[i] * x + up[i] * y);
+    let mut text = String::from("name = \"tilted\"\n");
+    for id in ["0", "1", "2", "3"] {
+        let role = match id {
+            "0" => "role = \"frame\"\n",
+            "3" => "role = \"output\"\n",
+            _ => "",
+        };
+        writeln!(text, "[[link]]\nid = \"{id}\"\n{role}").unwrap();
+    }
+    let joints = [
+        ("0", "1", 0.0, 0.0),
+        ("1", "2", 0.0, 2.0),
+        ("2", "3", 5.0, 4.0),
+        ("3", "0", 6.0, 0.0),
+    ];
+    for (a, b, x, y) in joints {
+        writeln!(
+            text,
+            "[[joint]]\nid = \"{a}-{b}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = {:?}\naxis = {normal:?}",
+            at(x, y)
+        )
+        .unwrap();
+    }
+    mechanism_from_str("tilted.toml", &text).unwrap()
+}
+
+#[test]
+fn a_plane_is_seen_face_on() {
+    for (across, up, name) in [
+        ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], "seen along z"),
+        ([2.0, 1.0, 2.0], [-2.0, 2.0, 1.0], "seen face-on"),
+        ([3.0, 4.0, 0.0], [0.0, 0.0, 5.0], "seen face-on"),
+        ([1.0, 2.0, 2.0], [2.0, 1.0, -2.0], "seen face-on"),
+    ] {
+        let m = tilted(across, up);
+        let d = kinematic(&Subject {
+            mechanism: &m,
+            state: 0,
+            analysis: None,
+            marks: None,
+        });
+        assert!(
+            d.svg.contains(&format!("Kinematic scheme {name}")),
+            "{across:?} {up:?}"
+        );
+        // true lengths, to one scale: 0-1, 1-2, 2-3, 3-0 are the last of the symbols
+        let at: Vec<[f64; 2]> = d.symbols.iter().rev().take(4).map(Rect::middle).collect();
+        let far = |i: usize, j: usize| (at[i][0] - at[j][0]).hypot(at[i][1] - at[j][1]);
+        let [e, c, b, a] = [0, 1, 2, 3];
+        let scale = far(a, b) / 2.0;
+        for (i, j, true_length) in [(b, c, 29f64.sqrt()), (c, e, 17f64.sqrt()), (e, a, 6.0)] {
+            let error = far(i, j) / scale - true_length;
+            assert!(error.abs() < 0.02, "{across:?} {up:?} {i}-{j}: {error}");
+        }
+    }
+}
+
+#[test]
+fn links_side_by_side_show_their_contour() {
+    let m = built_in("door-two-hinges");
+    let d = scheme(&Subject {
+        mechanism: &m,
+        state: 0,
+        analysis: None,
+        marks: None,
+    });
+    let doc = roxmltree::Document::parse(&d.svg).unwrap();
+    let mut tint = doc
+        .descendants()
+        .filter(|n| n.attribute("class") == Some("s s0"));
+    let corners = covers(tint.next().unwrap());
+    let area: f64 = (0..corners.len())
+        .map(|i| {
+            let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
+            a[0] * b[1] - a[1] * b[0]
+        })
+        .sum();
+    assert!(area.abs() / 2.0 > 2000.0, "{corners:?}");
+}
+
 #[test]
 fn the_same_bytes_each_time() {
-    for name in ["gripper-10", "double-banana", "stewart-gough"] {
+    for name in ["gripper-10", "double-banana", "stewart-gough", "y-star"] {
         let m = built_in(name);
         let subject = Subject {
             mechanism: &m,
@@ -243,6 +439,63 @@ fn command_line() {
             .any(|(t, _)| t.starts_with(&words) && t.ends_with(to));
         assert!(says, "{words}{to}");
     }
+    // the clamped state with its pad, and a list in the order of the file's ranking
+    for (more, search) in [
+        (
+            &[
+                "draw",
+                "gripper-10",
+                "--state",
+                "clamped",
+                "--max-external",
+                "2",
+            ][..],
+            &["search", "gripper-10", "--max-external", "2"][..],
+        ),
+        (
+            &["draw", "gripper-10-loaded", "--pool", "20"],
+            &["search", "gripper-10-loaded", "--pool", "20"],
+        ),
+        (
+            &[
+                "draw",
+                "gripper-10",
+                "--options",
+                "revolute,spherical",
+                "--max-redundant",
+                "2",
+            ],
+            &[
+                "search",
+                "gripper-10",
+                "--options",
+                "revolute,spherical",
+                "--max-redundant",
+                "2",
+            ],
+        ),
+    ] {
+        let list = out(&[search, &["--top", "3", "--format", "json"]].concat());
+        let list: serde_json::Value = serde_json::from_str(&list).unwrap();
+        let svg = out(&[more, &["--variant", "3"]].concat());
+        let changes = list["variants"][2]["changes"].as_array().unwrap();
+        let said = texts(&svg);
+        assert_eq!(
+            changes.len(),
+            said.iter().filter(|(t, _)| t.contains(" → ")).count()
+        );
+        for c in changes {
+            let (joint, to) = (c["joint"].as_str().unwrap(), c["to"].as_str().unwrap());
+            let says = |t: &str| t.starts_with(&format!("{joint}: ")) && t.ends_with(to);
+            assert!(said.iter().any(|(t, _)| says(t)), "{more:?} {joint} {to}");
+        }
+        if more.contains(&"clamped") {
+            assert!(
+                said.iter().any(|(t, _)| t == "link a-8 pad: added"),
+                "{said:?}"
+            );
+        }
+    }
     for (args, what) in [
         (
             vec!["draw", "gripper-10", "--state", "folded"],
@@ -262,25 +515,6 @@ fn command_line() {
         let said = String::from_utf8_lossy(&done.stderr).into_owned();
         assert!(said.contains(what), "{said}");
     }
-}
-
-#[cfg(not(feature = "png"))]
-#[test]
-fn a_build_without_png_says_so() {
-    let done = ozols(&["draw", "bennett", "--png"]).output().unwrap();
-    assert_eq!(done.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&done.stderr).contains("--features png"));
-}
-
-#[cfg(feature = "png")]
-#[test]
-fn png() {
-    let done = ozols(&["draw", "bennett", "--png"]).output().unwrap();
-    let said = String::from_utf8_lossy(&done.stderr).into_owned();
-    if done.status.code() == Some(2) && said.contains("no font") {
-        return;
-    }
-    assert!(done.stdout.starts_with(b"\x89PNG\r\n"), "{said}");
 }
 
 const TYPES: [&str; 13] = [

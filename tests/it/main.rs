@@ -18,6 +18,7 @@ mod grip;
 mod holding;
 mod layering;
 mod mobility;
+mod png;
 mod programmes;
 mod published;
 mod ranking;
