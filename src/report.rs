@@ -3,6 +3,7 @@
 pub mod accuracy_text;
 pub mod analysis_json;
 pub mod analysis_text;
+pub mod clamped;
 pub mod drive_charts;
 pub mod drive_json;
 pub mod drive_text;

@@ -499,6 +499,10 @@ pub(super) struct Statics {
     /// A state named in the file.
     #[arg(long, default_value = "free")]
     pub(super) state: String,
+    /// In a state that [workload.grip] loads: the part whose contact forces load the jaws, in the file's unit; the hardest
+    /// to hold by default.
+    #[arg(long, value_name = "D")]
+    pub(super) diameter: Option<f64>,
     /// Model the mechanism in its plane (normal z), whatever the file says.
     #[arg(long)]
     pub(super) planar: bool,

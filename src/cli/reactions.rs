@@ -31,7 +31,11 @@ pub(super) fn run(m: &Mechanism, state: StateId, a: &Statics) -> anyhow::Result<
             StaticsFormat::Csv => write!(out, "{}", reactions_data::csv(m, &found))?,
             StaticsFormat::Text => {
                 let width = output::width(a.output.as_deref());
-                write!(out, "{}", reactions_text::solution(m, state, &found, width))?;
+                write!(
+                    out,
+                    "{}",
+                    reactions_text::solution(m, state, "pose of the file", &found, width)
+                )?;
             }
         }
         Ok(Done::Found)

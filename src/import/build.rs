@@ -131,7 +131,7 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     mechanism.contours = contours(file, &mechanism, &mut out);
     mechanism.search = search(file, &mechanism, &mut out);
     mechanism.loads = loads(file, &mechanism, &mut out);
-    grip(file, length_unit.metres, Some(&mechanism), &mut out);
+    mechanism.loads.grip = grip(file, length_unit.metres, Some(&mechanism), &mut out);
     drive(file, length_unit.metres, Some(&mechanism), &mut out);
     mechanism.ranking = ranking(file, &mut out);
     let (joint_types, costs) = joint_types(file, &mechanism, &mut out);

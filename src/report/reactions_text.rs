@@ -46,12 +46,18 @@ fn reactions(m: &Mechanism, list: &[JointReaction], size: f64, width: Option<u16
     table(&header, rows.collect(), width)
 }
 
-/// The whole report, fitted to a terminal of `width` columns where one is given.
+/// The whole report, fitted to a terminal of `width` columns where one is given; `pose` in words.
 #[must_use]
-pub fn solution(m: &Mechanism, state: StateId, s: &Solution, width: Option<u16>) -> String {
+pub fn solution(
+    m: &Mechanism,
+    state: StateId,
+    pose: &str,
+    s: &Solution,
+    width: Option<u16>,
+) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
-    let _ = write_solution(&mut out, m, state, s, width);
+    let _ = write_solution(&mut out, m, state, pose, s, width);
     out
 }
 
@@ -59,6 +65,7 @@ fn write_solution(
     out: &mut String,
     m: &Mechanism,
     state: StateId,
+    pose: &str,
     s: &Solution,
     width: Option<u16>,
 ) -> std::fmt::Result {
@@ -77,7 +84,7 @@ fn write_solution(
     };
     writeln!(
         out,
-        "{}, state {}, pose of the file: joint reactions, {what}",
+        "{}, state {}, {pose}: joint reactions, {what}",
         m.name, m.states[state]
     )?;
     writeln!(
