@@ -33,6 +33,26 @@ pub fn follow(
     drives: &[Driven],
     stroke: Option<Stroke>,
 ) -> Result<Followed, Unsolved> {
+    let wanted: Vec<f64> = match stroke {
+        None => vec![0.0],
+        #[allow(clippy::cast_precision_loss, reason = "at most 100000 steps")]
+        Some(s) => (0..=s.steps.max(1))
+            .map(|i| s.from + (s.to - s.from) * i as f64 / s.steps.max(1) as f64)
+            .collect(),
+    };
+    follow_to(m, state, drives, &wanted)
+}
+
+/// The poses at positions of the first drive, by position; that of the file alone where nothing is driven.
+///
+/// # Errors
+/// Where a coordinate has no value.
+pub fn follow_to(
+    m: &Mechanism,
+    state: StateId,
+    drives: &[Driven],
+    wanted: &[f64],
+) -> Result<Followed, Unsolved> {
     let start = Pose::of_file(m, state)?;
     let column = drives.first().and_then(|d| {
         start
@@ -40,7 +60,7 @@ pub fn follow(
             .iter()
             .position(|c| (c.joint, c.freedom) == *d)
     });
-    let (Some(stroke), Some(column)) = (stroke, column) else {
+    let Some(column) = column else {
         return Ok(Followed {
             poses: vec![(0.0, start)],
             stopped: None,
@@ -53,10 +73,7 @@ pub fn follow(
         Freedom::Tx | Freedom::Ty | Freedom::Tz => start.length,
         _ => 1.0,
     };
-    #[allow(clippy::cast_precision_loss, reason = "at most 100000 steps")]
-    let at =
-        |i: usize| stroke.from + (stroke.to - stroke.from) * i as f64 / stroke.steps.max(1) as f64;
-    let mut wanted: Vec<f64> = (0..=stroke.steps.max(1)).map(at).collect();
+    let mut wanted = wanted.to_vec();
     wanted.sort_by(f64::total_cmp);
     let (mut poses, mut stopped) = (Vec::new(), None);
     let mut go = |positions: &mut dyn Iterator<Item = f64>| {
