@@ -11,6 +11,7 @@ pub mod grip_charts;
 pub mod grip_json;
 pub mod grip_text;
 pub mod ranking;
+pub mod reactions_cycle;
 pub mod reactions_data;
 pub mod reactions_text;
 pub mod search_json;

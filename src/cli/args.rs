@@ -506,9 +506,9 @@ pub(super) struct Statics {
     /// Model the mechanism in its plane (normal z), whatever the file says.
     #[arg(long)]
     pub(super) planar: bool,
-    /// All six components of each joint's reaction, at the pose of the file, redundant constraints and all; by default
-    /// where a mechanism is not planar or not determinate in its plane.
-    #[arg(long, conflicts_with_all = ["planar", "groups", "stability", "svg", "stroke"])]
+    /// All six components of each joint's reaction, redundant constraints and all; by default where a mechanism is not
+    /// planar or not determinate in its plane.
+    #[arg(long, conflicts_with_all = ["planar", "groups", "stability", "svg"])]
     pub(super) spatial: bool,
     /// Only the Assur groups, under each possible drive.
     #[arg(long, conflicts_with_all = ["stability", "svg", "stroke"])]

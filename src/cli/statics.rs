@@ -70,10 +70,10 @@ pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
         return stability(&m, state, stroke, folder, args.seed);
     }
     if a.spatial {
-        return reactions::run(&m, state, a);
+        return reactions::run(&m, state, stroke, a);
     }
     let found = match statics(&m, state, stroke) {
-        Err(e) if reactions::takes(&e, a) => return reactions::run(&m, state, a),
+        Err(e) if reactions::takes(&e, a) => return reactions::run(&m, state, stroke, a),
         found => found?,
     };
     let methods: &[GroupMethod] = match a.method {

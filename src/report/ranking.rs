@@ -2,7 +2,7 @@
 
 use crate::model::mechanism::Mechanism;
 use crate::model::ranking::{ClearanceSum, Order, Term};
-use crate::report::words::{grouped, significant};
+use crate::report::words::{grouped, plural, significant};
 use crate::score::cases::Gripped;
 use crate::score::ranking::{Ranked, RankedPool};
 use crate::score::terms::Scores;
@@ -44,7 +44,7 @@ fn gripped(m: &Mechanism, g: &Gripped) -> String {
     let some = |list: &[f64]| match list {
         [] => String::new(),
         [one] => told(one),
-        [first, .., last] => format!("{} to {} ({})", told(first), told(last), list.len()),
+        [first, .., last] => format!("{} to {}", told(first), told(last)),
     };
     let lost = if g.lost.is_empty() {
         String::new()
@@ -56,8 +56,9 @@ fn gripped(m: &Mechanism, g: &Gripped) -> String {
         )
     };
     format!(
-        "Loads of state {} from the grip: contact forces of the worst case of each part, D = {} {}{lost}",
+        "Loads of state {} from the grip: contact forces of the worst case of {}, D = {} {}{lost}",
         m.states[g.state],
+        plural(g.held.len(), "part"),
         some(&g.held),
         unit.symbol
     )

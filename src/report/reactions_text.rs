@@ -92,6 +92,9 @@ fn write_solution(
         "First link on second, in the joint's own frame (z its axis), moments about its point\n"
     )?;
     let loads = &m.loads;
+    if loads.drive_speeds.iter().any(|s| *s != 0.0) {
+        writeln!(out, "Inertia forces of the stated drive speed included\n")?;
+    }
     let no_mass = m.links.iter().all(|l| l.mass.is_none()) || loads.gravity.is_none();
     if no_mass && loads.forces.is_empty() && loads.moments.is_empty() {
         writeln!(
