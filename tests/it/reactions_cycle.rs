@@ -61,8 +61,8 @@ fn effort(list: &[JointReaction]) -> f64 {
 
 const STROKE: Stroke = Stroke {
     from: -0.2,
-    to: 0.4,
-    steps: 6,
+    to: 0.3,
+    steps: 5,
 };
 
 /// The planar solver places bodies by group and takes derivatives of its own equations.
@@ -146,9 +146,6 @@ fn energies(m: &Mechanism, c: &Cycle, at: f64, speed: f64) -> f64 {
     let poses = follow_to(m, 0, &c.drives, &steps).unwrap().poses;
     assert_eq!(poses.len(), 5);
     let metres = m.length_unit.metres;
-    let slides = matches!(c.drives[0].1, Freedom::Tx | Freedom::Ty | Freedom::Tz);
-    // Positions and speeds of slides are in the file's unit alike.
-    let _ = slides;
     let diff = |x: [f64; 5]| (8.0 * (x[3] - x[1]) - (x[4] - x[0])) / (12.0 * h) * speed;
     let mut energy = 0.0;
     for (l, link) in m.links.iter().enumerate() {
