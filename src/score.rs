@@ -3,6 +3,7 @@
 //! The cost of a variant adds up joint by joint, so the diagram gives variants in its order. What the joints bear, how well
 //! conditioned the equations are and what clearances do to the outputs does not add up; it is computed variant by variant
 //! ([`evaluate`]) for a pool of the cheapest, and [`ranking`] says whether a variant outside of the pool could still win.
+//! What it is computed for, the poses of the stroke under the file's loads and the parts that a grip holds, is in [`cases`].
 //!
 //! # Speed
 //!

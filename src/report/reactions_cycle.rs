@@ -3,6 +3,7 @@
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::report::reactions_data::{csv_rows, json};
+use crate::report::reactions_text::NOTHING;
 use crate::report::statics_words::{figure, prefix};
 use crate::report::words::{plural, table};
 use crate::workload::reactions::cycle::Cycle;
@@ -91,14 +92,28 @@ fn write(
         .collect();
     let greatest = peaks.iter().map(|p| p.1.0.max(p.2.0)).fold(0.0, f64::max);
     let (scale, prefix) = prefix(greatest);
+    // What is left of rounding is nothing.
+    let size = |x: f64| {
+        if x > NOTHING * greatest {
+            figure(x / scale)
+        } else {
+            "0".to_owned()
+        }
+    };
+    if greatest == 0.0 {
+        writeln!(
+            out,
+            "The loads are nothing here: give links a mass and centre and the [workload] gravity, or forces under [[workload.force]].\n"
+        )?;
+    }
     let rows = peaks.iter().map(|(j, force, moment)| {
         let joint = &m.joints[*j];
         vec![
             joint.id.clone(),
             joint.joint_type.name().to_owned(),
-            figure(force.0 / scale),
+            size(force.0),
             at(force.1),
-            figure(moment.0 / scale),
+            size(moment.0),
             at(moment.1),
         ]
     });

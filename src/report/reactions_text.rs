@@ -16,7 +16,7 @@ fn slides(freedom: Freedom) -> bool {
 }
 
 /// What a component is next to: below this fraction of the greatest it is rounding.
-const NOTHING: f64 = 1e-12;
+pub(super) const NOTHING: f64 = 1e-12;
 
 fn reactions(m: &Mechanism, list: &[JointReaction], size: f64, width: Option<u16>) -> String {
     let greatest = list

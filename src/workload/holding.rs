@@ -360,7 +360,13 @@ pub fn hold(
     match s.status {
         SolverStatus::Solved | SolverStatus::AlmostSolved => {
             // Normal forces below zero by rounding are none.
-            let x = |v: usize| if v % 3 == 0 { s.x[v].max(0.0) } else { s.x[v] };
+            let x = |v: usize| {
+                if v.is_multiple_of(3) {
+                    s.x[v].max(0.0)
+                } else {
+                    s.x[v]
+                }
+            };
             let forces = [0, 1, 2, 3].map(|c| ContactForce {
                 normal: x(3 * c) * unit,
                 along: x(3 * c + 1) * unit,

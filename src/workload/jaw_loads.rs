@@ -50,17 +50,17 @@ pub enum JawError {
     Nominal(Unholdable),
     /// A joint is not where the figures have it.
     #[error(
-        "joint \"{joint}\" is at ({}, {}) {unit} from the middle of the lever joints, along the gripper and across, and \
-         [workload.grip] has it at ({}, {}); make the joints' points and the figures agree at the nominal diameter",
+        "joint \"{joint}\" is at ({:.4}, {:.4}) {unit} from the middle of the lever joints, along the gripper and across, and \
+         [workload.grip] has it at ({:.4}, {:.4}); make the joints' points and the figures agree at the nominal diameter",
         .is[0], .is[1], .wanted[0], .wanted[1]
     )]
     Misplaced {
         /// The joint.
         joint: String,
-        /// Where it is, to a few decimals, in the file's unit.
-        is: [String; 2],
+        /// Where it is, in the file's unit.
+        is: [f64; 2],
         /// Where the figures have it.
-        wanted: [String; 2],
+        wanted: [f64; 2],
         /// The file's unit.
         unit: &'static str,
     },
@@ -256,7 +256,7 @@ impl Gripping {
             let is = axes.flat(metres(m, joint));
             let off = (is[0] - wanted[0]).hypot(is[1] - wanted[1]);
             if off.is_nan() || off > PLACED * spec.lever_length {
-                let told = |p: [f64; 2]| p.map(|x| format!("{:.4}", x / m.length_unit.metres));
+                let told = |p: [f64; 2]| p.map(|x| x / m.length_unit.metres);
                 return Err(JawError::Misplaced {
                     joint: name(joint),
                     is: told(is),
