@@ -6,6 +6,7 @@ mod answer;
 mod args;
 mod charts;
 mod check;
+mod clamped;
 mod draw;
 mod drive;
 mod export;

@@ -3,6 +3,7 @@
 pub mod accuracy_text;
 pub mod analysis_json;
 pub mod analysis_text;
+pub mod clamped;
 pub mod drive_charts;
 pub mod drive_json;
 pub mod drive_text;
@@ -10,6 +11,7 @@ pub mod grip_charts;
 pub mod grip_json;
 pub mod grip_text;
 pub mod ranking;
+pub mod reactions_cycle;
 pub mod reactions_data;
 pub mod reactions_text;
 pub mod search_json;

@@ -3,6 +3,7 @@
 //! The cost of a variant adds up joint by joint, so the diagram gives variants in its order. What the joints bear, how well
 //! conditioned the equations are and what clearances do to the outputs does not add up; it is computed variant by variant
 //! ([`evaluate`]) for a pool of the cheapest, and [`ranking`] says whether a variant outside of the pool could still win.
+//! What it is computed for, the poses of the stroke under the file's loads and the parts that a grip holds, is in [`cases`].
 //!
 //! # Speed
 //!
@@ -15,6 +16,7 @@
 //! second and core, 1.2e5 on two cores by processor time. By count of operations (not profiled) the tridiagonal form for
 //! the conditioning, some 18,000, and the elimination, some 14,000 less what its zeros save, are what limits it.
 
+pub mod cases;
 pub mod elimination;
 pub mod evaluate;
 pub mod floor;

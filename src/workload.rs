@@ -12,6 +12,7 @@ mod dense;
 pub mod driving;
 pub mod group_equilibrium;
 pub mod holding;
+pub mod jaw_loads;
 pub mod kinetostatics;
 pub mod lever_arm;
 pub mod planar;

@@ -515,12 +515,16 @@ pub(super) struct Statics {
     /// A state named in the file.
     #[arg(long, default_value = "free")]
     pub(super) state: String,
+    /// In a state that [workload.grip] loads: the part whose contact forces load the jaws, in the file's unit; the hardest
+    /// to hold by default.
+    #[arg(long, value_name = "D")]
+    pub(super) diameter: Option<f64>,
     /// Model the mechanism in its plane (normal z), whatever the file says.
     #[arg(long)]
     pub(super) planar: bool,
-    /// All six components of each joint's reaction, at the pose of the file, redundant constraints and all; by default
-    /// where a mechanism is not planar or not determinate in its plane.
-    #[arg(long, conflicts_with_all = ["planar", "groups", "stability", "svg", "stroke"])]
+    /// All six components of each joint's reaction, redundant constraints and all; by default where a mechanism is not
+    /// planar or not determinate in its plane.
+    #[arg(long, conflicts_with_all = ["planar", "groups", "stability", "svg"])]
     pub(super) spatial: bool,
     /// Only the Assur groups, under each possible drive.
     #[arg(long, conflicts_with_all = ["stability", "svg", "stroke"])]

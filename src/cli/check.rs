@@ -7,6 +7,7 @@ use crate::import::text::mechanism_from_bytes;
 use crate::import::workload::tables_alone;
 use crate::redundancy::analysis::{Method, analyse};
 use crate::report::words;
+use crate::workload::jaw_loads::{Gripping, JawError};
 use anyhow::{Context, bail};
 
 pub(super) fn run(_: &Args, a: &File) -> anyhow::Result<Done> {
@@ -18,6 +19,13 @@ pub(super) fn run(_: &Args, a: &File) -> anyhow::Result<Done> {
         });
     }
     let m = mechanism_from_bytes(&name, &bytes)?;
+    for state in 0..m.states.len() {
+        match Gripping::new(&m, state) {
+            // What cannot be held is for `ozols grip` to say; the file is valid.
+            Ok(_) | Err(JawError::Nominal(_)) => {}
+            Err(e) => return Err(e).with_context(|| format!("{name}: [workload.grip]")),
+        }
+    }
     output::to(None, |out| {
         writeln!(
             out,

@@ -2,10 +2,12 @@
 
 use super::args::{AnalyzeFormat, Args, Grip};
 use super::{Done, charts, load, output};
-use crate::import::workload::grip_from_bytes;
-use crate::model::grip::{Toward, Transmission};
+use crate::closure::pose::Pose;
+use crate::import::workload::{Workload, grip_from_bytes};
+use crate::model::grip::{GripSpec, Toward, Transmission};
 use crate::report::{grip_charts, grip_json, grip_text};
-use crate::workload::clamping::study;
+use crate::workload::clamping::{Row, Study, study};
+use crate::workload::jaw_loads::{Gripping, JawError};
 use crate::workload::transmission::{Rates, rates};
 use anyhow::bail;
 
@@ -29,21 +31,14 @@ pub(super) fn run(_: &Args, a: &Grip) -> anyhow::Result<Done> {
         ),
     }
     let found = study(&file.spec)?;
-    let transmission = match (file.spec.transmission, &file.mechanism) {
-        (Transmission::Arm(arm), _) => Some(Rates {
-            slides: true,
-            rates: vec![1.0 / arm; 2],
-        }),
-        (Transmission::Joints(joints), Some(mechanism)) => Some(rates(mechanism, &joints)?),
-        (Transmission::Joints(_), None) | (Transmission::Unknown, _) => None,
-    };
+    let transmission = transmission(&file, &found)?;
     if let Some(folder) = &a.svg {
         charts::write(folder, &grip_charts::charts(&file, &found))?;
     }
     let report = grip_text::Report {
         file: &file,
         study: &found,
-        transmission: transmission.as_ref(),
+        transmission: &transmission,
     };
     output::to(a.output.as_deref(), |out| {
         match a.format {
@@ -60,4 +55,40 @@ pub(super) fn run(_: &Args, a: &Grip) -> anyhow::Result<Done> {
             Done::Nothing
         })
     })
+}
+
+/// How the drive works on the levers, diameter by diameter; empty where the file does not say.
+fn transmission(file: &Workload<GripSpec>, found: &Study) -> anyhow::Result<Vec<Rates>> {
+    let rows = &found.rows;
+    match (file.spec.transmission, &file.mechanism) {
+        (Transmission::Arm(arm), _) => {
+            let rates = vec![1.0 / arm; 2];
+            Ok(vec![
+                Rates {
+                    slides: true,
+                    rates
+                };
+                rows.len()
+            ])
+        }
+        (Transmission::Joints(joints), Some(m)) => {
+            let at_home = rates(m, &Pose::of_file(m, 0)?, &joints)?;
+            let states = file
+                .spec
+                .contacts
+                .and_then(|c| m.joints[c[0]].states.as_ref());
+            let state = states.and_then(|s| s.first());
+            let gripping = match state.map(|&s| Gripping::of_study(m, s, found.clone())) {
+                // Without contacts nobody knows which way the levers turn.
+                None | Some(Ok(None) | Err(JawError::Nominal(_))) => None,
+                Some(other) => other?,
+            };
+            let there = |row: &Row| match &gripping {
+                Some(g) if row.holds() => Ok(rates(m, &g.fit(row)?.pose, &joints)?),
+                _ => Ok(at_home.clone()),
+            };
+            rows.iter().map(there).collect()
+        }
+        (Transmission::Joints(_), None) | (Transmission::Unknown, _) => Ok(Vec::new()),
+    }
 }

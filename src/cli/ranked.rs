@@ -54,7 +54,7 @@ pub(super) fn pool(
         (1..=MOST).contains(&a.pool),
         "--pool must be from 1 to {MOST}"
     );
-    let evaluator = Evaluator::new(search, ranking.clearance)
+    let evaluator = Evaluator::in_states(search, ranking.clearance, &ranking.states)
         .with_context(|| format!("cannot score variants of {}", search.mechanism.name))?;
     let mut ranker = Ranker::new(&evaluator, &ranking, a.pool, top);
     let mut given = 0;

@@ -2,18 +2,18 @@
 
 use super::args::{Statics, StaticsFormat, StaticsMethod};
 use super::{Done, output};
+use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::report::{reactions_data, reactions_text};
+use crate::report::{reactions_cycle, reactions_data, reactions_text};
 use crate::workload::assur::AssurError;
 use crate::workload::planar::PlanarError;
-use crate::workload::reactions::Reactions;
+use crate::workload::reactions::cycle::cycle;
 use crate::workload::statics::StaticsError;
 
-/// Whether the planar solver's refusal is a case for this one: the answer is asked for at one pose, by any method.
+/// Whether the planar solver's refusal is a case for this one: the answer is asked for by any method, without charts.
 pub(super) fn takes(error: &StaticsError, a: &Statics) -> bool {
-    let plain = a.stroke.is_none()
-        && a.svg.is_none()
-        && matches!(a.method, StaticsMethod::All | StaticsMethod::Equilibrium);
+    let plain =
+        a.svg.is_none() && matches!(a.method, StaticsMethod::All | StaticsMethod::Equilibrium);
     plain
         && match error {
             StaticsError::Planar(e) => !matches!(e, PlanarError::Exact(_)),
@@ -21,19 +21,38 @@ pub(super) fn takes(error: &StaticsError, a: &Statics) -> bool {
         }
 }
 
-pub(super) fn run(m: &Mechanism, state: StateId, a: &Statics) -> anyhow::Result<Done> {
-    let found = Reactions::solve(m, state, &m.loads)?;
+pub(super) fn run(
+    m: &Mechanism,
+    state: StateId,
+    stroke: Option<Stroke>,
+    a: &Statics,
+) -> anyhow::Result<Done> {
+    let found = cycle(m, state, stroke)?;
+    let one = match (&found.positions[..], stroke) {
+        ([(_, Ok(one))], None) => Some(one),
+        _ => None,
+    };
     output::to(a.output.as_deref(), |out| {
-        match a.format {
-            StaticsFormat::Json => {
-                writeln!(out, "{:#}", reactions_data::json(m, state, &found))?;
+        let width = output::width(a.output.as_deref());
+        match (a.format, one) {
+            (StaticsFormat::Json, Some(s)) => {
+                writeln!(out, "{:#}", reactions_data::json(m, state, s))?;
             }
-            StaticsFormat::Csv => write!(out, "{}", reactions_data::csv(m, &found))?,
-            StaticsFormat::Text => {
-                let width = output::width(a.output.as_deref());
-                write!(out, "{}", reactions_text::solution(m, state, &found, width))?;
+            (StaticsFormat::Csv, Some(s)) => write!(out, "{}", reactions_data::csv(m, s))?,
+            (StaticsFormat::Text, Some(s)) => {
+                let text = reactions_text::solution(m, state, "pose of the file", s, width);
+                write!(out, "{text}")?;
+            }
+            (StaticsFormat::Json, None) => {
+                writeln!(out, "{:#}", reactions_cycle::data(m, state, &found))?;
+            }
+            (StaticsFormat::Csv, None) => write!(out, "{}", reactions_cycle::csv(m, &found))?,
+            (StaticsFormat::Text, None) => {
+                write!(out, "{}", reactions_cycle::text(m, state, &found, width))?;
             }
         }
-        Ok(Done::Found)
+        // A stroke that could not be finished is no success.
+        let whole = found.stopped.is_none() && found.positions.iter().all(|(_, s)| s.is_ok());
+        Ok(if whole { Done::Found } else { Done::Nothing })
     })
 }

@@ -1,7 +1,7 @@
 //! `ozols statics`.
 
 use super::args::{Args, Statics, StaticsFormat, StaticsMethod};
-use super::{Done, load, output, reactions};
+use super::{Done, clamped, load, output, reactions};
 use crate::chart::page;
 use crate::geom::expr::Expr;
 use crate::import::loads::{MAX_STEPS, position};
@@ -12,6 +12,7 @@ use crate::report::statics_words::GroupMethod;
 use crate::report::words::table;
 use crate::report::{statics_data, statics_text};
 use crate::workload::contour_group::GroupPose;
+use crate::workload::jaw_loads::{Gripping, JawError};
 use crate::workload::kinetostatics::Source;
 use crate::workload::stability::{Failure, Sample, distances, samples};
 use crate::workload::statics::{statics, structures};
@@ -37,6 +38,27 @@ pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
             m.states.join(", ")
         )
     };
+    match Gripping::new(&m, state) {
+        // The nominal part is out of reach, so nothing is held.
+        Err(JawError::Nominal(why)) => {
+            return output::to(a.output.as_deref(), |out| {
+                writeln!(out, "{}: the part cannot be held: {why}", m.name)?;
+                Ok(Done::Nothing)
+            });
+        }
+        found => match found? {
+            Some(gripping) if a.groups => return groups(&gripping.mechanism, state, a),
+            Some(gripping) => return clamped::run(&gripping, a),
+            None => {}
+        },
+    }
+    if let Some(diameter) = a.diameter {
+        bail!(
+            "--diameter {diameter}: no grip loads state {} of {}; give [workload.grip] contacts, and --state one that has them",
+            a.state,
+            m.name
+        );
+    }
     if a.groups {
         return groups(&m, state, a);
     }
@@ -48,10 +70,10 @@ pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
         return stability(&m, state, stroke, folder, args.seed);
     }
     if a.spatial {
-        return reactions::run(&m, state, a);
+        return reactions::run(&m, state, stroke, a);
     }
     let found = match statics(&m, state, stroke) {
-        Err(e) if reactions::takes(&e, a) => return reactions::run(&m, state, a),
+        Err(e) if reactions::takes(&e, a) => return reactions::run(&m, state, stroke, a),
         found => found?,
     };
     let methods: &[GroupMethod] = match a.method {

@@ -81,9 +81,9 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     mechanism.contours = contours(file, &mechanism, &mut out);
     mechanism.search = search(file, &mechanism, &mut out);
     mechanism.loads = loads(file, &mechanism, &mut out);
-    grip(file, length_unit.metres, Some(&mechanism), &mut out);
+    mechanism.loads.grip = grip(file, length_unit.metres, Some(&mechanism), &mut out);
     drive(file, length_unit.metres, Some(&mechanism), &mut out);
-    mechanism.ranking = ranking(file, &mut out);
+    mechanism.ranking = ranking(file, &mechanism, &mut out);
     let (joint_types, costs) = joint_types(file, &mechanism, &mut out);
     mechanism.joint_types = joint_types;
     mechanism.search.costs.by_type_milli.extend(costs);

@@ -7,7 +7,7 @@ use crate::import::quantity::{Bound, Table, word};
 use crate::import::resolve::{index, key};
 use crate::import::schema::{Coordinate, MechanismFile};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{JointId, Mechanism, Role};
 use itertools::Itertools;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -85,9 +85,14 @@ pub struct GripEntry {
     /// Travel of the drive per radian of the levers, which makes drive moments a drive force.
     #[serde(default)]
     pub drive_arm: Option<Coordinate>,
-    /// The joints that the two levers turn in, in place of `drive_arm`: the travel follows from the mechanism.
+    /// The joints that the two levers turn in, upper and lower, in place of `drive_arm`: the travel follows from the
+    /// mechanism, whose pose in the file is that of the nominal diameter.
     #[serde(default)]
     pub lever_joints: Option<[String; 2]>,
+    /// The joints of the part that stand for its contacts: upper far, upper near, lower far, lower near. In the states that
+    /// have them, `ozols statics` and `ozols search` load the jaws with the contact forces found here. Needs `lever_joints`.
+    #[serde(default)]
+    pub contacts: Option<[String; 4]>,
 }
 
 /// Diameters: a list, or equal steps.
@@ -315,17 +320,104 @@ fn transmission(
             if m.joints.iter().filter(|j| j.drive).count() != 1 {
                 t.needs("lever_joints", "one joint with drive = true");
             }
-            let at = key(&t.at, "lever_joints");
-            let found = ids
-                .iter()
-                .enumerate()
-                .filter_map(|(i, id)| joint_by_id(m, id, &index(&at, i), t.out));
-            match found.collect_vec()[..] {
+            match joints(t, "lever_joints", ids, m)[..] {
                 [a, b] => Transmission::Joints([a, b]),
                 _ => Transmission::Unknown,
             }
         }
     }
+}
+
+/// The joints that a list names; shorter than the list where some are not known.
+fn joints(t: &mut Table<'_>, k: &'static str, ids: &[String], m: &Mechanism) -> Vec<JointId> {
+    let at = key(&t.at, k);
+    let each = ids
+        .iter()
+        .enumerate()
+        .filter_map(|(i, id)| joint_by_id(m, id, &index(&at, i), t.out));
+    each.collect()
+}
+
+/// The joints that stand for the contacts: each joins the part to the lever that is to touch it there.
+fn contacts(
+    t: &mut Table<'_>,
+    e: &GripEntry,
+    spec: &GripSpec,
+    m: &Mechanism,
+) -> Option<[JointId; 4]> {
+    let ids = e.contacts.as_ref()?;
+    let Transmission::Joints(levers) = spec.transmission else {
+        if e.lever_joints.is_none() {
+            t.needs(
+                "contacts",
+                "lever_joints, the joints that the two levers turn in, beside it",
+            );
+        }
+        return None;
+    };
+    if spec.load.is_none() {
+        t.needs(
+            "contacts",
+            "the mass of the part: mass, or density and part_length",
+        );
+    }
+    if spec.pivots == Pivots::Nominal {
+        t.needs(
+            "contacts",
+            "pivots = \"fixed\": the mechanism's own stand where they are",
+        );
+    }
+    let [upper_far, upper_near, lower_far, lower_near] = joints(t, "contacts", ids, m)[..] else {
+        return None;
+    };
+    let found = [upper_far, upper_near, lower_far, lower_near];
+    let part = (0..m.links.len())
+        .find(|&l| m.links[l].role == Role::Object && m.joints[upper_far].links.contains(&l));
+    let at = key(&t.at, "contacts");
+    for (i, &j) in found.iter().enumerate() {
+        let joint = &m.joints[j];
+        let lever = &m.joints[levers[i / 2]];
+        let touches = joint.links.iter().any(|&l| Some(l) == part);
+        let on_lever = joint
+            .links
+            .iter()
+            .any(|l| lever.links.contains(l) && *l != m.frame());
+        if !touches || !on_lever {
+            let of = ["upper", "lower"][i / 2];
+            t.bad(&index(&at, i), "contact", format!("{:?}", joint.id), match of {
+                "upper" => "a joint between the part (a link of role \"object\") and the link that turns in the first of lever_joints",
+                _ => "a joint between the part (a link of role \"object\") and the link that turns in the second of lever_joints",
+            });
+        } else if joint.states.is_none() || joint.states != m.joints[upper_far].states {
+            t.bad(
+                &index(&at, i),
+                "contact",
+                format!("{:?}", joint.id),
+                "one with the same `state` as the other contacts, such as state = \"clamped\"",
+            );
+        }
+    }
+    for (k, &j) in levers.iter().enumerate() {
+        if !m.joints[j].links.contains(&m.frame()) {
+            t.bad(
+                &index(&key(&t.at, "lever_joints"), k),
+                "lever joint",
+                format!("{:?}", m.joints[j].id),
+                "a joint at the frame: with contacts, the pivots stand still",
+            );
+        }
+    }
+    let further =
+        |j: usize| part.is_some_and(|p| m.joints[j].links.contains(&p)) && !found.contains(&j);
+    if (0..m.joints.len()).any(further) || !found.iter().all_unique() {
+        t.bad(
+            &at,
+            "list of contacts",
+            format!("{ids:?}"),
+            "all four joints of the part, each once: nothing else may hold it",
+        );
+    }
+    Some(found)
 }
 
 /// The gripper of a file, where it has one.
@@ -368,7 +460,7 @@ pub(super) fn grip(
     if distance.is_some() && !fixed {
         t.needs("pivot_distance", "pivots = \"fixed\"");
     }
-    Some(GripSpec {
+    let mut spec = GripSpec {
         lever_length: t.number("lever_length", &e.lever_length, unit, Bound::Positive),
         prism_angle,
         mounting_angle,
@@ -392,5 +484,14 @@ pub(super) fn grip(
         may_cross: e.levers_cross,
         load: load(t, e, unit),
         transmission: transmission(t, e, unit, mechanism),
-    })
+        contacts: None,
+    };
+    match mechanism {
+        Some(m) => spec.contacts = contacts(t, e, &spec, m),
+        None if e.contacts.is_some() => {
+            t.needs("contacts", "a mechanism in the same file: links and joints");
+        }
+        None => {}
+    }
+    Some(spec)
 }

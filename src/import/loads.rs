@@ -328,6 +328,8 @@ pub(super) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findi
             .stroke
             .as_ref()
             .map(|s| stroke(s, &key(&at, "stroke"), out)),
+        // Names joints; read once they all are.
+        grip: None,
     }
 }
 

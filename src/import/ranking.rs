@@ -31,6 +31,10 @@ pub struct RankingEntry {
     /// How clearances add up to the output error: "worst" (the default) or "rms".
     #[serde(default)]
     pub clearance: Option<String>,
+    /// The states that count, "free" or those with the contacts of [workload.grip]; all of them that have loads where left
+    /// out. A variant's score is the worst over them.
+    #[serde(default)]
+    pub states: Vec<String>,
 }
 
 /// A term with its weight.
@@ -104,7 +108,11 @@ fn bad(out: &mut Findings, at: &[Step], what: &'static str, value: f64, allowed:
 }
 
 /// The ranking a file asks for, if any.
-pub(super) fn ranking(file: &MechanismFile, out: &mut Findings) -> Option<Ranking> {
+pub(super) fn ranking(
+    file: &MechanismFile,
+    mechanism: &Mechanism,
+    out: &mut Findings,
+) -> Option<Ranking> {
     let entry = file.ranking.as_ref()?;
     let at = [Step::Key("ranking".to_owned())];
     for (what, count) in [("terms", entry.terms.len()), ("limits", entry.limits.len())] {
@@ -190,7 +198,31 @@ pub(super) fn ranking(file: &MechanismFile, out: &mut Findings) -> Option<Rankin
             limits.push(Limit { term, min, max });
         }
     }
+    let grip = mechanism.loads.grip.as_ref().and_then(|g| g.contacts);
+    let counts = |s: usize| {
+        let of_grip = grip.and_then(|c| mechanism.joints[c[0]].states.as_ref());
+        s == 0 || of_grip.is_some_and(|states| states.contains(&s))
+    };
+    let mut states = Vec::new();
+    for (i, word) in entry.states.iter().enumerate().take(MOST) {
+        let found = mechanism.states.iter().position(|s| s == word);
+        match found.filter(|&s| counts(s)) {
+            Some(s) => states.push(s),
+            None => out.add(
+                &index(&key(&at, "states"), i),
+                ProblemKind::UnknownWord {
+                    what: "state to rank in (free, or one with the contacts of [workload.grip])",
+                    word: word.clone(),
+                    known: (0..mechanism.states.len())
+                        .filter(|&s| counts(s))
+                        .map(|s| mechanism.states[s].as_str())
+                        .join(", "),
+                },
+            ),
+        }
+    }
     Some(Ranking {
+        states,
         order: order.map_or(Order::Weighted, |(o, _)| *o),
         terms,
         limits,

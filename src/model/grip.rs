@@ -115,4 +115,7 @@ pub struct GripSpec {
     pub load: Option<GripLoad>,
     /// How the drive works on the levers.
     pub transmission: Transmission,
+    /// The joints of the mechanism that stand for the contacts: upper far, upper near, lower far, lower near; where they are
+    /// named, the contact forces load the jaws in the states that have these joints.
+    pub contacts: Option<[JointId; 4]>,
 }

@@ -1,5 +1,7 @@
 //! How a file wants variants ranked, and what it says of joint types.
 
+use crate::model::mechanism::StateId;
+
 /// What variants are scored by. Smaller is better, but for conditioning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Term {
@@ -111,6 +113,8 @@ pub struct Ranking {
     pub limits: Vec<Limit>,
     /// How clearances add up.
     pub clearance: ClearanceSum,
+    /// The states that count; those with loads where there are none.
+    pub states: Vec<StateId>,
 }
 
 /// What a file says of a joint type in place of the catalogue.

@@ -3,6 +3,7 @@
 use crate::report::grip_text::{Report, reason};
 use crate::workload::arm_charts::findings;
 use crate::workload::clamping::{Row, Verdict};
+use crate::workload::transmission::Rates;
 use serde_json::{Value, json};
 
 /// The whole report.
@@ -20,13 +21,17 @@ pub fn grip(r: &Report<'_>) -> Value {
         "holds": r.study.holds(),
         "hardest": r.study.hardest().map(|row| row_json(r, row)),
         "diameters": r.study.rows.iter().map(|row| row_json(r, row)).collect::<Vec<_>>(),
-        "transmission": r.transmission.map(|t| json!({ "drive": if t.slides { "slides" } else { "turns" }, "rates": t.rates })),
+        "transmission": r.study.hardest().or(r.study.rows.first()).and_then(|row| r.rates(row)).map(rates),
         "findings": findings().iter().map(|f| json!({
             "claim": f.claim,
             "holds": f.holds,
             "evidence": f.evidence,
         })).collect::<Vec<_>>(),
     })
+}
+
+fn rates(t: &Rates) -> Value {
+    json!({ "drive": if t.slides { "slides" } else { "turns" }, "rates": t.rates })
 }
 
 fn row_json(r: &Report<'_>, row: &Row) -> Value {
@@ -58,7 +63,7 @@ fn row_json(r: &Report<'_>, row: &Row) -> Value {
             "drive_moment_per_lever": held.map(|h| h.drive),
             "lower_bound": held.map(|h| h.lower_bound),
             "lever_moments": held.map(|h| h.moments),
-            "drive_effort": held.and_then(|h| r.effort(h)),
+            "drive_effort": held.and_then(|h| r.effort(row, h)),
             "contacts": forces,
             "reason": reason(h, friction),
         })
@@ -73,6 +78,7 @@ fn row_json(r: &Report<'_>, row: &Row) -> Value {
         "centre": row.pose.as_ref().map(|p| p.centre),
         "obstacles": row.obstacles.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "mass": row.mass,
+        "transmission": r.rates(row).map(rates),
         "holds": row.holds(),
         "load": hardest,
     })

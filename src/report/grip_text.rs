@@ -16,16 +16,27 @@ pub struct Report<'a> {
     pub file: &'a Workload<GripSpec>,
     /// What was found.
     pub study: &'a Study,
-    /// How the drive works on the levers, where known.
-    pub transmission: Option<&'a Rates>,
+    /// How the drive works on the levers, a row of the study each; empty where not known.
+    pub transmission: &'a [Rates],
 }
 
 impl Report<'_> {
+    /// How the drive works on the levers in one row.
+    #[must_use]
+    pub fn rates(&self, row: &Row) -> Option<&Rates> {
+        let at = self
+            .study
+            .rows
+            .iter()
+            .position(|r| r.diameter == row.diameter)?;
+        self.transmission.get(at)
+    }
+
     /// Force `[N]`, or moment `[N·m]` of a turning drive, that one drive of both levers takes.
     #[must_use]
-    pub fn effort(&self, h: &Holding) -> Option<f64> {
+    pub fn effort(&self, row: &Row, h: &Holding) -> Option<f64> {
         let coupled = self.file.spec.load.as_ref()?.levers != LeverDrive::Independent;
-        let t = self.transmission.filter(|_| coupled)?;
+        let t = self.rates(row).filter(|_| coupled)?;
         Some(
             h.moments
                 .iter()
@@ -143,7 +154,7 @@ fn write(out: &mut String, r: &Report<'_>, width: Option<u16>) -> std::fmt::Resu
                 ", {case}: drive moment {} N·m per lever",
                 significant(h.drive)
             )?;
-            if let (Some(effort), Some(t)) = (r.effort(h), r.transmission) {
+            if let (Some(effort), Some(t)) = (r.effort(row, h), r.rates(row)) {
                 match t.slides {
                     true => write!(out, ", drive force {} N", significant(effort))?,
                     false => write!(out, ", drive moment {} N·m", significant(effort))?,
@@ -266,7 +277,7 @@ fn rows(r: &Report<'_>, width: Option<u16>) -> String {
     let load = r.file.spec.load.as_ref();
     let loaded = load.is_some();
     let told =
-        r.transmission.is_some() && load.is_some_and(|l| l.levers != LeverDrive::Independent);
+        !r.transmission.is_empty() && load.is_some_and(|l| l.levers != LeverDrive::Independent);
     if loaded {
         head.extend(["mass, kg", "moment per lever, N·m", "both levers, N·m"].map(str::to_owned));
         if told {
@@ -304,7 +315,7 @@ fn rows(r: &Report<'_>, width: Option<u16>) -> String {
             holding.map_or_else(|| "-".to_owned(), |h| h.moments.map(significant).join(", ")),
         );
         if told {
-            cells.push(number(holding.and_then(|h| r.effort(h))));
+            cells.push(number(holding.and_then(|h| r.effort(row, h))));
         }
         cells.push(
             row.hardest

@@ -2,7 +2,8 @@
 
 use crate::model::mechanism::Mechanism;
 use crate::model::ranking::{ClearanceSum, Order, Term};
-use crate::report::words::grouped;
+use crate::report::words::{grouped, plural, significant};
+use crate::score::cases::Gripped;
 use crate::score::ranking::{Ranked, RankedPool};
 use crate::score::terms::Scores;
 use itertools::Itertools;
@@ -33,6 +34,33 @@ pub fn head(p: &RankedPool) -> String {
     format!(
         "ranked under the workload, {}: {terms}",
         p.ranking.order.name()
+    )
+}
+
+/// What loads came from the grip.
+fn gripped(m: &Mechanism, g: &Gripped) -> String {
+    let unit = m.length_unit;
+    let told = |d: &f64| significant(d / unit.metres);
+    let some = |list: &[f64]| match list {
+        [] => String::new(),
+        [one] => told(one),
+        [first, .., last] => format!("{} to {}", told(first), told(last)),
+    };
+    let lost = if g.lost.is_empty() {
+        String::new()
+    } else {
+        format!(
+            "; not held, so not counted: D = {} {}",
+            some(&g.lost),
+            unit.symbol
+        )
+    };
+    format!(
+        "Loads of state {} from the grip: contact forces of the worst case of {}, D = {} {}{lost}",
+        m.states[g.state],
+        plural(g.held.len(), "part"),
+        some(&g.held),
+        unit.symbol
     )
 }
 
@@ -77,6 +105,9 @@ pub fn notes(m: &Mechanism, p: &RankedPool) -> String {
             "  {} keep redundant constraints: scored by their reactions of minimum norm",
             n(p.open)
         );
+    }
+    for g in &p.gripped {
+        let _ = writeln!(out, "  {}", gripped(m, g));
     }
     if let Some(at) = p.stroke_stopped {
         let _ = writeln!(out, "  The stroke could not be followed to {at}");
@@ -169,7 +200,7 @@ pub fn variant(m: &Mechanism, p: &RankedPool, r: &Ranked, position: usize) -> Ma
 
 /// The ranking as data.
 #[must_use]
-pub fn json(p: &RankedPool) -> Value {
+pub fn json(m: &Mechanism, p: &RankedPool) -> Value {
     json!({
         "order": p.ranking.order.name(),
         "terms": p.ranking.terms.iter()
@@ -183,6 +214,8 @@ pub fn json(p: &RankedPool) -> Value {
         "pool": p.pool,
         "scored": p.scored,
         "poses": p.poses,
+        "grip": p.gripped.iter()
+            .map(|g| json!({"state": m.states[g.state], "held": g.held, "not_held": g.lost})).collect::<Vec<_>>(),
         "no_equilibrium": p.unheld,
         "beyond_limits": p.limited,
         "minimum_norm": p.open,

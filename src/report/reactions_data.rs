@@ -50,6 +50,14 @@ pub fn json(m: &Mechanism, state: StateId, s: &Solution) -> Value {
 /// One joint a line.
 #[must_use]
 pub fn csv(m: &Mechanism, s: &Solution) -> String {
+    let head = String::from("kind,joint,type,Fx,Fy,Fz,F,Mx,My,Mz,M,effort\n");
+    csv_rows(m, s)
+        .into_iter()
+        .fold(head, |out, row| out + &row + "\n")
+}
+
+/// The lines without their head.
+pub(super) fn csv_rows(m: &Mechanism, s: &Solution) -> Vec<String> {
     let quoted = |text: &str| {
         if text.contains([',', '"', '\n', '\r']) {
             format!("\"{}\"", text.replace('"', "\"\""))
@@ -57,7 +65,7 @@ pub fn csv(m: &Mechanism, s: &Solution) -> String {
             text.to_owned()
         }
     };
-    let mut out = String::from("kind,joint,type,Fx,Fy,Fz,F,Mx,My,Mz,M,effort\n");
+    let mut out = Vec::new();
     let kind = match s.choice {
         Choice::Unique => "unique",
         Choice::MinimumNorm => "minimum-norm",
@@ -76,8 +84,7 @@ pub fn csv(m: &Mechanism, s: &Solution) -> String {
             row.extend(r.moment.map(|x| x.to_string()));
             row.push(r.moment_size().to_string());
             row.push(r.effort.map_or(String::new(), |(_, x)| x.to_string()));
-            out.push_str(&row.join(","));
-            out.push('\n');
+            out.push(row.join(","));
         }
     }
     out

@@ -16,7 +16,7 @@ fn slides(freedom: Freedom) -> bool {
 }
 
 /// What a component is next to: below this fraction of the greatest it is rounding.
-const NOTHING: f64 = 1e-12;
+pub(super) const NOTHING: f64 = 1e-12;
 
 fn reactions(m: &Mechanism, list: &[JointReaction], size: f64, width: Option<u16>) -> String {
     let greatest = list
@@ -46,12 +46,18 @@ fn reactions(m: &Mechanism, list: &[JointReaction], size: f64, width: Option<u16
     table(&header, rows.collect(), width)
 }
 
-/// The whole report, fitted to a terminal of `width` columns where one is given.
+/// The whole report, fitted to a terminal of `width` columns where one is given; `pose` in words.
 #[must_use]
-pub fn solution(m: &Mechanism, state: StateId, s: &Solution, width: Option<u16>) -> String {
+pub fn solution(
+    m: &Mechanism,
+    state: StateId,
+    pose: &str,
+    s: &Solution,
+    width: Option<u16>,
+) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
-    let _ = write_solution(&mut out, m, state, s, width);
+    let _ = write_solution(&mut out, m, state, pose, s, width);
     out
 }
 
@@ -59,6 +65,7 @@ fn write_solution(
     out: &mut String,
     m: &Mechanism,
     state: StateId,
+    pose: &str,
     s: &Solution,
     width: Option<u16>,
 ) -> std::fmt::Result {
@@ -77,7 +84,7 @@ fn write_solution(
     };
     writeln!(
         out,
-        "{}, state {}, pose of the file: joint reactions, {what}",
+        "{}, state {}, {pose}: joint reactions, {what}",
         m.name, m.states[state]
     )?;
     writeln!(
@@ -85,6 +92,9 @@ fn write_solution(
         "First link on second, in the joint's own frame (z its axis), moments about its point\n"
     )?;
     let loads = &m.loads;
+    if loads.drive_speeds.iter().any(|s| *s != 0.0) {
+        writeln!(out, "Inertia forces of the stated drive speed included\n")?;
+    }
     let no_mass = m.links.iter().all(|l| l.mass.is_none()) || loads.gravity.is_none();
     if no_mass && loads.forces.is_empty() && loads.moments.is_empty() {
         writeln!(

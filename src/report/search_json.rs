@@ -120,7 +120,7 @@ pub fn header(found: &Found<'_>) -> Map<String, Value> {
         json!(poses.map(|(asked, reached)| json!({"asked": asked, "reached": reached}))),
     );
     if let Some(p) = &found.ranking {
-        put("ranking", ranking::json(p));
+        put("ranking", ranking::json(found.search.mechanism, p));
     }
     put("exact", json!(found.stop == "exhausted"));
     out

@@ -1,8 +1,9 @@
 //! The scores of variants, fast.
 
-use crate::model::mechanism::LinkId;
+use crate::model::mechanism::{LinkId, StateId};
 use crate::model::ranking::ClearanceSum;
 use crate::redundancy::analysis::{AnalysisError, Method, analyse};
+use crate::score::cases::{CaseError, Cases, cases};
 use crate::score::elimination::{Ended, Scratch};
 use crate::score::joint_types::JointTypes;
 use crate::score::table::Table;
@@ -10,9 +11,9 @@ use crate::score::terms::{ErrorSum, Peak, Scores, output_points};
 use crate::search::best::Variant;
 use crate::search::request::Search;
 use crate::workload::reactions::drives::{Driven, driven};
-use crate::workload::reactions::follow::{Followed, follow};
+use crate::workload::reactions::follow::follow;
 use crate::workload::reactions::geometry::{Geometry, dot};
-use crate::workload::reactions::{Unsolved, no_couplings, period};
+use crate::workload::reactions::{Unsolved, no_couplings};
 use thiserror::Error;
 
 /// Work of the loads on undriven motions below this fraction of them is none.
@@ -28,6 +29,9 @@ pub enum ScoreError {
     /// The present mechanism could not be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
+    /// It has no cases to be scored in.
+    #[error(transparent)]
+    Cases(#[from] CaseError),
 }
 
 /// Scores the variants of one search.
@@ -41,15 +45,15 @@ pub struct Evaluator<'s, 'm> {
     pub clearance: ClearanceSum,
     /// The freedoms that drives hold.
     pub drives: Vec<Driven>,
-    /// Poses looked at, and where the stroke ended early.
-    pub poses: Followed,
+    /// The poses looked at with their loads.
+    pub cases: Cases,
     pub(super) outputs: Vec<(LinkId, [f64; 3])>,
     tables: Vec<Table>,
     working: i64,
 }
 
 impl<'s, 'm> Evaluator<'s, 'm> {
-    /// Makes everything ready that does not depend on the variant.
+    /// Makes everything ready that does not depend on the variant, for the states with loads.
     ///
     /// # Errors
     /// Where a coordinate has no value, singular values do not converge, or joints are coupled.
@@ -60,6 +64,18 @@ impl<'s, 'm> Evaluator<'s, 'm> {
         search: &'s Search<'m>,
         clearance: ClearanceSum,
     ) -> Result<Evaluator<'s, 'm>, ScoreError> {
+        Evaluator::in_states(search, clearance, &[])
+    }
+
+    /// The same for the states named; for those with loads where none are.
+    ///
+    /// # Errors
+    /// As [`Evaluator::new`], and where a grip loads nothing.
+    pub fn in_states(
+        search: &'s Search<'m>,
+        clearance: ClearanceSum,
+        states: &[StateId],
+    ) -> Result<Evaluator<'s, 'm>, ScoreError> {
         let m = search.mechanism;
         no_couplings(m, 0)?;
         let types = JointTypes::of(m);
@@ -68,12 +84,12 @@ impl<'s, 'm> Evaluator<'s, 'm> {
             Some((_, pose)) => driven(m, &Geometry::new(m, 0, pose).map_err(Unsolved::from)?)?,
             None => Vec::new(),
         };
-        let poses = follow(m, 0, &drives, m.loads.stroke)?;
-        let outputs = output_points(m);
-        let tables = poses
-            .poses
+        let cases = cases(m, &drives, states)?;
+        let outputs = output_points(m, &cases);
+        let tables = cases
+            .list
             .iter()
-            .map(|p| Table::new(search, &types, &outputs, &drives, p, period(&drives)))
+            .map(|case| Table::new(search, &types, &outputs, &drives, case))
             .collect::<Result<_, _>>()?;
         let states = analyse(m, &[0], Method::Modular)?;
         let working = states
@@ -84,7 +100,7 @@ impl<'s, 'm> Evaluator<'s, 'm> {
             types,
             clearance,
             drives,
-            poses,
+            cases,
             outputs,
             tables,
             working,

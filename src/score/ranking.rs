@@ -2,6 +2,7 @@
 
 use crate::model::mechanism::Mechanism;
 use crate::model::ranking::{Order, Ranking, Term};
+use crate::score::cases::Gripped;
 use crate::score::elimination::Scratch;
 use crate::score::evaluate::Evaluator;
 use crate::score::pareto::fronts;
@@ -55,6 +56,8 @@ pub struct RankedPool {
     pub cheapest: Option<Ranked>,
     /// Poses looked at.
     pub poses: usize,
+    /// The parts whose contact forces are among the loads.
+    pub gripped: Vec<Gripped>,
     /// Whether the stroke ended early.
     pub stroke_stopped: Option<f64>,
 }
@@ -169,8 +172,9 @@ impl<'e, 's, 'm> Ranker<'e, 's, 'm> {
                 proven: false,
                 proof: "dearer variants were not looked at",
                 cheapest: None,
-                poses: evaluator.poses.poses.len(),
-                stroke_stopped: evaluator.poses.stopped,
+                poses: evaluator.cases.list.len(),
+                gripped: evaluator.cases.gripped.clone(),
+                stroke_stopped: evaluator.cases.stopped,
             },
         }
     }

@@ -7,7 +7,7 @@ use crate::score::evaluate::Evaluator;
 use crate::score::joint_types::JointType;
 use crate::score::terms::{ErrorSum, Scores, axis_of};
 use crate::search::best::Variant;
-use crate::workload::reactions::follow::follow;
+use crate::workload::reactions::follow::follow_to;
 use crate::workload::reactions::{Choice, JointReaction, Reactions, Unsolved};
 
 /// Force and moment of a joint without what its drive bears.
@@ -37,11 +37,16 @@ impl Evaluator<'_, '_> {
     pub fn slowly(&self, variant: &Variant) -> Result<Scores, Unsolved> {
         let m = self.search.realize(&variant.choices);
         let types = self.realized_types(&variant.choices);
-        let poses = follow(&m, 0, &self.drives, m.loads.stroke)?;
         let mut worst: Option<Scores> = None;
-        for (drive, pose) in &poses.poses {
+        let positions: Vec<f64> = self.cases.list.iter().map(|c| c.drive).collect();
+        let followed = follow_to(&m, 0, &self.drives, &positions)?;
+        for case in &self.cases.list {
+            let there = followed.poses.iter().find(|(at, _)| *at == case.drive);
+            let Some((drive, pose)) = there else {
+                return Err(Unsolved::NoConvergence);
+            };
             let solve = |loads: &Loads| Reactions::at(&m, 0, loads, pose, *drive, &self.drives);
-            let solution = solve(&m.loads)?;
+            let solution = solve(&case.loads)?;
             let mut now = self.plain(variant);
             now.conditioning = 1.0 / solution.condition;
             now.minimum_norm = solution.choice == Choice::MinimumNorm;

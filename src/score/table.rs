@@ -5,13 +5,15 @@ use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
 use crate::geom::scalars::Reals;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism};
+use crate::score::cases::Case;
 use crate::score::joint_types::JointTypes;
 use crate::score::terms::{across, axis_of};
 use crate::search::request::Search;
-use crate::workload::reactions::Unsolved;
 use crate::workload::reactions::applied::link_loads;
 use crate::workload::reactions::drives::Driven;
+use crate::workload::reactions::Unsolved;
 use crate::workload::reactions::geometry::{Geometry, Six, about, cross, power, wrench};
+use crate::workload::reactions::period;
 
 /// What a choice puts at one joint.
 #[derive(Debug, Clone)]
@@ -63,12 +65,18 @@ impl Table {
         types: &JointTypes,
         outputs: &[(LinkId, [f64; 3])],
         drives: &[Driven],
-        (drive, pose): &(f64, Pose),
-        period: Option<f64>,
+        Case { drive, pose, loads }: &Case,
     ) -> Result<Table, Unsolved> {
         let m = search.mechanism;
         let geometry = Geometry::new(m, 0, pose)?;
-        let mut cases = vec![link_loads(m, &m.loads, &geometry, pose, *drive, period)];
+        let mut cases = vec![link_loads(
+            m,
+            loads,
+            &geometry,
+            pose,
+            *drive,
+            period(drives),
+        )];
         for &(link, point) in outputs {
             let at = geometry.place(pose, link, point);
             for axis in 0..3 {

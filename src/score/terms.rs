@@ -3,6 +3,7 @@
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
 use crate::model::ranking::{ClearanceSum, Term};
+use crate::score::cases::Cases;
 use crate::workload::reactions::geometry::dot;
 
 /// A joint that bears the greatest part of its capacity.
@@ -98,18 +99,14 @@ impl Scores {
     }
 }
 
-/// A point of each output link, in the file's unit: where the first force on it acts, else its mass centre, else its first
-/// joint.
+/// A point of each output link, in the file's unit: where the first force of the cases on it acts, else its mass centre, else
+/// its first joint.
 #[must_use]
-pub fn output_points(m: &Mechanism) -> Vec<(LinkId, [f64; 3])> {
+pub fn output_points(m: &Mechanism, cases: &Cases) -> Vec<(LinkId, [f64; 3])> {
     let outputs = (0..m.links.len()).filter(|&l| m.links[l].role == Role::Output);
     let each = outputs.filter_map(|l| {
-        let force = m
-            .loads
-            .forces
-            .iter()
-            .find(|f| f.link == l)
-            .map(|f| &f.point);
+        let mut forces = cases.list.iter().flat_map(|c| &c.loads.forces);
+        let force = forces.find(|f| f.link == l).map(|f| &f.point);
         let mass = m.links[l].mass.as_ref().map(|x| &x.centre);
         let joint = m.joints.iter().find(|j| j.links.contains(&l));
         let p = force.or(mass).or(joint.map(|j| &j.frame.point))?;

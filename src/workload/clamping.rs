@@ -27,6 +27,8 @@ pub enum Verdict {
 pub struct Hardest {
     /// The case in words, such as "acceleration (5, 0, 0) m/s²".
     pub case: String,
+    /// Gravity less acceleration in the gripper's axes, without the safety factor. `[m/s²]`
+    pub pull: Spatial,
     /// The load with its safety factor.
     pub load: Load,
     /// What comes of it.
@@ -207,6 +209,7 @@ fn hardest_of(pose: &Pose, load: &GripLoad, mass: f64, case: &Case) -> Hardest {
             u,
             Hardest {
                 case: (case.words)(u),
+                pull,
                 load: load_there,
                 verdict,
             },

@@ -359,24 +359,33 @@ pub fn hold(
     let s = programme.solve()?;
     match s.status {
         SolverStatus::Solved | SolverStatus::AlmostSolved => {
+            // Normal forces below zero by rounding are none.
+            let x = |v: usize| {
+                if v.is_multiple_of(3) {
+                    s.x[v].max(0.0)
+                } else {
+                    s.x[v]
+                }
+            };
             let forces = [0, 1, 2, 3].map(|c| ContactForce {
-                normal: (s.x[3 * c] * unit).max(0.0),
-                along: s.x[3 * c + 1] * unit,
-                axial: s.x[3 * c + 2] * unit,
+                normal: x(3 * c) * unit,
+                along: x(3 * c + 1) * unit,
+                axial: x(3 * c + 2) * unit,
             });
             let moment = |k| {
-                programme
-                    .lever(k, 1.0)
-                    .iter()
-                    .map(|&(v, a)| a * s.x[v])
-                    .sum::<f64>()
-                    * unit
-                    * length
+                let own = programme.lever(k, 1.0);
+                own.iter().map(|&(v, a)| a * x(v)).sum::<f64>() * unit * length
+            };
+            let moments = [moment(0), moment(1)];
+            // That of these forces, so that statics find the same, and not the solver's own to its tolerance.
+            let drive = match coupling {
+                Coupling::Coupled => f64::midpoint(moments[0], moments[1]),
+                Coupling::Equal | Coupling::Independent => moments[0].max(moments[1]),
             };
             Ok(Outcome::Held(Holding {
                 forces,
-                moments: [moment(0), moment(1)],
-                drive: s.x[DRIVE].max(0.0) * unit * length,
+                moments,
+                drive: drive.max(0.0),
                 lower_bound: s.obj_val_dual.max(0.0) * unit * length,
             }))
         }

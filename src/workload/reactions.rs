@@ -13,10 +13,12 @@
 //! which the loads do work, there is no equilibrium [Angeles 2014, ch. 6; Davies 1983].
 
 pub mod applied;
+pub mod cycle;
 pub mod drives;
 mod family;
 pub mod follow;
 pub mod geometry;
+pub mod inertia;
 
 use crate::closure::pose::Pose;
 use crate::geom::exact::ExactError;
@@ -26,6 +28,7 @@ use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::workload::reactions::applied::link_loads;
 use crate::workload::reactions::drives::{Driven, driven};
 use crate::workload::reactions::geometry::{Geometry, Six, about, dot, power};
+use crate::workload::reactions::inertia::inertia_loads;
 use faer::Mat;
 use faer::linalg::solvers::Svd;
 use thiserror::Error;
@@ -55,6 +58,21 @@ pub enum Unsolved {
     Coupled {
         /// The coupling.
         coupling: String,
+    },
+    /// The drives cannot go at their speeds.
+    #[error(
+        "the drives cannot go at the stated speeds in this pose, a dead point; state another workload.drive_speed, or look at \
+         other poses with --stroke"
+    )]
+    Stuck,
+    /// An inertia about a plane's normal where there is no plane.
+    #[error(
+        "link {link} states one number for its inertia, which is about the normal of a plane, and the mechanism moves in \
+         space; give 3 about the axes or 6 of a tensor"
+    )]
+    PlaneInertia {
+        /// The link.
+        link: String,
     },
     /// Loads do work on a motion that no drive holds.
     #[error(
@@ -174,6 +192,26 @@ impl Reactions {
         Self::at(m, state, loads, &pose, 0.0, &drives)
     }
 
+    /// The same with inertia forces of drives that go at the stated speeds, at any pose.
+    ///
+    /// # Errors
+    /// [`Unsolved`].
+    pub fn moving(
+        m: &Mechanism,
+        state: StateId,
+        pose: &Pose,
+        drive: f64,
+        drives: &[Driven],
+    ) -> Result<Solution, Unsolved> {
+        let geometry = Geometry::new(m, state, pose)?;
+        let mut of_links = link_loads(m, &m.loads, &geometry, pose, drive, period(drives));
+        let inertia = inertia_loads(m, &m.loads, &geometry, pose, drives)?;
+        for (all, own) in of_links.iter_mut().zip(&inertia) {
+            all.iter_mut().zip(own).for_each(|(a, b)| *a += b);
+        }
+        Self::bearing(m, &m.loads, &geometry, &of_links, drives)
+    }
+
     /// Reactions at any pose, the first drive `drive` `[rad]` or file units away from the pose of the file, with the
     /// freedoms the drives hold.
     ///
@@ -189,9 +227,20 @@ impl Reactions {
     ) -> Result<Solution, Unsolved> {
         no_couplings(m, state)?;
         let geometry = Geometry::new(m, state, pose)?;
-        let loads_of_links = link_loads(m, loads, &geometry, pose, drive, period(drives));
-        let system = System::new(&geometry, drives)?;
-        let particular = geometry.along_tree(m.joints.len(), &loads_of_links);
+        let of_links = link_loads(m, loads, &geometry, pose, drive, period(drives));
+        Self::bearing(m, loads, &geometry, &of_links, drives)
+    }
+
+    /// Reactions to one wrench a link.
+    fn bearing(
+        m: &Mechanism,
+        loads: &Loads,
+        geometry: &Geometry,
+        loads_of_links: &[Six],
+        drives: &[Driven],
+    ) -> Result<Solution, Unsolved> {
+        let system = System::new(geometry, drives)?;
+        let particular = geometry.along_tree(m.joints.len(), loads_of_links);
         let mut wrenches = particular.clone();
         let left = system.solve(&mut wrenches);
         let scale = particular
@@ -215,10 +264,10 @@ impl Reactions {
         }
         let stresses = system.self_stresses(m.joints.len());
         let rigid = wrenches.clone();
-        family::least_norm(&geometry, &mut wrenches, &stresses);
-        let elastic = family::elastic(m, &geometry, loads, rigid, &stresses);
-        let residual = residual(m, &geometry, &wrenches, &loads_of_links);
-        let present = |w: &[Six]| present(m, &geometry, w, drives);
+        family::least_norm(geometry, &mut wrenches, &stresses);
+        let elastic = family::elastic(m, geometry, loads, rigid, &stresses);
+        let residual = residual(m, geometry, &wrenches, loads_of_links);
+        let present = |w: &[Six]| present(m, geometry, w, drives);
         Ok(Solution {
             choice: if stresses.is_empty() {
                 Choice::Unique

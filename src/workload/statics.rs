@@ -102,6 +102,28 @@ pub fn statics(
     state: StateId,
     stroke: Option<Stroke>,
 ) -> Result<Statics, StaticsError> {
+    let positions: Vec<f64> = match stroke {
+        None => vec![0.0],
+        Some(s) => (0..=s.steps)
+            .map(|i| {
+                #[allow(clippy::cast_precision_loss, reason = "at most 1e5 steps")]
+                let part = i as f64 / s.steps as f64;
+                s.from + (s.to - s.from) * part
+            })
+            .collect(),
+    };
+    statics_at(mechanism, state, &positions)
+}
+
+/// The same at positions of the first drive in any order, `[rad]` or the file's unit.
+///
+/// # Errors
+/// As [`statics`].
+pub fn statics_at(
+    mechanism: &Mechanism,
+    state: StateId,
+    positions: &[f64],
+) -> Result<Statics, StaticsError> {
     let planar = PlanarMechanism::new(mechanism, state)?;
     let drives = planar.drives();
     let decomposition = decompose(&planar, &drives)?;
@@ -117,16 +139,7 @@ pub fn statics(
         .first()
         .is_some_and(|&p| linkage.mechanism.pairs[p].kind == PairKind::Sliding);
     let loads = PlanarLoads::new(mechanism, &linkage, slides);
-    let positions: Vec<f64> = match stroke {
-        None => vec![0.0],
-        Some(s) => (0..=s.steps)
-            .map(|i| {
-                #[allow(clippy::cast_precision_loss, reason = "at most 1e5 steps")]
-                let part = i as f64 / s.steps as f64;
-                (s.from + (s.to - s.from) * part) * unit(0)
-            })
-            .collect(),
-    };
+    let positions: Vec<f64> = positions.iter().map(|x| x * unit(0)).collect();
     let motion = Motion::new(&linkage, &decomposition, &speeds);
     let conditions = motion.conditions(&linkage.home());
     let (instants, dead) = motion.follow(&positions);

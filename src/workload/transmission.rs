@@ -1,7 +1,7 @@
-//! How fast joints move when the drive does, at the pose of the file.
+//! How fast joints move when the drive does.
 
-use crate::closure::matrix::Closure;
-use crate::geom::scalars::Reals;
+use crate::closure::pose::Pose;
+use crate::closure::stroke::slides;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism};
 use faer::Mat;
@@ -21,7 +21,7 @@ pub enum TransmissionError {
     #[error("joint \"{0}\" must have one freedom, a turn or a slide, for a transmission ratio")]
     Freedoms(String),
     /// The drive cannot move.
-    #[error("drive \"{0}\" cannot move at the pose of the file")]
+    #[error("drive \"{0}\" cannot move in this pose")]
     Stuck(String),
     /// The joint moves on its own.
     #[error("the speed of joint \"{0}\" does not follow from the drive's")]
@@ -41,46 +41,44 @@ pub struct Rates {
     pub rates: Vec<f64>,
 }
 
-/// Speeds of turning joints when the one drive moves at unit speed, in the free state at the pose of the file.
+/// Speeds of turning joints when the one drive moves at unit speed, in a pose of the free state.
 ///
 /// # Errors
 /// Where the mechanism has no such ratio.
 ///
 /// # Complexity
 /// One singular value decomposition of J.
-pub fn rates(mechanism: &Mechanism, joints: &[JointId]) -> Result<Rates, TransmissionError> {
+pub fn rates(
+    mechanism: &Mechanism,
+    pose: &Pose,
+    joints: &[JointId],
+) -> Result<Rates, TransmissionError> {
     let drives: Vec<JointId> = (0..mechanism.joints.len())
         .filter(|&j| mechanism.joints[j].drive)
         .collect();
     let [drive] = drives[..] else {
         return Err(TransmissionError::Drives(drives.len()));
     };
-    let closure = Closure::new(&Reals, mechanism, 0).map_err(|_| TransmissionError::Numeric)?;
-    let columns = closure.dense(&Reals);
-    let (rows, f) = (closure.rows(), columns.len());
+    let f = pose.columns.len();
     let id = |j: JointId| mechanism.joints[j].id.clone();
     let only = |j: JointId| {
-        let mut own = (0..f).filter(|&c| closure.columns[c].joint == j);
+        let mut own = (0..f).filter(|&c| pose.columns[c].joint == j);
         match (own.next(), own.next()) {
-            (Some(c), None) if matches!(closure.columns[c].freedom, Freedom::Rz | Freedom::Tz) => {
+            (Some(c), None) if matches!(pose.columns[c].freedom, Freedom::Rz | Freedom::Tz) => {
                 Ok(c)
             }
             _ => Err(TransmissionError::Freedoms(id(j))),
         }
     };
-    let speed = |j: JointId| {
-        mechanism.joints[j]
-            .frame
-            .axis
-            .iter()
-            .map(|e| e.to_f64().powi(2))
-            .sum::<f64>()
-            .sqrt()
-    };
     let at = only(drive)?;
+    let jacobian = pose.jacobian(&vec![0.0; f]);
     // Padded to a square, so that the decomposition has a vector for every column.
-    let matrix = Mat::from_fn(rows.max(f), f, |r, c| {
-        columns[c].get(r).copied().unwrap_or(0.0)
+    let matrix = Mat::from_fn(pose.rows().max(f), f, |r, c| {
+        if r < pose.rows() {
+            jacobian[(r, c)]
+        } else {
+            0.0
+        }
     });
     let svd = matrix.svd().map_err(|_| TransmissionError::Numeric)?;
     let (values, v) = (svd.S().column_vector(), svd.V());
@@ -93,11 +91,11 @@ pub fn rates(mechanism: &Mechanism, joints: &[JointId]) -> Result<Rates, Transmi
     if size.sqrt() <= TOLERANCE {
         return Err(TransmissionError::Stuck(id(drive)));
     }
-    let slides = closure.columns[at].freedom == Freedom::Tz;
+    let slides = slides(pose, at);
     let unit = if slides {
-        speed(drive) * mechanism.length_unit.metres
+        pose.length * mechanism.length_unit.metres
     } else {
-        speed(drive)
+        1.0
     };
     let rates = joints.iter().map(|&j| {
         let c = only(j)?;
@@ -111,7 +109,7 @@ pub fn rates(mechanism: &Mechanism, joints: &[JointId]) -> Result<Rates, Transmi
         if rest.sqrt() > 1e-6 {
             return Err(TransmissionError::Loose(id(j)));
         }
-        Ok((along * speed(j) / unit).abs())
+        Ok((along / unit).abs())
     });
     Ok(Rates {
         slides,

@@ -176,15 +176,28 @@ fn built_in_gripper_holds() {
         number(&load["drive_moment_per_lever"]),
         1e-6,
     );
-    // The slider of the file moves 56.906 mm a radian of the levers: rod along (1, 1), tail at (-20, 60 - 40/√3).
-    let arm = (20.0 + 60.0 - 40.0 / 3f64.sqrt()) * 1e-3;
-    let moments: f64 = load["lever_moments"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(number)
-        .sum();
-    near(number(&load["drive_effort"]), moments / arm, 1e-6);
+    // The slider moves 56.906 mm a radian of the levers where D is nominal: rod along (1, 1), tail at (-20, 60 - 40/√3).
+    let arm = 20.0 + 60.0 - 40.0 / 3f64.sqrt();
+    for row in value["diameters"].as_array().unwrap() {
+        let (s, c) = number(&row["turn"]).sin_cos();
+        let r: [f64; 2] = [-20.0, 60.0 - 40.0 / 3f64.sqrt()];
+        let tail = [c * r[0] - s * r[1], s * r[0] + c * r[1]];
+        // From (x, 20) on the slider to the tail, a rod of length √3200.
+        let up = tail[1] + 40.0 / 3f64.sqrt() - 20.0;
+        let rod = [(3200.0 - up * up).sqrt(), up];
+        let there = (tail[0] * rod[1] - tail[1] * rod[0]).abs() / rod[0] * 1e-3;
+        let load = &row["load"];
+        let moments: f64 = load["lever_moments"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(number)
+            .sum();
+        near(number(&load["drive_effort"]), moments / there, 1e-7);
+        if number(&row["diameter"]) == 0.04 {
+            near(there, arm * 1e-3, 1e-12);
+        }
+    }
 }
 
 /// A pull of 20 N into the jaws, without friction: both near contacts carry 10 N / cos 60°, at the arm l2.

@@ -100,8 +100,8 @@ fn over_a_stroke_the_scores_are_the_worst_of_its_poses() {
     });
     let s = search(&m, 0);
     let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
-    assert_eq!(e.poses.poses.len(), 3);
-    assert!(e.poses.stopped.is_none());
+    assert_eq!(e.cases.list.len(), 3);
+    assert!(e.cases.stopped.is_none());
     let still = loaded();
     let t = search(&still, 0);
     let at_rest = Evaluator::new(&t, ClearanceSum::Worst).unwrap();

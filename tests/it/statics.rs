@@ -3,6 +3,7 @@
 mod command;
 mod cycle;
 mod enumeration;
+mod published;
 mod reactions;
 mod stability;
 mod structure;

@@ -115,11 +115,11 @@ fn bad_loads_are_refused_at_their_line() {
 fn mechanisms_without_statics_are_refused_with_a_remedy() {
     for (args, parts) in [
         (
-            &["statics", "bennett", "--stroke", "0:1:3"][..],
+            &["statics", "bennett", "--method", "delta"][..],
             &["out of the plane", "mode = \"planar\""][..],
         ),
         (
-            &["statics", "parallelogram-3-rods", "--stroke", "0:1:3"],
+            &["statics", "parallelogram-3-rods", "--method", "delta"],
             &["1 more constraints than freedoms", "ozols search"],
         ),
         (

@@ -1,0 +1,169 @@
+//! The poses and loads that variants are scored in.
+//!
+//! A variant moves as the mechanism does, so all are scored in the same cases: the poses of the free state's stroke under
+//! the file's loads, and, in a state that the grip loads, the pose round each part it holds under the contact forces of
+//! that part's worst case. The score is the worst over the cases of the states that count.
+
+use crate::closure::pose::Pose;
+use crate::model::loads::Loads;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::workload::jaw_loads::{Gripping, JawError, grip_of};
+use crate::workload::reactions::Unsolved;
+use crate::workload::reactions::drives::Driven;
+use crate::workload::reactions::follow::{follow, follow_to};
+use itertools::Itertools;
+use thiserror::Error;
+
+/// Why variants cannot be scored under the grip's loads.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum CaseError {
+    /// The mechanism does not go there, or has no numbers.
+    #[error(transparent)]
+    Unsolved(#[from] Unsolved),
+    /// Grip and mechanism do not fit together.
+    #[error(transparent)]
+    Jaws(#[from] JawError),
+    /// No part is held.
+    #[error(
+        "[workload.grip] holds none of its parts, so no contact forces load state {0}; `ozols grip` says why; or name the \
+         states that count: [ranking] states = [\"free\"]"
+    )]
+    NotHeld(String),
+    /// Contacts and other joints both come with the state.
+    #[error(
+        "state {0} differs from the free one by more than the part's contacts, and variants are scored in the free state's \
+         joints; name the states that count: [ranking] states = [\"free\"]"
+    )]
+    OtherJoints(String),
+    /// Each lever has a drive of its own.
+    #[error(
+        "the grip's loads are ranked under one drive, and the mechanism has {0}; name the states that count: [ranking] \
+         states = [\"free\"]"
+    )]
+    Drives(usize),
+    /// The drive does not go on to the part.
+    #[error(
+        "the drive cannot be followed to {0}, where the levers fit a part; look at `ozols analyze --stroke`"
+    )]
+    OutOfReach(f64),
+}
+
+/// A pose with its loads.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Position of the first drive since the pose of the file: `[rad]`, or the file's unit.
+    pub drive: f64,
+    /// The pose of the mechanism as it is.
+    pub pose: Pose,
+    /// The loads.
+    pub loads: Loads,
+}
+
+/// What the grip has to do with the cases.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gripped {
+    /// The state with the contacts.
+    pub state: StateId,
+    /// Diameters held, ascending. `[m]`
+    pub held: Vec<f64>,
+    /// Diameters that are not. `[m]`
+    pub lost: Vec<f64>,
+}
+
+/// All cases.
+#[derive(Debug, Clone, Default)]
+pub struct Cases {
+    /// The cases.
+    pub list: Vec<Case>,
+    /// How many of them, the first, are of the free state.
+    pub free: usize,
+    /// The first position of the stroke that could not be reached.
+    pub stopped: Option<f64>,
+    /// Where the others come from.
+    pub gripped: Vec<Gripped>,
+}
+
+/// Whether the file loads the free state.
+fn free_is_loaded(m: &Mechanism) -> bool {
+    let l = &m.loads;
+    let weights = l.gravity.is_some() && m.links.iter().any(|x| x.mass.is_some());
+    weights || !l.forces.is_empty() || !l.moments.is_empty()
+}
+
+/// The states that count where the ranking names none: those with loads, the free one also where it has a stroke to be
+/// conditioned over or nothing else is loaded.
+#[must_use]
+pub fn states_with_loads(m: &Mechanism) -> Vec<StateId> {
+    let gripped = (1..m.states.len()).filter(|&s| grip_of(m, s).is_some());
+    let gripped: Vec<StateId> = gripped.collect();
+    let free = gripped.is_empty() || free_is_loaded(m) || m.loads.stroke.is_some();
+    free.then_some(0).into_iter().chain(gripped).collect()
+}
+
+/// The cases of some states; of those with loads where none are named.
+///
+/// # Errors
+/// [`CaseError`].
+///
+/// # Complexity
+/// That of following the stroke and of the grip's study.
+pub fn cases(m: &Mechanism, drives: &[Driven], states: &[StateId]) -> Result<Cases, CaseError> {
+    let mut out = Cases::default();
+    let default = states_with_loads(m);
+    let states = if states.is_empty() { &default } else { states };
+    for &state in states.iter().unique() {
+        if state == 0 && grip_of(m, 0).is_none() {
+            let followed = follow(m, 0, drives, m.loads.stroke)?;
+            out.stopped = followed.stopped;
+            out.free = followed.poses.len();
+            let each = followed.poses.into_iter().map(|(drive, pose)| Case {
+                drive,
+                pose,
+                loads: m.loads.clone(),
+            });
+            out.list.splice(0..0, each);
+        } else if let Some(g) = Gripping::new(m, state)? {
+            grip_cases(m, drives, &g, &mut out)?;
+        }
+    }
+    Ok(out)
+}
+
+fn grip_cases(
+    m: &Mechanism,
+    drives: &[Driven],
+    g: &Gripping,
+    out: &mut Cases,
+) -> Result<(), CaseError> {
+    let name = || m.states[g.state].clone();
+    if !g.mechanism.joints_in(g.state).eq(m.joints_in(0)) {
+        return Err(CaseError::OtherJoints(name()));
+    }
+    if drives.len() != 1 {
+        return Err(CaseError::Drives(drives.len()));
+    }
+    let mut of_grip = Gripped {
+        state: g.state,
+        held: Vec::new(),
+        lost: Vec::new(),
+    };
+    for row in &g.study.rows {
+        let Some(loads) = g.loads(row).filter(|_| row.holds()) else {
+            of_grip.lost.push(row.diameter);
+            continue;
+        };
+        of_grip.held.push(row.diameter);
+        let drive = g.fit(row)?.drive;
+        let followed = follow_to(m, 0, drives, &[drive])?;
+        let Some((_, pose)) = followed.poses.into_iter().next() else {
+            return Err(CaseError::OutOfReach(drive));
+        };
+        out.list.push(Case { drive, pose, loads });
+    }
+    if of_grip.held.is_empty() {
+        return Err(CaseError::NotHeld(name()));
+    }
+    out.gripped.push(of_grip);
+    Ok(())
+}
