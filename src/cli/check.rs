@@ -1,13 +1,11 @@
-//! `ozols check`, `list`, `show` and `schema`.
+//! `ozols check`, `show` and `schema`.
 
 use super::args::{Args, File};
 use super::{Done, load, output};
 use crate::builtin;
 use crate::import::text::mechanism_from_bytes;
 use crate::import::workload::tables_alone;
-use crate::redundancy::analysis::{Method, analyse};
-use crate::report::words;
-use anyhow::{Context, bail};
+use anyhow::bail;
 
 pub(super) fn run(_: &Args, a: &File) -> anyhow::Result<Done> {
     let (name, bytes) = load::named(&a.file)?;
@@ -31,49 +29,9 @@ pub(super) fn run(_: &Args, a: &File) -> anyhow::Result<Done> {
     })
 }
 
-pub(super) fn list() -> anyhow::Result<Done> {
-    let mut rows = Vec::new();
-    for name in builtin::names() {
-        let m = load::mechanism(name).with_context(|| format!("built-in mechanism {name}"))?;
-        let states: Vec<usize> = (0..m.states.len()).collect();
-        for s in analyse(&m, &states, Method::Modular)? {
-            let numbers = [
-                s.links,
-                s.joints,
-                s.contours,
-                s.freedoms,
-                s.mobility,
-                s.redundant,
-            ];
-            let mut row = vec![
-                if s.state == "free" {
-                    name.to_owned()
-                } else {
-                    String::new()
-                },
-                s.state,
-            ];
-            row.extend(numbers.map(|n| n.to_string()));
-            rows.push(row);
-        }
-    }
-    output::to(None, |out| {
-        writeln!(
-            out,
-            "{}",
-            words::table(
-                &["mechanism", "state", "n", "p", "k", "f", "W", "σ"],
-                rows,
-                output::width(None)
-            )
-        )?;
-        Ok(Done::Found)
-    })
-}
-
 pub(super) fn show(a: &File) -> anyhow::Result<Done> {
     let Some(text) = builtin::text(&a.file) else {
-        bail!(load::unknown(&a.file))
+        bail!(load::no_built_in(&a.file))
     };
     output::to(None, |out| {
         write!(out, "{text}")?;
