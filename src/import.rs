@@ -1,6 +1,7 @@
 //! From text to a validated mechanism, with every problem found pointed at.
 
 pub mod build;
+pub mod doubt;
 pub mod drive;
 pub mod grip;
 pub mod joint_loads;

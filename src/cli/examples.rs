@@ -66,8 +66,8 @@ Examples:
 pub(super) const IMPORT: &str = "\
 Examples:
   ozols import robot.urdf -o robot.toml                      what was mapped and dropped is said on standard error
-  ozols import robot.urdf --loops loops.yaml -o closed.toml  URDF is a tree: loops come from a file beside it
-  ozols import robot.urdf --working-link tip --format json
+  ozols import robot.urdf --loops robot.yaml -o closed.toml  URDF is a tree: loops come from a file beside it
+  ozols import robot.urdf --working-link effector --format json
   ozols analyze robot.toml                                   or at once: ozols analyze robot.urdf";
 
 pub(super) const DRAW: &str = "\

@@ -1,10 +1,11 @@
 //! Reading a mechanism from text.
 
 use crate::import::build::{Finding, build};
-use crate::import::locate::locate;
+use crate::import::locate::{Step, locate};
 use crate::import::problem::{ImportError, Problem, ProblemKind};
 use crate::import::schema::MechanismFile;
 use crate::model::mechanism::Mechanism;
+use std::ops::Range;
 
 /// Largest file read, in bytes.
 pub const MAX_BYTES: usize = 4 << 20;
@@ -62,10 +63,7 @@ pub(super) fn read<T>(
             span: None,
         }]));
     }
-    let json = std::path::Path::new(name)
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("json"));
-    let file = if json {
+    let file = if is_json(name) {
         from_json(text)
     } else {
         from_toml(text)
@@ -76,12 +74,23 @@ pub(super) fn read<T>(
             .into_iter()
             .map(|(path, kind)| Problem {
                 kind,
-                span: locate(text, json, &path),
+                span: place(name, text, &path),
             })
             .collect();
         problems.sort_by_key(|p| p.span.as_ref().map_or(usize::MAX, |s| s.start));
         fail(problems)
     })
+}
+
+fn is_json(name: &str) -> bool {
+    std::path::Path::new(name)
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("json"))
+}
+
+/// Bytes of the item at a path of a file.
+pub(super) fn place(name: &str, text: &str, path: &[Step]) -> Option<Range<usize>> {
+    locate(text, is_json(name), path)
 }
 
 fn from_toml(text: &str) -> Result<MechanismFile, Problem> {
