@@ -7,12 +7,19 @@ mod args;
 mod charts;
 mod check;
 mod clamped;
+mod completions;
 mod draw;
 mod drive;
+mod examples;
+mod explain;
 mod export;
 mod grip;
 mod import;
+mod list;
 mod load;
+mod man;
+mod near;
+mod new;
 mod output;
 mod progress;
 mod question;
@@ -40,6 +47,12 @@ enum Done {
 pub fn run() -> ExitCode {
     let args = match args::Args::try_parse() {
         Ok(args) => args,
+        Err(_) if std::env::args_os().len() == 1 => {
+            return finish(output::to(None, |out| {
+                write!(out, "{}", examples::FIRST)?;
+                Ok(Done::Found)
+            }));
+        }
         Err(e) => {
             // Help and version are no failures; a closed pipe is not one either.
             let code = if e.use_stderr() { 2 } else { 0 };
@@ -59,10 +72,19 @@ pub fn run() -> ExitCode {
         args::Command::Export(a) => export::run(&args, a),
         args::Command::Accuracy(a) => accuracy::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
-        args::Command::List => check::list(),
+        args::Command::New(a) => new::run(&args, a),
+        args::Command::List(a) => list::run(a),
         args::Command::Show(a) => check::show(a),
         args::Command::Schema => check::schema(),
+        args::Command::Explain(a) => explain::run(a),
+        args::Command::Completions(a) => completions::run(a),
+        args::Command::Man(a) => man::run(a),
     });
+    finish(result)
+}
+
+/// The exit code, after what went wrong is said.
+fn finish(result: anyhow::Result<Done>) -> ExitCode {
     match result {
         Ok(Done::Found) => ExitCode::SUCCESS,
         Ok(Done::Nothing) => ExitCode::from(1),

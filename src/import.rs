@@ -2,6 +2,7 @@
 
 pub mod build;
 mod coupling;
+pub mod doubt;
 pub mod drive;
 pub mod findings;
 pub mod grip;

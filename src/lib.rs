@@ -34,7 +34,8 @@
 //! # Layers
 //!
 //! linalg -> geom, verify -> model -> closure -> import, rank, workload -> robot, export -> redundancy -> search -> score,
-//! draw -> report -> cli. Imports go one way; a test holds them to it. [`chart`] draws finished numbers and imports nothing.
+//! draw -> report -> cli. Imports go one way; a test holds them to it. [`chart`] draws finished numbers and imports nothing,
+//! as [`terms`] says what words mean; [`template`] makes a commented file of a built-in mechanism.
 //!
 //! # Sources
 //!
@@ -67,5 +68,7 @@ pub mod report;
 pub mod robot;
 pub mod score;
 pub mod search;
+pub mod template;
+pub mod terms;
 pub mod verify;
 pub mod workload;

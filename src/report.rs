@@ -10,6 +10,7 @@ pub mod drive_text;
 pub mod grip_charts;
 pub mod grip_json;
 pub mod grip_text;
+pub mod mechanism_text;
 pub mod ranking;
 pub mod reactions_cycle;
 pub mod reactions_data;

@@ -1,6 +1,7 @@
 //! The arguments, as data.
 
-use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+use super::examples;
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
 /// A search engine for statically determinate mechanisms.
@@ -13,23 +14,7 @@ use std::path::PathBuf;
     name = "ozols",
     version,
     max_term_width = 100,
-    after_help = "\
-Examples:
-  ozols list                                  the built-in mechanisms
-  ozols analyze gripper-10                    mobility and redundant constraints, contour by contour
-  ozols analyze four-bar --stroke 0:360deg:12 and in the poses over a turn of its crank
-  ozols search gripper-10                     the best statically determinate redesigns
-  ozols search gripper-10 --max-mobility 1    only those without idle links
-  ozols statics parallel-shears               Assur groups, and joint reactions over the cycle
-  ozols grip lever-gripper                    what its levers can hold, and with what drive moment
-  ozols drive torsion-module                  the torsion bar, the cam spring, and the programme run
-  ozols draw gripper-10 -o gripper.svg        its structural scheme; --kind kinematic, --variant 1
-  ozols show four-bar > mine.toml             a file to start from
-  ozols check mine.toml                       what is wrong with it, if anything
-  ozols accuracy -o accuracy                  accuracy against speed of every method, as charts
-  ozols analyze mine.toml --certificate c.json && ozols verify mine.toml c.json
-  ozols import robot.urdf -o robot.toml       a mechanism file of a robot description
-  ozols export gripper-10 --to dot            its graph for Graphviz"
+    after_help = examples::MAIN
 )]
 pub(super) struct Args {
     /// What to do.
@@ -49,33 +34,100 @@ pub(super) struct Args {
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Mobility and redundant constraints in each state.
+    #[command(after_help = examples::ANALYZE)]
     Analyze(Analyze),
     /// Every redesign that removes the redundant constraints: exact counts and the best ones.
+    #[command(after_help = examples::SEARCH)]
     Search(Search),
     /// Assur groups of a planar mechanism, and its joint reactions over the cycle.
+    #[command(after_help = examples::STATICS)]
     Statics(Statics),
     /// What a lever gripper can hold, and the drive moment it takes.
+    #[command(after_help = examples::GRIP)]
     Grip(Grip),
     /// Size a torsional drive of two discs and run its programme.
+    #[command(after_help = examples::DRIVE)]
     Drive(Drive),
     /// Confirm the certificates of rank that `ozols analyze --certificate` wrote.
+    #[command(after_help = examples::VERIFY)]
     Verify(Verify),
     /// Make a mechanism file of a robot description: URDF, MJCF or SDF.
+    #[command(after_help = examples::IMPORT)]
     Import(Import),
     /// Draw the structural or the kinematic scheme as SVG.
+    #[command(after_help = examples::DRAW)]
     Draw(Draw),
     /// Write a mechanism in another format: TOML, JSON, URDF, SDF, Graphviz DOT, GraphML.
+    #[command(after_help = examples::EXPORT)]
     Export(Export),
     /// How right and how fast each method is on every built-in mechanism, and where its numbers fail.
+    #[command(after_help = examples::ACCURACY)]
     Accuracy(Accuracy),
-    /// Validate a file.
+    /// Write a commented mechanism file to start from.
+    #[command(after_help = examples::NEW)]
+    New(New),
+    /// What a file describes, and what is wrong or doubtful in it.
+    #[command(after_help = examples::CHECK)]
     Check(File),
     /// The built-in mechanisms.
-    List,
+    #[command(after_help = examples::LIST)]
+    List(List),
     /// Print the file of a built-in mechanism.
+    #[command(after_help = examples::SHOW)]
     Show(File),
     /// Print the JSON Schema of the mechanism file.
+    #[command(after_help = examples::SCHEMA)]
     Schema,
+    /// What a word in the output or the help means.
+    #[command(after_help = examples::EXPLAIN)]
+    Explain(Explain),
+    /// Print the script that completes commands and options in a shell.
+    #[command(after_help = examples::COMPLETIONS)]
+    Completions(Completions),
+    /// Print the manual page, or write one for each command.
+    #[command(after_help = examples::MAN)]
+    Man(Man),
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct New {
+    /// The file to write; its ending is .toml, and the mechanism is named after it.
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) file: PathBuf,
+    /// The built-in mechanism to start from.
+    #[arg(long, value_name = "NAME", default_value = "four-bar")]
+    pub(super) from: String,
+    /// Replace a file that is there.
+    #[arg(long)]
+    pub(super) force: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct List {
+    /// Only those with every one of these words in name, family or description.
+    #[arg(value_name = "WORD")]
+    pub(super) words: Vec<String>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Explain {
+    /// The term, such as sigma, σ, or redundant constraint; all terms where left out.
+    #[arg(value_name = "TERM")]
+    pub(super) term: Vec<String>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Completions {
+    /// The shell.
+    #[arg(value_enum, value_name = "SHELL")]
+    pub(super) shell: clap_complete::Shell,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Man {
+    /// Write a page for the program and one for each command into this folder.
+    #[arg(long, short, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -87,7 +139,7 @@ pub(super) enum ImportFormat {
 #[derive(Debug, ClapArgs)]
 pub(super) struct Import {
     /// A robot description: URDF, MJCF or SDF, by its root element.
-    #[arg(value_name = "FILE")]
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) file: String,
     /// A file of loop closures (YAML, JSON or TOML): [[loop]] with a, b and type; robot.yaml of
     /// example-parallel-robots; Drake's list of ball constraints.
@@ -157,12 +209,6 @@ pub(super) enum DrawKind {
 }
 
 #[derive(Debug, ClapArgs)]
-#[command(after_help = "\
-Examples:
-  ozols draw gripper-10 -o gripper.svg                   structural scheme
-  ozols draw bennett --kind kinematic -o bennett.svg     kinematic scheme
-  ozols draw gripper-10 --state clamped -o clamped.svg   with the part it holds
-  ozols draw gripper-10 --variant 1 -o first.svg         the best redesign, its changes in colour")]
 pub(super) struct Draw {
     #[command(flatten)]
     pub(super) file: File,
@@ -194,7 +240,7 @@ pub(super) struct Draw {
 #[derive(Debug, ClapArgs)]
 pub(super) struct File {
     /// A path, `-`, or the name of a built-in mechanism.
-    #[arg(value_name = "FILE")]
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) file: String,
 }
 
@@ -494,16 +540,9 @@ pub(super) enum StaticsFormat {
 }
 
 #[derive(Debug, ClapArgs)]
-#[command(after_help = "\
-Examples:
-  ozols statics parallel-shears                          groups and reactions over the file's stroke
-  ozols statics parallel-shears --stroke 0:360deg:12 --svg charts
-  ozols statics gripper-10 --spatial                     six components a joint, and what redundancy leaves open
-  ozols statics parallel-shears --groups                 Assur groups under each possible drive
-  ozols statics --stability -o charts                    accuracy of the methods near their failures")]
 pub(super) struct Statics {
     /// A path, `-`, or the name of a built-in mechanism; parallel-shears with --stability unless named.
-    #[arg(value_name = "FILE", required_unless_present = "stability")]
+    #[arg(value_name = "FILE", required_unless_present = "stability", value_hint = ValueHint::FilePath)]
     pub(super) file: Option<String>,
     /// How the reactions of four-link groups with a closed contour are found.
     #[arg(long, value_enum, default_value = "all")]

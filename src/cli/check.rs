@@ -1,16 +1,18 @@
-//! `ozols check`, `list`, `show` and `schema`.
+//! `ozols check`, `show` and `schema`.
 
 use super::args::{Args, File};
 use super::{Done, load, output};
 use crate::builtin;
-use crate::import::text::mechanism_from_bytes;
+use crate::import::doubt::{Checked, DoubtKind, Doubts, across, check};
+use crate::import::locate::Step;
 use crate::import::workload::tables_alone;
+use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{Method, analyse};
-use crate::report::words;
+use crate::report::{mechanism_text, words};
 use crate::workload::jaw_loads::{Gripping, JawError};
 use anyhow::{Context, bail};
 
-pub(super) fn run(_: &Args, a: &File) -> anyhow::Result<Done> {
+pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
     let (name, bytes) = load::named(&a.file)?;
     if let Some((name, tables)) = tables_alone(&name, &bytes)? {
         return output::to(None, |out| {
@@ -18,70 +20,103 @@ pub(super) fn run(_: &Args, a: &File) -> anyhow::Result<Done> {
             Ok(Done::Found)
         });
     }
-    let m = mechanism_from_bytes(&name, &bytes)?;
-    for state in 0..m.states.len() {
-        match Gripping::new(&m, state) {
+    let mut checked = check(&name, &bytes)?;
+    for state in 0..checked.mechanism.states.len() {
+        match Gripping::new(&checked.mechanism, state) {
             // What cannot be held is for `ozols grip` to say; the file is valid.
             Ok(_) | Err(JawError::Nominal(_)) => {}
             Err(e) => return Err(e).with_context(|| format!("{name}: [workload.grip]")),
         }
     }
+    stale(&checked.mechanism, &mut checked.doubts);
+    let Checked {
+        mechanism,
+        tables,
+        doubts,
+    } = &checked;
+    if !doubts.doubts.is_empty() && !args.quiet {
+        output::coloured_note(&doubts.render(true));
+    }
     output::to(None, |out| {
-        writeln!(
-            out,
-            "{}: {} links, {} joints, states {}: valid",
-            m.name,
-            m.links.len(),
-            m.joints.len(),
-            m.states.join(", ")
-        )?;
+        let verdict = match doubts.doubts.len() {
+            0 => "valid".to_owned(),
+            n => format!("valid, {}", words::plural(n, "warning")),
+        };
+        writeln!(out, "{}: {verdict}", mechanism.name)?;
+        for line in mechanism_text::describe(mechanism, across(mechanism)) {
+            writeln!(out, "  {line}")?;
+        }
+        for table in tables {
+            writeln!(out, "  workload {table}: for `ozols {table}`")?;
+        }
         Ok(Done::Found)
     })
 }
 
-pub(super) fn list() -> anyhow::Result<Done> {
-    let mut rows = Vec::new();
-    for name in builtin::names() {
-        let m = load::mechanism(name).with_context(|| format!("built-in mechanism {name}"))?;
-        let states: Vec<usize> = (0..m.states.len()).collect();
-        for s in analyse(&m, &states, Method::Modular)? {
-            let numbers = [
-                s.links,
-                s.joints,
-                s.contours,
-                s.freedoms,
-                s.mobility,
-                s.redundant,
-            ];
-            let mut row = vec![
-                if s.state == "free" {
-                    name.to_owned()
-                } else {
-                    String::new()
-                },
-                s.state,
-            ];
-            row.extend(numbers.map(|n| n.to_string()));
-            rows.push(row);
+/// Doubts the figures that the file states where the analysis finds others.
+fn stale(m: &Mechanism, doubts: &mut Doubts) {
+    for (i, e) in m.expected.iter().enumerate() {
+        let Some(s) = m.states.iter().position(|s| *s == e.state) else {
+            continue;
+        };
+        // Why there is no analysis is for `ozols analyze` to say.
+        let Ok(found) = analyse(m, &[s], Method::Auto { tolerance: None }) else {
+            continue;
+        };
+        let Some(found) = found.first() else { continue };
+        let int = |n: usize| i64::try_from(n).ok();
+        let figures = [
+            ("mobility", e.mobility, int(found.mobility)),
+            (
+                "finite_mobility",
+                e.finite_mobility,
+                int(found.finite.mobility),
+            ),
+            (
+                "working_mobility",
+                e.working_mobility,
+                int(found.working_mobility),
+            ),
+            (
+                "local_mobility",
+                e.local_mobility,
+                int(found.local_mobility),
+            ),
+            ("redundant", e.redundant, int(found.redundant)),
+            (
+                "external_redundant",
+                e.external_redundant,
+                found.external.map(|x| x.by_rank),
+            ),
+        ];
+        for (key, stated, found) in figures {
+            let (Some(stated), Some(found)) = (stated, found) else {
+                continue;
+            };
+            if stated != found {
+                let path = [
+                    Step::Key("expected".to_owned()),
+                    Step::Index(i),
+                    Step::Key(key.to_owned()),
+                ];
+                let state = e.state.clone();
+                doubts.add(
+                    &path,
+                    DoubtKind::Stale {
+                        key,
+                        state,
+                        stated,
+                        found,
+                    },
+                );
+            }
         }
     }
-    output::to(None, |out| {
-        writeln!(
-            out,
-            "{}",
-            words::table(
-                &["mechanism", "state", "n", "p", "k", "f", "W", "σ"],
-                rows,
-                output::width(None)
-            )
-        )?;
-        Ok(Done::Found)
-    })
 }
 
 pub(super) fn show(a: &File) -> anyhow::Result<Done> {
     let Some(text) = builtin::text(&a.file) else {
-        bail!(load::unknown(&a.file))
+        bail!(load::no_built_in(&a.file))
     };
     output::to(None, |out| {
         write!(out, "{text}")?;

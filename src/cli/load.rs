@@ -1,5 +1,6 @@
 //! FILE arguments: paths, standard input, and built-in names.
 
+use super::near;
 use crate::builtin;
 use crate::geom::expr::Expr;
 use crate::import::text::{MAX_BYTES, mechanism_from_bytes};
@@ -12,6 +13,17 @@ use std::io::Read;
 pub(super) fn mechanism(file: &str) -> anyhow::Result<Mechanism> {
     let (name, bytes) = named(file)?;
     Ok(mechanism_from_bytes(&name, &bytes)?)
+}
+
+/// Reads a built-in mechanism, whatever files lie about.
+pub(super) fn mechanism_built_in(name: &str) -> anyhow::Result<Mechanism> {
+    let Some(text) = builtin::text(name) else {
+        bail!(no_built_in(name))
+    };
+    Ok(mechanism_from_bytes(
+        &format!("{name}.toml"),
+        text.as_bytes(),
+    )?)
 }
 
 /// The name for messages and the bytes of the file that an argument names.
@@ -51,20 +63,16 @@ pub(super) fn put_in_plane(mechanism: &mut Mechanism) {
 
 /// The message for a name that is neither a file nor built in.
 pub(super) fn unknown(file: &str) -> String {
-    let names = builtin::names();
-    let near = names
-        .iter()
-        .filter(|n| !file.is_empty() && (n.contains(file) || file.contains(**n)))
-        .copied()
-        .collect::<Vec<_>>();
-    let hint = if near.is_empty() {
-        String::new()
-    } else {
-        format!("; did you mean {}?", near.join(", "))
-    };
+    let hint = near::hint(file, builtin::names());
     format!(
         "{file} is neither a file nor a built-in mechanism{hint} (`ozols list` shows those built in)"
     )
+}
+
+/// The message for a name that is not built in, where a file would not do.
+pub(super) fn no_built_in(name: &str) -> String {
+    let hint = near::hint(name, builtin::names());
+    format!("{name} is not a built-in mechanism{hint} (`ozols list` shows them)")
 }
 
 /// The bytes of a file, one more than `limit` at most.

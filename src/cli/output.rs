@@ -72,12 +72,20 @@ pub(super) fn note(text: &str) {
     let _ = write!(std::io::stderr().lock(), "{text}");
 }
 
-/// Says what went wrong.
+/// Says what went wrong, in colour where standard error is a terminal that wants it (NO_COLOR, CLICOLOR_FORCE), as the
+/// parser of the arguments does.
 pub(super) fn complain(e: &anyhow::Error) {
-    let mut err = std::io::stderr().lock();
-    let colour = err.is_terminal() && std::env::var_os("NO_COLOR").is_none();
-    let _ = match e.downcast_ref::<ImportError>() {
-        Some(import) => writeln!(err, "{}", import.render(colour)),
-        None => writeln!(err, "error: {e:#}"),
+    let text = match e.downcast_ref::<ImportError>() {
+        Some(import) => import.render(true),
+        None => {
+            let style = anstyle::AnsiColor::Red.on_default().bold();
+            format!("{style}error:{style:#} {e:#}")
+        }
     };
+    coloured_note(&text);
+}
+
+/// Says something on standard error, its colours left out where they are not wanted.
+pub(super) fn coloured_note(text: &str) {
+    let _ = writeln!(anstream::stderr().lock(), "{text}");
 }

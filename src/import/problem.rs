@@ -1,6 +1,6 @@
 //! What can be wrong with a file, in words that name the item and the remedy.
 
-use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use std::fmt;
 use std::ops::Range;
 use thiserror::Error;
@@ -191,42 +191,51 @@ impl ImportError {
     /// The problems with the lines they stand on, for a terminal.
     #[must_use]
     pub fn render(&self, colour: bool) -> String {
-        let renderer = if colour {
-            Renderer::styled()
-        } else {
-            Renderer::plain()
-        };
-        let mut out = Vec::new();
-        for p in &self.problems {
+        let one = |p: &Problem| {
             let message = p.kind.to_string();
-            let Some(span) = p
-                .span
-                .clone()
-                .filter(|s| !self.text.is_empty() && self.text.get(s.clone()).is_some())
-            else {
-                out.push(format!("error: {}: {message}", self.file));
-                continue;
-            };
-            // A table reaches over many lines; its first is enough to find it.
-            let end = self.text[span.clone()]
-                .find('\n')
-                .map_or(span.end, |n| span.start + n);
-            let (message, help) = match message.split_once("; ") {
-                Some((m, h)) => (m.to_owned(), Some(h.to_owned())),
-                None => (message, None),
-            };
-            let snippet = Snippet::source(&self.text)
-                .path(&self.file)
-                .annotation(AnnotationKind::Primary.span(span.start..end.max(span.start)));
-            let title = Level::ERROR.primary_title(&message).element(snippet);
-            let group = match &help {
-                Some(h) => title.element(Level::HELP.message(h)),
-                None => title,
-            };
-            out.push(renderer.render(&[group]).to_string());
-        }
-        out.join("\n")
+            let source = (self.file.as_str(), self.text.as_str());
+            render(Level::ERROR, colour, source, p.span.clone(), &message)
+        };
+        self.problems.iter().map(one).collect::<Vec<_>>().join("\n")
     }
+}
+
+/// A message about a part of a file, given by its name and text, with the line it stands on; what follows a semicolon
+/// is the remedy.
+pub(super) fn render(
+    level: Level<'static>,
+    colour: bool,
+    (file, text): (&str, &str),
+    span: Option<Range<usize>>,
+    message: &str,
+) -> String {
+    let renderer = if colour {
+        Renderer::styled()
+    } else {
+        Renderer::plain()
+    };
+    let Some(span) = span.filter(|s| !text.is_empty() && text.get(s.clone()).is_some()) else {
+        let message = format!("{file}: {message}");
+        let title = level.primary_title(message.as_str());
+        return renderer.render(&[Group::with_title(title)]).to_string();
+    };
+    // A table reaches over many lines; its first is enough to find it.
+    let end = text[span.clone()]
+        .find('\n')
+        .map_or(span.end, |n| span.start + n);
+    let (message, help) = match message.split_once("; ") {
+        Some((m, h)) => (m, Some(h)),
+        None => (message, None),
+    };
+    let snippet = Snippet::source(text)
+        .path(file)
+        .annotation(AnnotationKind::Primary.span(span.start..end.max(span.start)));
+    let title = level.primary_title(message).element(snippet);
+    let group = match help {
+        Some(h) => title.element(Level::HELP.message(h)),
+        None => title,
+    };
+    renderer.render(&[group]).to_string()
 }
 
 impl fmt::Display for ImportError {

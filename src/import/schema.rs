@@ -51,7 +51,7 @@ pub struct MechanismFile {
     /// What joint types bear, in place of the built-in catalogue: `[joint_types.spherical]`.
     #[serde(default)]
     pub joint_types: BTreeMap<String, JointTypeEntry>,
-    /// Known figures, checked by tests.
+    /// Known figures, which `ozols check` compares with those of the analysis.
     #[serde(default)]
     pub expected: Vec<ExpectedEntry>,
 }

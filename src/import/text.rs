@@ -63,17 +63,14 @@ pub(super) fn read<T>(
             span: None,
         }]));
     }
-    let json = std::path::Path::new(name)
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("json"));
-    let file = if json {
+    let file = if is_json(name) {
         from_json(text)
     } else {
         from_toml(text)
     };
     let file = file.map_err(|p| fail(vec![p]))?;
     make(&file).map_err(|found| {
-        let document = Document::new(text, json);
+        let document = Document::new(text, is_json(name));
         let mut problems: Vec<Problem> = found
             .into_iter()
             .map(|(path, kind)| Problem {
@@ -84,6 +81,13 @@ pub(super) fn read<T>(
         problems.sort_by_key(|p| p.span.as_ref().map_or(usize::MAX, |s| s.start));
         fail(problems)
     })
+}
+
+/// Whether a file of this name is JSON.
+pub(super) fn is_json(name: &str) -> bool {
+    std::path::Path::new(name)
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("json"))
 }
 
 fn from_toml(text: &str) -> Result<MechanismFile, Problem> {

@@ -65,15 +65,7 @@ pub fn tables_alone(
     bytes: &[u8],
 ) -> Result<Option<(String, Vec<&'static str>)>, ImportError> {
     read(name, text_of(name, bytes)?, |file| {
-        let tables = [
-            ("grip", file.workload.grip.is_some()),
-            ("drive", file.workload.drive.is_some()),
-        ];
-        let tables: Vec<_> = tables
-            .into_iter()
-            .filter(|(_, there)| *there)
-            .map(|(n, _)| n)
-            .collect();
+        let tables = workload_tables(file);
         if tables.is_empty() || !file.link.is_empty() || !file.joint.is_empty() {
             return Ok(None);
         }
@@ -83,6 +75,16 @@ pub fn tables_alone(
         drive(file, unit, None, &mut out);
         out.unless(Some((file.name.clone(), tables)))
     })
+}
+
+/// Which of the tables that stand for themselves a file has.
+pub(super) fn workload_tables(file: &MechanismFile) -> Vec<&'static str> {
+    let tables = [
+        ("grip", file.workload.grip.is_some()),
+        ("drive", file.workload.drive.is_some()),
+    ];
+    let there = tables.into_iter().filter(|(_, there)| *there);
+    there.map(|(n, _)| n).collect()
 }
 
 fn workload<T>(

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// The layers, lowest first; modules of one row do not import each other, except where a row says so by order.
 const LAYERS: [&[&str]; 12] = [
-    &["linalg", "chart"],
+    &["linalg", "chart", "terms"],
     &["geom", "verify"],
     &["model"],
     &["closure"],
@@ -14,7 +14,7 @@ const LAYERS: [&[&str]; 12] = [
     &["export"],
     &["redundancy"],
     &["search", "builtin"],
-    &["accuracy", "score", "draw"],
+    &["accuracy", "score", "draw", "template"],
     &["report"],
     &["cli"],
 ];

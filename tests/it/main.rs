@@ -15,6 +15,7 @@ mod drawings;
 mod drive;
 mod drive_command;
 mod exports;
+mod first_hour;
 mod grip;
 mod holding;
 mod layering;

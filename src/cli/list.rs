@@ -1,0 +1,98 @@
+//! `ozols list`.
+
+use super::args::List;
+use super::{Done, load, near, output};
+use crate::builtin;
+use crate::model::mechanism::Mechanism;
+use crate::redundancy::analysis::{Method, analyse};
+use crate::report::words;
+use anyhow::Context;
+
+/// The narrowest column that a description is worth.
+const NARROWEST: usize = 16;
+
+pub(super) fn run(a: &List) -> anyhow::Result<Done> {
+    let wanted: Vec<String> = a.words.iter().map(|w| w.to_lowercase()).collect();
+    let (mut rows, mut notes) = (Vec::new(), Vec::new());
+    for (family, names) in builtin::families() {
+        let mut heading = Some(family.clone());
+        for name in names {
+            let m = load::mechanism_built_in(name)?;
+            let about = format!("{name} {family} {}", m.description).to_lowercase();
+            if !wanted.iter().all(|w| about.contains(w)) {
+                continue;
+            }
+            let states = rows_of(name, &m)?;
+            notes.push((heading.take(), m.description));
+            notes.resize(notes.len() + states.len() - 1, (None, String::new()));
+            rows.extend(states);
+        }
+    }
+    if rows.is_empty() {
+        let hint = near::hint(&a.words.join("-"), builtin::names());
+        output::note(&format!(
+            "no built-in mechanism has all of: {}{hint}\n",
+            a.words.join(", ")
+        ));
+        return Ok(Done::Nothing);
+    }
+    let header = ["mechanism", "state", "n", "p", "k", "f", "W", "σ"];
+    let table = words::table(&header, rows, None);
+    let width = output::width(None).map(usize::from);
+    output::to(None, |out| {
+        let lines: Vec<&str> = table.lines().collect();
+        let (head, body) = lines.split_at(2);
+        writeln!(out, "{}", head.join("\n"))?;
+        let columns = lines.iter().map(|l| measure(l)).max().unwrap_or(0) + 2;
+        for (line, (heading, description)) in body.iter().zip(&notes) {
+            if let Some(heading) = heading {
+                writeln!(out, "\n{heading}")?;
+            }
+            let gap = " ".repeat(columns - measure(line));
+            match width.map(|w| w.saturating_sub(columns)) {
+                _ if description.is_empty() => writeln!(out, "{line}")?,
+                None => writeln!(out, "{line}{gap}{description}")?,
+                Some(left) if left < NARROWEST => writeln!(out, "{line}")?,
+                Some(left) => {
+                    let short = console::truncate_str(description, left, "…");
+                    writeln!(out, "{line}{gap}{short}")?;
+                }
+            }
+        }
+        if a.words.is_empty() {
+            writeln!(
+                out,
+                "\nn links, p joints, k contours, f freedoms, W mobility, σ redundant constraints; see `ozols explain`"
+            )?;
+        }
+        Ok(Done::Found)
+    })
+}
+
+/// A row for each state.
+fn rows_of(name: &str, m: &Mechanism) -> anyhow::Result<Vec<Vec<String>>> {
+    let states: Vec<usize> = (0..m.states.len()).collect();
+    let analysed = analyse(m, &states, Method::Modular)
+        .with_context(|| format!("built-in mechanism {name}"))?;
+    let row = |(i, s): (usize, crate::redundancy::analysis::StateAnalysis)| {
+        let first = if i == 0 { name } else { "" };
+        let mut row = vec![first.to_owned(), s.state];
+        row.extend(
+            [
+                s.links,
+                s.joints,
+                s.contours,
+                s.freedoms,
+                s.mobility,
+                s.redundant,
+            ]
+            .map(|n| n.to_string()),
+        );
+        row
+    };
+    Ok(analysed.into_iter().enumerate().map(row).collect())
+}
+
+fn measure(line: &str) -> usize {
+    console::measure_text_width(line)
+}

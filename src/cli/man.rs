@@ -1,0 +1,66 @@
+//! `ozols man`.
+
+use super::args::{Args, Man};
+use super::{Done, output};
+use anyhow::Context;
+use clap::{Command, CommandFactory};
+use clap_mangen::roff::{Roff, roman};
+
+pub(super) fn run(a: &Man) -> anyhow::Result<Done> {
+    let mut main = Args::command().disable_help_subcommand(true);
+    main.build();
+    let Some(folder) = &a.output else {
+        let page = page(&main)?;
+        return output::to(None, |out| {
+            out.write_all(&page)?;
+            Ok(Done::Found)
+        });
+    };
+    std::fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+    for command in std::iter::once(&main).chain(main.get_subcommands()) {
+        let page = page(command)?;
+        let path = folder.join(format!("{}.1", name(command)));
+        output::to(Some(&path), |out| {
+            out.write_all(&page)?;
+            Ok(Done::Found)
+        })?;
+    }
+    Ok(Done::Found)
+}
+
+/// `ozols`, or `ozols-search` for a command of it.
+fn name(command: &Command) -> &str {
+    command
+        .get_display_name()
+        .unwrap_or_else(|| command.get_name())
+}
+
+/// The page of a command, what stands after its help kept line by line.
+fn page(command: &Command) -> std::io::Result<Vec<u8>> {
+    let man = clap_mangen::Man::new(command.clone())
+        .source(concat!("ozols ", env!("CARGO_PKG_VERSION")))
+        .manual("ozols manual");
+    let mut page = Vec::new();
+    man.render_title(&mut page)?;
+    man.render_name_section(&mut page)?;
+    man.render_synopsis_section(&mut page)?;
+    man.render_description_section(&mut page)?;
+    man.render_options_section(&mut page)?;
+    if command.has_subcommands() {
+        man.render_subcommands_section(&mut page)?;
+    }
+    if let Some(after) = command.get_after_help() {
+        let mut roff = Roff::new();
+        let after = after.to_string();
+        // The heading says what the first line says.
+        let lines = after.strip_prefix("Examples:\n");
+        roff.control("SH", [lines.map_or("NOTES", |_| "EXAMPLES")]);
+        roff.control("nf", []);
+        for line in lines.unwrap_or(&after).lines() {
+            roff.text([roman(line)]);
+        }
+        roff.control("fi", []);
+        roff.to_writer(&mut page)?;
+    }
+    Ok(page)
+}

@@ -1,0 +1,42 @@
+//! `ozols new`.
+
+use super::args::{Args, New};
+use super::{Done, load, output};
+use crate::{builtin, template};
+use anyhow::{Context, bail};
+
+pub(super) fn run(args: &Args, a: &New) -> anyhow::Result<Done> {
+    let shown = a.file.display();
+    let stem = a.file.file_stem().and_then(|s| s.to_str());
+    let toml = a.file.extension().is_some_and(|e| e == "toml");
+    let Some(name) = stem.filter(|_| toml) else {
+        let like = a.file.with_extension("toml");
+        bail!(
+            "{shown} does not end in .toml; name it {}, since only TOML has comments",
+            like.display()
+        );
+    };
+    let Some(text) = builtin::text(&a.from) else {
+        bail!(load::no_built_in(&a.from));
+    };
+    // A link that leads nowhere is there, too.
+    if !a.force && a.file.symlink_metadata().is_ok() {
+        bail!("{shown} is there already; choose another name, or replace it with --force");
+    }
+    let text = template::commented(text, &a.from, name)
+        .with_context(|| format!("built-in mechanism {}", a.from))?;
+    output::to(Some(&a.file), |out| {
+        write!(out, "{text}")?;
+        Ok(Done::Found)
+    })?;
+    if args.quiet {
+        return Ok(Done::Found);
+    }
+    output::to(None, |out| {
+        writeln!(out, "{shown}: the built-in {} with comments", a.from)?;
+        writeln!(out, "  ozols check {shown}")?;
+        writeln!(out, "  ozols analyze {shown}")?;
+        writeln!(out, "  ozols search {shown}")?;
+        Ok(Done::Found)
+    })
+}
