@@ -5,9 +5,10 @@ use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::exact::ExactField;
 use crate::geom::expr::Expr;
 use crate::geom::scalars::Scalars;
+use crate::import::findings::Findings;
 use crate::import::locate::Step;
 use crate::import::problem::ProblemKind;
-use crate::import::resolve::{Findings, index, key, number};
+use crate::import::resolve::{index, key, number};
 use crate::import::schema::MechanismFile;
 use crate::linalg::echelon::Echelon;
 use crate::model::coupling::{CoupledFreedom, Coupling};
@@ -26,9 +27,9 @@ pub(super) fn couplings(file: &MechanismFile, mechanism: &mut Mechanism, out: &m
             .enumerate()
             .filter_map(|(n, word)| end(mechanism, word, &index(&joints, n), out))
             .collect();
-        let before = out.found.len();
+        let before = out.count();
         let ratio = number(&entry.ratio, &key(&at, "ratio"), out);
-        if out.found.len() == before && ratio.to_f64() == 0.0 {
+        if out.count() == before && ratio.to_f64() == 0.0 {
             out.add(&key(&at, "ratio"), ProblemKind::ZeroRatio);
         }
         let &[a, b] = ends.as_slice() else { continue };

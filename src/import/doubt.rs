@@ -3,11 +3,11 @@
 use crate::closure::contour::{Contour, contour_basis};
 use crate::geom::expr::Expr;
 use crate::import::build::build;
-use crate::import::locate::Step;
+use crate::import::locate::{Document, Step};
 use crate::import::problem::{ImportError, render};
 use crate::import::resolve::{index, key};
 use crate::import::schema::{MechanismFile, OptionEntry, Unloading};
-use crate::import::text::{read, text_of};
+use crate::import::text::{is_json, read, text_of};
 use crate::import::workload::workload_tables;
 use crate::model::joint_type::JointType;
 use crate::model::measured::looks_measured;

@@ -9,9 +9,9 @@ use crate::score::cases::Case;
 use crate::score::joint_types::JointTypes;
 use crate::score::terms::{across, axis_of};
 use crate::search::request::Search;
+use crate::workload::reactions::Unsolved;
 use crate::workload::reactions::applied::link_loads;
 use crate::workload::reactions::drives::Driven;
-use crate::workload::reactions::Unsolved;
 use crate::workload::reactions::geometry::{Geometry, Six, about, cross, power, wrench};
 use crate::workload::reactions::period;
 
