@@ -12,7 +12,7 @@ use crate::workload::reactions::drives::driven;
 use crate::workload::reactions::geometry::Geometry;
 use crate::workload::statics::statics_at;
 use crate::workload::transmission::rates;
-use anyhow::{Context, bail, ensure};
+use anyhow::{Context, ensure};
 
 /// The diameter asked for, or the hardest.
 fn chosen<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g Row>> {
@@ -64,6 +64,10 @@ pub(super) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
             "{flag} needs a motion, and the levers stand still round the part; --diameter picks another part"
         );
     }
+    ensure!(
+        !matches!(a.method, StaticsMethod::Delta | StaticsMethod::Projective),
+        "joints round a part are solved by equilibrium alone; use --method equilibrium"
+    );
     let Some(row) = chosen(g, a)? else {
         return not_held(g, a);
     };
@@ -105,9 +109,6 @@ pub(super) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
                 });
             }
         }
-    }
-    if matches!(a.method, StaticsMethod::Delta | StaticsMethod::Projective) {
-        bail!("--method delta and projective are for planar mechanisms; use --method equilibrium")
     }
     let home = crate::closure::pose::Pose::of_file(&m, g.state)?;
     let drives = driven(&m, &Geometry::new(&m, g.state, &home)?)?;

@@ -361,6 +361,16 @@ fn contacts(
             "the mass of the part: mass, or density and part_length",
         );
     }
+    if spec
+        .load
+        .as_ref()
+        .is_some_and(|l| l.levers == LeverDrive::Independent)
+    {
+        t.needs(
+            "contacts",
+            "levers = \"coupled\" or \"equal\": the mechanism has one drive for both",
+        );
+    }
     if spec.pivots == Pivots::Nominal {
         t.needs(
             "contacts",
@@ -383,9 +393,8 @@ fn contacts(
             .iter()
             .any(|l| lever.links.contains(l) && *l != m.frame());
         if !touches || !on_lever {
-            let of = ["upper", "lower"][i / 2];
-            t.bad(&index(&at, i), "contact", format!("{:?}", joint.id), match of {
-                "upper" => "a joint between the part (a link of role \"object\") and the link that turns in the first of lever_joints",
+            t.bad(&index(&at, i), "contact", format!("{:?}", joint.id), match i / 2 {
+                0 => "a joint between the part (a link of role \"object\") and the link that turns in the first of lever_joints",
                 _ => "a joint between the part (a link of role \"object\") and the link that turns in the second of lever_joints",
             });
         } else if joint.states.is_none() || joint.states != m.joints[upper_far].states {

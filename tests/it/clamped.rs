@@ -360,6 +360,12 @@ fn impossible_grips_are_refused_or_told() {
         ),
         (
             "friction = 0.2",
+            "friction = 0.2\nlevers = \"independent\"",
+            "contacts",
+            "one drive for both",
+        ),
+        (
+            "friction = 0.2",
             "friction = 0.2\npivots = \"nominal\"",
             "contacts",
             "pivots = \"fixed\"",
@@ -451,6 +457,7 @@ fn impossible_grips_are_refused_or_told() {
     for flag in [
         &["--stroke", "0:1:2"][..],
         &["--diameter", "33"],
+        &["--method", "delta"],
         &["--svg", "x"],
     ] {
         let args: Vec<&str> = STATICS.iter().chain(flag).copied().collect();
