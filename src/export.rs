@@ -1,8 +1,12 @@
 //! Mechanisms as other programs take them: the mechanism file again, robot descriptions, graphs.
 
+mod drive;
 mod file;
 mod graph;
+mod grip;
 mod parts;
+mod quantity;
+mod ranking;
 mod sdf;
 mod urdf;
 
