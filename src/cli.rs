@@ -20,6 +20,7 @@ mod reactions;
 mod search;
 mod statics;
 mod stroke;
+mod variant;
 mod verify;
 
 use clap::Parser;

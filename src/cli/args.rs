@@ -137,12 +137,25 @@ pub(super) enum ExportFormat {
 }
 
 #[derive(Debug, ClapArgs)]
+#[command(after_help = "\
+Examples:
+  ozols export gripper-10 --to dot                          its graph for Graphviz
+  ozols export gripper-10 --variant 1 --to toml -o v.toml   the first redesign, a mechanism file of its own
+  ozols export gripper-10 --variant 3 --max-mobility 1 --to sdf")]
 pub(super) struct Export {
     #[command(flatten)]
     pub(super) file: File,
     /// The format.
     #[arg(long, value_enum)]
     pub(super) to: ExportFormat,
+    /// Write variant K of the list that `ozols search FILE` gives, with the same of the options below.
+    #[arg(long, value_name = "K")]
+    pub(super) variant: Option<usize>,
+    /// The state meant by --max-external; the file's first besides free by default.
+    #[arg(long, value_name = "STATE", requires = "variant")]
+    pub(super) state: Option<String>,
+    #[command(flatten)]
+    pub(super) question: Question,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
@@ -172,9 +185,11 @@ pub(super) struct Draw {
     /// A state named in the file.
     #[arg(long, default_value = "free")]
     pub(super) state: String,
-    /// Draw variant K of the list that `ozols search FILE` gives, with its changes marked.
+    /// Draw variant K of the list that `ozols search FILE` gives, with the same of the options below, its changes marked.
     #[arg(long, value_name = "K")]
     pub(super) variant: Option<usize>,
+    #[command(flatten)]
+    pub(super) question: Question,
     /// PNG instead of SVG (where built with the feature `png`).
     #[arg(long)]
     pub(super) png: bool,
@@ -364,23 +379,14 @@ pub(super) enum Check {
     Full,
 }
 
+/// How many of the cheapest variants a ranking scores, unless told otherwise.
+pub(super) const POOL: usize = 1000;
+
+/// What is asked of a search: all that the list of variants depends on, but for the state.
 #[derive(Debug, ClapArgs)]
 #[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
-pub(super) struct Search {
-    #[command(flatten)]
-    pub(super) file: File,
-    /// How many of the best variants to give.
-    #[arg(long, value_name = "K", default_value_t = 10)]
-    pub(super) top: usize,
-    /// Give every admissible variant, cheapest first.
-    #[arg(long, conflicts_with_all = ["top", "sample", "count"])]
-    pub(super) all: bool,
-    /// Give N admissible variants drawn at random, each with the same chance, instead of the best.
-    #[arg(long, value_name = "N", conflicts_with_all = ["top", "count"])]
-    pub(super) sample: Option<usize>,
-    /// Counts only.
-    #[arg(long)]
-    pub(super) count: bool,
+#[command(next_help_heading = "Which variants")]
+pub(super) struct Question {
     /// Redundant constraints allowed within the mechanism.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) max_redundant: u32,
@@ -388,9 +394,6 @@ pub(super) struct Search {
     /// places) into the search.
     #[arg(long, value_name = "N")]
     pub(super) max_external: Option<u32>,
-    /// The state meant by --max-external; the file's first besides free by default.
-    #[arg(long, value_name = "STATE")]
-    pub(super) state: Option<String>,
     /// Largest mobility W allowed.
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(super) max_mobility: Option<i64>,
@@ -399,10 +402,10 @@ pub(super) struct Search {
     pub(super) max_changes: Option<u32>,
     /// Rank under the workload by these terms, in place of the file's [ranking] terms: peak-force=1,cost=0.5. Terms:
     /// peak-force, peak-moment, conditioning, output-error, changes, cost, idle; weight 1 where none stands.
-    #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',', conflicts_with_all = ["all", "sample", "count"])]
+    #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',')]
     pub(super) rank: Vec<String>,
     /// How many of the cheapest variants a ranking scores.
-    #[arg(long, value_name = "K", default_value_t = 1000)]
+    #[arg(long, value_name = "K", default_value_t = POOL)]
     pub(super) pool: usize,
     /// Also give variants whose outputs move in other ways than now.
     #[arg(long)]
@@ -425,6 +428,41 @@ pub(super) struct Search {
     /// Of a variant and its mirror image, only one.
     #[arg(long, conflicts_with = "symmetric")]
     pub(super) one_per_orbit: bool,
+    /// Search a file whose coordinates look measured exactly as it is written, though rounding errors in it change the
+    /// figures.
+    #[arg(long)]
+    pub(super) as_written: bool,
+    /// Make axes exactly parallel, square, coaxial or concurrent that are so to within T (radians, and fractions of the
+    /// largest coordinate), for files whose coordinates were measured or rounded; lists what was moved.
+    #[arg(long, value_name = "T")]
+    pub(super) snap: Option<f64>,
+    /// Node budget of each diagram, about 1 KB of memory a node (twice that with a check).
+    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
+    pub(super) nodes: usize,
+}
+
+#[derive(Debug, ClapArgs)]
+#[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
+pub(super) struct Search {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// How many of the best variants to give.
+    #[arg(long, value_name = "K", default_value_t = 10)]
+    pub(super) top: usize,
+    /// Give every admissible variant, cheapest first.
+    #[arg(long, conflicts_with_all = ["top", "sample", "count", "rank"])]
+    pub(super) all: bool,
+    /// Give N admissible variants drawn at random, each with the same chance, instead of the best.
+    #[arg(long, value_name = "N", conflicts_with_all = ["top", "count", "rank"])]
+    pub(super) sample: Option<usize>,
+    /// Counts only.
+    #[arg(long, conflicts_with = "rank")]
+    pub(super) count: bool,
+    /// The state meant by --max-external; the file's first besides free by default.
+    #[arg(long, value_name = "STATE")]
+    pub(super) state: Option<String>,
+    #[command(flatten)]
+    pub(super) question: Question,
     /// Diagram, or brute force for checking.
     #[arg(long, value_enum, default_value = "diagram")]
     pub(super) method: SearchMethod,
@@ -435,20 +473,9 @@ pub(super) struct Search {
     /// Leave out the variants that further poses (3 unless --poses says otherwise) show to be lucky.
     #[arg(long)]
     pub(super) generic_only: bool,
-    /// Search a file whose coordinates look measured exactly as it is written, though rounding errors in it change the
-    /// figures.
-    #[arg(long)]
-    pub(super) as_written: bool,
-    /// Make axes exactly parallel, square, coaxial or concurrent that are so to within T (radians, and fractions of the
-    /// largest coordinate), for files whose coordinates were measured or rounded; lists what was moved.
-    #[arg(long, value_name = "T")]
-    pub(super) snap: Option<f64>,
     /// How the search is checked.
     #[arg(long, value_enum, default_value = "full")]
     pub(super) check: Check,
-    /// Node budget of each diagram, about 1 KB of memory a node (twice that with a check).
-    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
-    pub(super) nodes: usize,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     pub(super) format: SearchFormat,

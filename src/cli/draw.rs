@@ -1,14 +1,10 @@
 //! `ozols draw`.
 
 use super::args::{Args, Draw, DrawKind};
-use super::{Done, load, output};
-use crate::draw::{self, Drawing, Marks, Subject};
-use crate::model::mechanism::Mechanism;
-use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::redundancy::analysis::{Method, analyse, exact_field};
-use crate::search::request::{Request, Search};
-use anyhow::{Context, bail, ensure};
-use std::ops::ControlFlow;
+use super::{Done, load, output, variant};
+use crate::draw::{self, Drawing, Subject};
+use crate::redundancy::analysis::{Method, analyse};
+use anyhow::bail;
 
 pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file.file)?;
@@ -22,7 +18,12 @@ pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     };
     let mut marks = None;
     if let Some(k) = a.variant {
-        let (realized, changes) = variant(&mechanism, k)?;
+        let external = a.question.max_external.is_some() && state > 0;
+        let named = external.then_some(a.state.as_str());
+        let (realized, changes) =
+            variant::kth(&mut mechanism, &a.question, named, k, |search, v| {
+                draw::marks::of_variant(search, v, &format!("variant {k}"))
+            })?;
         (mechanism, marks) = (realized, Some(changes));
     }
     let found = analyse(&mechanism, &[state], Method::Auto { tolerance: None })?;
@@ -58,34 +59,4 @@ fn png(_: &Drawing) -> anyhow::Result<Vec<u8>> {
     bail!(
         "this ozols was built without PNG; build it with `--features png`, or turn the SVG into PNG by another program"
     )
-}
-
-/// The k-th of the list that `ozols search FILE` gives.
-fn variant(mechanism: &Mechanism, k: usize) -> anyhow::Result<(Mechanism, Marks)> {
-    ensure!(k > 0, "variants are numbered from 1");
-    let tolerance = super::question::measured(mechanism, None, false)?
-        .map_or(DEFAULT_TOLERANCE, |(m, _)| m.tolerance());
-    let request = Request {
-        tolerance,
-        ..Request::default()
-    };
-    let search = Search::new(exact_field(mechanism, 0)?, mechanism, request)?;
-    let diagrams = search.build(&|| false, &mut |_| {});
-    let (mut last, mut seen) = (None, 0);
-    search.cheapest(&diagrams, k, |v| {
-        seen += 1;
-        last = Some(v);
-        ControlFlow::Continue(())
-    });
-    let variant = last.filter(|_| seen == k).with_context(|| {
-        format!(
-            "{} has no variant {k}: the search gives {seen}",
-            mechanism.name
-        )
-    })?;
-    Ok(draw::marks::of_variant(
-        &search,
-        &variant,
-        &format!("variant {k}"),
-    ))
 }

@@ -3,6 +3,8 @@
 use super::args::{Args, Import, ImportFormat};
 use super::{Done, load, output};
 use crate::import::schema::MechanismFile;
+use crate::report::layout::fit;
+use crate::report::next::{self, Step};
 use crate::robot::{self, Options};
 use anyhow::{Context, bail};
 use std::path::Path;
@@ -28,7 +30,20 @@ pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
     }
     let imported = description(Path::new(&a.file), &options)?;
     if !args.quiet {
-        output::note(&imported.report.text(&a.file));
+        let mut report = imported.report.text(&a.file);
+        if let Some(path) = &a.output {
+            let file = path.display().to_string();
+            report += &next::text(&[
+                Step::new(
+                    "analyze",
+                    &file,
+                    "",
+                    "its mobility and redundant constraints",
+                ),
+                Step::new("search", &file, "", "the redesigns that remove those"),
+            ]);
+        }
+        output::note(&fit(&report, output::error_width()));
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {

@@ -3,10 +3,12 @@
 use super::args::{Statics, StaticsFormat, StaticsMethod};
 use super::{Done, output};
 use crate::model::mechanism::{Mechanism, StateId};
+use crate::report::layout::fit;
+use crate::report::next::{self, Step};
 use crate::report::{reactions_data, reactions_text};
 use crate::workload::assur::AssurError;
 use crate::workload::planar::PlanarError;
-use crate::workload::reactions::Reactions;
+use crate::workload::reactions::{Choice, Reactions};
 use crate::workload::statics::StaticsError;
 
 /// Whether the planar solver's refusal is a case for this one: the answer is asked for at one pose, by any method.
@@ -32,6 +34,22 @@ pub(super) fn run(m: &Mechanism, state: StateId, a: &Statics) -> anyhow::Result<
             StaticsFormat::Text => {
                 let width = output::width(a.output.as_deref());
                 write!(out, "{}", reactions_text::solution(m, state, &found, width))?;
+                let file = a.file.as_deref().unwrap_or(&m.name);
+                let step = match found.choice {
+                    Choice::MinimumNorm => Step::new(
+                        "search",
+                        file,
+                        "",
+                        "redesigns without redundant constraints, whose reactions are the only ones",
+                    ),
+                    Choice::Unique => Step::new(
+                        "statics",
+                        file,
+                        "--spatial --format csv -o reactions.csv",
+                        "the components of every joint's reaction",
+                    ),
+                };
+                write!(out, "{}", fit(&next::text(&[step]), width))?;
             }
         }
         Ok(Done::Found)

@@ -2,6 +2,7 @@
 
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Mechanism, StateId};
+use crate::report::layout::fit;
 use crate::report::statics_words::{figure, prefix};
 use crate::report::words::{plural, table};
 use crate::workload::reactions::{Choice, JointReaction, NEARLY_SINGULAR, Solution};
@@ -52,7 +53,7 @@ pub fn solution(m: &Mechanism, state: StateId, s: &Solution, width: Option<u16>)
     let mut out = String::new();
     // Writing to a string cannot fail.
     let _ = write_solution(&mut out, m, state, s, width);
-    out
+    fit(&out, width)
 }
 
 fn write_solution(
