@@ -57,7 +57,7 @@ pub(super) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
             command: "ozols accuracy -o accuracy".to_owned(),
             gives: "the same as charts, and where each method's numbers fail".to_owned(),
         };
-        write!(out, "{text}{}", next::text(&[charts]))?;
+        write!(out, "{text}{}", next::text(&[charts], output::width(None)))?;
         Ok(Done::Found)
     })
 }

@@ -85,9 +85,9 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
                 let text = analysis_text::analysis(&mechanism, &found, &advice, width);
                 write!(out, "{text}")?;
                 if let Some(s) = &stroke {
-                    write!(out, "\n{}", s.text(width))?;
+                    write!(out, "\n{}", fit(&s.text(width), width))?;
                 }
-                write!(out, "{}", fit(&next::text(&next), width))?;
+                write!(out, "{}", next::text(&next, width))?;
             }
         }
         // A stroke that could not be finished is no success.

@@ -96,7 +96,7 @@ pub(super) fn write_found(
                 true => Vec::new(),
                 false => search_text::next(found, listed, eased, &a.file.file, &flags),
             };
-            write!(out, "{}", fit(&next::text(&steps), width))?;
+            write!(out, "{}", next::text(&steps, width))?;
         }
         SearchFormat::Json => {
             let header = serde_json::Value::Object(search_json::header(found));

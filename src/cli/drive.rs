@@ -3,7 +3,6 @@
 use super::args::{AnalyzeFormat, Args, Drive};
 use super::{Done, charts, load, output};
 use crate::import::workload::drive_from_bytes;
-use crate::report::layout::fit;
 use crate::report::next::{self, Step};
 use crate::report::{drive_charts, drive_json, drive_text};
 use crate::workload::driving::drive;
@@ -24,7 +23,7 @@ pub(super) fn run(_: &Args, a: &Drive) -> anyhow::Result<Done> {
                 if a.svg.is_none() && found.design.is_some() {
                     let gives = "charts of the programme: angle, speed and energy over time";
                     let charts = Step::new("drive", &a.file.file, "--svg charts", gives);
-                    write!(out, "{}", fit(&next::text(&[charts]), width))?;
+                    write!(out, "{}", next::text(&[charts], width))?;
                 }
             }
         }

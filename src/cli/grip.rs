@@ -4,7 +4,6 @@ use super::args::{AnalyzeFormat, Args, Grip};
 use super::{Done, charts, load, output};
 use crate::import::workload::grip_from_bytes;
 use crate::model::grip::{Toward, Transmission};
-use crate::report::layout::fit;
 use crate::report::next::{self, Step};
 use crate::report::{grip_charts, grip_json, grip_text};
 use crate::workload::clamping::study;
@@ -56,7 +55,7 @@ pub(super) fn run(_: &Args, a: &Grip) -> anyhow::Result<Done> {
                 if a.svg.is_none() {
                     let gives = "charts of the arms, the contact forces and the drive moment";
                     let charts = Step::new("grip", &a.file.file, "--svg charts", gives);
-                    write!(out, "{}", fit(&next::text(&[charts]), width))?;
+                    write!(out, "{}", next::text(&[charts], width))?;
                 }
             }
         }

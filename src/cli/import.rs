@@ -30,20 +30,8 @@ pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
     }
     let imported = description(Path::new(&a.file), &options)?;
     if !args.quiet {
-        let mut report = imported.report.text(&a.file);
-        if let Some(path) = &a.output {
-            let file = path.display().to_string();
-            report += &next::text(&[
-                Step::new(
-                    "analyze",
-                    &file,
-                    "",
-                    "its mobility and redundant constraints",
-                ),
-                Step::new("search", &file, "", "the redesigns that remove those"),
-            ]);
-        }
-        output::note(&fit(&report, output::error_width()));
+        let width = output::error_width();
+        output::note(&fit(&imported.report.text(&a.file), width));
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {
@@ -54,7 +42,17 @@ pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
             }
         }
         Ok(Done::Found)
-    })
+    })?;
+    if let (Some(path), false) = (&a.output, args.quiet) {
+        let file = path.display().to_string();
+        let steps = [
+            ("analyze", "its mobility and redundant constraints"),
+            ("search", "the redesigns that remove those"),
+        ];
+        let steps = steps.map(|(command, gives)| Step::new(command, &file, "", gives));
+        output::note(&next::text(&steps, output::error_width()));
+    }
+    Ok(Done::Found)
 }
 
 fn pose(text: &str) -> anyhow::Result<(String, Vec<f64>)> {

@@ -3,7 +3,6 @@
 use super::args::{Statics, StaticsFormat, StaticsMethod};
 use super::{Done, output};
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::report::layout::fit;
 use crate::report::next::{self, Step};
 use crate::report::{reactions_data, reactions_text};
 use crate::workload::assur::AssurError;
@@ -49,7 +48,7 @@ pub(super) fn run(m: &Mechanism, state: StateId, a: &Statics) -> anyhow::Result<
                         "the components of every joint's reaction",
                     ),
                 };
-                write!(out, "{}", fit(&next::text(&[step]), width))?;
+                write!(out, "{}", next::text(&[step], width))?;
             }
         }
         Ok(Done::Found)

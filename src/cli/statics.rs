@@ -7,7 +7,6 @@ use crate::geom::expr::Expr;
 use crate::import::loads::{MAX_STEPS, position};
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, Mode};
-use crate::report::layout::fit;
 use crate::report::next::{self, Step};
 use crate::report::statics_charts::{self, Named};
 use crate::report::statics_words::GroupMethod;
@@ -101,7 +100,7 @@ pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
                     let gives = "every joint's reaction at every position";
                     steps.push(Step::new("statics", file, more, gives));
                 }
-                write!(out, "{}", fit(&next::text(&steps), width))?;
+                write!(out, "{}", next::text(&steps, width))?;
             }
         }
         // A cycle that could not be finished is no success.

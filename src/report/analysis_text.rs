@@ -166,6 +166,10 @@ fn state(
                 width
             )
         )?;
+        writeln!(
+            out,
+            "  harmful: loads joints when parts are out of true; harmless: friction shared by the contacts"
+        )?;
     }
     Ok(())
 }
@@ -218,9 +222,8 @@ fn stress_row(mechanism: &Mechanism, s: &StateAnalysis, stress: &SelfStress) -> 
         (mechanism.joints[w.joint].id.clone(), words::wrench(w))
     });
     let verdict = match (stress.external, stress.verdict) {
-        (true, Verdict::Harmless) => "harmless: friction shared by the contacts",
-        (true, Verdict::Harmful) => "harmful",
-        (false, _) => "harmful: loads joints when parts are out of true",
+        (true, Verdict::Harmless) => "harmless",
+        (true, Verdict::Harmful) | (false, _) => "harmful",
     };
     vec![contours, joint, what, verdict.to_owned()]
 }

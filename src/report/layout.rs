@@ -65,7 +65,8 @@ struct Column {
 
 impl Column {
     fn new<'a>(head: &'a str, cells: impl Iterator<Item = &'a String>) -> Column {
-        let mut out = Column { most: 0, least: 0 };
+        // No column of a table is narrower than this.
+        let mut out = Column { most: 1, least: 1 };
         for text in std::iter::once(head).chain(cells.map(String::as_str)) {
             out.most = out.most.max(measure_text_width(text));
             let words = text.split_whitespace().map(measure_text_width);

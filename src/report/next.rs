@@ -1,5 +1,6 @@
 //! What to do next: commands, with what each is for.
 
+use crate::report::layout::fit;
 use itertools::Itertools;
 
 /// A command and what it gives.
@@ -27,15 +28,20 @@ impl Step {
     }
 }
 
-/// The steps as the end of a report; nothing where there are none.
+/// The steps as the end of a report, fitted to a terminal of `width` columns but for the commands: a command broken in two
+/// could not be copied. Nothing where there are none.
 #[must_use]
-pub fn text(steps: &[Step]) -> String {
+pub fn text(steps: &[Step], width: Option<u16>) -> String {
     if steps.is_empty() {
         return String::new();
     }
-    let lines = steps
-        .iter()
-        .map(|s| format!("    {}\n      {}\n", s.command, s.gives));
+    let lines = steps.iter().map(|s| {
+        format!(
+            "    {}\n{}\n",
+            s.command,
+            fit(&format!("      {}", s.gives), width)
+        )
+    });
     format!("\n  Next:\n{}", lines.collect_vec().concat())
 }
 

@@ -87,7 +87,11 @@ pub fn structures(
         "Assur groups, in the order they are placed",
     ];
     let table = table(&header, rows.collect(), width);
-    format!("{name}: structure under each drive, those at the frame first\n\n{table}\n")
+    let head = fit(
+        &format!("{name}: structure under each drive, those at the frame first"),
+        width,
+    );
+    format!("{head}\n\n{table}\n")
 }
 
 /// The whole report, fitted to a terminal of `width` columns where one is given.
