@@ -28,6 +28,7 @@ mod reactions;
 mod search;
 mod statics;
 mod stroke;
+mod variant;
 mod verify;
 
 use clap::Parser;

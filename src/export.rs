@@ -1,9 +1,13 @@
 //! Mechanisms as other programs take them: the mechanism file again, robot descriptions, graphs.
 
+mod drive;
 mod file;
 mod graph;
+mod grip;
 mod mimic;
 mod parts;
+mod quantity;
+mod ranking;
 mod sdf;
 mod urdf;
 

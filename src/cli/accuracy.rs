@@ -7,6 +7,7 @@ use crate::accuracy::folder;
 use crate::accuracy::stability::{self, Effort};
 use crate::accuracy::survey::Survey;
 use crate::report::accuracy_text;
+use crate::report::next::{self, Step};
 use anyhow::{Context, ensure};
 
 pub(super) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
@@ -43,7 +44,7 @@ pub(super) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
         return output::to(None, |out| {
             writeln!(
                 out,
-                "{text}\nWritten to {}.",
+                "{text}\nWritten to {}: open it in a browser.",
                 folder.join("index.html").display()
             )?;
             Ok(Done::Found)
@@ -52,7 +53,11 @@ pub(super) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
     bar.clear();
     output::to(None, |out| {
         let text = accuracy_text::summary(&survey, [], output::width(None));
-        write!(out, "{text}")?;
+        let charts = Step {
+            command: "ozols accuracy -o accuracy".to_owned(),
+            gives: "the same as charts, and where each method's numbers fail".to_owned(),
+        };
+        write!(out, "{text}{}", next::text(&[charts], output::width(None)))?;
         Ok(Done::Found)
     })
 }

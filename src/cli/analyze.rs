@@ -2,13 +2,19 @@
 
 use super::args::{Analyze, AnalyzeFormat, Args, RankMethod};
 use super::{Done, load, output, stroke, verify};
+use crate::model::measured::looks_measured;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::scaled::Precision;
-use crate::redundancy::analysis::{Elimination, Method, analyse};
-use crate::report::{analysis_json, analysis_text};
+use crate::rank::snap::snap;
+use crate::redundancy::analysis::{Elimination, Method, StateAnalysis, analyse};
+use crate::report::layout::fit;
+use crate::report::suggestions::{self, Advice};
+use crate::report::{analysis_json, analysis_text, next};
+use crate::search::suggest::single_changes;
 use anyhow::{Context, bail};
+use serde_json::json;
 
 pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file.file)?;
@@ -59,22 +65,29 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     if let (Some(s), Some(path)) = (&stroke, &a.svg) {
         s.chart(path)?;
     }
+    let (advice, snapped) = advise(&mechanism, &states, &found, a.tolerance)?;
+    let next = suggestions::next(&mechanism, &found, &advice, &a.file.file, snapped);
     let width = output::width(a.output.as_deref());
     output::to(a.output.as_deref(), |out| {
         match a.format {
             AnalyzeFormat::Json => {
-                let mut value = analysis_json::analysis(&mechanism, &found);
+                let mut value = analysis_json::analysis(&mechanism, &found, &advice);
+                let steps = next.iter().map(|s| (&s.command, &s.gives));
+                value["next"] = steps
+                    .map(|(command, gives)| json!({"command": command, "gives": gives}))
+                    .collect();
                 if let Some(s) = &stroke {
                     value["stroke"] = s.json();
                 }
                 writeln!(out, "{value:#}")?;
             }
             AnalyzeFormat::Text => {
-                let text = analysis_text::analysis(&mechanism, &found, width);
+                let text = analysis_text::analysis(&mechanism, &found, &advice, width);
                 write!(out, "{text}")?;
                 if let Some(s) = &stroke {
-                    write!(out, "\n{}", s.text(width))?;
+                    write!(out, "\n{}", fit(&s.text(width), width))?;
                 }
+                write!(out, "{}", next::text(&next, width))?;
             }
         }
         // A stroke that could not be finished is no success.
@@ -83,6 +96,44 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
             _ => Done::Found,
         })
     })
+}
+
+/// What single changes would do in each state, on the geometry that the analysis is about: snapped, by the tolerance
+/// given back, where it was.
+fn advise(
+    mechanism: &Mechanism,
+    states: &[StateId],
+    found: &[StateAnalysis],
+    tolerance: Option<f64>,
+) -> anyhow::Result<(Vec<Advice>, Option<f64>)> {
+    let snapped = if found.iter().any(|s| !s.snapped.is_empty()) {
+        let of_digits = looks_measured(mechanism).map(|m| m.tolerance());
+        tolerance
+            .or(of_digits)
+            .map(|t| (snap(mechanism, t).mechanism, t))
+    } else {
+        None
+    };
+    let one = |(&state, s): (&StateId, &StateAnalysis)| {
+        if suggestions::concerned(s) == 0 {
+            return Ok(Advice::Nothing);
+        }
+        let exact = match &snapped {
+            Some((m, _)) if !s.snapped.is_empty() => m,
+            _ => mechanism,
+        };
+        let found = single_changes(exact, state)?;
+        Ok(if found.redundant == s.redundant {
+            Advice::Changes(found)
+        } else {
+            Advice::Silent(
+                "the redundant constraints are there within the tolerance only, not as the coordinates are written",
+            )
+        })
+    };
+    let advice = states.iter().zip(found).map(one);
+    let advice = advice.collect::<anyhow::Result<Vec<_>>>()?;
+    Ok((advice, snapped.map(|(_, t)| t)))
 }
 
 /// A method that gives a mobility and nothing else.

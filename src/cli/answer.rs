@@ -1,14 +1,18 @@
 //! The answer of a search in the format asked for.
 
 use super::args::{Search as SearchArgs, SearchFormat};
-use super::output;
+use super::{output, question};
 use crate::model::mechanism::JointId;
-use crate::report::ranking;
+use crate::report::layout::fit;
 use crate::report::search_json::{self, Found};
 use crate::report::search_text;
 use crate::report::words::cost;
+use crate::report::{next, ranking};
 use crate::search::certify::{Certified, Summary};
+use crate::search::relax::Relaxation;
 use crate::search::request::Search;
+use num_bigint::BigUint;
+use num_traits::Zero;
 use std::io::Write;
 
 /// Variants a table holds at most.
@@ -31,6 +35,7 @@ pub(super) fn write_found(
     out: &mut dyn Write,
     a: &SearchArgs,
     found: &Found<'_>,
+    eased: &[(Relaxation, BigUint)],
     give: &mut Giver<'_>,
 ) -> anyhow::Result<()> {
     let search = found.search;
@@ -48,7 +53,7 @@ pub(super) fn write_found(
             let (mut block, mut given): (Vec<Certified>, usize) = (Vec::new(), 0);
             let mut put = |out: &mut dyn Write, block: &mut Vec<Certified>| -> anyhow::Result<()> {
                 let head = if given == 0 {
-                    format!("\n  {what}:\n")
+                    fit(&format!("\n  {what}:\n"), width)
                 } else {
                     String::new()
                 };
@@ -76,13 +81,22 @@ pub(super) fn write_found(
                 put(out, &mut block)?;
             }
             summary.dropped = whole.dropped;
-            write!(out, "{}", search_text::notes(&summary, &notes))?;
+            write!(out, "{}", search_text::notes(&summary, &notes, width))?;
             if let Some(p) = &found.ranking {
-                write!(out, "{}", ranking::notes(search.mechanism, p))?;
+                let notes = ranking::notes(search.mechanism, p);
+                write!(out, "{}", fit(&notes, width))?;
             }
             if whole.interrupted {
                 writeln!(out, "\n  interrupted after {given} variants")?;
             }
+            let flags = question::flags(search.mechanism, a);
+            // Numbers of a sample, or of a list with some left out, mean nothing to other commands.
+            let listed = if a.sample.is_some() { 0 } else { given };
+            let steps = match a.generic_only {
+                true => Vec::new(),
+                false => search_text::next(found, listed, eased, &a.file.file, &flags),
+            };
+            write!(out, "{}", next::text(&steps, width))?;
         }
         SearchFormat::Json => {
             let header = serde_json::Value::Object(search_json::header(found));
@@ -97,7 +111,10 @@ pub(super) fn write_found(
                 Ok(())
             })?;
             summary.dropped = whole.dropped;
-            let tail = search_json::tail(&summary, !whole.interrupted);
+            let mut tail = search_json::tail(&summary, !whole.interrupted);
+            if found.admissible.total.is_zero() {
+                tail.insert("relaxations".to_owned(), search_json::eased(eased));
+            }
             let text = format!("{:#}", serde_json::Value::Object(tail));
             let rest = text.strip_prefix("{\n").unwrap_or(&text);
             writeln!(out, "\n  ],\n{rest}")?;

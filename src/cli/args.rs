@@ -195,6 +195,14 @@ pub(super) struct Export {
     /// The format.
     #[arg(long, value_enum)]
     pub(super) to: ExportFormat,
+    /// Write variant K of the list that `ozols search FILE` gives, with the same of the options below.
+    #[arg(long, value_name = "K")]
+    pub(super) variant: Option<usize>,
+    /// The state meant by --max-external; the file's first besides free by default.
+    #[arg(long, value_name = "STATE", requires = "variant")]
+    pub(super) state: Option<String>,
+    #[command(flatten)]
+    pub(super) question: Question,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
@@ -218,7 +226,7 @@ pub(super) struct Draw {
     /// A state named in the file.
     #[arg(long, default_value = "free")]
     pub(super) state: String,
-    /// Draw variant K of the list that `ozols search FILE` gives with the same options, its changes marked.
+    /// Draw variant K of the list that `ozols search FILE` gives, with the same of the options below, its changes marked.
     #[arg(long, value_name = "K")]
     pub(super) variant: Option<usize>,
     /// PNG instead of SVG (where built with the feature `png`); a file named .png is one anyway.
@@ -418,9 +426,13 @@ pub(super) enum Check {
     Full,
 }
 
-/// What is searched for: with the file it settles the list of variants.
+/// How many of the cheapest variants a ranking scores, unless told otherwise.
+pub(super) const POOL: usize = 1000;
+
+/// What is asked of a search: all that the list of variants depends on, but for the state.
 #[derive(Debug, ClapArgs)]
 #[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
+#[command(next_help_heading = "Which variants")]
 pub(super) struct Question {
     /// Redundant constraints allowed within the mechanism.
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -440,7 +452,7 @@ pub(super) struct Question {
     #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',')]
     pub(super) rank: Vec<String>,
     /// How many of the cheapest variants a ranking scores.
-    #[arg(long, value_name = "K", default_value_t = 1000)]
+    #[arg(long, value_name = "K", default_value_t = POOL)]
     pub(super) pool: usize,
     /// Also give variants whose outputs move in other ways than now.
     #[arg(long)]

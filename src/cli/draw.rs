@@ -1,19 +1,15 @@
 //! `ozols draw`.
 
-use super::args::{Args, Draw, DrawKind, Question};
-use super::{Done, load, output, question, ranked};
-use crate::draw::{self, Drawing, Marks, Size, Subject};
-use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::redundancy::analysis::{Method, analyse, exact_field};
-use crate::search::request::Search;
-use anyhow::{Context, bail, ensure};
+use super::args::{Args, Draw, DrawKind};
+use super::{Done, load, output, variant};
+use crate::draw::{self, Drawing, Size, Subject};
+use crate::redundancy::analysis::{Method, analyse};
+use anyhow::{bail, ensure};
 use std::io::IsTerminal;
-use std::ops::ControlFlow;
 
 pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     let wanted = picture(a)?;
-    let mut mechanism = question::snapped(load::mechanism(&a.file.file)?, &a.question)?;
+    let mut mechanism = load::mechanism(&a.file.file)?;
     let Some(state) = mechanism.states.iter().position(|s| *s == a.state) else {
         bail!(
             "{} has no state {}; it has: {}",
@@ -24,7 +20,12 @@ pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     };
     let mut marks = None;
     if let Some(k) = a.variant {
-        let (realized, changes) = variant(&mut mechanism, state, &a.question, k)?;
+        let external = a.question.max_external.is_some() && state > 0;
+        let named = external.then_some(a.state.as_str());
+        let (realized, changes) =
+            variant::kth(&mut mechanism, &a.question, named, k, |search, v| {
+                draw::marks::of_variant(search, v, &format!("variant {k}"))
+            })?;
         (mechanism, marks) = (realized, Some(changes));
     }
     let found = analyse(&mechanism, &[state], Method::Auto { tolerance: None })?;
@@ -90,45 +91,4 @@ fn png(drawing: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
 fn png(_: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
     // `picture` has refused it
     bail!("built without PNG: {size:?}")
-}
-
-/// The k-th of the list that `ozols search FILE` gives with the same options. Where they bear on a state, and none but
-/// the free one is drawn, it is the first of the others, as in the search.
-fn variant(
-    mechanism: &mut Mechanism,
-    state: StateId,
-    q: &Question,
-    k: usize,
-) -> anyhow::Result<(Mechanism, Marks)> {
-    ensure!(k > 0, "variants are numbered from 1");
-    question::restrict(mechanism, q)?;
-    let of = (state > 0 && q.max_external.is_some()).then(|| mechanism.states[state].clone());
-    let taken = question::state(mechanism, q, of.as_deref())?;
-    let measured = question::measured(mechanism, taken.map(|(s, _)| s), q.as_written)?;
-    let tolerance = measured.map_or(DEFAULT_TOLERANCE, |(m, _)| m.tolerance());
-    let request = question::request(q, taken, tolerance);
-    let search = Search::new(exact_field(mechanism, 0)?, mechanism, request)?;
-    let diagrams = search.build(&|| false, &mut |_| {});
-    let (mut last, mut seen) = (None, 0);
-    if let Some(mut ranked) = ranked::pool(&search, &diagrams, q, k)? {
-        seen = ranked.list.len();
-        last = ranked.list.pop().map(|r| r.variant);
-    } else {
-        search.cheapest(&diagrams, k, |v| {
-            seen += 1;
-            last = Some(v);
-            ControlFlow::Continue(())
-        });
-    }
-    let variant = last.filter(|_| seen == k).with_context(|| {
-        format!(
-            "{} has no variant {k}: the search gives {seen}",
-            mechanism.name
-        )
-    })?;
-    Ok(draw::marks::of_variant(
-        &search,
-        &variant,
-        &format!("variant {k}"),
-    ))
 }

@@ -3,6 +3,7 @@
 use super::args::{AnalyzeFormat, Args, Drive};
 use super::{Done, charts, load, output};
 use crate::import::workload::drive_from_bytes;
+use crate::report::next::{self, Step};
 use crate::report::{drive_charts, drive_json, drive_text};
 use crate::workload::driving::drive;
 
@@ -19,6 +20,11 @@ pub(super) fn run(_: &Args, a: &Drive) -> anyhow::Result<Done> {
             AnalyzeFormat::Text => {
                 let width = output::width(a.output.as_deref());
                 write!(out, "{}", drive_text::drive(&file, &found, width))?;
+                if a.svg.is_none() && found.design.is_some() {
+                    let gives = "charts of the programme: angle, speed and energy over time";
+                    let charts = Step::new("drive", &a.file.file, "--svg charts", gives);
+                    write!(out, "{}", next::text(&[charts], width))?;
+                }
             }
         }
         let done = found.design.as_ref().is_some_and(|d| d.run.complete());

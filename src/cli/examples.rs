@@ -81,7 +81,9 @@ pub(super) const EXPORT: &str = "\
 Examples:
   ozols export gripper-10 --to json -o gripper.json      the mechanism file as JSON
   ozols export gripper-10 --to sdf -o gripper.sdf        a robot description, loops and all
-  ozols export gripper-10 --to dot                       its graph for Graphviz";
+  ozols export gripper-10 --to dot                       its graph for Graphviz
+  ozols export gripper-10 --variant 1 --to toml -o v.toml          the first redesign, a mechanism file of its own
+  ozols export gripper-10 --variant 3 --max-mobility 1 --to sdf    the third of those without idle links";
 
 pub(super) const ACCURACY: &str = "\
 Examples:

@@ -1,11 +1,16 @@
 //! `ozols export`.
 
 use super::args::{Args, Export, ExportFormat};
-use super::{Done, load, output};
+use super::{Done, load, output, variant};
 use crate::export;
 
 pub(super) fn run(_: &Args, a: &Export) -> anyhow::Result<Done> {
-    let m = load::mechanism(&a.file.file)?;
+    let mut m = load::mechanism(&a.file.file)?;
+    if let Some(k) = a.variant {
+        m = variant::kth(&mut m, &a.question, a.state.as_deref(), k, |search, v| {
+            variant::mechanism(search, v, k)
+        })?;
+    }
     let text = match a.to {
         ExportFormat::Toml => export::toml(&m)?,
         ExportFormat::Json => format!("{:#}\n", export::mechanism_file(&m).json()),

@@ -5,6 +5,7 @@ use super::{Done, charts, load, output};
 use crate::closure::pose::Pose;
 use crate::import::workload::{Workload, grip_from_bytes};
 use crate::model::grip::{GripSpec, Toward, Transmission};
+use crate::report::next::{self, Step};
 use crate::report::{grip_charts, grip_json, grip_text};
 use crate::workload::clamping::{Row, Study, study};
 use crate::workload::jaw_loads::{Gripping, JawError};
@@ -43,11 +44,15 @@ pub(super) fn run(_: &Args, a: &Grip) -> anyhow::Result<Done> {
     output::to(a.output.as_deref(), |out| {
         match a.format {
             AnalyzeFormat::Json => writeln!(out, "{:#}", grip_json::grip(&report))?,
-            AnalyzeFormat::Text => write!(
-                out,
-                "{}",
-                grip_text::grip(&report, output::width(a.output.as_deref()))
-            )?,
+            AnalyzeFormat::Text => {
+                let width = output::width(a.output.as_deref());
+                write!(out, "{}", grip_text::grip(&report, width))?;
+                if a.svg.is_none() {
+                    let gives = "charts of the arms, the contact forces and the drive moment";
+                    let charts = Step::new("grip", &a.file.file, "--svg charts", gives);
+                    write!(out, "{}", next::text(&[charts], width))?;
+                }
+            }
         }
         Ok(if found.holds() {
             Done::Found

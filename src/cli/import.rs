@@ -3,6 +3,8 @@
 use super::args::{Args, Import, ImportFormat};
 use super::{Done, load, output};
 use crate::import::schema::MechanismFile;
+use crate::report::layout::fit;
+use crate::report::next::{self, Step};
 use crate::robot::{self, Options};
 use anyhow::{Context, bail};
 use std::path::Path;
@@ -28,7 +30,8 @@ pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
     }
     let imported = description(Path::new(&a.file), &options)?;
     if !args.quiet {
-        output::note(&imported.report.text(&a.file));
+        let width = output::error_width();
+        output::note(&fit(&imported.report.text(&a.file), width));
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {
@@ -39,7 +42,17 @@ pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
             }
         }
         Ok(Done::Found)
-    })
+    })?;
+    if let (Some(path), false) = (&a.output, args.quiet) {
+        let file = path.display().to_string();
+        let steps = [
+            ("analyze", "its mobility and redundant constraints"),
+            ("search", "the redesigns that remove those"),
+        ];
+        let steps = steps.map(|(command, gives)| Step::new(command, &file, "", gives));
+        output::note(&next::text(&steps, output::error_width()));
+    }
+    Ok(Done::Found)
 }
 
 fn pose(text: &str) -> anyhow::Result<(String, Vec<f64>)> {

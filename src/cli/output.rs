@@ -56,7 +56,14 @@ pub(super) fn to(
 /// Width of the terminal that standard output is, if it is one.
 pub(super) fn width(path: Option<&Path>) -> Option<u16> {
     (path.is_none() && std::io::stdout().is_terminal())
-        .then(|| console::Term::stdout().size().1.max(60))
+        .then(|| console::Term::stdout().size().1.max(40))
+}
+
+/// Width of the terminal that standard error is, if it is one.
+pub(super) fn error_width() -> Option<u16> {
+    std::io::stderr()
+        .is_terminal()
+        .then(|| console::Term::stderr().size().1.max(40))
 }
 
 /// Whether the reader of our output has gone away.

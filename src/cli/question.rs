@@ -1,16 +1,52 @@
 //! The question a search answers, from its arguments.
 
-use super::args::Question;
+use super::args::{POOL, Question, Search as SearchArgs};
+use super::output;
 use crate::model::measured::{Measured, looks_measured};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::measured::Verdicts;
+use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::snap::snap;
 use crate::redundancy::analysis::exact_field;
+use crate::report::next::word;
 use crate::search::request::{Request, Symmetry};
 use anyhow::{bail, ensure};
 
-pub(super) fn request(a: &Question, state: Option<(StateId, u32)>, tolerance: f64) -> Request {
-    Request {
+/// Makes a mechanism ready, snapped and with the options that are allowed, and says what is asked of it and why its
+/// geometry looks measured, where it does. `named` is the state that --max-external is about.
+pub(super) fn ask(
+    mechanism: &mut Mechanism,
+    a: &Question,
+    named: Option<&str>,
+) -> anyhow::Result<(Request, Option<(Measured, Vec<Verdicts>)>)> {
+    if let Some(tolerance) = a.snap {
+        ensure!(
+            tolerance > 0.0 && tolerance < 1.0,
+            "--snap must be between 0 and 1"
+        );
+        let snapped = snap(mechanism, tolerance);
+        for moved in &snapped.moved {
+            output::note(&format!("snapped: {moved}\n"));
+        }
+        *mechanism = snapped.mechanism;
+    }
+    restrict(mechanism, a)?;
+    let state = state(mechanism, a, named)?.map(|(s, _)| s);
+    let measured = measured(mechanism, state, a.as_written)?;
+    let tolerance = measured
+        .as_ref()
+        .map_or(DEFAULT_TOLERANCE, |(m, _)| m.tolerance());
+    Ok((request(mechanism, a, named, tolerance)?, measured))
+}
+
+fn request(
+    mechanism: &Mechanism,
+    a: &Question,
+    named: Option<&str>,
+    tolerance: f64,
+) -> anyhow::Result<Request> {
+    let state = state(mechanism, a, named)?;
+    Ok(Request {
         max_redundant: a.max_redundant,
         state,
         max_mobility: a.max_mobility,
@@ -23,32 +59,16 @@ pub(super) fn request(a: &Question, state: Option<(StateId, u32)>, tolerance: f6
         },
         nodes: a.nodes.clamp(1, u32::MAX as usize / 2),
         tolerance,
-    }
+    })
 }
 
-/// The mechanism with its measured geometry made exact, where that was asked for.
-pub(super) fn snapped(mechanism: Mechanism, a: &Question) -> anyhow::Result<Mechanism> {
-    let Some(tolerance) = a.snap else {
-        return Ok(mechanism);
-    };
-    ensure!(
-        tolerance > 0.0 && tolerance < 1.0,
-        "--snap must be between 0 and 1"
-    );
-    let snapped = snap(&mechanism, tolerance);
-    for moved in &snapped.moved {
-        eprintln!("snapped: {moved}");
-    }
-    Ok(snapped.mechanism)
-}
-
-/// The state that takes part, with the external redundancy allowed there.
-pub(super) fn state(
+/// The state that takes part, the named one or the first besides free, with the external redundancy allowed there.
+fn state(
     mechanism: &Mechanism,
     a: &Question,
-    state: Option<&str>,
+    named: Option<&str>,
 ) -> anyhow::Result<Option<(StateId, u32)>> {
-    Ok(match (state, a.max_external) {
+    Ok(match (named, a.max_external) {
         (None, None) => None,
         (None, Some(external)) => {
             ensure!(
@@ -73,7 +93,7 @@ pub(super) fn state(
 
 /// Whether the geometry looks measured, and if so what exact and tolerant ranks say of the mechanism as it is. Where
 /// they differ the search is refused, unless the file is to be taken as written.
-pub(super) fn measured(
+fn measured(
     mechanism: &Mechanism,
     state: Option<StateId>,
     as_written: bool,
@@ -118,7 +138,7 @@ pub(super) fn measured(
 }
 
 /// Applies --hold, --options, --allow and --forbid.
-pub(super) fn restrict(mechanism: &mut Mechanism, a: &Question) -> anyhow::Result<()> {
+fn restrict(mechanism: &mut Mechanism, a: &Question) -> anyhow::Result<()> {
     for id in &a.hold {
         let Some(link) = mechanism.link(id) else {
             bail!("--hold: {} has no link {id}", mechanism.name)
@@ -184,4 +204,61 @@ pub(super) fn restrict(mechanism: &mut Mechanism, a: &Question) -> anyhow::Resul
         });
     }
     Ok(())
+}
+
+/// The flags that make a search's list what it is, as they are typed: those of `draw` and `export` are the same.
+pub(super) fn flags(mechanism: &Mechanism, s: &SearchArgs) -> String {
+    let a = &s.question;
+    let mut out: Vec<String> = Vec::new();
+    let mut put = |flag: &str, value: Option<String>| {
+        out.push(format!("--{flag}"));
+        out.extend(value.map(|v| word(&v)));
+    };
+    let number = |n: u32| Some(n.to_string());
+    if a.max_redundant > 0 {
+        put("max-redundant", number(a.max_redundant));
+    }
+    if let Ok(Some((state, external))) = state(mechanism, a, s.state.as_deref()) {
+        put("max-external", number(external));
+        if s.state.is_some() {
+            put("state", Some(mechanism.states[state].clone()));
+        }
+    }
+    if let Some(w) = a.max_mobility {
+        put("max-mobility", Some(w.to_string()));
+    }
+    if let Some(c) = a.max_changes {
+        put("max-changes", number(c));
+    }
+    if !a.rank.is_empty() {
+        put("rank", Some(a.rank.join(",")));
+    }
+    if a.pool != POOL {
+        put("pool", Some(a.pool.to_string()));
+    }
+    for id in &a.hold {
+        put("hold", Some(id.clone()));
+    }
+    if !a.options.is_empty() {
+        put("options", Some(a.options.join(",")));
+    }
+    for (flag, rules) in [("allow", &a.allow), ("forbid", &a.forbid)] {
+        for rule in rules {
+            put(flag, Some(rule.clone()));
+        }
+    }
+    for (flag, on) in [
+        ("allow-output-change", a.allow_output_change),
+        ("symmetric", a.symmetric),
+        ("one-per-orbit", a.one_per_orbit),
+        ("as-written", a.as_written),
+    ] {
+        if on {
+            put(flag, None);
+        }
+    }
+    if let Some(t) = a.snap {
+        put("snap", Some(t.to_string()));
+    }
+    out.join(" ")
 }

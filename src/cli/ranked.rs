@@ -40,7 +40,7 @@ fn wanted(search: &Search<'_>, a: &Question) -> anyhow::Result<Option<Ranking>> 
     Ok(Some(ranking))
 }
 
-/// Scores the cheapest variants and puts the best `top` of them in order, where that was asked for.
+/// Scores the cheapest variants and puts the best `top` in order, where that was asked for.
 pub(super) fn pool(
     search: &Search<'_>,
     diagrams: &Diagrams,

@@ -4,9 +4,11 @@ use super::args::{Statics, StaticsFormat, StaticsMethod};
 use super::{Done, output};
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
+use crate::report::next::{self, Step};
 use crate::report::{reactions_cycle, reactions_data, reactions_text};
 use crate::workload::assur::AssurError;
 use crate::workload::planar::PlanarError;
+use crate::workload::reactions::Choice;
 use crate::workload::reactions::cycle::cycle;
 use crate::workload::statics::StaticsError;
 
@@ -42,6 +44,22 @@ pub(super) fn run(
             (StaticsFormat::Text, Some(s)) => {
                 let text = reactions_text::solution(m, state, "pose of the file", s, width);
                 write!(out, "{text}")?;
+                let file = a.file.as_deref().unwrap_or(&m.name);
+                let step = match s.choice {
+                    Choice::MinimumNorm => Step::new(
+                        "search",
+                        file,
+                        "",
+                        "redesigns without redundant constraints, whose reactions are the only ones",
+                    ),
+                    Choice::Unique => Step::new(
+                        "statics",
+                        file,
+                        "--spatial --format csv -o reactions.csv",
+                        "the components of every joint's reaction",
+                    ),
+                };
+                write!(out, "{}", next::text(&[step], width))?;
             }
             (StaticsFormat::Json, None) => {
                 writeln!(out, "{:#}", reactions_cycle::data(m, state, &found))?;

@@ -2,21 +2,22 @@
 
 use super::answer::{Given, write_found};
 use super::args::{Args, Check, Search as SearchArgs, SearchFormat, SearchMethod};
-use super::question::{measured, request, restrict, snapped, state};
-use super::{Done, load, output, progress};
+use super::question::ask;
+use super::{Done, load, output, progress, ranked};
 use crate::model::measured::Measured;
 use crate::rank::measured::Verdicts;
-use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::redundancy::analysis::exact_field;
 use crate::report::search_json::Found;
 use crate::search::best::Variant;
 use crate::search::certify::{CHECKED, Certified};
 use crate::search::diagram::Stop;
 use crate::search::primes;
+use crate::search::relax::{Relaxation, relaxations};
 use crate::search::request::Search;
 use crate::search::stroke::Stroke;
 use anyhow::{Context, ensure};
-use num_traits::Zero;
+use num_bigint::BigUint;
+use num_traits::{One, Zero};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -28,15 +29,8 @@ const POSES: usize = 3;
 const BRUTE_LIMIT: u64 = 1 << 32;
 
 pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
-    let question = &a.question;
-    let mut mechanism = snapped(load::mechanism(&a.file.file)?, question)?;
-    restrict(&mut mechanism, question)?;
-    let state = state(&mechanism, question, a.state.as_deref())?;
-    let measured = measured(&mechanism, state.map(|(s, _)| s), question.as_written)?;
-    let tolerance = measured
-        .as_ref()
-        .map_or(DEFAULT_TOLERANCE, |(m, _)| m.tolerance());
-    let request = request(question, state, tolerance);
+    let mut mechanism = load::mechanism(&a.file.file)?;
+    let (request, measured) = ask(&mut mechanism, &a.question, a.state.as_deref())?;
     if a.method == SearchMethod::Brute {
         let search = Search::new(exact_field(&mechanism, 0)?, &mechanism, request)?;
         return brute(&search, a, measured);
@@ -84,7 +78,7 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
     stop.store(false, Ordering::SeqCst);
     let mut determinate = search.counts(&diagrams.determinate, false);
     let mut admissible = search.counts(&diagrams.admissible, true);
-    if question.one_per_orbit {
+    if a.question.one_per_orbit {
         let all = (determinate, admissible);
         let orbits = match &twin {
             None => search.orbits(all, &cancelled)?,
@@ -102,7 +96,7 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
         };
         (determinate, admissible) = orbits;
     }
-    let by_cost = if a.format == SearchFormat::Json && !question.one_per_orbit {
+    let by_cost = if a.format == SearchFormat::Json && !a.question.one_per_orbit {
         search.counts_by_cost(&diagrams.admissible)
     } else {
         BTreeMap::new()
@@ -121,12 +115,16 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
             mechanism.name
         );
     }
+    // Further poses may drop some of the best, so that others must stand by.
+    let standing = if a.generic_only {
+        a.question.pool
+    } else {
+        a.top
+    };
     let ranking = if a.all || a.count || a.sample.is_some() {
         None
     } else {
-        // Further poses may drop some of the best, so that others must stand by.
-        let top = if a.generic_only { question.pool } else { a.top };
-        super::ranked::pool(&search, &diagrams, question, top)?
+        ranked::pool(&search, &diagrams, &a.question, standing)?
     };
     let found = Found {
         search: &search,
@@ -140,6 +138,7 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
         poses: stroke.as_ref().map(|s| (s.asked, s.reached())),
         ranking,
     };
+    let eased = eased(&search, &found, &cancelled)?;
     output::to(a.output.as_deref(), |out| {
         let mut give =
             |write: &mut dyn FnMut(usize, Certified) -> anyhow::Result<()>| -> anyhow::Result<Given> {
@@ -195,13 +194,31 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
                     dropped: sink.dropped,
                 })
             };
-        write_found(out, a, &found, &mut give)?;
+        write_found(out, a, &found, &eased, &mut give)?;
         Ok(if found.admissible.total.is_zero() {
             Done::Nothing
         } else {
             Done::Found
         })
     })
+}
+
+/// What easing one condition would leave, where nothing was found.
+fn eased(
+    search: &Search<'_>,
+    found: &Found<'_>,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> anyhow::Result<Vec<(Relaxation, BigUint)>> {
+    if !found.admissible.total.is_zero() || search.size() == BigUint::one() {
+        return Ok(Vec::new());
+    }
+    let exact = exact_field(search.mechanism, 0)?;
+    Ok(relaxations(
+        search.mechanism,
+        &exact,
+        &search.request,
+        cancelled,
+    )?)
 }
 
 /// Gives variants on, the first with a second opinion; those are gathered first, so that they are analysed in parallel.
@@ -283,8 +300,9 @@ fn brute(
         poses: None,
         ranking: None,
     };
+    let eased = eased(search, &found, &|| false)?;
     output::to(a.output.as_deref(), |out| {
-        write_found(out, a, &found, &mut |_| Ok(Given::default()))?;
+        write_found(out, a, &found, &eased, &mut |_| Ok(Given::default()))?;
         Ok(if found.admissible.total.is_zero() {
             Done::Nothing
         } else {

@@ -7,6 +7,7 @@ use crate::geom::expr::Expr;
 use crate::import::loads::{MAX_STEPS, position};
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, Mode};
+use crate::report::next::{self, Step};
 use crate::report::statics_charts::{self, Named};
 use crate::report::statics_words::GroupMethod;
 use crate::report::words::table;
@@ -109,6 +110,19 @@ pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
                     "{}",
                     statics_text::statics(&m.name, &found, methods, width)
                 )?;
+                let loaded = found.moments.iter().any(|x| !x.loads.is_empty());
+                let file = a.file.as_deref().unwrap_or(&m.name);
+                let mut steps = Vec::new();
+                if loaded && a.svg.is_none() {
+                    let gives = "charts of the reactions over the cycle";
+                    steps.push(Step::new("statics", file, "--svg charts", gives));
+                }
+                if loaded {
+                    let more = "--format csv -o reactions.csv";
+                    let gives = "every joint's reaction at every position";
+                    steps.push(Step::new("statics", file, more, gives));
+                }
+                write!(out, "{}", next::text(&steps, width))?;
             }
         }
         // A cycle that could not be finished is no success.

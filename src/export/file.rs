@@ -1,5 +1,6 @@
 //! A mechanism as the entries of its file, exactly.
 
+use super::{drive, grip, ranking};
 use crate::geom::expr::Expr;
 use crate::import::joint_loads::{MisalignmentEntry, MomentEntry, StiffnessEntry};
 use crate::import::loads::{
@@ -50,8 +51,8 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
             .collect(),
         search: search(m),
         workload: workload(m),
-        ranking: None,
-        joint_types: BTreeMap::default(),
+        ranking: m.ranking.as_ref().map(|r| ranking::ranking(m, r)),
+        joint_types: ranking::joint_types(m),
         expected: m.expected.iter().map(expected).collect(),
     }
 }
@@ -122,15 +123,11 @@ fn cost(milli: i64) -> f64 {
 
 fn joint(m: &Mechanism, j: &Joint) -> JointEntry {
     let names = |s: &Vec<usize>| s.iter().map(|&s| m.states[s].clone()).collect::<Vec<_>>();
-    let present = &j.options[0];
     // The present joint is understood, unless it has a cost of its own.
-    let listed = if present.cost_milli.is_some() { 0 } else { 1 };
-    let options = (j.options.len() > listed.max(1) || present.cost_milli.is_some()).then(|| {
-        j.options[listed..]
-            .iter()
-            .map(|o| option(o, &j.frame))
-            .collect()
-    });
+    let priced = j.options.first().is_some_and(|o| o.cost_milli.is_some());
+    let listed = j.options.iter().skip(usize::from(!priced));
+    let options: Vec<OptionEntry> = listed.map(|o| option(o, &j.frame)).collect();
+    let options = (!options.is_empty()).then_some(options);
     let unloading = (!j.unloading.is_empty())
         .then(|| Unloading::List(j.unloading.iter().map(|o| option(o, &j.frame)).collect()));
     JointEntry {
@@ -249,10 +246,10 @@ fn workload(m: &Mechanism) -> WorkloadEntry {
         (name.clone(), entry)
     };
     let misalignment = loads.misalignments.iter().flat_map(|x| {
-        ["x", "y", "z"]
-            .into_iter()
-            .zip(x.turn)
-            .filter(|(_, turn)| *turn != 0.0)
+        let turned = ["x", "y", "z"].into_iter().zip(x.turn);
+        let none = x.turn == [0.0; 3];
+        turned
+            .filter(move |(axis, turn)| *turn != 0.0 || none && *axis == "x")
             .map(|(axis, turn)| MisalignmentEntry {
                 joint: m.joints[x.joint].id.clone(),
                 angle: Quantity::Number(turn),
@@ -275,9 +272,11 @@ fn workload(m: &Mechanism) -> WorkloadEntry {
             to: Quantity::Number(s.to),
             steps: i64::try_from(s.steps).unwrap_or(i64::MAX),
         }),
-        // Grippers and torsion drives are models of their own, beside the mechanism.
-        grip: None,
-        drive: None,
+        grip: loads.grip.as_ref().map(|g| grip::grip(m, g)),
+        drive: loads
+            .drive
+            .as_ref()
+            .map(|d| drive::drive(d, m.length_unit.metres)),
     }
 }
 

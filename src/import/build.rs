@@ -82,11 +82,15 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     mechanism.search = search(file, &mechanism, &mut out);
     mechanism.loads = loads(file, &mechanism, &mut out);
     mechanism.loads.grip = grip(file, length_unit.metres, Some(&mechanism), &mut out);
-    drive(file, length_unit.metres, Some(&mechanism), &mut out);
+    mechanism.loads.drive = drive(file, length_unit.metres, Some(&mechanism), &mut out);
     mechanism.ranking = ranking(file, &mechanism, &mut out);
     let (joint_types, costs) = joint_types(file, &mechanism, &mut out);
     mechanism.joint_types = joint_types;
-    mechanism.search.costs.by_type_milli.extend(costs);
+    let by_type = &mut mechanism.search.costs.by_type_milli;
+    by_type.extend(costs);
+    // [search.costs] come first and win.
+    by_type.sort_by(|a, b| a.0.cmp(&b.0));
+    by_type.dedup_by(|later, first| later.0 == first.0);
     mechanism.expected = expected(file, &mechanism, &mut out);
     out.unless(mechanism)
 }

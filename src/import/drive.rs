@@ -12,6 +12,7 @@ use crate::model::drive::{Cam, Damping, DriveSpec};
 use crate::model::mechanism::Mechanism;
 use inertias::inertias;
 use programme::programme;
+pub use programme::regular;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -152,20 +152,14 @@ fn diameters(t: &mut Table<'_>, entry: &GripEntry, unit: f64, nominal: f64) -> V
                 .collect_vec()
         }
         Some(Diameters::Steps(s)) => {
-            let from = t.number_at(
-                &key(&at, "from"),
-                "diameter",
-                &s.from,
-                unit,
-                Bound::Positive,
-            );
-            let to = t.number_at(&key(&at, "to"), "diameter", &s.to, unit, Bound::Positive);
+            let from = t.number_at(&key(&at, "from"), "diameter", &s.from, 1.0, Bound::Positive);
+            let to = t.number_at(&key(&at, "to"), "diameter", &s.to, 1.0, Bound::Positive);
             if to < from {
                 let path = key(&at, "to");
                 t.bad(
                     &path,
                     "the greatest diameter",
-                    (to / unit).to_string(),
+                    to.to_string(),
                     "one not below `from`",
                 );
             }
@@ -183,7 +177,10 @@ fn diameters(t: &mut Table<'_>, entry: &GripEntry, unit: f64, nominal: f64) -> V
                 return vec![nominal];
             };
             let step = (to - from) / (count.max(2) - 1) as f64;
-            (0..count).map(|i| from + step * i as f64).collect()
+            // Steps in the unit of the file, so that a list of them says the same.
+            (0..count)
+                .map(|i| (from + step * i as f64) * unit)
+                .collect()
         }
     };
     list.sort_by(f64::total_cmp);

@@ -328,8 +328,9 @@ pub(super) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findi
             .stroke
             .as_ref()
             .map(|s| stroke(s, &key(&at, "stroke"), out)),
-        // Names joints; read once they all are.
+        // These name joints and links; they are read once all of those are.
         grip: None,
+        drive: None,
     }
 }
 

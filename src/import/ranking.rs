@@ -285,12 +285,18 @@ pub(super) fn joint_types(
         if let Some(milli) = entry.cost.and_then(|c| cost(c, &key(&at, "cost"), out)) {
             costs.push((name.clone(), milli));
         }
-        found.push(TypeOverride {
+        let says = TypeOverride {
             name: name.clone(),
             capacity_force: entry.capacity_force,
             capacity_moment: entry.capacity_moment,
             clearance: entry.clearance,
-        });
+        };
+        // An entry of a cost alone says nothing of what the type bears.
+        let nothing = TypeOverride {
+            name: name.clone(),
+            ..TypeOverride::default()
+        };
+        found.extend((says != nothing).then_some(says));
     }
     (found, costs)
 }

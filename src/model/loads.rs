@@ -1,6 +1,7 @@
 //! What a mechanism carries: masses of links, gravity, forces from outside, and how it is driven.
 
 use crate::geom::expr::Expr;
+use crate::model::drive::DriveSpec;
 use crate::model::grip::GripSpec;
 use crate::model::mechanism::{JointId, LinkId};
 
@@ -114,4 +115,6 @@ pub struct Loads {
     pub stroke: Option<Stroke>,
     /// The gripper that the mechanism is, and what it must hold, where the file says so.
     pub grip: Option<GripSpec>,
+    /// The torsional drive, where the file states one.
+    pub drive: Option<DriveSpec>,
 }

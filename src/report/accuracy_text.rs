@@ -4,7 +4,7 @@ use crate::accuracy::Verdict;
 use crate::accuracy::survey::{Case, Survey};
 use crate::accuracy::words::{duration, signed};
 use crate::rank::method;
-use crate::report::words::table;
+use crate::report::layout::{fit, table};
 use std::cmp::Reverse;
 use std::fmt::Write;
 
@@ -38,13 +38,24 @@ pub fn summary<'a>(
             failures(survey, m),
         ]
     });
-    let mut out = table(&heads, rows.collect(), width);
-    out.push('\n');
+    let standing = |name: &str| {
+        let m = method::ALL.iter().position(|x| x.name() == name)?;
+        Some(survey.standing(m).right)
+    };
+    let mut out = format!("{cases} cases of known mobility");
+    if let (Some(auto), Some(count)) = (standing("auto"), standing("count")) {
+        // Writing to a string cannot fail.
+        let _ = write!(
+            out,
+            ": the automatic choice is right on {auto}, the counting formula on {count}"
+        );
+    }
+    let _ = write!(out, "\n\n{}\n", table(&heads, rows.collect(), width));
     for (title, sentence) in sentences {
         // Writing to a string cannot fail.
         let _ = write!(out, "\n{title}: {sentence}\n");
     }
-    out
+    fit(&out, width)
 }
 
 /// The worst failures of a method, and what it needs to be right.

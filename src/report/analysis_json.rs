@@ -4,16 +4,24 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::{Answer, MobilityMethod};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::stress::Verdict;
+use crate::report::suggestions::{self, Advice};
 use crate::report::words::{self, Shape};
 use serde_json::{Value, json};
 
-/// The whole analysis.
+/// The whole analysis, with what single changes would do in each state.
 #[must_use]
-pub fn analysis(mechanism: &Mechanism, states: &[StateAnalysis]) -> Value {
+pub fn analysis(mechanism: &Mechanism, states: &[StateAnalysis], advice: &[Advice]) -> Value {
+    let advised = |(i, s): (usize, &StateAnalysis)| {
+        let mut out = state(mechanism, s);
+        if let Some(advice) = advice.get(i) {
+            out["suggestions"] = suggestions::data(mechanism, s, advice);
+        }
+        out
+    };
     json!({
         "mechanism": mechanism.name,
         "length_unit": mechanism.length_unit.symbol,
-        "states": states.iter().map(|s| state(mechanism, s)).collect::<Vec<_>>(),
+        "states": states.iter().enumerate().map(advised).collect::<Vec<_>>(),
     })
 }
 

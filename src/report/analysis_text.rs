@@ -4,13 +4,21 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::{Answer, MobilityMethod};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::stress::{SelfStress, Verdict};
-use crate::report::words::{self, Shape, plural, table};
+use crate::report::layout::{fit, table};
+use crate::report::suggestions::{self, Advice};
+use crate::report::words::{self, Shape, plural};
 use itertools::Itertools;
 use std::fmt::Write;
 
-/// The whole analysis, fitted to a terminal of `width` columns where one is given.
+/// The whole analysis, with what single changes would do in each state, fitted to a terminal of `width` columns where
+/// one is given.
 #[must_use]
-pub fn analysis(mechanism: &Mechanism, states: &[StateAnalysis], width: Option<u16>) -> String {
+pub fn analysis(
+    mechanism: &Mechanism,
+    states: &[StateAnalysis],
+    advice: &[Advice],
+    width: Option<u16>,
+) -> String {
     let mut out = String::new();
     for (i, s) in states.iter().enumerate() {
         if i > 0 {
@@ -18,8 +26,11 @@ pub fn analysis(mechanism: &Mechanism, states: &[StateAnalysis], width: Option<u
         }
         // Writing to a string cannot fail.
         let _ = state(&mut out, mechanism, s, width);
+        if let Some(advice) = advice.get(i) {
+            out.push_str(&suggestions::text(mechanism, s, advice, width));
+        }
     }
-    out
+    fit(&out, width)
 }
 
 fn state(
@@ -168,6 +179,10 @@ fn state(
                 width
             )
         )?;
+        writeln!(
+            out,
+            "  harmful: loads joints when parts are out of true; harmless: friction shared by the contacts"
+        )?;
     }
     Ok(())
 }
@@ -226,9 +241,8 @@ fn stress_row(mechanism: &Mechanism, s: &StateAnalysis, stress: &SelfStress) -> 
         (mechanism.joints[w.joint].id.clone(), words::wrench(w))
     });
     let verdict = match (stress.external, stress.verdict) {
-        (true, Verdict::Harmless) => "harmless: friction shared by the contacts",
-        (true, Verdict::Harmful) => "harmful",
-        (false, _) => "harmful: loads joints when parts are out of true",
+        (true, Verdict::Harmless) => "harmless",
+        (true, Verdict::Harmful) | (false, _) => "harmful",
     };
     vec![contours, joint, what, verdict.to_owned()]
 }

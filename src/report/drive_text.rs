@@ -2,6 +2,7 @@
 
 use crate::import::workload::Workload;
 use crate::model::drive::DriveSpec;
+use crate::report::layout::fit;
 use crate::report::words::{plural, significant, table};
 use crate::workload::driving::{DampingFrom, Design, Driving};
 use crate::workload::programme::{Endurance, Event, PATIENCE};
@@ -21,7 +22,7 @@ pub fn drive(file: &Workload<DriveSpec>, found: &Driving, width: Option<u16>) ->
         Some(design) => designed(&mut out, file, found, design, width),
         None => refused(&mut out, file, &found.sizing, width),
     };
-    out
+    fit(&out, width)
 }
 
 fn degrees(x: f64) -> String {

@@ -2,6 +2,7 @@
 
 use crate::import::workload::Workload;
 use crate::model::grip::{GripSpec, LeverDrive, PartMass, Pivots, Toward};
+use crate::report::layout::fit;
 use crate::report::words::{plural, significant, table};
 use crate::workload::arm_charts::findings;
 use crate::workload::clamping::{Hardest, Row, Study, Verdict};
@@ -94,7 +95,7 @@ pub fn grip(r: &Report<'_>, width: Option<u16>) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
     let _ = write(&mut out, r, width);
-    out
+    fit(&out, width)
 }
 
 fn range(rows: &[&Row], metres: f64, symbol: &str) -> String {

@@ -2,6 +2,7 @@
 
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Mechanism, StateId};
+use crate::report::layout::fit;
 use crate::report::statics_words::{figure, prefix};
 use crate::report::words::{plural, table};
 use crate::workload::reactions::{Choice, JointReaction, NEARLY_SINGULAR, Solution};
@@ -58,7 +59,7 @@ pub fn solution(
     let mut out = String::new();
     // Writing to a string cannot fail.
     let _ = write_solution(&mut out, m, state, pose, s, width);
-    out
+    fit(&out, width)
 }
 
 fn write_solution(

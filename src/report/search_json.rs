@@ -9,6 +9,7 @@ use crate::search::certify::{Certified, Opinion, Summary};
 use crate::search::counts::Counts;
 use crate::search::diagram::Diagram;
 use crate::search::primes::Verdict;
+use crate::search::relax::Relaxation;
 use crate::search::request::Search;
 use crate::search::space::choice_name;
 use crate::search::stroke::OverStroke;
@@ -209,6 +210,22 @@ pub fn variant(found: &Found<'_>, certified: &Certified, position: usize) -> Val
         "lucky": certified.stroke.and_then(|s| s.lucky()),
         "stroke": certified.stroke.as_ref().map(other),
     })
+}
+
+/// What easing one condition would leave, where nothing was found.
+#[must_use]
+pub fn eased(found: &[(Relaxation, BigUint)]) -> Value {
+    let one = |(how, n): &(Relaxation, BigUint)| {
+        let (what, to) = match how {
+            Relaxation::Redundant(n) => ("max-redundant", json!(n)),
+            Relaxation::External(n) => ("max-external", json!(n)),
+            Relaxation::Mobility(n) => ("max-mobility", json!(n)),
+            Relaxation::Changes(n) => ("max-changes", json!(n)),
+            Relaxation::OutputChange => ("allow-output-change", json!(true)),
+        };
+        json!({"condition": what, "to": to, "admissible": n.to_string()})
+    };
+    found.iter().map(one).collect()
 }
 
 fn cost_number(milli: i64) -> Value {

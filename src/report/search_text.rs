@@ -1,16 +1,21 @@
 //! A search for people.
 
+use crate::report::layout::{fit, table};
+use crate::report::next::{Step, file_name};
 use crate::report::ranking;
-use crate::report::search_json::{Found, changes};
-use crate::report::words::{cost, grouped, table};
+use crate::report::search_json::{self, Found};
+use crate::report::words::{cost, grouped};
+use crate::search::best::Variant;
 use crate::search::certify::{Certified, NEARLY_SINGULAR, Second, Summary};
 use crate::search::primes::Verdict;
+use crate::search::relax::Relaxation;
+use crate::search::request::Search;
 use itertools::Itertools;
 use num_traits::Zero;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// The verdict and the counts.
+/// The verdict, how it was checked, and the counts by mobility.
 #[must_use]
 pub fn counts(found: &Found<'_>, width: Option<u16>) -> String {
     let mut out = String::new();
@@ -28,24 +33,7 @@ pub fn counts(found: &Found<'_>, width: Option<u16>) -> String {
     } else {
         format!("σ ≤ {}", request.max_redundant)
     };
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        out,
-        "{}: {} variants",
-        found.search.mechanism.name,
-        big(&found.search.size())
-    );
-    let _ = writeln!(
-        out,
-        "  {least}{} with {condition}",
-        big(&found.determinate.total)
-    );
-    if found.search.size() == num_bigint::BigUint::from(1u8) {
-        let _ = writeln!(
-            out,
-            "  no joint has a choice: list some under [search], such as options = [\"revolute\", \"spherical\"]"
-        );
-    }
+    let (mechanism, size) = (&found.search.mechanism.name, found.search.size());
     let more = [
         request
             .keep_output
@@ -61,12 +49,32 @@ pub fn counts(found: &Found<'_>, width: Option<u16>) -> String {
             )
         }),
     ];
-    let more = more.into_iter().flatten().join(" and ");
+    let more: Vec<String> = more.into_iter().flatten().collect();
+    let all = match more.split_last() {
+        None => format!("have {condition}"),
+        Some((last, rest)) => {
+            let head = std::iter::once(format!("have {condition}")).chain(rest.iter().cloned());
+            format!("{} and {last}", head.collect_vec().join(", "))
+        }
+    };
+    let good = if found.admissible.total.is_zero() && least.is_empty() {
+        "none".to_owned()
+    } else {
+        format!("{least}{}", big(&found.admissible.total))
+    };
+    // Writing to a string cannot fail.
+    let _ = writeln!(out, "{mechanism}: {good} of {} variants {all}", big(&size));
+    if size == num_bigint::BigUint::from(1u8) {
+        let _ = writeln!(
+            out,
+            "  no joint has a choice: list some under [search], such as options = [\"revolute\", \"spherical\"]"
+        );
+    }
     if !more.is_empty() {
         let _ = writeln!(
             out,
-            "  {least}{} of them {more}",
-            big(&found.admissible.total)
+            "  {least}{} with {condition}, whatever else they do",
+            big(&found.determinate.total)
         );
     }
     if let Some(([p, q], verdict)) = found.check {
@@ -110,7 +118,7 @@ pub fn counts(found: &Found<'_>, width: Option<u16>) -> String {
             table(&["W", &condition, "admissible"], rows.collect(), width)
         );
     }
-    out
+    fit(&out, width)
 }
 
 /// Some variants, numbered on from `first`.
@@ -121,17 +129,6 @@ pub fn variants(found: &Found<'_>, best: &[Certified], first: usize, width: Opti
     let checked = best.iter().any(|v| v.second != Second::Unasked);
     let rows = best.iter().enumerate().map(|(i, certified)| {
         let v = &certified.variant;
-        let mut changed: Vec<(String, Vec<String>)> = Vec::new();
-        for (joint, _, to) in changes(search, v) {
-            match changed.iter_mut().find(|(t, _)| *t == to) {
-                Some((_, joints)) => joints.push(joint),
-                None => changed.push((to, vec![joint])),
-            }
-        }
-        let changed = changed
-            .iter()
-            .map(|(to, joints)| format!("{} -> {to}", joints.join(", ")))
-            .join("; ");
         let sigma = match search.request.state {
             Some(_) => format!("{} + {}", v.key.internal(), v.key.external()),
             None => v.key.internal().to_string(),
@@ -150,11 +147,7 @@ pub fn variants(found: &Found<'_>, best: &[Certified], first: usize, width: Opti
             let cells = p.of(v).map(|(_, r)| ranking::cells(p, r));
             row.extend(cells.unwrap_or_default());
         }
-        row.push(if changed.is_empty() {
-            "none: the mechanism as it is".to_owned()
-        } else {
-            changed
-        });
+        row.push(changes(search, v));
         row
     });
     let mut head = vec!["", "cost", "W", "σ"];
@@ -162,6 +155,25 @@ pub fn variants(found: &Found<'_>, best: &[Certified], first: usize, width: Opti
     head.extend(ranking.into_iter().flat_map(ranking::columns));
     head.push("changes");
     table(&head, rows.collect(), width)
+}
+
+/// The changes of a variant in words: "3-0, 7-0 -> spherical; 5-1 -> cylindrical".
+#[must_use]
+pub fn changes(search: &Search<'_>, variant: &Variant) -> String {
+    let mut changed: Vec<(String, Vec<String>)> = Vec::new();
+    for (joint, _, to) in search_json::changes(search, variant) {
+        match changed.iter_mut().find(|(t, _)| *t == to) {
+            Some((_, joints)) => joints.push(joint),
+            None => changed.push((to, vec![joint])),
+        }
+    }
+    if changed.is_empty() {
+        return "none: the mechanism as it is".to_owned();
+    }
+    changed
+        .iter()
+        .map(|(to, joints)| format!("{} -> {to}", joints.join(", ")))
+        .join("; ")
 }
 
 /// The mark of a variant that a footnote tells about.
@@ -221,7 +233,7 @@ const NOTES: usize = 20;
 
 /// What the singular values say of a list, with its footnotes.
 #[must_use]
-pub fn notes(summary: &Summary, notes: &[String]) -> String {
+pub fn notes(summary: &Summary, notes: &[String], width: Option<u16>) -> String {
     let mut out = String::new();
     if summary.checked + summary.failed > 0 {
         opinions(&mut out, summary);
@@ -246,7 +258,84 @@ pub fn notes(summary: &Summary, notes: &[String]) -> String {
     if notes.len() > NOTES {
         let _ = writeln!(out, "  and {} more marked", notes.len() - NOTES);
     }
-    out
+    fit(&out, width)
+}
+
+/// What to do after a search: look at the first variant given, or ease a condition. `file` and `flags` are the search's
+/// own, so that the commands are about the same list.
+#[must_use]
+pub fn next(
+    found: &Found<'_>,
+    given: usize,
+    eased: &[(Relaxation, num_bigint::BigUint)],
+    file: &str,
+    flags: &str,
+) -> Vec<Step> {
+    let joined = |more: &str| format!("{flags} {more}").trim().to_owned();
+    let name = &found.search.mechanism.name;
+    if given > 0 {
+        let svg = file_name(&format!("{name}-variant-1"), "svg");
+        let toml = file_name(&format!("{name}-variant-1"), "toml");
+        return vec![
+            Step::new(
+                "draw",
+                file,
+                &joined(&format!("--variant 1 -o {svg}")),
+                "the first of the list, its changes in colour",
+            ),
+            Step::new(
+                "export",
+                file,
+                &joined(&format!("--variant 1 --to toml -o {toml}")),
+                "the first of the list as a mechanism file of its own",
+            ),
+        ];
+    }
+    if !found.admissible.total.is_zero() {
+        return vec![Step::new(
+            "search",
+            file,
+            &joined("--top 10"),
+            "the cheapest of them",
+        )];
+    }
+    let steps = eased.iter().map(|(how, n)| {
+        let flag = match how {
+            Relaxation::Redundant(n) => format!("--max-redundant {n}"),
+            Relaxation::External(n) => format!("--max-external {n}"),
+            Relaxation::Mobility(n) => format!("--max-mobility {n}"),
+            Relaxation::Changes(n) => format!("--max-changes {n}"),
+            Relaxation::OutputChange => "--allow-output-change".to_owned(),
+        };
+        let n = grouped(&n.to_string());
+        let least = if *how == Relaxation::OutputChange {
+            format!("{n} variants, whose outputs move in other ways than now")
+        } else {
+            format!("{n} variants; no smaller number leaves any")
+        };
+        // The flag replaces the one that was given.
+        let kept = without(flags, flag.split(' ').next().unwrap_or(""));
+        Step::new("search", file, format!("{kept} {flag}").trim(), &least)
+    });
+    let options = Step {
+        command: "Offer more options under [search], or at the joints".to_owned(),
+        gives: "the search chooses from those in the file alone".to_owned(),
+    };
+    steps.chain([options]).collect()
+}
+
+/// Some flags without one of them and its value.
+fn without(flags: &str, flag: &str) -> String {
+    let mut words = flags.split(' ').peekable();
+    let mut kept = Vec::new();
+    while let Some(w) = words.next() {
+        if w == flag {
+            words.next_if(|v| !v.starts_with("--"));
+        } else {
+            kept.push(w);
+        }
+    }
+    kept.join(" ")
 }
 
 fn opinions(out: &mut String, summary: &Summary) {

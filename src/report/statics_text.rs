@@ -1,5 +1,6 @@
 //! Statics for people: the groups, the reactions over the cycle, the greatest of each joint.
 
+use crate::report::layout::fit;
 use crate::report::statics_words::{
     GroupMethod, bodies, disagreement, drive_position, drive_unit, figure, group, magnitudes,
     pairs, prefix,
@@ -86,7 +87,11 @@ pub fn structures(
         "Assur groups, in the order they are placed",
     ];
     let table = table(&header, rows.collect(), width);
-    format!("{name}: structure under each drive, those at the frame first\n\n{table}\n")
+    let head = fit(
+        &format!("{name}: structure under each drive, those at the frame first"),
+        width,
+    );
+    format!("{head}\n\n{table}\n")
 }
 
 /// The whole report, fitted to a terminal of `width` columns where one is given.
@@ -95,7 +100,7 @@ pub fn statics(name: &str, s: &Statics, methods: &[GroupMethod], width: Option<u
     let mut out = String::new();
     // Writing to a string cannot fail.
     let _ = write_statics(&mut out, name, s, methods, width);
-    out
+    fit(&out, width)
 }
 
 fn write_statics(
@@ -108,7 +113,8 @@ fn write_statics(
     let (m, d) = (&s.linkage.mechanism, &s.decomposition);
     writeln!(
         out,
-        "{name}: {} driven by {}, class {}\n",
+        "{name}: {}{} driven by {}, class {}\n",
+        verdict(s),
         plural(d.groups.len(), "Assur group"),
         if d.drives.is_empty() {
             "nothing".to_owned()
@@ -148,6 +154,29 @@ fn write_statics(
         )?;
     }
     Ok(())
+}
+
+/// The greatest reaction of the cycle, for the first line; nothing without loads.
+fn verdict(s: &Statics) -> String {
+    let m = &s.linkage.mechanism;
+    let all = s.moments.iter().flat_map(|x| {
+        let found = x.whole.iter().flat_map(|w| &w.reactions);
+        found.map(|r| (r.force[0].hypot(r.force[1]), r.pair, x.instant.drive))
+    });
+    let finite = all.filter(|(force, ..)| force.is_finite() && *force > 0.0);
+    match finite.max_by(|a, b| a.0.total_cmp(&b.0)) {
+        Some((force, pair, at)) => {
+            let (unit, prefix) = prefix(force);
+            format!(
+                "greatest reaction {} {prefix}N at {} ({} {}); ",
+                figure(force / unit),
+                m.pairs[pair].name,
+                figure(drive_position(s, at)),
+                drive_unit(s)
+            )
+        }
+        None => String::new(),
+    }
 }
 
 fn group_table(
@@ -191,7 +220,7 @@ fn group_table(
     )?;
     writeln!(
         out,
-        "The guide's reaction has the arm h about D; it acts at y along the guide from {} (both in m).\n",
+        "The guide's reaction has the arm h about D; it acts at y along the guide from {}.\n",
         m.pairs[letters.guide].name
     )?;
     let rows = solved.iter().map(|(x, g, r)| {
@@ -204,7 +233,17 @@ fn group_table(
         }
         row
     });
-    let mut header = vec![drive_unit(s), "D", "F", "K", "M", "L", "guide", "h", "y"];
+    let mut header = vec![
+        drive_unit(s),
+        "D",
+        "F",
+        "K",
+        "M",
+        "L",
+        "guide",
+        "h, m",
+        "y, m",
+    ];
     if methods.len() > 1 {
         header.push("methods differ");
     }

@@ -5,7 +5,7 @@ use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::redundancy::idle::Idle;
 use crate::redundancy::stress::JointWrench;
-use comfy_table::{ContentArrangement, Table, TableComponent, presets};
+pub use crate::report::layout::table;
 use itertools::Itertools;
 
 /// A whole number with thin groups of three: 13,841,287,201.
@@ -33,26 +33,6 @@ pub fn cost(milli: i64) -> String {
         milli.abs() % 1000
     );
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-/// A plain table, fitted to `width` columns where the output is a terminal.
-#[must_use]
-pub fn table(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> String {
-    let mut table = Table::new();
-    table
-        .load_preset(presets::NOTHING)
-        .set_style(TableComponent::HeaderLines, '-')
-        .set_style(TableComponent::MiddleHeaderIntersections, ' ')
-        .set_content_arrangement(ContentArrangement::Dynamic);
-    if let Some(width) = width {
-        table.set_width(width);
-    }
-    table.set_header(header.to_vec());
-    table.add_rows(rows);
-    let text = table.to_string();
-    text.lines()
-        .map(|l| format!(" {}", l.trim_end()))
-        .join("\n")
 }
 
 /// "1 redundant constraint", "2 redundant constraints".

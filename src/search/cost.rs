@@ -55,6 +55,20 @@ impl CostTable {
         }
     }
 
+    /// The cost of a change above that of the present joint: another joint in its place, an unloading joint with its link
+    /// beside it, or both.
+    #[must_use]
+    pub fn change(
+        &self,
+        present: &JointOption,
+        to: Option<&JointOption>,
+        unloading: Option<&JointOption>,
+    ) -> i64 {
+        let replaced = to.map_or(0, |o| self.option(o) - self.option(present) + self.change);
+        let inserted = unloading.map_or(0, |u| self.option(u) + self.link + self.change);
+        replaced + inserted
+    }
+
     /// The cost of a joint: the option's own, its name's, its type's, or by freedoms for a custom type.
     #[must_use]
     pub fn option(&self, option: &JointOption) -> i64 {

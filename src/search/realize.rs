@@ -19,6 +19,7 @@ impl Search<'_> {
                 }
             }
         }
+        let stays = |l| old.joints_in(0).any(|j| old.joints[j].links.contains(&l));
         let mut links = old.links.clone();
         let mut contours = old.contours.clone();
         let (mut joints, mut inserted) = (Vec::with_capacity(old.joints.len()), Vec::new());
@@ -29,11 +30,15 @@ impl Search<'_> {
                 let mut series = replaced(joint, Some(u));
                 series.id = format!("{} unloading", joint.id);
                 series.drive = false;
-                series.links = [joint.links[0], pad];
                 if external {
                     series.states = None;
                 }
-                here.links[0] = pad;
+                // The pad stays on the mechanism when the body it held is gone.
+                let [a, b] = joint.links.map(|l| stays(l));
+                let end = usize::from(external && b && !a);
+                series.links[end] = joint.links[end];
+                series.links[1 - end] = pad;
+                here.links[end] = pad;
                 links.push(Link {
                     id: format!("{} pad", joint.id),
                     role: Role::Inner,

@@ -149,18 +149,12 @@ fn choices(
                 .collect::<Result<Vec<Vec<Residue>>, _>>()?;
             // W is the free state's: a contact is absent there, its unloading joint is not.
             let absent = if external { columns.len() } else { 0 };
-            let mut cost_milli = if i == 0 {
-                0
-            } else {
-                costs.option(option) - costs.option(&joint.options[0]) + costs.change
-            };
-            if let Some(u) = unloading {
-                let series = twists(&joint.unloading[u])?.into_iter();
-                columns.extend(series.map(|(_, mut t)| {
+            let inserted = unloading.map(|u| &joint.unloading[u]);
+            if let Some(u) = inserted {
+                columns.extend(twists(u)?.into_iter().map(|(_, mut t)| {
                     t.resize(t.len() + rates, 0);
                     t
                 }));
-                cost_milli += costs.option(&joint.unloading[u]) + costs.link + costs.change;
             }
             let freedoms = u32::try_from(columns.len() - absent).unwrap_or(u32::MAX);
             let mut span = Echelon::new(exact.field());
@@ -173,7 +167,7 @@ fn choices(
                 spans: vec![span.reduced()],
                 freedoms,
                 changes: u32::from(i != 0) + u32::from(unloading.is_some()),
-                cost_milli,
+                cost_milli: costs.change(&joint.options[0], (i != 0).then_some(option), inserted),
             });
         }
     }

@@ -7,6 +7,7 @@ use ozols::import::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, Mode};
 use ozols::redundancy::analysis::{Elimination, Method, analyse};
 use ozols::robot::{Options, import};
+use proptest::prelude::*;
 
 fn all() -> impl Iterator<Item = Mechanism> {
     builtin::names()
@@ -53,6 +54,104 @@ fn toml_and_json() {
                     .collect::<Vec<_>>()
             };
             assert_eq!(figures(&back), figures(&m), "{}", m.name);
+        }
+    }
+}
+
+/// The whole model in words; coordinates as expressions.
+fn model(m: &Mechanism) -> String {
+    format!("{m:#?}")
+}
+
+fn comes_back(m: &Mechanism) {
+    let toml = export::toml(m).unwrap();
+    let json = export::mechanism_file(m).json().to_string();
+    for (name, text) in [("x.toml", &toml), ("x.json", &json)] {
+        let back =
+            mechanism_from_str(name, text).unwrap_or_else(|e| panic!("{}: {e}\n{text}", m.name));
+        let (back, m) = (model(&back), model(m));
+        if let Some((i, (a, b))) =
+            (back.lines().zip(m.lines()).enumerate()).find(|(_, (a, b))| a != b)
+        {
+            panic!("line {i}: {a} instead of {b}\n{text}");
+        }
+        assert_eq!(back.len(), m.len());
+    }
+}
+
+// Import undoes export: every field of the model, rankings, joint types, grippers and drives among them.
+#[test]
+fn import_undoes_export() {
+    let (mut ranked, mut typed, mut grips, mut drives) = (0, 0, 0, 0);
+    for m in all() {
+        comes_back(&m);
+        ranked += usize::from(m.ranking.is_some());
+        typed += usize::from(!m.joint_types.is_empty());
+        grips += usize::from(m.loads.grip.is_some());
+        drives += usize::from(m.loads.drive.is_some());
+    }
+    assert!(
+        ranked > 0 && grips > 0 && drives > 0,
+        "{ranked} {typed} {grips} {drives}"
+    );
+}
+
+// What no built-in mechanism says: joint types with costs, irregular programmes, a payload, parts by density.
+#[test]
+fn import_undoes_export_of_rich_workloads() {
+    let text = |n: &str| builtin::text(n).unwrap().to_owned();
+    let types = format!(
+        "{}\n[joint_types.revolute]\ncapacity_force = 96\nclearance = 1e-5\n[joint_types.spherical]\ncost = 7\n\
+         [joint_types.universal-y]\ncapacity_moment = 0.3\n",
+        text("gripper-10-loaded")
+    );
+    let grip = |more: &str| {
+        format!(
+            "{}\n[workload.grip]\nlever_length = 0.1\nprism_angle = \"2*pi/3\"\nmounting_angle = 33.3\ndiameter = 7\n{more}",
+            text("four-bar")
+        )
+    };
+    let drive = |more: &str| {
+        format!(
+            "{}\n[workload.drive]\nswing_angle = \"1.7rad\"\nswing_time = 0.35\nshear_modulus = 8e10\n\
+             allowable_stress = 4e8\n{more}",
+            text("four-bar")
+        )
+    };
+    let texts = [
+        types,
+        grip(
+            "pivots = \"nominal\"\ndiameters = { from = 3, to = 9, count = 5 }\nface_length = 0.7\nlevers = \"equal\"",
+        ),
+        grip(
+            "pivot_distance = 0.3\nlevers_cross = true\nlever_width = 0.1\nmass = 1.1\nfriction = 0.3\ngravity = \"any\"\nany_acceleration = 3\naccelerations = [[1, 2, 0.1]]\nlevers = \"independent\"\ndrive_arm = 12.7",
+        ),
+        grip(
+            "density = 7850\npart_length = 12.1\nfriction = 0.2\nsafety = 1.5\ncentre_of_mass = [0.1, 0, 0.7]",
+        ),
+        drive(
+            "disc_inertia = 0.1\npayload_mass = 1.3\npayload_radius = 30.1\nsecond_inertia = 0.2\nprogramme = [\"1\", \"wait 0.3\", \"wait 0\", \"2\"]",
+        ),
+        drive(
+            "inertia = 0.3\npayload_radius = 7\nmotion = \"reversing\"\nswings = 5\ndwell = 0.1\nmissing_angle = 1.1\nviscous_damping = 0.01",
+        ),
+        drive(
+            "inertia = 0.3\nspring_stroke = 10.1\ncam_efficiency = 0.7\nfeed_energy = 0.2\nfeed_from = -3.3\nlatch_capture = 0.7\ndiameters = [5, 3]\ntorsion_length = 300.7\nmax_length = 900",
+        ),
+    ];
+    for text in texts {
+        let m = mechanism_from_str("x.toml", &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        comes_back(&m);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 64, ..Default::default() })]
+
+    #[test]
+    fn import_undoes_export_of_random_mechanisms(text in crate::twin::random()) {
+        if let Ok(m) = mechanism_from_str("x.toml", &text) {
+            comes_back(&m);
         }
     }
 }

@@ -35,5 +35,7 @@ mod statics;
 mod stroke;
 mod stroke_poses;
 mod structure;
+mod suggest;
 mod twin;
+mod variants;
 mod varied;

@@ -5,6 +5,18 @@ use crate::import::quantity::{Bound, Table, word};
 use crate::import::resolve::{index, key};
 use crate::model::drive::Step;
 
+/// So many swings, of both discs in turn or of the second alone, with a dwell after each where one is given.
+#[must_use]
+pub fn regular(stepwise: bool, swings: usize, dwell: Option<f64>) -> Vec<Step> {
+    let mut steps = Vec::new();
+    for i in 0..swings {
+        // The second disc goes first, so that the first, which is ahead, is followed.
+        steps.push(Step::Swing(if stepwise { (i + 1) % 2 } else { 1 }));
+        steps.extend(dwell.map(Step::Dwell));
+    }
+    steps
+}
+
 pub(super) fn programme(t: &mut Table<'_>, e: &DriveEntry) -> Vec<Step> {
     let dwell = t.optional(
         "dwell",
@@ -33,13 +45,7 @@ pub(super) fn programme(t: &mut Table<'_>, e: &DriveEntry) -> Vec<Step> {
             );
             return Vec::new();
         };
-        let mut steps = Vec::new();
-        for i in 0..count {
-            // The second disc goes first, so that the first, which is ahead, is followed.
-            steps.push(Step::Swing(if stepwise { (i + 1) % 2 } else { 1 }));
-            steps.extend(dwell.filter(|d| *d > 0.0).map(Step::Dwell));
-        }
-        return steps;
+        return regular(stepwise, count, dwell.filter(|d| *d > 0.0));
     };
     let beside = [
         ("motion", e.motion.is_some()),

@@ -1,0 +1,200 @@
+//! Text fitted to a terminal: tables whose columns give way where they can, lines that break between words.
+
+use comfy_table::{ColumnConstraint, ContentArrangement, Table, TableComponent, Width, presets};
+use console::measure_text_width;
+use itertools::Itertools;
+
+/// A plain table. Where the output is a terminal of `width` columns, columns of words are wrapped, numbers and names never
+/// are; a table too wide for that is given in parts, one below the other, each with the first column.
+#[must_use]
+pub fn table(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> String {
+    let Some(width) = width.map(usize::from) else {
+        return render(header, rows, None);
+    };
+    let columns: Vec<Column> = (0..header.len())
+        .map(|c| Column::new(header[c], rows.iter().filter_map(|r| r.get(c))))
+        .collect();
+    let parts = parts(&columns, width);
+    let part = |part: &Vec<usize>| {
+        let header: Vec<&str> = part.iter().map(|&c| header[c]).collect();
+        let rows = rows.iter().map(|r| {
+            let cells = part.iter().map(|&c| r.get(c).cloned().unwrap_or_default());
+            cells.collect()
+        });
+        let of_part: Vec<&Column> = part.iter().map(|&c| &columns[c]).collect();
+        render(&header, rows.collect(), Some(widths(&of_part, width)))
+    };
+    parts.iter().map(part).join("\n\n")
+}
+
+fn render(header: &[&str], rows: Vec<Vec<String>>, widths: Option<Vec<usize>>) -> String {
+    let mut table = Table::new();
+    table
+        .load_preset(presets::NOTHING)
+        .set_style(TableComponent::HeaderLines, '-')
+        .set_style(TableComponent::MiddleHeaderIntersections, ' ')
+        .set_content_arrangement(ContentArrangement::Dynamic);
+    table.set_header(header.to_vec());
+    table.add_rows(rows);
+    if let Some(widths) = widths {
+        table.set_width(u16::try_from(taken(&widths)).unwrap_or(u16::MAX));
+        let cells = widths.iter().map(|w| u16::try_from(w + PADDING));
+        table.set_constraints(
+            cells.map(|w| ColumnConstraint::Absolute(Width::Fixed(w.unwrap_or(u16::MAX)))),
+        );
+    }
+    let text = table.to_string();
+    text.lines()
+        .map(|l| format!(" {}", l.trim_end()))
+        .join("\n")
+}
+
+/// Spaces on both sides of a cell.
+const PADDING: usize = 2;
+
+/// What a table of columns so wide takes: a margin on the left, a gap between columns.
+fn taken(widths: &[usize]) -> usize {
+    widths.iter().map(|w| w + PADDING + 1).sum()
+}
+
+/// How wide a column is, and how narrow it may be: its longest word.
+struct Column {
+    most: usize,
+    least: usize,
+}
+
+impl Column {
+    fn new<'a>(head: &'a str, cells: impl Iterator<Item = &'a String>) -> Column {
+        // No column of a table is narrower than this.
+        let mut out = Column { most: 1, least: 1 };
+        for text in std::iter::once(head).chain(cells.map(String::as_str)) {
+            out.most = out.most.max(measure_text_width(text));
+            let words = text.split_whitespace().map(measure_text_width);
+            out.least = out.least.max(words.max().unwrap_or(0));
+        }
+        out
+    }
+}
+
+/// The columns in parts that fit, the first column in each.
+fn parts(columns: &[Column], width: usize) -> Vec<Vec<usize>> {
+    let mut out: Vec<Vec<usize>> = vec![Vec::new()];
+    for c in 0..columns.len() {
+        let last = out.len() - 1;
+        let with = out[last].iter().chain([&c]).map(|&c| columns[c].least);
+        if taken(&with.collect::<Vec<_>>()) > width && out[last].len() > 1 {
+            out.push(vec![0, c]);
+        } else {
+            out[last].push(c);
+        }
+    }
+    out
+}
+
+/// Widths of the columns such that all fit, if they can: the widest gives way first, none below its longest word.
+fn widths(columns: &[&Column], width: usize) -> Vec<usize> {
+    let mut widths: Vec<usize> = columns.iter().map(|c| c.most).collect();
+    while taken(&widths) > width {
+        let can = (0..widths.len()).filter(|&c| widths[c] > columns[c].least);
+        // Of columns alike the last, where the explanations are.
+        let Some(widest) = can.max_by_key(|&c| widths[c]) else {
+            break;
+        };
+        widths[widest] -= 1;
+    }
+    widths
+}
+
+/// A text with the lines that are too long broken between words, the rest of them set in by two more.
+#[must_use]
+pub fn fit(text: &str, width: Option<u16>) -> String {
+    let Some(width) = width.map(usize::from) else {
+        return text.to_owned();
+    };
+    text.split('\n').map(|l| wrapped(l, width)).join("\n")
+}
+
+fn wrapped(line: &str, width: usize) -> String {
+    if measure_text_width(line) <= width {
+        return line.to_owned();
+    }
+    let margin = line.len() - line.trim_start_matches(' ').len();
+    let (mut out, mut at) = (line[..margin].to_owned(), margin);
+    // Runs of spaces within a line are columns and are kept where they do not end it.
+    let mut gap = 0;
+    for word in line[margin..].split(' ') {
+        if word.is_empty() {
+            gap += 1;
+            continue;
+        }
+        let size = measure_text_width(word);
+        let fresh = out.trim_start().is_empty();
+        if !fresh && at + gap + size > width {
+            out.truncate(out.trim_end_matches(' ').len());
+            out.push('\n');
+            out.push_str(&" ".repeat(margin + 2));
+            at = margin + 2;
+        } else if !fresh {
+            out.push_str(&" ".repeat(gap));
+            at += gap;
+        }
+        out.push_str(word);
+        at += size;
+        gap = 1;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn widest(text: &str) -> usize {
+        text.lines().map(measure_text_width).max().unwrap_or(0)
+    }
+
+    #[test]
+    fn words_wrap_and_numbers_do_not() {
+        let rows = vec![
+            vec![
+                "1".to_owned(),
+                "0.1414".to_owned(),
+                "3-0, 1-6, 7-0, 8-9 -> spherical; 5-1 -> cylindrical".to_owned(),
+            ],
+            vec![
+                "10".to_owned(),
+                "12.5".to_owned(),
+                "2-3 -> spherical".to_owned(),
+            ],
+        ];
+        let head = ["", "moment", "changes"];
+        let text = table(&head, rows.clone(), Some(40));
+        assert!(widest(&text) <= 40, "{text}");
+        assert!(text.contains("0.1414") && text.contains("; 5-1"), "{text}");
+        let free = table(&head, rows.clone(), None);
+        assert_eq!(free, table(&head, rows.clone(), Some(200)));
+        let narrow = table(&head, rows, Some(20));
+        assert!(
+            widest(&narrow) <= 20 && narrow.contains("moment"),
+            "{narrow}"
+        );
+    }
+
+    #[test]
+    fn long_lines_hang() {
+        let text = fit("a\n  one two three four\n  wait", Some(12));
+        assert_eq!(text, "a\n  one two\n    three\n    four\n  wait");
+        assert_eq!(fit("  as it is", None), "  as it is");
+    }
+
+    proptest! {
+        #[test]
+        fn every_word_is_kept_and_every_line_fits(text in "( {0,4}([a-zσ]{1,9} {1,3}){0,12}\n){0,5}", width in 24u16..90) {
+            let fitted = fit(&text, Some(width));
+            prop_assert!(fitted.split_whitespace().eq(text.split_whitespace()));
+            let long = fitted.lines().find(|l| measure_text_width(l.trim_end()) > usize::from(width));
+            prop_assert!(long.is_none(), "{fitted}");
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Where a question has no answer: which of its conditions, eased alone, would leave some variants.
+
+use crate::geom::exact::ExactField;
+use crate::model::mechanism::Mechanism;
+use crate::search::counts::Counts;
+use crate::search::diagram::Stop;
+use crate::search::request::{Request, Search, SearchError};
+use num_bigint::BigUint;
+use num_traits::Zero;
+
+/// A condition eased, by the least that leaves variants.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Relaxation {
+    /// Redundant constraints within the mechanism up to this many.
+    Redundant(u32),
+    /// Redundant constraints that the state adds up to this many.
+    External(u32),
+    /// Mobility up to this.
+    Mobility(i64),
+    /// Up to this many changes.
+    Changes(u32),
+    /// Outputs that move in other ways than now.
+    OutputChange,
+}
+
+/// Nodes of a diagram at most: easing should cost no more than the question did.
+const NODES: usize = 200_000;
+
+/// The conditions that, eased alone, leave some variants, with how many; a condition whose search would take too many
+/// nodes is passed over.
+///
+/// # Errors
+/// As [`Search::new`].
+///
+/// # Complexity
+/// One search for each condition, and for the external redundancy one for each bit of its greatest value.
+pub fn relaxations(
+    mechanism: &Mechanism,
+    exact: &ExactField,
+    request: &Request,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
+    let counted = |change: &dyn Fn(&mut Request)| -> Result<Option<Counts>, SearchError> {
+        let mut request = request.clone();
+        request.nodes = request.nodes.min(NODES);
+        change(&mut request);
+        let search = Search::new(exact.clone(), mechanism, request)?;
+        let diagrams = search.build(cancelled, &mut |_| {});
+        let whole = diagrams.stop() == Stop::Exhausted;
+        let counts = whole.then(|| search.counts(&diagrams.admissible, true));
+        Ok(counts.filter(|c| !c.total.is_zero()))
+    };
+    let mut out = Vec::new();
+    // No variant has more redundant constraints than rows.
+    let rows = u32::try_from(6 * mechanism.joints.len()).unwrap_or(u32::MAX);
+    if let Some(c) = counted(&|r| r.max_redundant = rows)?
+        && let Some((least, n)) = c.by_redundant.iter().next()
+    {
+        out.push((Relaxation::Redundant(*least), n.clone()));
+    }
+    if let Some((state, allowed)) = request.state
+        && allowed < rows
+    {
+        let with = |most: u32| counted(&|r: &mut Request| r.state = Some((state, most)));
+        if let Some(mut found) = with(rows)? {
+            // What is allowed is too few, `rows` is enough; the least that is lies between.
+            let (mut few, mut enough) = (allowed, rows);
+            while enough - few > 1 {
+                let middle = few + (enough - few) / 2;
+                match with(middle)? {
+                    Some(c) => (enough, found) = (middle, c),
+                    None => few = middle,
+                }
+            }
+            out.push((Relaxation::External(enough), found.total));
+        }
+    }
+    if request.max_mobility.is_some()
+        && let Some(c) = counted(&|r| r.max_mobility = None)?
+        && let Some((least, n)) = c.by_mobility.iter().next()
+    {
+        out.push((Relaxation::Mobility(*least), n.clone()));
+    }
+    if request.max_changes.is_some()
+        && let Some(c) = counted(&|r| r.max_changes = None)?
+        && let Some((least, n)) = c.by_changes.iter().next()
+    {
+        out.push((Relaxation::Changes(*least), n.clone()));
+    }
+    if request.keep_output
+        && let Some(c) = counted(&|r| r.keep_output = false)?
+    {
+        out.push((Relaxation::OutputChange, c.total));
+    }
+    Ok(out)
+}

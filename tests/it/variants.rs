@@ -1,0 +1,202 @@
+//! Variants of a search's list as mechanisms of their own, and what to do where there are none.
+
+use crate::cli::{count, json, out, ozols};
+use serde_json::Value;
+
+/// Flags of a question and places in its list.
+const LISTS: [(&str, &[&str], &[usize]); 7] = [
+    ("gripper-10", &[], &[1, 7]),
+    ("gripper-10", &["--max-external", "2"], &[1, 3]),
+    (
+        "gripper-10",
+        &["--max-redundant", "4", "--max-changes", "3"],
+        &[1, 4],
+    ),
+    (
+        "gripper-10",
+        &["--options", "revolute,cylindrical,spherical", "--symmetric"],
+        &[2],
+    ),
+    ("gripper-10-loaded", &["--pool", "50"], &[1, 3]),
+    ("four-bar", &[], &[1, 14]),
+    ("lever-gripper", &[], &[1, 2]),
+];
+
+fn with<'a>(head: &[&'a str], more: &[&'a str]) -> Vec<&'a str> {
+    [head, more].concat()
+}
+
+fn listed(file: &str, flags: &[&str], k: usize) -> (Value, Value) {
+    let top = k.to_string();
+    let value = json(&with(
+        &["search", file, "--top", &top, "--format", "json"],
+        flags,
+    ));
+    let variant = value["variants"][k - 1].clone();
+    assert_eq!(variant["position"], k);
+    (value, variant)
+}
+
+#[test]
+fn an_exported_variant_has_the_figures_of_the_list() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut pads = 0;
+    for (file, flags, places) in LISTS {
+        for &k in places {
+            let (_, variant) = listed(file, flags, k);
+            let (top, path) = (k.to_string(), folder.path().join("v.toml"));
+            let path = path.to_str().unwrap();
+            let to = [
+                "export",
+                file,
+                "--variant",
+                &top,
+                "--to",
+                "toml",
+                "-o",
+                path,
+            ];
+            out(&with(&to, flags));
+            let found = json(&["analyze", path, "--format", "json"]);
+            let free = &found["states"][0];
+            assert_eq!(
+                free["mobility"], variant["mobility"],
+                "{file} {flags:?} {k}"
+            );
+            assert_eq!(
+                free["redundant"], variant["redundant"],
+                "{file} {flags:?} {k}"
+            );
+            if let Some(external) = variant["external_redundant"].as_u64() {
+                let e = &found["states"][1]["external"];
+                assert_eq!(e["redundant_by_rank"].as_u64(), Some(external));
+                assert_eq!(e["agree"], true);
+            }
+            let written = std::fs::read_to_string(path).unwrap();
+            pads += usize::from(written.contains("a-8 unloading"));
+            for change in variant["changes"].as_array().unwrap() {
+                let head = written
+                    .lines()
+                    .find(|l| l.starts_with("description"))
+                    .unwrap();
+                assert!(head.contains(change["joint"].as_str().unwrap()), "{head}");
+            }
+            // What is a mechanism of its own is exported again like any other.
+            out(&["export", path, "--to", "toml"]);
+        }
+    }
+    assert_eq!(pads, 2);
+}
+
+#[test]
+fn variants_in_every_format_and_drawn() {
+    for to in ["toml", "json", "urdf", "sdf", "dot", "graphml"] {
+        let v = out(&["export", "gripper-10", "--variant", "2", "--to", to]);
+        assert_ne!(v, out(&["export", "gripper-10", "--to", to]), "{to}");
+        assert!(v.contains("gripper-10-variant-2"), "{to}: {v}");
+    }
+    // The ranked list, not that of cost.
+    let (_, first) = listed("gripper-10-loaded", &[], 1);
+    let changed = first["changes"][0]["to"].as_str().unwrap();
+    let drawn = out(&["draw", "gripper-10-loaded", "--variant", "1"]);
+    assert!(drawn.contains(changed), "{changed}");
+    for (args, part) in [
+        (
+            ["export", "four-bar", "--to", "dot", "--variant", "0"],
+            "numbered from 1",
+        ),
+        (
+            ["export", "four-bar", "--to", "dot", "--variant", "999"],
+            "no variant 999: the search gives",
+        ),
+    ] {
+        let o = ozols(&args).output().unwrap();
+        let said = String::from_utf8(o.stderr).unwrap();
+        assert_eq!((o.status.code(), o.stdout.len()), (Some(2), 0));
+        assert!(said.contains(part), "{said}");
+    }
+}
+
+#[test]
+fn a_search_says_what_to_do_next() {
+    let text = out(&[
+        "search",
+        "gripper-10",
+        "--max-mobility",
+        "1",
+        "--hold",
+        "5",
+        "--top",
+        "1",
+    ]);
+    assert!(text.starts_with("gripper-10: "), "{text}");
+    assert!(
+        text.lines()
+            .next()
+            .unwrap()
+            .contains(" of 13,841,287,201 variants have σ = 0")
+    );
+    let flags = "--max-mobility 1 --hold 5";
+    for part in [
+        format!("\n    ozols draw gripper-10 {flags} --variant 1 -o gripper-10-variant-1.svg\n"),
+        format!(
+            "\n    ozols export gripper-10 {flags} --variant 1 --to toml -o gripper-10-variant-1.toml\n"
+        ),
+    ] {
+        assert!(text.contains(&part), "no {part:?} in {text}");
+    }
+}
+
+// Every condition said to help does, and nothing less would.
+#[test]
+fn what_would_help_where_nothing_is_found() {
+    let questions: [&[&str]; 4] = [
+        &["gripper-10", "--max-mobility", "1", "--max-changes", "3"],
+        &["gripper-10", "--max-mobility", "0"],
+        &["gripper-10", "--max-external", "1", "--max-changes", "5"],
+        &["gripper-10", "--options", "revolute,cylindrical"],
+    ];
+    let mut seen = std::collections::BTreeSet::new();
+    for q in questions {
+        let o = ozols(&with(&with(&["search"], q), &["--format", "json"]))
+            .output()
+            .unwrap();
+        assert_eq!(o.status.code(), Some(1), "{q:?}");
+        let value: Value = serde_json::from_slice(&o.stdout).unwrap();
+        let eased = value["relaxations"].as_array().unwrap();
+        for r in eased {
+            let what = r["condition"].as_str().unwrap();
+            seen.insert(what.to_owned());
+            let flag = format!("--{what}");
+            let ask = |to: Option<i64>| {
+                let mut args: Vec<String> = vec!["search".to_owned()];
+                let mut words = q.iter().map(|w| (*w).to_owned());
+                while let Some(w) = words.next() {
+                    if w == flag {
+                        words.next();
+                    } else {
+                        args.push(w);
+                    }
+                }
+                args.push(flag.clone());
+                args.extend(to.map(|n| n.to_string()));
+                args.extend(["--count", "--format", "json"].map(str::to_owned));
+                let args: Vec<&str> = args.iter().map(String::as_str).collect();
+                let o = ozols(&args).output().unwrap();
+                let v: Value = serde_json::from_slice(&o.stdout).unwrap();
+                count(&v["admissible"])
+            };
+            let to = r["to"].as_i64();
+            assert_eq!(ask(to), count(&r["admissible"]), "{q:?} {r}");
+            assert!(ask(to) > 0);
+            if let Some(n) = to.filter(|n| *n > 0) {
+                assert_eq!(ask(Some(n - 1)), 0, "{q:?} {r}");
+            }
+        }
+        let o = ozols(&with(&["search"], q)).output().unwrap();
+        let text = String::from_utf8(o.stdout).unwrap();
+        assert!(text.starts_with("gripper-10: none of "), "{text}");
+        assert!(text.contains("Offer more options"), "{text}");
+    }
+    assert!(seen.len() >= 4, "{seen:?}");
+}
