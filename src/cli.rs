@@ -17,6 +17,7 @@ mod progress;
 mod question;
 mod ranked;
 mod reactions;
+mod report;
 mod search;
 mod statics;
 mod stroke;
@@ -55,6 +56,7 @@ pub fn run() -> ExitCode {
         args::Command::Verify(a) => verify::run(&args, a),
         args::Command::Import(a) => import::run(&args, a),
         args::Command::Draw(a) => draw::run(&args, a),
+        args::Command::Report(_) => Ok(Done::Nothing),
         args::Command::Export(a) => export::run(&args, a),
         args::Command::Accuracy(a) => accuracy::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),

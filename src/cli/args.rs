@@ -23,6 +23,7 @@ Examples:
   ozols statics parallel-shears               Assur groups, and joint reactions over the cycle
   ozols grip lever-gripper                    what its levers can hold, and with what drive moment
   ozols drive torsion-module                  the torsion bar, the cam spring, and the programme run
+  ozols report gripper-10 -o report.html      all of it on one page, redesigns to sort and look at
   ozols draw gripper-10 -o gripper.svg        its structural scheme; --kind kinematic, --variant 1
   ozols show four-bar > mine.toml             a file to start from
   ozols check mine.toml                       what is wrong with it, if anything
@@ -64,6 +65,8 @@ pub(super) enum Command {
     Import(Import),
     /// Draw the structural or the kinematic scheme as SVG.
     Draw(Draw),
+    /// One HTML page: the verdict, drawings, contours, and the variants to sort, filter and look at.
+    Report(Report),
     /// Write a mechanism in another format: TOML, JSON, URDF, SDF, Graphviz DOT, GraphML.
     Export(Export),
     /// How right and how fast each method is on every built-in mechanism, and where its numbers fail.
@@ -373,14 +376,31 @@ pub(super) struct Search {
     #[arg(long, value_name = "K", default_value_t = 10)]
     pub(super) top: usize,
     /// Give every admissible variant, cheapest first.
-    #[arg(long, conflicts_with_all = ["top", "sample", "count"])]
+    #[arg(long, conflicts_with_all = ["top", "sample", "count", "rank"])]
     pub(super) all: bool,
     /// Give N admissible variants drawn at random, each with the same chance, instead of the best.
-    #[arg(long, value_name = "N", conflicts_with_all = ["top", "count"])]
+    #[arg(long, value_name = "N", conflicts_with_all = ["top", "count", "rank"])]
     pub(super) sample: Option<usize>,
     /// Counts only.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "rank")]
     pub(super) count: bool,
+    #[command(flatten)]
+    pub(super) question: Question,
+    /// Diagram, or brute force for checking.
+    #[arg(long, value_enum, default_value = "diagram")]
+    pub(super) method: SearchMethod,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    pub(super) format: SearchFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
+
+/// What is asked of a search, and how it is checked.
+#[derive(Debug, ClapArgs)]
+#[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
+pub(super) struct Question {
     /// Redundant constraints allowed within the mechanism.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) max_redundant: u32,
@@ -399,7 +419,7 @@ pub(super) struct Search {
     pub(super) max_changes: Option<u32>,
     /// Rank under the workload by these terms, in place of the file's [ranking] terms: peak-force=1,cost=0.5. Terms:
     /// peak-force, peak-moment, conditioning, output-error, changes, cost, idle; weight 1 where none stands.
-    #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',', conflicts_with_all = ["all", "sample", "count"])]
+    #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',')]
     pub(super) rank: Vec<String>,
     /// How many of the cheapest variants a ranking scores.
     #[arg(long, value_name = "K", default_value_t = 1000)]
@@ -425,9 +445,6 @@ pub(super) struct Search {
     /// Of a variant and its mirror image, only one.
     #[arg(long, conflicts_with = "symmetric")]
     pub(super) one_per_orbit: bool,
-    /// Diagram, or brute force for checking.
-    #[arg(long, value_enum, default_value = "diagram")]
-    pub(super) method: SearchMethod,
     /// Look at each variant given, up to 1000, in N further poses of the present motion, and mark those whose W, σ or
     /// output motion is not right there.
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -449,9 +466,22 @@ pub(super) struct Search {
     /// Node budget of each diagram, about 1 KB of memory a node (twice that with a check).
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     pub(super) nodes: usize,
-    /// Output format.
-    #[arg(long, value_enum, default_value = "text")]
-    pub(super) format: SearchFormat,
+}
+
+#[derive(Debug, ClapArgs)]
+#[command(after_help = "\
+Examples:
+  ozols report gripper-10 -o report.html                     one page for the browser, no network needed
+  ozols report gripper-10 --max-mobility 1 -o report.html    only redesigns without idle links
+  ozols report robot.urdf -o report.html                     a robot description")]
+pub(super) struct Report {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// How many of the best variants the page holds, 10000 at most.
+    #[arg(long, value_name = "K", default_value_t = 200)]
+    pub(super) top: usize,
+    #[command(flatten)]
+    pub(super) question: Question,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,

@@ -1,6 +1,6 @@
 //! The question a search answers, from its arguments.
 
-use super::args::Search as SearchArgs;
+use super::args::Question;
 use crate::model::measured::{Measured, looks_measured};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::measured::Verdicts;
@@ -10,7 +10,7 @@ use anyhow::{bail, ensure};
 
 pub(super) fn request(
     mechanism: &Mechanism,
-    a: &SearchArgs,
+    a: &Question,
     tolerance: f64,
 ) -> anyhow::Result<Request> {
     let state = state(mechanism, a)?;
@@ -31,10 +31,7 @@ pub(super) fn request(
 }
 
 /// The state that takes part, with the external redundancy allowed there.
-pub(super) fn state(
-    mechanism: &Mechanism,
-    a: &SearchArgs,
-) -> anyhow::Result<Option<(StateId, u32)>> {
+pub(super) fn state(mechanism: &Mechanism, a: &Question) -> anyhow::Result<Option<(StateId, u32)>> {
     Ok(match (&a.state, a.max_external) {
         (None, None) => None,
         (None, Some(external)) => {
@@ -105,7 +102,7 @@ pub(super) fn measured(
 }
 
 /// Applies --hold, --options, --allow and --forbid.
-pub(super) fn restrict(mechanism: &mut Mechanism, a: &SearchArgs) -> anyhow::Result<()> {
+pub(super) fn restrict(mechanism: &mut Mechanism, a: &Question) -> anyhow::Result<()> {
     for id in &a.hold {
         let Some(link) = mechanism.link(id) else {
             bail!("--hold: {} has no link {id}", mechanism.name)

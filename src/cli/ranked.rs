@@ -1,6 +1,6 @@
 //! The ranking that a search was asked for.
 
-use super::args::Search as SearchArgs;
+use super::args::Question;
 use crate::model::ranking::{Ranking, Term};
 use crate::score::evaluate::Evaluator;
 use crate::score::ranking::{RankedPool, rank};
@@ -14,10 +14,7 @@ use std::ops::ControlFlow;
 const MOST: usize = 100_000_000;
 
 /// The ranking of the file, with the terms of the command line where it names some; `None` where neither asks for one.
-fn wanted(search: &Search<'_>, a: &SearchArgs) -> anyhow::Result<Option<Ranking>> {
-    if a.all || a.count || a.sample.is_some() {
-        return Ok(None);
-    }
+fn wanted(search: &Search<'_>, a: &Question) -> anyhow::Result<Option<Ranking>> {
     let file = search.mechanism.ranking.clone();
     if a.rank.is_empty() {
         return Ok(file);
@@ -44,11 +41,12 @@ fn wanted(search: &Search<'_>, a: &SearchArgs) -> anyhow::Result<Option<Ranking>
     Ok(Some(ranking))
 }
 
-/// Scores the cheapest variants and puts them in order, where that was asked for.
+/// Scores the cheapest variants and puts the best `top` in order, where that was asked for.
 pub(super) fn pool(
     search: &Search<'_>,
     diagrams: &Diagrams,
-    a: &SearchArgs,
+    a: &Question,
+    top: usize,
 ) -> anyhow::Result<Option<RankedPool>> {
     let Some(ranking) = wanted(search, a)? else {
         return Ok(None);
@@ -68,7 +66,7 @@ pub(super) fn pool(
     let all = exhausted && variants.len() <= a.pool;
     variants.truncate(a.pool);
     // Further poses may drop some of the best, so that others must stand by.
-    let top = if a.generic_only { a.pool } else { a.top };
+    let top = if a.generic_only { a.pool } else { top };
     let mut out = rank(&evaluator, &ranking, &variants, a.pool, all, top);
     if !exhausted {
         (out.proven, out.proof) = (false, "the search stopped early");

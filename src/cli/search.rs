@@ -1,10 +1,11 @@
 //! `ozols search`.
 
-use super::answer::{Given, write_found};
-use super::args::{Args, Check, Search as SearchArgs, SearchFormat, SearchMethod};
+use super::answer::{Given, Giver, write_found};
+use super::args::{Args, Check, Question, Search as SearchArgs, SearchFormat, SearchMethod};
 use super::question::{measured, request, restrict, state};
 use super::{Done, load, output, progress};
 use crate::model::measured::Measured;
+use crate::model::mechanism::Mechanism;
 use crate::rank::measured::Verdicts;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::snap::snap;
@@ -29,7 +30,43 @@ const POSES: usize = 3;
 const BRUTE_LIMIT: u64 = 1 << 32;
 
 pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
-    let mut mechanism = load::mechanism(&a.file.file)?;
+    let mechanism = mechanism(&a.file.file, &a.question)?;
+    let state = state(&mechanism, &a.question)?.map(|(s, _)| s);
+    let measured = measured(&mechanism, state, a.question.as_written)?;
+    if a.method == SearchMethod::Brute {
+        let request = request(&mechanism, &a.question, tolerance(measured.as_ref()))?;
+        let search = Search::new(exact_field(&mechanism, 0)?, &mechanism, request)?;
+        return brute(&search, a, measured);
+    }
+    let wanted = Wanted {
+        top: a.top,
+        all: a.all,
+        sample: a.sample,
+        count: a.count,
+        by_cost: a.format == SearchFormat::Json,
+    };
+    answered(
+        args,
+        &mechanism,
+        &a.question,
+        measured,
+        &wanted,
+        |found, give| {
+            output::to(a.output.as_deref(), |out| {
+                write_found(out, a, found, give)?;
+                Ok(if found.admissible.total.is_zero() {
+                    Done::Nothing
+                } else {
+                    Done::Found
+                })
+            })
+        },
+    )
+}
+
+/// The mechanism that is asked about: snapped and with its options restricted as asked.
+pub(super) fn mechanism(file: &str, a: &Question) -> anyhow::Result<Mechanism> {
+    let mut mechanism = load::mechanism(file)?;
     if let Some(tolerance) = a.snap {
         ensure!(
             tolerance > 0.0 && tolerance < 1.0,
@@ -42,19 +79,42 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
         mechanism = snapped.mechanism;
     }
     restrict(&mut mechanism, a)?;
-    let state = state(&mechanism, a)?.map(|(s, _)| s);
-    let measured = measured(&mechanism, state, a.as_written)?;
-    let tolerance = measured
-        .as_ref()
-        .map_or(DEFAULT_TOLERANCE, |(m, _)| m.tolerance());
-    let request = request(&mechanism, a, tolerance)?;
-    if a.method == SearchMethod::Brute {
-        let search = Search::new(exact_field(&mechanism, 0)?, &mechanism, request)?;
-        return brute(&search, a, measured);
-    }
+    Ok(mechanism)
+}
+
+/// Below what second opinions take singular values for zero.
+fn tolerance(measured: Option<&(Measured, Vec<Verdicts>)>) -> f64 {
+    measured.map_or(DEFAULT_TOLERANCE, |(m, _)| m.tolerance())
+}
+
+/// Which variants are given, and what is counted.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Wanted {
+    /// The best so many.
+    pub(super) top: usize,
+    /// All instead.
+    pub(super) all: bool,
+    /// So many drawn at random instead.
+    pub(super) sample: Option<usize>,
+    /// None at all.
+    pub(super) count: bool,
+    /// Also counts by cost.
+    pub(super) by_cost: bool,
+}
+
+/// Searches a mechanism, and hands over what was found with a giver of the variants.
+pub(super) fn answered(
+    args: &Args,
+    mechanism: &Mechanism,
+    a: &Question,
+    measured: Option<(Measured, Vec<Verdicts>)>,
+    list: &Wanted,
+    then: impl FnOnce(&Found<'_>, &mut Giver<'_>) -> anyhow::Result<Done>,
+) -> anyhow::Result<Done> {
+    let request = request(mechanism, a, tolerance(measured.as_ref()))?;
     let over = |nth: usize| -> anyhow::Result<Search<'_>> {
-        let field = exact_field(&mechanism, nth)?;
-        Ok(Search::new(field, &mechanism, request.clone())?)
+        let field = exact_field(mechanism, nth)?;
+        Ok(Search::new(field, mechanism, request.clone())?)
     };
     let (search, twin) = match a.check {
         Check::None => (over(0)?, None),
@@ -87,7 +147,7 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
         None => None,
         Some((twin, second)) => {
             let both = [&search, *twin];
-            let verdict = primes::compare(both, [&diagrams, second], a.top)?;
+            let verdict = primes::compare(both, [&diagrams, second], list.top)?;
             Some((primes::primes(both), verdict))
         }
     };
@@ -113,7 +173,7 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
         };
         (determinate, admissible) = orbits;
     }
-    let by_cost = if a.format == SearchFormat::Json && !a.one_per_orbit {
+    let by_cost = if list.by_cost && !a.one_per_orbit {
         search.counts_by_cost(&diagrams.admissible)
     } else {
         BTreeMap::new()
@@ -142,70 +202,71 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
         check,
         measured,
         poses: stroke.as_ref().map(|s| (s.asked, s.reached())),
-        ranking: super::ranked::pool(&search, &diagrams, a)?,
-    };
-    output::to(a.output.as_deref(), |out| {
-        let mut give =
-            |write: &mut dyn FnMut(usize, Certified) -> anyhow::Result<()>| -> anyhow::Result<Given> {
-                let wanted = if a.all { usize::MAX / 4 } else { a.top };
-                let mut sink = Sink {
-                    search: &search,
-                    opinions: a.check == Check::Full,
-                    stroke: stroke.as_ref(),
-                    generic_only: a.generic_only,
-                    room: if a.sample.is_some() { usize::MAX } else { wanted },
-                    block: Vec::new(),
-                    given: 0,
-                    dropped: 0,
-                    write,
-                };
-                let mut failed = None;
-                let mut visit = |v: Variant| match sink.take(v) {
-                    Ok(()) if cancelled() || sink.room == 0 => ControlFlow::Break(()),
-                    Ok(()) => ControlFlow::Continue(()),
-                    Err(e) => {
-                        failed = Some(e);
-                        ControlFlow::Break(())
-                    }
-                };
-                match a.sample {
-                    Some(n) => {
-                        for v in search.sample(&diagrams, n, args.seed) {
-                            if visit(v).is_break() {
-                                break;
-                            }
-                        }
-                    }
-                    None if a.count => {}
-                    None if let Some(ranked) = &found.ranking => {
-                        for r in &ranked.list {
-                            if visit(r.variant.clone()).is_break() {
-                                break;
-                            }
-                        }
-                    }
-                    // Lucky variants make room for others.
-                    None if a.generic_only && wanted > 0 => {
-                        search.cheapest(&diagrams, wanted.saturating_mul(100).max(CHECKED), visit);
-                    }
-                    None => search.cheapest(&diagrams, wanted, visit),
-                }
-                if let Some(e) = failed {
-                    return Err(e);
-                }
-                sink.flush()?;
-                Ok(Given {
-                    interrupted: cancelled(),
-                    dropped: sink.dropped,
-                })
-            };
-        write_found(out, a, &found, &mut give)?;
-        Ok(if found.admissible.total.is_zero() {
-            Done::Nothing
+        ranking: if list.all || list.count || list.sample.is_some() {
+            None
         } else {
-            Done::Found
-        })
-    })
+            super::ranked::pool(&search, &diagrams, a, list.top)?
+        },
+    };
+    let mut give =
+        |write: &mut dyn FnMut(usize, Certified) -> anyhow::Result<()>| -> anyhow::Result<Given> {
+            let wanted = if list.all { usize::MAX / 4 } else { list.top };
+            let mut sink = Sink {
+                search: &search,
+                opinions: a.check == Check::Full,
+                stroke: stroke.as_ref(),
+                generic_only: a.generic_only,
+                room: if list.sample.is_some() {
+                    usize::MAX
+                } else {
+                    wanted
+                },
+                block: Vec::new(),
+                given: 0,
+                dropped: 0,
+                write,
+            };
+            let mut failed = None;
+            let mut visit = |v: Variant| match sink.take(v) {
+                Ok(()) if cancelled() || sink.room == 0 => ControlFlow::Break(()),
+                Ok(()) => ControlFlow::Continue(()),
+                Err(e) => {
+                    failed = Some(e);
+                    ControlFlow::Break(())
+                }
+            };
+            match list.sample {
+                Some(n) => {
+                    for v in search.sample(&diagrams, n, args.seed) {
+                        if visit(v).is_break() {
+                            break;
+                        }
+                    }
+                }
+                None if list.count => {}
+                None if let Some(ranked) = &found.ranking => {
+                    for r in &ranked.list {
+                        if visit(r.variant.clone()).is_break() {
+                            break;
+                        }
+                    }
+                }
+                // Lucky variants make room for others.
+                None if a.generic_only && wanted > 0 => {
+                    search.cheapest(&diagrams, wanted.saturating_mul(100).max(CHECKED), visit);
+                }
+                None => search.cheapest(&diagrams, wanted, visit),
+            }
+            if let Some(e) = failed {
+                return Err(e);
+            }
+            sink.flush()?;
+            Ok(Given {
+                interrupted: cancelled(),
+                dropped: sink.dropped,
+            })
+        };
+    then(&found, &mut give)
 }
 
 /// Gives variants on, the first with a second opinion; those are gathered first, so that they are analysed in parallel.

@@ -4,7 +4,7 @@ use super::labels::Rect;
 use super::layout::{Point, norm as norm2, segments_cross, sub as sub2, to_segment};
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{JointId, LinkId, Mechanism};
+use crate::model::mechanism::{Frame, JointId, LinkId, Mechanism};
 
 /// A vector of space.
 pub(super) type Vector = [f64; 3];
@@ -111,9 +111,20 @@ pub(super) fn places(mechanism: &Mechanism, joints: &[JointId]) -> Vec<Place> {
     out
 }
 
-/// The frame of a joint; numbers that are none count as 0.
+/// The place of a joint, as its coordinates have it.
 fn frame(mechanism: &Mechanism, joint: JointId) -> Place {
-    let f = &mechanism.joints[joint].frame;
+    let of = &mechanism.joints[joint];
+    Place {
+        hinge: matches!(
+            of.joint_type,
+            JointType::Revolute | JointType::Universal | JointType::Slotted
+        ),
+        ..turned(&of.frame)
+    }
+}
+
+/// A joint's frame in numbers; those that are none count as 0.
+pub(super) fn turned(f: &Frame) -> Place {
     let real = |v: &[Expr; 3]| {
         [0, 1, 2].map(|i| {
             let x = v[i].to_f64();
@@ -138,10 +149,7 @@ fn frame(mechanism: &Mechanism, joint: JointId) -> Place {
         x,
         y: cross(z, x),
         z,
-        hinge: matches!(
-            mechanism.joints[joint].joint_type,
-            JointType::Revolute | JointType::Universal | JointType::Slotted
-        ),
+        hinge: false,
         moved: false,
     }
 }

@@ -1,0 +1,1 @@
+//! `ozols report`.
