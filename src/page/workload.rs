@@ -1,0 +1,97 @@
+//! What the joints of each variant bear, and its scores, where the file states loads.
+
+use super::Redesigns;
+use super::embed::measured;
+use crate::model::mechanism::Mechanism;
+use crate::model::ranking::Term;
+use crate::score::bearing::Bearing;
+use crate::score::elimination::Scratch;
+use crate::score::evaluate::Evaluator;
+use crate::score::terms::Scores;
+use rayon::prelude::*;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// What one variant scores; `None` where its loads have no equilibrium.
+type Scored = Option<(Scores, Vec<Option<Bearing>>)>;
+
+/// Whether there is anything to bear.
+fn has_loads(m: &Mechanism) -> bool {
+    let l = &m.loads;
+    let weights = l.gravity.is_some() && m.links.iter().any(|k| k.mass.is_some());
+    weights || !l.forces.is_empty() || !l.moments.is_empty()
+}
+
+/// Scores and bearings of the variants for the script; null where the file states no loads and asks for no ranking.
+pub(super) fn json(r: &Redesigns<'_>) -> Value {
+    let search = r.found.search;
+    let m = search.mechanism;
+    let ranking = r.found.ranking.as_ref();
+    if !has_loads(m) && ranking.is_none() {
+        return Value::Null;
+    }
+    let clearance = ranking.map_or_else(Default::default, |p| p.ranking.clearance);
+    let evaluator = match Evaluator::new(search, clearance) {
+        Ok(e) => e,
+        Err(why) => return json!({"failed": why.to_string()}),
+    };
+    let scored: Vec<Scored> = r
+        .variants
+        .par_iter()
+        .map_init(Scratch::default, |scratch, v| {
+            evaluator.bearings(&v.variant, scratch).ok()
+        })
+        .collect();
+    let column = |of: &dyn Fn(&Scores) -> Value| -> Vec<Value> {
+        let one = |s: &Scored| s.as_ref().map_or(Value::Null, |(s, _)| of(s));
+        scored.iter().map(one).collect()
+    };
+    let term = |t: Term| column(&|s| measured(s.value(t)));
+    let joints = |of: fn(&Bearing) -> Option<f64>| -> Vec<Value> {
+        let one = |s: &Scored| match s {
+            None => Value::Null,
+            Some((_, list)) => list
+                .iter()
+                .map(|b| b.as_ref().and_then(of).map_or(Value::Null, measured))
+                .collect(),
+        };
+        scored.iter().map(one).collect()
+    };
+    // The order of a ranked list is its own; places are looked up by choices.
+    let places: BTreeMap<&[usize], usize> = ranking.map_or_else(BTreeMap::new, |p| {
+        let list = p.list.iter().enumerate();
+        list.map(|(i, r)| (r.variant.choices.as_slice(), i))
+            .collect()
+    });
+    let ranked = ranking.map(|p| {
+        let of = |v: &crate::search::certify::Certified| {
+            let place = *places.get(v.variant.choices.as_slice())?;
+            Some((place, &p.list[place]))
+        };
+        let all: Vec<_> = r.variants.iter().map(of).collect();
+        json!({
+            "head": crate::report::ranking::head(p),
+            "notes": crate::report::ranking::notes(m, p).lines().map(str::trim)
+                .filter(|l| !l.is_empty() && !l.starts_with("rank ")).collect::<Vec<_>>(),
+            "terms": p.ranking.terms.iter().map(|(t, _)| t.name()).collect::<Vec<_>>(),
+            "by_cost": all.iter().map(|x| x.map(|(_, r)| r.by_cost)).collect::<Vec<_>>(),
+            "total": all.iter().map(|x| x.and_then(|(_, r)| r.total).map(measured)).collect::<Vec<_>>(),
+            "front": all.iter().map(|x| x.and_then(|(_, r)| r.front)).collect::<Vec<_>>(),
+            "reason": all.iter().map(|x| x.and_then(|(i, _)| p.reason(m, i + 1))).collect::<Vec<_>>(),
+        })
+    });
+    json!({
+        "poses": evaluator.poses.poses.len(),
+        "stopped": evaluator.poses.stopped,
+        "peak_force": term(Term::PeakForce),
+        "peak_moment": term(Term::PeakMoment),
+        "conditioning": term(Term::Conditioning),
+        "output_error_mm": column(&|s| measured(1e3 * s.output_error)),
+        "minimum_norm": column(&|s| json!(s.minimum_norm)),
+        "force": joints(|b| Some(b.force)),
+        "moment": joints(|b| Some(b.moment)),
+        "force_share": joints(|b| Some(b.force_share)),
+        "moment_share": joints(|b| b.moment_share),
+        "ranked": ranked,
+    })
+}
