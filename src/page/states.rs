@@ -17,10 +17,13 @@ pub(super) fn facts(page: &Page<'_>) -> String {
         Mode::Planar { .. } => "planar, three equations a contour",
         Mode::Spatial => "spatial, six equations a contour",
     };
-    let contours = page.states.first().map_or(0, |s| s.contours);
+    let [links, joints, contours] = page
+        .states
+        .first()
+        .map_or([0; 3], |s| [s.links, s.joints, s.contours]);
     [
-        words::plural(m.links.len(), "link"),
-        words::plural(m.joints.len(), "joint"),
+        words::plural(links, "link"),
+        words::plural(joints, "joint"),
         words::plural(contours, "contour"),
         plane.to_owned(),
         format!("lengths in {}", m.length_unit.symbol),

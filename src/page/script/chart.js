@@ -165,8 +165,9 @@ function listenToChart() {
   }
   const varies = (c) => new Set(c.values.filter((v) => v !== null)).size > 1;
   const wanted = work && work.ranked ? work.ranked.terms.map((t) => (t === "conditioning" ? "condit" : t)) : [];
+  const first = ["cost", "place"].map(columnOf).find(varies) || columnOf("cost");
   const order = [...wanted, "peak-moment", "peak-force", "conditioning", "mobility", "changes"];
   const second = order.map(columnOf).find((c) => c && c.key !== "cost" && varies(c));
-  axes[0].value = "cost";
+  axes[0].value = first.key;
   axes[1].value = (second || columnOf("mobility")).key;
 }

@@ -94,7 +94,7 @@ function remarks(i) {
 function showAsItIs() {
   byId("chosen-head").textContent = "The mechanism as it is";
   byId("chosen-words").textContent = "No variant is chosen: choose one in the table or the chart to see what it changes.";
-  byId("chosen-body").replaceChildren();
+  byId("chosen-changes").replaceChildren();
   byId("chosen-more").replaceChildren();
 }
 
@@ -109,9 +109,9 @@ function choose(i) {
   } else {
     const changes = changesOf(i);
     byId("chosen-head").textContent = `Variant ${i + 1}`;
-    byId("chosen-words").textContent = `${inWords(i)}. ${changeLine(i)}.`;
-    byId("chosen-body").replaceChildren(changeList(changes), figureTable(i), ...remarks(i));
-    const more = [loadTable(i)];
+    byId("chosen-words").textContent = `${inWords(i)}.`;
+    byId("chosen-changes").replaceChildren(changeList(changes));
+    const more = [figureTable(i), ...remarks(i), loadTable(i)];
     if (page.draw_command) {
       more.push(element("p", { class: "help" }, "The same drawing: ", element("code", {}, page.draw_command.replaceAll("{}", i + 1))));
     }

@@ -49,8 +49,9 @@ function makeColumns() {
   if (found.max_redundant > 0) add("redundant", "σ", "redundant constraints σ", found.redundant);
   if (found.external) add("external", "σ ext.", "external redundant constraints", found.external);
   add("idle", "idle", "idle motions", found.idle, { table: false });
+  const drivesHeld = work && work.ranked && work.ranked.terms.includes("conditioning");
   add("conditioning", "cond.", "conditioning: smallest over largest singular value", found.conditioning,
-    { better: 1, log: true, show: power });
+    { better: 1, log: true, show: power, table: !drivesHeld });
   if (work) {
     const terms = work.ranked ? work.ranked.terms : [];
     const shown = (term) => !work.ranked || terms.includes(term);
@@ -59,7 +60,7 @@ function makeColumns() {
     add("peak-force", "force", "peak force, share of capacity", work.peak_force,
       { show: percent, table: shown("peak-force") });
     add("condit", "condit.", "conditioning with drives held", work.conditioning,
-      { better: 1, log: true, show: power, table: shown("conditioning") && terms.length > 0 });
+      { better: 1, log: true, show: power, table: Boolean(drivesHeld) });
     add("output-error", "error, mm", "output error in mm from clearances", work.output_error_mm,
       { show: short, table: shown("output-error") });
     if (work.ranked) {
@@ -67,6 +68,8 @@ function makeColumns() {
       add("front", "front", "Pareto front", work.ranked.front);
     }
   }
+  const places = Array.from({ length: total }, (_, i) => i + 1);
+  add("place", "№", "place in the list", places, { table: false });
   return out;
 }
 

@@ -15,8 +15,8 @@ function drawHead() {
     row.append(element("th", { scope: "col", "data-key": key, "aria-sort": order, class: numeric ? "n" : null }, button));
   };
   head("position", "№", "position", true);
-  for (const c of columns.filter((c) => c.table)) head(c.key, c.title, c.words, true);
   head("list", "changed joints", "changed joints", false);
+  for (const c of columns.filter((c) => c.table)) head(c.key, c.title, c.words, true);
   document.querySelector("#variants thead").replaceChildren(row);
 }
 
@@ -47,11 +47,11 @@ function drawRow(i, place) {
     title: found.notes[i],
   });
   row.append(element("th", { scope: "row", class: "n" }, `${i + 1}${doubt(i) && ` ${doubt(i)}`}`));
+  row.append(element("td", { class: "list" }, changeLine(i)));
   for (const c of columns.filter((c) => c.table)) {
     const value = c.values[i];
     row.append(element("td", { class: "n" }, value === null ? "" : c.show(value)));
   }
-  row.append(element("td", {}, changeLine(i)));
   row.addEventListener("click", () => {
     view.active = place;
     choose(i);
