@@ -468,6 +468,17 @@ pub(super) struct Question {
     pub(super) nodes: usize,
 }
 
+impl Default for Question {
+    fn default() -> Self {
+        #[derive(Parser)]
+        struct Alone {
+            #[command(flatten)]
+            question: Question,
+        }
+        Alone::parse_from(["ozols"]).question
+    }
+}
+
 #[derive(Debug, ClapArgs)]
 #[command(after_help = "\
 Examples:

@@ -1,16 +1,14 @@
 //! `ozols draw`.
 
-use super::args::{Args, Draw, DrawKind};
+use super::args::{Args, Check, Draw, DrawKind, Question};
+use super::search::{Wanted, answered};
 use super::{Done, load, output};
 use crate::draw::{self, Drawing, Marks, Subject};
 use crate::model::mechanism::Mechanism;
-use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::redundancy::analysis::{Method, analyse, exact_field};
-use crate::search::request::{Request, Search};
+use crate::redundancy::analysis::{Method, analyse};
 use anyhow::{Context, bail, ensure};
-use std::ops::ControlFlow;
 
-pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
+pub(super) fn run(args: &Args, a: &Draw) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file.file)?;
     let Some(state) = mechanism.states.iter().position(|s| *s == a.state) else {
         bail!(
@@ -22,7 +20,7 @@ pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     };
     let mut marks = None;
     if let Some(k) = a.variant {
-        let (realized, changes) = variant(&mechanism, k)?;
+        let (realized, changes) = variant(args, &mechanism, k)?;
         (mechanism, marks) = (realized, Some(changes));
     }
     let found = analyse(&mechanism, &[state], Method::Auto { tolerance: None })?;
@@ -61,31 +59,43 @@ fn png(_: &Drawing) -> anyhow::Result<Vec<u8>> {
 }
 
 /// The k-th of the list that `ozols search FILE` gives.
-fn variant(mechanism: &Mechanism, k: usize) -> anyhow::Result<(Mechanism, Marks)> {
+fn variant(args: &Args, mechanism: &Mechanism, k: usize) -> anyhow::Result<(Mechanism, Marks)> {
     ensure!(k > 0, "variants are numbered from 1");
-    let tolerance = super::question::measured(mechanism, None, false)?
-        .map_or(DEFAULT_TOLERANCE, |(m, _)| m.tolerance());
-    let request = Request {
-        tolerance,
-        ..Request::default()
+    let measured = super::question::measured(mechanism, None, false)?;
+    let question = Question {
+        check: Check::None,
+        ..Question::default()
     };
-    let search = Search::new(exact_field(mechanism, 0)?, mechanism, request)?;
-    let diagrams = search.build(&|| false, &mut |_| {});
-    let (mut last, mut seen) = (None, 0);
-    search.cheapest(&diagrams, k, |v| {
-        seen += 1;
-        last = Some(v);
-        ControlFlow::Continue(())
-    });
-    let variant = last.filter(|_| seen == k).with_context(|| {
-        format!(
-            "{} has no variant {k}: the search gives {seen}",
-            mechanism.name
-        )
-    })?;
-    Ok(draw::marks::of_variant(
-        &search,
-        &variant,
-        &format!("variant {k}"),
-    ))
+    let wanted = Wanted {
+        top: k,
+        all: false,
+        sample: None,
+        count: false,
+        by_cost: false,
+    };
+    let mut drawn = None;
+    answered(
+        args,
+        mechanism,
+        &question,
+        measured,
+        &wanted,
+        |found, give| {
+            let (mut last, mut seen) = (None, 0);
+            give(&mut |n, v| {
+                (last, seen) = (Some(v.variant), n);
+                Ok(())
+            })?;
+            let variant = last.filter(|_| seen == k).with_context(|| {
+                format!(
+                    "{} has no variant {k}: the search gives {seen}",
+                    mechanism.name
+                )
+            })?;
+            let name = format!("variant {k}");
+            drawn = Some(draw::marks::of_variant(found.search, &variant, &name));
+            Ok(Done::Found)
+        },
+    )?;
+    drawn.with_context(|| format!("no variant {k} of {}", mechanism.name))
 }

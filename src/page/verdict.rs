@@ -7,7 +7,10 @@ use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::stress::Verdict;
 use crate::report::words::{self, cost, grouped, plural};
 use itertools::Itertools;
-use num_traits::Zero;
+use num_traits::{One, Zero};
+
+/// Idle motions told at most.
+const TOLD: usize = 4;
 
 pub(super) fn html(page: &Page<'_>) -> String {
     let mut out = String::new();
@@ -72,8 +75,15 @@ fn state(m: &Mechanism, s: &StateAnalysis) -> Vec<String> {
     }
     out.push(moves(s));
     let idle = words::idle_list(m, &s.idle);
+    let more = idle.len().saturating_sub(TOLD);
     if !idle.is_empty() {
-        out.push(format!("Idle: {}.", idle.join("; ")));
+        let list = idle.iter().take(TOLD).join("; ");
+        let more = if more > 0 {
+            format!("; and {more} more")
+        } else {
+            String::new()
+        };
+        out.push(format!("Idle: {list}{more}."));
     }
     out
 }
@@ -118,22 +128,22 @@ fn redesigns(page: &Page<'_>, s: &StateAnalysis) -> String {
     };
     let (all, good) = (big(&size), &found.admissible.total);
     let request = &found.search.request;
-    let goal = match request.max_redundant {
-        0 if s.redundant == 0 => "have none".to_owned(),
-        0 => "remove them all".to_owned(),
-        n => format!("leave at most {n}"),
+    let one = good.is_one();
+    let goal = match (request.max_redundant, one) {
+        (0, _) if s.redundant == 0 => (if one { "is" } else { "are" }).to_owned() + " determinate",
+        (0, false) => "remove them all".to_owned(),
+        (0, true) => "removes them all".to_owned(),
+        (n, false) => format!("leave at most {n}"),
+        (n, true) => format!("leaves at most {n}"),
     };
-    let conditions = conditions(page.mechanism, r);
+    let conditions = conditions(page.mechanism, r, one);
     if good.is_zero() {
         let rest = &found.determinate.total;
         return if rest.is_zero() {
-            format!(
-                "None of {all} variants can {}.",
-                goal.replace("have", "have")
-            )
+            format!("None of the {all} variants {goal}: give the joints more options.")
         } else {
             format!(
-                "None of {all} variants can {goal}{conditions}; {least}{} {goal} but do not meet every condition.",
+                "Of the {all} variants none {goal}{conditions}; {least}{} {goal}, but do not meet the other conditions.",
                 big(rest)
             )
         };
@@ -142,28 +152,35 @@ fn redesigns(page: &Page<'_>, s: &StateAnalysis) -> String {
     if let Some(first) = out.get(..1) {
         out = first.to_uppercase() + &out[1..];
     }
+    if s.redundant == 0 && r.variants.iter().any(|c| c.variant.key.changes() == 0) {
+        return format!("Nothing needs changing. {out}.");
+    }
     out + &best(r) + "."
 }
 
 /// The conditions beside the redundant constraints.
-fn conditions(m: &Mechanism, r: &Redesigns<'_>) -> String {
+fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
+    let s = if one { "s" } else { "" };
+    let have = if one { "has" } else { "have" };
     let request = &r.found.search.request;
     let outputs = m.links.iter().filter(|l| l.role == Role::Output);
     let outputs = outputs.map(|l| l.id.as_str()).collect_vec();
     let motion = match outputs.as_slice() {
-        [] => "keep the motion".to_owned(),
-        [one] => format!("keep the motion of link {one}"),
-        [head @ .., last] => format!("keep the motion of links {} and {last}", head.join(", ")),
+        [] => format!("keep{s} the motion"),
+        [one] => format!("keep{s} the motion of link {one}"),
+        [head @ .., last] => format!("keep{s} the motion of links {} and {last}", head.join(", ")),
     };
     let all = [
         request.keep_output.then_some(motion),
-        request.max_mobility.map(|w| format!("have W at most {w}")),
+        request
+            .max_mobility
+            .map(|w| format!("{have} W at most {w}")),
         request
             .max_changes
-            .map(|c| format!("change at most {}", plural(c as usize, "joint"))),
-        request.state.map(|(s, e)| match e {
-            u32::MAX => format!("were searched with state {}", m.states[s]),
-            e => format!("have external σ at most {e} in state {}", m.states[s]),
+            .map(|c| format!("change{s} at most {}", plural(c as usize, "joint"))),
+        request.state.map(|(state, e)| match e {
+            u32::MAX => format!("{have} any external σ in state {}", m.states[state]),
+            e => format!("{have} external σ at most {e} in state {}", m.states[state]),
         }),
     ];
     let all = all.into_iter().flatten().join(", ");

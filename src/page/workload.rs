@@ -15,6 +15,11 @@ use std::collections::BTreeMap;
 /// What one variant scores; `None` where its loads have no equilibrium.
 type Scored = Option<(Scores, Vec<Option<Bearing>>)>;
 
+/// What is this small beside the greatest of its kind is rounding.
+const NOTHING: f64 = 1e-9;
+/// A moment of the greatest force on an arm as short as this, in metres, is too.
+const ARM: f64 = 1e-12;
+
 /// Whether there is anything to bear.
 fn has_loads(m: &Mechanism) -> bool {
     let l = &m.loads;
@@ -47,13 +52,19 @@ pub(super) fn json(r: &Redesigns<'_>) -> Value {
         scored.iter().map(one).collect()
     };
     let term = |t: Term| column(&|s| measured(s.value(t)));
-    let joints = |of: fn(&Bearing) -> Option<f64>| -> Vec<Value> {
+    let joints = |of: fn(&Bearing) -> Option<f64>, beside: f64| -> Vec<Value> {
         let one = |s: &Scored| match s {
             None => Value::Null,
-            Some((_, list)) => list
-                .iter()
-                .map(|b| b.as_ref().and_then(of).map_or(Value::Null, measured))
-                .collect(),
+            Some((_, list)) => {
+                let values = list.iter().map(|b| b.as_ref().and_then(of));
+                let greatest = values.clone().flatten().fold(0.0, f64::max);
+                let forces = list.iter().flatten().map(|b| b.force);
+                let least = (NOTHING * greatest).max(beside * forces.fold(0.0, f64::max));
+                let clean = |x: f64| if x < least { 0.0 } else { x };
+                values
+                    .map(|x| x.map_or(Value::Null, |x| measured(clean(x))))
+                    .collect()
+            }
         };
         scored.iter().map(one).collect()
     };
@@ -88,10 +99,10 @@ pub(super) fn json(r: &Redesigns<'_>) -> Value {
         "conditioning": term(Term::Conditioning),
         "output_error_mm": column(&|s| measured(1e3 * s.output_error)),
         "minimum_norm": column(&|s| json!(s.minimum_norm)),
-        "force": joints(|b| Some(b.force)),
-        "moment": joints(|b| Some(b.moment)),
-        "force_share": joints(|b| Some(b.force_share)),
-        "moment_share": joints(|b| b.moment_share),
+        "force": joints(|b| Some(b.force), 0.0),
+        "moment": joints(|b| Some(b.moment), ARM),
+        "force_share": joints(|b| Some(b.force_share), 0.0),
+        "moment_share": joints(|b| b.moment_share, 0.0),
         "ranked": ranked,
     })
 }

@@ -14,7 +14,8 @@ function svgElement(name, attributes, text) {
 function ticks(low, high, log) {
   const out = [];
   if (log) {
-    for (let e = Math.floor(low); e <= Math.ceil(high); e += 1) out.push(e);
+    const parts = high - low > 2 ? [1] : [1, 2, 5];
+    for (let e = Math.floor(low); e <= Math.ceil(high); e += 1) for (const p of parts) out.push(e + Math.log10(p));
     return out.filter((e) => e >= low - 1e-9 && e <= high + 1e-9);
   }
   const raw = (high - low) / 5 || 1;
@@ -36,7 +37,7 @@ function scale(column, shown, from, to) {
   const room = high > low ? 0.06 * (high - low) : column.log ? 0.5 : 1;
   [low, high] = [low - room, high + room];
   const place = (x) => from + ((x - low) / (high - low)) * (to - from);
-  const name = (x) => (column.log ? `1e${x}` : column.show === percent ? percent(x) : String(x));
+  const name = (x) => (column.log ? power(10 ** x).replace(".0e", "e") : column.show === percent ? percent(x) : String(x));
   return { at: (v) => place(of(v)), ticks: ticks(low, high, column.log).map((x) => [place(x), name(x)]) };
 }
 
@@ -148,8 +149,11 @@ function drawChart() {
     svg.append(svgElement("path", { class: "front-line", d: `M${line.join("L")}` }));
     svg.append(svgElement("circle", { class: "ring", r: 9, visibility: "hidden" }));
     frontPoints(svg, front, x, y);
-    const n = front.length;
-    byId("chart-words").textContent = `${n} ${n === 1 ? "variant beats" : "variants, joined by a line, beat"} all others in one or both. Arrow keys walk along them, Enter chooses.`;
+    const part = shown.length === view.order.length ? "" : `The ${grouped(shown.length)} of ${grouped(view.order.length)} variants that have both figures. `;
+    const best = front.length === 1
+      ? "The larger dot is as good as any other in both."
+      : `No other variant is as good in both as one of the ${front.length} that the line joins; arrow keys walk along it.`;
+    byId("chart-words").textContent = `${part}${best}`;
   } else {
     byId("chart-words").textContent = "No variant has both figures.";
   }

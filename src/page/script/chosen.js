@@ -85,8 +85,8 @@ function remarks(i) {
       out.push(`Peak force ${percent(work.peak_force[i])} and peak moment ${percent(work.peak_moment[i])} of what a joint bears; output error ${short(work.output_error_mm[i])} mm from clearances.`);
     }
     const { ranked } = work;
-    if (ranked && ranked.by_cost[i] !== null) out.push(`Number ${ranked.by_cost[i]} by cost.`);
-    if (ranked && ranked.reason[i]) out.push(`${ranked.reason[i].replace(/^rank \d+ /, "It ")}.`);
+    if (ranked && ranked.reason[i]) out.push(`${ranked.reason[i].replace(/^rank \d+ was /, "")}.`);
+    else if (ranked && ranked.by_cost[i] !== null) out.push(`Number ${ranked.by_cost[i]} by cost.`);
   }
   return out.map((t) => element("p", { class: "note" }, t));
 }

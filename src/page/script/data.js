@@ -33,7 +33,13 @@ function short(x) {
 /** 2.3e-2, as the text output writes it. */
 const power = (x) => (x === null || x === undefined ? "" : x.toExponential(1).replace("e+", "e"));
 
-const percent = (x) => (x === null || x === undefined ? "" : `${short(100 * x)}\u00a0%`);
+/** A share of something: 14.1 %. */
+function percent(x) {
+  if (x === null || x === undefined) return "";
+  const y = 100 * x;
+  if (y > 0 && y < 0.1) return "< 0.1\u00a0%";
+  return `${y < 1000 ? y.toFixed(1) : grouped(Math.round(y))}\u00a0%`;
+}
 
 /** The columns of numbers: how each is told, which way is better, and whether decades suit it. */
 function makeColumns() {

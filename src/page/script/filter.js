@@ -59,9 +59,8 @@ function tellCount() {
   const whole = grouped(found.admissible);
   const listed = grouped(total);
   const shown = grouped(view.order.length);
-  const of = total === Number(found.admissible) ? `all ${listed}` : `${listed} listed of ${whole}`;
-  byId("count").textContent =
-    view.order.length === total
-      ? `${of} admissible variants`
-      : `${shown} of the ${listed} listed variants pass the filter`;
+  const all = total === 1 ? "The only admissible variant" : `All ${listed} admissible variants`;
+  const part = `${listed} listed of ${whole} admissible variants`;
+  if (view.order.length < total) byId("count").textContent = `${shown} of the ${listed} listed variants pass the filter`;
+  else byId("count").textContent = total === Number(found.admissible) ? all : part;
 }
