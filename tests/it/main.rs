@@ -20,6 +20,7 @@ mod programmes;
 mod published;
 mod ranking;
 mod reactions;
+mod report_page;
 mod robot_bytes;
 mod robot_mjcf;
 mod robot_models;
