@@ -25,6 +25,7 @@ mod progress;
 mod question;
 mod ranked;
 mod reactions;
+mod report;
 mod search;
 mod statics;
 mod stroke;
@@ -70,6 +71,7 @@ pub fn run() -> ExitCode {
         args::Command::Verify(a) => verify::run(&args, a),
         args::Command::Import(a) => import::run(&args, a),
         args::Command::Draw(a) => draw::run(&args, a),
+        args::Command::Report(a) => report::run(&args, a),
         args::Command::Export(a) => export::run(&args, a),
         args::Command::Accuracy(a) => accuracy::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),

@@ -20,6 +20,7 @@ mod scheme;
 mod shapes;
 mod sheet;
 mod starts;
+pub mod swap;
 mod symbols;
 
 pub use kinematic::kinematic;
@@ -54,6 +55,8 @@ pub struct Marks {
     pub joints: usize,
     /// Links from this one on are added.
     pub links: usize,
+    /// The mechanism with its present joints in place of the changed ones, to be seen from the same side.
+    pub before: Option<Mechanism>,
 }
 
 /// A text of a drawing and the room it takes at 0.6 of its size a character.

@@ -34,7 +34,7 @@
 //! # Layers
 //!
 //! linalg -> geom, verify -> model -> closure -> import, rank, workload -> robot, export -> redundancy -> search -> score,
-//! draw -> report -> cli. Imports go one way; a test holds them to it. [`chart`] draws finished numbers and imports nothing,
+//! draw -> report -> page -> cli. Imports go one way; a test holds them to it. [`chart`] draws finished numbers and imports nothing,
 //! as [`terms`] says what words mean; [`template`] makes a commented file of a built-in mechanism.
 //!
 //! # Sources
@@ -62,6 +62,7 @@ pub mod geom;
 pub mod import;
 pub mod linalg;
 pub mod model;
+pub mod page;
 pub mod rank;
 pub mod redundancy;
 pub mod report;

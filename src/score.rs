@@ -16,6 +16,7 @@
 //! second and core, 1.2e5 on two cores by processor time. By count of operations (not profiled) the tridiagonal form for
 //! the conditioning, some 18,000, and the elimination, some 14,000 less what its zeros save, are what limits it.
 
+pub mod bearing;
 pub mod cases;
 pub mod elimination;
 pub mod evaluate;

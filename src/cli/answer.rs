@@ -89,10 +89,10 @@ pub(super) fn write_found(
             if whole.interrupted {
                 writeln!(out, "\n  interrupted after {given} variants")?;
             }
-            let flags = question::flags(search.mechanism, a);
+            let flags = question::flags(search.mechanism, &a.asked);
             // Numbers of a sample, or of a list with some left out, mean nothing to other commands.
             let listed = if a.sample.is_some() { 0 } else { given };
-            let steps = match a.generic_only {
+            let steps = match a.asked.generic_only {
                 true => Vec::new(),
                 false => search_text::next(found, listed, eased, &a.file.file, &flags),
             };

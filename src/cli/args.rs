@@ -57,6 +57,9 @@ pub(super) enum Command {
     /// Draw the structural or the kinematic scheme as SVG.
     #[command(after_help = examples::DRAW)]
     Draw(Draw),
+    /// One HTML page: the verdict, drawings, contours, and the variants to sort, filter and look at.
+    #[command(after_help = examples::REPORT)]
+    Report(Report),
     /// Write a mechanism in another format: TOML, JSON, URDF, SDF, Graphviz DOT, GraphML.
     #[command(after_help = examples::EXPORT)]
     Export(Export),
@@ -488,6 +491,26 @@ pub(super) struct Question {
     pub(super) nodes: usize,
 }
 
+/// A question, the state it is about, and how its answer is checked.
+#[derive(Debug, ClapArgs)]
+pub(super) struct Asked {
+    #[command(flatten)]
+    pub(super) question: Question,
+    /// The state meant by --max-external; the file's first besides free by default.
+    #[arg(long, value_name = "STATE")]
+    pub(super) state: Option<String>,
+    /// Look at each variant given, up to 1000, in N further poses of the present motion, and mark those whose W, σ or
+    /// output motion is not right there.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(super) poses: usize,
+    /// Leave out the variants that further poses (3 unless --poses says otherwise) show to be lucky.
+    #[arg(long)]
+    pub(super) generic_only: bool,
+    /// How the search is checked.
+    #[arg(long, value_enum, default_value = "full")]
+    pub(super) check: Check,
+}
+
 #[derive(Debug, ClapArgs)]
 #[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
 pub(super) struct Search {
@@ -506,26 +529,27 @@ pub(super) struct Search {
     #[arg(long, conflicts_with = "rank")]
     pub(super) count: bool,
     #[command(flatten)]
-    pub(super) question: Question,
-    /// The state meant by --max-external; the file's first besides free by default.
-    #[arg(long, value_name = "STATE")]
-    pub(super) state: Option<String>,
+    pub(super) asked: Asked,
     /// Diagram, or brute force for checking.
     #[arg(long, value_enum, default_value = "diagram")]
     pub(super) method: SearchMethod,
-    /// Look at each variant given, up to 1000, in N further poses of the present motion, and mark those whose W, σ or
-    /// output motion is not right there.
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(super) poses: usize,
-    /// Leave out the variants that further poses (3 unless --poses says otherwise) show to be lucky.
-    #[arg(long)]
-    pub(super) generic_only: bool,
-    /// How the search is checked.
-    #[arg(long, value_enum, default_value = "full")]
-    pub(super) check: Check,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     pub(super) format: SearchFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Report {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// How many of the best variants the page holds, 10000 at most.
+    #[arg(long, value_name = "K", default_value_t = 200)]
+    pub(super) top: usize,
+    #[command(flatten)]
+    pub(super) asked: Asked,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,

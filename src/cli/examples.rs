@@ -77,6 +77,12 @@ Examples:
   ozols draw gripper-10 --state clamped -o clamped.svg   with the part it holds
   ozols draw gripper-10 --variant 1 -o first.svg         the best redesign, its changes in colour";
 
+pub(super) const REPORT: &str = "\
+Examples:
+  ozols report gripper-10 -o report.html                     one page for the browser, no network needed
+  ozols report gripper-10 --max-mobility 1 -o report.html    only redesigns without idle links
+  ozols report gripper-10-loaded -o report.html              ranked under its workload, with the joints' loads";
+
 pub(super) const EXPORT: &str = "\
 Examples:
   ozols export gripper-10 --to json -o gripper.json      the mechanism file as JSON

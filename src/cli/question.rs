@@ -1,6 +1,6 @@
 //! The question a search answers, from its arguments.
 
-use super::args::{POOL, Question, Search as SearchArgs};
+use super::args::{Asked, POOL, Question};
 use super::output;
 use crate::model::measured::{Measured, looks_measured};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
@@ -12,13 +12,8 @@ use crate::report::next::word;
 use crate::search::request::{Request, Symmetry};
 use anyhow::{bail, ensure};
 
-/// Makes a mechanism ready, snapped and with the options that are allowed, and says what is asked of it and why its
-/// geometry looks measured, where it does. `named` is the state that --max-external is about.
-pub(super) fn ask(
-    mechanism: &mut Mechanism,
-    a: &Question,
-    named: Option<&str>,
-) -> anyhow::Result<(Request, Option<(Measured, Vec<Verdicts>)>)> {
+/// Makes a mechanism ready, snapped and with the options that are allowed.
+pub(super) fn ready(mechanism: &mut Mechanism, a: &Question) -> anyhow::Result<()> {
     if let Some(tolerance) = a.snap {
         ensure!(
             tolerance > 0.0 && tolerance < 1.0,
@@ -30,23 +25,22 @@ pub(super) fn ask(
         }
         *mechanism = snapped.mechanism;
     }
-    restrict(mechanism, a)?;
-    let state = state(mechanism, a, named)?.map(|(s, _)| s);
-    let measured = measured(mechanism, state, a.as_written)?;
-    let tolerance = measured
-        .as_ref()
-        .map_or(DEFAULT_TOLERANCE, |(m, _)| m.tolerance());
-    Ok((request(mechanism, a, named, tolerance)?, measured))
+    restrict(mechanism, a)
 }
 
-fn request(
+/// What is asked of a mechanism that is ready, and why its geometry looks measured, where it does. `named` is the state
+/// that --max-external is about.
+pub(super) fn ask(
     mechanism: &Mechanism,
     a: &Question,
     named: Option<&str>,
-    tolerance: f64,
-) -> anyhow::Result<Request> {
+) -> anyhow::Result<(Request, Option<(Measured, Vec<Verdicts>)>)> {
     let state = state(mechanism, a, named)?;
-    Ok(Request {
+    let measured = measured(mechanism, state.map(|(s, _)| s), a.as_written)?;
+    let tolerance = measured
+        .as_ref()
+        .map_or(DEFAULT_TOLERANCE, |(m, _)| m.tolerance());
+    let request = Request {
         max_redundant: a.max_redundant,
         state,
         max_mobility: a.max_mobility,
@@ -59,11 +53,12 @@ fn request(
         },
         nodes: a.nodes.clamp(1, u32::MAX as usize / 2),
         tolerance,
-    })
+    };
+    Ok((request, measured))
 }
 
 /// The state that takes part, the named one or the first besides free, with the external redundancy allowed there.
-fn state(
+pub(super) fn state(
     mechanism: &Mechanism,
     a: &Question,
     named: Option<&str>,
@@ -207,7 +202,7 @@ fn restrict(mechanism: &mut Mechanism, a: &Question) -> anyhow::Result<()> {
 }
 
 /// The flags that make a search's list what it is, as they are typed: those of `draw` and `export` are the same.
-pub(super) fn flags(mechanism: &Mechanism, s: &SearchArgs) -> String {
+pub(super) fn flags(mechanism: &Mechanism, s: &Asked) -> String {
     let a = &s.question;
     let mut out: Vec<String> = Vec::new();
     let mut put = |flag: &str, value: Option<String>| {

@@ -1,10 +1,11 @@
 //! `ozols search`.
 
-use super::answer::{Given, write_found};
-use super::args::{Args, Check, Search as SearchArgs, SearchFormat, SearchMethod};
-use super::question::ask;
+use super::answer::{Given, Giver, write_found};
+use super::args::{Args, Asked, Check, Search as SearchArgs, SearchFormat, SearchMethod};
+use super::question::{ask, ready};
 use super::{Done, load, output, progress, ranked};
 use crate::model::measured::Measured;
+use crate::model::mechanism::Mechanism;
 use crate::rank::measured::Verdicts;
 use crate::redundancy::analysis::exact_field;
 use crate::report::search_json::Found;
@@ -13,7 +14,7 @@ use crate::search::certify::{CHECKED, Certified};
 use crate::search::diagram::Stop;
 use crate::search::primes;
 use crate::search::relax::{Relaxation, relaxations};
-use crate::search::request::Search;
+use crate::search::request::{Request, Search};
 use crate::search::stroke::Stroke;
 use anyhow::{Context, ensure};
 use num_bigint::BigUint;
@@ -30,14 +31,82 @@ const BRUTE_LIMIT: u64 = 1 << 32;
 
 pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file.file)?;
-    let (request, measured) = ask(&mut mechanism, &a.question, a.state.as_deref())?;
+    let question = &a.asked.question;
+    ready(&mut mechanism, question)?;
+    let (request, measured) = ask(&mechanism, question, a.asked.state.as_deref())?;
     if a.method == SearchMethod::Brute {
         let search = Search::new(exact_field(&mechanism, 0)?, &mechanism, request)?;
         return brute(&search, a, measured);
     }
+    let wanted = Wanted {
+        top: a.top,
+        all: a.all,
+        sample: a.sample,
+        count: a.count,
+        by_cost: a.format == SearchFormat::Json,
+    };
+    answered(
+        args,
+        (&mechanism, measured),
+        request,
+        &a.asked,
+        &wanted,
+        |found, give| {
+            let eased = eased(found)?;
+            output::to(a.output.as_deref(), |out| {
+                write_found(out, a, found, &eased, give)?;
+                Ok(if found.admissible.total.is_zero() {
+                    Done::Nothing
+                } else {
+                    Done::Found
+                })
+            })
+        },
+    )
+}
+
+/// What easing one condition would leave, where nothing was found.
+fn eased(found: &Found<'_>) -> anyhow::Result<Vec<(Relaxation, BigUint)>> {
+    let search = found.search;
+    if !found.admissible.total.is_zero() || search.size() == BigUint::one() {
+        return Ok(Vec::new());
+    }
+    let exact = exact_field(search.mechanism, 0)?;
+    Ok(relaxations(
+        search.mechanism,
+        &exact,
+        &search.request,
+        &|| false,
+    )?)
+}
+
+/// Which variants are given, and what is counted.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Wanted {
+    /// The best so many.
+    pub(super) top: usize,
+    /// All instead.
+    pub(super) all: bool,
+    /// So many drawn at random instead.
+    pub(super) sample: Option<usize>,
+    /// None at all.
+    pub(super) count: bool,
+    /// Also counts by cost.
+    pub(super) by_cost: bool,
+}
+
+/// Searches a mechanism, and hands over what was found with a giver of the variants.
+pub(super) fn answered(
+    args: &Args,
+    (mechanism, measured): (&Mechanism, Option<(Measured, Vec<Verdicts>)>),
+    request: Request,
+    a: &Asked,
+    list: &Wanted,
+    then: impl FnOnce(&Found<'_>, &mut Giver<'_>) -> anyhow::Result<Done>,
+) -> anyhow::Result<Done> {
     let over = |nth: usize| -> anyhow::Result<Search<'_>> {
-        let field = exact_field(&mechanism, nth)?;
-        Ok(Search::new(field, &mechanism, request.clone())?)
+        let field = exact_field(mechanism, nth)?;
+        Ok(Search::new(field, mechanism, request.clone())?)
     };
     let (search, twin) = match a.check {
         Check::None => (over(0)?, None),
@@ -70,7 +139,7 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
         None => None,
         Some((twin, second)) => {
             let both = [&search, *twin];
-            let verdict = primes::compare(both, [&diagrams, second], a.top)?;
+            let verdict = primes::compare(both, [&diagrams, second], list.top)?;
             Some((primes::primes(both), verdict))
         }
     };
@@ -96,7 +165,7 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
         };
         (determinate, admissible) = orbits;
     }
-    let by_cost = if a.format == SearchFormat::Json && !a.question.one_per_orbit {
+    let by_cost = if list.by_cost && !a.question.one_per_orbit {
         search.counts_by_cost(&diagrams.admissible)
     } else {
         BTreeMap::new()
@@ -119,9 +188,9 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
     let standing = if a.generic_only {
         a.question.pool
     } else {
-        a.top
+        list.top
     };
-    let ranking = if a.all || a.count || a.sample.is_some() {
+    let ranking = if list.all || list.count || list.sample.is_some() {
         None
     } else {
         ranked::pool(&search, &diagrams, &a.question, standing)?
@@ -138,87 +207,65 @@ pub(super) fn run(args: &Args, a: &SearchArgs) -> anyhow::Result<Done> {
         poses: stroke.as_ref().map(|s| (s.asked, s.reached())),
         ranking,
     };
-    let eased = eased(&search, &found, &cancelled)?;
-    output::to(a.output.as_deref(), |out| {
-        let mut give =
-            |write: &mut dyn FnMut(usize, Certified) -> anyhow::Result<()>| -> anyhow::Result<Given> {
-                let wanted = if a.all { usize::MAX / 4 } else { a.top };
-                let mut sink = Sink {
-                    search: &search,
-                    opinions: a.check == Check::Full,
-                    stroke: stroke.as_ref(),
-                    generic_only: a.generic_only,
-                    room: if a.sample.is_some() { usize::MAX } else { wanted },
-                    block: Vec::new(),
-                    given: 0,
-                    dropped: 0,
-                    write,
-                };
-                let mut failed = None;
-                let mut visit = |v: Variant| match sink.take(v) {
-                    Ok(()) if cancelled() || sink.room == 0 => ControlFlow::Break(()),
-                    Ok(()) => ControlFlow::Continue(()),
-                    Err(e) => {
-                        failed = Some(e);
-                        ControlFlow::Break(())
-                    }
-                };
-                match a.sample {
-                    Some(n) => {
-                        for v in search.sample(&diagrams, n, args.seed) {
-                            if visit(v).is_break() {
-                                break;
-                            }
-                        }
-                    }
-                    None if a.count => {}
-                    None if let Some(ranked) = &found.ranking => {
-                        for r in &ranked.list {
-                            if visit(r.variant.clone()).is_break() {
-                                break;
-                            }
-                        }
-                    }
-                    // Lucky variants make room for others.
-                    None if a.generic_only && wanted > 0 => {
-                        search.cheapest(&diagrams, wanted.saturating_mul(100).max(CHECKED), visit);
-                    }
-                    None => search.cheapest(&diagrams, wanted, visit),
-                }
-                if let Some(e) = failed {
-                    return Err(e);
-                }
-                sink.flush()?;
-                Ok(Given {
-                    interrupted: cancelled(),
-                    dropped: sink.dropped,
-                })
+    let mut give =
+        |write: &mut dyn FnMut(usize, Certified) -> anyhow::Result<()>| -> anyhow::Result<Given> {
+            let wanted = if list.all { usize::MAX / 4 } else { list.top };
+            let mut sink = Sink {
+                search: &search,
+                opinions: a.check == Check::Full,
+                stroke: stroke.as_ref(),
+                generic_only: a.generic_only,
+                room: if list.sample.is_some() {
+                    usize::MAX
+                } else {
+                    wanted
+                },
+                block: Vec::new(),
+                given: 0,
+                dropped: 0,
+                write,
             };
-        write_found(out, a, &found, &eased, &mut give)?;
-        Ok(if found.admissible.total.is_zero() {
-            Done::Nothing
-        } else {
-            Done::Found
-        })
-    })
-}
-
-/// What easing one condition would leave, where nothing was found.
-fn eased(
-    search: &Search<'_>,
-    found: &Found<'_>,
-    cancelled: &(dyn Fn() -> bool + Sync),
-) -> anyhow::Result<Vec<(Relaxation, BigUint)>> {
-    if !found.admissible.total.is_zero() || search.size() == BigUint::one() {
-        return Ok(Vec::new());
-    }
-    let exact = exact_field(search.mechanism, 0)?;
-    Ok(relaxations(
-        search.mechanism,
-        &exact,
-        &search.request,
-        cancelled,
-    )?)
+            let mut failed = None;
+            let mut visit = |v: Variant| match sink.take(v) {
+                Ok(()) if cancelled() || sink.room == 0 => ControlFlow::Break(()),
+                Ok(()) => ControlFlow::Continue(()),
+                Err(e) => {
+                    failed = Some(e);
+                    ControlFlow::Break(())
+                }
+            };
+            match list.sample {
+                Some(n) => {
+                    for v in search.sample(&diagrams, n, args.seed) {
+                        if visit(v).is_break() {
+                            break;
+                        }
+                    }
+                }
+                None if list.count => {}
+                None if let Some(ranked) = &found.ranking => {
+                    for r in &ranked.list {
+                        if visit(r.variant.clone()).is_break() {
+                            break;
+                        }
+                    }
+                }
+                // Lucky variants make room for others.
+                None if a.generic_only && wanted > 0 => {
+                    search.cheapest(&diagrams, wanted.saturating_mul(100).max(CHECKED), visit);
+                }
+                None => search.cheapest(&diagrams, wanted, visit),
+            }
+            if let Some(e) = failed {
+                return Err(e);
+            }
+            sink.flush()?;
+            Ok(Given {
+                interrupted: cancelled(),
+                dropped: sink.dropped,
+            })
+        };
+    then(&found, &mut give)
 }
 
 /// Gives variants on, the first with a second opinion; those are gathered first, so that they are analysed in parallel.
@@ -300,7 +347,7 @@ fn brute(
         poses: None,
         ranking: None,
     };
-    let eased = eased(search, &found, &|| false)?;
+    let eased = eased(&found)?;
     output::to(a.output.as_deref(), |out| {
         write_found(out, a, &found, &eased, &mut |_| Ok(Given::default()))?;
         Ok(if found.admissible.total.is_zero() {

@@ -20,6 +20,7 @@ pub(super) fn kth<T>(
     with: impl FnOnce(&Search<'_>, &Variant) -> T,
 ) -> anyhow::Result<T> {
     ensure!(k > 0, "variants are numbered from 1");
+    question::ready(mechanism, a)?;
     let (request, _) = question::ask(mechanism, a, state)?;
     let search = Search::new(exact_field(mechanism, 0)?, mechanism, request)?;
     let diagrams = search.build(&|| false, &mut |_| {});

@@ -6,10 +6,11 @@ use super::layout::{Point, add, mean, norm, scale, sub, unit};
 use super::projection::{self, View, bounds};
 use super::scheme::roominess;
 use super::sheet::{Anchor, Caption, PAD, Shape, Sheet, Swatch, plan, polyline};
+use super::swap::{self, Swap};
 use super::symbols::{self, Pose, hull};
-use super::{Drawing, Subject};
+use super::{Drawing, Mark, Subject};
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, LinkId, Role};
+use crate::model::mechanism::{Frame, JointId, LinkId, Role};
 use std::fmt::Write as _;
 
 /// The room for the joints.
@@ -23,15 +24,101 @@ pub fn kinematic(subject: &Subject<'_>) -> Drawing {
     Kinematic::new(subject).draw()
 }
 
+/// Draws it, with room for the symbols of other joints in place of some, and those symbols.
+pub(super) fn with_swaps(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Vec<String>) {
+    let mut drawn = Kinematic::new(subject);
+    let mut out = Vec::new();
+    for swap in swaps {
+        let (joint, option) = (swap.joint, swap.option);
+        let symbol = Symbol::new(
+            subject,
+            joint,
+            &option.joint_type,
+            &option.frame,
+            &drawn.view,
+        );
+        let symbol = symbol.marked(Mark::Changed);
+        let mut piece = Sheet::piece();
+        symbol.draw(&mut piece, subject, joint, Mark::Changed);
+        if swap.unloading {
+            swap::ring(&mut piece, symbol.reach());
+        }
+        out.push(piece.into_text());
+        if let Some(spot) = drawn.spots.iter_mut().find(|s| s.joint == joint) {
+            spot.rect = spot.rect.with(&symbol.room.moved(spot.at));
+        }
+    }
+    (drawn.draw(), out)
+}
+
 /// A joint on paper.
 pub(super) struct Spot {
     pub(super) joint: JointId,
     pub(super) at: Point,
-    pub(super) shapes: Vec<Shape>,
+    pub(super) symbol: Symbol,
     /// The room of the symbol, the ring of a drive included.
     pub(super) rect: Rect,
-    /// The radius of that ring.
-    pub(super) ring: Option<f64>,
+}
+
+/// The symbol of a joint round the origin.
+pub(super) struct Symbol {
+    of: JointType,
+    pose: Pose,
+    shapes: Vec<Shape>,
+    room: Rect,
+    /// The radius of a drive's ring.
+    ring: Option<f64>,
+}
+
+impl Symbol {
+    fn new(
+        subject: &Subject<'_>,
+        joint: JointId,
+        of: &JointType,
+        frame: &Frame,
+        view: &View,
+    ) -> Symbol {
+        let pose = Pose::new(&projection::turned(frame), view);
+        let shapes = symbols::symbol(of, &pose, "");
+        let own = symbols::extent(&shapes);
+        let reach = (own.right - own.left).max(own.bottom - own.top) / 2.0 + 3.0;
+        let drive = subject.mechanism.joints[joint].drive;
+        let ring = drive.then_some(reach.min(14.0));
+        let room = match ring {
+            Some(r) => own.with(&Rect::around([0.0; 2], 2.0 * r + 1.4, 2.0 * r + 1.4)),
+            None => own,
+        };
+        Symbol {
+            of: of.clone(),
+            pose,
+            shapes,
+            room,
+            ring,
+        }
+    }
+
+    fn marked(mut self, mark: Mark) -> Symbol {
+        self.shapes = symbols::symbol(&self.of, &self.pose, mark.class());
+        self
+    }
+
+    /// How far it reaches from its middle.
+    fn reach(&self) -> f64 {
+        let r = &self.room;
+        [-r.left, -r.top, r.right, r.bottom]
+            .into_iter()
+            .fold(0.0, f64::max)
+    }
+
+    fn draw(&self, sheet: &mut Sheet, subject: &Subject<'_>, joint: JointId, mark: Mark) {
+        if let Some(r) = self.ring {
+            sheet.circle(&format!("line{}", mark.class()), [0.0; 2], r);
+        }
+        sheet.shapes(&self.shapes, [0.0; 2]);
+        if subject.only_here(joint) {
+            sheet.circle("fine dash", [0.0; 2], self.ring.unwrap_or(10.0) + 2.5);
+        }
+    }
 }
 
 /// A scheme under way.
@@ -60,35 +147,26 @@ impl<'a> Kinematic<'a> {
                 links.push((l, of));
             }
         }
-        let places = projection::places(m, &joints);
+        // A redesign is seen as the mechanism it came from, so that the two can be laid side by side.
+        let before = subject.marks.as_ref().and_then(|m| m.before.as_ref());
+        let seen = before.unwrap_or(m);
+        let places = projection::places(seen, &joints);
         // symbols do not grow, so that many of them need more paper
-        let more = roominess(m, &joints) * (joints.len() as f64 / 12.0).sqrt().clamp(1.0, 3.0);
+        let more = roominess(seen, &joints) * (joints.len() as f64 / 12.0).sqrt().clamp(1.0, 3.0);
         let room = ROOM.map(|r| r * more);
         let (view, mut at, scale) = projection::best(&places, &links, m.frame(), room);
         let apart = part(&mut at, &links, &places, &view);
         let spots: Vec<Spot> = joints
             .iter()
             .zip(&at)
-            .zip(&places)
-            .map(|((&joint, &at), place)| {
-                let mark = subject.joint_mark(joint).class();
+            .map(|(&joint, &at)| {
                 let of = &m.joints[joint];
-                let shapes = symbols::symbol(&of.joint_type, &Pose::new(place, &view), mark);
-                let own = symbols::extent(&shapes);
-                let reach = (own.right - own.left).max(own.bottom - own.top) / 2.0 + 3.0;
-                let ring = of.drive.then_some(reach.min(14.0));
-                let rect = match ring {
-                    Some(r) => own
-                        .moved(at)
-                        .with(&Rect::around(at, 2.0 * r + 1.4, 2.0 * r + 1.4)),
-                    None => own.moved(at),
-                };
+                let symbol = Symbol::new(subject, joint, &of.joint_type, &of.frame, &view);
                 Spot {
                     joint,
                     at,
-                    shapes,
-                    rect,
-                    ring,
+                    rect: symbol.room.moved(at),
+                    symbol: symbol.marked(subject.joint_mark(joint)),
                 }
             })
             .collect();
@@ -190,19 +268,22 @@ impl<'a> Kinematic<'a> {
         }
         for s in &self.spots {
             sheet.symbol(s.rect);
-            let mark = self.subject.joint_mark(s.joint).class();
-            if let Some(r) = s.ring {
-                sheet.circle(&format!("line{mark}"), s.at, r);
-            }
-            sheet.shapes(&s.shapes, s.at);
-            if self.subject.only_here(s.joint) {
-                let r = s.ring.unwrap_or(10.0) + 2.5;
-                sheet.circle("fine dash", s.at, r);
-            }
+            let mark = self.subject.joint_mark(s.joint);
+            let id = &self.subject.mechanism.joints[s.joint].id;
+            sheet.group(("data-joint", id), s.at, |sheet| {
+                s.symbol.draw(sheet, self.subject, s.joint, mark);
+            });
         }
-        for (place, (class, size, text)) in places.iter().zip(&texts) {
+        for (n, (place, (class, size, text))) in places.iter().zip(&texts).enumerate() {
             let at = place.rect.moved(by).middle();
-            sheet.text(class, *size, at, Anchor::Middle, text);
+            let write = |s: &mut Sheet| s.text(class, *size, at, Anchor::Middle, text);
+            match self.spots.get(n) {
+                Some(s) => {
+                    let id = &self.subject.mechanism.joints[s.joint].id;
+                    sheet.group(("data-joint-name", id), [0.0; 2], write);
+                }
+                None => write(&mut sheet),
+            }
         }
         self.draw_axes(&mut sheet, plan.legend_top - STRIP + 34.0);
         self.draw_scale(&mut sheet, plan.legend_top - STRIP + 40.0);
@@ -226,12 +307,14 @@ impl<'a> Kinematic<'a> {
             };
             let mut points = outline;
             points.extend(self.loose(of));
-            let tip = format!("link {}", self.subject.mechanism.links[*l].id);
-            sheet.path_with_tip(
-                &format!("{class}{mark}{dash}"),
-                &polyline(&points, closed),
-                &tip,
-            );
+            let id = &self.subject.mechanism.links[*l].id;
+            sheet.group(("data-link", id), [0.0; 2], |s| {
+                s.path_with_tip(
+                    &format!("{class}{mark}{dash}"),
+                    &polyline(&points, closed),
+                    &format!("link {id}"),
+                );
+            });
         }
     }
 
@@ -328,7 +411,7 @@ impl<'a> Kinematic<'a> {
                 (Swatch::Shapes(shapes), format!("{t}, class {}", t.class()))
             })
             .collect();
-        if self.spots.iter().any(|s| s.ring.is_some()) {
+        if self.spots.iter().any(|s| s.symbol.ring.is_some()) {
             let draw = |s: &mut Sheet, p: Point| s.circle("line", p, 9.5);
             out.push((Swatch::Symbol(draw), "driving pair".to_owned()));
         }

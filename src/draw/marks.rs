@@ -27,11 +27,17 @@ pub fn of_variant(search: &Search<'_>, variant: &Variant, name: &str) -> (Mechan
         }
     }
     changed.sort_unstable();
+    let mut before = realized.clone();
+    for (joint, present) in before.joints.iter_mut().zip(&old.joints) {
+        joint.joint_type = present.joint_type.clone();
+        joint.frame = present.frame.clone();
+    }
     let marks = Marks {
         name: name.to_owned(),
         changed,
         joints: old.joints.len(),
         links: old.links.len(),
+        before: Some(before),
     };
     (realized, marks)
 }

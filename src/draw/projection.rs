@@ -4,7 +4,7 @@ use super::labels::Rect;
 use super::layout::{Point, norm as norm2, segments_cross, sub as sub2, to_segment};
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{JointId, LinkId, Mechanism};
+use crate::model::mechanism::{Frame, JointId, LinkId, Mechanism};
 
 /// A vector of space.
 pub(super) type Vector = [f64; 3];
@@ -126,9 +126,21 @@ pub(super) fn places(mechanism: &Mechanism, joints: &[JointId]) -> Vec<Place> {
     out
 }
 
-/// The frame of a joint; numbers that are none count as 0.
+/// The place of a joint, as its coordinates have it.
 fn frame(mechanism: &Mechanism, joint: JointId) -> Place {
-    let f = &mechanism.joints[joint].frame;
+    let of = &mechanism.joints[joint];
+    Place {
+        turn: match of.joint_type {
+            JointType::Revolute | JointType::Universal | JointType::Slotted => Turn::Hinge,
+            JointType::Spherical | JointType::Fixed => Turn::Any,
+            _ => Turn::Slide,
+        },
+        ..turned(&of.frame)
+    }
+}
+
+/// A joint's frame in numbers; those that are none count as 0.
+pub(super) fn turned(f: &Frame) -> Place {
     let real = |v: &[Expr; 3]| {
         [0, 1, 2].map(|i| {
             let x = v[i].to_f64();
@@ -153,11 +165,7 @@ fn frame(mechanism: &Mechanism, joint: JointId) -> Place {
         x,
         y: cross(z, x),
         z,
-        turn: match mechanism.joints[joint].joint_type {
-            JointType::Revolute | JointType::Universal | JointType::Slotted => Turn::Hinge,
-            JointType::Spherical | JointType::Fixed => Turn::Any,
-            _ => Turn::Slide,
-        },
+        turn: Turn::Slide,
         moved: false,
     }
 }

@@ -6,6 +6,7 @@ use super::layout::{
 };
 use super::shapes::{HALF, hatch, hatch_with, outline, rounded};
 use super::sheet::{Anchor, Caption, SMALL, Sheet, Swatch, plan, polyline};
+use super::swap::{self, Swap};
 use super::{Drawing, Mark, Subject};
 use crate::chart::look::width;
 use crate::closure::contour::{Contour, contour_basis};
@@ -50,6 +51,20 @@ pub(super) fn roominess(m: &Mechanism, joints: &[JointId]) -> f64 {
         .map(|&j| width(&m.joints[j].id, SMALL).min(150.0));
     let usual = wide.sum::<f64>() / joints.len().max(1) as f64;
     1.0 + 0.5 * ((usual - 40.0) / 60.0).clamp(0.0, 1.0)
+}
+
+/// Draws it, and the symbols of other joints that may stand in place of some.
+pub(super) fn with_swaps(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Vec<String>) {
+    let symbol = |s: &Swap<'_>| {
+        let mut piece = Sheet::piece();
+        let class = s.option.joint_type.class();
+        draw_symbol(&mut piece, subject, s.joint, class, Mark::Changed);
+        if s.unloading {
+            swap::ring(&mut piece, DRIVE);
+        }
+        piece.into_text()
+    };
+    (scheme(subject), swaps.iter().map(symbol).collect())
 }
 
 fn parts(subject: &Subject<'_>) -> Parts {
@@ -238,11 +253,14 @@ impl<'a> Scheme<'a> {
         for (_, c, polygon) in order {
             let (contour, share) = &self.parts.contours[c];
             let redundant = share.map_or(0, |(r, _)| r).min(6);
-            sheet.path_with_tip(
-                &format!("s s{redundant}"),
-                &polyline(&polygon, true),
-                &words(c, &contour.name(m), *share),
-            );
+            let number = (c + 1).to_string();
+            sheet.group(("data-contour", &number), [0.0; 2], |s| {
+                s.path_with_tip(
+                    &format!("s s{redundant}"),
+                    &polyline(&polygon, true),
+                    &words(c, &contour.name(m), *share),
+                );
+            });
         }
     }
 
@@ -258,13 +276,15 @@ impl<'a> Scheme<'a> {
             self.subject.link_mark(link).class(),
             if dashed { " dash" } else { "" }
         );
-        sheet.path_with_tip(&class, &rounded(&corners, HALF), &format!("link {}", of.id));
-        if of.role == Role::Frame {
-            let d = hatch(&corners);
-            if !d.is_empty() {
-                sheet.path("fine", &d);
+        sheet.group(("data-link", &of.id), [0.0; 2], |s| {
+            s.path_with_tip(&class, &rounded(&corners, HALF), &format!("link {}", of.id));
+            if of.role == Role::Frame {
+                let d = hatch(&corners);
+                if !d.is_empty() {
+                    s.path("fine", &d);
+                }
             }
-        }
+        });
     }
 
     fn draw_labels(&self, sheet: &mut Sheet, labels: &[(Place, String)], shift: Point) {
@@ -296,7 +316,13 @@ impl<'a> Scheme<'a> {
                 ("small", SMALL, Mark::None)
             };
             let class = format!("{class}{}", mark.class());
-            sheet.text(&class, size, rect.middle(), Anchor::Middle, text);
+            let write = |s: &mut Sheet| s.text(&class, size, rect.middle(), Anchor::Middle, text);
+            if n < joints {
+                let id = &self.subject.mechanism.joints[self.parts.joints[n]].id;
+                sheet.group(("data-joint-name", id), [0.0; 2], write);
+            } else {
+                write(sheet);
+            }
         }
     }
 
@@ -316,18 +342,13 @@ impl<'a> Scheme<'a> {
     fn draw_joint(&self, sheet: &mut Sheet, i: usize) {
         let id = self.parts.joints[i];
         let joint = &self.subject.mechanism.joints[id];
-        let mut class = format!("joint{}", self.subject.joint_mark(id).class());
-        if self.subject.only_here(id) {
-            class += " dash";
-        }
         let at = self.at.joints[i];
-        if joint.drive {
-            sheet.circle(&class, at, DRIVE);
-        }
-        sheet.circle(&class, at, JOINT);
-        let r = 2.0 * self.radius(i);
-        sheet.symbol(Rect::around(at, r, r));
-        sheet.text("class", 10.0, at, Anchor::Middle, joint.joint_type.class());
+        sheet.group(("data-joint", &joint.id), at, |s| {
+            let r = 2.0 * self.radius(i);
+            s.symbol(Rect::around([0.0; 2], r, r));
+            let mark = self.subject.joint_mark(id);
+            draw_symbol(s, self.subject, id, joint.joint_type.class(), mark);
+        });
     }
 
     fn legend(&self) -> Vec<(Swatch, String)> {
@@ -393,6 +414,27 @@ impl<'a> Scheme<'a> {
         }
         out + &self.subject.coupling_words()
     }
+}
+
+/// The symbol of a joint of some class, round the origin.
+pub(super) fn draw_symbol(
+    sheet: &mut Sheet,
+    subject: &Subject<'_>,
+    joint: JointId,
+    class: &str,
+    mark: Mark,
+) {
+    let dash = if subject.only_here(joint) {
+        " dash"
+    } else {
+        ""
+    };
+    let look = format!("joint{}{dash}", mark.class());
+    if subject.mechanism.joints[joint].drive {
+        sheet.circle(&look, [0.0; 2], DRIVE);
+    }
+    sheet.circle(&look, [0.0; 2], JOINT);
+    sheet.text("class", 10.0, [0.0; 2], Anchor::Middle, class);
 }
 
 /// A contour in words.

@@ -130,6 +130,8 @@ impl Shape {
 pub(super) struct Sheet {
     xml: Xml,
     size: Point,
+    /// Where the coordinates of the open groups begin.
+    origin: Point,
     labels: Vec<Label>,
     symbols: Vec<Rect>,
 }
@@ -218,6 +220,7 @@ impl Sheet {
         let mut sheet = Sheet {
             xml,
             size: plan.size,
+            origin: [0.0; 2],
             labels: Vec::new(),
             symbols: Vec::new(),
         };
@@ -230,6 +233,42 @@ impl Sheet {
             sheet.text("sub", 13.0, [PAD, y], Anchor::Start, &line);
         }
         sheet
+    }
+
+    /// An empty sheet without title or size, for a piece of a drawing.
+    pub(super) fn piece() -> Sheet {
+        Sheet {
+            xml: Xml::default(),
+            size: [0.0; 2],
+            origin: [0.0; 2],
+            labels: Vec::new(),
+            symbols: Vec::new(),
+        }
+    }
+
+    /// The elements of a piece.
+    pub(super) fn into_text(self) -> String {
+        self.xml.finish()
+    }
+
+    /// Draws something into a group round `at` that says what it stands for, so that a program can find it.
+    pub(super) fn group(
+        &mut self,
+        (name, value): (&str, &str),
+        at: Point,
+        draw: impl FnOnce(&mut Sheet),
+    ) {
+        let mut tag = self.xml.tag("g").set(name, value);
+        if at != [0.0; 2] {
+            let by = format!("translate({} {})", number(at[0]), number(at[1]));
+            tag = tag.set("transform", &by);
+        }
+        tag.open();
+        let outer = self.origin;
+        self.origin = add(outer, at);
+        draw(self);
+        self.origin = outer;
+        self.xml.end();
     }
 
     /// Text whose middle line is at `at`.
@@ -249,7 +288,8 @@ impl Sheet {
                 top: at[1] - size / 2.0,
                 right: left + wide,
                 bottom: at[1] + size / 2.0,
-            },
+            }
+            .moved(self.origin),
         });
         let mut tag = self
             .xml
@@ -326,7 +366,7 @@ impl Sheet {
 
     /// Notes that a symbol covers a rectangle.
     pub(super) fn symbol(&mut self, rect: Rect) {
-        self.symbols.push(rect);
+        self.symbols.push(rect.moved(self.origin));
     }
 
     /// Draws the legend and ends the sheet.
@@ -340,8 +380,10 @@ impl Sheet {
                 Swatch::Tint(redundant, label) => {
                     let rect = Rect::around(middle, 30.0, 16.0);
                     let class = format!("s s{}", redundant.min(&6));
-                    self.rect(&class, &rect, 3.0);
-                    self.text("small", SMALL, middle, Anchor::Middle, label);
+                    self.group(("data-contour-key", label), [0.0; 2], |s| {
+                        s.rect(&class, &rect, 3.0);
+                        s.text("small", SMALL, middle, Anchor::Middle, label);
+                    });
                 }
                 Swatch::Symbol(draw) => draw(&mut self, middle),
                 Swatch::Joint(class, label) => {

@@ -91,6 +91,12 @@ fn free_is_loaded(m: &Mechanism) -> bool {
     weights || !l.forces.is_empty() || !l.moments.is_empty()
 }
 
+/// Whether the file loads any state.
+#[must_use]
+pub fn is_loaded(m: &Mechanism) -> bool {
+    free_is_loaded(m) || (0..m.states.len()).any(|s| grip_of(m, s).is_some())
+}
+
 /// The states that count where the ranking names none: those with loads, the free one also where it has a stroke to be
 /// conditioned over or nothing else is loaded.
 #[must_use]

@@ -3,6 +3,7 @@
 use crate::model::mechanism::{LinkId, StateId};
 use crate::model::ranking::ClearanceSum;
 use crate::redundancy::analysis::{AnalysisError, Method, analyse};
+use crate::score::bearing::Load;
 use crate::score::cases::{CaseError, Cases, cases};
 use crate::score::elimination::{Ended, Scratch};
 use crate::score::joint_types::JointTypes;
@@ -116,17 +117,28 @@ impl<'s, 'm> Evaluator<'s, 'm> {
     /// # Complexity
     /// O((6k)²·f) for each pose, for k contours and f freedoms.
     pub fn scores(&self, variant: &Variant, scratch: &mut Scratch) -> Result<Scores, Unsolved> {
+        self.scores_and_loads(variant, scratch, &mut |_| {})
+    }
+
+    /// The same, and `each` is told what every joint bears in every pose; where the fast way turns out not to serve, it is
+    /// told all over again by the slow one.
+    pub(super) fn scores_and_loads(
+        &self,
+        variant: &Variant,
+        scratch: &mut Scratch,
+        each: &mut dyn FnMut(Load),
+    ) -> Result<Scores, Unsolved> {
         let mut worst: Option<Scores> = None;
         for table in &self.tables {
-            let Some(now) = self.at(table, variant, scratch)? else {
-                return self.slowly(variant);
+            let Some(now) = self.at(table, variant, scratch, each)? else {
+                return self.slowly_with(variant, each);
             };
             match &mut worst {
                 Some(w) => w.worse(&now),
                 None => worst = Some(now),
             }
         }
-        worst.map_or_else(|| self.slowly(variant), Ok)
+        worst.map_or_else(|| self.slowly_with(variant, each), Ok)
     }
 
     pub(super) fn tables(&self) -> &[Table] {
@@ -152,6 +164,7 @@ impl<'s, 'm> Evaluator<'s, 'm> {
         table: &Table,
         variant: &Variant,
         scratch: &mut Scratch,
+        each: &mut dyn FnMut(Load),
     ) -> Result<Option<Scores>, Unsolved> {
         let dim = table.basis.len();
         let unknowns = dim * table.contours;
@@ -205,7 +218,14 @@ impl<'s, 'm> Evaluator<'s, 'm> {
         for place in &table.places {
             let (f, m) = table.borne(place, &table.wrench(place, 0, x));
             let (f, m) = (dot(f, f).sqrt(), dot(m, m).sqrt());
-            for &(force, moment) in &cell(place).bears {
+            for &capacity in &cell(place).bears {
+                let (force, moment) = capacity;
+                each(Load {
+                    joint: place.joint,
+                    force: f,
+                    moment: m,
+                    capacity,
+                });
                 out.force.raise(f, force, place.joint);
                 if let Some(moment) = moment {
                     out.moment.raise(m, moment, place.joint);

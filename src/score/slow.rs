@@ -3,6 +3,7 @@
 use crate::model::joint_type::Freedom;
 use crate::model::loads::{ExternalForce, Loads};
 use crate::model::mechanism::JointId;
+use crate::score::bearing::Load;
 use crate::score::evaluate::Evaluator;
 use crate::score::joint_types::JointType;
 use crate::score::terms::{ErrorSum, Scores, axis_of};
@@ -35,6 +36,15 @@ impl Evaluator<'_, '_> {
     /// # Errors
     /// [`Unsolved`].
     pub fn slowly(&self, variant: &Variant) -> Result<Scores, Unsolved> {
+        self.slowly_with(variant, &mut |_| {})
+    }
+
+    /// The same, and `each` is told what every joint bears in every pose.
+    pub(super) fn slowly_with(
+        &self,
+        variant: &Variant,
+        each: &mut dyn FnMut(Load),
+    ) -> Result<Scores, Unsolved> {
         let m = self.search.realize(&variant.choices);
         let types = self.realized_types(&variant.choices);
         let mut worst: Option<Scores> = None;
@@ -53,6 +63,12 @@ impl Evaluator<'_, '_> {
             for r in &solution.reactions {
                 let (at, t) = &types[r.joint];
                 let (f, moment) = borne(r);
+                each(Load {
+                    joint: *at,
+                    force: size(f),
+                    moment: size(moment),
+                    capacity: (t.capacity_force, t.capacity_moment),
+                });
                 now.force.raise(size(f), t.capacity_force, *at);
                 if let Some(capacity) = t.capacity_moment {
                     now.moment.raise(size(moment), capacity, *at);

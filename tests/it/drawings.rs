@@ -15,6 +15,18 @@ fn built_in(name: &str) -> Mechanism {
     mechanism_from_str(&format!("{name}.toml"), builtin::text(name).unwrap()).unwrap()
 }
 
+/// How far the groups round an element move it.
+fn moved(n: roxmltree::Node<'_, '_>) -> [f64; 2] {
+    let mut by = [0.0; 2];
+    for text in n.ancestors().filter_map(|a| a.attribute("transform")) {
+        let numbers = text.strip_prefix("translate(").unwrap();
+        let (x, y) = numbers.strip_suffix(')').unwrap().split_once(' ').unwrap();
+        by[0] += x.parse::<f64>().unwrap();
+        by[1] += y.parse::<f64>().unwrap();
+    }
+    by
+}
+
 /// Every text of the SVG as a reader would measure it: 0.6 of its size a character, one for wide ones.
 fn texts(svg: &str) -> Vec<(String, Rect)> {
     let doc = roxmltree::Document::parse(svg).unwrap_or_else(|e| panic!("{e}\n{svg}"));
@@ -31,7 +43,8 @@ fn texts(svg: &str) -> Vec<(String, Rect)> {
             let text = n.text().unwrap().to_owned();
             let size = of(n, "font-size");
             let wide = 0.6 * size * text.chars().count() as f64;
-            let (x, base) = (of(n, "x"), of(n, "y"));
+            let by = moved(n);
+            let (x, base) = (of(n, "x") + by[0], of(n, "y") + by[1]);
             let middle = n.attribute("text-anchor") == Some("middle");
             let left = if middle { x - wide / 2.0 } else { x };
             let rect = Rect {

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers, lowest first; modules of one row do not import each other, except where a row says so by order.
-const LAYERS: [&[&str]; 12] = [
+const LAYERS: [&[&str]; 13] = [
     &["linalg", "chart", "terms"],
     &["geom", "verify"],
     &["model"],
@@ -16,6 +16,7 @@ const LAYERS: [&[&str]; 12] = [
     &["search", "builtin"],
     &["accuracy", "score", "draw", "template"],
     &["report"],
+    &["page"],
     &["cli"],
 ];
 

@@ -26,6 +26,7 @@ mod published;
 mod ranking;
 mod reactions;
 mod reactions_cycle;
+mod report_page;
 mod robot_bytes;
 mod robot_mjcf;
 mod robot_models;

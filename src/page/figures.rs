@@ -1,0 +1,44 @@
+//! The figures of a variant in every state.
+
+use crate::closure::matrix::Closure;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::model::mechanism::{LinkId, Mechanism, Role, StateId};
+use crate::rank::modular;
+use crate::redundancy::idle::idle_motions;
+use crate::redundancy::motion::motions;
+use crate::redundancy::share::shares;
+use crate::report::words::idle_list;
+
+/// W and σ of a state of a mechanism.
+pub(super) fn figures(
+    exact: &ExactField,
+    m: &Mechanism,
+    state: StateId,
+) -> Result<(usize, usize), ExactError> {
+    let closure = Closure::new(exact, m, state)?;
+    let rank = modular::rank(exact, &closure);
+    Ok((closure.columns.len() - rank, closure.rows() - rank))
+}
+
+/// Its idle motions in the free state, in words.
+pub(super) fn idle(exact: &ExactField, m: &Mechanism) -> Result<String, ExactError> {
+    let closure = Closure::new(exact, m, 0)?;
+    let kernel = motions(exact, &closure);
+    let outputs: Vec<LinkId> = (0..m.links.len())
+        .filter(|&l| m.links[l].role == Role::Output)
+        .collect();
+    let idle = idle_motions(exact, m, &closure, &kernel, &outputs);
+    Ok(idle_list(m, &idle).join("; "))
+}
+
+/// σ of each of its contours in the free state.
+pub(super) fn redundant_by_contour(
+    exact: &ExactField,
+    m: &Mechanism,
+) -> Result<Vec<usize>, ExactError> {
+    let closure = Closure::new(exact, m, 0)?;
+    Ok(shares(exact, &closure)
+        .iter()
+        .map(|s| s.redundant)
+        .collect())
+}

@@ -1,0 +1,122 @@
+// What is told of the chosen variant.
+
+/** The list of changes, each with the symbol that is put in. */
+function changeList(changes) {
+  const list = element("ul", { class: "changes" });
+  for (const c of changes) {
+    const from = `${c.id}: ${c.from}`;
+    const item = element("li", {});
+    const state = page.swaps.findIndex((s, n) => symbolOf(n, "kinematic", c) !== null);
+    if (state >= 0) {
+      const picture = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+      for (const [k, v] of [["class", "ozd"], ["viewBox", "-19 -19 38 38"], ["width", 30], ["height", 30], ["aria-hidden", "true"]]) {
+        picture.setAttribute(k, v);
+      }
+      picture.append(...symbol(symbolOf(state, "kinematic", c)));
+      item.append(picture);
+    }
+    const classes = c.classes.every(Boolean) ? ` (class ${c.classes.join(" → ")})` : "";
+    item.append(element("span", {}, from, " → ", element("b", {}, c.to), classes));
+    list.append(item);
+  }
+  return list;
+}
+
+function table(caption, heads, rows) {
+  const head = element("tr", {}, ...heads.map((h, n) => element("th", { scope: "col", class: n ? "n" : null }, h)));
+  const body = rows.map((r) =>
+    element("tr", {}, ...r.map((cell, n) => element(n ? "td" : "th", n ? { class: "n" } : { scope: "row" }, cell))));
+  return element("div", { class: "wide" },
+    element("table", {}, element("caption", {}, caption), element("thead", {}, head), element("tbody", {}, ...body)));
+}
+
+/** W and σ in every state, now and then. */
+function figureTable(i) {
+  const free = figures(i, 0).redundant;
+  const rows = page.states.map((now, s) => {
+    const { mobility, redundant } = figures(i, s);
+    const external = s === 0 ? "" : `${now.external ?? ""} → ${redundant - free}`;
+    const row = [now.name, `${now.mobility} → ${mobility}`, `${now.redundant} → ${redundant}`];
+    return page.states.length > 1 ? [...row, external] : row;
+  });
+  const heads = ["state", "mobility W", "redundant σ"];
+  return table("As it is → with the changes", page.states.length > 1 ? [...heads, "external σ"] : heads, rows);
+}
+
+/** A figure with a bar of its share. */
+function bar(share) {
+  if (share === null || share === undefined) return "";
+  const box = element("span", { class: share > 1 ? "bar over" : "bar" }, percent(share));
+  box.style.setProperty("--share", `${Math.min(100, 100 * share)}%`);
+  return box;
+}
+
+function loadTable(i) {
+  if (!work || !work.force[i]) return null;
+  const rows = [];
+  page.joints.forEach((joint, j) => {
+    if (work.force[i][j] === null) return;
+    rows.push([
+      joint.id,
+      short(work.force[i][j]),
+      bar(work.force_share[i][j]),
+      short(work.moment[i][j]),
+      bar(work.moment_share[i][j]),
+    ]);
+  });
+  const poses = work.poses > 1 ? `the most over ${work.poses} poses` : "at the pose of the file";
+  const norm = work.minimum_norm[i] ? "; redundant constraints leave them open, these are of minimum norm" : "";
+  const heads = ["joint", "force, N", "of capacity", "moment, N·m", "of capacity"];
+  return table(`What the joints bear, ${poses}${norm}`, heads, rows);
+}
+
+/** Words on the variant that are no table. */
+function remarks(i) {
+  const out = [];
+  const idle = found.idle_words[found.idle_word[i]];
+  if (idle) out.push(`Idle: ${idle}.`);
+  if (found.conditioning[i] !== null) {
+    out.push(`Conditioning ${power(found.conditioning[i])}: the smallest singular value over the largest; the nearer to 0, the nearer to a singular pose.`);
+  }
+  if (found.notes[i]) out.push(found.notes[i].replace(/^(\S) \d+: /, "Take care: "));
+  if (work) {
+    if (work.peak_force[i] === null) out.push("The loads have no equilibrium: an idle freedom gives way under them.");
+    else {
+      out.push(`Peak force ${percent(work.peak_force[i])} and peak moment ${percent(work.peak_moment[i])} of what a joint bears; output error ${short(work.output_error_mm[i])} mm from clearances.`);
+    }
+    const { ranked } = work;
+    if (ranked && ranked.reason[i]) out.push(`${ranked.reason[i].replace(/^rank \d+ was /, "")}.`);
+    else if (ranked && ranked.by_cost[i] !== null) out.push(`Number ${ranked.by_cost[i]} by cost.`);
+  }
+  return out.map((t) => element("p", { class: "note" }, t));
+}
+
+function showAsItIs() {
+  byId("chosen-head").textContent = "The mechanism as it is";
+  byId("chosen-words").textContent = "No variant is chosen: choose one in the table or the chart to see what it changes.";
+  byId("chosen-changes").replaceChildren();
+  byId("chosen-more").replaceChildren();
+}
+
+/** Chooses a variant, or none for null. */
+function choose(i) {
+  view.chosen = i;
+  for (const row of document.querySelectorAll("#variants tbody tr[data-variant]")) {
+    row.setAttribute("aria-selected", Number(row.dataset.variant) === i);
+  }
+  if (i === null) {
+    showAsItIs();
+  } else {
+    const changes = changesOf(i);
+    byId("chosen-head").textContent = `Variant ${i + 1}`;
+    byId("chosen-words").textContent = `${inWords(i)}.`;
+    byId("chosen-changes").replaceChildren(changeList(changes));
+    const more = [figureTable(i), ...remarks(i), loadTable(i)];
+    for (const [what, command] of page.variant_commands) {
+      more.push(element("p", { class: "help" }, `${what}: `, element("code", {}, command.replaceAll("{}", i + 1))));
+    }
+    byId("chosen-more").replaceChildren(...more.filter(Boolean));
+  }
+  draw(i);
+  markPoint();
+}

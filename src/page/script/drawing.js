@@ -1,0 +1,96 @@
+// A drawing of the mechanism as it is, with the symbols of a variant put in.
+
+const drawn = { state: 0, kind: "scheme" };
+
+/** Number of the symbol that a choice puts at a joint of a drawing. */
+function symbolOf(state, kind, change) {
+  const { variable, choice, joint } = change;
+  const row = page.swaps[state][kind].find((r) => r[0] === variable && r[1] === choice && r[2] === joint);
+  return row ? row[3] : null;
+}
+
+/** The elements of a symbol, fresh. */
+function symbol(number) {
+  const group = document.querySelector(`.store [data-symbol="${number}"]`);
+  return [...group.children].map((c) => c.cloneNode(true));
+}
+
+const childNamed = (node, name) => [...node.children].find((c) => c.localName === name);
+
+/** Tints the contours by what is left redundant in them; without tint where that is not known. */
+function tint(svg, state, i) {
+  const { contours } = page.states[state];
+  const left = state === 0 ? (found.redundant[i] === 0 ? contours.map(() => 0) : found.contours[i]) : null;
+  contours.forEach((contour, n) => {
+    const known = left ? `, σ = ${left[n]}` : "";
+    const look = `s s${left ? Math.min(left[n], 6) : 0}`;
+    for (const group of svg.querySelectorAll(`[data-contour="${n + 1}"]`)) {
+      const path = group.firstElementChild;
+      path.setAttribute("class", look);
+      childNamed(path, "title").textContent = `contour ${n + 1}: ${contour.name}${known}`;
+    }
+    for (const key of svg.querySelectorAll(`[data-contour-key="${n + 1}"]`)) {
+      key.firstElementChild.setAttribute("class", look);
+      key.nextElementSibling.textContent = `${contour.name}${known}`;
+    }
+  });
+}
+
+/** W and σ of a variant in a state. */
+function figures(i, state) {
+  if (state === 0) return { mobility: found.mobility[i], redundant: found.redundant[i] };
+  const of = found.states[state - 1];
+  return { mobility: of.mobility[i], redundant: of.redundant[i] };
+}
+
+/** Puts title and figures of a variant into a drawing. */
+function entitle(svg, state, i, changes) {
+  const now = page.states[state];
+  const { mobility, redundant } = figures(i, state);
+  const name = `${page.mechanism}, variant ${i + 1}`;
+  const added = changes.filter((c) => c.unloading).length;
+  const freedoms = mobility - redundant + now.rows;
+  const line = `n = ${now.links + added}, p = ${now.joints + added}, k = ${now.contours.length}, f = ${freedoms}, W = ${mobility}, σ = ${redundant}`;
+  svg.querySelector("text.title").textContent = name;
+  const subtitles = svg.querySelectorAll("text.sub");
+  if (subtitles.length > 1) subtitles[1].textContent = line;
+  childNamed(svg, "title").textContent = name;
+  const what = subtitles.length ? subtitles[0].textContent : "Drawing";
+  const list = changes.map((c) => `${c.id}: ${c.from} becomes ${c.to}`).join("; ");
+  childNamed(svg, "desc").textContent = `${what}: ${line}. Changed: ${list || "nothing"}.`;
+}
+
+/** Draws a variant, or the mechanism as it is for null. */
+function draw(i) {
+  const original = document.querySelector(`#mechanism [data-state="${drawn.state}"][data-kind="${drawn.kind}"] svg`);
+  const svg = original.cloneNode(true);
+  if (i !== null) {
+    const changes = changesOf(i);
+    const groups = (name) => new Map([...svg.querySelectorAll(`[${name}]`)].map((g) => [g.getAttribute(name), g]));
+    const [symbols, names] = [groups("data-joint"), groups("data-joint-name")];
+    for (const change of changes) {
+      const number = symbolOf(drawn.state, drawn.kind, change);
+      const place = symbols.get(change.id);
+      if (number === null || !place) continue;
+      place.replaceChildren(...symbol(number));
+      const label = names.get(change.id);
+      if (label) label.firstElementChild.classList.add("changed");
+    }
+    if (drawn.kind === "scheme") tint(svg, drawn.state, i);
+    entitle(svg, drawn.state, i, changes);
+  }
+  byId("drawing").replaceChildren(svg);
+}
+
+function listenToDrawing() {
+  const states = byId("drawn-state");
+  page.states.forEach((s, n) => states.append(element("option", { value: n }, s.name)));
+  byId("drawn-state-field").hidden = page.states.length < 2;
+  const redraw = () => {
+    drawn.state = Number(states.value);
+    drawn.kind = byId("drawn-kind").value;
+    draw(view.chosen);
+  };
+  states.addEventListener("change", redraw);
+  byId("drawn-kind").addEventListener("change", redraw);
+}

@@ -1,0 +1,57 @@
+// Starts the page, and keeps its parts in step.
+
+/** After the filter or the order has changed. */
+function refresh() {
+  arrange();
+  tellCount();
+  drawTable();
+  drawChart();
+}
+
+function listenToFilters() {
+  const form = byId("filters");
+  const anew = () => {
+    view.active = 0;
+    refresh();
+  };
+  let waiting = 0;
+  form.addEventListener("input", () => {
+    clearTimeout(waiting);
+    waiting = setTimeout(anew, 60);
+  });
+  // The fields are emptied after the event.
+  form.addEventListener("reset", () => setTimeout(anew, 0));
+  form.addEventListener("submit", (event) => event.preventDefault());
+  byId("idle-field").hidden = !(found.idle && found.idle.some((n) => n > 0));
+}
+
+/** Escape clears a filter that is typed in, else goes back to the mechanism as it is. */
+function listenToEscape() {
+  byId("explorer").addEventListener("keydown", (event) => {
+    if (event.key !== "Escape") return;
+    event.preventDefault();
+    if (event.target.form === byId("filters")) byId("filters").reset();
+    else choose(null);
+  });
+}
+
+function headLine() {
+  const parts = [];
+  if (work && work.ranked) parts.push(`In order: ${work.ranked.head}.`, ...work.ranked.notes.map((n) => (/[.:]$/.test(n) ? n : `${n}.`)));
+  else parts.push("In order of cost. A cost is in revolute joints, by the table of [search.costs].");
+  if (found.workload && found.workload.failed) parts.push(`The loads were not looked at: ${found.workload.failed}.`);
+  if (found.notes.some(Boolean)) parts.push("Marked variants (!, *, ~) need care: point at them or choose them to see why.");
+  return parts.join(" ");
+}
+
+if (found) {
+  byId("explorer").hidden = false;
+  byId("head").textContent = headLine();
+  listenToFilters();
+  listenToTable();
+  listenToDrawing();
+  listenToChart();
+  listenToEscape();
+  refresh();
+  choose(view.order.length ? view.order[0] : null);
+}

@@ -1,0 +1,119 @@
+// The table of variants, a page at a time.
+
+const ROWS = 25;
+
+const pages = () => Math.max(1, Math.ceil(view.order.length / ROWS));
+const pageNumber = () => Math.floor(view.active / ROWS);
+
+function drawHead() {
+  const row = element("tr", { "aria-rowindex": 1 });
+  const head = (key, title, words, numeric) => {
+    const sorted = view.sort.key === key;
+    const button = element("button", { type: "button", title: `Sort by ${words}` }, title);
+    button.addEventListener("click", () => sortBy(key));
+    const order = sorted ? (view.sort.down ? "descending" : "ascending") : "none";
+    row.append(element("th", { scope: "col", "data-key": key, "aria-sort": order, class: numeric ? "n" : null }, button));
+  };
+  head("position", "№", "position", true);
+  head("list", "changed joints", "changed joints", false);
+  for (const c of columns.filter((c) => c.table)) head(c.key, c.title, c.words, true);
+  document.querySelector("#variants thead").replaceChildren(row);
+}
+
+/** Sorts by a column, the better end first; again, the other way round. */
+function sortBy(key) {
+  const column = columnOf(key);
+  const first = Boolean(column && column.better > 0);
+  view.sort = { key, down: view.sort.key === key ? !view.sort.down : first };
+  view.active = 0;
+  refresh();
+  document.querySelector(`#variants th[data-key="${key}"] button`).focus();
+}
+
+/** The signs that the text output uses for doubtful variants. */
+function doubt(i) {
+  if (found.lucky[i] === true) return "!";
+  if (found.agree[i] === false) return "*";
+  return found.notes[i] ? "~" : "";
+}
+
+function drawRow(i, place) {
+  const row = element("tr", {
+    role: "row",
+    tabindex: place === view.active ? 0 : -1,
+    "aria-rowindex": place + 2,
+    "aria-selected": i === view.chosen,
+    "data-variant": i,
+    title: found.notes[i],
+  });
+  row.append(element("th", { scope: "row", class: "n" }, `${i + 1}${doubt(i) && ` ${doubt(i)}`}`));
+  row.append(element("td", { class: "list" }, changeLine(i)));
+  for (const c of columns.filter((c) => c.table)) {
+    const value = c.values[i];
+    row.append(element("td", { class: "n" }, value === null ? "" : c.show(value)));
+  }
+  row.addEventListener("click", () => {
+    view.active = place;
+    choose(i);
+    focusRow();
+  });
+  return row;
+}
+
+function drawTable() {
+  drawHead();
+  view.active = Math.max(0, Math.min(view.active, view.order.length - 1));
+  const from = pageNumber() * ROWS;
+  const shown = view.order.slice(from, from + ROWS);
+  const body = document.querySelector("#variants tbody");
+  body.replaceChildren(...shown.map((i, n) => drawRow(i, from + n)));
+  if (!shown.length) {
+    const cell = element("td", { colspan: columns.length + 2 }, "No listed variant passes the filter.");
+    body.append(element("tr", {}, cell));
+  }
+  byId("variants").setAttribute("aria-rowcount", view.order.length + 1);
+  const range = shown.length ? `${grouped(from + 1)} to ${grouped(from + shown.length)} of ${grouped(view.order.length)}` : "none";
+  byId("place").textContent = range;
+  byId("table-caption").textContent = `Variants ${range}; cost in revolute joints`;
+  const [first, last] = [pageNumber() === 0, pageNumber() === pages() - 1];
+  for (const [id, off] of [["first", first], ["previous", first], ["next", last], ["last", last]]) byId(id).disabled = off;
+}
+
+function focusRow() {
+  const row = document.querySelector('#variants tbody tr[tabindex="0"]');
+  if (row) row.focus();
+}
+
+/** Moves the keyboard to a place in the order. */
+function moveTo(place) {
+  const old = pageNumber();
+  view.active = Math.max(0, Math.min(place, view.order.length - 1));
+  if (pageNumber() === old) {
+    for (const row of document.querySelectorAll("#variants tbody tr")) {
+      row.tabIndex = Number(row.dataset.variant) === view.order[view.active] ? 0 : -1;
+    }
+  } else {
+    drawTable();
+  }
+}
+
+function listenToTable() {
+  const steps = { ArrowDown: 1, ArrowUp: -1, PageDown: ROWS, PageUp: -ROWS, Home: -Infinity, End: Infinity };
+  document.querySelector("#variants tbody").addEventListener("keydown", (event) => {
+    if (event.altKey || event.ctrlKey || event.metaKey) return;
+    if (event.key in steps) {
+      event.preventDefault();
+      moveTo(view.active + steps[event.key]);
+      focusRow();
+    } else if ((event.key === "Enter" || event.key === " ") && view.order.length) {
+      event.preventDefault();
+      choose(view.order[view.active]);
+      focusRow();
+    }
+  });
+  const turn = (id, place) => byId(id).addEventListener("click", () => moveTo(place()));
+  turn("first", () => 0);
+  turn("previous", () => (pageNumber() - 1) * ROWS);
+  turn("next", () => (pageNumber() + 1) * ROWS);
+  turn("last", () => view.order.length - 1);
+}

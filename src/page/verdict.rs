@@ -1,0 +1,221 @@
+//! The verdict in words.
+
+use super::embed::text;
+use super::{Page, Redesigns};
+use crate::model::mechanism::{Mechanism, Role};
+use crate::redundancy::analysis::StateAnalysis;
+use crate::redundancy::stress::Verdict;
+use crate::report::words::{self, cost, grouped, plural};
+use itertools::Itertools;
+use num_traits::{One, Zero};
+
+/// Idle motions told at most.
+const TOLD: usize = 4;
+
+pub(super) fn html(page: &Page<'_>) -> String {
+    let mut out = String::new();
+    let several = page.states.len() > 1;
+    for (i, s) in page.states.iter().enumerate() {
+        let label = if several {
+            format!("<p class=\"label\">State {}</p>\n", text(&s.state))
+        } else {
+            String::new()
+        };
+        let good = s.redundant == 0;
+        let mut sentences = state(page.mechanism, s);
+        if i == 0 {
+            sentences.push(redesigns(page, s));
+        }
+        out += &format!(
+            "<div class=\"verdict {}\">\n{label}<p class=\"head\">{}</p>\n<p>{}</p>\n</div>\n",
+            if good { "good" } else { "bad" },
+            text(&head(s)),
+            sentences.iter().map(|t| text(t)).join(" ")
+        );
+    }
+    out
+}
+
+/// The answer in a few words.
+pub(super) fn head(s: &StateAnalysis) -> String {
+    match s.redundant {
+        0 => "Statically determinate".to_owned(),
+        n => plural(n, "redundant constraint"),
+    }
+}
+
+/// What that means, in sentences.
+fn state(m: &Mechanism, s: &StateAnalysis) -> Vec<String> {
+    let mut out = Vec::new();
+    out.push(
+        if s.redundant == 0 {
+            "Parts a little out of true assemble without strain, and the loads alone say what each joint bears."
+        } else {
+            "Parts a little out of true bind: they must be bent or pressed together, and joints bear loads that nothing \
+             outside puts on them."
+        }
+        .to_owned(),
+    );
+    if let Some(e) = s.external.filter(|e| e.redundant > 0) {
+        let of = |v: Verdict| {
+            let external = s.self_stresses.iter().filter(|t| t.external);
+            external.filter(|t| t.verdict == v).count()
+        };
+        let (harmless, harmful) = (of(Verdict::Harmless), of(Verdict::Harmful));
+        let split = if harmless + harmful == 0 {
+            String::new()
+        } else {
+            format!(": {harmless} harmless (friction shared by the contacts), {harmful} harmful")
+        };
+        out.push(format!(
+            "{} of them {} from the joints of this state alone{split}.",
+            e.redundant,
+            if e.redundant == 1 { "comes" } else { "come" }
+        ));
+    }
+    out.push(moves(s));
+    let idle = words::idle_list(m, &s.idle);
+    let more = idle.len().saturating_sub(TOLD);
+    if !idle.is_empty() {
+        let list = idle.iter().take(TOLD).join("; ");
+        let more = if more > 0 {
+            format!("; and {more} more")
+        } else {
+            String::new()
+        };
+        out.push(format!("Idle: {list}{more}."));
+    }
+    out
+}
+
+fn moves(s: &StateAnalysis) -> String {
+    let ways = |n: usize| plural(n, "way");
+    match (s.mobility, s.finite.mobility) {
+        (0, _) => "Nothing moves in this state.".to_owned(),
+        (w, f) if w == f && s.local_mobility == 0 => format!("It moves in {} (W = {w}).", ways(w)),
+        (w, f) if w == f => format!(
+            "It moves in {} (W = {w}), {} of which the outputs do not feel.",
+            ways(w),
+            s.local_mobility
+        ),
+        (w, 0) => format!(
+            "W = {w} in this pose, but no motion is really there: the pose is shaky, and small errors are felt as play."
+        ),
+        (w, f) => format!(
+            "W = {w} in this pose, of which {f} {} really there: the pose is singular or shaky.",
+            if f == 1 { "is" } else { "are" }
+        ),
+    }
+}
+
+/// What the search says, in one or two sentences.
+fn redesigns(page: &Page<'_>, s: &StateAnalysis) -> String {
+    let r = match &page.redesigns {
+        Ok(r) => r,
+        Err(why) => return format!("Redesigns were not searched: {why}"),
+    };
+    let found = r.found;
+    let big = |n: &num_bigint::BigUint| grouped(&n.to_string());
+    let size = found.search.size();
+    if size == num_bigint::BigUint::from(1u8) {
+        return "No joint has a choice, so there is nothing to search: list options under [search] in the file."
+            .to_owned();
+    }
+    let least = if found.stop == "exhausted" {
+        ""
+    } else {
+        "at least "
+    };
+    let (all, good) = (big(&size), &found.admissible.total);
+    let request = &found.search.request;
+    let one = good.is_one();
+    let goal = match (request.max_redundant, one) {
+        (0, _) if s.redundant == 0 => (if one { "is" } else { "are" }).to_owned() + " determinate",
+        (0, false) => "remove them all".to_owned(),
+        (0, true) => "removes them all".to_owned(),
+        (n, false) => format!("leave at most {n}"),
+        (n, true) => format!("leaves at most {n}"),
+    };
+    let conditions = conditions(page.mechanism, r, one);
+    if good.is_zero() {
+        let rest = &found.determinate.total;
+        return if rest.is_zero() {
+            format!("None of the {all} variants {goal}: give the joints more options.")
+        } else {
+            format!(
+                "Of the {all} variants none {goal}{conditions}; {least}{} {goal}, but do not meet the other conditions.",
+                big(rest)
+            )
+        };
+    }
+    let mut out = format!("{least}{} of {all} variants {goal}{conditions}", big(good));
+    if let Some(first) = out.get(..1) {
+        out = first.to_uppercase() + &out[1..];
+    }
+    if s.redundant == 0 && r.variants.iter().any(|c| c.variant.key.changes() == 0) {
+        return format!("Nothing needs changing. {out}.");
+    }
+    out + &best(r) + "."
+}
+
+/// The conditions beside the redundant constraints.
+fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
+    let s = if one { "s" } else { "" };
+    let have = if one { "has" } else { "have" };
+    let request = &r.found.search.request;
+    let outputs = m.links.iter().filter(|l| l.role == Role::Output);
+    let outputs = outputs.map(|l| l.id.as_str()).collect_vec();
+    let motion = match outputs.as_slice() {
+        [] => format!("keep{s} the motion"),
+        [one] => format!("keep{s} the motion of link {one}"),
+        [head @ .., last] => format!("keep{s} the motion of links {} and {last}", head.join(", ")),
+    };
+    let all = [
+        request.keep_output.then_some(motion),
+        request
+            .max_mobility
+            .map(|w| format!("{have} W at most {w}")),
+        request
+            .max_changes
+            .map(|c| format!("change{s} at most {}", plural(c as usize, "joint"))),
+        request.state.map(|(state, e)| match e {
+            u32::MAX => format!("{have} any external σ in state {}", m.states[state]),
+            e => format!("{have} external σ at most {e} in state {}", m.states[state]),
+        }),
+    ];
+    let all = all.into_iter().flatten().join(", ");
+    if all.is_empty() {
+        all
+    } else {
+        format!(" and {all}")
+    }
+}
+
+/// What the best is like.
+fn best(r: &Redesigns<'_>) -> String {
+    let search = r.found.search;
+    let like = |v: &crate::search::best::Variant| match v.key.changes() {
+        0 => "changes nothing".to_owned(),
+        n => format!(
+            "changes {} at cost {}",
+            plural(n as usize, "joint"),
+            cost(search.steps.milli(v.key.cost()))
+        ),
+    };
+    let cheapest = r.variants.iter().map(|c| &c.variant);
+    match (&r.found.ranking, r.variants.first()) {
+        (Some(p), Some(first)) => {
+            let cheapest = p.cheapest.as_ref().map_or(String::new(), |c| {
+                format!("; the cheapest that bears them {}", like(&c.variant))
+            });
+            format!(
+                "; the best under the loads {}{cheapest}",
+                like(&first.variant)
+            )
+        }
+        (Some(_), None) => "; none of those scored is in equilibrium within the limits".to_owned(),
+        (None, _) => cheapest
+            .min_by_key(|v| v.key.cost())
+            .map_or(String::new(), |v| format!("; the cheapest {}", like(v))),
+    }
+}

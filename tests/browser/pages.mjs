@@ -1,0 +1,64 @@
+// Pages written by the program under test, and a browser that notes everything a page should not do.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { createRequire } from "node:module";
+import path from "node:path";
+import { pathToFileURL } from "node:url";
+
+const root = path.resolve(import.meta.dirname, "../..");
+export const work = path.join(root, "target/browser");
+const { chromium } = createRequire(path.join(work, "package.json"))("playwright-core");
+const ozols = process.env.OZOLS ?? path.join(root, "target/debug/ozols");
+
+/** Writes a page of the arguments' report, and gives its path. */
+export function report(name, ...args) {
+  const file = path.join(work, `${name}.html`);
+  execFileSync(ozols, ["report", "--quiet", ...args, "-o", file], { stdio: ["ignore", "ignore", "pipe"], cwd: root });
+  return file;
+}
+
+export const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--no-sandbox"],
+});
+
+/** Opens a file, gives the page to `use`, and holds it to silence: no message, no error, no request but the file. */
+export async function open(file, options, use) {
+  const tab = await browser.newPage({ viewport: { width: 1360, height: 950 }, ...options });
+  const noise = [];
+  const address = pathToFileURL(file).href;
+  tab.on("console", (m) => noise.push(`console ${m.type()}: ${m.text()}`));
+  tab.on("pageerror", (e) => noise.push(`error: ${e.message}`));
+  tab.on("dialog", (d) => {
+    noise.push(`dialog: ${d.message()}`);
+    d.dismiss();
+  });
+  tab.on("request", (r) => {
+    if (r.url() !== address) noise.push(`request: ${r.url()}`);
+  });
+  const begun = performance.now();
+  await tab.goto(address);
+  const took = Math.round(performance.now() - begun);
+  await use(tab, took);
+  assert.deepEqual(noise, [], file);
+  await tab.close();
+}
+
+/** A picture for people to look at. */
+export const picture = (tab, name, fullPage = true) =>
+  tab.screenshot({ path: path.join(work, `${name}.png`), fullPage });
+
+/** The body may not scroll sideways. */
+export async function fits(tab) {
+  const [content, room] = await tab.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+  assert.ok(content <= room, `${content} pixels of content in ${room}`);
+}
+
+/** The texts of a column of the rows shown. */
+export const column = (tab, key) =>
+  tab.evaluate((wanted) => {
+    const heads = [...document.querySelectorAll("#variants thead th")];
+    const at = heads.findIndex((h) => h.dataset.key === wanted);
+    return [...document.querySelectorAll("#variants tbody tr")].map((r) => r.children[at].textContent);
+  }, key);

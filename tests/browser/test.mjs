@@ -1,0 +1,227 @@
+// The report page as its readers meet it: by mouse, by keyboard, in the dark, on a small screen and on paper.
+
+import assert from "node:assert/strict";
+import path from "node:path";
+import { browser, column, fits, open, picture, report } from "./pages.mjs";
+
+const text = (tab, selector) => tab.locator(selector).innerText();
+const rows = (tab) => tab.locator("#variants tbody tr[data-variant]");
+const tests = [];
+const test = (name, body) => tests.push([name, body]);
+
+const gripper = report("gripper-10", "gripper-10");
+const many = report("gripper-10-many", "gripper-10", "--top", "10000");
+const loaded = report("gripper-10-loaded", "gripper-10-loaded");
+
+test("the verdict stands at the top, and every part has its words", async () => {
+  await open(gripper, {}, async (tab) => {
+    const verdict = await text(tab, "#verdict");
+    for (const words of ["11 redundant constraints", "25,761,436 of 13,841,287,201 variants", "changes 4 joints at cost 9.5", "16 redundant"]) {
+      assert.ok(verdict.includes(words), words);
+    }
+    assert.match(await text(tab, "#certainty"), /rank proven by a checked certificate/);
+    assert.match(await text(tab, "#certainty"), /Singular values agree/);
+    assert.match(await text(tab, "#commands"), /ozols export gripper-10 --to sdf/);
+    assert.equal(await tab.locator("#mechanism .drawing svg").count(), 4);
+    for (const svg of await tab.locator("svg[role=img]").all()) {
+      for (const name of ["title", "desc"]) assert.ok((await svg.locator(`> ${name}`).textContent()).length > 3);
+    }
+    await fits(tab);
+    await picture(tab, "gripper-10");
+  });
+});
+
+test("heads sort, and say so", async () => {
+  await open(gripper, {}, async (tab) => {
+    const head = tab.locator('th[data-key="conditioning"]');
+    assert.equal(await head.getAttribute("aria-sort"), "none");
+    await head.locator("button").click();
+    assert.equal(await head.getAttribute("aria-sort"), "descending");
+    const numbers = (await column(tab, "conditioning")).map(Number);
+    assert.deepEqual(numbers, [...numbers].sort((a, b) => b - a));
+    await tab.keyboard.press("Enter");
+    assert.equal(await head.getAttribute("aria-sort"), "ascending");
+    const up = (await column(tab, "conditioning")).map(Number);
+    assert.deepEqual(up, [...up].sort((a, b) => a - b));
+    assert.ok(up[0] < numbers[0]);
+  });
+});
+
+test("filters narrow the list, and Escape widens it again", async () => {
+  await open(gripper, {}, async (tab) => {
+    await tab.fill("#find", "2-3:spherical 7-0");
+    await tab.waitForFunction(() => document.querySelector("#count").textContent.includes("pass"));
+    for (const changes of await column(tab, "list")) {
+      assert.match(changes, /2-3[^;]*→ spherical/);
+      assert.match(changes, /7-0/);
+    }
+    await tab.fill("#find", "no such joint");
+    await tab.waitForFunction(() => !document.querySelector("#variants tr[data-variant]"));
+    assert.match(await text(tab, "#variants tbody"), /No listed variant/);
+    await tab.keyboard.press("Escape");
+    await tab.waitForFunction(() => document.querySelector("#variants tr[data-variant]"));
+    assert.match(await text(tab, "#count"), /^200 listed of 25,761,436/);
+  });
+});
+
+test("a variant is chosen by mouse: changes, figures and drawing", async () => {
+  await open(gripper, {}, async (tab) => {
+    const row = rows(tab).nth(2);
+    await row.click();
+    assert.equal(await row.getAttribute("aria-selected"), "true");
+    assert.equal(await text(tab, "#chosen-head"), "Variant 3");
+    assert.match(await text(tab, "#chosen-words"), /cost 9.5, 4 changes/);
+    const changes = await tab.locator(".changes li").allInnerTexts();
+    assert.equal(changes.length, 4);
+    const marked = tab.locator("#drawing g[data-joint]:has(.changed)");
+    assert.equal(await marked.count(), 4);
+    const names = await marked.evaluateAll((groups) => groups.map((g) => g.dataset.joint));
+    for (const change of changes) assert.ok(names.some((n) => change.startsWith(`${n}: `)), change);
+    assert.match(await tab.locator("#drawing desc").textContent(), /W = 1, σ = 0/);
+    assert.match(await text(tab, "#chosen"), /11 → 0/);
+    assert.match(await text(tab, "#chosen"), /ozols draw gripper-10 --variant 3 /);
+    await tab.selectOption("#drawn-kind", "kinematic");
+    assert.equal(await marked.count(), 4);
+    await tab.selectOption("#drawn-state", { label: "clamped" });
+    assert.equal(await marked.count(), 4);
+    await tab.keyboard.press("Escape");
+    assert.equal(await marked.count(), 0);
+    assert.match(await text(tab, "#chosen-head"), /as it is/);
+    await picture(tab, "gripper-10-as-it-is", false);
+  });
+});
+
+test("by keyboard alone: skip link, table, pages, chart", async () => {
+  await open(gripper, {}, async (tab) => {
+    await tab.keyboard.press("Tab");
+    assert.equal(await tab.evaluate(() => document.activeElement.className), "skip");
+    await tab.keyboard.press("Enter");
+    const focused = () => tab.evaluate(() => document.activeElement.dataset.variant);
+    let steps = 0;
+    while ((await focused()) === undefined && steps < 40) {
+      await tab.keyboard.press("Tab");
+      steps += 1;
+    }
+    assert.equal(await focused(), "0", "the first row is reached");
+    await tab.keyboard.press("ArrowDown");
+    await tab.keyboard.press("ArrowDown");
+    await tab.keyboard.press("Enter");
+    assert.equal(await focused(), "2");
+    assert.equal(await text(tab, "#chosen-head"), "Variant 3");
+    await tab.keyboard.press("PageDown");
+    assert.equal(await focused(), "27");
+    await tab.keyboard.press("End");
+    assert.equal(await focused(), "199");
+    await tab.keyboard.press("Home");
+    assert.equal(await focused(), "0");
+    await tab.keyboard.press("Escape");
+    assert.match(await text(tab, "#chosen-head"), /as it is/);
+    const outline = await tab.evaluate(() => getComputedStyle(document.activeElement).outlineStyle);
+    assert.equal(outline, "solid", "focus is seen");
+    await tab.locator('#chart circle.front[tabindex="0"]').focus();
+    await tab.keyboard.press("Enter");
+    assert.match(await text(tab, "#chosen-head"), /^Variant \d+$/);
+    assert.equal(await tab.locator("#chart .ring").getAttribute("visibility"), "visible");
+  });
+});
+
+test("under loads: scores, reactions, and a chart of two figures", async () => {
+  await open(loaded, { colorScheme: "dark" }, async (tab) => {
+    assert.match(await text(tab, "#redesigns"), /ranked under the workload/);
+    assert.match(await text(tab, "#chosen"), /What the joints bear/);
+    assert.match(await text(tab, "#chosen"), /347th by cost: peak moment/);
+    const front = tab.locator("#chart circle.front");
+    assert.ok((await front.count()) > 1);
+    await front.last().click();
+    assert.equal(await tab.locator('#variants tr[aria-selected="true"]').count(), 1);
+    await tab.selectOption("#axis-y", "output-error");
+    assert.ok((await tab.locator("#chart circle.dot").count()) > 5);
+    const back = await tab.evaluate(() => getComputedStyle(document.body).backgroundColor);
+    assert.equal(back, "rgb(21, 25, 29)", "dark");
+    await fits(tab);
+    await picture(tab, "gripper-10-loaded-dark");
+  });
+  await open(loaded, {}, (tab) => picture(tab, "gripper-10-loaded"));
+});
+
+test("ten thousand variants, on a small screen", async () => {
+  await open(many, { viewport: { width: 360, height: 780 } }, async (tab, took) => {
+    console.log(`  10,000 variants loaded in ${took} ms`);
+    await fits(tab);
+    await tab.locator("#last").click();
+    const shown = await rows(tab).evaluateAll((all) => all.map((r) => r.dataset.variant));
+    assert.equal(shown.at(-1), "9999");
+    assert.ok(shown.length <= 50, "few rows are drawn");
+    const begun = performance.now();
+    await tab.fill("#find", "5-1:spherical");
+    await tab.waitForFunction(() => document.querySelector("#count").textContent.includes("pass"));
+    console.log(`  filtered in ${Math.round(performance.now() - begun)} ms`);
+    await tab.locator('th[data-key="cost"] button').click();
+    await tab.locator('th[data-key="cost"] button').click();
+    const costs = (await column(tab, "cost")).map(Number);
+    assert.deepEqual(costs, [...costs].sort((a, b) => b - a));
+    await rows(tab).first().click();
+    await fits(tab);
+    await picture(tab, "gripper-10-360");
+  });
+});
+
+test("on paper: no controls, and what was chosen", async () => {
+  await open(gripper, {}, async (tab) => {
+    await rows(tab).nth(1).click();
+    await tab.emulateMedia({ media: "print" });
+    for (const hidden of ["nav", "#filters", ".pager", ".skip"]) {
+      assert.equal(await tab.locator(hidden).first().isVisible(), false, hidden);
+    }
+    for (const shown of ["#verdict", "#chosen", "#drawing", "#mechanism"]) assert.ok(await tab.locator(shown).isVisible(), shown);
+    await tab.pdf({ path: path.join(path.dirname(gripper), "gripper-10.pdf"), format: "A4" });
+  });
+});
+
+test("names from files stay text", async () => {
+  const hostile = report("hostile", path.join(import.meta.dirname, "hostile.toml"));
+  await open(hostile, {}, async (tab) => {
+    assert.equal(await text(tab, "h1"), "</script><script>alert(1)</script>");
+    assert.equal(await tab.locator("script").count(), 2);
+    assert.equal(await tab.locator("img").count(), 0);
+    await rows(tab).first().click();
+    const count = await tab.locator(".changes li").count();
+    assert.ok(count > 0);
+    assert.equal(await tab.locator("#drawing g[data-joint]:has(.changed)").count(), count);
+    await picture(tab, "hostile");
+  });
+});
+
+test("pages without a list of variants, and imported robots", async () => {
+  const cases = [
+    ["bennett", /redundant constraint/],
+    ["slider-crank-determinate", /Statically determinate/],
+    ["gripper-10-redesign-unloaded", /redundant|determinate/],
+    ["parallel-shears", /determinate|redundant/],
+    ["tests/data/robots/robotiq_2f85_v4/2f85.nomesh.xml", /2 redundant constraints/],
+    ["tests/data/robots/epr_talos_like/robot.urdf", /redundant|determinate/],
+  ];
+  for (const [name, words] of cases) {
+    const file = report(name.replaceAll("/", "-"), name);
+    for (const [width, height] of [[1360, 950], [360, 780]]) {
+      await open(file, { viewport: { width, height } }, async (tab) => {
+        assert.match(await text(tab, "#verdict"), words);
+        await fits(tab);
+        await picture(tab, `${path.basename(file, ".html")}-${width}`);
+      });
+    }
+  }
+});
+
+let failed = 0;
+for (const [name, body] of tests) {
+  try {
+    await body();
+    console.log(`ok: ${name}`);
+  } catch (e) {
+    failed += 1;
+    console.log(`FAILED: ${name}\n${e.stack}`);
+  }
+}
+await browser.close();
+process.exit(failed ? 1 : 0);
