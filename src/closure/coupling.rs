@@ -12,6 +12,9 @@ use crate::model::mechanism::{Frame, Mechanism, StateId};
 /// Squares of lengths that differ by less than this part are those of two axes of one length, written in decimals.
 const UNIT: f64 = 1e-12;
 
+/// Bits in a square of a length, numerator and denominator, above which its root is taken as a decimal.
+const LONG: u64 = 64;
+
 /// The square of the length of the axis that a freedom turns about or slides along; see [`super::twist::FrameValues`].
 fn square(frame: &Frame, freedom: Freedom) -> Expr {
     let dot = |a: &[Expr; 3], b: &[Expr; 3]| &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2];
@@ -29,7 +32,8 @@ fn square(frame: &Frame, freedom: Freedom) -> Expr {
     }
 }
 
-/// The length of the axis of a freedom in one frame over that in another; 1 where they differ by rounding only.
+/// The length of the axis of a freedom in one frame over that in another; 1 where they differ by rounding only, a
+/// decimal where axes of many digits have no short root.
 #[must_use]
 pub fn length_ratio(of: (&Frame, Freedom), over: (&Frame, Freedom)) -> Expr {
     let (a, b) = (square(of.0, of.1), square(over.0, over.1));
@@ -38,8 +42,16 @@ pub fn length_ratio(of: (&Frame, Freedom), over: (&Frame, Freedom)) -> Expr {
         return Expr::from(1);
     }
     // Axes are not zero, so that the quotient and its root are there.
-    a.div(&b)
-        .and_then(|q| q.sqrt())
+    let exact = a.div(&b).and_then(|q| {
+        let root = q.sqrt()?;
+        let long = q
+            .as_rational()
+            .is_some_and(|q| q.numer().bits() + q.denom().bits() > LONG);
+        (root.as_rational().is_some() || !long).then_some(root)
+    });
+    // Axes of many decimals are measured or rounded: their lengths are good to a double's digits at best.
+    exact
+        .or_else(|| Expr::from_f64(ratio.sqrt()).ok())
         .unwrap_or_else(|| Expr::from(1))
 }
 

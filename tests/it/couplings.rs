@@ -160,6 +160,10 @@ fn axes_of_any_length_make_the_same_row() {
     assert_eq!((of(long, TURN), of(TURN, long)), (1.5, 0.5 / 3.0));
     assert!((of(skew, TURN) - 0.5 * 2f64.sqrt()).abs() < 1e-15);
     assert_eq!(of(turned, TURN), 0.5);
+    // Many digits: no root of theirs has to be found.
+    let measured = "type = \"revolute\"\naxis = [0.123456789012, 0.3141592653589, 0.9]";
+    let length = (0.123456789012f64.powi(2) + 0.3141592653589f64.powi(2) + 0.81).sqrt();
+    assert!((of(measured, TURN) - 0.5 * length).abs() < 1e-15);
     // x and y of a frame are made of axis and reference, and longer still.
     let slot = "type = \"slotted\"\naxis = [0, 0, 2]\nreference = [1, 1, 0]";
     let m = mechanism(&pair(slot, SLIDE, &coupled("a:tx", "b", "1")));

@@ -111,7 +111,8 @@ fn the_automatic_choice_is_right_on_every_built_in_mechanism_turned_and_measured
                     ));
                 }
                 assert_eq!(
-                    s.per_contour.iter().map(|c| c.redundant).sum::<usize>(),
+                    s.per_contour.iter().map(|c| c.redundant).sum::<usize>()
+                        + s.per_coupling.iter().map(|c| c.redundant).sum::<usize>(),
                     s.redundant,
                     "{name} {what}"
                 );
