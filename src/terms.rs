@@ -154,7 +154,8 @@ mod tests {
             ("k", "contour"),
             ("f", "freedom"),
             ("Delta point", "delta-point"),
-            ("Ozols formula", "ozols' formula"),
+            ("ozols formula", "Ozols' formula"),
+            ("Δφ", "missing angle"),
             ("REDUNDANT-CONSTRAINT", "redundant constraint"),
         ] {
             assert_eq!(terms.find(word).map(|t| t.name.as_str()), Some(name));

@@ -77,7 +77,7 @@ pub(super) enum Command {
     List(List),
     /// Print the file of a built-in mechanism.
     #[command(after_help = examples::SHOW)]
-    Show(File),
+    Show(Show),
     /// Print the JSON Schema of the mechanism file.
     #[command(after_help = examples::SCHEMA)]
     Schema,
@@ -103,6 +103,13 @@ pub(super) struct New {
     /// Replace a file that is there.
     #[arg(long)]
     pub(super) force: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Show {
+    /// The name of a built-in mechanism.
+    #[arg(value_name = "NAME")]
+    pub(super) name: String,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -1,6 +1,6 @@
 //! `ozols check`, `show` and `schema`.
 
-use super::args::{Args, File};
+use super::args::{Args, File, Show};
 use super::{Done, load, output};
 use crate::builtin;
 use crate::import::doubt::{Checked, DoubtKind, Doubts, across, check};
@@ -114,9 +114,9 @@ fn stale(m: &Mechanism, doubts: &mut Doubts) {
     }
 }
 
-pub(super) fn show(a: &File) -> anyhow::Result<Done> {
-    let Some(text) = builtin::text(&a.file) else {
-        bail!(load::no_built_in(&a.file))
+pub(super) fn show(a: &Show) -> anyhow::Result<Done> {
+    let Some(text) = builtin::text(&a.name) else {
+        bail!(load::no_built_in(&a.name))
     };
     output::to(None, |out| {
         write!(out, "{text}")?;

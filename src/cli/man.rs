@@ -49,14 +49,17 @@ fn page(command: &Command) -> std::io::Result<Vec<u8>> {
     if command.has_subcommands() {
         man.render_subcommands_section(&mut page)?;
     }
-    if let Some(after) = command.get_after_help() {
+    let after = command.get_after_help().map(ToString::to_string);
+    let after = after.unwrap_or_default();
+    let (notes, examples) = after.split_once("Examples:\n").unwrap_or((&after, ""));
+    for (heading, text) in [("NOTES", notes), ("EXAMPLES", examples)] {
+        if text.trim().is_empty() {
+            continue;
+        }
         let mut roff = Roff::new();
-        let after = after.to_string();
-        // The heading says what the first line says.
-        let lines = after.strip_prefix("Examples:\n");
-        roff.control("SH", [lines.map_or("NOTES", |_| "EXAMPLES")]);
+        roff.control("SH", [heading]);
         roff.control("nf", []);
-        for line in lines.unwrap_or(&after).lines() {
+        for line in text.trim_end().lines() {
             roff.text([roman(line)]);
         }
         roff.control("fi", []);
