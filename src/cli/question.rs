@@ -12,13 +12,16 @@ use crate::report::next::word;
 use crate::search::request::{Request, Symmetry};
 use anyhow::{bail, ensure};
 
+/// Why a geometry looks measured, with the verdicts on it; `None` where it looks exact.
+type Looks = Option<(Measured, Vec<Verdicts>)>;
+
 /// Makes a mechanism ready, snapped and with the options that are allowed, and says what is asked of it and why its
 /// geometry looks measured, where it does. `named` is the state that --max-external is about.
 pub(super) fn ask(
     mechanism: &mut Mechanism,
     a: &Question,
     named: Option<&str>,
-) -> anyhow::Result<(Request, Option<(Measured, Vec<Verdicts>)>)> {
+) -> anyhow::Result<(Request, Looks)> {
     if let Some(tolerance) = a.snap {
         ensure!(
             tolerance > 0.0 && tolerance < 1.0,
@@ -97,7 +100,7 @@ fn measured(
     mechanism: &Mechanism,
     state: Option<StateId>,
     as_written: bool,
-) -> anyhow::Result<Option<(Measured, Vec<Verdicts>)>> {
+) -> anyhow::Result<Looks> {
     let Some(why) = looks_measured(mechanism) else {
         return Ok(None);
     };
