@@ -12,6 +12,9 @@ use crate::report::next::word;
 use crate::search::request::{Request, Symmetry};
 use anyhow::{bail, ensure};
 
+/// Why a geometry looks measured, with the verdicts on it; `None` where it looks exact.
+type Looks = Option<(Measured, Vec<Verdicts>)>;
+
 /// Makes a mechanism ready, snapped and with the options that are allowed.
 pub(super) fn ready(mechanism: &mut Mechanism, a: &Question) -> anyhow::Result<()> {
     if let Some(tolerance) = a.snap {
@@ -34,7 +37,7 @@ pub(super) fn ask(
     mechanism: &Mechanism,
     a: &Question,
     named: Option<&str>,
-) -> anyhow::Result<(Request, Option<(Measured, Vec<Verdicts>)>)> {
+) -> anyhow::Result<(Request, Looks)> {
     let state = state(mechanism, a, named)?;
     let measured = measured(mechanism, state.map(|(s, _)| s), a.as_written)?;
     let tolerance = measured
@@ -92,7 +95,7 @@ fn measured(
     mechanism: &Mechanism,
     state: Option<StateId>,
     as_written: bool,
-) -> anyhow::Result<Option<(Measured, Vec<Verdicts>)>> {
+) -> anyhow::Result<Looks> {
     let Some(why) = looks_measured(mechanism) else {
         return Ok(None);
     };

@@ -62,6 +62,9 @@ fn change(m: &Mechanism, s: &Suggestion) -> String {
     replaced.into_iter().chain(inserted).join(" + ")
 }
 
+/// A change with what it removes and costs, and the joints at which it does.
+type Row<'a> = ((String, usize, i64), Vec<&'a str>);
+
 /// The best single changes as a table, or that there are none.
 #[must_use]
 pub fn text(m: &Mechanism, s: &StateAnalysis, advice: &Advice, width: Option<u16>) -> String {
@@ -83,7 +86,7 @@ pub fn text(m: &Mechanism, s: &StateAnalysis, advice: &Advice, width: Option<u16
         );
     }
     // The list is sorted, and so are the groups by their firsts.
-    let mut groups: Vec<((String, usize, i64), Vec<&str>)> = Vec::new();
+    let mut groups: Vec<Row<'_>> = Vec::new();
     for x in &found.list {
         let key = (change(m, x), x.removes, x.cost_milli);
         let joint = m.joints[x.joint].id.as_str();

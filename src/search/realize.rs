@@ -34,7 +34,7 @@ impl Search<'_> {
                     series.states = None;
                 }
                 // The pad stays on the mechanism when the body it held is gone.
-                let [a, b] = joint.links.map(|l| stays(l));
+                let [a, b] = joint.links.map(&stays);
                 let end = usize::from(external && b && !a);
                 series.links[end] = joint.links[end];
                 series.links[1 - end] = pad;

@@ -33,7 +33,7 @@ const NODES: usize = 200_000;
 /// As [`Search::new`].
 ///
 /// # Complexity
-/// One search for each condition, and for the external redundancy one for each bit of its greatest value.
+/// One search for each condition, and for redundancies one for each bit of the least that is enough, or two.
 pub fn relaxations(
     mechanism: &Mechanism,
     exact: &ExactField,
@@ -53,18 +53,31 @@ pub fn relaxations(
     let mut out = Vec::new();
     // No variant has more redundant constraints than rows.
     let rows = u32::try_from(6 * mechanism.joints.len()).unwrap_or(u32::MAX);
-    if let Some(c) = counted(&|r| r.max_redundant = rows)?
-        && let Some((least, n)) = c.by_redundant.iter().next()
-    {
-        out.push((Relaxation::Redundant(*least), n.clone()));
+    // Diagrams grow with what is allowed, so a little more is tried first: twice as much more each time.
+    let further = |allowed: u32| {
+        let more = std::iter::successors(Some(1u32), |m| m.checked_mul(2));
+        let bounds = more.map(move |m| allowed.saturating_add(m));
+        bounds.take_while(move |b| *b < 2 * rows)
+    };
+    for bound in further(request.max_redundant) {
+        if let Some(c) = counted(&|r| r.max_redundant = bound)? {
+            let least = c.by_redundant.iter().next();
+            out.extend(least.map(|(least, n)| (Relaxation::Redundant(*least), n.clone())));
+            break;
+        }
     }
     if let Some((state, allowed)) = request.state
         && allowed < rows
     {
         let with = |most: u32| counted(&|r: &mut Request| r.state = Some((state, most)));
-        if let Some(mut found) = with(rows)? {
-            // What is allowed is too few, `rows` is enough; the least that is lies between.
-            let (mut few, mut enough) = (allowed, rows);
+        let mut few = allowed;
+        for bound in further(allowed) {
+            let Some(mut found) = with(bound)? else {
+                few = bound;
+                continue;
+            };
+            // The least that is enough lies between.
+            let mut enough = bound;
             while enough - few > 1 {
                 let middle = few + (enough - few) / 2;
                 match with(middle)? {
@@ -73,6 +86,7 @@ pub fn relaxations(
                 }
             }
             out.push((Relaxation::External(enough), found.total));
+            break;
         }
     }
     if request.max_mobility.is_some()
