@@ -214,6 +214,35 @@ fn a_proof_holds_for_a_pool_ten_times_as_large() {
     assert!(!none.proven);
 }
 
+/// With the least that force and error can be, a pool is proven that cost alone does not prove; ten times as many variants
+/// change nothing.
+#[test]
+fn the_floor_proves_what_cost_alone_does_not() {
+    let m = loaded();
+    let terms = [
+        (Term::PeakForce, 10.0),
+        (Term::OutputError, 10.0),
+        (Term::Cost, 1.0),
+    ];
+    let r = ranking(Order::Weighted, &terms);
+    let small = ranked(&m, &r, 5000, 10);
+    assert!(small.proven && small.scored < 5000, "{}", small.scored);
+    let last = small.list.last().unwrap().total.unwrap();
+    let s = search(&m, 0);
+    let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
+    let mut scratch = Scratch::default();
+    let variants = cheapest(&s, 40_000);
+    let dearest = variants.last().unwrap();
+    #[allow(clippy::cast_precision_loss, reason = "costs are small")]
+    let cost = s.steps.milli(dearest.key.cost()) as f64 / 1000.0;
+    assert!(cost < last, "cost alone would do: {cost} {last}");
+    for v in &variants[small.scored..] {
+        if let Ok(scores) = e.scores(v, &mut scratch) {
+            assert!(weighted(&r, &scores) >= last);
+        }
+    }
+}
+
 /// No variant is better in any term than the bounds say, and the bounds say something.
 #[test]
 fn no_variant_is_below_the_floor() {
@@ -244,8 +273,10 @@ fn no_variant_is_below_the_floor() {
                 *l = l.min(f);
             }
         }
-        eprintln!("{floor:?} {least:?}");
-        assert!(floor.force <= least[0] && floor.moment <= least[1]);
+        assert!(
+            floor.force <= least[0] && floor.moment <= least[1],
+            "{floor:?} {least:?}"
+        );
         assert!(floor.output_error <= least[2], "{floor:?} {least:?}");
     }
 }

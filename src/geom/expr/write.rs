@@ -49,7 +49,7 @@ fn show_rational(r: &BigRational) -> (String, u8) {
     (format!("{sign}{whole}.{fraction}"), strength)
 }
 
-/// Writes a text that [`FromStr`] reads back as the same number (as long as it stays within the limits on texts).
+/// Writes a text that [`FromStr`](std::str::FromStr) reads back as the same number (as long as it stays within the limits on texts).
 /// Trees of several thousand leaves are written as a decimal approximation instead.
 impl fmt::Display for Expr {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
