@@ -8,6 +8,7 @@ mod certificates;
 mod certify;
 mod cli;
 mod contours;
+mod documents;
 mod drawings;
 mod drive;
 mod drive_command;
