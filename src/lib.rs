@@ -59,6 +59,7 @@ pub mod closure;
 pub mod draw;
 pub mod export;
 pub mod geom;
+pub mod guide;
 pub mod import;
 pub mod linalg;
 pub mod model;

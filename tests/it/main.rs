@@ -11,6 +11,7 @@ mod cli;
 mod common;
 mod contours;
 mod couplings;
+mod documents;
 mod drawings;
 mod drive;
 mod drive_command;

@@ -1,0 +1,34 @@
+//! The guide: what the program does, system by system, with outputs that a test repeats.
+//!
+//! Start with [`first_hour`]. Then one chapter for each system: [`structure`] (redundant constraints and the search for
+//! redesigns), [`grip`], [`kinetostatics`], [`drive`]; and one each for [`ranking`] under a workload, [`mobility`] where
+//! formulas and numbers fail, [`robots`] (import and export), and [`speed`].
+//!
+//! Every block that begins with `$ ozols` is run by the tests (`tests/it/documents.rs`); `...` stands for lines left out.
+
+#[doc = include_str!("guide/first_hour.md")]
+pub mod first_hour {}
+
+#[doc = include_str!("guide/structure.md")]
+pub mod structure {}
+
+#[doc = include_str!("guide/grip.md")]
+pub mod grip {}
+
+#[doc = include_str!("guide/kinetostatics.md")]
+pub mod kinetostatics {}
+
+#[doc = include_str!("guide/drive.md")]
+pub mod drive {}
+
+#[doc = include_str!("guide/ranking.md")]
+pub mod ranking {}
+
+#[doc = include_str!("guide/mobility.md")]
+pub mod mobility {}
+
+#[doc = include_str!("guide/robots.md")]
+pub mod robots {}
+
+#[doc = include_str!("guide/speed.md")]
+pub mod speed {}

@@ -1,0 +1,123 @@
+//! The README and the guide say what the program says.
+//!
+//! Every line `$ ozols ...` in a block marked `console` is run in a fresh folder per document, in order; what it prints
+//! on standard output must be what follows it there, `...` standing for lines left out and `[..]` for part of a line.
+
+use assert_cmd::Command;
+use snapbox::Assert;
+use snapbox::assert::Action;
+use std::fs;
+use std::path::Path;
+
+/// A command and the output written beneath it.
+struct Example {
+    line: usize,
+    command: String,
+    output: String,
+}
+
+fn examples(text: &str) -> Vec<Example> {
+    let (mut found, mut inside): (Vec<Example>, bool) = (Vec::new(), false);
+    for (n, line) in text.lines().enumerate() {
+        if let Some(fence) = line.strip_prefix("```") {
+            inside = fence == "console";
+        } else if let (true, Some(command)) = (inside, line.strip_prefix("$ ")) {
+            found.push(Example {
+                line: n + 1,
+                command: command.to_owned(),
+                output: String::new(),
+            });
+        } else if let (true, Some(example)) = (inside, found.last_mut()) {
+            example.output += line;
+            example.output.push('\n');
+        }
+    }
+    found
+}
+
+/// Runs the examples of a document; how many there are, and what went otherwise than written.
+fn run(document: &str) -> (usize, Vec<String>) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = fs::read_to_string(root.join(document)).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let found = examples(&text);
+    let mut wrong = Vec::new();
+    for example in &found {
+        let mut words = example.command.split_whitespace();
+        assert_eq!(words.next(), Some("ozols"), "{document}:{}", example.line);
+        let output = Command::cargo_bin("ozols")
+            .unwrap()
+            .current_dir(folder.path())
+            .args(words)
+            .output()
+            .unwrap();
+        let place = format!("{document}:{}: {}", example.line, example.command);
+        if !output.status.success() {
+            let complaints = String::from_utf8_lossy(&output.stderr);
+            wrong.push(format!("{place}\n{complaints}"));
+            continue;
+        }
+        let compared = Assert::new().action(Action::Verify).try_eq(
+            Some(&place),
+            String::from_utf8(output.stdout).unwrap().into(),
+            example.output.clone().into(),
+        );
+        wrong.extend(compared.err().map(|e| format!("{place}\n{e}")));
+    }
+    (found.len(), wrong)
+}
+
+fn check(documents: &[String]) {
+    let (mut ran, mut wrong) = (0, Vec::new());
+    for document in documents {
+        let (count, otherwise) = run(document);
+        ran += count;
+        wrong.extend(otherwise);
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+    assert!(ran > 0, "no examples in {documents:?}");
+}
+
+#[test]
+fn the_readme_says_what_the_program_says() {
+    check(&["README.md".to_owned()]);
+}
+
+#[test]
+fn the_guide_says_what_the_program_says() {
+    let guide = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/guide");
+    let mut chapters: Vec<String> = fs::read_dir(guide)
+        .unwrap()
+        .map(|e| e.unwrap().file_name().into_string().unwrap())
+        .filter(|name| name.ends_with(".md"))
+        .map(|name| format!("src/guide/{name}"))
+        .collect();
+    chapters.sort();
+    check(&chapters);
+}
+
+#[test]
+fn the_pictures_are_what_the_program_draws() {
+    let pictures: [(&str, &[&str]); 2] = [
+        ("gripper-10.svg", &["draw", "gripper-10"]),
+        (
+            "gripper-10-variant-1.svg",
+            &["draw", "gripper-10", "--variant", "1"],
+        ),
+    ];
+    for (name, command) in pictures {
+        let path = Path::new("src/guide").join(name);
+        let output = Command::cargo_bin("ozols")
+            .unwrap()
+            .args(command)
+            .output()
+            .unwrap();
+        let committed = fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(&path)).unwrap();
+        assert!(
+            output.stdout == committed,
+            "{name} is out of date: cargo run -- {} -o {}",
+            command.join(" "),
+            path.display()
+        );
+    }
+}
