@@ -6,13 +6,16 @@ use anyhow::Context;
 use clap::{Command, CommandFactory};
 use clap_mangen::roff::{Roff, roman};
 
+/// An apostrophe that no formatter turns into a quotation mark.
+const APOSTROPHE: &str = ".ie \\n(.g .ds Aq \\(aq\n.el .ds Aq '\n";
+
 pub(super) fn run(a: &Man) -> anyhow::Result<Done> {
     let mut main = Args::command().disable_help_subcommand(true);
     main.build();
     let Some(folder) = &a.output else {
         let page = page(&main)?;
         return output::to(None, |out| {
-            out.write_all(&page)?;
+            out.write_all(page.as_bytes())?;
             Ok(Done::Found)
         });
     };
@@ -21,7 +24,7 @@ pub(super) fn run(a: &Man) -> anyhow::Result<Done> {
         let page = page(command)?;
         let path = folder.join(format!("{}.1", name(command)));
         output::to(Some(&path), |out| {
-            out.write_all(&page)?;
+            out.write_all(page.as_bytes())?;
             Ok(Done::Found)
         })?;
     }
@@ -36,7 +39,7 @@ fn name(command: &Command) -> &str {
 }
 
 /// The page of a command, what stands after its help kept line by line.
-fn page(command: &Command) -> std::io::Result<Vec<u8>> {
+fn page(command: &Command) -> std::io::Result<String> {
     let man = clap_mangen::Man::new(command.clone())
         .source(concat!("ozols ", env!("CARGO_PKG_VERSION")))
         .manual("ozols manual");
@@ -65,5 +68,8 @@ fn page(command: &Command) -> std::io::Result<Vec<u8>> {
         roff.control("fi", []);
         roff.to_writer(&mut page)?;
     }
-    Ok(page)
+    // Each section comes with a definition of the apostrophe; one is enough, and the title goes before it.
+    let page = String::from_utf8_lossy(&page).replace(APOSTROPHE, "");
+    let (title, rest) = page.split_once('\n').unwrap_or((&page, ""));
+    Ok(format!("{title}\n{APOSTROPHE}{rest}"))
 }

@@ -62,7 +62,7 @@ pub enum DoubtKind {
     )]
     NoContour,
     #[error(
-        "no contour passes through {joints}; their freedoms add to the mobility and cannot be redundant: add the joint that closes one if it is missing"
+        "no contour passes through {joints}; freedoms there add to the mobility, and no constraint there is redundant: add the joint that closes one if it is missing"
     )]
     OpenChain { joints: String },
     #[error(

@@ -515,7 +515,7 @@ fn error_missing_file_and_unknown_name() {
         &["gripper-1", "did you mean", "gripper-10", "ozols list"],
     );
     refused(&["search", "zzz"], &["zzz is neither"]);
-    refused(&["show", "zzz"], &["zzz is neither"]);
+    refused(&["show", "zzz"], &["zzz is not a built-in mechanism"]);
     let folder = tempfile::tempdir().unwrap();
     refused(&["check", folder.path().to_str().unwrap()], &["neither"]);
 }
