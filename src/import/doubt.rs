@@ -466,6 +466,7 @@ fn workload(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
     let loaded = !loads.forces.is_empty()
         || !loads.moments.is_empty()
         || !loads.misalignments.is_empty()
+        || loads.grip.as_ref().is_some_and(|g| g.contacts.is_some())
         || (heavy.is_some() && (loads.gravity.is_some() || moved));
     let asked = m
         .ranking

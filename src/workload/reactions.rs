@@ -203,6 +203,7 @@ impl Reactions {
         drive: f64,
         drives: &[Driven],
     ) -> Result<Solution, Unsolved> {
+        no_couplings(m, state)?;
         let geometry = Geometry::new(m, state, pose)?;
         let mut of_links = link_loads(m, &m.loads, &geometry, pose, drive, period(drives));
         let inertia = inertia_loads(m, &m.loads, &geometry, pose, drives)?;

@@ -426,10 +426,9 @@ fn json_is_read_like_toml() {
     let path = folder.path().join("four-bar.json");
     fs::write(&path, four_bar_json()).unwrap();
     let path = path.to_str().unwrap();
-    assert_eq!(
-        out(&["analyze", path, "--format", "json"]),
-        out(&["analyze", "four-bar", "--format", "json"])
-    );
+    // What to do next names the file.
+    let from = |file: &str| json(&["analyze", file, "--format", "json"])["states"].take();
+    assert_eq!(from(path), from("four-bar"));
     assert_eq!(
         out(&["search", path, "--format", "json"]),
         out(&["search", "four-bar", "--format", "json"])
@@ -844,10 +843,11 @@ fn show_round_trips_through_standard_input() {
         .write_stdin(shown)
         .output()
         .unwrap();
-    assert_eq!(
-        text(&o.stdout),
-        out(&["analyze", "four-bar", "--format", "json"])
-    );
+    let mut read: Value = serde_json::from_slice(&o.stdout).unwrap();
+    let mut named = json(&["analyze", "four-bar", "--format", "json"]);
+    // What to do next names the file.
+    (read["next"].take(), named["next"].take());
+    assert_eq!(read, named);
     let o = ozols(&["check", "-"])
         .write_stdin("x = [")
         .output()

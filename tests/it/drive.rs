@@ -367,7 +367,8 @@ proptest! {
         let exact = d.swing(twist, latch, feed).unwrap();
         let (u, v, t) = by_steps(&d, twist, twist, feed);
         let p = frequency(d.stiffness, d.inertia);
-        // The integrator steps over the edge of the window and stops a step early.
+        // The integrator steps over the edge of the window and stops a step early, or where it is late, at the end.
+        let t = t.min(exact.duration);
         prop_assert!((exact.at(t).0 - u).abs() < 1e-3 * twist, "{} {u}", exact.at(t).0);
         prop_assert!((exact.at(t).1 - v).abs() < 2e-3 * twist * p, "{} {v}", exact.at(t).1);
         prop_assert!((exact.place - u).abs() < 1e-3 * twist);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// The layers, lowest first; modules of one row do not import each other, except where a row says so by order.
 const LAYERS: [&[&str]; 13] = [
-    &["linalg", "chart", "terms"],
+    &["linalg", "chart", "terms", "guide"],
     &["geom", "verify"],
     &["model"],
     &["closure"],
