@@ -14,7 +14,6 @@ use crate::report::suggestions::{self, Advice};
 use crate::report::{analysis_json, analysis_text, next};
 use crate::search::suggest::single_changes;
 use anyhow::{Context, bail};
-use serde_json::json;
 
 pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file.file)?;
@@ -72,10 +71,6 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
         match a.format {
             AnalyzeFormat::Json => {
                 let mut value = analysis_json::analysis(&mechanism, &found, &advice);
-                let steps = next.iter().map(|s| (&s.command, &s.gives));
-                value["next"] = steps
-                    .map(|(command, gives)| json!({"command": command, "gives": gives}))
-                    .collect();
                 if let Some(s) = &stroke {
                     value["stroke"] = s.json();
                 }

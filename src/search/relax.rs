@@ -24,7 +24,7 @@ pub enum Relaxation {
 }
 
 /// Nodes of a diagram at most: easing should cost no more than the question did.
-const NODES: usize = 200_000;
+const NODES: usize = 20_000;
 
 /// The conditions that, eased alone, leave some variants, with how many; a condition whose search would take too many
 /// nodes is passed over.

@@ -166,7 +166,7 @@ fn a_quick_run_writes_charts_whose_right_cells_are_right() {
 }
 
 #[test]
-fn without_a_folder_there_is_a_table_and_nothing_else() {
+fn without_a_folder_there_is_a_verdict_a_table_and_the_next_step() {
     let here = tempfile::tempdir().unwrap();
     let mut command = assert_cmd::Command::cargo_bin("ozols").unwrap();
     let out = command
@@ -175,6 +175,11 @@ fn without_a_folder_there_is_a_table_and_nothing_else() {
         .assert()
         .success();
     let text = String::from_utf8(out.get_output().stdout.clone()).unwrap();
-    assert_eq!(text.lines().count(), 2 + method::ALL.len(), "{text}");
+    let lines: Vec<&str> = text.lines().collect();
+    let table = 2 + method::ALL.len();
+    assert_eq!(lines.len(), 2 + table + 4, "{text}");
+    assert!(lines[0].contains("cases of known mobility: the automatic choice is right on"));
+    assert!(lines[2].trim_start().starts_with("method"), "{text}");
+    assert_eq!(lines[2 + table + 2].trim(), "ozols accuracy -o accuracy");
     assert_eq!(std::fs::read_dir(&here).unwrap().count(), 0);
 }

@@ -217,7 +217,6 @@ fn the_best_single_changes_of_the_gripper() {
     ] {
         assert!(text.contains(part), "no {part:?} in {text}");
     }
-    assert_eq!(value["next"][0]["command"], "ozols search gripper-10");
 }
 
 // A slot at any hinge of a plane mechanism only lets it loose.

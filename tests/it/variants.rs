@@ -14,7 +14,11 @@ const LISTS: [(&str, &[&str], &[usize]); 7] = [
     ),
     (
         "gripper-10",
-        &["--options", "revolute,cylindrical,spherical", "--symmetric"],
+        &[
+            "--options",
+            "revolute,cylindrical,spherical,sphere-in-cylinder",
+            "--symmetric",
+        ],
         &[2],
     ),
     ("gripper-10-loaded", &["--pool", "50"], &[1, 3]),
@@ -153,7 +157,15 @@ fn what_would_help_where_nothing_is_found() {
     let questions: [&[&str]; 4] = [
         &["gripper-10", "--max-mobility", "1", "--max-changes", "3"],
         &["gripper-10", "--max-mobility", "0"],
-        &["gripper-10", "--max-external", "1", "--max-changes", "5"],
+        &[
+            "gripper-10",
+            "--max-external",
+            "1",
+            "--max-changes",
+            "5",
+            "--options",
+            "revolute,spherical,sphere-in-cylinder",
+        ],
         &["gripper-10", "--options", "revolute,cylindrical"],
     ];
     let mut seen = std::collections::BTreeSet::new();
