@@ -309,7 +309,11 @@ fn contours(m: &Mechanism, out: &mut Found) {
         .map(|s| contour_basis(m, s).iter().map(joints).collect())
         .collect();
     let walked: Vec<bool> = (0..m.joints.len())
-        .map(|j| bases.iter().flatten().any(|c| c.contains(&j)))
+        .map(|j| {
+            let coupled = m.couplings.iter().flat_map(|c| &c.ends);
+            bases.iter().flatten().any(|c| c.contains(&j))
+                || coupled.into_iter().any(|e| e.joint == j)
+        })
         .collect();
     if !walked.contains(&true) {
         out.push((root("joint"), DoubtKind::NoContour));

@@ -106,7 +106,7 @@ fn collisions(d: &Drawing) -> Vec<String> {
 /// What a path, circle or rectangle covers: ends of segments and arcs, in absolute commands.
 fn covers(n: roxmltree::Node<'_, '_>) -> Vec<[f64; 2]> {
     let of = |a: &str| n.attribute(a).map_or(0.0, |v| v.parse::<f64>().unwrap());
-    match n.tag_name().name() {
+    let own = match n.tag_name().name() {
         "rect" => {
             let (x, y) = (of("x"), of("y"));
             vec![[x, y], [x + of("width"), y + of("height")]]
@@ -117,7 +117,9 @@ fn covers(n: roxmltree::Node<'_, '_>) -> Vec<[f64; 2]> {
         }
         "path" => path(n.attribute("d").unwrap()),
         _ => Vec::new(),
-    }
+    };
+    let [x, y] = moved(n);
+    own.into_iter().map(|p| [p[0] + x, p[1] + y]).collect()
 }
 
 /// The points of a path of `M`, `L` and `A`.
