@@ -76,7 +76,7 @@ pub fn weighted(ranking: &Ranking, s: &Scores) -> f64 {
 }
 
 /// A number to some eleven digits: mirror images score alike, and rounding must not put one before the other.
-fn settled(x: f64) -> f64 {
+fn coarse(x: f64) -> f64 {
     f64::from_bits((x.to_bits() + 0x8000) & !0xffff)
 }
 
@@ -85,13 +85,13 @@ fn settled(x: f64) -> f64 {
 pub fn compare(ranking: &Ranking, a: &Ranked, b: &Ranked) -> Ordering {
     let by_order = match ranking.order {
         Order::Weighted => {
-            let of = |r: &Ranked| settled(weighted(ranking, &r.scores));
+            let of = |r: &Ranked| coarse(weighted(ranking, &r.scores));
             of(a).total_cmp(&of(b))
         }
         Order::Lexicographic => ranking
             .terms
             .iter()
-            .map(|(t, _)| settled(a.scores.loss(*t)).total_cmp(&settled(b.scores.loss(*t))))
+            .map(|(t, _)| coarse(a.scores.loss(*t)).total_cmp(&coarse(b.scores.loss(*t))))
             .find(|o| o.is_ne())
             .unwrap_or(Ordering::Equal),
         Order::Pareto => a
