@@ -1,7 +1,7 @@
 //! The symbols of joints, turned as the joints are.
 
 use super::labels::Rect;
-use super::layout::{Point, add, cross, scale, sub};
+use super::layout::{Point, add, cross, norm, scale, sub};
 use super::projection::{Place, Vector, View, dot};
 use super::sheet::Shape;
 use crate::model::joint_type::JointType;
@@ -314,12 +314,12 @@ pub(super) fn hull(mut points: Vec<Point>) -> Vec<Point> {
     for pass in 0..2 {
         let from = out.len();
         for &p in &points {
-            while out.len() >= from + 2
-                && cross(
-                    sub(out[out.len() - 1], out[out.len() - 2]),
-                    sub(p, out[out.len() - 1]),
-                ) <= 0.0
-            {
+            while let [.., before, last] = out[from..] {
+                let (a, b) = (sub(last, before), sub(p, last));
+                // points in a row that rounding has moved are still in a row
+                if cross(a, b) > 1e-9 * norm(a) * norm(b) {
+                    break;
+                }
                 out.pop();
             }
             out.push(p);
