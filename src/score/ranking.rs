@@ -75,23 +75,15 @@ pub fn weighted(ranking: &Ranking, s: &Scores) -> f64 {
     ranking.terms.iter().map(|(t, w)| w * s.loss(*t)).sum()
 }
 
-/// A number to some eleven digits: mirror images score alike, and rounding must not put one before the other.
-fn coarse(x: f64) -> f64 {
-    f64::from_bits((x.to_bits() + 0x8000) & !0xffff)
-}
-
 /// Which of two comes first, the cheaper one where the order does not say.
 #[must_use]
 pub fn compare(ranking: &Ranking, a: &Ranked, b: &Ranked) -> Ordering {
     let by_order = match ranking.order {
-        Order::Weighted => {
-            let of = |r: &Ranked| coarse(weighted(ranking, &r.scores));
-            of(a).total_cmp(&of(b))
-        }
+        Order::Weighted => weighted(ranking, &a.scores).total_cmp(&weighted(ranking, &b.scores)),
         Order::Lexicographic => ranking
             .terms
             .iter()
-            .map(|(t, _)| coarse(a.scores.loss(*t)).total_cmp(&coarse(b.scores.loss(*t))))
+            .map(|(t, _)| a.scores.loss(*t).total_cmp(&b.scores.loss(*t)))
             .find(|o| o.is_ne())
             .unwrap_or(Ordering::Equal),
         Order::Pareto => a

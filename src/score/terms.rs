@@ -75,13 +75,16 @@ impl Scores {
     }
 
     /// What a term adds to a weighted sum, smaller being better: the figure, for conditioning minus its decimal logarithm,
-    /// for the output error millimetres.
+    /// for the output error millimetres. What is measured counts to eleven digits: mirror images score alike, and
+    /// rounding must not put one before the other.
     #[must_use]
     pub fn loss(&self, term: Term) -> f64 {
+        let coarse = |x: f64| f64::from_bits((x.to_bits() + 0x8000) & !0xffff);
         match term {
-            Term::Conditioning => -self.conditioning.max(1e-300).log10(),
-            Term::OutputError => 1e3 * self.output_error,
-            _ => self.value(term),
+            Term::Conditioning => coarse(-self.conditioning.max(1e-300).log10()),
+            Term::OutputError => coarse(1e3 * self.output_error),
+            Term::PeakForce | Term::PeakMoment => coarse(self.value(term)),
+            Term::Changes | Term::Cost | Term::Idle => self.value(term),
         }
     }
 
