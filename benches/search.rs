@@ -11,8 +11,8 @@
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use ozols::builtin;
 use ozols::closure::matrix::Closure;
+use ozols::file::text::mechanism_from_str;
 use ozols::geom::scalars::Reals;
-use ozols::import::text::mechanism_from_str;
 use ozols::model::joint_type::{Freedom, JointType};
 use ozols::model::mechanism::{JointOption, Mechanism};
 use ozols::rank::{modular, numeric};

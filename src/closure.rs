@@ -3,6 +3,4 @@
 pub mod contour;
 pub mod coupling;
 pub mod matrix;
-pub mod pose;
-pub mod stroke;
 pub mod twist;

@@ -5,11 +5,12 @@
 //! name, they stand farther away on a leader.
 
 mod couplings;
-mod crowding;
 mod ground;
+mod initial_layout;
 mod kinematic;
 mod labels;
 mod layout;
+mod layout_penalty;
 pub mod marks;
 mod mirror;
 mod naming;
@@ -19,7 +20,6 @@ mod projection;
 mod scheme;
 mod shapes;
 mod sheet;
-mod starts;
 pub mod swap;
 mod symbols;
 

@@ -14,7 +14,7 @@
 //! # Example
 //!
 //! ```
-//! use ozols::import::text::mechanism_from_str;
+//! use ozols::file::text::mechanism_from_str;
 //! use ozols::redundancy::analysis::{Method, analyse, exact_field};
 //! use ozols::search::request::{Request, Search};
 //!
@@ -33,9 +33,9 @@
 //!
 //! # Layers
 //!
-//! linalg -> geom, verify -> model -> closure -> import, rank, workload -> robot, export -> redundancy -> search -> score,
-//! draw -> report -> page -> cli. Imports go one way; a test holds them to it. [`chart`] draws finished numbers and imports nothing,
-//! as [`terms`] says what words mean; [`template`] makes a commented file of a built-in mechanism.
+//! linalg -> geom, verify -> model -> closure -> motion -> rank, statics -> grip, drive -> redundancy, file -> search,
+//! robots -> score, draw, accuracy -> view -> page -> cli. Imports go one way; a test holds them to it. [`chart`] draws
+//! finished numbers and imports nothing, as [`terms`] says what words mean.
 //!
 //! # Sources
 //!
@@ -57,20 +57,21 @@ pub mod chart;
 pub mod cli;
 pub mod closure;
 pub mod draw;
-pub mod export;
+pub mod drive;
+pub mod file;
 pub mod geom;
+pub mod grip;
 pub mod guide;
-pub mod import;
 pub mod linalg;
 pub mod model;
+pub mod motion;
 pub mod page;
 pub mod rank;
 pub mod redundancy;
-pub mod report;
-pub mod robot;
+pub mod robots;
 pub mod score;
 pub mod search;
-pub mod template;
+pub mod statics;
 pub mod terms;
 pub mod verify;
-pub mod workload;
+pub mod view;

@@ -16,8 +16,8 @@ mod workload;
 
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{AnalysisError, StateAnalysis};
-use crate::report::search_json::Found;
 use crate::search::certify::{Certified, Summary};
+use crate::view::search_json::Found;
 use embed::{fill, script_json, text};
 use serde_json::json;
 

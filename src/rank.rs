@@ -1,5 +1,6 @@
 //! Rank of the closure matrix, with what each method knows about its answer.
 
+pub mod along_stroke;
 pub mod auto;
 pub mod certificate;
 pub mod counting;
@@ -18,7 +19,6 @@ pub mod reconstruct;
 pub mod scaled;
 pub mod second_order;
 pub mod snap;
-pub mod stroke;
 pub mod subgroup;
 pub mod trace;
 

@@ -1,6 +1,6 @@
 //! Mechanisms of any number of contours, whose mobility is known by construction or by exact ranks.
 
-use crate::import::text::mechanism_from_str;
+use crate::file::text::mechanism_from_str;
 use crate::model::mechanism::Mechanism;
 use std::fmt::Write;
 

@@ -11,7 +11,7 @@ mod tolerance;
 
 use super::survey::Case;
 use crate::chart::{Bands, Chart};
-use crate::import::problem::ImportError;
+use crate::file::problem::ImportError;
 
 /// A picture of a study.
 #[derive(Debug, Clone)]

@@ -3,8 +3,8 @@
 use super::csv::Csv;
 use super::{Truth, Verdict};
 use crate::builtin;
-use crate::import::problem::ImportError;
-use crate::import::text::mechanism_from_str;
+use crate::file::problem::ImportError;
+use crate::file::text::mechanism_from_str;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::{self, Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
 use rayon::prelude::*;

@@ -6,8 +6,8 @@ use super::{Done, output};
 use crate::accuracy::folder;
 use crate::accuracy::stability::{self, Effort};
 use crate::accuracy::survey::Survey;
-use crate::report::accuracy_text;
-use crate::report::next::{self, Step};
+use crate::view::accuracy_text;
+use crate::view::next::{self, Step};
 use anyhow::{Context, ensure};
 
 pub(super) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {

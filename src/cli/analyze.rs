@@ -9,10 +9,10 @@ use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::scaled::Precision;
 use crate::rank::snap::snap;
 use crate::redundancy::analysis::{Elimination, Method, StateAnalysis, analyse};
-use crate::report::layout::fit;
-use crate::report::suggestions::{self, Advice};
-use crate::report::{analysis_json, analysis_text, next};
 use crate::search::suggest::single_changes;
+use crate::view::layout::fit;
+use crate::view::suggestions::{self, Advice};
+use crate::view::{analysis_json, analysis_text, next};
 use anyhow::{Context, bail};
 
 pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {

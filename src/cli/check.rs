@@ -3,13 +3,13 @@
 use super::args::{Args, File, Show};
 use super::{Done, load, output};
 use crate::builtin;
-use crate::import::doubt::{Checked, DoubtKind, Doubts, across, check};
-use crate::import::locate::Step;
-use crate::import::workload::tables_alone;
+use crate::file::lint::{Checked, DoubtKind, Doubts, across, check};
+use crate::file::locate::Step;
+use crate::file::read::workload::tables_alone;
+use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{Method, analyse};
-use crate::report::{mechanism_text, words};
-use crate::workload::jaw_loads::{Gripping, JawError};
+use crate::view::{mechanism_text, words};
 use anyhow::{Context, bail};
 
 pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
@@ -126,7 +126,7 @@ pub(super) fn show(a: &Show) -> anyhow::Result<Done> {
 
 pub(super) fn schema() -> anyhow::Result<Done> {
     output::to(None, |out| {
-        writeln!(out, "{:#}", crate::import::schema::json_schema())?;
+        writeln!(out, "{:#}", crate::file::schema::json_schema())?;
         Ok(Done::Found)
     })
 }

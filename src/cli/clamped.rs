@@ -2,16 +2,16 @@
 
 use super::args::{Statics, StaticsFormat, StaticsMethod};
 use super::{Done, output, reactions};
+use crate::grip::clamping::{Row, Verdict};
+use crate::grip::jaw_loads::Gripping;
 use crate::model::grip::{LeverDrive, Transmission};
-use crate::report::statics_words::GroupMethod;
-use crate::report::{clamped, reactions_data, reactions_text, statics_data, statics_text};
-use crate::workload::clamping::{Row, Verdict};
-use crate::workload::jaw_loads::Gripping;
-use crate::workload::reactions::Reactions;
-use crate::workload::reactions::drives::driven;
-use crate::workload::reactions::geometry::Geometry;
-use crate::workload::statics::statics_at;
-use crate::workload::transmission::rates;
+use crate::statics::cycle::statics_at;
+use crate::statics::reactions::Reactions;
+use crate::statics::reactions::drives::driven;
+use crate::statics::reactions::geometry::Geometry;
+use crate::statics::transmission::rates;
+use crate::view::statics_words::GroupMethod;
+use crate::view::{clamped, reactions_data, reactions_text, statics_data, statics_text};
 use anyhow::{Context, ensure};
 
 /// The diameter asked for, or the hardest.
@@ -24,7 +24,7 @@ fn chosen<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g Row>> {
     let found = g.study.rows.iter().find(near);
     let known = || {
         let all = g.study.rows.iter().take(30);
-        let all = all.map(|r| crate::report::words::significant(r.diameter / unit.metres));
+        let all = all.map(|r| crate::view::words::significant(r.diameter / unit.metres));
         all.collect::<Vec<_>>().join(", ")
     };
     let row = found.with_context(|| {
@@ -38,7 +38,7 @@ fn chosen<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g Row>> {
 }
 
 /// Force, or moment of a turning drive, that the grip asks of one drive of both levers, and whether it is a force.
-fn effort(g: &Gripping, row: &Row, pose: &crate::closure::pose::Pose) -> Option<(f64, bool)> {
+fn effort(g: &Gripping, row: &Row, pose: &crate::motion::pose::Pose) -> Option<(f64, bool)> {
     let spec = g.mechanism.loads.grip.as_ref()?;
     let (Transmission::Joints(joints), Verdict::Held(h)) =
         (spec.transmission, &row.hardest.as_ref()?.verdict)
@@ -110,7 +110,7 @@ pub(super) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
             }
         }
     }
-    let home = crate::closure::pose::Pose::of_file(&m, g.state)?;
+    let home = crate::motion::pose::Pose::of_file(&m, g.state)?;
     let drives = driven(&m, &Geometry::new(&m, g.state, &home)?)?;
     let found = Reactions::at(&m, g.state, &m.loads, &fit.pose, fit.drive, &drives)?;
     output::to(a.output.as_deref(), |out| {

@@ -2,10 +2,10 @@
 
 use super::args::{AnalyzeFormat, Args, Drive};
 use super::{Done, charts, load, output};
-use crate::import::workload::drive_from_bytes;
-use crate::report::next::{self, Step};
-use crate::report::{drive_charts, drive_json, drive_text};
-use crate::workload::driving::drive;
+use crate::drive::driving::drive;
+use crate::file::read::workload::drive_from_bytes;
+use crate::view::next::{self, Step};
+use crate::view::{drive_charts, drive_json, drive_text};
 
 pub(super) fn run(_: &Args, a: &Drive) -> anyhow::Result<Done> {
     let (name, bytes) = load::named(&a.file.file)?;

@@ -2,8 +2,8 @@
 
 use super::args::Explain;
 use super::{Done, near, output};
-use crate::report::words;
 use crate::terms::{Term, Terms};
+use crate::view::words;
 use anyhow::bail;
 use itertools::Itertools;
 use std::io::Write;

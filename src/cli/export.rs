@@ -2,7 +2,7 @@
 
 use super::args::{Args, Export, ExportFormat};
 use super::{Done, load, output, variant};
-use crate::export;
+use crate::robots::export;
 
 pub(super) fn run(_: &Args, a: &Export) -> anyhow::Result<Done> {
     let mut m = load::mechanism(&a.file.file)?;

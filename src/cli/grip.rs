@@ -2,14 +2,14 @@
 
 use super::args::{AnalyzeFormat, Args, Grip};
 use super::{Done, charts, load, output};
-use crate::closure::pose::Pose;
-use crate::import::workload::{Workload, grip_from_bytes};
+use crate::file::read::workload::{Workload, grip_from_bytes};
+use crate::grip::clamping::{Row, Study, study};
+use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::grip::{GripSpec, Toward, Transmission};
-use crate::report::next::{self, Step};
-use crate::report::{grip_charts, grip_json, grip_text};
-use crate::workload::clamping::{Row, Study, study};
-use crate::workload::jaw_loads::{Gripping, JawError};
-use crate::workload::transmission::{Rates, rates};
+use crate::motion::pose::Pose;
+use crate::statics::transmission::{Rates, rates};
+use crate::view::next::{self, Step};
+use crate::view::{grip_charts, grip_json, grip_text};
 use anyhow::bail;
 
 pub(super) fn run(_: &Args, a: &Grip) -> anyhow::Result<Done> {

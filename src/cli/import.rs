@@ -2,10 +2,10 @@
 
 use super::args::{Args, Import, ImportFormat};
 use super::{Done, load, output};
-use crate::import::schema::MechanismFile;
-use crate::report::layout::fit;
-use crate::report::next::{self, Step};
-use crate::robot::{self, Options};
+use crate::file::schema::MechanismFile;
+use crate::robots::{self, Options};
+use crate::view::layout::fit;
+use crate::view::next::{self, Step};
 use anyhow::{Context, bail};
 use std::path::Path;
 
@@ -71,7 +71,7 @@ fn pose(text: &str) -> anyhow::Result<(String, Vec<f64>)> {
 }
 
 /// Imports a description; files it includes are read from its folder and nowhere else.
-pub(super) fn description(path: &Path, options: &Options) -> anyhow::Result<robot::Imported> {
+pub(super) fn description(path: &Path, options: &Options) -> anyhow::Result<robots::Imported> {
     let name = path.display().to_string();
     if !path.is_file() {
         bail!("{name} is not a file; give the path of a URDF, MJCF or SDF file");
@@ -91,5 +91,5 @@ pub(super) fn description(path: &Path, options: &Options) -> anyhow::Result<robo
         }
         load::bytes_of(&inside, MAX_BYTES)
     };
-    Ok(robot::import(&name, &bytes, &read, options)?)
+    Ok(robots::import(&name, &bytes, &read, options)?)
 }

@@ -5,7 +5,7 @@ use super::{Done, load, near, output};
 use crate::builtin;
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{Method, analyse};
-use crate::report::words;
+use crate::view::words;
 use anyhow::Context;
 
 /// The narrowest column that a description is worth.

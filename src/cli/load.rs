@@ -2,10 +2,10 @@
 
 use super::near;
 use crate::builtin;
+use crate::file::text::{MAX_BYTES, mechanism_from_bytes};
 use crate::geom::expr::Expr;
-use crate::import::text::{MAX_BYTES, mechanism_from_bytes};
 use crate::model::mechanism::{Mechanism, Mode};
-use crate::robot;
+use crate::robots;
 use anyhow::{Context, bail};
 use std::io::Read;
 
@@ -32,8 +32,8 @@ pub(super) fn named(file: &str) -> anyhow::Result<(String, Vec<u8>)> {
         return Ok(("standard input".to_owned(), read(std::io::stdin().lock())?));
     }
     let path = std::path::Path::new(file);
-    if path.is_file() && robot::is_description(file) {
-        let imported = super::import::description(path, &robot::Options::default())?;
+    if path.is_file() && robots::is_description(file) {
+        let imported = super::import::description(path, &robots::Options::default())?;
         let doubts = imported.report.doubts();
         if !doubts.is_empty() {
             super::output::note(&format!("{file}: {}\n{doubts}", imported.format.name()));

@@ -2,7 +2,8 @@
 
 use super::args::{Args, New};
 use super::{Done, load, output};
-use crate::{builtin, template};
+use crate::builtin;
+use crate::file::template;
 use anyhow::{Context, bail};
 
 pub(super) fn run(args: &Args, a: &New) -> anyhow::Result<Done> {

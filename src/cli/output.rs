@@ -1,6 +1,6 @@
 //! Data to standard output or, whole or not at all, to a file; complaints to standard error.
 
-use crate::import::problem::ImportError;
+use crate::file::problem::ImportError;
 use anyhow::Context;
 use std::io::{BufWriter, IsTerminal, Write};
 use std::path::Path;

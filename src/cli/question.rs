@@ -8,8 +8,8 @@ use crate::rank::measured::Verdicts;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::snap::snap;
 use crate::redundancy::analysis::exact_field;
-use crate::report::next::word;
 use crate::search::request::{Request, Symmetry};
+use crate::view::next::word;
 use anyhow::{bail, ensure};
 
 /// Why a geometry looks measured, with the verdicts on it; `None` where it looks exact.

@@ -4,13 +4,13 @@ use super::args::{Statics, StaticsFormat, StaticsMethod};
 use super::{Done, output};
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::report::next::{self, Step};
-use crate::report::{reactions_cycle, reactions_data, reactions_text};
-use crate::workload::assur::AssurError;
-use crate::workload::planar::PlanarError;
-use crate::workload::reactions::Choice;
-use crate::workload::reactions::cycle::cycle;
-use crate::workload::statics::StaticsError;
+use crate::statics::assur::AssurError;
+use crate::statics::cycle::StaticsError;
+use crate::statics::planar::PlanarError;
+use crate::statics::reactions::Choice;
+use crate::statics::reactions::cycle::cycle;
+use crate::view::next::{self, Step};
+use crate::view::{reactions_cycle, reactions_data, reactions_text};
 
 /// Whether the planar solver's refusal is a case for this one: the answer is asked for by any method, without charts.
 pub(super) fn takes(error: &StaticsError, a: &Statics) -> bool {

@@ -7,8 +7,8 @@ use super::{Done, load, output};
 use crate::model::mechanism::Mechanism;
 use crate::page::{Commands, Page, Redesigns, html};
 use crate::redundancy::analysis::{Method, analyse};
-use crate::report::next::{file_name, word};
 use crate::search::certify::Summary;
+use crate::view::next::{file_name, word};
 use anyhow::ensure;
 use itertools::Itertools;
 

@@ -3,20 +3,20 @@
 use super::args::{Args, Statics, StaticsFormat, StaticsMethod};
 use super::{Done, clamped, load, output, reactions};
 use crate::chart::page;
+use crate::file::read::loads::{MAX_STEPS, position};
 use crate::geom::expr::Expr;
-use crate::import::loads::{MAX_STEPS, position};
+use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, Mode};
-use crate::report::next::{self, Step};
-use crate::report::statics_charts::{self, Named};
-use crate::report::statics_words::GroupMethod;
-use crate::report::words::table;
-use crate::report::{statics_data, statics_text};
-use crate::workload::contour_group::GroupPose;
-use crate::workload::jaw_loads::{Gripping, JawError};
-use crate::workload::kinetostatics::Source;
-use crate::workload::stability::{Failure, Sample, distances, samples};
-use crate::workload::statics::{statics, structures};
+use crate::statics::contour_group::GroupPose;
+use crate::statics::cycle::{statics, structures};
+use crate::statics::kinetostatics::Source;
+use crate::statics::stability::{Failure, Sample, distances, samples};
+use crate::view::next::{self, Step};
+use crate::view::statics_charts::{self, Named};
+use crate::view::statics_words::GroupMethod;
+use crate::view::words::table;
+use crate::view::{statics_data, statics_text};
 use anyhow::{Context, bail};
 use rayon::prelude::*;
 use std::path::Path;
@@ -207,7 +207,7 @@ fn write_charts(folder: &Path, title: &str, charts: &[Named]) -> anyhow::Result<
 /// A group in a pose with its loads, the heaviest of the stroke where forces act from outside.
 fn typical(m: &Mechanism, state: usize, stroke: Option<Stroke>) -> anyhow::Result<GroupPose> {
     let found = statics(m, state, stroke)?;
-    let heavy = |l: &crate::workload::kinetostatics::Load| {
+    let heavy = |l: &crate::statics::kinetostatics::Load| {
         if l.source == Source::External {
             l.force[0].hypot(l.force[1])
         } else {

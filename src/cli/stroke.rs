@@ -2,14 +2,14 @@
 
 use super::args::Analyze;
 use super::{Done, output, statics};
-use crate::closure::pose::Pose;
-use crate::closure::stroke::{FLAT, Follower, slides};
 use crate::model::joint_type::Freedom;
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::motion::follow::{FLAT, Follower, slides};
+use crate::motion::pose::Pose;
+use crate::rank::along_stroke::{StrokeFigures, StrokeRequest, stroke};
 use crate::rank::auto::{Geometry, decide};
-use crate::rank::stroke::{StrokeFigures, StrokeRequest, stroke};
-use crate::report::stroke::{Shown, chart, json, text};
+use crate::view::stroke::{Shown, chart, json, text};
 use anyhow::{Context, bail};
 use itertools::Itertools;
 use std::path::Path;

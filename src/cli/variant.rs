@@ -48,7 +48,7 @@ pub(super) fn kth<T>(
 /// A variant as a mechanism of its own, named for its place in the list.
 pub(super) fn mechanism(search: &Search<'_>, variant: &Variant, k: usize) -> Mechanism {
     let mut out = search.realize(&variant.choices);
-    let changes = crate::report::search_text::changes(search, variant);
+    let changes = crate::view::search_text::changes(search, variant);
     out.description = format!("Variant {k} of {}: {changes}", out.name);
     out.name = format!("{}-variant-{k}", out.name);
     // Options are gone, and their names with them.

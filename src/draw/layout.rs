@@ -7,9 +7,9 @@
 //! # Sources
 //! Gansner, Koren & North, "Graph drawing by stress majorization", GD 2004. Tutte, "How to draw a graph", 1963.
 
-use super::crowding::Crowding;
+use super::initial_layout::{self, Start};
+use super::layout_penalty::Crowding;
 use super::mirror::Mirror;
-use super::starts::{self, Start};
 
 /// A point of the picture; y goes down.
 pub(super) type Point = [f64; 2];
@@ -96,7 +96,7 @@ struct Candidate {
 /// A layout of the graph, starting also from the places given for the joints.
 pub(super) fn layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
     let net = net(graph);
-    if let Some(joints) = starts::ladder(graph) {
+    if let Some(joints) = initial_layout::ladder(graph) {
         let hubs = hubs(graph, &net, &joints);
         return Layout { joints, hubs };
     }
@@ -122,7 +122,7 @@ pub(super) fn layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
             });
         }
     };
-    for start in starts::all(graph, &net, hints) {
+    for start in initial_layout::all(graph, &net, hints) {
         take(start.at.clone(), &start, 1.0);
         let mut relaxed = start.at.clone();
         for part in 0..4 {

@@ -2,8 +2,8 @@
 
 use super::embed::text;
 use super::{Page, Redesigns};
-use crate::report::search_text;
 use crate::search::primes::Verdict;
+use crate::view::search_text;
 use itertools::Itertools;
 
 pub(super) fn html(page: &Page<'_>) -> String {

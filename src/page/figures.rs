@@ -7,7 +7,7 @@ use crate::rank::modular;
 use crate::redundancy::idle::idle_motions;
 use crate::redundancy::motion::motions;
 use crate::redundancy::share::shares;
-use crate::report::words::idle_list;
+use crate::view::words::idle_list;
 
 /// W and σ of a state of a mechanism.
 pub(super) fn figures(

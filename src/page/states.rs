@@ -6,7 +6,7 @@ use super::{Page, verdict};
 use crate::model::mechanism::{Mechanism, Mode};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::stress::{SelfStress, Verdict};
-use crate::report::words;
+use crate::view::words;
 use itertools::Itertools;
 use serde_json::{Value, json};
 

@@ -4,9 +4,9 @@ use super::embed::{measured, text};
 use super::{Page, Redesigns, figures, workload};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{AnalysisError, exact_field};
-use crate::report::search_text;
 use crate::search::certify::{CHECKED, Certified};
 use crate::search::space::choice_name;
+use crate::view::search_text;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 

@@ -5,7 +5,7 @@ use super::{Page, Redesigns};
 use crate::model::mechanism::{Mechanism, Role};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::stress::Verdict;
-use crate::report::words::{self, cost, grouped, plural};
+use crate::view::words::{self, cost, grouped, plural};
 use itertools::Itertools;
 use num_traits::{One, Zero};
 

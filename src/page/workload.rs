@@ -75,8 +75,8 @@ pub(super) fn json(r: &Redesigns<'_>) -> Value {
         };
         let all: Vec<_> = r.variants.iter().map(of).collect();
         json!({
-            "head": crate::report::ranking::head(p),
-            "notes": crate::report::ranking::notes(m, p).lines().map(str::trim)
+            "head": crate::view::ranking::head(p),
+            "notes": crate::view::ranking::notes(m, p).lines().map(str::trim)
                 .filter(|l| !l.is_empty() && !l.starts_with("rank ")).collect::<Vec<_>>(),
             "terms": p.ranking.terms.iter().map(|(t, _)| t.name()).collect::<Vec<_>>(),
             "by_cost": all.iter().map(|x| x.map(|(_, r)| r.by_cost)).collect::<Vec<_>>(),

@@ -1,7 +1,7 @@
 //! Certificates of rank: made here, checked by [`crate::verify`].
 //!
 //! ```
-//! use ozols::import::text::mechanism_from_str;
+//! use ozols::file::text::mechanism_from_str;
 //! use ozols::rank::certificate::{certify, matrix, number_field};
 //! use ozols::verify;
 //!

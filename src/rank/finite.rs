@@ -3,11 +3,11 @@
 use super::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
 use super::{second_order, subgroup, trace};
 use crate::closure::matrix::Closure;
-use crate::closure::pose::Pose;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{Mechanism, StateId};
+use crate::motion::pose::Pose;
 
 /// Work of one closing, rows² · columns, up to which a pose is followed at all.
 const LARGEST: usize = 30_000_000;

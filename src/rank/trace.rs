@@ -8,7 +8,7 @@
 //!
 //! Numeric: nothing is proven, and the certainty says so. Random directions come from a fixed seed.
 
-use crate::closure::pose::Pose;
+use crate::motion::pose::Pose;
 use faer::Mat;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};

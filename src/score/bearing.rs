@@ -5,7 +5,7 @@ use crate::score::elimination::Scratch;
 use crate::score::evaluate::Evaluator;
 use crate::score::terms::Scores;
 use crate::search::best::Variant;
-use crate::workload::reactions::Unsolved;
+use crate::statics::reactions::Unsolved;
 
 /// What a joint bears in one pose, without what its drive does.
 #[derive(Debug, Clone, Copy)]

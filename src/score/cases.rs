@@ -4,13 +4,13 @@
 //! the file's loads, and, in a state that the grip loads, the pose round each part it holds under the contact forces of
 //! that part's worst case. The score is the worst over the cases of the states that count.
 
-use crate::closure::pose::Pose;
+use crate::grip::jaw_loads::{Gripping, JawError, grip_of};
 use crate::model::loads::Loads;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::workload::jaw_loads::{Gripping, JawError, grip_of};
-use crate::workload::reactions::Unsolved;
-use crate::workload::reactions::drives::Driven;
-use crate::workload::reactions::follow::{follow, follow_to};
+use crate::motion::pose::Pose;
+use crate::statics::reactions::Unsolved;
+use crate::statics::reactions::drives::Driven;
+use crate::statics::reactions::follow::{follow, follow_to};
 use itertools::Itertools;
 use thiserror::Error;
 

@@ -11,10 +11,10 @@ use crate::score::table::Table;
 use crate::score::terms::{ErrorSum, Peak, Scores, output_points};
 use crate::search::best::Variant;
 use crate::search::request::Search;
-use crate::workload::reactions::drives::{Driven, driven};
-use crate::workload::reactions::follow::follow;
-use crate::workload::reactions::geometry::{Geometry, dot};
-use crate::workload::reactions::{Unsolved, no_couplings};
+use crate::statics::reactions::drives::{Driven, driven};
+use crate::statics::reactions::follow::follow;
+use crate::statics::reactions::geometry::{Geometry, dot};
+use crate::statics::reactions::{Unsolved, no_couplings};
 use thiserror::Error;
 
 /// Work of the loads on undriven motions below this fraction of them is none.

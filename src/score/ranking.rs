@@ -8,7 +8,7 @@ use crate::score::evaluate::Evaluator;
 use crate::score::pareto::fronts;
 use crate::score::terms::Scores;
 use crate::search::best::Variant;
-use crate::workload::reactions::Unsolved;
+use crate::statics::reactions::Unsolved;
 use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::ops::ControlFlow;

@@ -8,8 +8,8 @@ use crate::score::evaluate::Evaluator;
 use crate::score::joint_types::JointType;
 use crate::score::terms::{ErrorSum, Scores, axis_of};
 use crate::search::best::Variant;
-use crate::workload::reactions::follow::follow_to;
-use crate::workload::reactions::{Choice, JointReaction, Reactions, Unsolved};
+use crate::statics::reactions::follow::follow_to;
+use crate::statics::reactions::{Choice, JointReaction, Reactions, Unsolved};
 
 /// Force and moment of a joint without what its drive bears.
 fn borne(r: &JointReaction) -> ([f64; 3], [f64; 3]) {

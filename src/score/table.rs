@@ -1,19 +1,19 @@
 //! Everything about a search that does not depend on the variant, in numbers, pose by pose.
 
-use crate::closure::pose::Pose;
 use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
 use crate::geom::scalars::Reals;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism};
+use crate::motion::pose::Pose;
 use crate::score::cases::Case;
 use crate::score::joint_types::JointTypes;
 use crate::score::terms::{across, axis_of};
 use crate::search::request::Search;
-use crate::workload::reactions::Unsolved;
-use crate::workload::reactions::applied::link_loads;
-use crate::workload::reactions::drives::Driven;
-use crate::workload::reactions::geometry::{Geometry, Six, about, cross, power, wrench};
-use crate::workload::reactions::period;
+use crate::statics::reactions::Unsolved;
+use crate::statics::reactions::applied::link_loads;
+use crate::statics::reactions::drives::Driven;
+use crate::statics::reactions::geometry::{Geometry, Six, about, cross, power, wrench};
+use crate::statics::reactions::period;
 
 /// What a choice puts at one joint.
 #[derive(Debug, Clone)]

@@ -4,7 +4,7 @@ use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
 use crate::model::ranking::{ClearanceSum, Term};
 use crate::score::cases::Cases;
-use crate::workload::reactions::geometry::dot;
+use crate::statics::reactions::geometry::dot;
 
 /// A joint that bears the greatest part of its capacity.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,8 +9,8 @@ use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::numeric::{self, NumericRank};
 use crate::search::best::Variant;
+use crate::search::over_stroke::{OverStroke, Stroke};
 use crate::search::request::Search;
-use crate::search::stroke::{OverStroke, Stroke};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 

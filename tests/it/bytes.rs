@@ -1,7 +1,7 @@
 //! No file makes the program panic.
 
 use ozols::builtin;
-use ozols::import::text::mechanism_from_bytes;
+use ozols::file::text::mechanism_from_bytes;
 use ozols::redundancy::analysis::{Method, analyse};
 use proptest::prelude::*;
 

@@ -1,7 +1,7 @@
 //! Every built-in mechanism has the figures its file states, with their sources.
 
 use ozols::builtin;
-use ozols::import::text::mechanism_from_str;
+use ozols::file::text::mechanism_from_str;
 use ozols::redundancy::analysis::{Elimination, Method, analyse};
 
 #[test]

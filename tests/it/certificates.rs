@@ -6,9 +6,9 @@ mod corruption;
 use corruption::corruptions;
 use num_rational::BigRational;
 use ozols::builtin;
+use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
 use ozols::geom::number_field::NumberField;
-use ozols::import::text::mechanism_from_str;
 use ozols::linalg::number_ring::{Element, NumberRing};
 use ozols::model::mechanism::Mechanism;
 use ozols::rank::certificate::{

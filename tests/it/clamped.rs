@@ -2,23 +2,23 @@
 
 use crate::cli::{json, out, ozols};
 use ozols::builtin;
-use ozols::closure::pose::Pose;
+use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
-use ozols::import::text::mechanism_from_str;
+use ozols::grip::clamping::{Row, Verdict};
+use ozols::grip::jaw_loads::Gripping;
 use ozols::model::grip::PartMass;
 use ozols::model::loads::Loads;
 use ozols::model::mechanism::Mechanism;
 use ozols::model::ranking::{ClearanceSum, Term};
+use ozols::motion::pose::Pose;
 use ozols::redundancy::analysis::exact_field;
 use ozols::score::elimination::Scratch;
 use ozols::score::evaluate::Evaluator;
 use ozols::search::request::{Request, Search};
-use ozols::workload::clamping::{Row, Verdict};
-use ozols::workload::jaw_loads::Gripping;
-use ozols::workload::reactions::drives::driven;
-use ozols::workload::reactions::follow::follow_to;
-use ozols::workload::reactions::geometry::{Geometry, cross, dot};
-use ozols::workload::reactions::{JointReaction, Reactions, Solution};
+use ozols::statics::reactions::drives::driven;
+use ozols::statics::reactions::follow::follow_to;
+use ozols::statics::reactions::geometry::{Geometry, cross, dot};
+use ozols::statics::reactions::{JointReaction, Reactions, Solution};
 use serde_json::Value;
 use std::ops::ControlFlow;
 

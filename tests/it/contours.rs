@@ -2,7 +2,7 @@
 
 use itertools::Itertools;
 use ozols::closure::contour::{closed_walk, contour_basis};
-use ozols::import::text::mechanism_from_str;
+use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{JointId, Mechanism};
 use petgraph::algo::dijkstra;
 use petgraph::graph::{NodeIndex, UnGraph};

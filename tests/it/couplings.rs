@@ -1,7 +1,7 @@
 //! Couplings of joints: figures derived by hand, what the file may say, and every method on the same rows.
 
 use crate::cli::ozols;
-use ozols::import::text::mechanism_from_str;
+use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
 use ozols::rank::method::{NoAnswer, by_name};
 use ozols::redundancy::analysis::{Method, StateAnalysis, analyse};
@@ -173,8 +173,8 @@ fn axes_of_any_length_make_the_same_row() {
 /// A rack moves by the pitch radius for each radian of its pinion, over the stroke too.
 #[test]
 fn rack_and_pinion() {
-    use ozols::closure::pose::Pose;
-    use ozols::closure::stroke::follow;
+    use ozols::motion::follow::follow;
+    use ozols::motion::pose::Pose;
     let m = mechanism(&pair(TURN, SLIDE, &coupled("a", "b", "12.5")));
     let s = exact(&m);
     assert_eq!(
@@ -231,8 +231,8 @@ fn gears_that_repeat_or_contradict() {
 /// Willis: the sun of an epicyclic gear turns four times as fast as the carrier where the ring has three times its teeth.
 #[test]
 fn the_carrier_follows_the_sun() {
-    use ozols::closure::pose::Pose;
-    use ozols::closure::stroke::follow;
+    use ozols::motion::follow::follow;
+    use ozols::motion::pose::Pose;
     let m = builtin("planetary-gear");
     let pose = Pose::of_file(&m, 0).unwrap();
     let way = follow(&pose, 0, &[], [0.0, 1.0], 4);
@@ -362,7 +362,7 @@ fn the_file_comes_back_from_export() {
         "type = \"cylindrical\"\naxis = [0, 0, 2]",
         &coupled("a", "b:tz", "\"sqrt(2)/3\""),
     ));
-    let again = mechanism(&ozols::export::toml(&m).unwrap());
+    let again = mechanism(&ozols::robots::export::toml(&m).unwrap());
     assert_eq!(again.couplings.len(), 1);
     assert_eq!(again.couplings[0].ends, m.couplings[0].ends);
     assert_eq!(
@@ -375,7 +375,7 @@ fn the_file_comes_back_from_export() {
 /// joints cannot hold, are comments.
 #[test]
 fn exported_as_mimic_joints() {
-    use ozols::export;
+    use ozols::robots::export;
     let m = mechanism(&pair(SLIDE, TURN, &coupled("a", "b", "\"1/20\"")));
     let urdf = export::urdf(&m).unwrap();
     // 1/20 rad a mm is 50 rad a m.
@@ -412,14 +412,14 @@ const MJCF: &str = r#"<mujoco><worldbody>
   <body name="3" pos="0 1 0"><joint name="c" type="hinge" axis="0 1 1"/><geom size="1"/></body>
 </worldbody><equality>EQUALITY</equality></mujoco>"#;
 
-fn mjcf(equality: &str) -> ozols::robot::Imported {
+fn mjcf(equality: &str) -> ozols::robots::Imported {
     let text = MJCF.replace("EQUALITY", equality);
     let none = |_: &str| Err(std::io::Error::other("no files"));
-    ozols::robot::import(
+    ozols::robots::import(
         "x.xml",
         text.as_bytes(),
         &none,
-        &ozols::robot::Options::default(),
+        &ozols::robots::Options::default(),
     )
     .unwrap()
 }

@@ -3,7 +3,7 @@
 use crate::cli::{out, ozols};
 use ozols::builtin;
 use ozols::draw::{Drawing, Rect, Subject, kinematic, marks, scheme};
-use ozols::import::text::mechanism_from_str;
+use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
 use ozols::redundancy::analysis::{Method, StateAnalysis, analyse, exact_field};
 use ozols::search::request::{Request, Search};

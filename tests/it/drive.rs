@@ -1,8 +1,8 @@
 //! The torsional drive against `[Klyuchkovskyi 1999]`, and its simulation against a step-by-step integrator.
 
 use crate::common::near;
-use ozols::workload::swing::{Disc, End, Feed, Latch, SwingError};
-use ozols::workload::torsion::{
+use ozols::drive::swing::{Disc, End, Feed, Latch, SwingError};
+use ozols::drive::torsion::{
     Bar, CamSpring, Wanted, decrement, diameter, free_angle, frequency, friction_energy,
     kinetic_energy, period, stored_energy,
 };

@@ -2,11 +2,11 @@
 
 use crate::cli::{out, ozols};
 use ozols::builtin;
-use ozols::export;
-use ozols::import::text::mechanism_from_str;
+use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, Mode};
 use ozols::redundancy::analysis::{Elimination, Method, analyse};
-use ozols::robot::{Options, import};
+use ozols::robots::export;
+use ozols::robots::{Options, import};
 use proptest::prelude::*;
 
 fn all() -> impl Iterator<Item = Mechanism> {

@@ -2,7 +2,7 @@
 
 use crate::cli::{json, out, ozols};
 use ozols::builtin;
-use ozols::import::text::mechanism_from_str;
+use ozols::file::text::mechanism_from_str;
 use ozols::redundancy::analysis::{Method, analyse};
 use ozols::terms::Terms;
 use std::fs;
@@ -142,7 +142,7 @@ fn the_program_alone_says_where_to_begin() {
 fn a_template_of_every_built_in_mechanism_gives_its_figures() {
     for name in builtin::names() {
         let given = builtin::text(name).unwrap();
-        let new = ozols::template::commented(given, name, "mine").unwrap();
+        let new = ozols::file::template::commented(given, name, "mine").unwrap();
         let figures = |text: &str| {
             let m = mechanism_from_str("mine.toml", text).unwrap();
             let states: Vec<usize> = (0..m.states.len()).collect();
@@ -575,7 +575,7 @@ fn check_doubts_what_is_likely_a_slip() {
 /// What the built-in files are doubted for is so: common options that suit none of their joints, and an arm.
 #[test]
 fn check_doubts_built_in_mechanisms_only_with_reason() {
-    use ozols::import::doubt::{DoubtKind, check};
+    use ozols::file::lint::{DoubtKind, check};
     let mut doubted = 0;
     for name in builtin::names() {
         let text = builtin::text(name).unwrap();

@@ -2,9 +2,9 @@
 
 use crate::cli::{json, out};
 use crate::common::{changed, near, run_on};
-use ozols::workload::arm_charts::{figures, findings};
-use ozols::workload::contact::Gripper;
-use ozols::workload::lever_arm::{Lever, LeverError};
+use ozols::grip::arm_charts::{figures, findings};
+use ozols::grip::contact::Gripper;
+use ozols::grip::lever_arm::{Lever, LeverError};
 use proptest::prelude::*;
 use serde_json::Value;
 use std::fs;

@@ -2,9 +2,9 @@
 
 use crate::common::near;
 use microlp::{ComparisonOp, OptimizationDirection, Problem};
-use ozols::workload::contact::{Gripper, Pose, Unholdable, cross};
-use ozols::workload::holding::{ContactForce, Coupling, Holding, Load, Outcome, Spatial, hold};
-use ozols::workload::lever_arm::Lever;
+use ozols::grip::contact::{Gripper, Pose, Unholdable, cross};
+use ozols::grip::holding::{ContactForce, Coupling, Holding, Load, Outcome, Spatial, hold};
+use ozols::grip::lever_arm::Lever;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 

@@ -5,17 +5,17 @@ use std::path::{Path, PathBuf};
 
 /// The layers, lowest first; modules of one row do not import each other, except where a row says so by order.
 const LAYERS: [&[&str]; 13] = [
-    &["linalg", "chart", "terms", "guide"],
+    &["linalg", "chart", "terms", "guide", "builtin"],
     &["geom", "verify"],
     &["model"],
     &["closure"],
-    &["import", "rank", "workload"],
-    &["robot"],
-    &["export"],
-    &["redundancy"],
-    &["search", "builtin"],
-    &["accuracy", "score", "draw", "template"],
-    &["report"],
+    &["motion"],
+    &["rank", "statics"],
+    &["grip", "drive"],
+    &["redundancy", "file"],
+    &["search", "robots"],
+    &["accuracy", "score", "draw"],
+    &["view"],
     &["page"],
     &["cli"],
 ];

@@ -3,10 +3,10 @@
 
 use faer::Mat;
 use ozols::builtin;
-use ozols::closure::pose::Pose;
+use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
-use ozols::import::text::mechanism_from_str;
 use ozols::model::mechanism::{Frame, Mechanism, Mode};
+use ozols::motion::pose::Pose;
 use ozols::rank::auto::decide;
 use ozols::rank::finite::{How, finite, followed};
 use ozols::rank::{field_of, generic, method, modular, trace};

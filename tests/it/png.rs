@@ -34,7 +34,7 @@ mod with_png {
     use crate::cli::ozols;
     use ozols::draw::png::png;
     use ozols::draw::{Drawing, Rect, Size, Subject, kinematic, scheme};
-    use ozols::import::text::mechanism_from_str;
+    use ozols::file::text::mechanism_from_str;
     use resvg::tiny_skia::Pixmap;
 
     fn drawings(name: &str) -> [Drawing; 2] {

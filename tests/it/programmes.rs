@@ -1,9 +1,9 @@
 //! Programmes of swings, and their long run.
 
 use crate::common::near;
+use ozols::drive::programme::{Endurance, Module};
+use ozols::drive::swing::{Disc, End, Feed, Latch};
 use ozols::model::drive::Step;
-use ozols::workload::programme::{Endurance, Module};
-use ozols::workload::swing::{Disc, End, Feed, Latch};
 
 fn module(viscous: f64, coulomb: f64, feed: f64) -> Module {
     let disc = |inertia| Disc {

@@ -2,7 +2,7 @@
 
 use crate::cli::{json, out, ozols};
 use ozols::builtin;
-use ozols::import::text::mechanism_from_str;
+use ozols::file::text::mechanism_from_str;
 use ozols::model::joint_type::JointType;
 use ozols::model::mechanism::Mechanism;
 use ozols::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term};

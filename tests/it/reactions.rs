@@ -2,15 +2,15 @@
 
 use crate::cli::{json, out, ozols};
 use ozols::builtin;
-use ozols::closure::pose::Pose;
+use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
-use ozols::import::text::mechanism_from_str;
 use ozols::model::loads::{ExternalForce, MassProperties, Misalignment, Stiffness};
 use ozols::model::mechanism::{Mechanism, Role};
+use ozols::motion::pose::Pose;
 use ozols::redundancy::analysis::{Method, analyse};
-use ozols::workload::reactions::drives::driven;
-use ozols::workload::reactions::geometry::{Geometry, cross, dot};
-use ozols::workload::reactions::{Choice, JointReaction, Reactions, Solution, Unsolved};
+use ozols::statics::reactions::drives::driven;
+use ozols::statics::reactions::geometry::{Geometry, cross, dot};
+use ozols::statics::reactions::{Choice, JointReaction, Reactions, Solution, Unsolved};
 use proptest::prelude::*;
 
 fn built_in(name: &str) -> Mechanism {
@@ -320,7 +320,7 @@ fn planar_mechanisms_agree_with_the_planar_solver() {
         }
         let s = solve(&m);
         assert_eq!(s.choice, Choice::Unique, "{name}");
-        let planar = ozols::workload::statics::statics(&m, 0, None).unwrap();
+        let planar = ozols::statics::cycle::statics(&m, 0, None).unwrap();
         let whole = planar.moments[0].whole.as_ref().unwrap();
         let greatest = s
             .reactions

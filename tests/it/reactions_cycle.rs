@@ -2,17 +2,17 @@
 
 use crate::cli::{json, out, ozols};
 use ozols::builtin;
-use ozols::closure::pose::Pose;
+use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
-use ozols::import::text::mechanism_from_str;
 use ozols::model::joint_type::Freedom;
 use ozols::model::loads::{Inertia, MassProperties, Stroke};
 use ozols::model::mechanism::{Mechanism, Mode, Role};
-use ozols::workload::reactions::cycle::{Cycle, cycle};
-use ozols::workload::reactions::follow::follow_to;
-use ozols::workload::reactions::geometry::{cross, dot};
-use ozols::workload::reactions::{Choice, JointReaction, Unsolved};
-use ozols::workload::statics::statics;
+use ozols::motion::pose::Pose;
+use ozols::statics::cycle::statics;
+use ozols::statics::reactions::cycle::{Cycle, cycle};
+use ozols::statics::reactions::follow::follow_to;
+use ozols::statics::reactions::geometry::{cross, dot};
+use ozols::statics::reactions::{Choice, JointReaction, Unsolved};
 
 fn expr(x: f64) -> Expr {
     format!("{x:.9}").parse().unwrap()
@@ -48,7 +48,7 @@ fn moving(name: &str, speed: f64, inertia: impl Fn(f64) -> Inertia) -> Mechanism
     m
 }
 
-fn solved(c: &Cycle) -> Vec<(f64, &ozols::workload::reactions::Solution)> {
+fn solved(c: &Cycle) -> Vec<(f64, &ozols::statics::reactions::Solution)> {
     c.positions
         .iter()
         .map(|(at, s)| (*at, s.as_ref().unwrap()))

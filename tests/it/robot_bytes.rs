@@ -1,7 +1,7 @@
 //! No robot description makes the program panic.
 
-use ozols::import::text::mechanism_from_str;
-use ozols::robot::{Options, import};
+use ozols::file::text::mechanism_from_str;
+use ozols::robots::{Options, import};
 use proptest::prelude::*;
 
 /// Name and text of a description, and of the file beside it.

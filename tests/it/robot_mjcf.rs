@@ -2,7 +2,7 @@
 
 use crate::cli::ozols;
 use crate::robots::{figures, none, refused};
-use ozols::robot::{Options, import};
+use ozols::robots::{Options, import};
 
 // MuJoCo's values count from `ref`, where the model is as drawn; the pose is in radians whatever the file's unit.
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::cli::ozols;
 use crate::robots::{ARM, figures, folder, model, none, refused};
-use ozols::robot::{Options, import};
+use ozols::robots::{Options, import};
 
 // Five mimic joints follow the sixth: W = 6 of the tree of joints alone, 1 with the couplings.
 #[test]

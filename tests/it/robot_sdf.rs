@@ -2,7 +2,7 @@
 
 use crate::robot_mjcf::toml_of;
 use crate::robots::{figures, none, refused};
-use ozols::robot::{Options, import};
+use ozols::robots::{Options, import};
 
 fn sdf(body: &str) -> String {
     format!("<sdf version='1.9'><model name='m'>{body}</model></sdf>")

@@ -1,9 +1,9 @@
 //! Robot descriptions: real models against the figures of other engines, and what is refused.
 
 use crate::cli::ozols;
-use ozols::import::text::mechanism_from_str;
+use ozols::file::text::mechanism_from_str;
 use ozols::redundancy::analysis::{Elimination, Method, StateAnalysis, analyse};
-use ozols::robot::{Imported, Options, import};
+use ozols::robots::{Imported, Options, import};
 use std::path::PathBuf;
 
 pub(crate) fn folder() -> PathBuf {

@@ -8,9 +8,9 @@ mod reactions;
 mod stability;
 mod structure;
 
-use ozols::import::text::mechanism_from_str;
+use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
-use ozols::workload::planar::{PairId, PlanarMechanism};
+use ozols::statics::planar::{PairId, PlanarMechanism};
 use std::fmt::Write;
 
 /// One joint of a test mechanism: "a-b" with R, or P and its direction, at a point.

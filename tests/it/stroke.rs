@@ -1,7 +1,7 @@
 //! Variants in other poses of the present motion.
 
 use crate::cli::{json, out, ozols};
-use ozols::import::text::mechanism_from_str;
+use ozols::file::text::mechanism_from_str;
 use ozols::redundancy::analysis::{Method, analyse};
 use serde_json::Value;
 use std::fs;

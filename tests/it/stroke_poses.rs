@@ -3,15 +3,15 @@
 use crate::cli::{json, out, ozols};
 use crate::statics::{file, mechanism, r};
 use ozols::builtin;
-use ozols::closure::pose::Pose;
-use ozols::closure::stroke::{Followed, Why, follow, slides};
-use ozols::import::text::mechanism_from_str;
+use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
-use ozols::rank::stroke::{StrokeFigures, StrokeRequest, stroke};
-use ozols::workload::assur::decompose;
-use ozols::workload::planar::PlanarMechanism;
-use ozols::workload::planar_motion::Motion;
-use ozols::workload::pose::Linkage;
+use ozols::motion::follow::{Followed, Why, follow, slides};
+use ozols::motion::pose::Pose;
+use ozols::rank::along_stroke::{StrokeFigures, StrokeRequest, stroke};
+use ozols::statics::assur::decompose;
+use ozols::statics::planar::PlanarMechanism;
+use ozols::statics::planar_motion::Motion;
+use ozols::statics::pose::Linkage;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 fn built_in(name: &str) -> Mechanism {

@@ -2,13 +2,13 @@
 
 use crate::cli::{json, out, ozols};
 use ozols::builtin;
-use ozols::import::text::mechanism_from_str;
+use ozols::file::text::mechanism_from_str;
 use ozols::model::joint_type::JointType;
 use ozols::model::mechanism::{JointOption, Link, Mechanism, Role, StateId};
 use ozols::redundancy::analysis::{Method, StateAnalysis, analyse};
-use ozols::report::analysis_text;
-use ozols::report::suggestions::{Advice, concerned};
 use ozols::search::suggest::{USUAL, USUAL_UNLOADING, single_changes};
+use ozols::view::analysis_text;
+use ozols::view::suggestions::{Advice, concerned};
 use proptest::prelude::*;
 
 fn read(text: &str) -> Mechanism {
@@ -225,7 +225,7 @@ fn where_no_single_change_helps_it_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("slots.toml");
     let m = built_in("four-bar");
-    let mut copy = ozols::export::toml(&m)
+    let mut copy = ozols::robots::export::toml(&m)
         .unwrap()
         .parse::<toml_edit::DocumentMut>()
         .unwrap();

@@ -3,7 +3,7 @@
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
-use ozols::import::text::mechanism_from_str;
+use ozols::file::text::mechanism_from_str;
 use ozols::model::coupling::CoupledFreedom;
 use ozols::model::joint_type::{Freedom, JointType};
 use ozols::model::mechanism::{Frame, JointId, LinkId, Mechanism, Mode, Role};

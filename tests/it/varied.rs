@@ -3,7 +3,7 @@
 
 use crate::twin::{Twin, look, variants};
 use num_bigint::BigUint;
-use ozols::import::text::mechanism_from_str;
+use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::counts::Counts;

@@ -99,7 +99,7 @@ pub fn shaken(mechanism: &Mechanism, level: f64, noise: &mut Noise) -> Mechanism
 mod tests {
     use super::*;
     use crate::builtin;
-    use crate::import::text::mechanism_from_str;
+    use crate::file::text::mechanism_from_str;
 
     #[test]
     fn changes_are_as_large_as_asked() {

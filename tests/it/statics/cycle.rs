@@ -1,10 +1,10 @@
 //! Positions, velocities and accelerations over a cycle.
 
 use super::{file, four_bar_file, mechanism, p, r, shears};
-use ozols::workload::assur::{Decomposition, decompose};
-use ozols::workload::planar::PlanarMechanism;
-use ozols::workload::planar_motion::{Instant, Motion};
-use ozols::workload::pose::Linkage;
+use ozols::statics::assur::{Decomposition, decompose};
+use ozols::statics::planar::PlanarMechanism;
+use ozols::statics::planar_motion::{Instant, Motion};
+use ozols::statics::pose::Linkage;
 
 fn linkage(text: &str) -> (Linkage, Decomposition) {
     let planar = PlanarMechanism::new(&mechanism(text), 0).unwrap();

@@ -2,10 +2,10 @@
 
 use super::{mechanism, shears};
 use ozols::model::loads::Stroke;
-use ozols::workload::contour_group::GroupPose;
-use ozols::workload::group_equilibrium;
-use ozols::workload::pose::{cross, dot, length, minus, plus, quarter};
-use ozols::workload::statics::statics;
+use ozols::statics::contour_group::GroupPose;
+use ozols::statics::cycle::statics;
+use ozols::statics::group_equilibrium;
+use ozols::statics::pose::{cross, dot, length, minus, plus, quarter};
 
 fn unit(v: [f64; 2]) -> [f64; 2] {
     let l = length(v);

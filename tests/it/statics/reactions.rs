@@ -3,10 +3,10 @@
 use super::{J, Mass, file_with, mechanism, p, r, shears};
 use itertools::Itertools;
 use ozols::model::loads::Stroke;
-use ozols::workload::contour_group::GroupReactions;
-use ozols::workload::kinetostatics::{Equilibrium, Source};
-use ozols::workload::pose::{cross, minus};
-use ozols::workload::statics::{Moment, Statics, statics};
+use ozols::statics::contour_group::GroupReactions;
+use ozols::statics::cycle::{Moment, Statics, statics};
+use ozols::statics::kinetostatics::{Equilibrium, Source};
+use ozols::statics::pose::{cross, minus};
 use proptest::prelude::*;
 
 fn over(text: &str, from: f64, to: f64, steps: usize) -> Statics {
@@ -54,7 +54,7 @@ fn three_methods_agree_on_the_shears_to_nine_digits() {
         cutting += usize::from(m.loads.iter().any(|l| l.source == Source::External));
         for (g, (_, letters)) in m.groups.iter().zip(&s.contour_groups) {
             let (lu, worth) = g.equilibrium.unwrap();
-            let exact = ozols::workload::group_equilibrium::exact(&g.pose).unwrap();
+            let exact = ozols::statics::group_equilibrium::exact(&g.pose).unwrap();
             let out_of_whole =
                 GroupReactions::from_equilibrium(&s.linkage, letters, &g.pose, whole).unwrap();
             for (name, found) in [
@@ -315,7 +315,7 @@ proptest! {
 /// The publication's first figure: loads on rods only, none on the ternary link's own; and h = 0 without loads but at B.
 #[test]
 fn a_group_without_loads_bears_nothing() {
-    use ozols::workload::{delta_point, projective};
+    use ozols::statics::{delta_point, projective};
     let s = over(shears(), 0.0, 0.0, 1);
     let mut g = s.moments[0].groups[0].pose.clone();
     g.loads.clear();

@@ -2,10 +2,10 @@
 
 use super::{mechanism, shears};
 use ozols::model::loads::Stroke;
-use ozols::workload::contour_group::GroupPose;
-use ozols::workload::stability::{Failure, Sample, at_distance, samples};
-use ozols::workload::statics::statics;
-use ozols::workload::{delta_point, group_equilibrium, projective};
+use ozols::statics::contour_group::GroupPose;
+use ozols::statics::cycle::statics;
+use ozols::statics::stability::{Failure, Sample, at_distance, samples};
+use ozols::statics::{delta_point, group_equilibrium, projective};
 
 fn base() -> GroupPose {
     let at = Stroke {

@@ -2,9 +2,9 @@
 
 use super::{J, file, mechanism, p, pair, planar, r};
 use itertools::Itertools;
-use ozols::workload::assur::{AssurError, Decomposition, alternatives, decompose};
-use ozols::workload::assur_class::Kind;
-use ozols::workload::planar::{BodyId, PairKind, PlanarMechanism};
+use ozols::statics::assur::{AssurError, Decomposition, alternatives, decompose};
+use ozols::statics::assur_class::Kind;
+use ozols::statics::planar::{BodyId, PairKind, PlanarMechanism};
 use proptest::prelude::*;
 
 fn four_bar() -> Vec<J> {
@@ -129,7 +129,7 @@ fn by_brute_force(m: &PlanarMechanism, driven: &[BodyId]) -> Vec<Vec<BodyId>> {
             .collect_vec();
         let balanced = |set: &Vec<BodyId>| {
             let inside = |b: &BodyId| set.contains(b) || used.contains(b);
-            let touches = |q: &&ozols::workload::planar::Pair| {
+            let touches = |q: &&ozols::statics::planar::Pair| {
                 !q.drive && q.bodies.iter().any(|b| set.contains(b)) && q.bodies.iter().all(inside)
             };
             3 * set.len() == 2 * m.pairs.iter().filter(touches).count()

@@ -1,0 +1,6 @@
+//! A torsional drive of two discs: its bar, a swing, a programme of swings, and its design.
+
+pub mod driving;
+pub mod programme;
+pub mod swing;
+pub mod torsion;

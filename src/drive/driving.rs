@@ -1,0 +1,220 @@
+//! A torsional drive designed and run: bar, missing angle, cam spring, programme, and the motion it gives its payload.
+
+use crate::drive::programme::{Endurance, Module, Run};
+use crate::drive::swing::{Disc, Feed, Latch, SwingError};
+use crate::drive::torsion::{Bar, CamSpring, Sizing, Wanted, frequency, friction_energy};
+use crate::model::drive::{Damping, DriveSpec};
+
+/// Lengths of bars that are chosen are multiples of this. `[m]`
+pub const LENGTH_STEP: f64 = 1e-3;
+
+/// Where the damping of a simulation comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DampingFrom {
+    /// The file.
+    Stated,
+    /// The viscous damping that gives the missing angle.
+    MissingAngle,
+    /// There is none.
+    None,
+}
+
+/// The cam's spring by the formulas and by the simulation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CamDesign {
+    /// By equation (14).
+    pub spring: CamSpring,
+    /// The one that brings the disc to its latch at rest, where any does.
+    pub needed: Option<CamSpring>,
+}
+
+/// The motion of a payload. SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// Greatest angular acceleration, p² φ0, at the ends of a swing. `[rad/s²]`
+    pub angular_acceleration: f64,
+    /// Greatest angular speed, p φ0, in its middle. `[rad/s]`
+    pub angular_speed: f64,
+    /// Greatest acceleration of a payload at its radius, in whatever direction. `[m/s²]`
+    pub acceleration: Option<f64>,
+}
+
+/// A drive with a bar.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Design {
+    /// The bar.
+    pub bar: Bar,
+    /// k. `[N·m/rad]`
+    pub stiffness: f64,
+    /// Damping of the simulation.
+    pub damping: Damping,
+    /// Where it comes from.
+    pub damping_from: DampingFrom,
+    /// Δφ: measured, or that of the damping. `[rad]`
+    pub missing: f64,
+    /// E_fr by (12). `[J]`
+    pub friction_energy: f64,
+    /// The cam's work that brings the disc to its latch at rest; none does where it is stuck. `[J]`
+    pub needed_feed: Option<f64>,
+    /// The cam's work in the simulation. `[J]`
+    pub feed: f64,
+    /// The cam's spring.
+    pub cam: Option<CamDesign>,
+    /// Motion of each disc.
+    pub motions: [Motion; 2],
+    /// The discs.
+    pub module: Module,
+    /// The programme run.
+    pub run: Run,
+    /// What comes of it in the long run.
+    pub endurance: Endurance,
+}
+
+/// What came of a drive.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Driving {
+    /// The bar's sizing.
+    pub sizing: Sizing,
+    /// The rest, where there is a bar.
+    pub design: Option<Design>,
+}
+
+/// The bar that a specification asks for.
+#[must_use]
+pub fn wanted(spec: &DriveSpec) -> Wanted {
+    Wanted {
+        twist: spec.twist,
+        period: spec.period,
+        inertia: spec.inertias[0].max(spec.inertias[1]),
+        shear_modulus: spec.shear_modulus,
+        allowable_stress: spec.allowable_stress,
+        length: spec.length,
+        max_length: spec.max_length,
+        length_step: LENGTH_STEP,
+        diameters: spec.diameters.clone(),
+    }
+}
+
+/// Greatest size of the acceleration at radius r over a swing: the tangential p² φ r and the radial p² (φ0² - φ²) r; the sum
+/// of their squares is convex in φ², so one of the ends of its range has it: r p² φ0 max(1, φ0).
+fn motion(stiffness: f64, inertia: f64, twist: f64, radius: Option<f64>) -> Motion {
+    let p = frequency(stiffness, inertia);
+    Motion {
+        angular_acceleration: p * p * twist,
+        angular_speed: p * twist,
+        acceleration: radius.map(|r| r * p * p * twist * twist.max(1.0)),
+    }
+}
+
+/// Sizes the bar and the cam's spring and runs the programme.
+///
+/// # Units
+/// SI.
+///
+/// # Errors
+/// Discs that do not swing.
+///
+/// # Sources
+/// `[Klyuchkovskyi 1999]`: φ0, hardest motion, largest inertia, then bar, missing angle, spring.
+pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
+    let sizing = wanted(spec).size();
+    let Some(bar) = sizing.bar else {
+        return Ok(Driving {
+            sizing,
+            design: None,
+        });
+    };
+    let stiffness = bar.stiffness();
+    let largest = usize::from(spec.inertias[1] > spec.inertias[0]);
+    let (damping, damping_from) = match (spec.damping, spec.missing) {
+        (Some(d), _) => (d, DampingFrom::Stated),
+        (None, Some(missing)) => {
+            let viscous = Disc::viscous_for(spec.inertias[largest], stiffness, spec.twist, missing);
+            (
+                Damping {
+                    viscous,
+                    coulomb: 0.0,
+                },
+                DampingFrom::MissingAngle,
+            )
+        }
+        (None, None) => (
+            Damping {
+                viscous: 0.0,
+                coulomb: 0.0,
+            },
+            DampingFrom::None,
+        ),
+    };
+    let disc = |inertia| Disc {
+        inertia,
+        stiffness,
+        viscous: damping.viscous,
+        coulomb: damping.coulomb,
+    };
+    let discs = spec.inertias.map(disc);
+    let latch = Latch {
+        at: spec.twist,
+        capture: spec.capture,
+    };
+    if let Some(creeping) = discs.iter().find(|d| d.damping_ratio() >= 1.0) {
+        return Err(SwingError::Overdamped(creeping.damping_ratio()));
+    }
+    let missing = spec.missing.unwrap_or_else(|| {
+        discs
+            .iter()
+            .map(|d| d.missing(spec.twist))
+            .fold(0.0, f64::max)
+    });
+    let by_formula = friction_energy(stiffness, spec.twist, missing);
+    let needs = discs
+        .iter()
+        .map(|d| d.needed_feed(latch, spec.feed_from))
+        .collect::<Result<Vec<_>, _>>()?;
+    let needed_feed = needs
+        .into_iter()
+        .try_fold(0.0f64, |most, n| n.map(|n| most.max(n)));
+    let feed = spec.feed.unwrap_or(by_formula);
+    let cam = spec.cam.map(|c| {
+        let spring = |energy| CamSpring::for_friction(energy, c.efficiency, c.mounting, c.stroke);
+        CamDesign {
+            spring: spring(by_formula),
+            needed: needed_feed.map(spring),
+        }
+    });
+    let module = Module {
+        discs,
+        latch,
+        feed: Feed {
+            energy: feed,
+            from: spec.feed_from,
+        },
+    };
+    let run = module.run(&spec.programme)?;
+    let mut used: Vec<usize> = run.swings().map(|(disc, _)| disc).collect();
+    used.sort_unstable();
+    used.dedup();
+    let endurance = module.endurance(&used)?;
+    let radius = spec.payload.map(|p| p.radius);
+    let design = Design {
+        bar,
+        stiffness,
+        damping,
+        damping_from,
+        missing,
+        friction_energy: by_formula,
+        needed_feed,
+        feed,
+        cam,
+        motions: spec
+            .inertias
+            .map(|i| motion(stiffness, i, spec.twist, radius)),
+        module,
+        run,
+        endurance,
+    };
+    Ok(Driving {
+        sizing,
+        design: Some(design),
+    })
+}

@@ -1,0 +1,12 @@
+//! Mechanism files: one schema for TOML and JSON, read into a validated mechanism with every problem pointed at, written
+//! back, looked over, and made into templates.
+
+pub mod findings;
+pub mod lint;
+pub mod locate;
+pub mod problem;
+pub mod read;
+pub mod schema;
+pub mod template;
+pub mod text;
+pub mod write;

@@ -1,0 +1,486 @@
+//! What is doubtful in a file that can be used: likely slips, and what has no effect.
+
+use crate::closure::contour::{Contour, contour_basis};
+use crate::file::locate::{Document, Step};
+use crate::file::problem::{ImportError, render};
+use crate::file::read::build;
+use crate::file::read::resolve::{index, key};
+use crate::file::read::workload::workload_tables;
+use crate::file::schema::{MechanismFile, OptionEntry, Unloading};
+use crate::file::text::{is_json, read, text_of};
+use crate::geom::expr::Expr;
+use crate::model::joint_type::JointType;
+use crate::model::measured::looks_measured;
+use crate::model::mechanism::{Joint, JointId, Mechanism, Role};
+use crate::model::ranking::Term;
+use annotate_snippets::Level;
+use itertools::Itertools;
+use std::ops::Range;
+use thiserror::Error;
+
+/// Metres across, without a stated unit, beyond which the unit was probably forgotten.
+const FORGOTTEN_UNIT: f64 = 10.0;
+/// Metres across that a mechanism is hardly smaller or larger than.
+const SIZES: (f64, f64) = (1e-5, 1e2);
+/// Places of joints on one link nearer than this fraction of the whole were probably meant to be one.
+const SAME_PLACE: f64 = 1e-6;
+/// Names shown of a list.
+const SHOWN: usize = 8;
+
+/// What is doubtful.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+#[allow(
+    missing_docs,
+    reason = "the wording of each variant says what its fields are"
+)]
+pub enum DoubtKind {
+    #[error("the name is empty; give one, since every answer begins with it")]
+    NoName,
+    #[error(
+        "the joints are {across} m across, as lengths are metres where no unit stands; add length_unit = \"mm\" if they are millimetres"
+    )]
+    ForgottenUnit { across: String },
+    #[error("the joints are {across} m across; see whether length_unit = \"{unit}\" is meant")]
+    OddSize { across: String, unit: &'static str },
+    #[error(
+        "joints \"{first}\" and \"{second}\" are {apart} {unit} apart in a mechanism {across} {unit} across; give both the same point if they are meant to meet"
+    )]
+    NearlyOnePlace {
+        first: String,
+        second: String,
+        apart: String,
+        across: String,
+        unit: &'static str,
+    },
+    #[error(
+        "coordinates look measured or rounded: {what}; write exact ones in quotes, such as \"sqrt(3)/2\" or \"cos(36deg)\", where they are known (--snap T sets the tolerance else)"
+    )]
+    Measured { what: String },
+    #[error(
+        "no contour is closed in any state; nothing can be redundant without one: add the joints that close it"
+    )]
+    NoContour,
+    #[error(
+        "no contour passes through {joints}; freedoms there add to the mobility, and no constraint there is redundant: add the joint that closes one if it is missing"
+    )]
+    OpenChain { joints: String },
+    #[error(
+        "object \"{link}\" has a single joint in state {state}; add the other contact that clamps it"
+    )]
+    Dangling { link: String, state: String },
+    #[error(
+        "object \"{link}\" is there in the free state; give its joints a state, such as state = \"clamped\""
+    )]
+    ObjectAlwaysThere { link: String },
+    #[error(
+        "joint \"{joint}\" is fixed in every state; make one link of \"{first}\" and \"{second}\", or give it a state"
+    )]
+    AlwaysFixed {
+        joint: String,
+        first: String,
+        second: String,
+    },
+    #[error("joints \"{first}\" and \"{second}\" are the same joint twice; remove one")]
+    Twin { first: String, second: String },
+    #[error(
+        "this contour follows from the others of its state, and is passed over; remove it or name another"
+    )]
+    DependentContour,
+    #[error(
+        "no joint can take the option \"{option}\", as it does not allow their present motion; remove it"
+    )]
+    UselessOption { option: String },
+    #[error(
+        "no joint allows an unloading joint, so this list has no effect; write unloading = true at a joint"
+    )]
+    UnloadingNowhere,
+    #[error(
+        "joint \"{joint}\" allows unloading joints, but [search] lists none; add unloading = [\"spherical\"] there"
+    )]
+    UnloadingOfNothing { joint: String },
+    #[error(
+        "joint \"{joint}\" forbids \"{option}\", which is no option of it; remove it, or mend the word"
+    )]
+    ForbidsNothing { joint: String, option: String },
+    #[error("no joint is a drive, so {what} has nothing to move; mark one: drive = true")]
+    NoDrive { what: &'static str },
+    #[error("no link has a mass, so gravity has no effect; add mass and centre to the links")]
+    GravityAlone,
+    #[error(
+        "masses have no effect without gravity or drive_speed; add gravity = [0, 0, -9.81] to [workload]"
+    )]
+    MassAlone,
+    #[error(
+        "the ranking asks for {term}, but nothing loads the mechanism; add forces, moments, or masses with gravity"
+    )]
+    RankingUnloaded { term: &'static str },
+    #[error(
+        "the file says {key} = {stated} in state {state}, and the analysis finds {found}; mend the figure, or delete [[expected]] where the mechanism is no longer the published one"
+    )]
+    Stale {
+        key: &'static str,
+        state: String,
+        stated: i64,
+        found: i64,
+    },
+}
+
+/// A doubt and where it stands.
+#[derive(Debug, Clone)]
+pub struct Doubt {
+    /// What is doubtful.
+    pub kind: DoubtKind,
+    /// Bytes of the text it concerns, where known.
+    pub span: Option<Range<usize>>,
+}
+
+/// The doubts about a file.
+#[derive(Debug, Clone)]
+pub struct Doubts {
+    /// Name of the file.
+    pub file: String,
+    /// Its text.
+    pub text: String,
+    /// The doubts, in order of the file where known.
+    pub doubts: Vec<Doubt>,
+}
+
+impl Doubts {
+    /// Adds a doubt about the item at a path of the file.
+    pub fn add(&mut self, path: &[Step], kind: DoubtKind) {
+        let document = Document::new(&self.text, is_json(&self.file));
+        let span = document.and_then(|d| d.span(path));
+        let at = |d: &Doubt| d.span.as_ref().map_or(0, |s| s.start);
+        self.doubts.push(Doubt { kind, span });
+        self.doubts.sort_by_key(at);
+    }
+
+    /// The doubts with the lines they stand on, for a terminal.
+    #[must_use]
+    pub fn render(&self, colour: bool) -> String {
+        let one = |d: &Doubt| {
+            let message = d.kind.to_string();
+            let span = d.span.clone();
+            render(
+                Level::WARNING,
+                colour,
+                (&self.file, &self.text),
+                span,
+                &message,
+            )
+        };
+        self.doubts.iter().map(one).join("\n")
+    }
+}
+
+/// A file that can be used, and what is doubtful in it.
+#[derive(Debug, Clone)]
+pub struct Checked {
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// Which of `grip` and `drive` the workload has.
+    pub tables: Vec<&'static str>,
+    /// The doubts.
+    pub doubts: Doubts,
+}
+
+/// Reads a mechanism and says what is doubtful in its file; names that end in `.json` are JSON, all others TOML.
+///
+/// # Complexity
+/// That of the contour bases of all states, and O(p²) for p joints.
+///
+/// # Errors
+/// Every problem found, each with its place, where the file cannot be used.
+pub fn check(name: &str, bytes: &[u8]) -> Result<Checked, ImportError> {
+    let text = text_of(name, bytes)?;
+    read(name, text, |file| {
+        let mechanism = build(file)?;
+        let mut doubts = Doubts {
+            file: name.to_owned(),
+            text: text.to_owned(),
+            doubts: Vec::new(),
+        };
+        for (path, kind) in find(file, &mechanism) {
+            doubts.add(&path, kind);
+        }
+        Ok(Checked {
+            mechanism,
+            tables: workload_tables(file),
+            doubts,
+        })
+    })
+}
+
+type Found = Vec<(Vec<Step>, DoubtKind)>;
+
+fn root(k: &str) -> Vec<Step> {
+    vec![Step::Key(k.to_owned())]
+}
+
+fn find(file: &MechanismFile, m: &Mechanism) -> Found {
+    let mut out = Found::new();
+    if m.name.trim().is_empty() {
+        out.push((root("name"), DoubtKind::NoName));
+    }
+    lengths(file, m, &mut out);
+    contours(m, &mut out);
+    structure(m, &mut out);
+    search(file, m, &mut out);
+    workload(file, m, &mut out);
+    out
+}
+
+fn place(j: &Joint) -> [f64; 3] {
+    [0, 1, 2].map(|i| j.frame.point[i].to_f64())
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+}
+
+fn short(x: f64) -> String {
+    if (1e-3..1e5).contains(&x) {
+        let text = format!("{x:.3}");
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        format!("{x:.2e}")
+    }
+}
+
+/// Diagonal of the box round the joints, in the file's unit.
+#[must_use]
+pub fn across(m: &Mechanism) -> f64 {
+    let bound = |i: usize, pick: fn(f64, f64) -> f64| {
+        m.joints
+            .iter()
+            .map(|j| place(j)[i])
+            .reduce(pick)
+            .unwrap_or(0.0)
+    };
+    distance(
+        [0, 1, 2].map(|i| bound(i, f64::min)),
+        [0, 1, 2].map(|i| bound(i, f64::max)),
+    )
+}
+
+fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
+    let across = across(m);
+    let metres = across * m.length_unit.metres;
+    if file.length_unit.is_none() && metres > FORGOTTEN_UNIT {
+        let across = short(metres);
+        out.push((root("name"), DoubtKind::ForgottenUnit { across }));
+    } else if across > 0.0 && !(SIZES.0..=SIZES.1).contains(&metres) {
+        let (across, unit) = (short(metres), m.length_unit.symbol);
+        out.push((root("length_unit"), DoubtKind::OddSize { across, unit }));
+    }
+    if let Some(measured) = looks_measured(m) {
+        let what = measured.to_string();
+        out.push((root("joint"), DoubtKind::Measured { what }));
+        return;
+    }
+    let pairs = (0..m.joints.len()).tuple_combinations();
+    let near = pairs.filter(|&(a, b)| {
+        let shared = m.joints[a]
+            .links
+            .iter()
+            .any(|l| m.joints[b].links.contains(l));
+        shared && {
+            let apart = distance(place(&m.joints[a]), place(&m.joints[b]));
+            apart > 0.0 && apart < SAME_PLACE * across
+        }
+    });
+    for (a, b) in near {
+        let apart = distance(place(&m.joints[a]), place(&m.joints[b]));
+        let kind = DoubtKind::NearlyOnePlace {
+            first: m.joints[a].id.clone(),
+            second: m.joints[b].id.clone(),
+            apart: short(apart),
+            across: short(across),
+            unit: m.length_unit.symbol,
+        };
+        out.push((key(&index(&root("joint"), b), "point"), kind));
+    }
+}
+
+fn contours(m: &Mechanism, out: &mut Found) {
+    let joints = |c: &Contour| c.joints.iter().map(|&(j, _)| j).sorted().collect_vec();
+    let bases: Vec<Vec<Vec<JointId>>> = (0..m.states.len())
+        .map(|s| contour_basis(m, s).iter().map(joints).collect())
+        .collect();
+    let walked: Vec<bool> = (0..m.joints.len())
+        .map(|j| {
+            let coupled = m.couplings.iter().flat_map(|c| &c.ends);
+            bases.iter().flatten().any(|c| c.contains(&j))
+                || coupled.into_iter().any(|e| e.joint == j)
+        })
+        .collect();
+    if !walked.contains(&true) {
+        out.push((root("joint"), DoubtKind::NoContour));
+    } else {
+        let open: Vec<JointId> = (0..m.joints.len()).filter(|&j| !walked[j]).collect();
+        if let Some(&first) = open.first() {
+            let names = open.iter().take(SHOWN).map(|&j| m.joints[j].id.as_str());
+            let more = match open.len().saturating_sub(SHOWN) {
+                0 => String::new(),
+                n => format!(" and {n} more"),
+            };
+            let joints = format!("{}{more}", names.format(", "));
+            out.push((
+                index(&root("joint"), first),
+                DoubtKind::OpenChain { joints },
+            ));
+        }
+    }
+    let named = m.contours.iter();
+    let named = named.map(|c| c.iter().copied().sorted().collect_vec());
+    let named = named.collect_vec();
+    for (i, contour) in named.iter().enumerate() {
+        if named[..i].contains(contour) || !bases.iter().flatten().contains(contour) {
+            let at = key(&index(&root("contour"), i), "joints");
+            out.push((at, DoubtKind::DependentContour));
+        }
+    }
+}
+
+fn structure(m: &Mechanism, out: &mut Found) {
+    for (l, link) in m.links.iter().enumerate() {
+        if link.role != Role::Object {
+            continue;
+        }
+        let at = key(&index(&root("link"), l), "id");
+        let here = |s: usize| {
+            let of = |&j: &JointId| m.joints[j].links.contains(&l);
+            m.joints_in(s).filter(of).count()
+        };
+        if here(0) > 0 {
+            let link = link.id.clone();
+            out.push((at, DoubtKind::ObjectAlwaysThere { link }));
+            continue;
+        }
+        if let Some(s) = (0..m.states.len()).find(|&s| here(s) == 1) {
+            let (link, state) = (link.id.clone(), m.states[s].clone());
+            out.push((at, DoubtKind::Dangling { link, state }));
+        }
+    }
+    for (i, j) in m.joints.iter().enumerate() {
+        let at = index(&root("joint"), i);
+        if j.joint_type == JointType::Fixed && j.states.is_none() {
+            let kind = DoubtKind::AlwaysFixed {
+                joint: j.id.clone(),
+                first: m.links[j.links[0]].id.clone(),
+                second: m.links[j.links[1]].id.clone(),
+            };
+            out.push((key(&at, "type"), kind));
+        }
+        let twin = m.joints[..i].iter().find(|o| twins(o, j));
+        if let Some(o) = twin {
+            let (first, second) = (o.id.clone(), j.id.clone());
+            out.push((key(&at, "links"), DoubtKind::Twin { first, second }));
+        }
+    }
+}
+
+/// The same two links, type, place and axis, in the same states.
+fn twins(a: &Joint, b: &Joint) -> bool {
+    let same = |x: &[Expr; 3], y: &[Expr; 3]| (0..3).all(|i| x[i].to_f64() == y[i].to_f64());
+    a.links.iter().sorted().eq(b.links.iter().sorted())
+        && a.joint_type == b.joint_type
+        && a.states == b.states
+        && same(&a.frame.point, &b.frame.point)
+        && same(&a.frame.axis, &b.frame.axis)
+        && same(&a.frame.reference, &b.frame.reference)
+}
+
+fn option_name(o: &OptionEntry) -> Option<&str> {
+    match o {
+        OptionEntry::Word(w) => Some(w),
+        OptionEntry::Table(t) => t.name.as_deref().or(t.kind.as_deref()),
+    }
+}
+
+fn search(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
+    let at = root("search");
+    let changeable = m.joints.iter().any(|j| j.options.len() > 1);
+    for (i, o) in file.search.options.iter().enumerate() {
+        let Some(name) = option_name(o) else { continue };
+        let taken = m
+            .joints
+            .iter()
+            .any(|j| j.options.iter().any(|o| o.name == name));
+        if changeable && !taken {
+            let option = name.to_owned();
+            let path = index(&key(&at, "options"), i);
+            out.push((path, DoubtKind::UselessOption { option }));
+        }
+    }
+    let asks =
+        |u: &Option<Unloading>| matches!(u, Some(Unloading::Allowed(true) | Unloading::List(_)));
+    let wants = file
+        .joint
+        .iter()
+        .position(|j| matches!(j.unloading, Some(Unloading::Allowed(true))));
+    if file.search.unloading.is_empty() {
+        if let Some(j) = wants {
+            let joint = file.joint[j].id.clone();
+            let path = key(&index(&root("joint"), j), "unloading");
+            out.push((path, DoubtKind::UnloadingOfNothing { joint }));
+        }
+    } else if !file.joint.iter().any(|j| asks(&j.unloading)) {
+        out.push((key(&at, "unloading"), DoubtKind::UnloadingNowhere));
+    }
+    for (i, j) in file.joint.iter().enumerate() {
+        let list = j.options.as_ref().unwrap_or(&file.search.options);
+        for (n, word) in j.forbid.iter().enumerate() {
+            if !list.iter().any(|o| option_name(o) == Some(word)) {
+                let (joint, option) = (j.id.clone(), word.clone());
+                let path = index(&key(&index(&root("joint"), i), "forbid"), n);
+                out.push((path, DoubtKind::ForbidsNothing { joint, option }));
+            }
+        }
+    }
+}
+
+fn workload(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
+    let at = root("workload");
+    let loads = &m.loads;
+    if !m.joints.iter().any(|j| j.drive) {
+        let what = [
+            (file.workload.stroke.is_some(), "stroke"),
+            (file.workload.drive_speed.is_some(), "drive_speed"),
+        ];
+        if let Some((_, what)) = what.into_iter().find(|w| w.0) {
+            out.push((key(&at, what), DoubtKind::NoDrive { what }));
+        }
+    }
+    let heavy = m
+        .links
+        .iter()
+        .position(|l| l.mass.as_ref().is_some_and(|p| p.mass > 0.0));
+    let moved = loads.drive_speeds.iter().any(|v| *v != 0.0);
+    match (heavy, &loads.gravity) {
+        (None, Some(_)) => out.push((key(&at, "gravity"), DoubtKind::GravityAlone)),
+        // A disc of a torsional drive takes its inertia from its link.
+        (Some(l), None) if !moved && file.workload.drive.is_none() => {
+            let path = key(&index(&root("link"), l), "mass");
+            out.push((path, DoubtKind::MassAlone));
+        }
+        _ => {}
+    }
+    let loaded = !loads.forces.is_empty()
+        || !loads.moments.is_empty()
+        || !loads.misalignments.is_empty()
+        || loads.grip.as_ref().is_some_and(|g| g.contacts.is_some())
+        || (heavy.is_some() && (loads.gravity.is_some() || moved));
+    let asked = m
+        .ranking
+        .iter()
+        .flat_map(|r| &r.terms)
+        .find_map(|(t, _)| matches!(t, Term::PeakForce | Term::PeakMoment).then(|| t.name()));
+    if let Some(term) = asked.filter(|_| !loaded) {
+        out.push((
+            key(&root("ranking"), "terms"),
+            DoubtKind::RankingUnloaded { term },
+        ));
+    }
+}

@@ -1,0 +1,259 @@
+//! What can be wrong with a file, in words that name the item and the remedy.
+
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use std::fmt;
+use std::ops::Range;
+use thiserror::Error;
+
+/// What is wrong.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+#[allow(
+    missing_docs,
+    reason = "the wording of each variant says what its fields are"
+)]
+pub enum ProblemKind {
+    #[error(
+        "the file has {bytes} bytes, more than the {limit} allowed; split it or remove what is not a mechanism"
+    )]
+    TooLarge { bytes: usize, limit: usize },
+    #[error("the file is empty; `ozols schema` describes what goes into it")]
+    Empty,
+    #[error("the file is not UTF-8 text (byte {at}); save it as UTF-8")]
+    NotUtf8 { at: usize },
+    #[error("{message}")]
+    Syntax { message: String },
+    #[error("{what} has the id \"{id}\" twice; ids must be unique")]
+    Duplicate { what: &'static str, id: String },
+    #[error("an id must have 1 to 64 characters and no control characters, not {id:?}")]
+    BadId { id: String },
+    #[error("unknown link \"{id}\"; known links: {known}")]
+    UnknownLink { id: String, known: String },
+    #[error("unknown joint \"{id}\"; known joints: {known}")]
+    UnknownJoint { id: String, known: String },
+    #[error("unknown {what} \"{word}\"; known: {known}")]
+    UnknownWord {
+        what: &'static str,
+        word: String,
+        known: String,
+    },
+    #[error("joint \"{joint}\" connects link \"{link}\" to itself; name two different links")]
+    SelfLoop { joint: String, link: String },
+    #[error(
+        "link \"{link}\" is not connected to the frame in state {state}; add the joint that holds it, or remove it"
+    )]
+    Disconnected { link: String, state: String },
+    #[error("link \"{link}\" has no joint in any state; connect it or remove it")]
+    Unused { link: String },
+    #[error("the {what} of joint \"{joint}\" is zero; give a direction such as [0, 0, 1]")]
+    ZeroVector { joint: String, what: &'static str },
+    #[error("the reference of joint \"{joint}\" is parallel to its axis; give another direction")]
+    ParallelReference { joint: String },
+    #[error("joint \"{joint}\" of type {kind} needs {what}")]
+    Missing {
+        joint: String,
+        kind: String,
+        what: &'static str,
+    },
+    #[error("joint \"{joint}\" of type {kind} takes no {what}; remove it")]
+    Superfluous {
+        joint: String,
+        kind: String,
+        what: &'static str,
+    },
+    #[error("joint \"{joint}\" names the freedom {freedom} twice; name each once")]
+    RepeatedFreedom { joint: String, freedom: String },
+    #[error("{message}")]
+    BadNumber { message: String },
+    #[error(
+        "coordinate {value} is out of range; lengths may be 1e-40 to 1e12 in size: choose another length_unit"
+    )]
+    OutOfRange { value: String },
+    #[error(
+        "option \"{option}\" of joint \"{joint}\" does not contain the motion of the present {present} joint; every option must allow at least the present motion"
+    )]
+    LosesMotion {
+        joint: String,
+        option: String,
+        present: String,
+    },
+    #[error("joint \"{joint}\" has two options named \"{option}\"; give one of them another name")]
+    RepeatedOption { joint: String, option: String },
+    #[error("{what} {value} is out of range; give {allowed}")]
+    BadQuantity {
+        what: &'static str,
+        value: String,
+        allowed: &'static str,
+    },
+    #[error("{key} needs {other}")]
+    KeyNeeds {
+        key: &'static str,
+        other: &'static str,
+    },
+    #[error("{key} cannot stand beside {other}; keep one of them")]
+    KeyExcludes {
+        key: &'static str,
+        other: &'static str,
+    },
+    #[error(
+        "the file has no [workload.{table}] table; `ozols show {example}` prints one to start from"
+    )]
+    NoWorkload {
+        table: &'static str,
+        example: &'static str,
+    },
+    #[error("link \"{link}\" has part of its mass data only; add {what}")]
+    LinkNeeds { link: String, what: &'static str },
+    #[error("no link has the role \"frame\"; mark the fixed link: role = \"frame\"")]
+    NoFrame,
+    #[error("link \"{second}\" is a second frame after \"{first}\"; keep one role = \"frame\"")]
+    SecondFrame { first: String, second: String },
+    #[error("no link has the role \"output\"; mark the working link: role = \"output\"")]
+    NoOutput,
+    #[error(
+        "the joints of this contour do not form one closed walk; list them in order round the contour"
+    )]
+    OpenContour,
+    #[error(
+        "joint \"{joint}\" is coupled with itself; name two joints (a turn and a slide that go together are a helical joint)"
+    )]
+    CouplesItself { joint: String },
+    #[error("joints \"{first}\" and \"{second}\" are coupled twice; keep one of the couplings")]
+    CoupledTwice { first: String, second: String },
+    #[error(
+        "joints \"{first}\" and \"{second}\" are coupled but not present in the same states; give both the same state"
+    )]
+    CouplesStates { first: String, second: String },
+    #[error(
+        "the ratio of the axes' lengths of joints \"{first}\" and \"{second}\" has no exact value; give both an axis of length 1"
+    )]
+    CouplingInexact { first: String, second: String },
+    #[error(
+        "the ratio of a coupling is zero, which would hold the second joint still; give another ratio, or make that joint fixed"
+    )]
+    ZeroRatio,
+    #[error(
+        "joint \"{joint}\" of type {kind} has no freedom that can be coupled; couple turns about one axis and slides (a ball's turns have no axis of their own)"
+    )]
+    NothingToCouple { joint: String, kind: String },
+    #[error("joint \"{joint}\" has several freedoms; say which is coupled: {known}")]
+    WhichFreedom { joint: String, known: String },
+    #[error(
+        "option \"{option}\" of joint \"{joint}\" does not keep the freedom that is coupled, about the same axis; leave it out"
+    )]
+    LosesCoupling { joint: String, option: String },
+    #[error("joint \"{joint}\" is in more than one mirror pair; pair each joint once")]
+    RepeatedMirror { joint: String },
+    #[error("cost {value} must be a finite number from 0 to 1e6")]
+    BadCost { value: String },
+    #[error("the file has {count} {what}, more than the {limit} allowed")]
+    TooMany {
+        what: &'static str,
+        count: usize,
+        limit: usize,
+    },
+    #[error("{count} more problems are not listed; mend those above first")]
+    More { count: usize },
+}
+
+/// A problem and where it stands.
+#[derive(Debug, Clone)]
+pub struct Problem {
+    /// What is wrong.
+    pub kind: ProblemKind,
+    /// Bytes of the text it concerns, where known.
+    pub span: Option<Range<usize>>,
+}
+
+/// A file that could not be used, with every problem found.
+#[derive(Debug, Clone)]
+pub struct ImportError {
+    /// Name of the file.
+    pub file: String,
+    /// Its text; empty where it could not be read as text.
+    pub text: String,
+    /// The problems, in order of the file where known.
+    pub problems: Vec<Problem>,
+}
+
+impl ImportError {
+    /// Line and column, from 1, of a byte.
+    #[must_use]
+    pub fn line_and_column(&self, at: usize) -> (usize, usize) {
+        let before = self.text.get(..at.min(self.text.len())).unwrap_or("");
+        let line = before.matches('\n').count() + 1;
+        (
+            line,
+            before.rsplit('\n').next().unwrap_or("").chars().count() + 1,
+        )
+    }
+
+    /// The problems with the lines they stand on, for a terminal.
+    #[must_use]
+    pub fn render(&self, colour: bool) -> String {
+        let one = |p: &Problem| {
+            let message = p.kind.to_string();
+            let source = (self.file.as_str(), self.text.as_str());
+            render(Level::ERROR, colour, source, p.span.clone(), &message)
+        };
+        self.problems.iter().map(one).collect::<Vec<_>>().join("\n")
+    }
+}
+
+/// A message about a part of a file, given by its name and text, with the line it stands on; what follows a semicolon
+/// is the remedy.
+pub(crate) fn render(
+    level: Level<'static>,
+    colour: bool,
+    (file, text): (&str, &str),
+    span: Option<Range<usize>>,
+    message: &str,
+) -> String {
+    let renderer = if colour {
+        Renderer::styled()
+    } else {
+        Renderer::plain()
+    };
+    let Some(span) = span.filter(|s| !text.is_empty() && text.get(s.clone()).is_some()) else {
+        let message = format!("{file}: {message}");
+        let title = level.primary_title(message.as_str());
+        return renderer.render(&[Group::with_title(title)]).to_string();
+    };
+    // A table reaches over many lines; its first is enough to find it.
+    let end = text[span.clone()]
+        .find('\n')
+        .map_or(span.end, |n| span.start + n);
+    let (message, help) = match message.split_once("; ") {
+        Some((m, h)) => (m, Some(h)),
+        None => (message, None),
+    };
+    let snippet = Snippet::source(text)
+        .path(file)
+        .annotation(AnnotationKind::Primary.span(span.start..end.max(span.start)));
+    let title = level.primary_title(message).element(snippet);
+    let group = match help {
+        Some(h) => title.element(Level::HELP.message(h)),
+        None => title,
+    };
+    renderer.render(&[group]).to_string()
+}
+
+impl fmt::Display for ImportError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, p) in self.problems.iter().enumerate() {
+            if i > 0 {
+                writeln!(f)?;
+            }
+            match &p.span {
+                Some(s) => {
+                    let (line, column) = self.line_and_column(s.start);
+                    write!(f, "{}:{line}:{column}: {}", self.file, p.kind)?;
+                }
+                None => write!(f, "{}: {}", self.file, p.kind)?,
+            }
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for ImportError {}

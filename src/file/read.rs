@@ -1,0 +1,107 @@
+//! Validation: from the file's entries to a mechanism, or every problem with them.
+
+mod connected;
+mod contours;
+mod coupling;
+pub mod drive;
+mod expected;
+pub mod grip;
+pub mod joint_loads;
+mod joints;
+mod links;
+pub mod loads;
+mod mode;
+mod names;
+mod options;
+pub(crate) mod quantity;
+pub mod ranking;
+pub(crate) mod resolve;
+mod search;
+mod unit;
+pub mod workload;
+
+use crate::file::findings::{Finding, Findings};
+use crate::file::locate::Step;
+use crate::file::problem::ProblemKind;
+use crate::file::read::coupling::couplings;
+use crate::file::read::drive::drive;
+use crate::file::read::grip::grip;
+use crate::file::read::loads::loads;
+use crate::file::read::ranking::{joint_types, ranking};
+use crate::file::read::unit::length_unit;
+use crate::file::schema::MechanismFile;
+use crate::model::loads::Loads;
+use crate::model::mechanism::{Mechanism, SearchSpec};
+use connected::connected;
+use contours::contours;
+use expected::expected;
+use joints::{joints, states};
+use links::links;
+use mode::mode;
+use search::search;
+
+/// Most links, joints (and as many contours), and options of one joint in a file.
+pub const LIMITS: (usize, usize, usize) = (2000, 4000, 64);
+
+/// Builds a mechanism.
+///
+/// # Errors
+/// The problems found, the first hundred of them.
+pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
+    let mut out = Findings::default();
+    for (what, count, limit) in [
+        ("links", file.link.len(), LIMITS.0),
+        ("joints", file.joint.len(), LIMITS.1),
+        ("contours", file.contour.len(), LIMITS.1),
+        ("couplings", file.coupling.len(), LIMITS.1),
+    ] {
+        if count > limit {
+            return Err(vec![(
+                vec![Step::Key(what[..what.len() - 1].to_owned())],
+                ProblemKind::TooMany { what, count, limit },
+            )]);
+        }
+    }
+    let length_unit = length_unit(file, &mut out);
+    let mode = mode(file, &mut out);
+    let links = links(file, &mut out);
+    let states = states(file, &mut out);
+    let joints = joints(file, &links, &states, &mut out);
+    if out.count() > 0 {
+        return Err(out.told());
+    }
+    let mut mechanism = Mechanism {
+        name: file.name.clone(),
+        description: file.description.clone(),
+        sources: file.sources.clone(),
+        length_unit,
+        mode,
+        links,
+        joints,
+        couplings: Vec::new(),
+        states,
+        contours: Vec::new(),
+        search: SearchSpec::default(),
+        loads: Loads::default(),
+        ranking: None,
+        joint_types: Vec::new(),
+        expected: Vec::new(),
+    };
+    connected(&mechanism, &mut out);
+    couplings(file, &mut mechanism, &mut out);
+    mechanism.contours = contours(file, &mechanism, &mut out);
+    mechanism.search = search(file, &mechanism, &mut out);
+    mechanism.loads = loads(file, &mechanism, &mut out);
+    mechanism.loads.grip = grip(file, length_unit.metres, Some(&mechanism), &mut out);
+    mechanism.loads.drive = drive(file, length_unit.metres, Some(&mechanism), &mut out);
+    mechanism.ranking = ranking(file, &mechanism, &mut out);
+    let (joint_types, costs) = joint_types(file, &mechanism, &mut out);
+    mechanism.joint_types = joint_types;
+    let by_type = &mut mechanism.search.costs.by_type_milli;
+    by_type.extend(costs);
+    // [search.costs] come first and win.
+    by_type.sort_by(|a, b| a.0.cmp(&b.0));
+    by_type.dedup_by(|later, first| later.0 == first.0);
+    mechanism.expected = expected(file, &mechanism, &mut out);
+    out.unless(mechanism)
+}

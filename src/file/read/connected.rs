@@ -1,0 +1,62 @@
+//! Every link hangs on the frame.
+
+use crate::file::findings::Findings;
+use crate::file::locate::Step;
+use crate::file::problem::ProblemKind;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
+
+/// Every link must hang on the frame in each state it has joints in.
+pub(crate) fn connected(mechanism: &Mechanism, out: &mut Findings) {
+    let at = |l: LinkId| {
+        [
+            Step::Key("link".to_owned()),
+            Step::Index(l),
+            Step::Key("id".to_owned()),
+        ]
+    };
+    for (l, link) in mechanism.links.iter().enumerate() {
+        if !mechanism.joints.iter().any(|j| j.links.contains(&l)) {
+            out.add(
+                &at(l),
+                ProblemKind::Unused {
+                    link: link.id.clone(),
+                },
+            );
+        }
+    }
+    for (s, state) in mechanism.states.iter().enumerate() {
+        let mut reached = vec![mechanism.frame()];
+        let mut next = 0;
+        let joints: Vec<JointId> = mechanism.joints_in(s).collect();
+        while let Some(&l) = reached.get(next) {
+            next += 1;
+            for &j in &joints {
+                let [a, b] = mechanism.joints[j].links;
+                for (from, to) in [(a, b), (b, a)] {
+                    if from == l && !reached.contains(&to) {
+                        reached.push(to);
+                    }
+                }
+            }
+        }
+        for (l, link) in mechanism
+            .links
+            .iter()
+            .enumerate()
+            .filter(|(l, _)| !reached.contains(l))
+        {
+            let here = joints
+                .iter()
+                .any(|&j| mechanism.joints[j].links.contains(&l));
+            if here || (s == 0 && link.role == Role::Output) {
+                out.add(
+                    &at(l),
+                    ProblemKind::Disconnected {
+                        link: link.id.clone(),
+                        state: state.clone(),
+                    },
+                );
+            }
+        }
+    }
+}

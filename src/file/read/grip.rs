@@ -1,0 +1,503 @@
+//! The `[workload.grip]` table.
+
+use crate::file::findings::Findings;
+use crate::file::locate::Step;
+use crate::file::read::names::joint_by_id;
+use crate::file::read::quantity::{Bound, Table, word};
+use crate::file::read::resolve::{index, key};
+use crate::file::schema::{Coordinate, MechanismFile};
+use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
+use crate::model::mechanism::{JointId, Mechanism, Role};
+use itertools::Itertools;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Standard gravity. `[m/s²]`
+const GRAVITY: f64 = 9.80665;
+/// Most diameters and accelerations.
+const MOST: usize = 1000;
+
+/// A gripper of two mirrored levers with V-prisms, for `ozols grip`. Lengths in the file's unit; angles in degrees, or as
+/// "120deg", "2.1rad", "2*pi/3". Axes: x along the gripper's axis of symmetry from the pivots to the part, y across from the lower to the upper lever, z
+/// along the part.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GripEntry {
+    /// L, from the pivot to the vertex of the prism.
+    pub lever_length: Coordinate,
+    /// α, between the faces of the prism.
+    pub prism_angle: Coordinate,
+    /// γ, between the lever and the face nearer to the pivot.
+    pub mounting_angle: Coordinate,
+    /// Nominal diameter D of the part.
+    pub diameter: Coordinate,
+    /// Diameters to be held: a list, or { from, to, count }; the nominal one where left out.
+    #[serde(default)]
+    pub diameters: Option<Diameters>,
+    /// "fixed" (the default): the pivots stay where `diameter` is nominal, the levers turn to fit other parts; "nominal": the
+    /// pivots are set anew for each diameter.
+    #[serde(default)]
+    pub pivots: Option<String>,
+    /// a, from the pivots to the axis of symmetry, in place of the one that follows from `diameter`.
+    #[serde(default)]
+    pub pivot_distance: Option<Coordinate>,
+    /// Length of the faces from the vertex; contacts beyond it do not hold.
+    #[serde(default)]
+    pub face_length: Option<Coordinate>,
+    /// Width of the levers, which must keep clear of each other; 0 where left out.
+    #[serde(default)]
+    pub lever_width: Option<Coordinate>,
+    /// Whether the levers lie in planes of their own and may cross, as they do where l2 > l1; false where left out.
+    #[serde(default)]
+    pub levers_cross: bool,
+    /// Mass of the part in kg.
+    #[serde(default)]
+    pub mass: Option<Coordinate>,
+    /// Density of the part in kg/m³, in place of its mass; with `part_length`.
+    #[serde(default)]
+    pub density: Option<Coordinate>,
+    /// Length of the part, with `density`.
+    #[serde(default)]
+    pub part_length: Option<Coordinate>,
+    /// Mass centre of the part from the middle of the jaws; [0, 0, 0] where left out.
+    #[serde(default)]
+    pub centre_of_mass: Option<[Coordinate; 3]>,
+    /// Acceleration of gravity in m/s² in the gripper's axes, or "any" where the robot turns the gripper about;
+    /// [0, -9.80665, 0] where left out.
+    #[serde(default)]
+    pub gravity: Option<Gravity>,
+    /// Accelerations of the gripper in m/s² in its own axes, each a case of its own.
+    #[serde(default)]
+    pub accelerations: Vec<[Coordinate; 3]>,
+    /// Acceleration of the gripper in m/s² in any direction.
+    #[serde(default)]
+    pub any_acceleration: Option<Coordinate>,
+    /// Coefficient of friction between part and faces.
+    #[serde(default)]
+    pub friction: Option<Coordinate>,
+    /// Factor on the load; 1 where left out.
+    #[serde(default)]
+    pub safety: Option<Coordinate>,
+    /// "coupled" (the default): one drive turns both levers by the same angle; "equal": the same moment on both;
+    /// "independent": a drive each.
+    #[serde(default)]
+    pub levers: Option<String>,
+    /// Travel of the drive per radian of the levers, which makes drive moments a drive force.
+    #[serde(default)]
+    pub drive_arm: Option<Coordinate>,
+    /// The joints that the two levers turn in, upper and lower, in place of `drive_arm`: the travel follows from the
+    /// mechanism, whose pose in the file is that of the nominal diameter.
+    #[serde(default)]
+    pub lever_joints: Option<[String; 2]>,
+    /// The joints of the part that stand for its contacts: upper far, upper near, lower far, lower near. In the states that
+    /// have them, `ozols statics` and `ozols search` load the jaws with the contact forces found here. Needs `lever_joints`.
+    #[serde(default)]
+    pub contacts: Option<[String; 4]>,
+}
+
+/// Diameters: a list, or equal steps.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(
+    untagged,
+    expecting = "expected a list of diameters, or a table such as { from = 30, to = 60, count = 7 }"
+)]
+pub enum Diameters {
+    /// These.
+    List(Vec<Coordinate>),
+    /// Equal steps.
+    Steps(DiameterSteps),
+}
+
+/// Equal steps of diameter.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DiameterSteps {
+    /// The least.
+    pub from: Coordinate,
+    /// The greatest.
+    pub to: Coordinate,
+    /// How many.
+    pub count: i64,
+}
+
+/// A vector, or "any".
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(
+    untagged,
+    expecting = "expected a vector in m/s² such as [0, -9.81, 0], or \"any\""
+)]
+pub enum Gravity {
+    /// This one.
+    Vector([Coordinate; 3]),
+    /// "any".
+    Word(String),
+}
+
+fn diameters(t: &mut Table<'_>, entry: &GripEntry, unit: f64, nominal: f64) -> Vec<f64> {
+    let at = key(&t.at, "diameters");
+    let mut list = match &entry.diameters {
+        None => return vec![nominal],
+        Some(Diameters::List(list)) if list.is_empty() || list.len() > MOST => {
+            t.bad(
+                &at,
+                "number of diameters",
+                list.len().to_string(),
+                "1 to 1000",
+            );
+            return vec![nominal];
+        }
+        Some(Diameters::List(list)) => {
+            let each = list.iter().enumerate();
+            each.map(|(i, c)| t.number_at(&index(&at, i), "diameter", c, unit, Bound::Positive))
+                .collect_vec()
+        }
+        Some(Diameters::Steps(s)) => {
+            let from = t.number_at(&key(&at, "from"), "diameter", &s.from, 1.0, Bound::Positive);
+            let to = t.number_at(&key(&at, "to"), "diameter", &s.to, 1.0, Bound::Positive);
+            if to < from {
+                let path = key(&at, "to");
+                t.bad(
+                    &path,
+                    "the greatest diameter",
+                    to.to_string(),
+                    "one not below `from`",
+                );
+            }
+            let Some(count) = usize::try_from(s.count)
+                .ok()
+                .filter(|n| (1..=MOST).contains(n))
+            else {
+                let path = key(&at, "count");
+                t.bad(
+                    &path,
+                    "number of diameters",
+                    s.count.to_string(),
+                    "1 to 1000",
+                );
+                return vec![nominal];
+            };
+            let step = (to - from) / (count.max(2) - 1) as f64;
+            // Steps in the unit of the file, so that a list of them says the same.
+            (0..count)
+                .map(|i| (from + step * i as f64) * unit)
+                .collect()
+        }
+    };
+    list.sort_by(f64::total_cmp);
+    list.dedup();
+    list
+}
+
+fn load(t: &mut Table<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
+    let mass = t.optional("mass", e.mass.as_ref(), 1.0, Bound::Positive);
+    let density = t.optional("density", e.density.as_ref(), 1.0, Bound::Positive);
+    let length = t.optional("part_length", e.part_length.as_ref(), unit, Bound::Positive);
+    let mass = match (mass, density, length) {
+        (Some(m), None, None) => PartMass::Constant(m),
+        (None, Some(density), Some(length)) => PartMass::Cylinder { density, length },
+        (None, None, None) => {
+            let loads = [
+                ("friction", e.friction.is_some()),
+                ("gravity", e.gravity.is_some()),
+                ("accelerations", !e.accelerations.is_empty()),
+                ("any_acceleration", e.any_acceleration.is_some()),
+                ("safety", e.safety.is_some()),
+            ];
+            for (k, _) in loads.into_iter().filter(|(_, given)| *given) {
+                t.needs(k, "the mass of the part: mass, or density and part_length");
+            }
+            return None;
+        }
+        (Some(_), _, _) => {
+            t.excludes("mass", "density or part_length");
+            return None;
+        }
+        (None, Some(_), None) => {
+            t.needs("density", "part_length beside it");
+            return None;
+        }
+        (None, None, Some(_)) => {
+            t.needs("part_length", "density beside it");
+            return None;
+        }
+    };
+    let Some(friction) = &e.friction else {
+        t.needs(
+            if e.mass.is_some() { "mass" } else { "density" },
+            "friction, the coefficient between part and faces, beside it",
+        );
+        return None;
+    };
+    let gravity = match &e.gravity {
+        None => Toward::Fixed([0.0, -GRAVITY, 0.0]),
+        Some(Gravity::Vector(v)) => Toward::Fixed(t.vector("gravity", v, 1.0)),
+        Some(Gravity::Word(w)) => {
+            word(t, "gravity", Some(w), &[("any", ())]);
+            Toward::Any(GRAVITY)
+        }
+    };
+    let at = key(&t.at, "accelerations");
+    if e.accelerations.len() > MOST {
+        t.bad(
+            &at,
+            "number of accelerations",
+            e.accelerations.len().to_string(),
+            "at most 1000",
+        );
+        return None;
+    }
+    let mut accelerations = Vec::new();
+    for (i, v) in e.accelerations.iter().enumerate() {
+        let v = crate::file::read::resolve::vector(v, &index(&at, i), t.out);
+        accelerations.push(Toward::Fixed(v.map(|x| x.to_f64())));
+    }
+    let any = t.optional(
+        "any_acceleration",
+        e.any_acceleration.as_ref(),
+        1.0,
+        Bound::NotNegative,
+    );
+    accelerations.extend(any.map(Toward::Any));
+    if accelerations.is_empty() {
+        accelerations.push(Toward::Fixed([0.0; 3]));
+    }
+    let kinds = [
+        ("coupled", LeverDrive::Coupled),
+        ("equal", LeverDrive::Equal),
+        ("independent", LeverDrive::Independent),
+    ];
+    Some(GripLoad {
+        mass,
+        centre_of_mass: e
+            .centre_of_mass
+            .as_ref()
+            .map_or([0.0; 3], |v| t.vector("centre_of_mass", v, unit)),
+        gravity,
+        accelerations,
+        friction: t.number(
+            "friction",
+            friction,
+            1.0,
+            Bound::Range(0.0, 10.0, "a coefficient from 0 to 10"),
+        ),
+        safety: t
+            .optional(
+                "safety",
+                e.safety.as_ref(),
+                1.0,
+                Bound::Range(1.0, 1000.0, "a factor from 1 to 1000"),
+            )
+            .unwrap_or(1.0),
+        levers: word(t, "levers", e.levers.as_ref(), &kinds),
+    })
+}
+
+fn transmission(
+    t: &mut Table<'_>,
+    e: &GripEntry,
+    unit: f64,
+    mechanism: Option<&Mechanism>,
+) -> Transmission {
+    let arm = t.optional("drive_arm", e.drive_arm.as_ref(), unit, Bound::Positive);
+    match (arm, &e.lever_joints) {
+        (Some(_), Some(_)) => {
+            t.excludes("lever_joints", "drive_arm");
+            Transmission::Unknown
+        }
+        (Some(arm), None) => Transmission::Arm(arm),
+        (None, None) => Transmission::Unknown,
+        (None, Some(ids)) => {
+            let Some(m) = mechanism else {
+                t.needs(
+                    "lever_joints",
+                    "a mechanism in the same file: links and joints",
+                );
+                return Transmission::Unknown;
+            };
+            if m.joints.iter().filter(|j| j.drive).count() != 1 {
+                t.needs("lever_joints", "one joint with drive = true");
+            }
+            match joints(t, "lever_joints", ids, m)[..] {
+                [a, b] => Transmission::Joints([a, b]),
+                _ => Transmission::Unknown,
+            }
+        }
+    }
+}
+
+/// The joints that a list names; shorter than the list where some are not known.
+fn joints(t: &mut Table<'_>, k: &'static str, ids: &[String], m: &Mechanism) -> Vec<JointId> {
+    let at = key(&t.at, k);
+    let each = ids
+        .iter()
+        .enumerate()
+        .filter_map(|(i, id)| joint_by_id(m, id, &index(&at, i), t.out));
+    each.collect()
+}
+
+/// The joints that stand for the contacts: each joins the part to the lever that is to touch it there.
+fn contacts(
+    t: &mut Table<'_>,
+    e: &GripEntry,
+    spec: &GripSpec,
+    m: &Mechanism,
+) -> Option<[JointId; 4]> {
+    let ids = e.contacts.as_ref()?;
+    let Transmission::Joints(levers) = spec.transmission else {
+        if e.lever_joints.is_none() {
+            t.needs(
+                "contacts",
+                "lever_joints, the joints that the two levers turn in, beside it",
+            );
+        }
+        return None;
+    };
+    if spec.load.is_none() {
+        t.needs(
+            "contacts",
+            "the mass of the part: mass, or density and part_length",
+        );
+    }
+    if spec
+        .load
+        .as_ref()
+        .is_some_and(|l| l.levers == LeverDrive::Independent)
+    {
+        t.needs(
+            "contacts",
+            "levers = \"coupled\" or \"equal\": the mechanism has one drive for both",
+        );
+    }
+    if spec.pivots == Pivots::Nominal {
+        t.needs(
+            "contacts",
+            "pivots = \"fixed\": the mechanism's own stand where they are",
+        );
+    }
+    let [upper_far, upper_near, lower_far, lower_near] = joints(t, "contacts", ids, m)[..] else {
+        return None;
+    };
+    let found = [upper_far, upper_near, lower_far, lower_near];
+    let part = (0..m.links.len())
+        .find(|&l| m.links[l].role == Role::Object && m.joints[upper_far].links.contains(&l));
+    let at = key(&t.at, "contacts");
+    for (i, &j) in found.iter().enumerate() {
+        let joint = &m.joints[j];
+        let lever = &m.joints[levers[i / 2]];
+        let touches = joint.links.iter().any(|&l| Some(l) == part);
+        let on_lever = joint
+            .links
+            .iter()
+            .any(|l| lever.links.contains(l) && *l != m.frame());
+        if !touches || !on_lever {
+            t.bad(&index(&at, i), "contact", format!("{:?}", joint.id), match i / 2 {
+                0 => "a joint between the part (a link of role \"object\") and the link that turns in the first of lever_joints",
+                _ => "a joint between the part (a link of role \"object\") and the link that turns in the second of lever_joints",
+            });
+        } else if joint.states.is_none() || joint.states != m.joints[upper_far].states {
+            t.bad(
+                &index(&at, i),
+                "contact",
+                format!("{:?}", joint.id),
+                "one with the same `state` as the other contacts, such as state = \"clamped\"",
+            );
+        }
+    }
+    for (k, &j) in levers.iter().enumerate() {
+        if !m.joints[j].links.contains(&m.frame()) {
+            t.bad(
+                &index(&key(&t.at, "lever_joints"), k),
+                "lever joint",
+                format!("{:?}", m.joints[j].id),
+                "a joint at the frame: with contacts, the pivots stand still",
+            );
+        }
+    }
+    let further =
+        |j: usize| part.is_some_and(|p| m.joints[j].links.contains(&p)) && !found.contains(&j);
+    if (0..m.joints.len()).any(further) || !found.iter().all_unique() {
+        t.bad(
+            &at,
+            "list of contacts",
+            format!("{ids:?}"),
+            "all four joints of the part, each once: nothing else may hold it",
+        );
+    }
+    Some(found)
+}
+
+/// The gripper of a file, where it has one.
+pub(crate) fn grip(
+    file: &MechanismFile,
+    unit: f64,
+    mechanism: Option<&Mechanism>,
+    out: &mut Findings,
+) -> Option<GripSpec> {
+    let e = file.workload.grip.as_ref()?;
+    let at = ["workload", "grip"]
+        .map(|k| Step::Key(k.to_owned()))
+        .to_vec();
+    let t = &mut Table { at, out };
+    let prism_angle = t.angle_in(
+        "prism_angle",
+        &e.prism_angle,
+        (1.0, 179.0),
+        "an angle from 1 to 179 degrees: at 180 the faces form no V",
+    );
+    let mounting_angle = t.angle_in(
+        "mounting_angle",
+        &e.mounting_angle,
+        (0.0, 179.0),
+        "an angle from 0 to 179 degrees",
+    );
+    let diameter = t.number("diameter", &e.diameter, unit, Bound::Positive);
+    let fixed = word(
+        t,
+        "pivots",
+        e.pivots.as_ref(),
+        &[("fixed", true), ("nominal", false)],
+    );
+    let distance = t.optional(
+        "pivot_distance",
+        e.pivot_distance.as_ref(),
+        unit,
+        Bound::NotNegative,
+    );
+    if distance.is_some() && !fixed {
+        t.needs("pivot_distance", "pivots = \"fixed\"");
+    }
+    let mut spec = GripSpec {
+        lever_length: t.number("lever_length", &e.lever_length, unit, Bound::Positive),
+        prism_angle,
+        mounting_angle,
+        diameter,
+        diameters: diameters(t, e, unit, diameter),
+        pivots: match (fixed, distance) {
+            (false, _) => Pivots::Nominal,
+            (true, Some(a)) if e.levers_cross => Pivots::Fixed(-a),
+            (true, Some(a)) => Pivots::Fixed(a),
+            (true, None) => Pivots::FixedForDiameter,
+        },
+        face_length: t.optional("face_length", e.face_length.as_ref(), unit, Bound::Positive),
+        lever_width: t
+            .optional(
+                "lever_width",
+                e.lever_width.as_ref(),
+                unit,
+                Bound::NotNegative,
+            )
+            .unwrap_or(0.0),
+        may_cross: e.levers_cross,
+        load: load(t, e, unit),
+        transmission: transmission(t, e, unit, mechanism),
+        contacts: None,
+    };
+    match mechanism {
+        Some(m) => spec.contacts = contacts(t, e, &spec, m),
+        None if e.contacts.is_some() => {
+            t.needs("contacts", "a mechanism in the same file: links and joints");
+        }
+        None => {}
+    }
+    Some(spec)
+}

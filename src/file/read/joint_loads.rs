@@ -1,0 +1,145 @@
+//! What `[workload]` says of moments, of the stiffness of joints, and of joints made askew.
+
+use crate::file::findings::Findings;
+use crate::file::locate::Step;
+use crate::file::problem::ProblemKind;
+use crate::file::read::loads::{MAX_FORCES, Quantity, WorkloadEntry, position, quantity};
+use crate::file::read::names::{joint_by_id, link_by_id};
+use crate::file::read::resolve::{index, key, vector};
+use crate::file::schema::Coordinate;
+use crate::model::joint_type::JointType;
+use crate::model::loads::{ExternalMoment, Misalignment, Stiffness};
+use crate::model::mechanism::Mechanism;
+use itertools::Itertools;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A moment of fixed direction on a link.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MomentEntry {
+    /// The link it acts on.
+    pub link: String,
+    /// The moment in N·m.
+    pub moment: [Coordinate; 3],
+}
+
+/// Stiffness of a joint where it does not move.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StiffnessEntry {
+    /// In N/m.
+    pub linear: f64,
+    /// In N·m/rad.
+    pub angular: f64,
+}
+
+/// A joint whose second link is turned against its first where nothing strains it.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MisalignmentEntry {
+    /// The joint.
+    pub joint: String,
+    /// Small turn: radians or "0.1deg".
+    pub angle: Quantity,
+    /// About x, y or z of the joint's own frame.
+    pub axis: String,
+}
+
+/// Moments from outside.
+pub(crate) fn moments(
+    entry: &WorkloadEntry,
+    mechanism: &Mechanism,
+    at: &[Step],
+    out: &mut Findings,
+) -> Vec<ExternalMoment> {
+    let mut found = Vec::new();
+    for (i, m) in entry.moment.iter().enumerate().take(MAX_FORCES) {
+        let at = index(&key(at, "moment"), i);
+        let moment = vector(&m.moment, &key(&at, "moment"), out);
+        let link = link_by_id(&mechanism.links, &m.link, &key(&at, "link"), out);
+        found.extend(link.map(|link| ExternalMoment { link, moment }));
+    }
+    found
+}
+
+/// Stiffness by joint type.
+pub(crate) fn stiffness(
+    entry: &WorkloadEntry,
+    at: &[Step],
+    out: &mut Findings,
+) -> Vec<(String, Stiffness)> {
+    let at = key(at, "stiffness");
+    for (name, s) in &entry.stiffness {
+        for (k, what, value) in [
+            ("linear", "stiffness", s.linear),
+            ("angular", "stiffness", s.angular),
+        ] {
+            if !(value > 0.0 && value <= 1e18) {
+                out.add(
+                    &key(&key(&at, name), k),
+                    ProblemKind::BadQuantity {
+                        what,
+                        value: value.to_string(),
+                        allowed: "a number above 0, up to 1e18",
+                    },
+                );
+            }
+        }
+        if name != "default" && name != "custom" && JointType::from_name(name).is_none() {
+            let types = JointType::NAMED.iter().map(JointType::name);
+            out.add(
+                &key(&at, name),
+                ProblemKind::UnknownWord {
+                    what: "joint type",
+                    word: name.clone(),
+                    known: types.chain(["custom", "default"]).join(", "),
+                },
+            );
+        }
+    }
+    let each = entry.stiffness.iter().map(|(name, s)| {
+        let (linear, angular) = (s.linear, s.angular);
+        (name.clone(), Stiffness { linear, angular })
+    });
+    each.collect()
+}
+
+/// Joints made askew.
+pub(crate) fn misalignments(
+    entry: &WorkloadEntry,
+    mechanism: &Mechanism,
+    at: &[Step],
+    out: &mut Findings,
+) -> Vec<Misalignment> {
+    let mut found = Vec::new();
+    for (i, m) in entry.misalignment.iter().enumerate().take(MAX_FORCES) {
+        let at = index(&key(at, "misalignment"), i);
+        let angle = quantity(
+            &m.angle,
+            position,
+            "angle",
+            "a number of radians, or an angle such as \"0.1deg\"",
+            &key(&at, "angle"),
+            out,
+        );
+        let axis = ["x", "y", "z"].iter().position(|a| *a == m.axis);
+        if axis.is_none() {
+            out.add(
+                &key(&at, "axis"),
+                ProblemKind::UnknownWord {
+                    what: "axis",
+                    word: m.axis.clone(),
+                    known: "x, y, z".to_owned(),
+                },
+            );
+        }
+        let joint = joint_by_id(mechanism, &m.joint, &key(&at, "joint"), out);
+        if let (Some(joint), Some(axis)) = (joint, axis) {
+            let mut turn = [0.0; 3];
+            turn[axis] = angle;
+            found.push(Misalignment { joint, turn });
+        }
+    }
+    found
+}

@@ -1,0 +1,208 @@
+//! The joints: ends, type, place, the states they act in.
+
+use crate::file::findings::Findings;
+use crate::file::locate::Step;
+use crate::file::problem::ProblemKind;
+use crate::file::read::LIMITS;
+use crate::file::read::names::{check_id, link_by_id};
+use crate::file::read::options::options;
+use crate::file::read::resolve::{
+    frame, index, joint_type, key, motion_name, number, option, vector, zero3,
+};
+use crate::file::schema::{JointEntry, MechanismFile, Unloading, Words};
+use crate::geom::expr::Expr;
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::mechanism::{Frame, Joint, JointOption, Link};
+use itertools::Itertools;
+
+/// Most states of a mechanism.
+const MOST_STATES: usize = 100;
+
+/// The names of the states, `free` first.
+pub(crate) fn states(file: &MechanismFile, out: &mut Findings) -> Vec<String> {
+    let named = file.joint.iter().flat_map(|j| words(j.state.as_ref()));
+    let mut states: Vec<String> = ["free".to_owned()]
+        .into_iter()
+        .chain(named)
+        .unique()
+        .collect();
+    if states.len() > MOST_STATES {
+        out.add(
+            &[Step::Key("joint".to_owned())],
+            ProblemKind::TooMany {
+                what: "states",
+                count: states.len(),
+                limit: MOST_STATES,
+            },
+        );
+        states.truncate(MOST_STATES);
+    }
+    states
+}
+
+pub(crate) fn joints(
+    file: &MechanismFile,
+    links: &[Link],
+    states: &[String],
+    out: &mut Findings,
+) -> Vec<Joint> {
+    (0..file.joint.len())
+        .filter_map(|i| joint(file, i, links, states, out))
+        .collect()
+}
+
+fn words(w: Option<&Words>) -> Vec<String> {
+    match w {
+        None => Vec::new(),
+        Some(Words::One(s)) => vec![s.clone()],
+        Some(Words::Many(v)) => v.clone(),
+    }
+}
+
+fn joint(
+    file: &MechanismFile,
+    i: usize,
+    links: &[Link],
+    states: &[String],
+    out: &mut Findings,
+) -> Option<Joint> {
+    let entry = &file.joint[i];
+    let at = [Step::Key("joint".to_owned()), Step::Index(i)];
+    check_id(
+        "joint",
+        &entry.id,
+        file.joint[..i].iter().any(|j| j.id == entry.id),
+        &key(&at, "id"),
+        out,
+    );
+    let mut ends = [0; 2];
+    for (e, id) in entry.links.iter().enumerate() {
+        let path = index(&key(&at, "links"), e);
+        ends[e] = link_by_id(links, id, &path, out).unwrap_or(0);
+    }
+    if entry.links[0] == entry.links[1] {
+        let (joint, link) = (entry.id.clone(), entry.links[0].clone());
+        out.add(&key(&at, "links"), ProblemKind::SelfLoop { joint, link });
+    }
+    let found = joint_type(&entry.id, &entry.kind, entry.freedoms.as_ref(), &at, out);
+    let Some(joint_type) = found else {
+        // The rest depends on the type, but a bad point is worth telling in the same run.
+        vector(&entry.point, &key(&at, "point"), out);
+        return None;
+    };
+    let frame = place(entry, &joint_type, &at, out);
+    let present = JointOption {
+        name: motion_name(&joint_type),
+        joint_type: joint_type.clone(),
+        frame: frame.clone(),
+        cost_milli: None,
+    };
+    let states_of = entry.state.as_ref().map(|w| {
+        words(Some(w))
+            .iter()
+            .filter_map(|w| states.iter().position(|s| s == w))
+            .collect::<Vec<_>>()
+    });
+    let in_free = states_of.as_ref().is_none_or(|s| s.contains(&0));
+    let changeable = in_free && !entry.drive && joint_type != JointType::Fixed;
+    let options = options(file, entry, &present, changeable, &at, out);
+    let unloading = unloading(file, entry, &frame, &at, out);
+    Some(Joint {
+        id: entry.id.clone(),
+        links: ends,
+        joint_type,
+        frame,
+        drive: entry.drive,
+        states: states_of,
+        options,
+        unloading,
+    })
+}
+
+/// What may be inserted in series with a joint.
+fn unloading(
+    file: &MechanismFile,
+    entry: &JointEntry,
+    frame: &Frame,
+    at: &[Step],
+    out: &mut Findings,
+) -> Vec<JointOption> {
+    let (list, from) = match &entry.unloading {
+        None | Some(Unloading::Allowed(false)) => return Vec::new(),
+        Some(Unloading::Allowed(true)) => {
+            let from = key(&[Step::Key("search".to_owned())], "unloading");
+            (&file.search.unloading, from)
+        }
+        Some(Unloading::List(list)) => (list, key(at, "unloading")),
+    };
+    if list.len() > LIMITS.2 {
+        out.add(
+            &from,
+            ProblemKind::TooMany {
+                what: "unloading joints in one place",
+                count: list.len(),
+                limit: LIMITS.2,
+            },
+        );
+        return Vec::new();
+    }
+    list.iter()
+        .enumerate()
+        .filter_map(|(n, e)| option(&entry.id, frame, e, &index(&from, n), out))
+        .collect()
+}
+
+fn place(entry: &JointEntry, joint_type: &JointType, at: &[Step], out: &mut Findings) -> Frame {
+    let point = vector(&entry.point, &key(at, "point"), out);
+    let axis = match (&entry.axis, joint_type) {
+        (Some(v), _) => vector(v, &key(at, "axis"), out),
+        (None, JointType::Spherical | JointType::Fixed) => [0, 0, 1].map(Expr::from),
+        (None, _) => {
+            let what = "an axis, such as axis = [0, 0, 1]";
+            out.add(
+                at,
+                ProblemKind::Missing {
+                    joint: entry.id.clone(),
+                    kind: entry.kind.clone(),
+                    what,
+                },
+            );
+            [0, 0, 1].map(Expr::from)
+        }
+    };
+    let reference = entry
+        .reference
+        .as_ref()
+        .map(|v| vector(v, &key(at, "reference"), out));
+    let screws = joint_type.freedoms().contains(&Freedom::Screw);
+    match (&entry.pitch, screws) {
+        (None, true) => {
+            let what = "a pitch, the translation per radian";
+            out.add(
+                at,
+                ProblemKind::Missing {
+                    joint: entry.id.clone(),
+                    kind: entry.kind.clone(),
+                    what,
+                },
+            );
+        }
+        (Some(_), false) => {
+            let (joint, kind) = (entry.id.clone(), entry.kind.clone());
+            out.add(
+                &key(at, "pitch"),
+                ProblemKind::Superfluous {
+                    joint,
+                    kind,
+                    what: "pitch",
+                },
+            );
+        }
+        _ => {}
+    }
+    let pitch = entry
+        .pitch
+        .as_ref()
+        .map_or_else(|| zero3()[0].clone(), |c| number(c, &key(at, "pitch"), out));
+    frame(&entry.id, point, axis, reference, pitch, at, out)
+}

@@ -1,0 +1,64 @@
+//! The links.
+
+use crate::file::findings::Findings;
+use crate::file::locate::Step;
+use crate::file::problem::ProblemKind;
+use crate::file::read::loads::mass;
+use crate::file::read::names::check_id;
+use crate::file::read::resolve::key;
+use crate::file::schema::MechanismFile;
+use crate::model::mechanism::{Link, Role};
+
+pub(crate) fn links(file: &MechanismFile, out: &mut Findings) -> Vec<Link> {
+    let mut links: Vec<Link> = Vec::new();
+    for (i, entry) in file.link.iter().enumerate() {
+        let at = [Step::Key("link".to_owned()), Step::Index(i)];
+        check_id(
+            "link",
+            &entry.id,
+            links.iter().any(|l| l.id == entry.id),
+            &key(&at, "id"),
+            out,
+        );
+        let role = match entry.role.as_deref() {
+            None => Role::Inner,
+            Some("frame") => Role::Frame,
+            Some("output") => Role::Output,
+            Some("object") => Role::Object,
+            Some(word) => {
+                let known = "frame, output, object".to_owned();
+                out.add(
+                    &key(&at, "role"),
+                    ProblemKind::UnknownWord {
+                        what: "role",
+                        word: word.to_owned(),
+                        known,
+                    },
+                );
+                Role::Inner
+            }
+        };
+        if let (Role::Frame, Some(first)) = (role, links.iter().find(|l| l.role == Role::Frame)) {
+            out.add(
+                &key(&at, "role"),
+                ProblemKind::SecondFrame {
+                    first: first.id.clone(),
+                    second: entry.id.clone(),
+                },
+            );
+        }
+        links.push(Link {
+            id: entry.id.clone(),
+            role,
+            mass: mass(entry, &at, out),
+        });
+    }
+    let has = |role| links.iter().any(|l| l.role == role);
+    if !has(Role::Frame) {
+        out.add(&[Step::Key("link".to_owned())], ProblemKind::NoFrame);
+    }
+    if !has(Role::Output) {
+        out.add(&[Step::Key("link".to_owned())], ProblemKind::NoOutput);
+    }
+    links
+}

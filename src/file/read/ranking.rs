@@ -1,0 +1,302 @@
+//! `[ranking]` and `[joint_types]`.
+
+use crate::file::findings::Findings;
+use crate::file::locate::Step;
+use crate::file::problem::ProblemKind;
+use crate::file::read::resolve::{cost, index, key};
+use crate::file::schema::MechanismFile;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::Mechanism;
+use crate::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term, TypeOverride};
+use itertools::Itertools;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Most terms and limits.
+const MOST: usize = 100;
+
+/// How `ozols search` ranks variants under the workload.
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RankingEntry {
+    /// "weighted" (the default), "lexicographic" or "pareto".
+    #[serde(default)]
+    pub order: Option<String>,
+    /// The terms, the most important first.
+    #[serde(default)]
+    pub terms: Vec<TermEntry>,
+    /// Bounds that variants must keep.
+    #[serde(default)]
+    pub limits: Vec<LimitEntry>,
+    /// How clearances add up to the output error: "worst" (the default) or "rms".
+    #[serde(default)]
+    pub clearance: Option<String>,
+    /// The states that count, "free" or those with the contacts of [workload.grip]; all of them that have loads where left
+    /// out. A variant's score is the worst over them.
+    #[serde(default)]
+    pub states: Vec<String>,
+}
+
+/// A term with its weight.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TermEntry {
+    /// peak-force, peak-moment, conditioning, output-error, changes, cost or idle.
+    pub term: String,
+    /// Its weight, 1 by default.
+    #[serde(default)]
+    pub weight: Option<f64>,
+}
+
+/// A bound.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LimitEntry {
+    /// The term.
+    pub term: String,
+    /// Not below.
+    #[serde(default)]
+    pub min: Option<f64>,
+    /// Not above.
+    #[serde(default)]
+    pub max: Option<f64>,
+}
+
+/// What a joint type bears, in place of the catalogue's figures.
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct JointTypeEntry {
+    /// Its cost, as under `[search.costs]`.
+    #[serde(default)]
+    pub cost: Option<f64>,
+    /// The force it bears in N.
+    #[serde(default)]
+    pub capacity_force: Option<f64>,
+    /// The moment it bears in N·m.
+    #[serde(default)]
+    pub capacity_moment: Option<f64>,
+    /// Play between its parts, from the middle to the end, in m.
+    #[serde(default)]
+    pub clearance: Option<f64>,
+}
+
+fn term(word: &str, at: &[Step], out: &mut Findings) -> Option<Term> {
+    let found = Term::from_name(word);
+    if found.is_none() {
+        out.add(
+            &key(at, "term"),
+            ProblemKind::UnknownWord {
+                what: "term",
+                word: word.to_owned(),
+                known: Term::ALL.iter().map(|t| t.name()).join(", "),
+            },
+        );
+    }
+    found
+}
+
+fn bad(out: &mut Findings, at: &[Step], what: &'static str, value: f64, allowed: &'static str) {
+    let value = value.to_string();
+    out.add(
+        at,
+        ProblemKind::BadQuantity {
+            what,
+            value,
+            allowed,
+        },
+    );
+}
+
+/// The ranking a file asks for, if any.
+pub(crate) fn ranking(
+    file: &MechanismFile,
+    mechanism: &Mechanism,
+    out: &mut Findings,
+) -> Option<Ranking> {
+    let entry = file.ranking.as_ref()?;
+    let at = [Step::Key("ranking".to_owned())];
+    for (what, count) in [("terms", entry.terms.len()), ("limits", entry.limits.len())] {
+        if count > MOST {
+            let limit = MOST;
+            out.add(&key(&at, what), ProblemKind::TooMany { what, count, limit });
+        }
+    }
+    let word = entry.order.as_deref().unwrap_or("weighted");
+    let order = Order::ALL.iter().find(|(_, w)| *w == word);
+    if order.is_none() {
+        out.add(
+            &key(&at, "order"),
+            ProblemKind::UnknownWord {
+                what: "order",
+                word: word.to_owned(),
+                known: Order::ALL.iter().map(|(_, w)| *w).join(", "),
+            },
+        );
+    }
+    let clearance = match entry.clearance.as_deref() {
+        None | Some("worst") => ClearanceSum::Worst,
+        Some("rms") => ClearanceSum::Rms,
+        Some(word) => {
+            out.add(
+                &key(&at, "clearance"),
+                ProblemKind::UnknownWord {
+                    what: "sum of clearances",
+                    word: word.to_owned(),
+                    known: "worst, rms".to_owned(),
+                },
+            );
+            ClearanceSum::Worst
+        }
+    };
+    let mut terms: Vec<(Term, f64)> = Vec::new();
+    for (i, t) in entry.terms.iter().enumerate().take(MOST) {
+        let at = index(&key(&at, "terms"), i);
+        let weight = t.weight.unwrap_or(1.0);
+        if !(0.0..=1e12).contains(&weight) {
+            bad(
+                out,
+                &key(&at, "weight"),
+                "weight",
+                weight,
+                "a number from 0 to 1e12",
+            );
+        }
+        let Some(term) = term(&t.term, &at, out) else {
+            continue;
+        };
+        if terms.iter().any(|(other, _)| *other == term) {
+            out.add(
+                &key(&at, "term"),
+                ProblemKind::Duplicate {
+                    what: "[ranking]",
+                    id: t.term.clone(),
+                },
+            );
+        }
+        terms.push((term, weight));
+    }
+    if entry.terms.is_empty() {
+        out.add(
+            &key(&at, "terms"),
+            ProblemKind::UnknownWord {
+                what: "list of terms",
+                word: "[]".to_owned(),
+                known: Term::ALL.iter().map(|t| t.name()).join(", "),
+            },
+        );
+    }
+    let mut limits = Vec::new();
+    for (i, l) in entry.limits.iter().enumerate().take(MOST) {
+        let at = index(&key(&at, "limits"), i);
+        for (k, bound) in [("min", l.min), ("max", l.max)] {
+            if let Some(x) = bound.filter(|x| !x.is_finite()) {
+                bad(out, &key(&at, k), "limit", x, "a finite number");
+            }
+        }
+        if let Some(term) = term(&l.term, &at, out) {
+            let (min, max) = (l.min, l.max);
+            limits.push(Limit { term, min, max });
+        }
+    }
+    let grip = mechanism.loads.grip.as_ref().and_then(|g| g.contacts);
+    let counts = |s: usize| {
+        let of_grip = grip.and_then(|c| mechanism.joints[c[0]].states.as_ref());
+        s == 0 || of_grip.is_some_and(|states| states.contains(&s))
+    };
+    let mut states = Vec::new();
+    for (i, word) in entry.states.iter().enumerate().take(MOST) {
+        let found = mechanism.states.iter().position(|s| s == word);
+        match found.filter(|&s| counts(s)) {
+            Some(s) => states.push(s),
+            None => out.add(
+                &index(&key(&at, "states"), i),
+                ProblemKind::UnknownWord {
+                    what: "state to rank in (free, or one with the contacts of [workload.grip])",
+                    word: word.clone(),
+                    known: (0..mechanism.states.len())
+                        .filter(|&s| counts(s))
+                        .map(|s| mechanism.states[s].as_str())
+                        .join(", "),
+                },
+            ),
+        }
+    }
+    Some(Ranking {
+        states,
+        order: order.map_or(Order::Weighted, |(o, _)| *o),
+        terms,
+        limits,
+        clearance,
+    })
+}
+
+/// What a file says of joint types: of what they bear, and of what they cost in thousandths.
+pub(crate) fn joint_types(
+    file: &MechanismFile,
+    mechanism: &Mechanism,
+    out: &mut Findings,
+) -> (Vec<TypeOverride>, Vec<(String, i64)>) {
+    let root = [Step::Key("joint_types".to_owned())];
+    let (mut found, mut costs) = (Vec::new(), Vec::new());
+    let offered = |name: &str| {
+        let mut all = mechanism
+            .joints
+            .iter()
+            .flat_map(|j| j.options.iter().chain(&j.unloading));
+        all.any(|o| o.name == name)
+    };
+    for (name, entry) in &file.joint_types {
+        let at = key(&root, name);
+        if name != "custom" && JointType::from_name(name).is_none() && !offered(name) {
+            let known = JointType::NAMED.iter().map(JointType::name);
+            out.add(
+                &at,
+                ProblemKind::UnknownWord {
+                    what: "joint type",
+                    word: name.clone(),
+                    known: known.chain(["custom"]).join(", "),
+                },
+            );
+        }
+        for (k, what, value, least) in [
+            (
+                "capacity_force",
+                "capacity",
+                entry.capacity_force,
+                f64::MIN_POSITIVE,
+            ),
+            (
+                "capacity_moment",
+                "capacity",
+                entry.capacity_moment,
+                f64::MIN_POSITIVE,
+            ),
+            ("clearance", "clearance", entry.clearance, 0.0),
+        ] {
+            if let Some(x) = value.filter(|x| !(least..=1e12).contains(x)) {
+                let allowed = if least > 0.0 {
+                    "a number above 0, up to 1e12"
+                } else {
+                    "a number from 0 to 1e12"
+                };
+                bad(out, &key(&at, k), what, x, allowed);
+            }
+        }
+        if let Some(milli) = entry.cost.and_then(|c| cost(c, &key(&at, "cost"), out)) {
+            costs.push((name.clone(), milli));
+        }
+        let says = TypeOverride {
+            name: name.clone(),
+            capacity_force: entry.capacity_force,
+            capacity_moment: entry.capacity_moment,
+            clearance: entry.clearance,
+        };
+        // An entry of a cost alone says nothing of what the type bears.
+        let nothing = TypeOverride {
+            name: name.clone(),
+            ..TypeOverride::default()
+        };
+        found.extend((says != nothing).then_some(says));
+    }
+    (found, costs)
+}

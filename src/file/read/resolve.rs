@@ -1,0 +1,341 @@
+//! Joint frames and options from their entries.
+
+use crate::file::findings::Findings;
+use crate::file::locate::Step;
+use crate::file::problem::ProblemKind;
+use crate::file::schema::{Coordinate, OptionEntry, OptionTable};
+use crate::geom::expr::Expr;
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::mechanism::{Frame, JointOption};
+use itertools::Itertools;
+
+pub(crate) fn key(path: &[Step], k: &str) -> Vec<Step> {
+    path.iter()
+        .cloned()
+        .chain([Step::Key(k.to_owned())])
+        .collect()
+}
+
+pub(crate) fn index(path: &[Step], i: usize) -> Vec<Step> {
+    path.iter().cloned().chain([Step::Index(i)]).collect()
+}
+
+pub(crate) fn zero3() -> [Expr; 3] {
+    [0, 0, 0].map(Expr::from)
+}
+
+/// Largest and smallest nonzero size of a coordinate.
+const RANGE: (f64, f64) = (1e-40, 1e12);
+
+pub(crate) fn number(c: &Coordinate, path: &[Step], out: &mut Findings) -> Expr {
+    let parsed = match c {
+        Coordinate::Integer(i) => Ok(Expr::from(*i)),
+        Coordinate::Decimal(x) => Expr::from_f64(*x),
+        Coordinate::Expression(s) => s.parse::<Expr>(),
+    };
+    match parsed {
+        Ok(e) => {
+            let size = e.to_f64().abs();
+            // An irrational expression may cancel to zero, and is then zero.
+            let zero = match e.as_rational() {
+                Some(_) => e.is_zero_rational(),
+                None => size == 0.0,
+            };
+            if !zero && !(RANGE.0..=RANGE.1).contains(&size) {
+                out.add(
+                    path,
+                    ProblemKind::OutOfRange {
+                        value: e.to_string(),
+                    },
+                );
+                return Expr::from(0);
+            }
+            e
+        }
+        Err(e) => {
+            out.add(
+                path,
+                ProblemKind::BadNumber {
+                    message: e.to_string(),
+                },
+            );
+            Expr::from(0)
+        }
+    }
+}
+
+pub(crate) fn vector(v: &[Coordinate; 3], path: &[Step], out: &mut Findings) -> [Expr; 3] {
+    [0, 1, 2].map(|i| number(&v[i], &index(path, i), out))
+}
+
+fn real(v: &[Expr; 3]) -> [f64; 3] {
+    [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()]
+}
+
+fn is_zero(v: &[Expr; 3]) -> bool {
+    real(v).iter().all(|x| *x == 0.0)
+}
+
+/// Whether two directions are parallel: exactly for rationals, to 1e-12 of their lengths otherwise.
+fn parallel(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
+    let cross = |i: usize, j: usize| &a[i] * &b[j] - &a[j] * &b[i];
+    let scale = real(a).iter().map(|x| x.abs()).fold(0.0, f64::max)
+        * real(b).iter().map(|x| x.abs()).fold(0.0, f64::max);
+    [cross(1, 2), cross(2, 0), cross(0, 1)]
+        .iter()
+        .all(|e| match e.as_rational() {
+            Some(_) => e.is_zero_rational(),
+            None => e.to_f64().abs() <= 1e-12 * scale,
+        })
+}
+
+/// The frame with these parts; problems are reported at `path`.
+pub(crate) fn frame(
+    joint: &str,
+    point: [Expr; 3],
+    axis: [Expr; 3],
+    reference: Option<[Expr; 3]>,
+    pitch: Expr,
+    path: &[Step],
+    out: &mut Findings,
+) -> Frame {
+    let mut axis = axis;
+    if is_zero(&axis) {
+        out.add(
+            &key(path, "axis"),
+            ProblemKind::ZeroVector {
+                joint: joint.to_owned(),
+                what: "axis",
+            },
+        );
+        axis = [0, 0, 1].map(Expr::from);
+    }
+    let globals = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(|v| v.map(Expr::from));
+    let default = globals
+        .into_iter()
+        .find(|g| !parallel(g, &axis))
+        .unwrap_or_else(zero3);
+    let reference = match reference {
+        Some(r) if is_zero(&r) => {
+            out.add(
+                &key(path, "reference"),
+                ProblemKind::ZeroVector {
+                    joint: joint.to_owned(),
+                    what: "reference",
+                },
+            );
+            default
+        }
+        Some(r) if parallel(&r, &axis) => {
+            out.add(
+                &key(path, "reference"),
+                ProblemKind::ParallelReference {
+                    joint: joint.to_owned(),
+                },
+            );
+            default
+        }
+        Some(r) => r,
+        None => default,
+    };
+    Frame {
+        point,
+        axis,
+        reference,
+        pitch,
+    }
+}
+
+/// The type a word and a list of freedoms stand for.
+pub(crate) fn joint_type(
+    joint: &str,
+    kind: &str,
+    freedoms: Option<&Vec<String>>,
+    path: &[Step],
+    out: &mut Findings,
+) -> Option<JointType> {
+    if let (Some(t), None) = (JointType::from_name(kind), freedoms) {
+        return Some(t);
+    }
+    match (kind, freedoms) {
+        ("custom", Some(words)) => {
+            let at = key(path, "freedoms");
+            let mut list = Vec::new();
+            for (i, w) in words.iter().enumerate() {
+                match Freedom::from_name(w) {
+                    Some(f) if list.contains(&f) => {
+                        out.add(
+                            &index(&at, i),
+                            ProblemKind::RepeatedFreedom {
+                                joint: joint.to_owned(),
+                                freedom: w.clone(),
+                            },
+                        );
+                    }
+                    Some(f) => list.push(f),
+                    None => {
+                        let known = Freedom::ALL.iter().map(|(_, n)| *n).join(", ");
+                        out.add(
+                            &index(&at, i),
+                            ProblemKind::UnknownWord {
+                                what: "freedom",
+                                word: w.clone(),
+                                known,
+                            },
+                        );
+                    }
+                }
+            }
+            Some(JointType::Custom(list))
+        }
+        ("custom", None) => {
+            let what = "freedoms, such as freedoms = [\"rz\", \"tx\"]";
+            out.add(
+                path,
+                ProblemKind::Missing {
+                    joint: joint.to_owned(),
+                    kind: kind.to_owned(),
+                    what,
+                },
+            );
+            None
+        }
+        (known, Some(_)) if JointType::from_name(known).is_some() => {
+            let (joint, kind) = (joint.to_owned(), kind.to_owned());
+            out.add(
+                &key(path, "freedoms"),
+                ProblemKind::Superfluous {
+                    joint,
+                    kind,
+                    what: "freedoms",
+                },
+            );
+            None
+        }
+        _ => {
+            let known = JointType::NAMED
+                .iter()
+                .map(JointType::name)
+                .chain(["custom"])
+                .join(", ");
+            out.add(
+                &key(path, "type"),
+                ProblemKind::UnknownWord {
+                    what: "joint type",
+                    word: kind.to_owned(),
+                    known,
+                },
+            );
+            None
+        }
+    }
+}
+
+/// A cost in thousandths.
+pub(crate) fn cost(value: f64, path: &[Step], out: &mut Findings) -> Option<i64> {
+    if !(0.0..=1e6).contains(&value) {
+        out.add(
+            path,
+            ProblemKind::BadCost {
+                value: value.to_string(),
+            },
+        );
+        return None;
+    }
+    #[allow(clippy::cast_possible_truncation, reason = "at most 1e9")]
+    Some((value * 1000.0).round() as i64)
+}
+
+/// What an option without a name of its own is called.
+pub(crate) fn motion_name(joint_type: &JointType) -> String {
+    match joint_type {
+        JointType::Custom(list) => list.iter().map(|f| f.name()).join("+"),
+        other => other.name().to_owned(),
+    }
+}
+
+/// An option at a joint's place.
+pub(crate) fn option(
+    joint: &str,
+    present: &Frame,
+    entry: &OptionEntry,
+    path: &[Step],
+    out: &mut Findings,
+) -> Option<JointOption> {
+    let word;
+    let (table, at) = match entry {
+        OptionEntry::Table(t) => (t.as_ref(), path.to_vec()),
+        OptionEntry::Word(w) => {
+            word = OptionTable {
+                kind: Some(w.clone()),
+                ..OptionTable::default()
+            };
+            (&word, path.to_vec())
+        }
+    };
+    let kind = table.kind.as_deref().unwrap_or("custom");
+    let joint_type = joint_type(joint, kind, table.freedoms.as_ref(), &at, out)?;
+    let axis = table.axis.as_ref().map_or_else(
+        || present.axis.clone(),
+        |v| vector(v, &key(&at, "axis"), out),
+    );
+    let reference = match (&table.reference, &table.axis) {
+        (Some(v), _) => Some(vector(v, &key(&at, "reference"), out)),
+        (None, None) => Some(present.reference.clone()),
+        (None, Some(_)) => None,
+    };
+    let pitch = table.pitch.as_ref().map_or_else(
+        || present.pitch.clone(),
+        |c| number(c, &key(&at, "pitch"), out),
+    );
+    let frame = frame(
+        joint,
+        present.point.clone(),
+        axis,
+        reference,
+        pitch,
+        &at,
+        out,
+    );
+    let name = table
+        .name
+        .clone()
+        .unwrap_or_else(|| motion_name(&joint_type));
+    let cost_milli = table.cost.and_then(|c| cost(c, &key(&at, "cost"), out));
+    Some(JointOption {
+        name,
+        joint_type,
+        frame,
+        cost_milli,
+    })
+}
+
+/// Whether one joint allows every motion of another at the same place: exactly, over a prime field; `None` where the
+/// geometry has no image there.
+pub(crate) fn contains(wide: &JointOption, narrow: &JointOption) -> Option<bool> {
+    use crate::closure::twist::{MotionSpace, joint_twists};
+    use crate::geom::exact::ExactField;
+    use crate::linalg::echelon::Echelon;
+    if wide.joint_type == narrow.joint_type && wide.joint_type == JointType::Spherical {
+        return Some(true);
+    }
+    let parts = |o: &JointOption| {
+        let f = &o.frame;
+        f.point
+            .iter()
+            .chain(&f.axis)
+            .chain(&f.reference)
+            .chain([&f.pitch])
+            .cloned()
+            .collect_vec()
+    };
+    let all = parts(wide).into_iter().chain(parts(narrow)).collect_vec();
+    let exact = ExactField::for_expressions(&all, 0).ok()?;
+    let twists =
+        |o: &JointOption| joint_twists(&exact, &MotionSpace::Spatial, &o.frame, &o.joint_type).ok();
+    let mut span = Echelon::new(exact.field());
+    twists(wide)?.iter().for_each(|(_, t)| {
+        span.insert(t);
+    });
+    Some(twists(narrow)?.iter().all(|(_, t)| span.contains(t)))
+}

@@ -1,0 +1,79 @@
+//! What the search may change and what it costs.
+
+use crate::file::findings::Findings;
+use crate::file::locate::Step;
+use crate::file::problem::ProblemKind;
+use crate::file::read::names::{joint_by_id, link_by_id};
+use crate::file::read::resolve::{cost, index, key};
+use crate::file::schema::MechanismFile;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Mechanism, SearchSpec};
+use itertools::Itertools;
+use std::collections::BTreeSet;
+
+pub(crate) fn search(
+    file: &MechanismFile,
+    mechanism: &Mechanism,
+    out: &mut Findings,
+) -> SearchSpec {
+    let at = [Step::Key("search".to_owned())];
+    let mut spec = SearchSpec::default();
+    for (i, id) in file.search.hold.iter().enumerate() {
+        let path = index(&key(&at, "hold"), i);
+        spec.hold
+            .extend(link_by_id(&mechanism.links, id, &path, out));
+    }
+    let mut paired = Vec::new();
+    for (i, pair) in file.search.mirror.iter().enumerate() {
+        let path = index(&key(&at, "mirror"), i);
+        let joints = pair
+            .iter()
+            .filter_map(|id| joint_by_id(mechanism, id, &path, out))
+            .collect_vec();
+        for &j in &joints {
+            if paired.contains(&j) {
+                out.add(
+                    &path,
+                    ProblemKind::RepeatedMirror {
+                        joint: mechanism.joints[j].id.clone(),
+                    },
+                );
+            }
+            paired.push(j);
+        }
+        if let [a, b] = joints[..] {
+            spec.mirror.push((a, b));
+        }
+    }
+    let options = mechanism.joints.iter().flat_map(|j| &j.options);
+    let unloading = mechanism.joints.iter().flat_map(|j| &j.unloading);
+    let option_names: BTreeSet<&str> = options.chain(unloading).map(|o| o.name.as_str()).collect();
+    for (name, &value) in &file.search.costs {
+        let path = key(&key(&at, "costs"), name);
+        let Some(milli) = cost(value, &path, out) else {
+            continue;
+        };
+        match name.as_str() {
+            "change" => spec.costs.change_milli = Some(milli),
+            "link" => spec.costs.link_milli = Some(milli),
+            n if JointType::from_name(n).is_some() || option_names.contains(n) => {
+                spec.costs.by_type_milli.push((name.clone(), milli));
+            }
+            _ => {
+                let known = ["change", "link"]
+                    .into_iter()
+                    .chain(JointType::NAMED.iter().map(JointType::name))
+                    .join(", ");
+                out.add(
+                    &path,
+                    ProblemKind::UnknownWord {
+                        what: "cost",
+                        word: name.clone(),
+                        known,
+                    },
+                );
+            }
+        }
+    }
+    spec
+}

@@ -1,0 +1,115 @@
+//! Reading the workload tables of a file, with or without a mechanism around them.
+
+use crate::file::findings::{Finding, Findings};
+use crate::file::locate::Step;
+use crate::file::problem::{ImportError, ProblemKind};
+use crate::file::read::build;
+use crate::file::read::drive::drive;
+use crate::file::read::grip::grip;
+use crate::file::read::unit::length_unit;
+use crate::file::schema::MechanismFile;
+use crate::file::text::{read, text_of};
+use crate::model::drive::DriveSpec;
+use crate::model::grip::GripSpec;
+use crate::model::mechanism::{LengthUnit, Mechanism};
+
+/// A file as the workload commands see it.
+#[derive(Debug, Clone)]
+pub struct Workload<T> {
+    /// Short name.
+    pub name: String,
+    /// Where the figures come from.
+    pub sources: Vec<String>,
+    /// Unit of the file's lengths, for labels.
+    pub length_unit: LengthUnit,
+    /// The mechanism, where the file has links or joints.
+    pub mechanism: Option<Mechanism>,
+    /// What the table says, in SI units.
+    pub spec: T,
+}
+
+/// Reads `[workload.grip]`; names that end in `.json` are JSON, all others TOML.
+///
+/// # Errors
+/// Every problem found, each with its place.
+pub fn grip_from_bytes(name: &str, bytes: &[u8]) -> Result<Workload<GripSpec>, ImportError> {
+    let missing = ProblemKind::NoWorkload {
+        table: "grip",
+        example: "lever-gripper",
+    };
+    read(name, text_of(name, bytes)?, |file| {
+        workload(file, grip, missing)
+    })
+}
+
+/// Reads `[workload.drive]`; names that end in `.json` are JSON, all others TOML.
+///
+/// # Errors
+/// Every problem found, each with its place.
+pub fn drive_from_bytes(name: &str, bytes: &[u8]) -> Result<Workload<DriveSpec>, ImportError> {
+    let missing = ProblemKind::NoWorkload {
+        table: "drive",
+        example: "torsion-module",
+    };
+    read(name, text_of(name, bytes)?, |file| {
+        workload(file, drive, missing)
+    })
+}
+
+/// Reads a file that has workload tables and no mechanism: its name and those of its tables; `None` for other files.
+///
+/// # Errors
+/// Every problem found, each with its place.
+pub fn tables_alone(
+    name: &str,
+    bytes: &[u8],
+) -> Result<Option<(String, Vec<&'static str>)>, ImportError> {
+    read(name, text_of(name, bytes)?, |file| {
+        let tables = workload_tables(file);
+        if tables.is_empty() || !file.link.is_empty() || !file.joint.is_empty() {
+            return Ok(None);
+        }
+        let mut out = Findings::default();
+        let unit = length_unit(file, &mut out).metres;
+        grip(file, unit, None, &mut out);
+        drive(file, unit, None, &mut out);
+        out.unless(Some((file.name.clone(), tables)))
+    })
+}
+
+/// Which of the tables that stand for themselves a file has.
+pub(crate) fn workload_tables(file: &MechanismFile) -> Vec<&'static str> {
+    let tables = [
+        ("grip", file.workload.grip.is_some()),
+        ("drive", file.workload.drive.is_some()),
+    ];
+    let there = tables.into_iter().filter(|(_, there)| *there);
+    there.map(|(n, _)| n).collect()
+}
+
+fn workload<T>(
+    file: &MechanismFile,
+    table: impl Fn(&MechanismFile, f64, Option<&Mechanism>, &mut Findings) -> Option<T>,
+    missing: ProblemKind,
+) -> Result<Workload<T>, Vec<Finding>> {
+    let mut out = Findings::default();
+    let mechanism = match file.link.is_empty() && file.joint.is_empty() {
+        true => None,
+        false => Some(build(file)?),
+    };
+    let length_unit = length_unit(file, &mut out);
+    let spec = table(file, length_unit.metres, mechanism.as_ref(), &mut out);
+    if spec.is_none() && out.count() == 0 {
+        out.add(&[Step::Key("workload".to_owned())], missing);
+    }
+    match spec {
+        Some(spec) if out.count() == 0 => Ok(Workload {
+            name: file.name.clone(),
+            sources: file.sources.clone(),
+            length_unit,
+            mechanism,
+            spec,
+        }),
+        _ => Err(out.told()),
+    }
+}

@@ -1,0 +1,303 @@
+//! The mechanism file: one schema for TOML and JSON.
+
+use crate::file::read::loads::{InertiaEntry, WorkloadEntry};
+use crate::file::read::ranking::{JointTypeEntry, RankingEntry};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// A mechanism: links, joints, and what a search may change.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MechanismFile {
+    /// Short name, such as "four-bar".
+    pub name: String,
+    /// One or two sentences for people.
+    #[serde(default)]
+    pub description: String,
+    /// Publications the mechanism and its figures come from.
+    #[serde(default)]
+    pub sources: Vec<String>,
+    /// Unit of all lengths: m (the default), mm, cm, um or in.
+    #[serde(default)]
+    pub length_unit: Option<String>,
+    /// "spatial" (the default, 6 rows per contour) or "planar" (3 rows).
+    #[serde(default)]
+    pub mode: Option<String>,
+    /// Normal of the plane of motion in planar mode; z by default.
+    #[serde(default)]
+    pub plane_normal: Option<[Coordinate; 3]>,
+    /// The rigid bodies.
+    #[serde(default)]
+    pub link: Vec<LinkEntry>,
+    /// The joints.
+    #[serde(default)]
+    pub joint: Vec<JointEntry>,
+    /// Joints that move in a fixed ratio: gears, belts, racks, mimic joints.
+    #[serde(default)]
+    pub coupling: Vec<CouplingEntry>,
+    /// A basis of contours, where a particular one is wanted.
+    #[serde(default)]
+    pub contour: Vec<ContourEntry>,
+    /// What a search may do.
+    #[serde(default)]
+    pub search: SearchEntry,
+    /// Loads and drive, for `ozols statics`.
+    #[serde(default)]
+    pub workload: WorkloadEntry,
+    /// How `ozols search` ranks variants under the workload; by cost alone where left out.
+    #[serde(default)]
+    pub ranking: Option<RankingEntry>,
+    /// What joint types bear, in place of the built-in catalogue: `[joint_types.spherical]`.
+    #[serde(default)]
+    pub joint_types: BTreeMap<String, JointTypeEntry>,
+    /// Known figures, which `ozols check` compares with those of the analysis.
+    #[serde(default)]
+    pub expected: Vec<ExpectedEntry>,
+}
+
+/// A number, or an exact expression in quotes: "sqrt(3)/2", "cos(36deg)", "tan(pi/8)", "1/3".
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(
+    untagged,
+    expecting = "expected a number, or an expression in quotes such as \"sqrt(3)/2\""
+)]
+pub enum Coordinate {
+    /// A whole number.
+    Integer(i64),
+    /// A decimal, taken exactly as written.
+    Decimal(f64),
+    /// An expression.
+    Expression(String),
+}
+
+/// A rigid body.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LinkEntry {
+    /// Name, unique among links.
+    pub id: String,
+    /// "frame", "output" or "object"; nothing for the rest.
+    #[serde(default)]
+    pub role: Option<String>,
+    /// Mass in kg.
+    #[serde(default)]
+    pub mass: Option<f64>,
+    /// Mass centre, at the pose of the file.
+    #[serde(default)]
+    pub centre: Option<[Coordinate; 3]>,
+    /// Inertia about the mass centre in kg·m²: a number about the plane's normal, or 3 or 6 in space.
+    #[serde(default)]
+    pub inertia: Option<InertiaEntry>,
+}
+
+/// A joint between two links.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct JointEntry {
+    /// Name, unique among joints.
+    pub id: String,
+    /// The two links.
+    pub links: [String; 2],
+    /// Type: revolute, prismatic, helical, cylindrical, universal, slotted, spherical, planar, cylindrical-universal,
+    /// sphere-in-cylinder, cylinder-on-plane, sphere-on-plane, fixed or custom.
+    #[serde(rename = "type")]
+    pub kind: String,
+    /// Freedoms of a custom joint: rx, ry, rz, tx, ty, tz, screw.
+    #[serde(default)]
+    pub freedoms: Option<Vec<String>>,
+    /// Origin of the joint's frame.
+    pub point: [Coordinate; 3],
+    /// Direction of z, of any length; z where left out for spherical and fixed joints.
+    #[serde(default)]
+    pub axis: Option<[Coordinate; 3]>,
+    /// Direction that x is made from; by default the first of the global x, y, z not parallel to the axis.
+    #[serde(default)]
+    pub reference: Option<[Coordinate; 3]>,
+    /// Translation per radian of a helical joint.
+    #[serde(default)]
+    pub pitch: Option<Coordinate>,
+    /// Whether the mechanism is driven here; a driven joint is not changed unless it has options of its own.
+    #[serde(default)]
+    pub drive: bool,
+    /// The state, or list of states, in which the joint is present; all where left out.
+    #[serde(default)]
+    pub state: Option<Words>,
+    /// What a search may put here instead of the `[search]` list.
+    #[serde(default)]
+    pub options: Option<Vec<OptionEntry>>,
+    /// Names of options never put here.
+    #[serde(default)]
+    pub forbid: Vec<String>,
+    /// Joints that may be inserted here in series: true for those of `[search]`, or a list.
+    #[serde(default)]
+    pub unloading: Option<Unloading>,
+}
+
+/// One word or several.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(untagged, expecting = "expected a word in quotes or a list of them")]
+pub enum Words {
+    /// One.
+    One(String),
+    /// Several.
+    Many(Vec<String>),
+}
+
+/// Whether and what unloading joints may be inserted.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(
+    untagged,
+    expecting = "expected true, false or a list of joint options"
+)]
+pub enum Unloading {
+    /// True: those of `[search]`.
+    Allowed(bool),
+    /// These.
+    List(Vec<OptionEntry>),
+}
+
+/// A joint that a search may put somewhere: a type name or a table.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(
+    untagged,
+    expecting = "expected a joint type in quotes, or a table such as { type = \"universal\", reference = [0, 1, 0] } or { freedoms = [\"rz\", \"ry\"], name = \"V\" }"
+)]
+pub enum OptionEntry {
+    /// A type name.
+    Word(String),
+    /// A table.
+    Table(Box<OptionTable>),
+}
+
+/// A joint option spelt out.
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OptionTable {
+    /// The type; custom where only freedoms are given.
+    #[serde(default, rename = "type")]
+    pub kind: Option<String>,
+    /// Freedoms of a custom joint.
+    #[serde(default)]
+    pub freedoms: Option<Vec<String>>,
+    /// Direction of z, the joint's own by default.
+    #[serde(default)]
+    pub axis: Option<[Coordinate; 3]>,
+    /// Direction of x, the joint's own by default.
+    #[serde(default)]
+    pub reference: Option<[Coordinate; 3]>,
+    /// Translation per radian of a helical joint.
+    #[serde(default)]
+    pub pitch: Option<Coordinate>,
+    /// Name shown in results.
+    #[serde(default)]
+    pub name: Option<String>,
+    /// Cost, in place of the table's.
+    #[serde(default)]
+    pub cost: Option<f64>,
+}
+
+/// Two joints that move in a fixed ratio.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CouplingEntry {
+    /// The two joints; "joint:freedom", such as "a:tz", for a joint of several freedoms.
+    pub joints: [String; 2],
+    /// Rate of the second joint over that of the first, in radians and the file's length unit: "-1/2" for a pair of
+    /// gears of 20 and 40 teeth, the pitch radius for a pinion and its rack.
+    pub ratio: Coordinate,
+}
+
+/// A contour of the basis, by its joints in order.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContourEntry {
+    /// The joints.
+    pub joints: Vec<String>,
+}
+
+/// What a search may do.
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SearchEntry {
+    /// Options of joints without their own, except drives, fixed joints and contacts.
+    #[serde(default)]
+    pub options: Vec<OptionEntry>,
+    /// Unloading joints for places with `unloading = true`.
+    #[serde(default)]
+    pub unloading: Vec<OptionEntry>,
+    /// Links besides the outputs that must not gain a motion.
+    #[serde(default)]
+    pub hold: Vec<String>,
+    /// Pairs of joints that are mirror images.
+    #[serde(default)]
+    pub mirror: Vec<[String; 2]>,
+    /// Costs by option or type name, and `change` and `link`.
+    #[serde(default)]
+    pub costs: BTreeMap<String, f64>,
+}
+
+/// Known figures of a state.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ExpectedEntry {
+    /// The state; free by default.
+    #[serde(default)]
+    pub state: Option<String>,
+    /// W, instantaneous, idle freedoms included.
+    #[serde(default)]
+    pub mobility: Option<i64>,
+    /// W of the motion that is really there; smaller than `mobility` at singular and shaky poses.
+    #[serde(default)]
+    pub finite_mobility: Option<i64>,
+    /// Dimension of the output links' motion.
+    #[serde(default)]
+    pub working_mobility: Option<i64>,
+    /// W less the working mobility.
+    #[serde(default)]
+    pub local_mobility: Option<i64>,
+    /// σ of the whole state.
+    #[serde(default)]
+    pub redundant: Option<i64>,
+    /// σ that the state adds to the free one.
+    #[serde(default)]
+    pub external_redundant: Option<i64>,
+    /// Publication or derivation.
+    #[serde(default)]
+    pub source: String,
+}
+
+impl MechanismFile {
+    /// The file as JSON, without what is left at its default.
+    #[must_use]
+    pub fn json(&self) -> serde_json::Value {
+        let mut value = serde_json::to_value(self).unwrap_or_default();
+        strip(&mut value);
+        value
+    }
+}
+
+/// Removes what says nothing: null, false, "" and empty tables and lists.
+fn strip(value: &mut serde_json::Value) {
+    use serde_json::Value;
+    match value {
+        Value::Array(items) => items.iter_mut().for_each(strip),
+        Value::Object(map) => {
+            map.values_mut().for_each(strip);
+            map.retain(|k, v| match v {
+                Value::Null | Value::Bool(false) => false,
+                Value::String(s) => !s.is_empty(),
+                Value::Array(a) => !a.is_empty() || k == "freedoms",
+                Value::Object(o) => !o.is_empty(),
+                _ => true,
+            });
+        }
+        _ => {}
+    }
+}
+
+/// The JSON Schema of the file.
+#[must_use]
+pub fn json_schema() -> serde_json::Value {
+    schemars::schema_for!(MechanismFile).to_value()
+}

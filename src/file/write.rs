@@ -1,0 +1,298 @@
+//! A mechanism as the entries of its file, exactly.
+
+mod drive;
+mod grip;
+mod quantity;
+mod ranking;
+
+use crate::file::read::joint_loads::{MisalignmentEntry, MomentEntry, StiffnessEntry};
+use crate::file::read::loads::{
+    ForceEntry, InertiaEntry, Quantities, Quantity, StrokeEntry, WorkloadEntry,
+};
+use crate::file::schema::{
+    ContourEntry, Coordinate, CouplingEntry, ExpectedEntry, JointEntry, LinkEntry, MechanismFile,
+    OptionEntry, OptionTable, SearchEntry, Unloading, Words,
+};
+use crate::geom::expr::Expr;
+use crate::model::coupling::Coupling;
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::loads::{ExternalMoment, Inertia, Stiffness};
+use crate::model::mechanism::{Expected, Frame, Joint, JointOption, Mechanism, Mode, Role};
+use std::collections::BTreeMap;
+
+/// The file of a mechanism. Options that the file had in common stand at each joint; nothing else is changed.
+#[must_use]
+pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
+    let ids = |list: &[usize]| list.iter().map(|&j| m.joints[j].id.clone()).collect();
+    let (mode, plane_normal) = match &m.mode {
+        Mode::Spatial => (None, None),
+        Mode::Planar { normal } => (Some("planar".to_owned()), Some(vector(normal))),
+    };
+    MechanismFile {
+        name: m.name.clone(),
+        description: m.description.clone(),
+        sources: m.sources.clone(),
+        length_unit: Some(m.length_unit.symbol.to_owned()),
+        mode,
+        plane_normal,
+        link: m
+            .links
+            .iter()
+            .map(|l| LinkEntry {
+                id: l.id.clone(),
+                role: role(l.role).map(ToOwned::to_owned),
+                mass: l.mass.as_ref().map(|p| p.mass),
+                centre: l.mass.as_ref().map(|p| vector(&p.centre)),
+                inertia: l.mass.as_ref().and_then(|p| p.inertia).map(inertia),
+            })
+            .collect(),
+        joint: m.joints.iter().map(|j| joint(m, j)).collect(),
+        coupling: m.couplings.iter().map(|c| coupling(m, c)).collect(),
+        contour: m
+            .contours
+            .iter()
+            .map(|c| ContourEntry { joints: ids(c) })
+            .collect(),
+        search: search(m),
+        workload: workload(m),
+        ranking: m.ranking.as_ref().map(|r| ranking::ranking(m, r)),
+        joint_types: ranking::joint_types(m),
+        expected: m.expected.iter().map(expected).collect(),
+    }
+}
+
+/// The word for a role.
+pub(crate) fn role(role: Role) -> Option<&'static str> {
+    match role {
+        Role::Frame => Some("frame"),
+        Role::Output => Some("output"),
+        Role::Object => Some("object"),
+        Role::Inner => None,
+    }
+}
+
+/// A number where it is a decimal of at most 17 digits, else an expression.
+fn coordinate(e: &Expr) -> Coordinate {
+    let Some(value) = e.as_rational() else {
+        return Coordinate::Expression(e.to_string());
+    };
+    if value.is_integer()
+        && let Ok(whole) = i64::try_from(value.numer())
+    {
+        return Coordinate::Integer(whole);
+    }
+    let near = e.to_f64();
+    match Expr::from_f64(near) {
+        Ok(read) if read.as_rational() == Some(value) => Coordinate::Decimal(near),
+        _ => Coordinate::Expression(e.to_string()),
+    }
+}
+
+fn vector(v: &[Expr; 3]) -> [Coordinate; 3] {
+    [coordinate(&v[0]), coordinate(&v[1]), coordinate(&v[2])]
+}
+
+fn same(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
+    a.iter().zip(b).all(|(x, y)| x.to_string() == y.to_string())
+}
+
+/// Whether the reference is the one that is understood: x, or y where the axis is along x.
+fn is_default(f: &Frame) -> bool {
+    let unit = |i: usize| [0, 1, 2].map(|k| Expr::from(i64::from(k == i)));
+    let size = f.axis.each_ref().map(|c| c.to_f64().abs());
+    if size[1] + size[2] > 1e-6 * size[0] {
+        return same(&f.reference, &unit(0));
+    }
+    f.axis[1].is_zero_rational() && f.axis[2].is_zero_rational() && same(&f.reference, &unit(1))
+}
+
+fn screws(t: &JointType) -> bool {
+    t.freedoms().contains(&Freedom::Screw)
+}
+
+fn freedoms(t: &JointType) -> Option<Vec<String>> {
+    match t {
+        JointType::Custom(list) => Some(list.iter().map(|f| f.name().to_owned()).collect()),
+        _ => None,
+    }
+}
+
+#[allow(
+    clippy::cast_precision_loss,
+    reason = "costs are at most 1e9 thousandths"
+)]
+fn cost(milli: i64) -> f64 {
+    milli as f64 / 1000.0
+}
+
+fn joint(m: &Mechanism, j: &Joint) -> JointEntry {
+    let names = |s: &Vec<usize>| s.iter().map(|&s| m.states[s].clone()).collect::<Vec<_>>();
+    // The present joint is understood, unless it has a cost of its own.
+    let priced = j.options.first().is_some_and(|o| o.cost_milli.is_some());
+    let listed = j.options.iter().skip(usize::from(!priced));
+    let options: Vec<OptionEntry> = listed.map(|o| option(o, &j.frame)).collect();
+    let options = (!options.is_empty()).then_some(options);
+    let unloading = (!j.unloading.is_empty())
+        .then(|| Unloading::List(j.unloading.iter().map(|o| option(o, &j.frame)).collect()));
+    JointEntry {
+        id: j.id.clone(),
+        links: j.links.map(|l| m.links[l].id.clone()),
+        kind: j.joint_type.name().to_owned(),
+        freedoms: freedoms(&j.joint_type),
+        point: vector(&j.frame.point),
+        axis: Some(vector(&j.frame.axis)),
+        reference: (!is_default(&j.frame)).then(|| vector(&j.frame.reference)),
+        pitch: screws(&j.joint_type).then(|| coordinate(&j.frame.pitch)),
+        drive: j.drive,
+        state: j.states.as_ref().map(|s| Words::Many(names(s))),
+        options,
+        forbid: Vec::new(),
+        unloading,
+    }
+}
+
+fn coupling(m: &Mechanism, c: &Coupling) -> CouplingEntry {
+    let end = |i: usize| {
+        let joint = &m.joints[c.ends[i].joint];
+        match joint.joint_type.freedoms() {
+            [_] => joint.id.clone(),
+            _ => format!("{}:{}", joint.id, c.ends[i].freedom.name()),
+        }
+    };
+    CouplingEntry {
+        joints: [end(0), end(1)],
+        ratio: coordinate(&c.ratio),
+    }
+}
+
+/// An option: its type alone where the rest is as the joint's own.
+fn option(o: &JointOption, present: &Frame) -> OptionEntry {
+    let f = &o.frame;
+    let turned = !same(&f.axis, &present.axis);
+    let table = OptionTable {
+        kind: Some(o.joint_type.name().to_owned()),
+        freedoms: freedoms(&o.joint_type),
+        axis: turned.then(|| vector(&f.axis)),
+        reference: (turned || !same(&f.reference, &present.reference))
+            .then(|| vector(&f.reference)),
+        pitch: (screws(&o.joint_type) && f.pitch.to_string() != present.pitch.to_string())
+            .then(|| coordinate(&f.pitch)),
+        name: Some(o.name.clone()).filter(|n| n != o.joint_type.name()),
+        cost: o.cost_milli.map(cost),
+    };
+    let plain = table.freedoms.is_none()
+        && table.reference.is_none()
+        && table.pitch.is_none()
+        && table.name.is_none()
+        && table.cost.is_none();
+    match (plain, table.kind) {
+        (true, Some(word)) => OptionEntry::Word(word),
+        (_, kind) => OptionEntry::Table(Box::new(OptionTable { kind, ..table })),
+    }
+}
+
+fn search(m: &Mechanism) -> SearchEntry {
+    let spec = &m.search;
+    let mut costs: BTreeMap<String, f64> = BTreeMap::new();
+    costs.extend(
+        spec.costs
+            .by_type_milli
+            .iter()
+            .map(|(n, c)| (n.clone(), cost(*c))),
+    );
+    costs.extend(
+        spec.costs
+            .change_milli
+            .map(|c| ("change".to_owned(), cost(c))),
+    );
+    costs.extend(spec.costs.link_milli.map(|c| ("link".to_owned(), cost(c))));
+    SearchEntry {
+        hold: spec.hold.iter().map(|&l| m.links[l].id.clone()).collect(),
+        mirror: spec
+            .mirror
+            .iter()
+            .map(|&(a, b)| [a, b].map(|j| m.joints[j].id.clone()))
+            .collect(),
+        costs,
+        ..SearchEntry::default()
+    }
+}
+
+fn inertia(i: Inertia) -> InertiaEntry {
+    match i {
+        Inertia::Plane(x) => InertiaEntry::Plane(x),
+        Inertia::Principal(v) => InertiaEntry::List(v.to_vec()),
+        Inertia::Tensor(v) => InertiaEntry::List(v.to_vec()),
+    }
+}
+
+/// Masses aside, what the mechanism carries; positions and speeds as plain numbers.
+fn workload(m: &Mechanism) -> WorkloadEntry {
+    let loads = &m.loads;
+    let end = |x: f64| x.is_finite().then_some(Quantity::Number(x));
+    let force = loads.forces.iter().map(|f| ForceEntry {
+        link: m.links[f.link].id.clone(),
+        point: vector(&f.point),
+        force: vector(&f.force),
+        from: f.range.and_then(|[from, _]| end(from)),
+        to: f.range.and_then(|[_, to]| end(to)),
+    });
+    let speed = |x: &f64| Quantity::Number(*x);
+    let moment = |x: &ExternalMoment| MomentEntry {
+        link: m.links[x.link].id.clone(),
+        moment: vector(&x.moment),
+    };
+    let stiffness = |(name, s): &(String, Stiffness)| {
+        let entry = StiffnessEntry {
+            linear: s.linear,
+            angular: s.angular,
+        };
+        (name.clone(), entry)
+    };
+    let misalignment = loads.misalignments.iter().flat_map(|x| {
+        let turned = ["x", "y", "z"].into_iter().zip(x.turn);
+        let none = x.turn == [0.0; 3];
+        turned
+            .filter(move |(axis, turn)| *turn != 0.0 || none && *axis == "x")
+            .map(|(axis, turn)| MisalignmentEntry {
+                joint: m.joints[x.joint].id.clone(),
+                angle: Quantity::Number(turn),
+                axis: axis.to_owned(),
+            })
+    });
+    WorkloadEntry {
+        gravity: loads.gravity.as_ref().map(vector),
+        force: force.collect(),
+        moment: loads.moments.iter().map(moment).collect(),
+        stiffness: loads.stiffness.iter().map(stiffness).collect(),
+        misalignment: misalignment.collect(),
+        drive_speed: match &loads.drive_speeds[..] {
+            [] => None,
+            [one] => Some(Quantities::One(speed(one))),
+            all => Some(Quantities::Many(all.iter().map(speed).collect())),
+        },
+        stroke: loads.stroke.map(|s| StrokeEntry {
+            from: Quantity::Number(s.from),
+            to: Quantity::Number(s.to),
+            steps: i64::try_from(s.steps).unwrap_or(i64::MAX),
+        }),
+        grip: loads.grip.as_ref().map(|g| grip::grip(m, g)),
+        drive: loads
+            .drive
+            .as_ref()
+            .map(|d| drive::drive(d, m.length_unit.metres)),
+    }
+}
+
+fn expected(e: &Expected) -> ExpectedEntry {
+    ExpectedEntry {
+        state: Some(e.state.clone()),
+        mobility: e.mobility,
+        finite_mobility: e.finite_mobility,
+        working_mobility: e.working_mobility,
+        local_mobility: e.local_mobility,
+        redundant: e.redundant,
+        external_redundant: e.external_redundant,
+        source: e.source.clone(),
+    }
+}

@@ -1,0 +1,68 @@
+//! The `[workload.drive]` table.
+
+use crate::file::read::drive::{DriveEntry, regular};
+use crate::file::schema::Coordinate;
+use crate::file::write::quantity::{angle, number};
+use crate::model::drive::{DriveSpec, Step};
+
+/// The entry of a torsional drive, lengths in a unit of so many metres.
+pub(crate) fn drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
+    let length = |x: f64| number(x, metres);
+    let plain = |x: f64| -> Coordinate { number(x, 1.0) };
+    let [first, second] = spec.inertias;
+    let mut entry = DriveEntry {
+        swing_angle: angle(2.0 * spec.twist),
+        period: Some(plain(spec.period)),
+        swing_time: None,
+        // The whole, of which a payload beside it is a part.
+        inertia: Some(plain(first)),
+        disc_inertia: None,
+        disc_link: None,
+        // A payload of no mass tells a radius alone.
+        payload_mass: spec.payload.filter(|p| p.mass > 0.0).map(|p| plain(p.mass)),
+        payload_radius: spec.payload.map(|p| length(p.radius)),
+        second_inertia: (second.to_bits() != first.to_bits()).then(|| plain(second)),
+        shear_modulus: plain(spec.shear_modulus),
+        allowable_stress: plain(spec.allowable_stress),
+        torsion_length: spec.length.map(length),
+        max_length: spec.max_length.map(length),
+        diameters: spec.diameters.iter().map(|d| length(*d)).collect(),
+        missing_angle: spec.missing.map(angle),
+        viscous_damping: spec.damping.map(|d| plain(d.viscous)),
+        friction_moment: spec.damping.map(|d| plain(d.coulomb)),
+        spring_stroke: spec.cam.map(|c| length(c.stroke)),
+        mounting_coefficient: spec.cam.map(|c| plain(c.mounting)),
+        cam_efficiency: spec.cam.map(|c| plain(c.efficiency)),
+        feed_energy: spec.feed.map(plain),
+        feed_from: Some(angle(spec.feed_from)),
+        latch_capture: Some(angle(spec.capture)),
+        motion: None,
+        swings: None,
+        dwell: None,
+        programme: None,
+    };
+    programme(&mut entry, &spec.programme);
+    entry
+}
+
+/// The programme: as a number of swings where it is regular, else step by step.
+fn programme(entry: &mut DriveEntry, steps: &[Step]) {
+    let swings = steps.iter().filter(|s| matches!(s, Step::Swing(_))).count();
+    let dwell = match steps {
+        [Step::Swing(_), Step::Dwell(time), ..] if *time > 0.0 => Some(*time),
+        _ => None,
+    };
+    for (stepwise, word) in [(true, "stepwise"), (false, "reversing")] {
+        if regular(stepwise, swings, dwell) == steps {
+            entry.motion = Some(word.to_owned());
+            entry.swings = i64::try_from(swings).ok();
+            entry.dwell = dwell.map(|d| number(d, 1.0));
+            return;
+        }
+    }
+    let word = |s: &Step| match s {
+        Step::Swing(disc) => (disc + 1).to_string(),
+        Step::Dwell(time) => format!("wait {time}"),
+    };
+    entry.programme = Some(steps.iter().map(word).collect());
+}

@@ -1,0 +1,303 @@
+//! What a gripper can hold over a range of diameters and motions, and the drive moment that takes.
+
+use crate::grip::contact::{Gripper, Pose, Unholdable};
+use crate::grip::holding::{Coupling, Holding, HoldingError, Load, Outcome, Slip, Spatial, hold};
+use crate::grip::lever_arm::{Arms, Lever, LeverError};
+use crate::model::grip::{GripLoad, GripSpec, LeverDrive, Pivots, Toward};
+use itertools::Itertools;
+
+/// Directions looked at for loads of any direction, before the worst is refined: to the faces, edges and corners of a cube.
+pub const DIRECTIONS: usize = 26;
+
+/// What statics say of the hardest case of a diameter.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Verdict {
+    /// Held with these forces.
+    Held(Holding),
+    /// No forces hold it.
+    Slips(Slip),
+    /// The solver gave no answer.
+    Undecided(HoldingError),
+}
+
+/// The hardest case of a diameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hardest {
+    /// The case in words, such as "acceleration (5, 0, 0) m/s²".
+    pub case: String,
+    /// Gravity less acceleration in the gripper's axes, without the safety factor. `[m/s²]`
+    pub pull: Spatial,
+    /// The load with its safety factor.
+    pub load: Load,
+    /// What comes of it.
+    pub verdict: Verdict,
+}
+
+/// One diameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// `[m]`
+    pub diameter: f64,
+    /// The gripper, its pivots set for this diameter where they are.
+    pub gripper: Gripper,
+    /// The arms.
+    pub arms: Arms,
+    /// The pose, where the levers reach.
+    pub pose: Option<Pose>,
+    /// Why it cannot be held, whatever the forces; empty where it can.
+    pub obstacles: Vec<Unholdable>,
+    /// Mass of the part; 0 where no load is stated. `[kg]`
+    pub mass: f64,
+    /// The hardest case, where a load is stated and nothing stands against holding.
+    pub hardest: Option<Hardest>,
+}
+
+impl Row {
+    /// The drive moment per lever, where the part is held against a load. `[N·m]`
+    #[must_use]
+    pub fn drive(&self) -> Option<f64> {
+        match &self.hardest.as_ref()?.verdict {
+            Verdict::Held(h) => Some(h.drive),
+            Verdict::Slips(_) | Verdict::Undecided(_) => None,
+        }
+    }
+
+    /// Whether the part is held in every case stated.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        let forces = self
+            .hardest
+            .as_ref()
+            .is_none_or(|h| matches!(h.verdict, Verdict::Held(_)));
+        self.obstacles.is_empty() && forces
+    }
+}
+
+/// The whole range.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Study {
+    /// The lever.
+    pub lever: Lever,
+    /// One row a diameter, ascending.
+    pub rows: Vec<Row>,
+}
+
+impl Study {
+    /// Whether every diameter is held in every case.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.rows.iter().all(Row::holds)
+    }
+
+    /// The diameter that takes the greatest drive moment.
+    #[must_use]
+    pub fn hardest(&self) -> Option<&Row> {
+        let held = self.rows.iter().filter_map(|r| Some((r, r.drive()?)));
+        held.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(r, _)| r)
+    }
+}
+
+/// Gravity less acceleration: a vector, and a further one of given size and any direction.
+struct Case {
+    base: Spatial,
+    any: f64,
+    words: Box<dyn Fn(Spatial) -> String>,
+}
+
+fn vector([x, y, z]: Spatial) -> String {
+    let round = |v: f64| {
+        let text = format!("{v:.3}");
+        let short = text.trim_end_matches('0').trim_end_matches('.');
+        if short == "-0" {
+            "0".to_owned()
+        } else {
+            short.to_owned()
+        }
+    };
+    format!("({}, {}, {})", round(x), round(y), round(z))
+}
+
+fn cases(load: &GripLoad) -> Vec<Case> {
+    let each = |a: &Toward| match (load.gravity, *a) {
+        (Toward::Fixed(g), Toward::Fixed(a)) => Case {
+            base: [0, 1, 2].map(|i| g[i] - a[i]),
+            any: 0.0,
+            words: Box::new(move |_| match a == [0.0; 3] {
+                true => "at rest".to_owned(),
+                false => format!("acceleration {} m/s²", vector(a)),
+            }),
+        },
+        (Toward::Fixed(g), Toward::Any(size)) => Case {
+            base: g,
+            any: size,
+            words: Box::new(move |u| {
+                format!("acceleration {size} m/s² along {}", vector(u.map(|x| -x)))
+            }),
+        },
+        (Toward::Any(size), Toward::Fixed(a)) => Case {
+            base: a.map(|x| -x),
+            any: size,
+            words: Box::new(move |u| match a == [0.0; 3] {
+                true => format!("gravity along {}", vector(u)),
+                false => format!(
+                    "acceleration {} m/s², gravity along {}",
+                    vector(a),
+                    vector(u)
+                ),
+            }),
+        },
+        (Toward::Any(g), Toward::Any(a)) => Case {
+            base: [0.0; 3],
+            any: g + a,
+            words: Box::new(move |u| {
+                format!(
+                    "gravity and {a} m/s² of acceleration both pulling along {}",
+                    vector(u)
+                )
+            }),
+        },
+    };
+    load.accelerations.iter().map(each).collect()
+}
+
+fn unit(v: Spatial) -> Spatial {
+    let size = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    v.map(|x| x / size)
+}
+
+fn cube_directions() -> impl Iterator<Item = Spatial> {
+    let steps = [-1.0, 0.0, 1.0];
+    let all = steps
+        .into_iter()
+        .cartesian_product(steps)
+        .cartesian_product(steps);
+    all.map(|((x, y), z)| [x, y, z])
+        .filter(|v| *v != [0.0; 3])
+        .map(unit)
+}
+
+/// How hard a verdict is; what cannot be held is hardest.
+fn hardness(v: &Verdict) -> f64 {
+    match v {
+        Verdict::Held(h) => h.drive,
+        Verdict::Slips(_) | Verdict::Undecided(_) => f64::INFINITY,
+    }
+}
+
+fn verdict(pose: &Pose, load: &Load, friction: f64, levers: LeverDrive) -> Verdict {
+    let coupling = match levers {
+        LeverDrive::Coupled => Coupling::Coupled,
+        LeverDrive::Equal => Coupling::Equal,
+        LeverDrive::Independent => Coupling::Independent,
+    };
+    match hold(pose, load, friction, coupling) {
+        Ok(Outcome::Held(h)) => Verdict::Held(h),
+        Ok(Outcome::Slips(s)) => Verdict::Slips(s),
+        Err(e) => Verdict::Undecided(e),
+    }
+}
+
+fn hardest_of(pose: &Pose, load: &GripLoad, mass: f64, case: &Case) -> Hardest {
+    let at = |u: Spatial| {
+        let pull = [0, 1, 2].map(|i| case.base[i] + case.any * u[i]);
+        let load_there =
+            Load::of_mass(mass, pull, [0.0; 3], load.centre_of_mass).times(load.safety);
+        let verdict = verdict(pose, &load_there, load.friction, load.levers);
+        (
+            u,
+            Hardest {
+                case: (case.words)(u),
+                pull,
+                load: load_there,
+                verdict,
+            },
+        )
+    };
+    if case.any == 0.0 {
+        return at([0.0; 3]).1;
+    }
+    // The moment is a convex function of the load, so its greatest value over a ball lies on the sphere.
+    let mut worst = at([1.0, 0.0, 0.0]);
+    for u in cube_directions() {
+        let found = at(u);
+        if hardness(&found.1.verdict) > hardness(&worst.1.verdict) {
+            worst = found;
+        }
+    }
+    let mut step = 0.4;
+    while step > 2e-3 && hardness(&worst.1.verdict).is_finite() {
+        let from = worst.0;
+        let aside = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+            .into_iter()
+            .cartesian_product([step, -step]);
+        let tries = aside.map(|(a, s)| at(unit([0, 1, 2].map(|i| from[i] + s * a[i]))));
+        let best = tries.max_by(|a, b| hardness(&a.1.verdict).total_cmp(&hardness(&b.1.verdict)));
+        match best.filter(|b| hardness(&b.1.verdict) > hardness(&worst.1.verdict) * (1.0 + 1e-9)) {
+            Some(better) => worst = better,
+            None => step /= 2.0,
+        }
+    }
+    worst.1
+}
+
+/// The gripper for a diameter.
+fn gripper(spec: &GripSpec, lever: Lever, diameter: f64) -> Gripper {
+    Gripper {
+        lever,
+        pivot: match spec.pivots {
+            Pivots::Nominal => lever.nominal_pivot(diameter),
+            Pivots::FixedForDiameter => lever.nominal_pivot(spec.diameter),
+            Pivots::Fixed(a) => a,
+        },
+        face_length: spec.face_length,
+        lever_width: spec.lever_width,
+        may_cross: spec.may_cross,
+    }
+}
+
+/// Studies every diameter of a gripper in every case of its load.
+///
+/// # Guarantee
+/// A load of any direction is looked at in [`DIRECTIONS`] directions and refined about the worst: a lower bound of the
+/// moment over all directions, and in practice its value.
+///
+/// # Errors
+/// A lever whose figures are out of range.
+pub fn study(spec: &GripSpec) -> Result<Study, LeverError> {
+    let lever = Lever::new(spec.lever_length, spec.prism_angle, spec.mounting_angle)?;
+    let row = |&diameter: &f64| {
+        let gripper = gripper(spec, lever, diameter);
+        let obstacles = gripper.obstacles(diameter);
+        let pose = gripper.pose(diameter).ok();
+        let mass = spec.load.as_ref().map_or(0.0, |l| l.mass.of(diameter));
+        let hardest = match (&spec.load, &pose) {
+            (Some(load), Some(pose)) if obstacles.is_empty() => {
+                let found = cases(load)
+                    .iter()
+                    .map(|c| hardest_of(pose, load, mass, c))
+                    .collect_vec();
+                found.into_iter().reduce(|a, b| {
+                    if hardness(&b.verdict) > hardness(&a.verdict) {
+                        b
+                    } else {
+                        a
+                    }
+                })
+            }
+            _ => None,
+        };
+        Row {
+            diameter,
+            gripper,
+            arms: lever.arms(diameter),
+            pose,
+            obstacles,
+            mass,
+            hardest,
+        }
+    };
+    Ok(Study {
+        lever,
+        rows: spec.diameters.iter().map(row).collect(),
+    })
+}

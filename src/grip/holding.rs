@@ -1,0 +1,404 @@
+//! The four contact forces that hold a part, and the smallest drive moment that brings them about.
+//!
+//! The part and the two levers are in equilibrium in space; contacts are points at mid-width with Coulomb friction, whose
+//! cone is kept exact (a second-order cone programme). Forces that *can* hold are asked for: where more than one set does, nature
+//! may choose another, which is what the safety factor is for.
+
+use crate::grip::contact::Pose;
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{
+    DefaultSettings, DefaultSolution, DefaultSolver, IPSolver, SolverStatus, SupportedConeT,
+    SupportedConeT::{NonnegativeConeT, SecondOrderConeT, ZeroConeT},
+};
+use thiserror::Error;
+
+/// A vector in the gripper's axes, see [`crate::grip::contact`].
+pub type Spatial = [f64; 3];
+
+/// How the drive reaches the two levers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Coupling {
+    /// One drive turns both levers by the same angle through gears or a slider, which pass any difference on.
+    Coupled,
+    /// Both levers are given the same moment, as from one pressure in two cylinders.
+    Equal,
+    /// Each lever has a drive of its own that gives any moment from zero to the stated one.
+    Independent,
+}
+
+/// A wrench on the part at its centre.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Load {
+    /// `[N]`
+    pub force: Spatial,
+    /// About the part's centre. `[N·m]`
+    pub moment: Spatial,
+}
+
+impl Load {
+    /// Weight less inertia force of a mass: m (g - a), at its centre of mass.
+    ///
+    /// # Units
+    /// `[kg]`, `[m/s²]`, offset from the part's centre `[m]`.
+    #[must_use]
+    pub fn of_mass(mass: f64, gravity: Spatial, acceleration: Spatial, offset: Spatial) -> Load {
+        let force = [0, 1, 2].map(|i| mass * (gravity[i] - acceleration[i]));
+        Load {
+            force,
+            moment: cross3(offset, force),
+        }
+    }
+
+    /// The load times a factor, such as one for safety.
+    #[must_use]
+    pub fn times(&self, factor: f64) -> Load {
+        Load {
+            force: self.force.map(|x| x * factor),
+            moment: self.moment.map(|x| x * factor),
+        }
+    }
+}
+
+/// The force of one face on the part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactForce {
+    /// Along the contact's normal, towards the part; not negative. `[N]`
+    pub normal: f64,
+    /// Friction along the face, from its vertex. `[N]`
+    pub along: f64,
+    /// Friction along z, the part's axis. `[N]`
+    pub axial: f64,
+}
+
+impl ContactForce {
+    /// Size of the friction force. `[N]`
+    #[must_use]
+    pub fn friction(&self) -> f64 {
+        self.along.hypot(self.axial)
+    }
+}
+
+/// A small motion of the part against the faces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slip {
+    /// Velocity of the part's centre.
+    pub velocity: Spatial,
+    /// Angular velocity of the part, times the lever length.
+    pub rotation: Spatial,
+}
+
+/// Forces that hold the part with the least drive moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Holding {
+    /// Forces on the part, in the order of [`Pose::contacts`].
+    pub forces: [ContactForce; 4],
+    /// Drive moments on the upper and the lower lever, positive when they close. `[N·m]`
+    pub moments: [f64; 2],
+    /// The drive moment per lever that is enough: the mean of the two where they are coupled, the greater otherwise. `[N·m]`
+    pub drive: f64,
+    /// No smaller drive moment holds the part: value of the dual programme. `[N·m]`
+    pub lower_bound: f64,
+}
+
+/// What statics say of a part between four faces.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outcome {
+    /// It can be held.
+    Held(Holding),
+    /// No forces balance the load, however hard the drive closes.
+    Slips(Slip),
+}
+
+/// Why statics have no answer.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum HoldingError {
+    /// Not a coefficient.
+    #[error("the coefficient of friction is {0}; give a number from 0 to 10")]
+    Friction(f64),
+    /// Not a wrench.
+    #[error("the load is not finite; check mass, acceleration and gravity")]
+    Load,
+    /// The solver gave up.
+    #[error(
+        "the force programme ended with {0}; the case is too near the limit of what can be held"
+    )]
+    Solver(String),
+}
+
+fn cross3(a: Spatial, b: Spatial) -> Spatial {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// A linear programme over cones: minimise the drive moment subject to `row · x + s = right`, s in the cone of the row.
+/// Dimensionless: lengths over the lever's, forces over the load.
+struct Programme<'a> {
+    pose: &'a Pose,
+    /// Length of a lever. `[m]`
+    length: f64,
+    /// Directions of the three components of each contact force.
+    directions: [[Spatial; 3]; 4],
+    /// Components in use: three with friction, one without.
+    used: usize,
+    rows: Vec<Vec<(usize, f64)>>,
+    right: Vec<f64>,
+    cones: Vec<SupportedConeT<f64>>,
+}
+
+/// The drive moment among the variables, after three components for each of four contacts.
+const DRIVE: usize = 12;
+
+impl<'a> Programme<'a> {
+    fn new(pose: &'a Pose, friction: f64) -> Self {
+        let (p, v) = (pose.pivots[0], pose.vertices[0]);
+        Programme {
+            pose,
+            length: (v[0] - p[0]).hypot(v[1] - p[1]),
+            directions: pose.contacts.map(|c| {
+                let flat = |v: [f64; 2]| [v[0], v[1], 0.0];
+                [flat(c.normal), flat(c.tangent), [0.0, 0.0, 1.0]]
+            }),
+            used: if friction > 0.0 { 3 } else { 1 },
+            rows: Vec::new(),
+            right: Vec::new(),
+            cones: Vec::new(),
+        }
+    }
+
+    /// Contact, component and variable of every force component in use.
+    fn components(&self) -> impl Iterator<Item = (usize, usize, usize)> + use<> {
+        let used = self.used;
+        (0..4).flat_map(move |c| (0..used).map(move |d| (c, d, 3 * c + d)))
+    }
+
+    fn row(&mut self, row: impl IntoIterator<Item = (usize, f64)>, right: f64) {
+        self.rows.push(row.into_iter().collect());
+        self.right.push(right);
+    }
+
+    fn from(&self, origin: [f64; 2], contact: usize) -> Spatial {
+        let q = self.pose.contacts[contact].point;
+        [
+            (q[0] - origin[0]) / self.length,
+            (q[1] - origin[1]) / self.length,
+            0.0,
+        ]
+    }
+
+    /// Three equations of forces and three of moments about the part's centre.
+    fn balance(&mut self, load: &Load, unit: f64) {
+        let wrenches: Vec<(usize, Spatial, Spatial)> = self
+            .components()
+            .map(|(c, d, v)| {
+                let f = self.directions[c][d];
+                (v, f, cross3(self.from(self.pose.centre, c), f))
+            })
+            .collect();
+        for axis in 0..3 {
+            self.row(
+                wrenches.iter().map(|(v, f, _)| (*v, f[axis])),
+                -load.force[axis] / unit,
+            );
+        }
+        for axis in 0..3 {
+            let right = -load.moment[axis] / unit / self.length;
+            self.row(wrenches.iter().map(|(v, _, m)| (*v, m[axis])), right);
+        }
+    }
+
+    /// The closing moment that a lever needs, `scale` times: that of the part's forces on it about its pivot.
+    fn lever(&self, k: usize, scale: f64) -> Vec<(usize, f64)> {
+        let sign = if k == 0 { -scale } else { scale };
+        let own = self
+            .components()
+            .filter(|(c, _, _)| self.pose.contacts[*c].lever == k);
+        own.map(|(c, d, v)| {
+            (
+                v,
+                sign * cross3(self.from(self.pose.pivots[k], c), self.directions[c][d])[2],
+            )
+        })
+        .collect()
+    }
+
+    /// Each lever's moment against the drive's.
+    fn equal_levers(&mut self) {
+        for k in 0..2 {
+            let row = self.lever(k, 1.0).into_iter().chain([(DRIVE, -1.0)]);
+            self.row(row, 0.0);
+        }
+    }
+
+    fn write(mut self, load: &Load, unit: f64, friction: f64, coupling: Coupling) -> Self {
+        self.balance(load, unit);
+        if coupling == Coupling::Equal {
+            self.equal_levers();
+        }
+        // Components that frictionless contacts do not have are held at zero.
+        let used = self.used;
+        for v in (0..DRIVE).filter(|v| v % 3 >= used) {
+            self.row([(v, 1.0)], 0.0);
+        }
+        self.cones.push(ZeroConeT(self.rows.len()));
+        let equations = self.rows.len();
+        self.row([(DRIVE, -1.0)], 0.0);
+        match coupling {
+            Coupling::Coupled => {
+                let both = self.lever(0, 0.5).into_iter().chain(self.lever(1, 0.5));
+                self.row(both.chain([(DRIVE, -1.0)]), 0.0);
+            }
+            Coupling::Independent => {
+                self.equal_levers();
+                for k in 0..2 {
+                    let row = self.lever(k, -1.0);
+                    self.row(row, 0.0);
+                }
+            }
+            Coupling::Equal => {}
+        }
+        if friction == 0.0 {
+            (0..4).for_each(|c| self.row([(3 * c, -1.0)], 0.0));
+        }
+        self.cones
+            .push(NonnegativeConeT(self.rows.len() - equations));
+        if friction > 0.0 {
+            for c in 0..4 {
+                self.row([(3 * c, -friction)], 0.0);
+                self.row([(3 * c + 1, -1.0)], 0.0);
+                self.row([(3 * c + 2, -1.0)], 0.0);
+                self.cones.push(SecondOrderConeT(3));
+            }
+        }
+        self
+    }
+
+    fn solve(&self) -> Result<DefaultSolution<f64>, HoldingError> {
+        let columns = DRIVE + 1;
+        let (mut i, mut j, mut v) = (Vec::new(), Vec::new(), Vec::new());
+        for (r, row) in self.rows.iter().enumerate() {
+            for &(c, x) in row {
+                i.push(r);
+                j.push(c);
+                v.push(x);
+            }
+        }
+        let matrix = CscMatrix::new_from_triplets(self.rows.len(), columns, i, j, v);
+        let mut objective = vec![0.0; columns];
+        objective[DRIVE] = 1.0;
+        let settings = DefaultSettings {
+            verbose: false,
+            ..DefaultSettings::default()
+        };
+        let quadratic = CscMatrix::zeros((columns, columns));
+        let mut solver = DefaultSolver::new(
+            &quadratic,
+            &objective,
+            &matrix,
+            &self.right,
+            &self.cones,
+            settings,
+        )
+        .map_err(|e| HoldingError::Solver(e.to_string()))?;
+        solver.solve();
+        Ok(solver.solution)
+    }
+}
+
+/// The least drive moment per lever that holds the part in a pose under a load, or the motion in which it slips.
+///
+/// # Units
+/// SI.
+///
+/// # Guarantee
+/// Forces balance the load to 1e-6 of it, and the drive moment exceeds the least one by no more than `drive - lower_bound`.
+///
+/// # Errors
+/// Friction or load out of range; a solver that gives up.
+///
+/// # Sources
+/// Equilibrium of the part (six equations) and of each lever about its pivot, moments taken from coordinates, not from the
+/// arms of `[Pavlenko & Godunko 2010]`.
+pub fn hold(
+    pose: &Pose,
+    load: &Load,
+    friction: f64,
+    coupling: Coupling,
+) -> Result<Outcome, HoldingError> {
+    if !(0.0..=10.0).contains(&friction) {
+        return Err(HoldingError::Friction(friction));
+    }
+    if !load.force.iter().chain(&load.moment).all(|x| x.is_finite()) {
+        return Err(HoldingError::Load);
+    }
+    let programme = Programme::new(pose, friction);
+    let length = programme.length;
+    let size = load
+        .force
+        .iter()
+        .map(|f| f * f)
+        .chain(load.moment.iter().map(|m| (m / length).powi(2)));
+    let unit = size.sum::<f64>().sqrt();
+    if unit == 0.0 {
+        let idle = ContactForce {
+            normal: 0.0,
+            along: 0.0,
+            axial: 0.0,
+        };
+        return Ok(Outcome::Held(Holding {
+            forces: [idle; 4],
+            moments: [0.0; 2],
+            drive: 0.0,
+            lower_bound: 0.0,
+        }));
+    }
+    let programme = programme.write(load, unit, friction, coupling);
+    let s = programme.solve()?;
+    match s.status {
+        SolverStatus::Solved | SolverStatus::AlmostSolved => {
+            // Normal forces below zero by rounding are none.
+            let x = |v: usize| {
+                if v.is_multiple_of(3) {
+                    s.x[v].max(0.0)
+                } else {
+                    s.x[v]
+                }
+            };
+            let forces = [0, 1, 2, 3].map(|c| ContactForce {
+                normal: x(3 * c) * unit,
+                along: x(3 * c + 1) * unit,
+                axial: x(3 * c + 2) * unit,
+            });
+            let moment = |k| {
+                let own = programme.lever(k, 1.0);
+                own.iter().map(|&(v, a)| a * x(v)).sum::<f64>() * unit * length
+            };
+            let moments = [moment(0), moment(1)];
+            // That of these forces, so that statics find the same, and not the solver's own to its tolerance.
+            let drive = match coupling {
+                Coupling::Coupled => f64::midpoint(moments[0], moments[1]),
+                Coupling::Equal | Coupling::Independent => moments[0].max(moments[1]),
+            };
+            Ok(Outcome::Held(Holding {
+                forces,
+                moments,
+                drive: drive.max(0.0),
+                lower_bound: s.obj_val_dual.max(0.0) * unit * length,
+            }))
+        }
+        SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {
+            // The certificate is a motion on which the load works and no contact force takes work away.
+            let z = &s.z[..6];
+            let size = z.iter().map(|z| z * z).sum::<f64>().sqrt();
+            let part = |from: usize| [0, 1, 2].map(|i| z[from + i] / size);
+            Ok(Outcome::Slips(Slip {
+                velocity: part(0),
+                rotation: part(3),
+            }))
+        }
+        other => Err(HoldingError::Solver(format!("{other:?}"))),
+    }
+}

@@ -1,0 +1,380 @@
+//! What a grip does to the mechanism that brings it about: the part cut free, its contact forces on the jaws.
+//!
+//! In a state that has the grip's contacts, two descriptions of them meet. As joints they are bilateral and know no
+//! friction: they pull as well as push, leave what friction holds to give way, and with the clamping force as a
+//! self-stress they leave the reactions open. The grip's cone programme ([`crate::grip::holding`]) knows them better:
+//! forces that push, within the cone of friction, that balance the part's weight and inertia. So the part is cut free: its
+//! joints go, the contact forces act on the jaws instead, each at its point of the lever's face, and the part's mass is in
+//! them and nowhere else. What is left is the mechanism of the free state in the pose in which its levers fit the part. It
+//! is statically determinate where the free state is, and its drive bears what the grip asks of it: by virtual work, the
+//! sum of the lever moments times the levers' turn by travel of the drive.
+//!
+//! A state without the contacts has no part, and no load from the grip. Links that have masses are pulled by the case's
+//! gravity less acceleration, in place of the stated gravity; without one they are weightless, as ever. The safety factor
+//! is on the part alone.
+//!
+//! Axes: the grip's x, y, z are found from the points of contacts and lever joints, which must be where the grip's figures
+//! have them at the nominal diameter.
+
+use crate::geom::exact::ExactError;
+use crate::geom::expr::Expr;
+use crate::grip::clamping::{Row, Study, Verdict, study};
+use crate::grip::contact::{self, Contact, Unholdable};
+use crate::grip::lever_arm::LeverError;
+use crate::model::grip::{GripSpec, Transmission};
+use crate::model::joint_type::Freedom;
+use crate::model::loads::{ExternalForce, Loads};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::motion::follow::{Follower, slides};
+use crate::motion::pose::Pose;
+use crate::statics::reactions::geometry::{cross, dot};
+use thiserror::Error;
+
+/// Points of the file may be this fraction of the lever's length from where the grip's figures have them.
+const PLACED: f64 = 1e-6;
+/// Turns of a lever nearer than this to the wanted one are it. `[rad]`
+const TURNED: f64 = 1e-9;
+
+/// Why a grip's forces cannot be brought onto its mechanism.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum JawError {
+    /// The geometry has no numbers.
+    #[error(transparent)]
+    Exact(#[from] ExactError),
+    /// The lever's figures are out of range.
+    #[error(transparent)]
+    Lever(#[from] LeverError),
+    /// The nominal part cannot be reached, so that there is nothing to compare the file's pose with.
+    #[error("[workload.grip]: the nominal diameter cannot be held: {0}")]
+    Nominal(Unholdable),
+    /// A joint is not where the figures have it.
+    #[error(
+        "joint \"{joint}\" is at ({:.4}, {:.4}) {unit} from the middle of the lever joints, along the gripper and across, and \
+         [workload.grip] has it at ({:.4}, {:.4}); make the joints' points and the figures agree at the nominal diameter",
+        .is[0], .is[1], .wanted[0], .wanted[1]
+    )]
+    Misplaced {
+        /// The joint.
+        joint: String,
+        /// Where it is, in the file's unit.
+        is: [f64; 2],
+        /// Where the figures have it.
+        wanted: [f64; 2],
+        /// The file's unit.
+        unit: &'static str,
+    },
+    /// The lever turns about something else.
+    #[error(
+        "lever joint \"{0}\" must be a hinge along the part: a revolute joint, its axis across the plane of the contacts"
+    )]
+    NotAHinge(String),
+    /// The mechanism does not go there.
+    #[error(
+        "the mechanism cannot turn lever joint \"{joint}\" by {degrees:.3}° to fit a part of {diameter} m; look at `ozols analyze --stroke`"
+    )]
+    OutOfReach {
+        /// The lever joint.
+        joint: String,
+        /// The turn from the pose of the file.
+        degrees: f64,
+        /// The part. `[m]`
+        diameter: f64,
+    },
+}
+
+/// A mechanism with the part cut free, ready for its contact forces.
+#[derive(Debug, Clone)]
+pub struct Gripping {
+    /// The mechanism, the joints of the part in no state.
+    pub mechanism: Mechanism,
+    /// The state with the contacts.
+    pub state: StateId,
+    /// The grip over its diameters.
+    pub study: Study,
+    /// The contacts: upper far, upper near, lower far, lower near.
+    pub contacts: [JointId; 4],
+    /// The links they touch, upper and lower lever.
+    pub levers: [LinkId; 2],
+    joints: [JointId; 2],
+    axes: Axes,
+    nominal: contact::Pose,
+    start: Pose,
+}
+
+/// The gripper's axes in those of the file: origin in metres, unit vectors x, y, z.
+#[derive(Debug, Clone, Copy)]
+struct Axes {
+    origin: [f64; 3],
+    unit: [[f64; 3]; 3],
+}
+
+impl Axes {
+    fn direction(&self, v: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|i| (0..3).map(|k| v[k] * self.unit[k][i]).sum())
+    }
+
+    fn point(&self, p: [f64; 3]) -> [f64; 3] {
+        let d = self.direction(p);
+        [0, 1, 2].map(|i| self.origin[i] + d[i])
+    }
+
+    fn flat(&self, p: [f64; 3]) -> [f64; 2] {
+        let d = [0, 1, 2].map(|i| p[i] - self.origin[i]);
+        [dot(d, self.unit[0]), dot(d, self.unit[1])]
+    }
+}
+
+/// The mechanism round a part of one diameter.
+#[derive(Debug, Clone)]
+pub struct Fit {
+    /// Position of the first drive since the pose of the file: `[rad]`, or the file's unit.
+    pub drive: f64,
+    /// The pose.
+    pub pose: Pose,
+}
+
+/// The grip that loads a state: it names contacts, and the state has them.
+#[must_use]
+pub fn grip_of(m: &Mechanism, state: StateId) -> Option<(&GripSpec, [JointId; 4], [JointId; 2])> {
+    let spec = m.loads.grip.as_ref()?;
+    let contacts = spec.contacts?;
+    let Transmission::Joints(levers) = spec.transmission else {
+        return None;
+    };
+    let states = m.joints[contacts[0]].states.as_ref();
+    let there = states.is_none_or(|s| s.contains(&state));
+    there.then_some((spec, contacts, levers))
+}
+
+/// The mechanism without the joints of a link: they are in no state, and ids stay as they are.
+fn cut_free(m: &Mechanism, part: LinkId) -> Mechanism {
+    let mut out = m.clone();
+    for joint in out.joints.iter_mut().filter(|j| j.links.contains(&part)) {
+        joint.states = Some(Vec::new());
+    }
+    out
+}
+
+fn metres(m: &Mechanism, joint: JointId) -> [f64; 3] {
+    let p = &m.joints[joint].frame.point;
+    [0, 1, 2].map(|i| p[i].to_f64() * m.length_unit.metres)
+}
+
+fn mean(points: &[[f64; 3]]) -> [f64; 3] {
+    #[allow(clippy::cast_precision_loss, reason = "two or four points")]
+    let n = points.len() as f64;
+    [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / n)
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|i| a[i] - b[i])
+}
+
+fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
+    let size = dot(a, a).sqrt();
+    (size > 0.0).then(|| a.map(|x| x / size))
+}
+
+/// The gripper's axes, from the contacts and the hinges of the levers along `hinge`.
+fn axes(contacts: [[f64; 3]; 4], pivots: [[f64; 3]; 2], hinge: [f64; 3]) -> Option<Axes> {
+    let across = |v: [f64; 3]| {
+        let along = dot(v, hinge);
+        [0, 1, 2].map(|i| v[i] - along * hinge[i])
+    };
+    let ahead = minus(mean(&contacts), mean(&pivots));
+    let x = unit(across(ahead))?;
+    let up = across(minus(mean(&contacts[..2]), mean(&contacts[2..])));
+    let y = unit(minus(up, x.map(|c| c * dot(up, x))))?;
+    let (z, along) = (cross(x, y), dot(ahead, hinge));
+    Some(Axes {
+        // Midway between the pivots, in the plane of the contacts.
+        origin: [0, 1, 2].map(|i| mean(&pivots)[i] + along * hinge[i]),
+        unit: [x, y, z],
+    })
+}
+
+impl Gripping {
+    /// The mechanism of a state with the part cut free; `None` where no grip loads the state.
+    ///
+    /// # Errors
+    /// A mechanism whose points do not agree with the grip's figures.
+    ///
+    /// # Complexity
+    /// That of [`study`].
+    pub fn new(m: &Mechanism, state: StateId) -> Result<Option<Gripping>, JawError> {
+        match grip_of(m, state) {
+            Some((spec, ..)) => Gripping::of_study(m, state, study(spec)?),
+            None => Ok(None),
+        }
+    }
+
+    /// The same for a study that is there already.
+    ///
+    /// # Errors
+    /// As [`Gripping::new`].
+    pub fn of_study(
+        m: &Mechanism,
+        state: StateId,
+        study: Study,
+    ) -> Result<Option<Gripping>, JawError> {
+        let Some((spec, contacts, joints)) = grip_of(m, state) else {
+            return Ok(None);
+        };
+        let of_row = study.rows.first().map(|r| r.gripper.pose(spec.diameter));
+        let nominal = match of_row {
+            Some(Ok(pose)) => pose,
+            Some(Err(why)) => return Err(JawError::Nominal(why)),
+            None => return Ok(None),
+        };
+        // One link of the contacts is the part, which all share; the others are the levers.
+        let [a, b] = m.joints[contacts[0]].links;
+        let part = if m.joints[contacts[2]].links.contains(&a) {
+            a
+        } else {
+            b
+        };
+        let lever = |c: usize| {
+            let [a, b] = m.joints[contacts[c]].links;
+            if a == part { b } else { a }
+        };
+        let mechanism = cut_free(m, part);
+        let start = Pose::of_file(&mechanism, state)?;
+        let name = |j: JointId| m.joints[j].id.clone();
+        let not_a_hinge = || JawError::NotAHinge(name(joints[0]));
+        let at = hinge(&start, joints[0]).ok_or_else(not_a_hinge)?;
+        let t = start.columns[at].twist;
+        let axes = axes(
+            contacts.map(|j| metres(m, j)),
+            joints.map(|j| metres(m, j)),
+            [t[0], t[1], t[2]],
+        )
+        .ok_or_else(not_a_hinge)?;
+        let placed = contacts.into_iter().zip(nominal.contacts.map(|c| c.point));
+        let placed = placed.chain(joints.into_iter().zip(nominal.pivots));
+        for (joint, wanted) in placed {
+            let is = axes.flat(metres(m, joint));
+            let off = (is[0] - wanted[0]).hypot(is[1] - wanted[1]);
+            if off.is_nan() || off > PLACED * spec.lever_length {
+                let told = |p: [f64; 2]| p.map(|x| x / m.length_unit.metres);
+                return Err(JawError::Misplaced {
+                    joint: name(joint),
+                    is: told(is),
+                    wanted: told(wanted),
+                    unit: m.length_unit.symbol,
+                });
+            }
+        }
+        Ok(Some(Gripping {
+            levers: [lever(0), lever(2)],
+            mechanism,
+            state,
+            study,
+            contacts,
+            joints,
+            axes,
+            nominal,
+            start,
+        }))
+    }
+
+    /// The mechanism with its levers round a part, from the pose of the file on its branch.
+    ///
+    /// # Errors
+    /// A lever that is no hinge, or does not go there.
+    pub fn fit(&self, row: &Row) -> Result<Fit, JawError> {
+        let m = &self.mechanism;
+        let there = row.pose.as_ref().map_or(0.0, |p| p.turn);
+        let mut pose = self.start.clone();
+        let mut held = Vec::new();
+        for (k, &joint) in self.joints.iter().enumerate() {
+            let name = || m.joints[joint].id.clone();
+            let column = hinge(&pose, joint).ok_or_else(|| JawError::NotAHinge(name()))?;
+            // The lower lever is the mirror image of the upper one.
+            let turn = (there - self.nominal.turn) * if k == 0 { 1.0 } else { -1.0 };
+            let t = self.start.columns[column].twist;
+            let about = dot([t[0], t[1], t[2]], self.axes.unit[2]);
+            if about.abs() < 1.0 - 1e-9 {
+                return Err(JawError::NotAHinge(name()));
+            }
+            let second = m.joints[joint].links[1] == self.levers[k];
+            let to = turn * about.signum() * if second { 1.0 } else { -1.0 };
+            if (pose.columns[column].moved - to).abs() > TURNED {
+                let mut follower = Follower::new(pose, column, &held);
+                follower
+                    .advance(to, |_| {})
+                    .map_err(|_| JawError::OutOfReach {
+                        joint: name(),
+                        degrees: to.to_degrees(),
+                        diameter: row.diameter,
+                    })?;
+                pose = follower.pose();
+            }
+            held.push(column);
+        }
+        let drive = (0..pose.columns.len()).find(|&c| m.joints[pose.columns[c].joint].drive);
+        let position = drive.map(|c| {
+            let scale = if slides(&pose, c) { pose.length } else { 1.0 };
+            pose.columns[c].moved * scale
+        });
+        Ok(Fit {
+            drive: position.unwrap_or(0.0),
+            pose,
+        })
+    }
+
+    /// The loads of the mechanism in a diameter's hardest case: those of the file, and the part's forces on the jaws;
+    /// `None` where the part is not held. The drives stand still.
+    #[must_use]
+    pub fn loads(&self, row: &Row) -> Option<Loads> {
+        let (hardest, fitted) = (row.hardest.as_ref()?, row.pose.as_ref()?);
+        let Verdict::Held(holding) = &hardest.verdict else {
+            return None;
+        };
+        let exact = |v: [f64; 3]| {
+            let [x, y, z] = v.map(|x| Expr::from_f64(x).ok());
+            Some([x?, y?, z?])
+        };
+        let mut out = Loads {
+            drive_speeds: Vec::new(),
+            stroke: None,
+            ..self.mechanism.loads.clone()
+        };
+        if out.gravity.is_some() {
+            out.gravity = Some(exact(self.axes.direction(hardest.pull))?);
+        }
+        let along = self.study.lever.face_distance(row.diameter);
+        let each = self.nominal.contacts.iter().zip(&fitted.contacts);
+        for ((home, now), f) in each.zip(&holding.forces) {
+            let point = self.axes.point(on_face(&self.nominal, home, along));
+            let force = [0, 1].map(|i| f.normal * now.normal[i] + f.along * now.tangent[i]);
+            out.forces.push(ExternalForce {
+                link: self.levers[home.lever],
+                point: exact(point.map(|x| x / self.mechanism.length_unit.metres))?,
+                // The part's force on the jaw is less the jaw's on the part.
+                force: exact(self.axes.direction([-force[0], -force[1], -f.axial]))?,
+                range: None,
+            });
+        }
+        Some(out)
+    }
+}
+
+/// The column of a joint that is a hinge and nothing else.
+fn hinge(pose: &Pose, joint: JointId) -> Option<usize> {
+    let mut own = (0..pose.columns.len()).filter(|&c| pose.columns[c].joint == joint);
+    match (own.next(), own.next()) {
+        (Some(c), None) if pose.columns[c].freedom == Freedom::Rz => Some(c),
+        _ => None,
+    }
+}
+
+/// The point of a lever's face at a distance from the vertex, the lever as it holds the nominal part.
+fn on_face(nominal: &contact::Pose, c: &Contact, along: f64) -> [f64; 3] {
+    let vertex = nominal.vertices[c.lever];
+    [
+        vertex[0] + along * c.tangent[0],
+        vertex[1] + along * c.tangent[1],
+        0.0,
+    ]
+}

@@ -1,0 +1,335 @@
+//! From a robot as read to a mechanism file: pose, frame, loops, bodies, outputs.
+
+use crate::file::read::LIMITS;
+use crate::model::joint_type::JointType;
+use crate::robots::Options;
+use crate::robots::close::{self, CLOSED, close, gaps, size, worst};
+use crate::robots::coupling;
+use crate::robots::emit::{self, Bodies, Content};
+use crate::robots::kinematics::{Tree, places, spanning_tree};
+use crate::robots::parts::{Part, Robot, free};
+use crate::robots::pose::Pose;
+use crate::robots::problem::{RobotProblem, known};
+use std::collections::BTreeSet;
+
+fn link_of(robot: &Robot, name: &str) -> Result<usize, RobotProblem> {
+    robot
+        .links
+        .iter()
+        .position(|l| l == name)
+        .ok_or_else(|| RobotProblem::UnknownName {
+            element: "the command line".to_owned(),
+            what: "link",
+            name: name.to_owned(),
+            known: known("links", robot.links.iter().map(String::as_str)),
+        })
+}
+
+pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Result<(), RobotProblem> {
+    for (id, values) in &options.pose {
+        let Some(joint) = robot.joints.iter_mut().find(|j| j.id == *id) else {
+            return Err(RobotProblem::UnknownName {
+                element: "the pose".to_owned(),
+                what: "joint",
+                name: id.clone(),
+                known: known("joints", robot.joints.iter().map(|j| j.id.as_str())),
+            });
+        };
+        if values.len() != joint.values.len() || !values.iter().all(|v| v.abs() <= 1e9) {
+            return Err(RobotProblem::BadValue {
+                element: format!("joint \"{id}\""),
+                what: "the pose".to_owned(),
+                found: values
+                    .iter()
+                    .map(f64::to_string)
+                    .collect::<Vec<_>>()
+                    .join(","),
+                want: format!("give {} finite numbers", joint.values.len()),
+            });
+        }
+        joint.values = values.iter().map(|v| v - joint.zero).collect();
+    }
+    Ok(())
+}
+
+/// The frame: the world where something hangs on it, else the link that is no joint's child.
+pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, RobotProblem> {
+    if let Some(name) = &options.frame {
+        return link_of(robot, name);
+    }
+    let child: BTreeSet<usize> = robot
+        .joints
+        .iter()
+        .filter(|j| !j.closes)
+        .map(|j| j.links[1])
+        .collect();
+    let held = |w: &usize| {
+        robot
+            .joints
+            .iter()
+            .any(|j| !j.closes && j.links.contains(w))
+    };
+    let root = robot
+        .world
+        .filter(held)
+        .or_else(|| (0..robot.links.len()).find(|l| !child.contains(l) && robot.world != Some(*l)))
+        .unwrap_or(0);
+    if !options.floating {
+        return Ok(root);
+    }
+    let world = match robot.world {
+        Some(w) => w,
+        None => robot.link("world", Pose::IDENTITY),
+    };
+    robot.world = Some(world);
+    // Every tree of links that the world does not hold floats by itself.
+    let tree = spanning_tree(robot, world);
+    for &r in tree.roots.iter().skip(1) {
+        let sides = [robot.places[r], Pose::IDENTITY];
+        let id = format!("floating-{}", robot.links[r]);
+        robot.joints.push(Part::new(&id, [world, r], sides, free()));
+        robot.report.map("floating base");
+    }
+    Ok(world)
+}
+
+/// Every link must hang on the frame.
+pub(crate) fn held(robot: &Robot, tree: &Tree) -> Result<(), RobotProblem> {
+    let jointless =
+        |l: usize| robot.world == Some(l) && !robot.joints.iter().any(|j| j.links.contains(&l));
+    let loose: Vec<&str> = tree
+        .roots
+        .iter()
+        .skip(1)
+        .filter(|&&l| !jointless(l))
+        .map(|&l| robot.links[l].as_str())
+        .collect();
+    if loose.is_empty() {
+        return Ok(());
+    }
+    Err(RobotProblem::Whole {
+        message: format!(
+            "no joint connects {} with {}; add one, or use --floating to let every such part float",
+            loose
+                .iter()
+                .take(5)
+                .map(|l| format!("link \"{l}\""))
+                .collect::<Vec<_>>()
+                .join(", "),
+            robot.links[tree.roots[0]],
+        ),
+    })
+}
+
+pub(crate) fn close_loops(
+    robot: &mut Robot,
+    tree: &Tree,
+    options: &Options,
+) -> Result<(), RobotProblem> {
+    if tree.loops.is_empty() {
+        return Ok(());
+    }
+    let size = size(robot);
+    let first = worst(&gaps(robot, tree), size);
+    let n = tree.loops.len();
+    let loops = if n == 1 {
+        "1 loop".to_owned()
+    } else {
+        format!("{n} loops")
+    };
+    if first <= CLOSED * size {
+        robot.report.pose.push(format!(
+            "{loops} closed in the pose of the file, to {first:.1e} m"
+        ));
+        return Ok(());
+    }
+    let before: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
+    let (left, outside) = if options.open {
+        (first, 0)
+    } else {
+        close(robot, tree)
+    };
+    if left <= CLOSED * size {
+        let largest = robot
+            .joints
+            .iter()
+            .zip(&before)
+            .enumerate()
+            .filter(|(j, _)| !tree.loops.contains(j))
+            .flat_map(|(_, (j, b))| {
+                j.values
+                    .iter()
+                    .zip(b)
+                    .map(move |(v, b)| ((v - b).abs(), &j.id))
+            })
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        let moved = largest.map_or(String::new(), |(v, id)| {
+            format!("; {id} moved most, by {v:.3}")
+        });
+        let limits = match outside {
+            0 => String::new(),
+            n => format!("; {n} outside their limits"),
+        };
+        robot.report.pose.push(format!(
+            "{loops} open by {first:.1e} m in the pose of the file, closed to {left:.1e} m by moving joints{moved}{limits}"
+        ));
+        return Ok(());
+    }
+    let gaps = gaps(robot, tree);
+    let most = gaps.iter().max_by(|a, b| {
+        let by = |g: &close::Gap| g.shift.max(g.turn * size);
+        by(a).total_cmp(&by(b))
+    });
+    let what = most.map_or(String::new(), |g| {
+        let p = &robot.joints[g.joint];
+        let [a, b] = p.links.map(|l| robot.links[l].as_str());
+        format!(
+            "\"{}\" between {a} and {b} by {:.2e} m and {:.2e} rad",
+            p.id, g.shift, g.turn
+        )
+    });
+    if options.open {
+        let note = format!("loops open, the widest {what}; the figures are those of that pose");
+        robot.report.pose.push(note);
+        return Ok(());
+    }
+    Err(RobotProblem::Whole {
+        message: format!(
+            "the loops do not close, the widest is {what}; give a pose nearby with --pose joint=value, or take it as it is with --open"
+        ),
+    })
+}
+
+pub(crate) fn write(
+    robot: &mut Robot,
+    tree: &Tree,
+    file: &str,
+    options: &Options,
+) -> Result<String, RobotProblem> {
+    let places = places(robot, tree);
+    let fixed = |j: usize| robot.joints[j].joint_type == JointType::Fixed;
+    let rigid = tree
+        .steps
+        .iter()
+        .filter(|s| fixed(s.joint))
+        .map(|s| (s.from, s.link));
+    let bodies = Bodies::new(robot.links.len(), rigid);
+    let in_tree: BTreeSet<usize> = tree.steps.iter().map(|s| s.joint).collect();
+    let mut joints = Vec::new();
+    let mut within = Vec::new();
+    for (j, p) in robot.joints.iter().enumerate() {
+        let [a, b] = p.links.map(|l| bodies.of[l]);
+        if a == b && !(in_tree.contains(&j) && fixed(j)) {
+            within.push(p.id.clone());
+        } else if a != b {
+            joints.push(j);
+        }
+    }
+    for id in within {
+        let what = "both ends are on one rigid body; left out, with all its rows redundant";
+        robot.report.approximate(&format!("joint \"{id}\""), what);
+    }
+    if joints.is_empty() {
+        let n = robot.links.len();
+        return Err(RobotProblem::Whole {
+            message: format!(
+                "nothing can move: all {n} links are rigidly joined; there is no mechanism to analyse"
+            ),
+        });
+    }
+    let couplings = coupling::usable(robot, &joints);
+    let frame = bodies.of[tree.roots[0]];
+    let outputs = output_links(robot, &bodies, &joints, frame, options)?;
+    let mut report = std::mem::take(&mut robot.report);
+    report.outputs = (
+        outputs.iter().map(|&b| robot.links[b].clone()).collect(),
+        !options.outputs.is_empty(),
+    );
+    let used: BTreeSet<usize> = joints
+        .iter()
+        .flat_map(|&j| robot.joints[j].links.map(|l| bodies.of[l]))
+        .collect();
+    report.size = (used.len(), joints.len());
+    for (what, count, limit) in [
+        ("links", used.len(), LIMITS.0),
+        ("joints", joints.len(), LIMITS.1),
+    ] {
+        if count > limit {
+            return Err(RobotProblem::Whole {
+                message: format!(
+                    "after merging what is rigidly joined there are {count} {what}, more than the {limit} of a mechanism file; import a part of the robot"
+                ),
+            });
+        }
+    }
+    robot.report = report;
+    let file = std::path::Path::new(file).file_name();
+    Ok(emit::toml(&Content {
+        robot,
+        file: &file.unwrap_or_default().to_string_lossy(),
+        places: &places,
+        bodies: &bodies,
+        frame,
+        outputs: &outputs,
+        joints: &joints,
+        couplings: &couplings,
+    }))
+}
+
+/// The links asked for, or those at the ends of chains, or the one farthest from the frame.
+fn output_links(
+    robot: &Robot,
+    bodies: &Bodies,
+    joints: &[usize],
+    frame: usize,
+    options: &Options,
+) -> Result<Vec<usize>, RobotProblem> {
+    let mut out = Vec::new();
+    for name in &options.outputs {
+        let b = bodies.of[link_of(robot, name)?];
+        if b == frame {
+            return Err(RobotProblem::Whole {
+                message: format!(
+                    "link \"{name}\" is the frame or fixed to it; name a link that moves"
+                ),
+            });
+        }
+        out.push(b);
+    }
+    if out.is_empty() {
+        out = end_links(robot, bodies, joints, frame);
+    }
+    out.sort_unstable();
+    out.dedup();
+    Ok(out)
+}
+
+/// The links of one joint; where there are none, those farthest from the frame by number of joints.
+fn end_links(robot: &Robot, bodies: &Bodies, joints: &[usize], frame: usize) -> Vec<usize> {
+    let mut at: Vec<Vec<usize>> = vec![Vec::new(); robot.links.len()];
+    for &j in joints {
+        let [a, b] = robot.joints[j].links.map(|l| bodies.of[l]);
+        at[a].push(b);
+        at[b].push(a);
+    }
+    let ends: Vec<usize> = (0..at.len())
+        .filter(|&b| b != frame && at[b].len() == 1)
+        .collect();
+    if !ends.is_empty() {
+        return ends;
+    }
+    let (mut seen, mut last) = (vec![false; at.len()], vec![frame]);
+    seen[frame] = true;
+    loop {
+        let mut next = Vec::new();
+        for &b in last.iter().flat_map(|&l| &at[l]) {
+            if !std::mem::replace(&mut seen[b], true) {
+                next.push(b);
+            }
+        }
+        if next.is_empty() {
+            return last;
+        }
+        last = next;
+    }
+}

@@ -1,0 +1,312 @@
+//! Closing loops: damped least squares over all joint values, from the pose of the file.
+
+use crate::model::joint_type::Freedom;
+use crate::robots::kinematics::{Tree, displacement, places, world_axes};
+use crate::robots::parts::{Part, Robot};
+use crate::robots::pose::{Pose, V3, add, cross, length, scale, sub, unit};
+use faer::linalg::solvers::Solve;
+use faer::{Mat, Side};
+
+/// A loop that is open by less than this fraction of the robot's size counts as closed: coordinates are rounded.
+pub(crate) const CLOSED: f64 = 1e-6;
+/// Most unknowns; beyond them a pose has to be given.
+const MAX_UNKNOWNS: usize = 600;
+/// Most steps from one start, and most starts.
+const STEPS: usize = 300;
+const STARTS: usize = 12;
+/// Longest step of a joint, in radians or sizes of the robot: the loops close near by or not at all.
+const LONGEST: f64 = 0.3;
+
+/// How far a loop is from closed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Gap {
+    pub(super) joint: usize,
+    /// In metres.
+    pub(super) shift: f64,
+    /// In radians.
+    pub(super) turn: f64,
+}
+
+/// Size of the robot: the largest distance between joints of one link, for weighing angles against lengths.
+pub(crate) fn size(robot: &Robot) -> f64 {
+    robot
+        .joints
+        .iter()
+        .flat_map(|j| j.sides.iter().map(|s| length(s.at)))
+        .fold(1e-3, f64::max)
+}
+
+/// How the two sides of a loop joint differ: a shift and a rotation vector, in the world.
+fn mismatch(robot: &Robot, places: &[Pose], j: usize) -> (V3, V3) {
+    let p = &robot.joints[j];
+    let near = places[p.links[0]].then(&p.sides[0]).then(&displacement(p));
+    let far = places[p.links[1]].then(&p.sides[1]);
+    let turn = near.inverse().then(&far).rotation_vector();
+    let spherical = free_turns(robot, j) == 3;
+    (
+        sub(far.at, near.at),
+        if spherical {
+            [0.0; 3]
+        } else {
+            near.direction(turn)
+        },
+    )
+}
+
+fn free_turns(robot: &Robot, j: usize) -> usize {
+    let turns = |f: &&Freedom| matches!(f, Freedom::Rx | Freedom::Ry | Freedom::Rz);
+    robot.joints[j]
+        .joint_type
+        .freedoms()
+        .iter()
+        .filter(turns)
+        .count()
+}
+
+/// The gaps of all loops.
+pub(crate) fn gaps(robot: &Robot, tree: &Tree) -> Vec<Gap> {
+    let places = places(robot, tree);
+    tree.loops
+        .iter()
+        .map(|&joint| {
+            let (shift, turn) = mismatch(robot, &places, joint);
+            Gap {
+                joint,
+                shift: length(shift),
+                turn: length(turn),
+            }
+        })
+        .collect()
+}
+
+/// The largest gap as a length.
+pub(crate) fn worst(gaps: &[Gap], size: f64) -> f64 {
+    gaps.iter()
+        .map(|g| g.shift.max(g.turn * size))
+        .fold(0.0, f64::max)
+}
+
+/// Changes the joint values so that the loops close, staying near where they are; gives the largest gap left
+/// and the number of joints outside their limits.
+///
+/// Of several starts the first that closes with all joints within their limits is taken, else the one that breaks the
+/// fewest limits, else the values stay.
+pub(crate) fn close(robot: &mut Robot, tree: &Tree) -> (f64, usize) {
+    let size = size(robot);
+    let first: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
+    let set = |robot: &mut Robot, values: &[Vec<f64>]| {
+        for (j, v) in robot.joints.iter_mut().zip(values) {
+            j.values.clone_from(v);
+        }
+    };
+    let mut best: Option<(usize, f64, Vec<Vec<f64>>)> = None;
+    for start in 0..STARTS {
+        set(robot, &first);
+        if start > 0 {
+            begin(robot, start);
+        }
+        let left = descend(robot, tree, size);
+        if left > CLOSED * size {
+            continue;
+        }
+        let broken = robot
+            .joints
+            .iter_mut()
+            .map(wind_back)
+            .filter(|inside| !inside)
+            .count();
+        if best.as_ref().is_none_or(|(b, ..)| broken < *b) {
+            let values = robot.joints.iter().map(|j| j.values.clone()).collect();
+            best = Some((broken, left, values));
+        }
+        if broken == 0 {
+            break;
+        }
+    }
+    match best {
+        Some((broken, left, values)) => {
+            set(robot, &values);
+            (left, broken)
+        }
+        None => {
+            set(robot, &first);
+            (worst(&gaps(robot, tree), size), 0)
+        }
+    }
+}
+
+/// Takes whole turns off angles; says whether the joint is within its limits.
+fn wind_back(j: &mut Part) -> bool {
+    const TURN: f64 = std::f64::consts::TAU;
+    let middle = j.limits.map_or(0.0, |(low, high)| f64::midpoint(low, high));
+    for (v, f) in j.values.iter_mut().zip(j.joint_type.freedoms()) {
+        if matches!(f, Freedom::Rx | Freedom::Ry | Freedom::Rz) {
+            *v -= TURN * ((*v - middle) / TURN).round();
+        }
+    }
+    match (&j.values[..], j.limits) {
+        ([v], Some((low, high))) => (low - 1e-3..=high + 1e-3).contains(v),
+        _ => true,
+    }
+}
+
+/// Other values to start from: limited joints within their limits, others turned a little, differently each time.
+fn begin(robot: &mut Robot, start: usize) {
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(start as u64);
+    for j in &mut robot.joints {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        #[allow(clippy::cast_precision_loss, reason = "53 bits")]
+        let part = (state >> 11) as f64 / (1_u64 << 53) as f64;
+        let turns = matches!(j.joint_type.freedoms(), [Freedom::Rz]);
+        if let ([value], Some((low, high))) = (&mut j.values[..], j.limits) {
+            // The middle at first, then anywhere.
+            let part = if start == 1 { 0.5 } else { part };
+            if start > 1 || !(low..=high).contains(value) {
+                *value = low + part * (high - low);
+            }
+        } else if turns && start > 1 {
+            j.values[0] += part - 0.5;
+        }
+    }
+}
+
+/// Levenberg-Marquardt with the exact twists as derivatives.
+fn descend(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
+    let offsets: Vec<usize> = robot
+        .joints
+        .iter()
+        .scan(0, |n, j| {
+            let first = *n;
+            *n += j.values.len();
+            Some(first)
+        })
+        .collect();
+    let unknowns: usize = robot.joints.iter().map(|j| j.values.len()).sum();
+    let mut left = worst(&gaps(robot, tree), size);
+    if unknowns == 0 || unknowns > MAX_UNKNOWNS {
+        return left;
+    }
+    let (mut damping, mut cost) = (1e-4, cost(robot, tree, size));
+    let mut milestone = cost;
+    for step in 1..=STEPS {
+        // Hardly nearer for a while: a minimum that is not a closed pose.
+        if step % 25 == 0 && std::mem::replace(&mut milestone, cost) * 0.99 < cost {
+            break;
+        }
+        if left <= 1e-14 * size || damping > 1e8 {
+            break;
+        }
+        let (jacobian, residual) = linearise(robot, tree, size, &offsets, unknowns);
+        let mut normal = jacobian.transpose() * &jacobian;
+        let right = jacobian.transpose() * &residual;
+        for i in 0..unknowns {
+            normal[(i, i)] += damping;
+        }
+        let Ok(factor) = normal.llt(Side::Lower) else {
+            damping *= 10.0;
+            continue;
+        };
+        let change = factor.solve(&right);
+        let before: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
+        let longest = (0..unknowns)
+            .map(|i| change[(i, 0)].abs())
+            .fold(0.0, f64::max);
+        let shrink = if longest > LONGEST {
+            LONGEST / longest
+        } else {
+            1.0
+        };
+        for (j, &first) in robot.joints.iter_mut().zip(&offsets) {
+            let prismatic: Vec<bool> = j.joint_type.freedoms().iter().map(is_shift).collect();
+            for (i, v) in j.values.iter_mut().enumerate() {
+                *v += shrink * change[(first + i, 0)] * if prismatic[i] { size } else { 1.0 };
+            }
+        }
+        let after = self::cost(robot, tree, size);
+        if after < cost {
+            (cost, damping) = (after, (damping / 5.0).max(1e-15));
+            left = worst(&gaps(robot, tree), size);
+        } else {
+            for (j, v) in robot.joints.iter_mut().zip(before) {
+                j.values = v;
+            }
+            damping = (damping * 4.0).max(1e-12);
+        }
+    }
+    left
+}
+
+fn is_shift(f: &Freedom) -> bool {
+    matches!(f, Freedom::Tx | Freedom::Ty | Freedom::Tz)
+}
+
+fn cost(robot: &Robot, tree: &Tree, size: f64) -> f64 {
+    let places = places(robot, tree);
+    let square = |v: V3| v.iter().map(|x| x * x).sum::<f64>();
+    tree.loops
+        .iter()
+        .map(|&j| {
+            let (shift, turn) = mismatch(robot, &places, j);
+            square(scale(shift, 1.0 / size)) + square(turn)
+        })
+        .sum()
+}
+
+/// The derivative of "near side less far side" and the mismatch that it has to make up for.
+fn linearise(
+    robot: &Robot,
+    tree: &Tree,
+    size: f64,
+    offsets: &[usize],
+    unknowns: usize,
+) -> (Mat<f64>, Mat<f64>) {
+    let places = places(robot, tree);
+    let rows = 6 * tree.loops.len();
+    let mut jacobian = Mat::<f64>::zeros(rows, unknowns);
+    let mut residual = Mat::<f64>::zeros(rows, 1);
+    for (n, &j) in tree.loops.iter().enumerate() {
+        let (shift, turn) = mismatch(robot, &places, j);
+        let turning = free_turns(robot, j) != 3;
+        for i in 0..3 {
+            residual[(6 * n + i, 0)] = shift[i] / size;
+            residual[(6 * n + 3 + i, 0)] = turn[i];
+        }
+        let p = &robot.joints[j];
+        let near = places[p.links[0]]
+            .then(&p.sides[0])
+            .then(&displacement(p))
+            .at;
+        let far = places[p.links[1]].then(&p.sides[1]).at;
+        let mut put = |joint: usize, at: V3, sign: f64| {
+            let part = &robot.joints[joint];
+            for (i, a) in world_axes(part, &places).iter().enumerate() {
+                let d = unit(a.direction);
+                let (v, w) = match a.freedom {
+                    Freedom::Rx | Freedom::Ry | Freedom::Rz => (cross(d, sub(at, a.point)), d),
+                    Freedom::Tx | Freedom::Ty | Freedom::Tz => (scale(d, size), [0.0; 3]),
+                    Freedom::Screw => {
+                        let along = scale(d, part.pitch);
+                        (add(cross(d, sub(at, a.point)), along), d)
+                    }
+                };
+                for k in 0..3 {
+                    jacobian[(6 * n + k, offsets[joint] + i)] += sign * v[k] / size;
+                    if turning {
+                        jacobian[(6 * n + 3 + k, offsets[joint] + i)] += sign * w[k];
+                    }
+                }
+            }
+        };
+        put(j, near, 1.0);
+        for (link, at, sign) in [(p.links[0], near, 1.0), (p.links[1], far, -1.0)] {
+            let mut next = tree.into[link];
+            while let Some(s) = next.map(|s| tree.steps[s]) {
+                put(s.joint, at, if s.forward { sign } else { -sign });
+                next = tree.into[s.from];
+            }
+        }
+    }
+    (jacobian, residual)
+}

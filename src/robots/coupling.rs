@@ -1,0 +1,90 @@
+//! Couplings of joints: mimic joints and equalities of joint values, as far as they are linear.
+
+use crate::closure::matrix::Closure;
+use crate::geom::scalars::Reals;
+use crate::model::joint_type::Freedom;
+use crate::model::measured::looks_measured;
+use crate::model::mechanism::Mechanism;
+use crate::rank::numeric::{DEFAULT_TOLERANCE, rank_with_tolerance};
+use crate::robots::parts::Robot;
+use crate::robots::warning::Kept;
+
+/// Work of singular values, rows · columns · the lesser of them, up to which the figures are told.
+const LARGEST: usize = 2_000_000_000;
+
+/// Rate of one joint over that of another.
+#[derive(Debug, Clone)]
+pub(crate) struct Ratio {
+    /// Names of the joint that leads and the one that follows.
+    pub(super) joints: [String; 2],
+    /// Rate of the follower over that of the leader, in radians and metres.
+    pub(super) ratio: f64,
+    /// The element that says so.
+    pub(super) element: String,
+}
+
+/// Sorts out the couplings that a mechanism file can say, as joint indices; the others are noted and left out. `written`
+/// are the joints that go into the file.
+pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<([usize; 2], f64)> {
+    let mut out: Vec<([usize; 2], f64)> = Vec::new();
+    for coupling in std::mem::take(&mut robot.couplings) {
+        let found = coupling
+            .joints
+            .each_ref()
+            .map(|id| robot.joints.iter().position(|j| j.id == *id));
+        let (leader, follower) = (&coupling.joints[0], &coupling.joints[1]);
+        let why = match found {
+            [Some(a), Some(b)] if a == b => "a joint follows itself".to_owned(),
+            [Some(a), Some(b)] => {
+                let one = |j: usize| {
+                    let freedoms = robot.joints[j].joint_type.freedoms();
+                    matches!(freedoms, [Freedom::Rz | Freedom::Tz | Freedom::Screw])
+                };
+                let twice = out.iter().any(|(p, _)| *p == [a, b] || *p == [b, a]);
+                match [a, b].into_iter().find(|j| !written.contains(j)) {
+                    Some(j) => format!("joint {} is within a rigid body", robot.joints[j].id),
+                    None if !one(a) || !one(b) => {
+                        "only joints of one freedom are coupled".to_owned()
+                    }
+                    None if twice => "the two are coupled already".to_owned(),
+                    None if coupling.ratio == 0.0 => {
+                        format!("times 0, so that {follower} would stand still")
+                    }
+                    None => {
+                        out.push(([a, b], coupling.ratio));
+                        continue;
+                    }
+                }
+            }
+            [None, _] => format!("there is no joint {leader}"),
+            [_, None] => format!("there is no joint {follower}"),
+        };
+        let what = format!("the coupling of {follower} to {leader} (1 row) is left out: {why}");
+        robot.report.coupling_rows += 1;
+        robot.report.approximate(&coupling.element, what);
+    }
+    out
+}
+
+/// W of a mechanism without and with its couplings, by singular values; none where there are no couplings.
+pub(crate) fn kept(m: &Mechanism) -> Option<Kept> {
+    if m.couplings.is_empty() {
+        return None;
+    }
+    let tolerance = looks_measured(m).map_or(DEFAULT_TOLERANCE, |x| x.tolerance());
+    let mobility = |m: &Mechanism| {
+        let closure = Closure::new(&Reals, m, 0).ok()?;
+        let (rows, columns) = (closure.rows(), closure.columns.len());
+        if rows * columns * rows.min(columns) > LARGEST {
+            return None;
+        }
+        let rank = rank_with_tolerance(&closure, tolerance).ok()?;
+        Some(columns - rank.rank)
+    };
+    let mut without = m.clone();
+    without.couplings.clear();
+    Some(Kept {
+        couplings: m.couplings.len(),
+        mobility: mobility(&without).zip(mobility(m)),
+    })
+}

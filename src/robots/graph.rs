@@ -1,0 +1,116 @@
+//! The graph of links and joints: Graphviz DOT and GraphML.
+
+use crate::file::write::role;
+use crate::model::mechanism::{Mechanism, Role};
+use crate::robots::single_freedoms::escape;
+use petgraph::dot::{Config, Dot};
+use petgraph::graph::UnGraph;
+use std::fmt::Write;
+
+/// Links as nodes (the frame doubly outlined, outputs filled), joints as edges with their class.
+#[must_use]
+pub fn dot(m: &Mechanism) -> String {
+    let mut graph: UnGraph<usize, usize> = UnGraph::new_undirected();
+    let nodes: Vec<_> = (0..m.links.len()).map(|l| graph.add_node(l)).collect();
+    for (j, joint) in m.joints.iter().enumerate() {
+        let [a, b] = joint.links;
+        graph.add_edge(nodes[a], nodes[b], j);
+    }
+    let edge = |_: &UnGraph<usize, usize>, e: petgraph::graph::EdgeReference<'_, usize>| {
+        let j = &m.joints[*e.weight()];
+        let drive = if j.drive { " penwidth=3" } else { "" };
+        let dashed = if j.states.is_some() {
+            " style=dashed"
+        } else {
+            ""
+        };
+        let label = format!("{}\n{} {}", j.id, j.joint_type.class(), j.joint_type.name());
+        format!("label={}{drive}{dashed}", quoted(&label))
+    };
+    let node = |_: &UnGraph<usize, usize>, (_, l): (petgraph::graph::NodeIndex, &usize)| {
+        let link = &m.links[*l];
+        let shape = match link.role {
+            Role::Frame => " shape=box peripheries=2",
+            Role::Output => " shape=box style=filled fillcolor=lightgrey",
+            Role::Object => " shape=octagon",
+            Role::Inner => " shape=box",
+        };
+        format!("label={}{shape}", quoted(&link.id))
+    };
+    let none = [Config::NodeNoLabel, Config::EdgeNoLabel];
+    let body = format!("{:?}", Dot::with_attr_getters(&graph, &none, &edge, &node));
+    body.replacen("graph {", &format!("graph {} {{", quoted(&m.name)), 1)
+}
+
+/// A string as DOT takes it.
+fn quoted(text: &str) -> String {
+    let inner = text
+        .replace('\\', "\\\\")
+        .replace('"', "\\\"")
+        .replace('\n', "\\n");
+    format!("\"{inner}\"")
+}
+
+/// Links as nodes and joints as edges, with all that bears on the structure as data.
+#[must_use]
+pub fn graphml(m: &Mechanism) -> String {
+    let mut out = String::from(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n",
+    );
+    let keys = [
+        ("node", "role", "string"),
+        ("edge", "type", "string"),
+        ("edge", "class", "string"),
+        ("edge", "freedoms", "int"),
+        ("edge", "drive", "boolean"),
+        ("edge", "states", "string"),
+        ("edge", "point", "string"),
+        ("edge", "axis", "string"),
+    ];
+    for (on, name, kind) in keys {
+        let _ = writeln!(
+            out,
+            "  <key id=\"{name}\" for=\"{on}\" attr.name=\"{name}\" attr.type=\"{kind}\"/>"
+        );
+    }
+    let _ = writeln!(
+        out,
+        "  <graph id=\"{}\" edgedefault=\"undirected\">",
+        escape(&m.name)
+    );
+    let datum = |out: &mut String, key: &str, value: &str| {
+        let _ = writeln!(out, "      <data key=\"{key}\">{}</data>", escape(value));
+    };
+    for link in &m.links {
+        let _ = writeln!(out, "    <node id=\"{}\">", escape(&link.id));
+        datum(&mut out, "role", role(link.role).unwrap_or("inner"));
+        out.push_str("    </node>\n");
+    }
+    for j in &m.joints {
+        let [a, b] = j.links.map(|l| escape(&m.links[l].id));
+        let _ = writeln!(
+            out,
+            "    <edge id=\"{}\" source=\"{a}\" target=\"{b}\">",
+            escape(&j.id)
+        );
+        let text =
+            |v: &[crate::geom::expr::Expr; 3]| v.each_ref().map(ToString::to_string).join(" ");
+        datum(&mut out, "type", j.joint_type.name());
+        datum(&mut out, "class", j.joint_type.class());
+        datum(
+            &mut out,
+            "freedoms",
+            &j.joint_type.freedoms().len().to_string(),
+        );
+        datum(&mut out, "drive", &j.drive.to_string());
+        if let Some(states) = &j.states {
+            let names: Vec<&str> = states.iter().map(|&s| m.states[s].as_str()).collect();
+            datum(&mut out, "states", &names.join(" "));
+        }
+        datum(&mut out, "point", &text(&j.frame.point));
+        datum(&mut out, "axis", &text(&j.frame.axis));
+        out.push_str("    </edge>\n");
+    }
+    out.push_str("  </graph>\n</graphml>\n");
+    out
+}

@@ -1,0 +1,74 @@
+//! Couplings as mimic joints: each joint follows one other at most, so that a tree of couplings can be said, and no more.
+
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, Mechanism};
+
+/// What a joint follows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Follows {
+    /// The joint that leads.
+    pub(super) leader: JointId,
+    /// Its own rate over the leader's, in radians and metres.
+    pub(super) ratio: f64,
+}
+
+/// For each joint what it follows, and the names of the couplings that mimic joints cannot say: those of joints that are
+/// not `written` as joints of one freedom, and those that close a loop of couplings.
+pub(crate) fn mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follows>>, Vec<String>) {
+    let mut follows = vec![None; m.joints.len()];
+    let mut said = vec![false; m.couplings.len()];
+    let fits = |j: JointId| written[j] && m.joints[j].joint_type.freedoms().len() == 1;
+    let mut reached = vec![false; m.joints.len()];
+    // Drives lead.
+    let drives = (0..m.joints.len()).filter(|&j| m.joints[j].drive);
+    for root in drives.chain(0..m.joints.len()) {
+        if reached[root] || !fits(root) {
+            continue;
+        }
+        reached[root] = true;
+        let mut queue = vec![root];
+        let mut next = 0;
+        while let Some(&leader) = queue.get(next) {
+            next += 1;
+            for (q, end) in m.couplings_of(leader) {
+                let coupling = &m.couplings[q];
+                let other = coupling.ends[1 - end].joint;
+                if said[q] || reached[other] || !fits(other) {
+                    continue;
+                }
+                let unit = |e: usize| match coupling.ends[e].freedom {
+                    Freedom::Tx | Freedom::Ty | Freedom::Tz => m.length_unit.metres,
+                    _ => 1.0,
+                };
+                let forward = coupling.ratio.to_f64() * unit(1) / unit(0);
+                let ratio = if end == 0 { forward } else { 1.0 / forward };
+                follows[other] = Some(Follows { leader, ratio });
+                (said[q], reached[other]) = (true, true);
+                queue.push(other);
+            }
+        }
+    }
+    let left = m.couplings.iter().zip(&said).filter(|(_, s)| !**s);
+    let present = left.filter(|(c, _)| m.couplings_in(0).any(|x| x.ends == c.ends));
+    (follows, present.map(|(c, _)| c.name(m)).collect())
+}
+
+/// Marks a place in a text that depends on a joint and is settled later; no name has such a character.
+const MARK: char = '\0';
+
+/// Stands in a text for what is known of a joint only when all are written.
+pub(crate) fn stand_in(joint: JointId) -> String {
+    format!("{MARK}{joint}{MARK}")
+}
+
+/// The text with what is known now in those places.
+pub(crate) fn settled(text: &str, known: impl Fn(JointId) -> String) -> String {
+    let mut out = String::with_capacity(text.len());
+    for (i, part) in text.split(MARK).enumerate() {
+        match part.parse::<JointId>() {
+            Ok(joint) if i % 2 == 1 => out.push_str(&known(joint)),
+            _ => out.push_str(part),
+        }
+    }
+    out
+}

@@ -1,0 +1,111 @@
+//! Default classes.
+
+use crate::file::problem::ImportError;
+use crate::robots::pose::V3;
+use crate::robots::problem::{RobotProblem, known};
+use crate::robots::xml::Element;
+use std::collections::BTreeMap;
+
+/// The classes: for each the class around it and its `<default>` elements.
+#[derive(Debug)]
+pub(crate) struct Defaults<'a> {
+    classes: BTreeMap<&'a str, (Option<&'a str>, Vec<Element<'a>>)>,
+}
+
+/// Where an element's attributes are looked up: itself, then its classes from the innermost out.
+#[derive(Debug)]
+pub(crate) struct Lookup<'a> {
+    places: Vec<Element<'a>>,
+}
+
+impl<'a> Defaults<'a> {
+    pub(crate) fn read(root: Element<'a>) -> Result<Defaults<'a>, ImportError> {
+        let mut classes: BTreeMap<&str, (Option<&str>, Vec<Element<'_>>)> = BTreeMap::new();
+        let mut stack: Vec<(Element<'_>, Option<&str>)> =
+            root.named("default").map(|d| (d, None)).collect();
+        stack.reverse();
+        while let Some((d, outer)) = stack.pop() {
+            let class = match (d.attribute("class"), outer) {
+                (Some(c), _) => c,
+                (None, None) => "main",
+                (None, Some(_)) => {
+                    let what = "attribute class".to_owned();
+                    let element = d.label();
+                    return Err(d.fail(None, RobotProblem::Missing { element, what }));
+                }
+            };
+            let entry = classes.entry(class).or_insert((outer, Vec::new()));
+            if entry.0 != outer {
+                let element = format!("default class \"{class}\"");
+                return Err(d.fail(Some("class"), RobotProblem::Duplicate { element }));
+            }
+            entry.1.push(d);
+            stack.extend(d.named("default").map(|inner| (inner, Some(class))));
+        }
+        Ok(Defaults { classes })
+    }
+
+    /// Where to look up the attributes of an element: itself, then `tag` in its class, else in that of the bodies around
+    /// it, else in the main one.
+    pub(crate) fn of(
+        &self,
+        e: Element<'a>,
+        tag: &str,
+        childclass: Option<&'a str>,
+    ) -> Result<Lookup<'a>, ImportError> {
+        let given = e.attribute("class").or(childclass);
+        if let Some(c) = given
+            && !self.classes.contains_key(c)
+        {
+            return Err(e.fail(
+                Some("class"),
+                RobotProblem::UnknownName {
+                    element: e.label(),
+                    what: "default class",
+                    name: c.to_owned(),
+                    known: known("classes", self.classes.keys().copied()),
+                },
+            ));
+        }
+        let mut places = vec![e];
+        // A class is only ever within one that was read before, so that this ends; the bound is for repeated names.
+        let outermost = || {
+            self.classes
+                .iter()
+                .find(|(_, (outer, _))| outer.is_none())
+                .map(|(c, _)| *c)
+        };
+        let mut next = given.or_else(outermost);
+        for _ in 0..=self.classes.len() {
+            let Some((outer, elements)) = next.and_then(|c| self.classes.get(c)) else {
+                break;
+            };
+            places.extend(elements.iter().rev().filter_map(|d| d.child(tag)));
+            next = *outer;
+        }
+        Ok(Lookup { places })
+    }
+}
+
+impl<'a> Lookup<'a> {
+    /// An attribute and the element that has it.
+    pub(crate) fn attribute(&self, name: &str) -> Option<(Element<'a>, &'a str)> {
+        self.places
+            .iter()
+            .find_map(|e| e.attribute(name).map(|v| (*e, v)))
+    }
+
+    pub(crate) fn numbers<const N: usize>(
+        &self,
+        name: &str,
+    ) -> Result<Option<[f64; N]>, ImportError> {
+        match self.attribute(name) {
+            Some((e, _)) => e.numbers::<N>(name),
+            None => Ok(None),
+        }
+    }
+
+    pub(crate) fn vector(&self, name: &str, default: V3) -> Result<V3, ImportError> {
+        Ok(self.numbers::<3>(name)?.unwrap_or(default))
+    }
+}

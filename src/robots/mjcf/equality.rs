@@ -1,0 +1,214 @@
+//! Equality constraints: the loops and couplings of MJCF.
+
+use crate::file::problem::ImportError;
+use crate::model::joint_type::JointType;
+use crate::robots::coupling::Ratio;
+use crate::robots::mjcf::read::{Context, unsupported};
+use crate::robots::parts::{Part, Robot};
+use crate::robots::pose::Pose;
+use crate::robots::problem::{RobotProblem, known};
+use crate::robots::urdf::read::same_link;
+use crate::robots::xml::Element;
+
+pub(crate) fn read(
+    section: Element<'_>,
+    context: &Context<'_>,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    for (i, e) in section.children().enumerate() {
+        e.room("joints", robot.joints.len())?;
+        let look = context.defaults.of(e, "equality", None)?;
+        let id = match e.attribute("name") {
+            Some(n) => n.to_owned(),
+            None => format!("{}-{}", e.name(), i + 1),
+        };
+        if look.attribute("active").is_some_and(|(_, v)| v == "false") {
+            robot.report.drop("inactive equality", Some(&id));
+            continue;
+        }
+        match e.name() {
+            "connect" => {
+                let ends = ends(e, context, robot)?;
+                closing(e, &id, ends, JointType::Spherical, robot)?;
+            }
+            "weld" => {
+                let ends = ends(e, context, robot)?;
+                closing(e, &id, ends, JointType::Fixed, robot)?;
+            }
+            "joint" => coupling(e, robot)?,
+            "tendon" => {
+                robot.report.coupling_rows += 1;
+                robot.report.approximate(
+                    &e.label(),
+                    "an equality of tendon lengths (1 row) is left out",
+                );
+            }
+            "flex" | "flexvert" | "flexstrain" | "distance" => {
+                return Err(unsupported(e, "it is not a joint", "remove it"));
+            }
+            other => robot.report.drop(other, e.attribute("name")),
+        }
+    }
+    Ok(())
+}
+
+type End = (usize, Pose);
+
+fn ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Result<[End; 2], ImportError> {
+    if e.attribute("site1").is_some() || e.attribute("site2").is_some() {
+        let site = |key: &'static str| {
+            let name = e.required(key)?;
+            context.sites.get(name).copied().ok_or_else(|| {
+                let known = known("sites", context.sites.keys().map(String::as_str));
+                unknown(e, key, "site", name, known)
+            })
+        };
+        return Ok([site("site1")?, site("site2")?]);
+    }
+    let body = |key: &'static str| {
+        let name = if key == "body2" {
+            e.attribute(key).unwrap_or("world")
+        } else {
+            e.required(key)?
+        };
+        robot.links.iter().position(|l| l == name).ok_or_else(|| {
+            let known = known("bodies", robot.links.iter().map(String::as_str));
+            unknown(e, key, "body", name, known)
+        })
+    };
+    let (one, two) = (body("body1")?, body("body2")?);
+    let as_drawn = |at: Pose| {
+        robot.places[two]
+            .inverse()
+            .then(&robot.places[one].then(&at))
+    };
+    if e.name() == "connect" {
+        e.required("anchor")?;
+        let at = Pose::shift(e.vector("anchor", [0.0; 3])?);
+        return Ok([(one, at), (two, as_drawn(at))]);
+    }
+    // The place of body 2 in body 1; a zero quaternion stands for that of the model as drawn.
+    match e.numbers::<7>("relpose")? {
+        Some([x, y, z, quat @ ..]) if quat != [0.0; 4] => Ok([
+            (one, Pose::quaternion([x, y, z], quat)),
+            (two, Pose::IDENTITY),
+        ]),
+        _ => Ok([(one, Pose::IDENTITY), (two, as_drawn(Pose::IDENTITY))]),
+    }
+}
+
+fn unknown(
+    e: Element<'_>,
+    key: &str,
+    what: &'static str,
+    name: &str,
+    known: String,
+) -> ImportError {
+    let (element, name) = (e.label(), name.to_owned());
+    e.fail(
+        Some(key),
+        RobotProblem::UnknownName {
+            element,
+            what,
+            name,
+            known,
+        },
+    )
+}
+
+fn closing(
+    e: Element<'_>,
+    id: &str,
+    ends: [End; 2],
+    joint_type: JointType,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    let links = ends.map(|x| x.0);
+    if links[0] == links[1] {
+        return Err(same_link(e));
+    }
+    let mut part = Part::new(id, links, ends.map(|x| x.1), joint_type);
+    part.closes = true;
+    part.comment = Some(format!("closes a loop: <{}>", e.name()));
+    robot.report.map(e.name());
+    robot.joints.push(part);
+    Ok(())
+}
+
+fn coupling(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+    let mut names = vec![e.required("joint1")?];
+    names.extend(e.attribute("joint2"));
+    for (name, key) in names.iter().zip(["joint1", "joint2"]) {
+        if !robot.joints.iter().any(|j| j.id == *name) {
+            let known = known("joints", robot.joints.iter().map(|j| j.id.as_str()));
+            return Err(unknown(e, key, "joint", name, known));
+        }
+    }
+    let element = e.label();
+    let left_out = |robot: &mut Robot, what: String| {
+        robot.report.coupling_rows += 1;
+        robot.report.approximate(&element, what);
+    };
+    let [a, b] = names[..] else {
+        let what = format!(
+            "{} can move; its equality to a constant (1 row) is left out",
+            names[0]
+        );
+        left_out(robot, what);
+        comment(names[0], "held at a constant; here it can move", robot);
+        return Ok(());
+    };
+    // Value of joint 1 less its reference, as a polynomial of that of joint 2 less its own.
+    let polynomial = polynomial(e)?;
+    let [_, ratio, higher @ ..] = polynomial;
+    if higher.iter().any(|x| *x != 0.0) {
+        let what = format!(
+            "{a} and {b} are independent joints; their coupling (1 row) is left out, for it is not linear"
+        );
+        left_out(robot, what);
+        let what = format!("coupled to {b}, not linearly; here an independent joint");
+        comment(a, &what, robot);
+        return Ok(());
+    }
+    comment(a, &format!("coupled to {b} times {ratio}"), robot);
+    robot.couplings.push(Ratio {
+        joints: [b.to_owned(), a.to_owned()],
+        ratio,
+        element,
+    });
+    Ok(())
+}
+
+fn comment(joint: &str, what: &str, robot: &mut Robot) {
+    if let Some(j) = robot.joints.iter_mut().find(|j| j.id == joint) {
+        j.comment = Some(what.to_owned());
+    }
+}
+
+/// The five coefficients of `polycoef`, lowest first; those left out are as MuJoCo has them, 0 1 0 0 0.
+fn polynomial(e: Element<'_>) -> Result<[f64; 5], ImportError> {
+    let mut out = [0.0, 1.0, 0.0, 0.0, 0.0];
+    let Some(text) = e.attribute("polycoef") else {
+        return Ok(out);
+    };
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let read: Option<Vec<f64>> = words
+        .iter()
+        .map(|w| w.parse::<f64>().ok().filter(|x| x.abs() <= 1e9))
+        .collect();
+    match read {
+        Some(read) if read.len() <= out.len() => {
+            out[..read.len()].copy_from_slice(&read);
+            Ok(out)
+        }
+        _ => Err(e.fail(
+            Some("polycoef"),
+            RobotProblem::BadValue {
+                element: e.label(),
+                what: "polycoef".to_owned(),
+                found: text.to_owned(),
+                want: "give at most 5 finite numbers".to_owned(),
+            },
+        )),
+    }
+}

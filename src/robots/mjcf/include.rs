@@ -1,0 +1,120 @@
+//! Includes: the children of another file's root in place of an element.
+
+use crate::file::problem::ImportError;
+use crate::robots::Reader;
+use crate::robots::problem::RobotProblem;
+use crate::robots::xml::{self, Document, Element, MAX_BYTES};
+
+/// Deepest nesting of files, and most includes in all.
+const LIMITS: (usize, usize) = (16, 1000);
+
+/// Puts the included files in place of all `<include>` elements below `root`.
+pub(in crate::robots) fn expand(
+    document: &mut Document,
+    root: usize,
+    read: Reader<'_>,
+) -> Result<(), ImportError> {
+    let mut count = 0;
+    let names = vec![document.element(root).source().to_owned()];
+    below(document, root, &names, &mut count, read)
+}
+
+fn below(
+    document: &mut Document,
+    root: usize,
+    open: &[String],
+    count: &mut usize,
+    read: Reader<'_>,
+) -> Result<(), ImportError> {
+    let mut stack = vec![root];
+    while let Some(id) = stack.pop() {
+        let children = std::mem::take(&mut document.nodes[id].children);
+        let mut all = Vec::with_capacity(children.len());
+        for c in children {
+            if document.element(c).name() != "include" {
+                all.push(c);
+                stack.push(c);
+                continue;
+            }
+            *count += 1;
+            let inner = included(document, c, open, *count, read)?;
+            let mut names = open.to_vec();
+            names.push(document.element(inner).source().to_owned());
+            below(document, inner, &names, count, read)?;
+            all.append(&mut document.nodes[inner].children);
+        }
+        document.nodes[id].children = all;
+    }
+    Ok(())
+}
+
+/// Reads the file that an `<include>` names; gives its root.
+fn included(
+    document: &mut Document,
+    id: usize,
+    open: &[String],
+    count: usize,
+    read: Reader<'_>,
+) -> Result<usize, ImportError> {
+    let e = document.element(id);
+    let file = e.required("file")?.to_owned();
+    let refuse = |e: Element<'_>, why: String, remedy: &str| {
+        let element = format!("<include file=\"{file}\">");
+        let remedy = remedy.to_owned();
+        e.fail(
+            Some("file"),
+            RobotProblem::Unsupported {
+                element,
+                why,
+                remedy,
+            },
+        )
+    };
+    if open.contains(&file) || open.first().is_some_and(|main| ends_with(main, &file)) {
+        return Err(refuse(
+            e,
+            "the file includes itself".to_owned(),
+            "remove one of the includes",
+        ));
+    }
+    if open.len() > LIMITS.0 || count > LIMITS.1 {
+        let why = format!("more than {} files deep or {} in all", LIMITS.0, LIMITS.1);
+        return Err(refuse(e, why, "put the files together"));
+    }
+    let path = std::path::Path::new(&file);
+    let plain = path.components().all(|c| {
+        matches!(
+            c,
+            std::path::Component::Normal(_) | std::path::Component::CurDir
+        )
+    });
+    if !plain {
+        let why = "it is outside the folder of the file".to_owned();
+        return Err(refuse(e, why, "copy it there"));
+    }
+    let bytes = match read(&file) {
+        Ok(b) => b,
+        Err(error) => {
+            return Err(refuse(
+                e,
+                format!("it cannot be read ({error})"),
+                "put it beside the file",
+            ));
+        }
+    };
+    let total: usize = document.sources.iter().map(|s| s.text.len()).sum();
+    if total + bytes.len() > MAX_BYTES {
+        let why = format!("the files have more than {MAX_BYTES} bytes together");
+        return Err(refuse(e, why, "remove what is not kinematics"));
+    }
+    let text = xml::utf8(&file, &bytes)?;
+    document.read(&file, text)
+}
+
+/// Whether a path's last part is this file.
+fn ends_with(path: &str, file: &str) -> bool {
+    let last = |p: &str| std::path::Path::new(p).file_name().map(ToOwned::to_owned);
+    last(path).is_some()
+        && last(path) == last(file)
+        && std::path::Path::new(file).components().count() == 1
+}

@@ -1,0 +1,417 @@
+//! MJCF: bodies with joints in series, sites, equality constraints, default classes and includes.
+
+use crate::file::problem::ImportError;
+use crate::model::joint_type::JointType;
+use crate::robots::mjcf::defaults::Defaults;
+use crate::robots::parts::{Format, Part, Robot, free};
+use crate::robots::pose::{Pose, X, Y, Z, cross, dot, length, scale, sub, turn_z_to, unit};
+use crate::robots::problem::RobotProblem;
+use crate::robots::xml::Element;
+use std::collections::BTreeMap;
+
+/// What `<compiler>` sets.
+#[derive(Debug, Clone)]
+struct Compiler {
+    /// Radians in the file's unit of angle.
+    angle: f64,
+    eulerseq: String,
+}
+
+/// What the sections of a file share.
+#[derive(Debug)]
+pub(crate) struct Context<'a> {
+    compiler: Compiler,
+    pub(crate) defaults: Defaults<'a>,
+    /// Sites by name: the link and the place on it.
+    pub(crate) sites: BTreeMap<String, (usize, Pose)>,
+}
+
+/// Something still to be read: a body or frame, the link that holds it, the place there, and the class of its children.
+struct Waiting<'a> {
+    element: Element<'a>,
+    link: usize,
+    place: Pose,
+    class: Option<&'a str>,
+}
+
+/// Reads a `<mujoco>` whose includes are expanded.
+pub(crate) fn read(root: Element<'_>) -> Result<Robot, ImportError> {
+    let name = root.attribute("model").unwrap_or("robot");
+    let mut robot = Robot::new(name, Format::Mjcf);
+    let mut context = Context {
+        compiler: compiler(root)?,
+        defaults: Defaults::read(root)?,
+        sites: BTreeMap::new(),
+    };
+    let world = robot.link("world", Pose::IDENTITY);
+    robot.world = Some(world);
+    for w in root.named("worldbody") {
+        let start = Waiting {
+            element: w,
+            link: world,
+            place: Pose::IDENTITY,
+            class: w.attribute("childclass"),
+        };
+        bodies(start, &mut context, &mut robot)?;
+    }
+    for section in root.children() {
+        match section.name() {
+            "worldbody" | "compiler" | "default" => {}
+            "equality" => crate::robots::mjcf::equality::read(section, &context, &mut robot)?,
+            "actuator" => {
+                for a in section.children() {
+                    let joint = a.attribute("joint").or(a.attribute("jointinparent"));
+                    match robot
+                        .joints
+                        .iter_mut()
+                        .find(|j| Some(j.id.as_str()) == joint)
+                    {
+                        Some(j) => j.drive = true,
+                        None => robot.report.drop("actuator", a.attribute("name")),
+                    }
+                }
+            }
+            "deformable" => return Err(unsupported(section, "deformable bodies", "remove them")),
+            other if section.children().next().is_some() => robot.report.drop(other, None),
+            _ => {}
+        }
+    }
+    Ok(robot)
+}
+
+pub(crate) fn unsupported(e: Element<'_>, why: &str, remedy: &str) -> ImportError {
+    e.fail(
+        None,
+        RobotProblem::Unsupported {
+            element: e.label(),
+            why: why.to_owned(),
+            remedy: remedy.to_owned(),
+        },
+    )
+}
+
+fn unknown_word(e: Element<'_>, what: &'static str, word: &str, known: &str) -> ImportError {
+    let (element, word, known) = (e.label(), word.to_owned(), known.to_owned());
+    e.fail(
+        Some(what),
+        RobotProblem::UnknownWord {
+            element,
+            what,
+            word,
+            known,
+        },
+    )
+}
+
+fn compiler(root: Element<'_>) -> Result<Compiler, ImportError> {
+    let degree = std::f64::consts::PI / 180.0;
+    let mut out = Compiler {
+        angle: degree,
+        eulerseq: "xyz".to_owned(),
+    };
+    for c in root.named("compiler") {
+        match c.attribute("angle") {
+            None => {}
+            Some("radian") => out.angle = 1.0,
+            Some("degree") => out.angle = degree,
+            Some(other) => return Err(unknown_word(c, "angle", other, "radian, degree")),
+        }
+        if let Some(seq) = c.attribute("eulerseq") {
+            if seq.chars().count() != 3 || !seq.chars().all(|c| "xyzXYZ".contains(c)) {
+                return Err(unknown_word(
+                    c,
+                    "eulerseq",
+                    seq,
+                    "three of x, y, z, X, Y, Z",
+                ));
+            }
+            seq.clone_into(&mut out.eulerseq);
+        }
+        if c.attribute("coordinate") == Some("global") {
+            return Err(unsupported(
+                c,
+                "global coordinates",
+                "save the model with MuJoCo 2.3 or later",
+            ));
+        }
+    }
+    Ok(out)
+}
+
+impl Compiler {
+    /// The place that `pos` and one of the five ways to give an orientation stand for.
+    fn place(&self, e: Element<'_>) -> Result<Pose, ImportError> {
+        let at = e.vector("pos", [0.0; 3])?;
+        let zero = |name: &str| {
+            e.fail(
+                Some(name),
+                RobotProblem::BadValue {
+                    element: e.label(),
+                    what: name.to_owned(),
+                    found: e.attribute(name).unwrap_or("").to_owned(),
+                    want: "give a direction or quaternion that is not zero".to_owned(),
+                },
+            )
+        };
+        let ways = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
+        let given: Vec<&str> = ways
+            .into_iter()
+            .filter(|w| e.attribute(w).is_some())
+            .collect();
+        if given.len() > 1 {
+            let why = format!("it has two orientations, {}", given.join(" and "));
+            return Err(unsupported(e, &why, "keep one"));
+        }
+        let mut pose = Pose::shift(at);
+        if let Some(q) = e.numbers::<4>("quat")? {
+            if q.iter().all(|x| x.abs() < 1e-9) {
+                return Err(zero("quat"));
+            }
+            pose = Pose::quaternion(at, q);
+        } else if let Some([x, y, z, angle]) = e.numbers::<4>("axisangle")? {
+            if length([x, y, z]) < 1e-9 {
+                return Err(zero("axisangle"));
+            }
+            pose = pose.then(&Pose::turn([x, y, z], angle * self.angle));
+        } else if let Some([a, b, c, d, f, g]) = e.numbers::<6>("xyaxes")? {
+            let x = unit([a, b, c]);
+            let y = sub([d, f, g], scale(x, dot(x, [d, f, g])));
+            if length([a, b, c]) < 1e-9 || length(y) < 1e-9 {
+                return Err(zero("xyaxes"));
+            }
+            let (y, z) = (unit(y), cross(x, unit(y)));
+            pose.turn = [0, 1, 2].map(|i| [x[i], y[i], z[i]]);
+        } else if let Some(z) = e.numbers::<3>("zaxis")? {
+            if length(z) < 1e-9 {
+                return Err(zero("zaxis"));
+            }
+            pose = pose.then(&turn_z_to(z));
+        } else if let Some(angles) = e.numbers::<3>("euler")? {
+            let mut turn = Pose::IDENTITY;
+            for (axis, angle) in self.eulerseq.chars().zip(angles) {
+                let about = match axis.to_ascii_lowercase() {
+                    'x' => X,
+                    'y' => Y,
+                    _ => Z,
+                };
+                let step = Pose::turn(about, angle * self.angle);
+                // Small letters turn with the frame, capitals about the fixed axes.
+                turn = if axis.is_lowercase() {
+                    turn.then(&step)
+                } else {
+                    step.then(&turn)
+                };
+            }
+            pose = pose.then(&turn);
+        }
+        Ok(pose)
+    }
+}
+
+fn bodies<'a>(
+    start: Waiting<'a>,
+    context: &mut Context<'a>,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    let mut stack = vec![start];
+    while let Some(w) = stack.pop() {
+        let mut here = Vec::new();
+        for e in w.element.children() {
+            let inner = |link, place| Waiting {
+                element: e,
+                link,
+                place,
+                class: e.attribute("childclass").or(w.class),
+            };
+            match e.name() {
+                "body" => {
+                    let place = w.place.then(&context.compiler.place(e)?);
+                    let link = body(e, w.link, place, inner(0, place).class, context, robot)?;
+                    here.push(inner(link, Pose::IDENTITY));
+                }
+                "frame" => {
+                    if e.named("joint")
+                        .chain(e.named("freejoint"))
+                        .next()
+                        .is_some()
+                    {
+                        return Err(unsupported(
+                            e,
+                            "a joint inside <frame>",
+                            "move it into the body",
+                        ));
+                    }
+                    here.push(inner(w.link, w.place.then(&context.compiler.place(e)?)));
+                }
+                "site" => site(e, &w, context, robot)?,
+                "joint" | "freejoint" if w.element.name() != "worldbody" => {}
+                "joint" | "freejoint" => {
+                    return Err(unsupported(
+                        e,
+                        "the world cannot move",
+                        "put the joint into a body",
+                    ));
+                }
+                "composite" | "flexcomp" | "attach" | "replicate" => {
+                    let remedy = "save the compiled model from MuJoCo as XML and import that";
+                    return Err(unsupported(
+                        e,
+                        "it makes bodies when the model is compiled",
+                        remedy,
+                    ));
+                }
+                other => robot.report.drop(other, e.attribute("name")),
+            }
+        }
+        stack.extend(here.into_iter().rev());
+    }
+    Ok(())
+}
+
+fn site(
+    e: Element<'_>,
+    w: &Waiting<'_>,
+    context: &mut Context<'_>,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    let place = w.place.then(&context.compiler.place(e)?);
+    let Some(name) = e.attribute("name") else {
+        robot.report.drop("site", None);
+        return Ok(());
+    };
+    if context
+        .sites
+        .insert(name.to_owned(), (w.link, place))
+        .is_some()
+    {
+        return Err(e.fail(Some("name"), RobotProblem::Duplicate { element: e.label() }));
+    }
+    robot
+        .frames
+        .entry(name.to_owned())
+        .or_insert((w.link, place));
+    robot.report.map("site");
+    Ok(())
+}
+
+/// A body and its joints, in series through links of its own where there are several.
+fn body<'a>(
+    e: Element<'a>,
+    parent: usize,
+    place: Pose,
+    class: Option<&'a str>,
+    context: &Context<'a>,
+    robot: &mut Robot,
+) -> Result<usize, ImportError> {
+    let name = match e.attribute("name") {
+        Some(n) if robot.frame(n).is_some() && robot.links.iter().any(|l| l == n) => {
+            return Err(e.fail(Some("name"), RobotProblem::Duplicate { element: e.label() }));
+        }
+        Some(n) => n.to_owned(),
+        None => format!("body-{}", robot.links.len()),
+    };
+    e.room("bodies", robot.links.len())?;
+    e.room("joints", robot.joints.len())?;
+    let world = robot.places[parent].then(&place);
+    let joints: Vec<Element<'a>> = e
+        .children()
+        .filter(|c| ["joint", "freejoint"].contains(&c.name()))
+        .collect();
+    robot.report.map("body");
+    if joints.is_empty() {
+        let link = robot.link(&name, world);
+        let part = Part::new(
+            &name,
+            [parent, link],
+            [place, Pose::IDENTITY],
+            JointType::Fixed,
+        );
+        robot.joints.push(part);
+        return Ok(link);
+    }
+    let (mut from, mut at) = (parent, place);
+    for (i, j) in joints.iter().enumerate() {
+        let link = if i + 1 == joints.len() {
+            robot.link(&name, world)
+        } else {
+            let between = format!("{name}~{}", i + 1);
+            robot.link(&between, world)
+        };
+        let part = joint(*j, &name, [from, link], at, class, context, robot)?;
+        robot.joints.push(part);
+        (from, at) = (link, Pose::IDENTITY);
+    }
+    if joints.len() > 1 {
+        let what = format!(
+            "{} joints in series, through links without mass",
+            joints.len()
+        );
+        robot.report.approximate(&e.label(), what);
+    }
+    Ok(from)
+}
+
+fn joint<'a>(
+    e: Element<'a>,
+    body: &str,
+    links: [usize; 2],
+    place: Pose,
+    class: Option<&'a str>,
+    context: &Context<'a>,
+    robot: &mut Robot,
+) -> Result<Part, ImportError> {
+    let tag = if e.name() == "freejoint" { "" } else { "joint" };
+    let look = context.defaults.of(e, tag, class)?;
+    let word = if tag.is_empty() {
+        "free"
+    } else {
+        look.attribute("type").map_or("hinge", |(_, t)| t)
+    };
+    let joint_type = match word {
+        "hinge" => JointType::Revolute,
+        "slide" => JointType::Prismatic,
+        "ball" => JointType::Spherical,
+        "free" => free(),
+        _ => return Err(unknown_word(e, "type", word, "hinge, slide, ball, free")),
+    };
+    let id = match e.attribute("name") {
+        Some(n) if robot.joints.iter().any(|j| j.id == n) => {
+            return Err(e.fail(Some("name"), RobotProblem::Duplicate { element: e.label() }));
+        }
+        Some(n) => n.to_owned(),
+        None => format!("{body}.{word}"),
+    };
+    let pos = look.vector("pos", [0.0; 3])?;
+    let at = if word == "free" {
+        Pose::IDENTITY
+    } else {
+        Pose::shift(pos)
+    };
+    let mut part = Part::new(&id, links, [place.then(&at), at], joint_type);
+    if matches!(word, "hinge" | "slide") {
+        let axis = look.vector("axis", Z)?;
+        if length(axis) < 1e-9 {
+            return Err(e.fail(
+                Some("axis"),
+                RobotProblem::BadValue {
+                    element: e.label(),
+                    what: "axis".to_owned(),
+                    found: look.attribute("axis").map_or("", |(_, v)| v).to_owned(),
+                    want: "give a direction such as 0 0 1".to_owned(),
+                },
+            ));
+        }
+        part = part.about(axis);
+        let unit = if word == "hinge" {
+            context.compiler.angle
+        } else {
+            1.0
+        };
+        part.zero = look.numbers::<1>("ref")?.map_or(0.0, |[x]| x * unit);
+        if let Some([low, high]) = look.numbers::<2>("range")? {
+            part.limits = (low < high).then_some((low * unit - part.zero, high * unit - part.zero));
+        }
+    }
+    robot.report.map(word);
+    Ok(part)
+}

@@ -1,0 +1,156 @@
+//! What the three formats have in common: links, joints with a place on either side, named frames.
+
+use crate::model::joint_type::{Freedom, JointType};
+use crate::robots::coupling::Ratio;
+use crate::robots::pose::{Pose, V3, X, Z, across, cross};
+use crate::robots::warning::Report;
+use std::collections::BTreeMap;
+
+/// A joint between two links, or a constraint that closes a loop.
+#[derive(Debug, Clone)]
+pub(crate) struct Part {
+    /// Its name; made unique before it is written.
+    pub(super) id: String,
+    /// Parent and child.
+    pub(super) links: [usize; 2],
+    /// The joint's place on the parent and on the child.
+    pub(super) sides: [Pose; 2],
+    pub(super) joint_type: JointType,
+    /// Direction of z in the joint's own frame, of any length.
+    pub(super) axis: V3,
+    /// Direction of x in the joint's own frame.
+    pub(super) second: V3,
+    /// Translation per radian of a screw, in metres.
+    pub(super) pitch: f64,
+    pub(super) drive: bool,
+    /// Whether it closes a loop by what the file says; such joints join the tree last.
+    pub(super) closes: bool,
+    /// Value of the one freedom in the pose drawn, subtracted from values given from outside.
+    pub(super) zero: f64,
+    /// Displacement of each freedom.
+    pub(super) values: Vec<f64>,
+    /// Limits of a joint of one freedom.
+    pub(super) limits: Option<(f64, f64)>,
+    /// What was approximated, for the file.
+    pub(super) comment: Option<String>,
+}
+
+impl Part {
+    /// A joint at rest, its axis z.
+    pub(crate) fn new(
+        id: &str,
+        links: [usize; 2],
+        sides: [Pose; 2],
+        joint_type: JointType,
+    ) -> Part {
+        Part {
+            id: id.to_owned(),
+            links,
+            sides,
+            values: vec![0.0; joint_type.freedoms().len()],
+            joint_type,
+            axis: Z,
+            second: X,
+            pitch: 0.0,
+            zero: 0.0,
+            drive: false,
+            closes: false,
+            limits: None,
+            comment: None,
+        }
+    }
+
+    /// The joint about or along another axis of its frame.
+    pub(crate) fn about(mut self, axis: V3) -> Part {
+        self.axis = axis;
+        self.second = across(axis);
+        self
+    }
+
+    /// The direction of a freedom in the joint's own frame.
+    pub(crate) fn direction(&self, freedom: Freedom) -> V3 {
+        match freedom {
+            Freedom::Rz | Freedom::Tz | Freedom::Screw => self.axis,
+            Freedom::Rx | Freedom::Tx => self.second,
+            Freedom::Ry | Freedom::Ty => cross(self.axis, self.second),
+        }
+    }
+}
+
+/// A joint of all six freedoms.
+pub(crate) fn free() -> JointType {
+    use Freedom::{Rx, Ry, Rz, Tx, Ty, Tz};
+    JointType::Custom(vec![Tx, Ty, Tz, Rx, Ry, Rz])
+}
+
+/// The format of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Unified Robot Description Format.
+    Urdf,
+    /// MuJoCo's XML.
+    Mjcf,
+    /// Simulation Description Format.
+    Sdf,
+}
+
+impl Format {
+    /// The usual name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Format::Urdf => "URDF",
+            Format::Mjcf => "MJCF",
+            Format::Sdf => "SDF",
+        }
+    }
+}
+
+/// A robot as read.
+#[derive(Debug)]
+pub(crate) struct Robot {
+    pub(super) name: String,
+    pub(super) format: Format,
+    /// Names of the links.
+    pub(super) links: Vec<String>,
+    pub(super) joints: Vec<Part>,
+    /// Joints that move in a fixed ratio.
+    pub(super) couplings: Vec<Ratio>,
+    /// The link that is the world, where the format has one.
+    pub(super) world: Option<usize>,
+    /// Named frames: the link they are fixed to and their place on it.
+    pub(super) frames: BTreeMap<String, (usize, Pose)>,
+    /// Places of links in the file, for those that nothing else places.
+    pub(super) places: Vec<Pose>,
+    pub(super) report: Report,
+}
+
+impl Robot {
+    pub(crate) fn new(name: &str, format: Format) -> Robot {
+        Robot {
+            name: name.to_owned(),
+            format,
+            links: Vec::new(),
+            joints: Vec::new(),
+            couplings: Vec::new(),
+            world: None,
+            frames: BTreeMap::new(),
+            places: Vec::new(),
+            report: Report::default(),
+        }
+    }
+
+    /// Adds a link; its frame gets its name.
+    pub(crate) fn link(&mut self, name: &str, place: Pose) -> usize {
+        let l = self.links.len();
+        self.links.push(name.to_owned());
+        self.places.push(place);
+        self.frames.insert(name.to_owned(), (l, Pose::IDENTITY));
+        l
+    }
+
+    /// The link or frame of a name.
+    pub(crate) fn frame(&self, name: &str) -> Option<(usize, Pose)> {
+        self.frames.get(name).copied()
+    }
+}

@@ -1,0 +1,92 @@
+//! What can be wrong with a robot description, in words that name the element and the remedy.
+
+use crate::file::problem::{ImportError, Problem, ProblemKind};
+use std::ops::Range;
+use thiserror::Error;
+
+/// What is wrong.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[allow(
+    missing_docs,
+    reason = "the wording of each variant says what its fields are"
+)]
+pub(crate) enum RobotProblem {
+    #[error(
+        "the file has {bytes} bytes, more than the {limit} allowed; remove what is not kinematics"
+    )]
+    TooLarge { bytes: usize, limit: usize },
+    #[error("the file is not UTF-8 text (byte {at}); save it as UTF-8")]
+    NotUtf8 { at: usize },
+    #[error("{message}; the file is not well-formed XML")]
+    Xml { message: String },
+    #[error("the file declares entities; expand them first, for example with `xmllint --noent`")]
+    Entities,
+    #[error("elements are nested more than {limit} deep; flatten the file")]
+    TooDeep { limit: usize },
+    #[error("more than {limit} {what}; remove what is not kinematics")]
+    TooMany { what: &'static str, limit: usize },
+    #[error(
+        "the root element is <{found}>; <robot> (URDF), <mujoco> (MJCF) and <sdf> (SDF) can be read"
+    )]
+    Format { found: String },
+    #[error("{element} has no {what}; add it")]
+    Missing { element: String, what: String },
+    #[error("{what} of {element} is \"{found}\"; {want}")]
+    BadValue {
+        element: String,
+        what: String,
+        found: String,
+        want: String,
+    },
+    #[error("{element} has the unknown {what} \"{word}\"; known: {known}")]
+    UnknownWord {
+        element: String,
+        what: &'static str,
+        word: String,
+        known: String,
+    },
+    #[error("{element} names the {what} \"{name}\", which there is not; {known}")]
+    UnknownName {
+        element: String,
+        what: &'static str,
+        name: String,
+        known: String,
+    },
+    #[error("{element} is there twice; names must be unique")]
+    Duplicate { element: String },
+    #[error("{element} cannot be mapped: {why}; {remedy}")]
+    Unsupported {
+        element: String,
+        why: String,
+        remedy: String,
+    },
+    #[error("{message}")]
+    Whole { message: String },
+}
+
+impl RobotProblem {
+    /// The problem with its place.
+    pub(crate) fn at(self, file: &str, text: &str, span: Option<Range<usize>>) -> ImportError {
+        ImportError {
+            file: file.to_owned(),
+            text: text.to_owned(),
+            problems: vec![Problem {
+                kind: ProblemKind::Syntax {
+                    message: self.to_string(),
+                },
+                span,
+            }],
+        }
+    }
+}
+
+/// A list of names for a message, cut where it is long.
+pub(crate) fn known<'a>(what: &str, names: impl Iterator<Item = &'a str>) -> String {
+    let all: Vec<&str> = names.collect();
+    if all.is_empty() {
+        return format!("there are no {what}");
+    }
+    let shown = all.iter().take(20).copied().collect::<Vec<_>>().join(", ");
+    let more = if all.len() > 20 { ", ..." } else { "" };
+    format!("{what}: {shown}{more}")
+}

@@ -1,0 +1,287 @@
+//! The joints and constraints of an SDF file.
+
+use crate::file::problem::ImportError;
+use crate::model::joint_type::JointType;
+use crate::robots::coupling::Ratio;
+use crate::robots::parts::{Part, Robot, free};
+use crate::robots::pose::{Pose, V3, Z, cross, dot, length, sub, unit};
+use crate::robots::problem::RobotProblem;
+use crate::robots::sdf::read::{end, unsupported};
+use crate::robots::sdf::scene::{Scene, absolute, located};
+use crate::robots::urdf::read::{same_link, unknown_type};
+use crate::robots::xml::Element;
+
+pub(crate) const TYPES: &str =
+    "revolute, continuous, prismatic, screw, universal, revolute2, ball, fixed, floating";
+/// A parent frame this far from the joint, as a fraction of the lengths in the file, is where the joint is to go.
+pub(crate) const APART: f64 = 1e-6;
+
+/// The direction of `<axis>` or `<axis2>` in the world.
+pub(crate) fn axis(
+    e: Element<'_>,
+    tag: &str,
+    scope: &str,
+    scene: &Scene<'_>,
+    at: &Pose,
+) -> Result<V3, ImportError> {
+    let Some(a) = e.child(tag) else {
+        let what = format!("<{tag}>");
+        return Err(e.fail(
+            None,
+            RobotProblem::Missing {
+                element: e.label(),
+                what,
+            },
+        ));
+    };
+    let Some(xyz) = a.child("xyz") else {
+        return Ok(at.direction(Z));
+    };
+    let v = xyz.text_numbers::<3>()?;
+    if length(v) < 1e-9 {
+        return Err(xyz.fail(
+            None,
+            RobotProblem::BadValue {
+                element: e.label(),
+                what: tag.to_owned(),
+                found: xyz.text().to_owned(),
+                want: "give a direction such as 0 0 1".to_owned(),
+            },
+        ));
+    }
+    let in_model = a
+        .child("use_parent_model_frame")
+        .is_some_and(|u| ["true", "1"].contains(&u.text()))
+        || scene.old_axes;
+    match xyz.attribute("expressed_in").filter(|f| !f.is_empty()) {
+        Some("world") => Ok(v),
+        Some(f) => Ok(located(xyz, &absolute(scope, f), scene)?.1.direction(v)),
+        None if in_model => Ok(located(xyz, &format!("{scope}__model__"), scene)?
+            .1
+            .direction(v)),
+        None => Ok(at.direction(v)),
+    }
+}
+
+pub(crate) fn joint(
+    e: Element<'_>,
+    scope: &str,
+    scene: &Scene<'_>,
+    size: f64,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    let name = format!("{scope}{}", e.required("name")?);
+    let word = e.required("type")?;
+    let (parent_tag, parent_name) = end(e, "parent")?;
+    let (child_tag, child_name) = end(e, "child")?;
+    let (parent, parent_world) = located(parent_tag, &absolute(scope, parent_name), scene)?;
+    let (child, _) = located(child_tag, &absolute(scope, child_name), scene)?;
+    if parent == child {
+        return Err(same_link(e));
+    }
+    let world = scene
+        .placed
+        .get(&name)
+        .and_then(|p| p.world)
+        .unwrap_or(Pose::IDENTITY);
+    let local = |d: V3| world.inverse().direction(d);
+    let joint_type = match word {
+        "revolute" | "continuous" | "hinge" => JointType::Revolute,
+        "prismatic" => JointType::Prismatic,
+        "screw" => JointType::Helical,
+        "universal" | "revolute2" => JointType::Universal,
+        "ball" => JointType::Spherical,
+        "fixed" => JointType::Fixed,
+        "floating" => free(),
+        _ => return Err(unknown_type(e, word, TYPES)),
+    };
+    // A parent that is a frame away from the joint: by the specification the frame only names its link, and the model is
+    // as drawn; where it is drawn in parts, the joint is to put the frame onto the child.
+    let is_frame = scene
+        .placed
+        .get(&absolute(scope, parent_name))
+        .is_some_and(|p| p.link.is_none());
+    let apart = is_frame && length(sub(parent_world.at, world.at)) > APART * size;
+    let on_parent = if apart && scene.assemble {
+        Pose {
+            at: parent_world.at,
+            ..world
+        }
+    } else {
+        world
+    };
+    let sides = [
+        robot.places[parent].inverse().then(&on_parent),
+        robot.places[child].inverse().then(&world),
+    ];
+    let mut part = Part::new(&name, [parent, child], sides, joint_type);
+    robot.report.map(word);
+    match word {
+        "ball" | "fixed" | "floating" => {}
+        "universal" | "revolute2" => {
+            mimic(e, &name, scope, robot)?;
+            let first = axis(e, "axis", scope, scene, &world)?;
+            let second = axis(e, "axis2", scope, scene, &world)?;
+            return two_axes(e, part, [local(first), local(second)], robot);
+        }
+        _ => part = part.about(local(axis(e, "axis", scope, scene, &world)?)),
+    }
+    if word == "screw" {
+        part.pitch = screw_pitch(e)?;
+    }
+    part.limits = limits(e)?.filter(|_| ["revolute", "prismatic"].contains(&word));
+    if apart {
+        let d = length(sub(parent_world.at, world.at));
+        let done = if scene.assemble {
+            "put together"
+        } else {
+            "taken as drawn, as SDF has it (--assemble puts them together)"
+        };
+        let what = format!("its parent frame and the joint are {d:.3} m apart in the file; {done}");
+        robot.report.approximate(&e.label(), what);
+    }
+    if let Some(leader) = mimic(e, &name, scope, robot)? {
+        part.comment = Some(format!("mimics {leader}"));
+    }
+    robot.joints.push(part);
+    Ok(())
+}
+
+/// Notes the coupling of a joint whose axis follows that of another, which it gives the name of.
+fn mimic(
+    e: Element<'_>,
+    name: &str,
+    scope: &str,
+    robot: &mut Robot,
+) -> Result<Option<String>, ImportError> {
+    let Some(m) = e.children().find_map(|a| a.child("mimic")) else {
+        return Ok(None);
+    };
+    let leader = absolute(scope, m.required("joint")?);
+    let ratio = match m.child("multiplier") {
+        Some(x) => x.text_numbers::<1>()?[0],
+        None => 1.0,
+    };
+    robot.couplings.push(Ratio {
+        joints: [leader.clone(), name.to_owned()],
+        ratio,
+        element: e.label(),
+    });
+    Ok(Some(leader))
+}
+
+pub(crate) fn limits(e: Element<'_>) -> Result<Option<(f64, f64)>, ImportError> {
+    let Some(l) = e.child("axis").and_then(|a| a.child("limit")) else {
+        return Ok(None);
+    };
+    let one = |tag: &str| match l.child(tag) {
+        // Without a limit SDF says 1e16 or infinity.
+        Some(c) if ["inf", "-inf"].contains(&c.text()) => Ok(None),
+        Some(c) => match c.text().parse::<f64>() {
+            Ok(x) if x.abs() > 1e9 => Ok(None),
+            _ => c.text_numbers::<1>().map(|[x]| Some(x)),
+        },
+        None => Ok(None),
+    };
+    Ok(one("lower")?
+        .zip(one("upper")?)
+        .filter(|(low, high)| low < high))
+}
+
+/// Metres per radian: `screw_thread_pitch` is metres per turn, `thread_pitch` minus radians per metre.
+pub(crate) fn screw_pitch(e: Element<'_>) -> Result<f64, ImportError> {
+    if let Some(p) = e.child("screw_thread_pitch") {
+        return Ok(p.text_numbers::<1>()?[0] / std::f64::consts::TAU);
+    }
+    let Some(p) = e.child("thread_pitch") else {
+        let what = "<screw_thread_pitch>".to_owned();
+        return Err(e.fail(
+            None,
+            RobotProblem::Missing {
+                element: e.label(),
+                what,
+            },
+        ));
+    };
+    let [radians] = p.text_numbers::<1>()?;
+    if radians.abs() < 1e-9 {
+        return Err(p.fail(
+            None,
+            RobotProblem::BadValue {
+                element: e.label(),
+                what: "<thread_pitch>".to_owned(),
+                found: p.text().to_owned(),
+                want: "give <screw_thread_pitch>, metres per turn".to_owned(),
+            },
+        ));
+    }
+    Ok(-1.0 / radians)
+}
+
+/// A universal joint, or two revolute ones where the axes are not perpendicular.
+pub(crate) fn two_axes(
+    e: Element<'_>,
+    mut part: Part,
+    [first, second]: [V3; 2],
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    let (a, b) = (unit(first), unit(second));
+    if length(cross(a, b)) < 1e-9 {
+        return Err(unsupported(
+            e,
+            "its two axes are parallel",
+            "give two directions",
+        ));
+    }
+    if dot(a, b).abs() < 1e-9 {
+        (part.axis, part.second) = (first, second);
+        robot.joints.push(part);
+        return Ok(());
+    }
+    let between = robot.link(&format!("{}~1", part.id), Pose::IDENTITY);
+    let [parent, child] = part.links;
+    let one = Part::new(
+        &part.id,
+        [parent, between],
+        [part.sides[0], Pose::IDENTITY],
+        JointType::Revolute,
+    );
+    let two = Part::new(
+        &format!("{}~2", part.id),
+        [between, child],
+        [Pose::IDENTITY, part.sides[1]],
+        JointType::Revolute,
+    );
+    robot.report.approximate(
+        &e.label(),
+        "its axes are not perpendicular: two revolute joints through a link without mass",
+    );
+    robot.joints.push(one.about(first));
+    robot.joints.push(two.about(second));
+    Ok(())
+}
+
+/// Drake's weld of two frames.
+pub(crate) fn weld(
+    e: Element<'_>,
+    scope: &str,
+    scene: &Scene<'_>,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    let mut ends = [(0, Pose::IDENTITY); 2];
+    for (x, tag) in ends.iter_mut().zip(["parent", "child"]) {
+        let (c, name) = end(e, tag)?;
+        let (link, world) = located(c, &absolute(scope, name), scene)?;
+        *x = (link, robot.places[link].inverse().then(&world));
+    }
+    if ends[0].0 == ends[1].0 {
+        return Err(same_link(e));
+    }
+    let id = format!("weld-{}-{}", end(e, "parent")?.1, end(e, "child")?.1);
+    let mut part = Part::new(&id, ends.map(|x| x.0), ends.map(|x| x.1), JointType::Fixed);
+    part.closes = true;
+    part.comment = Some("closes a loop: <drake:weld_constraint>".to_owned());
+    robot.report.map("weld constraint");
+    robot.joints.push(part);
+    Ok(())
+}

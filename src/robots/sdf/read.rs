@@ -1,0 +1,270 @@
+//! SDF: models with links, frames and joints, places relative to each other, loops closed by joints as they stand.
+
+use crate::file::problem::ImportError;
+use crate::model::joint_type::JointType;
+use crate::robots::parts::{Format, Part, Robot};
+use crate::robots::pose::{Pose, length, scale};
+use crate::robots::problem::RobotProblem;
+use crate::robots::sdf::joints::{joint, weld};
+use crate::robots::sdf::scene::{Placed, Scene, absolute, insert, moves_with, resolve};
+use crate::robots::urdf::read::ball_constraint;
+use crate::robots::xml::Element;
+
+/// Reads an `<sdf>`.
+pub(crate) fn read(root: Element<'_>, assemble: bool) -> Result<Robot, ImportError> {
+    let mut models: Vec<(Element<'_>, bool)> = root.named("model").map(|m| (m, false)).collect();
+    let mut robot = Robot::new("robot", Format::Sdf);
+    for w in root.named("world") {
+        models.extend(w.named("model").map(|m| (m, false)));
+        for e in w
+            .children()
+            .filter(|e| !["model", "joint", "frame"].contains(&e.name()))
+        {
+            if e.name() == "include" {
+                return Err(include(e));
+            }
+            robot.report.drop(e.name(), e.attribute("name"));
+        }
+        if let Some(e) = w.child("joint").or(w.child("frame")) {
+            let why = "joints and frames between models of a world are not read";
+            return Err(unsupported(e, why, "put the models into one <model>"));
+        }
+    }
+    let Some(first) = models.first() else {
+        let what = "<model>".to_owned();
+        return Err(root.fail(
+            None,
+            RobotProblem::Missing {
+                element: root.label(),
+                what,
+            },
+        ));
+    };
+    first
+        .0
+        .attribute("name")
+        .unwrap_or("robot")
+        .clone_into(&mut robot.name);
+    robot.world = Some(robot.link("world", Pose::IDENTITY));
+    let version = root
+        .attribute("version")
+        .and_then(|v| v.parse::<f64>().ok());
+    let mut scene = Scene {
+        old_axes: version.is_some_and(|v| v < 1.5),
+        assemble,
+        ..Scene::default()
+    };
+    let alone = models.len() == 1;
+    models.reverse();
+    let mut stack: Vec<(Element<'_>, String, bool)> = models
+        .into_iter()
+        .map(|(m, inner)| (m, String::new(), inner))
+        .collect();
+    while let Some((m, outer, inner)) = stack.pop() {
+        let own = m.required("name")?;
+        // The one model's names stand as they are; others are prefixed, as SDF does it for nested models.
+        let scope = if inner || !alone {
+            format!("{outer}{own}::")
+        } else {
+            String::new()
+        };
+        model(m, &outer, &scope, &mut scene, &mut robot)?;
+        let nested: Vec<_> = m.named("model").map(|n| (n, scope.clone(), true)).collect();
+        stack.extend(nested.into_iter().rev());
+    }
+    resolve(&mut scene)?;
+    for p in scene.placed.values() {
+        if let (Some(l), Some(w)) = (p.link, p.world) {
+            robot.places[l] = w;
+        }
+    }
+    for &link in &scene.fixed {
+        let id = format!("static-{}", robot.links[link]);
+        let sides = [robot.places[link], Pose::IDENTITY];
+        robot
+            .joints
+            .push(Part::new(&id, [0, link], sides, JointType::Fixed));
+    }
+    let names: Vec<String> = scene.placed.keys().cloned().collect();
+    for name in names {
+        if let Ok((link, world)) = moves_with(&scene, &name) {
+            let on = robot.places[link].inverse().then(&world);
+            robot.frames.insert(name, (link, on));
+        }
+    }
+    let size = scene
+        .placed
+        .values()
+        .map(|p| length(p.raw.at))
+        .fold(1e-3, f64::max);
+    for (e, scope) in std::mem::take(&mut scene.joints) {
+        joint(e, &scope, &scene, size, &mut robot)?;
+    }
+    for (e, scope) in std::mem::take(&mut scene.constraints) {
+        match e.name() {
+            "drake:weld_constraint" => weld(e, &scope, &scene, &mut robot)?,
+            _ => ball_constraint(e, &mut robot)?,
+        }
+    }
+    Ok(robot)
+}
+
+pub(crate) fn unsupported(e: Element<'_>, why: &str, remedy: &str) -> ImportError {
+    let (element, why, remedy) = (e.label(), why.to_owned(), remedy.to_owned());
+    e.fail(
+        None,
+        RobotProblem::Unsupported {
+            element,
+            why,
+            remedy,
+        },
+    )
+}
+
+fn include(e: Element<'_>) -> ImportError {
+    unsupported(
+        e,
+        "another file is needed",
+        "expand the file first, for example with `gz sdf -p`",
+    )
+}
+
+/// The pose child: numbers, what it is relative to, and in which unit.
+fn pose(e: Element<'_>) -> Result<(Pose, Option<&str>), ImportError> {
+    let Some(p) = e.child("pose") else {
+        return Ok((Pose::IDENTITY, None));
+    };
+    let relative = p
+        .attribute("relative_to")
+        .or(p.attribute("frame"))
+        .filter(|r| !r.is_empty());
+    if p.text().is_empty() {
+        return Ok((Pose::IDENTITY, relative));
+    }
+    if p.attribute("rotation_format") == Some("quat_xyzw") {
+        let [a, b, c, x, y, z, w] = p.text_numbers::<7>()?;
+        return Ok((Pose::quaternion([a, b, c], [w, x, y, z]), relative));
+    }
+    let [x, y, z, roll, pitch, yaw] = p.text_numbers::<6>()?;
+    let degrees = p
+        .attribute("degrees")
+        .is_some_and(|d| ["true", "1"].contains(&d));
+    let turn = scale(
+        [roll, pitch, yaw],
+        if degrees {
+            std::f64::consts::PI / 180.0
+        } else {
+            1.0
+        },
+    );
+    Ok((Pose::roll_pitch_yaw([x, y, z], turn), relative))
+}
+
+/// Takes in what a model holds; places are worked out afterwards.
+fn model<'a>(
+    m: Element<'a>,
+    outer: &str,
+    scope: &str,
+    scene: &mut Scene<'a>,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    let static_model = m
+        .child("static")
+        .is_some_and(|s| ["true", "1"].contains(&s.text()));
+    let (raw, relative) = pose(m)?;
+    // The model's own frame is called __model__ within it; nested models are also known by name.
+    let own = format!("{scope}__model__");
+    let relative_to = match relative {
+        Some(r) => format!("{outer}{r}"),
+        None if outer.is_empty() => "world".to_owned(),
+        None => format!("{outer}__model__"),
+    };
+    let canonical = m
+        .attribute("canonical_link")
+        .or_else(|| m.child("link").and_then(|l| l.attribute("name")));
+    let attached_to = canonical.map_or_else(|| "world".to_owned(), |c| format!("{scope}{c}"));
+    let placed = |element, relative_to, raw, attached_to: String, link| Placed {
+        element,
+        relative_to,
+        raw,
+        attached_to,
+        world: None,
+        link,
+    };
+    insert(
+        scene,
+        own.clone(),
+        placed(m, relative_to, raw, attached_to, None),
+    )?;
+    if !scope.is_empty() {
+        let alias = scope.trim_end_matches("::").to_owned();
+        insert(
+            scene,
+            alias,
+            placed(m, own.clone(), Pose::IDENTITY, own.clone(), None),
+        )?;
+    }
+    for e in m.children() {
+        let named =
+            |e: Element<'a>| Ok::<_, ImportError>(format!("{scope}{}", e.required("name")?));
+        match e.name() {
+            "link" => {
+                e.room("links", robot.links.len())?;
+                let name = named(e)?;
+                let (raw, relative) = pose(e)?;
+                let link = robot.link(&name, Pose::IDENTITY);
+                let to = relative.map_or_else(|| own.clone(), |r| absolute(scope, r));
+                insert(scene, name.clone(), placed(e, to, raw, name, Some(link)))?;
+                for c in e.children().filter(|c| c.name() != "pose") {
+                    robot.report.drop(c.name(), None);
+                }
+                if static_model {
+                    scene.fixed.push(link);
+                }
+            }
+            "frame" => {
+                let name = named(e)?;
+                let (raw, relative) = pose(e)?;
+                let to = e.attribute("attached_to").filter(|a| !a.is_empty());
+                let to = to.map_or_else(|| own.clone(), |a| absolute(scope, a));
+                let relative = relative.map_or_else(|| to.clone(), |r| absolute(scope, r));
+                insert(scene, name, placed(e, relative, raw, to, None))?;
+            }
+            "joint" => {
+                e.room("joints", scene.joints.len())?;
+                let name = named(e)?;
+                let (raw, relative) = pose(e)?;
+                let child = absolute(scope, end(e, "child")?.1);
+                let relative = relative.map_or_else(|| child.clone(), |r| absolute(scope, r));
+                insert(scene, name, placed(e, relative, raw, child, None))?;
+                scene.joints.push((e, scope.to_owned()));
+            }
+            "drake:weld_constraint" | "drake:ball_constraint" => {
+                e.room("constraints", scene.constraints.len())?;
+                scene.constraints.push((e, scope.to_owned()));
+            }
+            "include" => return Err(include(e)),
+            "gripper" | "plugin" | "self_collide" | "allow_auto_disable" | "enable_wind" => {
+                robot.report.drop(e.name(), e.attribute("name"));
+            }
+            "model" | "pose" | "static" => {}
+            other => robot.report.drop(other, e.attribute("name")),
+        }
+    }
+    Ok(())
+}
+
+/// Parent or child of a joint: the element and the name.
+pub(crate) fn end<'a>(e: Element<'a>, tag: &str) -> Result<(Element<'a>, &'a str), ImportError> {
+    let c = e.child(tag).filter(|c| !c.text().is_empty());
+    c.map(|c| (c, c.text())).ok_or_else(|| {
+        let what = format!("<{tag}> with the name of a link");
+        e.fail(
+            None,
+            RobotProblem::Missing {
+                element: e.label(),
+                what,
+            },
+        )
+    })
+}

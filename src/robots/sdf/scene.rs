@@ -1,0 +1,157 @@
+//! What has a place in an SDF file, and where that is.
+
+use crate::file::problem::ImportError;
+use crate::robots::pose::Pose;
+use crate::robots::problem::{RobotProblem, known};
+use crate::robots::sdf::read::unsupported;
+use crate::robots::xml::Element;
+use std::collections::BTreeMap;
+
+/// Something that has a place: a model, link, frame or joint.
+pub(crate) struct Placed<'a> {
+    pub(super) element: Element<'a>,
+    /// The name of the thing its place is relative to.
+    pub(super) relative_to: String,
+    /// Place in that.
+    pub(super) raw: Pose,
+    /// What it moves with: itself for links, another name for frames, the child for joints.
+    pub(super) attached_to: String,
+    /// Its place in the world, once known.
+    pub(super) world: Option<Pose>,
+    pub(super) link: Option<usize>,
+}
+
+#[derive(Default)]
+pub(crate) struct Scene<'a> {
+    pub(super) placed: BTreeMap<String, Placed<'a>>,
+    pub(super) joints: Vec<(Element<'a>, String)>,
+    pub(crate) constraints: Vec<(Element<'a>, String)>,
+    /// Links of static models.
+    pub(super) fixed: Vec<usize>,
+    /// Whether axes are given in the model's frame: before SDF 1.5.
+    pub(super) old_axes: bool,
+    /// Whether joints put their parent frame onto the child.
+    pub(super) assemble: bool,
+}
+
+/// A name as seen from a scope.
+pub(crate) fn absolute(scope: &str, name: &str) -> String {
+    if name == "world" {
+        name.to_owned()
+    } else {
+        format!("{scope}{name}")
+    }
+}
+
+pub(crate) fn insert<'a>(
+    scene: &mut Scene<'a>,
+    name: String,
+    p: Placed<'a>,
+) -> Result<(), ImportError> {
+    p.element
+        .room("links, frames and joints", scene.placed.len())?;
+    if name == "world" || scene.placed.contains_key(&name) {
+        let element = p.element.label();
+        return Err(p
+            .element
+            .fail(Some("name"), RobotProblem::Duplicate { element }));
+    }
+    scene.placed.insert(name, p);
+    Ok(())
+}
+
+pub(crate) fn unknown(e: Element<'_>, name: &str, scene: &Scene<'_>) -> ImportError {
+    let known = known("names", scene.placed.keys().map(String::as_str));
+    let (element, name) = (e.label(), name.to_owned());
+    e.fail(
+        None,
+        RobotProblem::UnknownName {
+            element,
+            what: "link or frame",
+            name,
+            known,
+        },
+    )
+}
+
+/// Works out all places in the world.
+pub(crate) fn resolve(scene: &mut Scene<'_>) -> Result<(), ImportError> {
+    let names: Vec<String> = scene.placed.keys().cloned().collect();
+    for name in names {
+        // Down to something whose place is known, then back.
+        let mut path: Vec<String> = Vec::new();
+        let mut at = name;
+        let mut base = loop {
+            if at == "world" {
+                break Pose::IDENTITY;
+            }
+            let from = path.last().map(|p| scene.placed[p].element);
+            let Some(p) = scene.placed.get(&at) else {
+                let Some(e) = from else { break Pose::IDENTITY };
+                return Err(unknown(e, &at, scene));
+            };
+            if let Some(w) = p.world {
+                break w;
+            }
+            if path.len() > scene.placed.len() {
+                let why = "its place is relative to itself, by way of others";
+                return Err(unsupported(
+                    p.element,
+                    why,
+                    "change one of their relative_to",
+                ));
+            }
+            let next = p.relative_to.clone();
+            path.push(at);
+            at = next;
+        };
+        for n in path.iter().rev() {
+            if let Some(p) = scene.placed.get_mut(n) {
+                base = base.then(&p.raw);
+                p.world = Some(base);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The link that a name moves with, and the name's place in the world.
+pub(crate) fn moves_with(scene: &Scene<'_>, name: &str) -> Result<(usize, Pose), Option<String>> {
+    if name == "world" {
+        return Ok((0, Pose::IDENTITY));
+    }
+    let first = scene
+        .placed
+        .get(name)
+        .ok_or_else(|| Some(name.to_owned()))?;
+    let world = first.world.unwrap_or(Pose::IDENTITY);
+    let mut at = first;
+    for _ in 0..=scene.placed.len() {
+        if let Some(l) = at.link {
+            return Ok((l, world));
+        }
+        if at.attached_to == "world" {
+            return Ok((0, world));
+        }
+        at = scene
+            .placed
+            .get(&at.attached_to)
+            .ok_or_else(|| Some(at.attached_to.clone()))?;
+    }
+    Err(None)
+}
+
+pub(crate) fn located(
+    e: Element<'_>,
+    name: &str,
+    scene: &Scene<'_>,
+) -> Result<(usize, Pose), ImportError> {
+    moves_with(scene, name).map_err(|missing| match missing {
+        Some(n) => unknown(e, &n, scene),
+        None => unsupported(
+            e,
+            &format!("{name} is attached to itself, by way of others"),
+            "attach it to a link",
+        ),
+    })
+}

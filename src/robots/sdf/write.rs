@@ -1,0 +1,175 @@
+//! SDF: every joint of the free state as it stands, loops closed by joints.
+
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Mechanism, Mode, Role};
+use crate::robots::mimic::{Follows, mimics, settled, stand_in};
+use crate::robots::single_freedoms::{
+    Names, Place, Single, comment, escape, number, numbers, place, singles,
+};
+use std::fmt::Write;
+
+/// The mechanism's free state as SDF 1.9. All links have the global axes; joints of several freedoms that SDF does not
+/// know become joints in series through links without mass.
+#[must_use]
+pub fn sdf(m: &Mechanism) -> String {
+    // Mimic joints are of 1.11.
+    let version = if m.couplings_in(0).next().is_some() {
+        "1.11"
+    } else {
+        "1.9"
+    };
+    let mut out = format!("<?xml version=\"1.0\"?>\n<sdf version=\"{version}\">\n");
+    let _ = writeln!(
+        out,
+        "  <model name=\"{}\">",
+        escape(&m.name.replace("::", ":"))
+    );
+    if let Mode::Planar { .. } = m.mode {
+        let _ = writeln!(
+            out,
+            "    <!-- a planar model: its figures count 3 constraints per contour, those of this file 6 -->"
+        );
+    }
+    let joints: Vec<usize> = m.joints_in(0).collect();
+    let written: Vec<bool> = (0..m.joints.len()).map(|j| joints.contains(&j)).collect();
+    let (follows, unsaid) = mimics(m, &written);
+    let mut ids = vec![String::new(); m.joints.len()];
+    let mut names = Names::default();
+    let world = names.fit("world");
+    let mut links: Vec<Option<String>> = vec![None; m.links.len()];
+    for (l, link) in m.links.iter().enumerate() {
+        if joints.iter().any(|&j| m.joints[j].links.contains(&l)) {
+            links[l] = Some(if link.role == Role::Frame && link.id == world {
+                world.clone()
+            } else {
+                names.fit(&link.id)
+            });
+        }
+    }
+    let name = |l: usize| links[l].as_deref().unwrap_or("world");
+    let mut body = String::new();
+    for (l, link) in m.links.iter().enumerate() {
+        let Some(n) = links[l].as_deref().filter(|n| *n != world) else {
+            continue;
+        };
+        let _ = writeln!(out, "    <link name=\"{}\"/>", escape(n));
+        if link.role == Role::Frame {
+            let ends = [world.as_str(), n];
+            write_joint(
+                &mut body,
+                &names.fit(&format!("world-{n}")),
+                "fixed",
+                ends,
+                [0.0; 3],
+                "",
+            );
+        }
+    }
+    for &j in &joints {
+        let joint = &m.joints[j];
+        let p = place(m, joint);
+        let id = names.fit(&joint.id);
+        ids[j].clone_from(&id);
+        if joint.drive {
+            let _ = writeln!(body, "    <!-- {} is driven -->", comment(&id));
+        }
+        let ends = joint.links.map(name);
+        if let Some((kind, more)) = known(&joint.joint_type, &p) {
+            let more = match follows[j] {
+                Some(f) => more.replacen("</axis>", &format!("{}</axis>", follow(f)), 1),
+                None => more,
+            };
+            write_joint(&mut body, &id, kind, ends, p.point, &more);
+            continue;
+        }
+        let all = singles(&joint.joint_type, &p);
+        let mut from = ends[0].to_owned();
+        for (i, single) in all.iter().enumerate() {
+            let last = i + 1 == all.len();
+            let to = if last {
+                ends[1].to_owned()
+            } else {
+                names.fit(&format!("{id}~{}", i + 1))
+            };
+            if !last {
+                let _ = writeln!(out, "    <link name=\"{}\"/>", escape(&to));
+            }
+            let part = if i == 0 {
+                id.clone()
+            } else {
+                names.fit(&format!("{id}~joint{}", i + 1))
+            };
+            let (kind, mut more) = elementary(*single);
+            if let Some(f) = follows[j] {
+                more = more.replacen("</axis>", &format!("{}</axis>", follow(f)), 1);
+            }
+            write_joint(&mut body, &part, kind, [&from, &to], p.point, &more);
+            from = to;
+        }
+        if all.is_empty() {
+            write_joint(&mut body, &id, "fixed", ends, p.point, "");
+        }
+    }
+    for name in unsaid {
+        let what = format!("coupled, which no mimic joint says: {name}");
+        let _ = writeln!(body, "    <!-- {} -->", comment(&what));
+    }
+    // Joints may follow later ones, whose names were not settled yet.
+    out.push_str(&settled(&body, |j| escape(&ids[j])));
+    out.push_str("  </model>\n</sdf>\n");
+    out
+}
+
+fn follow(f: Follows) -> String {
+    format!(
+        "<mimic joint=\"{}\" axis=\"axis\"><multiplier>{}</multiplier><offset>0</offset><reference>0</reference></mimic>",
+        stand_in(f.leader),
+        number(f.ratio)
+    )
+}
+
+fn axis(tag: &str, d: [f64; 3]) -> String {
+    format!(
+        "      <{tag}><xyz expressed_in=\"__model__\">{}</xyz></{tag}>\n",
+        numbers(d)
+    )
+}
+
+/// The SDF joint of a type, where there is one, and what goes into it.
+fn known(t: &JointType, p: &Place) -> Option<(&'static str, String)> {
+    let [x, _, z] = p.axes;
+    Some(match t {
+        JointType::Revolute | JointType::Prismatic | JointType::Helical => {
+            let [single] = singles(t, p)[..] else {
+                return None;
+            };
+            elementary(single)
+        }
+        JointType::Universal => ("universal", axis("axis", z) + &axis("axis2", x)),
+        JointType::Spherical => ("ball", String::new()),
+        JointType::Fixed => ("fixed", String::new()),
+        _ => return None,
+    })
+}
+
+fn elementary(s: Single) -> (&'static str, String) {
+    match s {
+        Single::Turn(d) => ("revolute", axis("axis", d)),
+        Single::Shift(d) => ("prismatic", axis("axis", d)),
+        Single::Screw(d, pitch) => {
+            let turn = pitch * std::f64::consts::TAU;
+            let thread = format!("      <screw_thread_pitch>{turn}</screw_thread_pitch>\n");
+            ("screw", axis("axis", d) + &thread)
+        }
+    }
+}
+
+fn write_joint(out: &mut String, id: &str, kind: &str, ends: [&str; 2], at: [f64; 3], more: &str) {
+    let [parent, child] = ends.map(escape);
+    let _ = write!(
+        out,
+        "    <joint name=\"{}\" type=\"{kind}\">\n      <pose relative_to=\"__model__\">{} 0 0 0</pose>\n      <parent>{parent}</parent>\n      <child>{child}</child>\n{more}    </joint>\n",
+        escape(id),
+        numbers(at),
+    );
+}

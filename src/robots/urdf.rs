@@ -1,0 +1,4 @@
+//! URDF, read and written.
+
+pub(super) mod read;
+pub(super) mod write;

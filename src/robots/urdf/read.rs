@@ -1,0 +1,259 @@
+//! URDF: a tree of links and joints, with mimic joints, transmissions and the loop extensions in use.
+
+use crate::file::problem::ImportError;
+use crate::model::joint_type::JointType;
+use crate::robots::coupling::Ratio;
+use crate::robots::parts::{Format, Part, Robot, free};
+use crate::robots::pose::{Pose, V3, X, length};
+use crate::robots::problem::{RobotProblem, known};
+use crate::robots::xml::Element;
+
+const TYPES: &str = "revolute, continuous, prismatic, fixed, planar, floating";
+
+/// Reads a `<robot>`.
+pub(crate) fn read(root: Element<'_>) -> Result<Robot, ImportError> {
+    let mut robot = Robot::new(root.attribute("name").unwrap_or("robot"), Format::Urdf);
+    for link in root.named("link") {
+        let name = link.required("name")?;
+        link.room("links", robot.links.len())?;
+        if robot.frame(name).is_some() {
+            return Err(link.fail(
+                Some("name"),
+                RobotProblem::Duplicate {
+                    element: link.label(),
+                },
+            ));
+        }
+        robot.link(name, Pose::IDENTITY);
+        for c in link.children() {
+            robot.report.drop(c.name(), None);
+        }
+    }
+    for e in root.children() {
+        e.room("joints", robot.joints.len())?;
+        match e.name() {
+            "link" => {}
+            "joint" => joint(e, &mut robot)?,
+            "loop_joint" => loop_joint(e, &mut robot)?,
+            "drake:ball_constraint" => ball_constraint(e, &mut robot)?,
+            "transmission" => {}
+            other if other.starts_with("xacro:") => {
+                let what = "a macro that is not expanded, and whatever it stands for is missing; run `xacro FILE` first";
+                robot.report.approximate(&e.label(), what);
+            }
+            other => robot.report.drop(other, e.attribute("name")),
+        }
+    }
+    for e in root.named("transmission") {
+        for j in e.named("joint").filter_map(|j| j.attribute("name")) {
+            match robot.joints.iter_mut().find(|p| p.id == j) {
+                Some(p) => p.drive = true,
+                None => robot.report.drop("transmission", Some(j)),
+            }
+        }
+    }
+    Ok(robot)
+}
+
+fn origin(e: Element<'_>) -> Result<Pose, ImportError> {
+    let Some(o) = e.child("origin") else {
+        return Ok(Pose::IDENTITY);
+    };
+    if let Some(q) = o.numbers::<4>("quat_xyzw")? {
+        return Ok(Pose::quaternion(
+            o.vector("xyz", [0.0; 3])?,
+            [q[3], q[0], q[1], q[2]],
+        ));
+    }
+    Ok(Pose::roll_pitch_yaw(
+        o.vector("xyz", [0.0; 3])?,
+        o.vector("rpy", [0.0; 3])?,
+    ))
+}
+
+/// The link that a child element such as `<parent link="..."/>` names.
+fn end(e: Element<'_>, tag: &str, robot: &Robot) -> Result<usize, ImportError> {
+    let missing = || RobotProblem::Missing {
+        element: e.label(),
+        what: format!("<{tag} link=\"...\"/>"),
+    };
+    let c = e.child(tag).ok_or_else(|| e.fail(None, missing()))?;
+    let name = c.required("link")?;
+    robot
+        .links
+        .iter()
+        .position(|l| l == name)
+        .ok_or_else(|| c.fail(Some("link"), unknown_link(e, name, robot)))
+}
+
+fn unknown_link(e: Element<'_>, name: &str, robot: &Robot) -> RobotProblem {
+    RobotProblem::UnknownName {
+        element: e.label(),
+        what: "link",
+        name: name.to_owned(),
+        known: known("links", robot.links.iter().map(String::as_str)),
+    }
+}
+
+fn axis(e: Element<'_>) -> Result<V3, ImportError> {
+    let Some(a) = e.child("axis") else {
+        return Ok(X);
+    };
+    let v = a.vector("xyz", X)?;
+    if length(v) < 1e-9 {
+        return Err(a.fail(
+            Some("xyz"),
+            RobotProblem::BadValue {
+                element: e.label(),
+                what: "the axis".to_owned(),
+                found: a.attribute("xyz").unwrap_or("").to_owned(),
+                want: "give a direction such as 0 0 1".to_owned(),
+            },
+        ));
+    }
+    Ok(v)
+}
+
+fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+    let name = e.required("name")?;
+    if robot.joints.iter().any(|j| j.id == name) {
+        return Err(e.fail(Some("name"), RobotProblem::Duplicate { element: e.label() }));
+    }
+    let word = e.required("type")?;
+    let links = [end(e, "parent", robot)?, end(e, "child", robot)?];
+    if links[0] == links[1] {
+        return Err(same_link(e));
+    }
+    let sides = [origin(e)?, Pose::IDENTITY];
+    let joint_type = match word {
+        "revolute" | "continuous" => JointType::Revolute,
+        "prismatic" => JointType::Prismatic,
+        "fixed" => JointType::Fixed,
+        "planar" => JointType::Planar,
+        "floating" => free(),
+        _ => return Err(unknown_type(e, word, TYPES)),
+    };
+    let mut part = Part::new(name, links, sides, joint_type);
+    if matches!(word, "revolute" | "continuous" | "prismatic" | "planar") {
+        part = part.about(axis(e)?);
+    }
+    if let Some(l) = e.child("limit")
+        && word != "continuous"
+    {
+        let one = |k| Ok(l.numbers::<1>(k)?.map_or(0.0, |[x]| x));
+        let (low, high) = (one("lower")?, one("upper")?);
+        part.limits = (low < high).then_some((low, high));
+    }
+    robot.report.map(word);
+    if let Some(m) = e.child("mimic") {
+        let leader = m.required("joint")?;
+        let ratio = m.numbers::<1>("multiplier")?.map_or(1.0, |[x]| x);
+        m.numbers::<1>("offset")?;
+        part.comment = Some(format!("mimics {leader} times {ratio}"));
+        robot.couplings.push(Ratio {
+            joints: [leader.to_owned(), name.to_owned()],
+            ratio,
+            element: e.label(),
+        });
+    }
+    for c in e.children() {
+        if !["origin", "parent", "child", "axis", "limit", "mimic"].contains(&c.name()) {
+            robot.report.drop(c.name(), None);
+        }
+    }
+    robot.joints.push(part);
+    Ok(())
+}
+
+pub(crate) fn same_link(e: Element<'_>) -> ImportError {
+    e.fail(
+        None,
+        RobotProblem::Unsupported {
+            element: e.label(),
+            why: "it connects a link to itself".to_owned(),
+            remedy: "name two different links".to_owned(),
+        },
+    )
+}
+
+pub(crate) fn unknown_type(e: Element<'_>, word: &str, types: &str) -> ImportError {
+    e.fail(
+        Some("type"),
+        RobotProblem::UnknownWord {
+            element: e.label(),
+            what: "type",
+            word: word.to_owned(),
+            known: types.to_owned(),
+        },
+    )
+}
+
+/// `<loop_joint name type><link1 link xyz rpy/><link2 link xyz rpy/><axis/></loop_joint>`.
+fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+    let name = e.required("name")?;
+    let links = [end(e, "link1", robot)?, end(e, "link2", robot)?];
+    if links[0] == links[1] {
+        return Err(same_link(e));
+    }
+    let mut sides = [Pose::IDENTITY; 2];
+    for (side, tag) in sides.iter_mut().zip(["link1", "link2"]) {
+        if let Some(c) = e.child(tag) {
+            *side = Pose::roll_pitch_yaw(c.vector("xyz", [0.0; 3])?, c.vector("rpy", [0.0; 3])?);
+        }
+    }
+    let word = e.required("type")?;
+    let joint_type = match word {
+        "revolute" | "continuous" => JointType::Revolute,
+        "prismatic" => JointType::Prismatic,
+        "spherical" => JointType::Spherical,
+        "fixed" => JointType::Fixed,
+        _ => {
+            return Err(unknown_type(
+                e,
+                word,
+                "revolute, continuous, prismatic, spherical, fixed",
+            ));
+        }
+    };
+    let mut part = Part::new(name, links, sides, joint_type).about(axis(e)?);
+    part.closes = true;
+    robot.report.map("loop_joint");
+    robot.joints.push(part);
+    Ok(())
+}
+
+/// Drake's ball constraint: a point of one body held to a point of another.
+pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+    let (mut links, mut sides) = ([0; 2], [Pose::IDENTITY; 2]);
+    for (i, (body, point)) in [("A", "p_AP"), ("B", "p_BQ")].into_iter().enumerate() {
+        let part = |k: &str| {
+            let tag = format!("drake:ball_constraint_{k}");
+            let missing = RobotProblem::Missing {
+                element: e.label(),
+                what: format!("<{tag}>"),
+            };
+            e.child(&tag).ok_or_else(|| e.fail(None, missing))
+        };
+        let b = part(&format!("body_{body}"))?;
+        let name = b.attribute("name").unwrap_or_else(|| b.text());
+        let (link, frame) = robot
+            .frame(name)
+            .ok_or_else(|| b.fail(Some("name"), unknown_link(e, name, robot)))?;
+        let p = part(point)?;
+        let at = match p.numbers::<3>("value")? {
+            Some(v) => v,
+            None => p.text_numbers()?,
+        };
+        links[i] = link;
+        sides[i] = frame.then(&Pose::shift(at));
+    }
+    if links[0] == links[1] {
+        return Err(same_link(e));
+    }
+    let id = format!("ball-{}-{}", robot.links[links[0]], robot.links[links[1]]);
+    let mut part = Part::new(&id, links, sides, JointType::Spherical);
+    part.closes = true;
+    robot.report.map("ball constraint");
+    robot.joints.push(part);
+    Ok(())
+}

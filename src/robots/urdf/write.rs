@@ -1,0 +1,170 @@
+//! URDF: a spanning tree of the free state; the joints that close loops are comments.
+
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{JointId, LinkId, Mechanism};
+use crate::robots::export::ExportError;
+use crate::robots::mimic::{mimics, settled, stand_in};
+use crate::robots::single_freedoms::{
+    Names, Single, comment, escape, number, numbers, place, singles,
+};
+use std::fmt::Write;
+
+/// The mechanism's free state as URDF. Every link's frame is at the joint that holds it, with the global axes.
+///
+/// # Errors
+/// Where a joint screws: URDF has no such joint.
+pub fn urdf(m: &Mechanism) -> Result<String, ExportError> {
+    let joints: Vec<JointId> = m.joints_in(0).collect();
+    let mut names = Names::default();
+    let mut links: Vec<Option<(String, [f64; 3])>> = vec![None; m.links.len()];
+    let mut head = String::new();
+    let mut body = String::new();
+    let mut used = vec![false; m.joints.len()];
+    let mut ids = vec![String::new(); m.joints.len()];
+    let mut single = vec![false; m.joints.len()];
+    let frame = m.frame();
+    let link = |l: LinkId, head: &mut String, names: &mut Names| {
+        let n = names.fit(&m.links[l].id);
+        let _ = writeln!(head, "  <link name=\"{}\"/>", escape(&n));
+        n
+    };
+    links[frame] = Some((link(frame, &mut head, &mut names), [0.0; 3]));
+    let (mut queue, mut next) = (vec![frame], 0);
+    let mut joint_names = Names::default();
+    while let Some(&from) = queue.get(next) {
+        next += 1;
+        for &j in &joints {
+            let joint = &m.joints[j];
+            let Some(end) = joint.links.iter().position(|&l| l == from) else {
+                continue;
+            };
+            let to = joint.links[1 - end];
+            if used[j] || links[to].is_some() {
+                continue;
+            }
+            used[j] = true;
+            queue.push(to);
+            let (parent, origin) = links[from].clone().unwrap_or_default();
+            let p = place(m, joint);
+            let at = [0, 1, 2].map(|i| p.point[i] - origin[i]);
+            let id = joint_names.fit(&joint.id);
+            ids[j].clone_from(&id);
+            let child = link(to, &mut head, &mut names);
+            // The child moves the other way where the joint is passed backwards.
+            let sign = if end == 0 { 1.0 } else { -1.0 };
+            let parts = kinds(m, j, sign)?;
+            single[j] = parts.len() == 1;
+            let (mut holder, mut origin) = (parent, at);
+            for (i, (kind, axis)) in parts.iter().enumerate() {
+                let last = i + 1 == parts.len();
+                let held = if last {
+                    child.clone()
+                } else {
+                    let between = names.fit(&format!("{id}~{}", i + 1));
+                    let _ = writeln!(head, "  <link name=\"{}\"/>", escape(&between));
+                    between
+                };
+                let part = if i == 0 {
+                    id.clone()
+                } else {
+                    joint_names.fit(&format!("{id}~{}", i + 1))
+                };
+                write_joint(&mut body, &part, kind, [&holder, &held], origin, *axis, j);
+                (holder, origin) = (held, [0.0; 3]);
+            }
+            if joint.drive {
+                let _ = writeln!(body, "  <!-- {} is driven -->", comment(&id));
+            }
+            links[to] = Some((child, p.point));
+        }
+    }
+    for &j in joints.iter().filter(|&&j| !used[j]) {
+        let (joint, p) = (&m.joints[j], place(m, &m.joints[j]));
+        let [a, b] = joint.links.map(|l| m.links[l].id.as_str());
+        let what = format!(
+            "closes a loop: {} ({}) between {a} and {b} at {}, axis {}",
+            joint.id,
+            joint.joint_type.name(),
+            numbers(p.point),
+            numbers(p.axes[2]),
+        );
+        let _ = writeln!(body, "  <!-- {} -->", comment(&what));
+    }
+    let (follows, unsaid) = mimics(m, &single);
+    for name in unsaid {
+        let what = format!("coupled, which no mimic joint says: {name}");
+        let _ = writeln!(body, "  <!-- {} -->", comment(&what));
+    }
+    // Only now is it known which joints are of the tree, and what they are called.
+    let body = settled(&body, |j| {
+        follows[j].map_or(String::new(), |f| {
+            let leader = escape(&ids[f.leader]);
+            let ratio = number(f.ratio);
+            format!("    <mimic joint=\"{leader}\" multiplier=\"{ratio}\" offset=\"0\"/>\n")
+        })
+    });
+    let name = escape(&m.name);
+    Ok(format!(
+        "<?xml version=\"1.0\"?>\n<robot name=\"{name}\">\n{head}{body}</robot>\n"
+    ))
+}
+
+type Kind = (&'static str, Option<[f64; 3]>);
+
+/// The joints in series that a joint becomes.
+fn kinds(m: &Mechanism, j: JointId, sign: f64) -> Result<Vec<Kind>, ExportError> {
+    let joint = &m.joints[j];
+    let p = place(m, joint);
+    let turned = |d: [f64; 3]| Some(d.map(|x| sign * x));
+    match &joint.joint_type {
+        JointType::Fixed => return Ok(vec![("fixed", None)]),
+        JointType::Planar => return Ok(vec![("planar", turned(p.axes[2]))]),
+        t if t.freedoms().is_empty() => return Ok(vec![("fixed", None)]),
+        t if t.freedoms().len() == 6 => return Ok(vec![("floating", None)]),
+        _ => {}
+    }
+    let single = |s: Single| match s {
+        Single::Turn(d) => Ok(("continuous", turned(d))),
+        Single::Shift(d) => Ok(("prismatic", turned(d))),
+        Single::Screw(..) => Err(ExportError::Joint {
+            joint: joint.id.clone(),
+            kind: joint.joint_type.name().to_owned(),
+            format: "URDF",
+            remedy: "write SDF instead",
+        }),
+    };
+    singles(&joint.joint_type, &p)
+        .into_iter()
+        .map(single)
+        .collect()
+}
+
+fn write_joint(
+    out: &mut String,
+    id: &str,
+    kind: &str,
+    ends: [&str; 2],
+    at: [f64; 3],
+    axis: Option<[f64; 3]>,
+    joint: JointId,
+) {
+    let [parent, child] = ends.map(escape);
+    let _ = writeln!(out, "  <joint name=\"{}\" type=\"{kind}\">", escape(id));
+    let _ = writeln!(
+        out,
+        "    <parent link=\"{parent}\"/>\n    <child link=\"{child}\"/>"
+    );
+    let _ = writeln!(out, "    <origin xyz=\"{}\"/>", numbers(at));
+    if let Some(d) = axis {
+        let _ = writeln!(out, "    <axis xyz=\"{}\"/>", numbers(d));
+    }
+    if kind == "prismatic" {
+        // URDF wants limits here; the mechanism has none.
+        let _ = writeln!(
+            out,
+            "    <limit lower=\"-1\" upper=\"1\" effort=\"0\" velocity=\"0\"/>"
+        );
+    }
+    out.push_str(&stand_in(joint));
+    out.push_str("  </joint>\n");
+}

@@ -1,0 +1,154 @@
+//! What an import mapped, approximated and dropped.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// Names shown of each kind of dropped element.
+const SHOWN: usize = 4;
+
+/// Something that the mechanism file cannot say exactly.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Note {
+    /// The element.
+    pub element: String,
+    /// What was done with it.
+    pub what: String,
+}
+
+/// Couplings of joint values that went into the mechanism file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Kept {
+    /// How many.
+    pub couplings: usize,
+    /// W without them and with them in the pose found, by singular values, where these converge.
+    pub mobility: Option<(usize, usize)>,
+}
+
+/// What became of a file.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Report {
+    /// Elements mapped, by kind.
+    pub mapped: BTreeMap<String, usize>,
+    /// Elements mapped approximately.
+    pub approximated: Vec<Note>,
+    /// Elements that bear no kinematics, by kind: how many, and some names.
+    pub dropped: BTreeMap<String, (usize, Vec<String>)>,
+    /// Couplings of joint values (mimic joints, equalities) that are kept.
+    pub kept: Option<Kept>,
+    /// Rows of constraints between joint values that are left out.
+    pub coupling_rows: usize,
+    /// How the pose was found and how well the loops close.
+    pub pose: Vec<String>,
+    /// Links and joints of the mechanism.
+    pub size: (usize, usize),
+    /// Links taken as outputs, and whether that was asked for.
+    pub outputs: (Vec<String>, bool),
+}
+
+impl Report {
+    pub(crate) fn map(&mut self, kind: &str) {
+        *self.mapped.entry(kind.to_owned()).or_default() += 1;
+    }
+
+    pub(crate) fn approximate(&mut self, element: &str, what: impl Into<String>) {
+        self.approximated.push(Note {
+            element: element.to_owned(),
+            what: what.into(),
+        });
+    }
+
+    pub(crate) fn drop(&mut self, kind: &str, name: Option<&str>) {
+        let (count, names) = self.dropped.entry(kind.to_owned()).or_default();
+        *count += 1;
+        if let Some(n) = name
+            && names.len() < SHOWN
+        {
+            names.push(n.to_owned());
+        }
+    }
+
+    /// The report for people.
+    #[must_use]
+    pub fn text(&self, file: &str) -> String {
+        let (links, joints) = self.size;
+        let mut out = format!("{file}: {links} links, {joints} joints\n");
+        let mapped = self
+            .mapped
+            .iter()
+            .map(|(k, n)| format!("{n} {k}"))
+            .collect::<Vec<_>>();
+        if !mapped.is_empty() {
+            line(&mut out, "mapped", &mapped.join(", "));
+        }
+        for p in &self.pose {
+            line(&mut out, "pose", p);
+        }
+        if let Some(kept) = &self.kept {
+            let n = match kept.couplings {
+                1 => "1 coupling of joints".to_owned(),
+                n => format!("{n} couplings of joints"),
+            };
+            let figures = kept.mobility.map_or(String::new(), |(without, with)| {
+                format!(": W = {without} without, {with} with")
+            });
+            line(&mut out, "coupled", &format!("{n}{figures}"));
+        }
+        out.push_str(&self.doubts());
+        for (kind, (count, names)) in &self.dropped {
+            let more = if *count > names.len() { ", ..." } else { "" };
+            let names = match names[..] {
+                [] => String::new(),
+                _ => format!(" ({}{more})", names.join(", ")),
+            };
+            line(&mut out, "dropped", &format!("{count} {kind}{names}"));
+        }
+        let (names, asked) = &self.outputs;
+        let hint = if *asked {
+            ""
+        } else {
+            " (the end links; --working-link to choose)"
+        };
+        let shown = names
+            .iter()
+            .take(8)
+            .map(String::as_str)
+            .collect::<Vec<_>>()
+            .join(", ");
+        let more = match names.len() {
+            n @ 9.. => format!(" and {} more", n - 8),
+            _ => String::new(),
+        };
+        line(&mut out, "output", &format!("{shown}{more}{hint}"));
+        out
+    }
+
+    /// What keeps the figures from being those of the description: nothing, or some lines.
+    #[must_use]
+    pub fn doubts(&self) -> String {
+        let mut out = String::new();
+        if self.coupling_rows > 0 {
+            let n = self.coupling_rows;
+            let (rows, them) = if n == 1 {
+                ("row", "it")
+            } else {
+                ("rows", "them")
+            };
+            let what = format!(
+                "{n} coupling {rows} between joint values: W is up to {n} too high without {them}, σ may be too low"
+            );
+            line(&mut out, "left out", &what);
+        }
+        for n in &self.approximated {
+            line(
+                &mut out,
+                "approximated",
+                &format!("{}: {}", n.element, n.what),
+            );
+        }
+        out
+    }
+}
+
+fn line(out: &mut String, head: &str, what: &str) {
+    let _ = writeln!(out, "  {head:<13} {what}");
+}

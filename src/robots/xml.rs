@@ -1,0 +1,385 @@
+//! XML as a flat arena with the place of every element and attribute, bounded in size, depth and number.
+
+use crate::file::problem::ImportError;
+use crate::robots::pose::V3;
+use crate::robots::problem::RobotProblem;
+use quick_xml::Reader;
+use quick_xml::events::{BytesStart, Event};
+use std::ops::Range;
+
+/// Largest file, in bytes.
+pub(crate) const MAX_BYTES: usize = 64 << 20;
+/// Deepest nesting.
+pub(crate) const MAX_DEPTH: usize = 4000;
+/// Most elements.
+pub(crate) const MAX_ELEMENTS: usize = 500_000;
+/// Most links, and most joints, of a robot.
+const MAX_PARTS: usize = 10_000;
+/// Most attributes of one element, and of all together.
+const MAX_ATTRIBUTES: (usize, usize) = (256, 1_000_000);
+/// Largest size of a number; the mechanism file takes lengths up to 1e12.
+const MAX_NUMBER: f64 = 1e9;
+
+/// A file's name and text.
+#[derive(Debug)]
+pub(crate) struct Source {
+    pub(super) name: String,
+    pub(super) text: String,
+}
+
+#[derive(Debug)]
+struct Attribute {
+    name: String,
+    value: String,
+    span: Range<usize>,
+}
+
+#[derive(Debug)]
+pub(crate) struct Node {
+    name: String,
+    attributes: Vec<Attribute>,
+    text: String,
+    pub(super) children: Vec<usize>,
+    source: usize,
+    span: Range<usize>,
+}
+
+/// The elements of a file and of those it includes.
+#[derive(Debug, Default)]
+pub(crate) struct Document {
+    pub(super) sources: Vec<Source>,
+    pub(super) nodes: Vec<Node>,
+}
+
+/// An element.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Element<'a> {
+    pub(super) document: &'a Document,
+    pub(super) id: usize,
+}
+
+/// Bytes as text.
+pub(crate) fn utf8(name: &str, bytes: &[u8]) -> Result<String, ImportError> {
+    let fail = |p: RobotProblem| Err(p.at(name, "", None));
+    if bytes.len() > MAX_BYTES {
+        return fail(RobotProblem::TooLarge {
+            bytes: bytes.len(),
+            limit: MAX_BYTES,
+        });
+    }
+    let text = match std::str::from_utf8(bytes) {
+        Ok(t) => t,
+        Err(e) => {
+            return fail(RobotProblem::NotUtf8 {
+                at: e.valid_up_to(),
+            });
+        }
+    };
+    Ok(text.strip_prefix('\u{feff}').unwrap_or(text).to_owned())
+}
+
+impl Document {
+    /// Reads a file into the arena; gives its root element.
+    pub(crate) fn read(&mut self, name: &str, text: String) -> Result<usize, ImportError> {
+        let source = self.sources.len();
+        let read = parse(&text, source, &mut self.nodes);
+        match read {
+            Ok(root) => {
+                self.sources.push(Source {
+                    name: name.to_owned(),
+                    text,
+                });
+                Ok(root)
+            }
+            Err((problem, at)) => {
+                let mut at = at.min(text.len());
+                while !text.is_char_boundary(at) {
+                    at -= 1;
+                }
+                Err(problem.at(name, &text, Some(at..at)))
+            }
+        }
+    }
+
+    pub(crate) fn element(&self, id: usize) -> Element<'_> {
+        Element { document: self, id }
+    }
+}
+
+type Located = (RobotProblem, usize);
+
+fn xml_problem(message: impl ToString) -> RobotProblem {
+    RobotProblem::Xml {
+        message: message.to_string(),
+    }
+}
+
+fn parse(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Located> {
+    let mut reader = Reader::from_str(text);
+    let (mut open, mut root): (Vec<usize>, Option<usize>) = (Vec::new(), None);
+    let mut attributes = 0;
+    loop {
+        let before = position(reader.buffer_position());
+        let event = reader
+            .read_event()
+            .map_err(|e| (xml_problem(e), position(reader.error_position())))?;
+        let after = position(reader.buffer_position());
+        match event {
+            Event::Start(ref tag) | Event::Empty(ref tag) => {
+                if open.is_empty() && root.is_some() {
+                    return Err((xml_problem("a second root element"), before));
+                }
+                if open.len() >= MAX_DEPTH {
+                    return Err((RobotProblem::TooDeep { limit: MAX_DEPTH }, before));
+                }
+                if nodes.len() >= MAX_ELEMENTS {
+                    let (what, limit) = ("elements", MAX_ELEMENTS);
+                    return Err((RobotProblem::TooMany { what, limit }, before));
+                }
+                let id = nodes.len();
+                if attributes > MAX_ATTRIBUTES.1 {
+                    let (what, limit) = ("attributes", MAX_ATTRIBUTES.1);
+                    return Err((RobotProblem::TooMany { what, limit }, before));
+                }
+                nodes.push(node(tag, text, source, before..after)?);
+                attributes += nodes[id].attributes.len();
+                match open.last() {
+                    Some(&parent) => nodes[parent].children.push(id),
+                    None => root = Some(id),
+                }
+                if matches!(event, Event::Start(_)) {
+                    open.push(id);
+                }
+            }
+            Event::End(_) => {
+                open.pop();
+            }
+            Event::Text(t) => put(&t, &open, nodes),
+            Event::CData(t) => put(&t, &open, nodes),
+            Event::GeneralRef(r) => {
+                let word = format!("&{};", &*r);
+                let plain = quick_xml::escape::unescape(&word)
+                    .map_err(|e| (xml_problem(e), before))?
+                    .into_owned();
+                put(&plain, &open, nodes);
+            }
+            Event::DocType(t) if t.contains("<!ENTITY") => {
+                return Err((RobotProblem::Entities, before));
+            }
+            Event::Eof if !open.is_empty() => {
+                let name = &nodes[open[open.len() - 1]].name;
+                return Err((xml_problem(format!("<{name}> is not closed")), text.len()));
+            }
+            Event::Eof => {
+                return root.ok_or_else(|| (xml_problem("there is no element"), text.len()));
+            }
+            Event::Comment(_) | Event::Decl(_) | Event::PI(_) | Event::DocType(_) => {}
+        }
+    }
+}
+
+fn position(at: u64) -> usize {
+    usize::try_from(at).unwrap_or(usize::MAX)
+}
+
+fn put(text: &str, open: &[usize], nodes: &mut [Node]) {
+    if let Some(&at) = open.last()
+        && !text.trim().is_empty()
+    {
+        nodes[at].text.push_str(text);
+    }
+}
+
+fn node(
+    tag: &BytesStart<'_>,
+    text: &str,
+    source: usize,
+    span: Range<usize>,
+) -> Result<Node, Located> {
+    let start = text.as_ptr() as usize;
+    let mut attributes: Vec<Attribute> = Vec::new();
+    for found in tag.attributes().with_checks(false) {
+        let found = found.map_err(|e| (xml_problem(e), span.start))?;
+        let name: &str = found.key.as_ref();
+        let value = found
+            .normalized_value(quick_xml::XmlVersion::Implicit1_0)
+            .map_err(|e| (xml_problem(e), span.start))?
+            .into_owned();
+        if attributes.len() >= MAX_ATTRIBUTES.0 {
+            let what = "attributes of one element";
+            return Err((
+                RobotProblem::TooMany {
+                    what,
+                    limit: MAX_ATTRIBUTES.0,
+                },
+                span.start,
+            ));
+        }
+        if attributes.iter().any(|a| a.name == name) {
+            let message = format!("the attribute {name} is there twice");
+            return Err((xml_problem(message), span.start));
+        }
+        // The value is borrowed from the text where the reader could.
+        let at = (found.value.as_ptr() as usize).wrapping_sub(start);
+        let here = at..at.saturating_add(found.value.len());
+        attributes.push(Attribute {
+            name: name.to_owned(),
+            value,
+            span: if text.get(here.clone()).is_some() {
+                here
+            } else {
+                span.clone()
+            },
+        });
+    }
+    Ok(Node {
+        name: tag.name().as_ref().to_owned(),
+        attributes,
+        text: String::new(),
+        children: Vec::new(),
+        source,
+        span,
+    })
+}
+
+impl<'a> Element<'a> {
+    fn node(self) -> &'a Node {
+        &self.document.nodes[self.id]
+    }
+
+    pub(crate) fn name(self) -> &'a str {
+        &self.node().name
+    }
+
+    pub(crate) fn text(self) -> &'a str {
+        self.node().text.trim()
+    }
+
+    pub(crate) fn source(self) -> &'a str {
+        &self.document.sources[self.node().source].name
+    }
+
+    pub(crate) fn children(self) -> impl DoubleEndedIterator<Item = Element<'a>> {
+        let document = self.document;
+        self.node()
+            .children
+            .iter()
+            .map(move |&id| Element { document, id })
+    }
+
+    pub(crate) fn named(self, name: &str) -> impl Iterator<Item = Element<'a>> {
+        self.children().filter(move |c| c.name() == name)
+    }
+
+    pub(crate) fn child(self, name: &str) -> Option<Element<'a>> {
+        self.children().find(|c| c.name() == name)
+    }
+
+    pub(crate) fn attribute(self, name: &str) -> Option<&'a str> {
+        self.node()
+            .attributes
+            .iter()
+            .find(|a| a.name == name)
+            .map(|a| a.value.as_str())
+    }
+
+    /// How the element is called in messages.
+    pub(crate) fn label(self) -> String {
+        match self.attribute("name") {
+            Some(n) => format!("{} \"{n}\"", self.name()),
+            None => format!("<{}>", self.name()),
+        }
+    }
+
+    /// A problem with the element, or with one of its attributes.
+    pub(crate) fn fail(self, attribute: Option<&str>, problem: RobotProblem) -> ImportError {
+        let node = self.node();
+        let span = node
+            .attributes
+            .iter()
+            .find(|a| Some(a.name.as_str()) == attribute)
+            .map_or_else(|| node.span.clone(), |a| a.span.clone());
+        let source = &self.document.sources[node.source];
+        problem.at(&source.name, &source.text, Some(span))
+    }
+
+    /// Refuses one more of `what` where there are too many already.
+    pub(crate) fn room(self, what: &'static str, count: usize) -> Result<(), ImportError> {
+        let limit = MAX_PARTS;
+        if count < limit {
+            return Ok(());
+        }
+        Err(self.fail(None, RobotProblem::TooMany { what, limit }))
+    }
+
+    /// The attribute that must be there.
+    pub(crate) fn required(self, name: &str) -> Result<&'a str, ImportError> {
+        self.attribute(name)
+            .filter(|v| !v.trim().is_empty())
+            .ok_or_else(|| {
+                self.fail(
+                    None,
+                    RobotProblem::Missing {
+                        element: self.label(),
+                        what: format!("attribute {name}"),
+                    },
+                )
+            })
+    }
+
+    /// N numbers of an attribute, if it is there.
+    pub(crate) fn numbers<const N: usize>(
+        self,
+        name: &str,
+    ) -> Result<Option<[f64; N]>, ImportError> {
+        self.attribute(name)
+            .map(|text| self.parse_numbers(name, text))
+            .transpose()
+    }
+
+    /// A vector attribute, or what is there without it.
+    pub(crate) fn vector(self, name: &str, default: V3) -> Result<V3, ImportError> {
+        Ok(self.numbers::<3>(name)?.unwrap_or(default))
+    }
+
+    /// N numbers of the element's text.
+    pub(crate) fn text_numbers<const N: usize>(self) -> Result<[f64; N], ImportError> {
+        self.parse_numbers("the text", self.text())
+    }
+
+    fn parse_numbers<const N: usize>(
+        self,
+        what: &str,
+        text: &str,
+    ) -> Result<[f64; N], ImportError> {
+        let bad = || {
+            let want = match N {
+                _ if text.contains("${") => "expand the macros first, with `xacro FILE`".to_owned(),
+                1 => "write one finite number up to 1e9 in size".to_owned(),
+                n => format!("write {n} finite numbers up to 1e9 in size, with spaces between"),
+            };
+            self.fail(
+                Some(what),
+                RobotProblem::BadValue {
+                    element: self.label(),
+                    what: what.to_owned(),
+                    found: text.chars().take(60).collect(),
+                    want,
+                },
+            )
+        };
+        let mut out = [0.0; N];
+        let mut words = text.split_whitespace();
+        for x in &mut out {
+            *x = words
+                .next()
+                .and_then(|w| w.parse::<f64>().ok())
+                .filter(|x| x.abs() <= MAX_NUMBER)
+                .ok_or_else(bad)?;
+        }
+        if words.next().is_some() {
+            return Err(bad());
+        }
+        Ok(out)
+    }
+}

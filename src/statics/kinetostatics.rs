@@ -1,0 +1,422 @@
+//! Loads of a moving planar mechanism and the reactions of its pairs, by the equilibrium of every body.
+//!
+//! D'Alembert: with the inertia forces added, each body is in equilibrium. Three equations a body, two unknowns a pair
+//! (force of a turning pair; normal force and moment of a sliding one) and one more a drive.
+
+use crate::geom::scalars::Reals;
+use crate::geom::scalars::Scalars;
+use crate::model::loads::Inertia;
+use crate::model::mechanism::Mechanism;
+use crate::statics::assur::Decomposition;
+use crate::statics::dense::System;
+use crate::statics::planar::{BodyId, PairId, PairKind};
+use crate::statics::planar_motion::Instant;
+use crate::statics::pose::{Linkage, Pose, cross, dot, minus, plus, quarter};
+
+/// Where a load comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// Weight.
+    Gravity,
+    /// Inertia force and moment.
+    Inertia,
+    /// A force from outside.
+    External,
+}
+
+/// A force at a point of a body, with a moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Load {
+    /// The body.
+    pub body: BodyId,
+    /// Where it comes from.
+    pub source: Source,
+    /// Where it acts now `[m]`.
+    pub point: [f64; 2],
+    /// The force `[N]`.
+    pub force: [f64; 2],
+    /// The moment besides `[N·m]`.
+    pub moment: f64,
+}
+
+impl Load {
+    /// Moment about a point `[N·m]`.
+    #[must_use]
+    pub fn moment_about(&self, point: [f64; 2]) -> f64 {
+        self.moment + cross(minus(self.point, point), self.force)
+    }
+}
+
+/// Mass data of a body in the plane: mass `[kg]`, centre at the pose of the file `[m]`, inertia `[kg·m²]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyMass {
+    /// Mass `[kg]`.
+    pub mass: f64,
+    /// Mass centre at the pose of the file `[m]`.
+    pub centre: [f64; 2],
+    /// Inertia about the mass centre and the plane's normal `[kg·m²]`.
+    pub inertia: f64,
+}
+
+/// A force from outside in the plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlanarForce {
+    /// The body.
+    pub body: BodyId,
+    /// Its point at the pose of the file `[m]`.
+    pub point: [f64; 2],
+    /// The force `[N]`.
+    pub force: [f64; 2],
+    /// The range of the first drive's position it acts in `[rad]` or `[m]`.
+    pub range: Option<[f64; 2]>,
+    /// The range comes again after this much: a whole turn where the drive turns.
+    pub period: Option<f64>,
+}
+
+/// Drive positions nearer than this to the end of a range are in it.
+const AT_END: f64 = 1e-9;
+
+impl PlanarForce {
+    /// Whether it acts when the first drive is at a position.
+    #[must_use]
+    pub fn acts_at(&self, drive: f64) -> bool {
+        let Some([from, to]) = self.range else {
+            return true;
+        };
+        match self.period.filter(|_| from.is_finite() && to.is_finite()) {
+            Some(period) => (drive - from + AT_END).rem_euclid(period) <= to - from + 2.0 * AT_END,
+            None => (from - AT_END..=to + AT_END).contains(&drive),
+        }
+    }
+}
+
+/// What a mechanism carries, in its plane.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PlanarLoads {
+    /// Acceleration of gravity `[m/s²]`.
+    pub gravity: [f64; 2],
+    /// Mass data by body.
+    pub masses: Vec<Option<BodyMass>>,
+    /// Forces from outside.
+    pub forces: Vec<PlanarForce>,
+    /// Moments from outside, about the plane's normal `[N·m]`.
+    pub moments: Vec<(BodyId, f64)>,
+}
+
+impl PlanarLoads {
+    /// The loads a file states, seen in the plane; parts out of it are left out.
+    #[must_use]
+    pub fn new(mechanism: &Mechanism, linkage: &Linkage, drive_slides: bool) -> PlanarLoads {
+        let m = &linkage.mechanism;
+        let real = |v: &[crate::geom::expr::Expr; 3]| [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()];
+        let normal = m.axes[2];
+        let masses = m.bodies.iter().map(|b| {
+            let mass = mechanism.links[b.link?].mass.as_ref()?;
+            let inertia = match mass.inertia {
+                None => 0.0,
+                Some(Inertia::Plane(i)) => i,
+                Some(Inertia::Principal(i)) => (0..3).map(|k| i[k] * normal[k] * normal[k]).sum(),
+                Some(Inertia::Tensor([xx, yy, zz, xy, yz, zx])) => {
+                    let rows = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
+                    Reals.dot(normal, rows.map(|r| Reals.dot(r, normal)))
+                }
+            };
+            Some(BodyMass {
+                mass: mass.mass,
+                centre: m.flat(real(&mass.centre)),
+                inertia,
+            })
+        });
+        let unit = if drive_slides { m.metres } else { 1.0 };
+        let forces = mechanism.loads.forces.iter().filter_map(|f| {
+            Some(PlanarForce {
+                body: m.body_of(f.link)?,
+                point: m.flat(real(&f.point)),
+                force: m.across(real(&f.force)),
+                range: f.range.map(|r| r.map(|x| x * unit)),
+                period: (!drive_slides).then_some(std::f64::consts::TAU),
+            })
+        });
+        let moments = mechanism
+            .loads
+            .moments
+            .iter()
+            .filter_map(|x| Some((m.body_of(x.link)?, Reals.dot(normal, real(&x.moment)))));
+        PlanarLoads {
+            gravity: mechanism
+                .loads
+                .gravity
+                .as_ref()
+                .map_or([0.0; 2], |g| m.across(real(g))),
+            masses: masses.collect(),
+            forces: forces.collect(),
+            moments: moments.collect(),
+        }
+    }
+
+    /// The loads at an instant: weights, inertia forces and the forces whose range it is in. Those on the frame are
+    /// left out.
+    #[must_use]
+    pub fn at(&self, linkage: &Linkage, now: &Instant) -> Vec<Load> {
+        let mut out = Vec::new();
+        for (body, mass) in self.masses.iter().enumerate() {
+            let Some(mass) = mass.filter(|_| body != linkage.mechanism.frame) else {
+                continue;
+            };
+            let point = linkage.point(&now.pose, body, mass.centre);
+            let a = linkage.acceleration(
+                &now.pose,
+                &now.velocity,
+                &now.acceleration,
+                body,
+                mass.centre,
+            );
+            let load = |source, force, moment| Load {
+                body,
+                source,
+                point,
+                force,
+                moment,
+            };
+            out.push(load(
+                Source::Gravity,
+                self.gravity.map(|g| g * mass.mass),
+                0.0,
+            ));
+            let moment = -mass.inertia * now.acceleration[body][2];
+            out.push(load(Source::Inertia, a.map(|a| -a * mass.mass), moment));
+        }
+        for &(body, moment) in &self.moments {
+            if body != linkage.mechanism.frame {
+                out.push(Load {
+                    body,
+                    source: Source::External,
+                    point: [now.pose[body][0], now.pose[body][1]],
+                    force: [0.0; 2],
+                    moment,
+                });
+            }
+        }
+        for f in &self.forces {
+            if f.acts_at(now.drive) && f.body != linkage.mechanism.frame {
+                out.push(Load {
+                    body: f.body,
+                    source: Source::External,
+                    point: linkage.point(&now.pose, f.body, f.point),
+                    force: f.force,
+                    moment: 0.0,
+                });
+            }
+        }
+        out
+    }
+}
+
+/// What a pair passes on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reaction {
+    /// The pair.
+    pub pair: PairId,
+    /// Where the pair is now: its point on the second body `[m]`.
+    pub point: [f64; 2],
+    /// Force of the first body on the second `[N]`.
+    pub force: [f64; 2],
+    /// Moment of the first body on the second, about `point` `[N·m]`.
+    pub moment: f64,
+    /// Torque `[N·m]` or force `[N]` of a drive on the second body; part of `force` and `moment`.
+    pub effort: Option<f64>,
+}
+
+impl Reaction {
+    /// Force and moment about a point on one of the two bodies; zero on any other.
+    #[must_use]
+    pub fn on(&self, linkage: &Linkage, body: BodyId, about: [f64; 2]) -> [f64; 3] {
+        let sign = match linkage.mechanism.pairs[self.pair].bodies {
+            [_, b] if b == body => 1.0,
+            [a, _] if a == body => -1.0,
+            _ => 0.0,
+        };
+        let moment = self.moment + cross(minus(self.point, about), self.force);
+        [self.force[0], self.force[1], moment].map(|x| sign * x)
+    }
+}
+
+/// Reactions of some pairs with what the solution is worth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Equilibrium {
+    /// The reactions, in order of the pairs solved for.
+    pub reactions: Vec<Reaction>,
+    /// Ratio of the greatest and smallest singular values of the equations, moments divided by the mechanism's size.
+    pub condition: f64,
+    /// Greatest force `[N]`, or moment by the mechanism's size, left over in an equation, over the greatest load.
+    pub residual: f64,
+}
+
+/// The unit wrenches (force on the second body, moment about the pair's point) that a pair can pass on, the drive's last.
+fn carried(linkage: &Linkage, pose: &Pose, pair: PairId, drive: bool) -> Vec<([f64; 2], f64)> {
+    let along = linkage.along(pose, pair);
+    let (x, y, couple) = (
+        ([1.0, 0.0], 0.0),
+        ([0.0, 1.0], 0.0),
+        ([0.0; 2], linkage.size),
+    );
+    match (linkage.mechanism.pairs[pair].kind, drive) {
+        (PairKind::Turning, false) => vec![x, y],
+        (PairKind::Turning, true) | (PairKind::Rigid, _) => vec![x, y, couple],
+        (PairKind::Sliding, false) => vec![couple, (quarter(along), 0.0)],
+        (PairKind::Sliding, true) => vec![couple, (quarter(along), 0.0), (along, 0.0)],
+    }
+}
+
+/// Solves the equilibrium of some bodies for the reactions of some pairs, three equations a body. The pairs' constraints
+/// (drives included) must be three times as many as the bodies.
+///
+/// `None` where the equations are singular.
+///
+/// # Complexity
+/// O(n³) for n bodies.
+#[must_use]
+pub fn equilibrium(
+    linkage: &Linkage,
+    now: &Instant,
+    bodies: &[BodyId],
+    pairs: &[PairId],
+    drives: &[PairId],
+    loads: &[Load],
+) -> Option<Equilibrium> {
+    let n = 3 * bodies.len();
+    let origin = |b: BodyId| [now.pose[b][0], now.pose[b][1]];
+    let mut rows = vec![vec![0.0; n]; n];
+    let mut unknowns = Vec::new();
+    for &p in pairs {
+        let point = linkage.place(&now.pose, p);
+        for (k, (force, moment)) in carried(linkage, &now.pose, p, drives.contains(&p))
+            .into_iter()
+            .enumerate()
+        {
+            let column = unknowns.len();
+            unknowns.push((p, k, force, moment));
+            if column >= n {
+                return None;
+            }
+            for (end, sign) in [(0, -1.0), (1, 1.0)] {
+                let body = linkage.mechanism.pairs[p].bodies[end];
+                let Some(at) = bodies.iter().position(|&b| b == body) else {
+                    continue;
+                };
+                let turn = moment + cross(minus(point, origin(body)), force);
+                rows[3 * at][column] += sign * force[0];
+                rows[3 * at + 1][column] += sign * force[1];
+                rows[3 * at + 2][column] += sign * turn / linkage.size;
+            }
+        }
+    }
+    if unknowns.len() != n {
+        return None;
+    }
+    let mut right = vec![0.0; n];
+    for load in loads {
+        if let Some(at) = bodies.iter().position(|&b| b == load.body) {
+            right[3 * at] -= load.force[0];
+            right[3 * at + 1] -= load.force[1];
+            right[3 * at + 2] -= load.moment_about(origin(load.body)) / linkage.size;
+        }
+    }
+    let system = System::new(&rows);
+    let x = system.solve(&right)?;
+    let greatest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let reactions = pairs.iter().map(|&pair| {
+        let mut out = Reaction {
+            pair,
+            point: linkage.place(&now.pose, pair),
+            force: [0.0; 2],
+            moment: 0.0,
+            effort: None,
+        };
+        for (&(p, k, force, moment), value) in unknowns.iter().zip(&x) {
+            if p == pair {
+                out.force = plus(out.force, *value, force);
+                out.moment += value * moment;
+                if k == 2 && drives.contains(&p) {
+                    let turning = linkage.mechanism.pairs[p].kind == PairKind::Turning;
+                    out.effort = Some(if turning { value * moment } else { *value });
+                }
+            }
+        }
+        out
+    });
+    Some(Equilibrium {
+        reactions: reactions.collect(),
+        condition: system.condition(),
+        residual: if greatest > 0.0 {
+            system.residual(&x, &right) / greatest
+        } else {
+            0.0
+        },
+    })
+}
+
+/// The whole mechanism at once: every body but the frame, every pair.
+///
+/// `None` where the equations are singular.
+#[must_use]
+pub fn whole(
+    linkage: &Linkage,
+    d: &Decomposition,
+    now: &Instant,
+    loads: &[Load],
+) -> Option<Equilibrium> {
+    let m = &linkage.mechanism;
+    let bodies: Vec<BodyId> = (0..m.bodies.len()).filter(|&b| b != m.frame).collect();
+    let pairs: Vec<PairId> = (0..m.pairs.len()).collect();
+    equilibrium(linkage, now, &bodies, &pairs, &d.drives, loads)
+}
+
+/// Group by group, the last first, each handing its outer reactions on as loads; the drives come last. In order of
+/// [`Decomposition::groups`], then the drives.
+///
+/// `None` where a group's equations are singular.
+#[must_use]
+pub fn by_groups(
+    linkage: &Linkage,
+    d: &Decomposition,
+    now: &Instant,
+    loads: &[Load],
+) -> Option<Vec<Equilibrium>> {
+    let mut loads = loads.to_vec();
+    let mut out = Vec::new();
+    let units = d.groups.iter().rev().map(|g| (&g.bodies, g.pairs()));
+    for (bodies, pairs) in units.chain([(&d.driven, d.driven_pairs.clone())]) {
+        let found = equilibrium(linkage, now, bodies, &pairs, &d.drives, &loads)?;
+        for r in &found.reactions {
+            for body in linkage.mechanism.pairs[r.pair].bodies {
+                if !bodies.contains(&body) {
+                    let [x, y, moment] = r.on(linkage, body, r.point);
+                    loads.push(Load {
+                        body,
+                        source: Source::External,
+                        point: r.point,
+                        force: [x, y],
+                        moment,
+                    });
+                }
+            }
+        }
+        out.push(found);
+    }
+    let drives = out.pop();
+    out.reverse();
+    out.extend(drives);
+    Some(out)
+}
+
+/// Power of the loads `[W]`: with the drives' it comes to nothing.
+#[must_use]
+pub fn power(now: &Instant, loads: &[Load]) -> f64 {
+    let of = |l: &Load| {
+        let v = now.velocity[l.body];
+        let arm = minus(l.point, [now.pose[l.body][0], now.pose[l.body][1]]);
+        dot(l.force, plus([v[0], v[1]], v[2], quarter(arm))) + l.moment * v[2]
+    };
+    loads.iter().map(of).sum()
+}

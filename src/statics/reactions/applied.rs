@@ -1,0 +1,53 @@
+//! The loads of a mechanism as one wrench a link.
+
+use crate::geom::expr::Expr;
+use crate::model::loads::Loads;
+use crate::model::mechanism::Mechanism;
+use crate::motion::pose::Pose;
+use crate::statics::reactions::geometry::{Geometry, Six, wrench};
+
+fn real(v: &[Expr; 3]) -> [f64; 3] {
+    [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()]
+}
+
+/// Weights, forces and moments from outside, by link, about the geometry's middle; those on the frame and on links
+/// absent from the state are left out, and in planar mode what is across the plane. `drive` is the first drive's position since the pose of the file `[rad]` or in the
+/// file's unit, for forces that act in a range of it; ranges come again after `period`.
+#[must_use]
+pub fn link_loads(
+    m: &Mechanism,
+    loads: &Loads,
+    geometry: &Geometry,
+    pose: &Pose,
+    drive: f64,
+    period: Option<f64>,
+) -> Vec<Six> {
+    let mut out = vec![[0.0; 6]; m.links.len()];
+    let mut there = vec![false; m.links.len()];
+    geometry.tree.iter().for_each(|t| there[t.0] = true);
+    let mut add = |link: usize, w: Six| {
+        if there[link] {
+            for (o, x) in out[link].iter_mut().zip(geometry.within(&w)) {
+                *o += x;
+            }
+        }
+    };
+    if let Some(g) = &loads.gravity {
+        let g = real(g);
+        for (l, link) in m.links.iter().enumerate() {
+            if let Some(mass) = &link.mass {
+                let at = geometry.place(pose, l, real(&mass.centre));
+                add(l, wrench(at, g.map(|x| x * mass.mass), [0.0; 3]));
+            }
+        }
+    }
+    for f in loads.forces.iter().filter(|f| f.acts_at(drive, period)) {
+        let at = geometry.place(pose, f.link, real(&f.point));
+        add(f.link, wrench(at, real(&f.force), [0.0; 3]));
+    }
+    for x in &loads.moments {
+        let moment = real(&x.moment).map(|v| v / geometry.size);
+        add(x.link, wrench([0.0; 3], [0.0; 3], moment));
+    }
+    out
+}

@@ -1,0 +1,48 @@
+//! Reactions over the stroke of the first drive.
+
+use crate::model::loads::Stroke;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::motion::pose::Pose;
+use crate::statics::reactions::drives::{Driven, driven};
+use crate::statics::reactions::follow::follow;
+use crate::statics::reactions::geometry::Geometry;
+use crate::statics::reactions::{Reactions, Solution, Unsolved};
+
+/// Reactions by position of the first drive.
+#[derive(Debug, Clone)]
+pub struct Cycle {
+    /// The freedoms that drives hold.
+    pub drives: Vec<Driven>,
+    /// Position of the first drive since the pose of the file, `[rad]` or the file's unit, and the reactions there.
+    pub positions: Vec<(f64, Result<Solution, Unsolved>)>,
+    /// The first position that could not be reached.
+    pub stopped: Option<f64>,
+}
+
+/// Reactions under the file's loads, inertia forces of the stated drive speeds included, over a stroke, or at the pose of
+/// the file.
+///
+/// # Errors
+/// [`Unsolved`] where no pose has a solution.
+///
+/// # Complexity
+/// O((6k)²·f) a pose, for k contours and f freedoms.
+pub fn cycle(m: &Mechanism, state: StateId, stroke: Option<Stroke>) -> Result<Cycle, Unsolved> {
+    let home = Pose::of_file(m, state)?;
+    let drives = driven(m, &Geometry::new(m, state, &home)?)?;
+    let followed = follow(m, state, &drives, stroke)?;
+    let each = followed.poses.iter();
+    let positions: Vec<_> = each
+        .map(|(at, pose)| (*at, Reactions::moving(m, state, pose, *at, &drives)))
+        .collect();
+    if let [(_, Err(e)), rest @ ..] = &positions[..]
+        && rest.iter().all(|(_, s)| s.is_err())
+    {
+        return Err(e.clone());
+    }
+    Ok(Cycle {
+        drives,
+        positions,
+        stopped: followed.stopped,
+    })
+}

@@ -1,0 +1,115 @@
+//! Which freedom of a driven joint the drive holds.
+
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, Mechanism, Role};
+use crate::statics::reactions::Unsolved;
+use crate::statics::reactions::geometry::Geometry;
+use faer::Mat;
+
+/// A driven joint and the freedom its drive moves.
+pub type Driven = (JointId, Freedom);
+
+/// Shares of the working motion closer than this are equal.
+const EQUAL: f64 = 1e-9;
+
+/// The freedom of each driven joint that takes the greatest part in the motion of the outputs (of shifts and turns with
+/// equal parts, the shift): the slide of a slider that may also turn about its guide.
+///
+/// # Errors
+/// Where singular values do not converge.
+///
+/// # Complexity
+/// O(f²·6k).
+pub fn driven(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Driven>, Unsolved> {
+    let of =
+        |j: JointId| (0..geometry.columns.len()).filter(move |&c| geometry.columns[c].joint == j);
+    let drives: Vec<JointId> = geometry
+        .joints
+        .iter()
+        .copied()
+        .filter(|&j| m.joints[j].drive && of(j).next().is_some())
+        .collect();
+    let freedom = |c: usize| geometry.columns[c].freedom;
+    if drives.iter().all(|&j| of(j).count() == 1) {
+        return Ok(drives
+            .into_iter()
+            .filter_map(|j| Some((j, freedom(of(j).next()?))))
+            .collect());
+    }
+    let working = working_motions(m, geometry)?;
+    let share = |c: usize| {
+        working
+            .iter()
+            .map(|speeds| speeds[c] * speeds[c])
+            .sum::<f64>()
+    };
+    let slides = |c: usize| matches!(freedom(c), Freedom::Tx | Freedom::Ty | Freedom::Tz);
+    let pick = |j: JointId| {
+        let greatest = of(j).map(share).fold(0.0, f64::max);
+        let equal = |c: &usize| share(*c) >= greatest * (1.0 - EQUAL);
+        of(j)
+            .filter(equal)
+            .find(|&c| slides(c))
+            .or(of(j).find(equal))
+    };
+    Ok(drives
+        .into_iter()
+        .filter_map(|j| Some((j, freedom(pick(j)?))))
+        .collect())
+}
+
+/// Speeds of the freedoms in independent motions that move the outputs.
+fn working_motions(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Vec<f64>>, Unsolved> {
+    let n = geometry.columns.len();
+    let rows: Vec<Vec<f64>> = geometry.columns.iter().map(|c| geometry.row(c)).collect();
+    let height = rows.first().map_or(0, Vec::len);
+    let jacobian = Mat::from_fn(height.max(1), n, |r, c| {
+        rows[c].get(r).copied().unwrap_or(0.0)
+    });
+    let null = null_space(&jacobian)?;
+    let outputs: Vec<usize> = (0..m.links.len())
+        .filter(|&l| m.links[l].role == Role::Output)
+        .collect();
+    let twists: Vec<_> = null
+        .iter()
+        .map(|speeds| geometry.link_twists(m.links.len(), speeds))
+        .collect();
+    if null.is_empty() || outputs.is_empty() {
+        return Ok(null);
+    }
+    let motion = Mat::from_fn(6 * outputs.len(), null.len(), |r, c| {
+        twists[c][outputs[r / 6]][r % 6]
+    });
+    let svd = motion.svd().map_err(|_| Unsolved::NoConvergence)?;
+    let values = svd.S().column_vector();
+    let greatest = if values.nrows() > 0 { values[0] } else { 0.0 };
+    let moving = (0..values.nrows()).filter(|&i| values[i] > 1e-9 * greatest && values[i] > 1e-9);
+    Ok(moving
+        .map(|i| {
+            (0..n)
+                .map(|c| {
+                    null.iter()
+                        .enumerate()
+                        .map(|(k, v)| v[c] * svd.V()[(k, i)])
+                        .sum()
+                })
+                .collect()
+        })
+        .collect())
+}
+
+/// An orthonormal basis of the null space.
+fn null_space(a: &Mat<f64>) -> Result<Vec<Vec<f64>>, Unsolved> {
+    if a.ncols() == 0 {
+        return Ok(Vec::new());
+    }
+    let svd = a.svd().map_err(|_| Unsolved::NoConvergence)?;
+    let values = svd.S().column_vector();
+    let greatest = if values.nrows() > 0 { values[0] } else { 0.0 };
+    let rank = (0..values.nrows())
+        .filter(|&i| values[i] > crate::statics::reactions::TOLERANCE * greatest)
+        .count();
+    Ok((rank..a.ncols())
+        .map(|i| (0..a.ncols()).map(|c| svd.V()[(c, i)]).collect())
+        .collect())
+}

@@ -1,0 +1,306 @@
+//! A pose in numbers fit for statics: unit twists about the middle of the joints, lengths in the mechanism's size.
+//!
+//! Middle and size are the mean and the root mean square distance of the joints' points, so that nothing found with them
+//! depends on the axes the file is written in. Twists are (ω; v), wrenches (m; f), forces in newtons and moments in newtons
+//! times the size.
+
+use crate::closure::contour::{Contour, contour_basis};
+use crate::closure::twist::{FrameValues, MotionSpace};
+use crate::geom::exact::ExactError;
+use crate::geom::scalars::Reals;
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::motion::pose::Pose;
+use std::collections::VecDeque;
+
+/// A twist or a wrench.
+pub type Six = [f64; 6];
+
+/// Vector product.
+#[must_use]
+pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// Scalar product.
+#[must_use]
+pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Power of a wrench on a twist.
+#[must_use]
+pub fn power(a: &Six, b: &Six) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+fn unit(a: [f64; 3]) -> [f64; 3] {
+    let size = dot(a, a).sqrt();
+    a.map(|x| x / size)
+}
+
+/// The wrench (m; f) of a force at a point, with a moment besides.
+#[must_use]
+pub fn wrench(point: [f64; 3], force: [f64; 3], moment: [f64; 3]) -> Six {
+    let m = cross(point, force);
+    [
+        m[0] + moment[0],
+        m[1] + moment[1],
+        m[2] + moment[2],
+        force[0],
+        force[1],
+        force[2],
+    ]
+}
+
+/// A wrench about the middle taken about another point.
+#[must_use]
+pub fn about(w: &Six, point: [f64; 3]) -> Six {
+    let f = [w[3], w[4], w[5]];
+    let m = cross(point, f);
+    [w[0] - m[0], w[1] - m[1], w[2] - m[2], f[0], f[1], f[2]]
+}
+
+/// A freedom of a joint.
+#[derive(Debug, Clone, Copy)]
+pub struct Column {
+    /// The joint.
+    pub joint: JointId,
+    /// The freedom in the joint's frame.
+    pub freedom: Freedom,
+    /// Unit turn or unit shift of the joint's second link against its first.
+    pub twist: Six,
+}
+
+/// A pose of a mechanism in one state.
+#[derive(Debug, Clone)]
+pub struct Geometry {
+    /// Orthonormal wrenches that contours carry: six, or the three of a plane.
+    pub basis: Vec<Six>,
+    /// The size `[m]`.
+    pub size: f64,
+    /// The middle `[m]`.
+    pub middle: [f64; 3],
+    /// Metres in the file's unit.
+    pub metres: f64,
+    /// Joints of the state, in file order.
+    pub joints: Vec<JointId>,
+    /// The freedoms, grouped by joint.
+    pub columns: Vec<Column>,
+    /// By joint: its point now, from the middle, in the size.
+    pub points: Vec<[f64; 3]>,
+    /// By joint: unit vectors x, y, z of its frame now (it moves with the joint's first link).
+    pub axes: Vec<[[f64; 3]; 3]>,
+    /// The contours.
+    pub contours: Vec<Contour>,
+    /// The links but the frame, each with the joint that leads to it from the frame's side and whether that joint's second
+    /// link is the one reached; a link comes after the one it hangs on.
+    pub tree: Vec<(LinkId, LinkId, JointId, bool)>,
+    /// Middle and half diagonal of the pose, in the file's unit.
+    pose: ([f64; 3], f64),
+}
+
+impl Geometry {
+    /// The geometry of a state at a pose of it.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value.
+    pub fn new(m: &Mechanism, state: StateId, pose: &Pose) -> Result<Geometry, ExactError> {
+        let metres = m.length_unit.metres;
+        let joints: Vec<JointId> = m.joints_in(state).collect();
+        let (mut points, mut axes) = (
+            vec![[0.0; 3]; m.joints.len()],
+            vec![[[0.0; 3]; 3]; m.joints.len()],
+        );
+        for (j, joint) in m.joints.iter().enumerate() {
+            let frame = FrameValues::new(&Reals, &joint.frame)?;
+            let carried = &pose.links[joint.links[0]];
+            points[j] = moved(pose, joint.links[0], frame.point);
+            axes[j] = frame.axes.map(|a| carried.direction(unit(a)));
+        }
+        #[allow(clippy::cast_precision_loss, reason = "a count of joints")]
+        let count = joints.len().max(1) as f64;
+        let mean = [0, 1, 2].map(|i| joints.iter().map(|&j| points[j][i]).sum::<f64>() / count);
+        let from_mean = |p: [f64; 3]| [0, 1, 2].map(|i| p[i] - mean[i]);
+        let square: f64 = joints
+            .iter()
+            .map(|&j| dot(from_mean(points[j]), from_mean(points[j])))
+            .sum();
+        let far = mean.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let spread = (square / count).sqrt();
+        let spread = if spread > 1e-9 * far && spread > 1e-12 {
+            spread
+        } else {
+            pose.length
+        };
+        for &j in &joints {
+            points[j] = from_mean(points[j]).map(|x| x / spread);
+        }
+        let shift = [0, 1, 2].map(|i| mean[i] - pose.middle[i]);
+        let columns = pose.columns.iter().map(|c| {
+            let (w, v) = (
+                [c.twist[0], c.twist[1], c.twist[2]],
+                [c.twist[3], c.twist[4], c.twist[5]],
+            );
+            let twist = if w == [0.0; 3] {
+                c.twist
+            } else {
+                let lever = cross(w, shift);
+                let v = [0, 1, 2].map(|i| (v[i] * pose.length + lever[i]) / spread);
+                [w[0], w[1], w[2], v[0], v[1], v[2]]
+            };
+            Column {
+                joint: c.joint,
+                freedom: c.freedom,
+                twist,
+            }
+        });
+        let basis = match MotionSpace::new(&Reals, &m.mode)? {
+            MotionSpace::Spatial => (0..6)
+                .map(|i| std::array::from_fn(|k| f64::from(u8::from(i == k))))
+                .collect(),
+            MotionSpace::Planar { axes: [n, e1, e2] } => {
+                let [n, e1, e2] = [unit(n), unit(e1), unit(e2)];
+                vec![
+                    [n[0], n[1], n[2], 0.0, 0.0, 0.0],
+                    [0.0, 0.0, 0.0, e1[0], e1[1], e1[2]],
+                    [0.0, 0.0, 0.0, e2[0], e2[1], e2[2]],
+                ]
+            }
+        };
+        Ok(Geometry {
+            basis,
+            size: spread * metres,
+            middle: mean.map(|x| x * metres),
+            metres,
+            columns: columns.collect(),
+            points,
+            axes,
+            contours: contour_basis(m, state),
+            tree: tree(m, &joints),
+            joints,
+            pose: (mean, spread),
+        })
+    }
+
+    /// Where a point of a link is now, from the middle, in the size; `point` in the file's unit at the pose of the file.
+    #[must_use]
+    pub fn place(&self, pose: &Pose, link: LinkId, point: [f64; 3]) -> [f64; 3] {
+        let (mean, spread) = self.pose;
+        let p = moved(pose, link, point);
+        [0, 1, 2].map(|i| (p[i] - mean[i]) / spread)
+    }
+
+    /// The part of a wrench that the model can carry: all of it, or what is in the plane.
+    #[must_use]
+    pub fn within(&self, w: &Six) -> Six {
+        if self.basis.len() == 6 {
+            return *w;
+        }
+        let mut out = [0.0; 6];
+        for b in &self.basis {
+            let share = power(b, w);
+            for (o, x) in out.iter_mut().zip(b) {
+                *o += share * x;
+            }
+        }
+        out
+    }
+
+    /// The wrenches that joints pass on to their second links when all loads go along the tree to the frame; by joint.
+    #[must_use]
+    pub fn along_tree(&self, joints: usize, loads: &[Six]) -> Vec<Six> {
+        let mut hanging = loads.to_vec();
+        let mut out = vec![[0.0; 6]; joints];
+        for &(link, from, joint, forward) in self.tree.iter().rev() {
+            let load = hanging[link];
+            for i in 0..6 {
+                hanging[from][i] += load[i];
+                out[joint][i] = if forward { -load[i] } else { load[i] };
+            }
+        }
+        out
+    }
+
+    /// Adds wrenches that go round the contours, their coefficients in the basis, to those of the joints.
+    pub fn add_round(&self, coefficients: &[f64], wrenches: &mut [Six]) {
+        let dim = self.basis.len();
+        for (k, contour) in self.contours.iter().enumerate() {
+            let mut round = [0.0; 6];
+            for (b, x) in self.basis.iter().zip(&coefficients[k * dim..]) {
+                for (r, y) in round.iter_mut().zip(b) {
+                    *r += x * y;
+                }
+            }
+            for &(j, forward) in &contour.joints {
+                for (w, r) in wrenches[j].iter_mut().zip(&round) {
+                    *w += if forward { *r } else { -r };
+                }
+            }
+        }
+    }
+
+    /// The row of the transposed closure matrix that belongs to a column: its power on a unit of each contour's wrenches.
+    #[must_use]
+    pub fn row(&self, column: &Column) -> Vec<f64> {
+        let dim = self.basis.len();
+        let mut out = vec![0.0; dim * self.contours.len()];
+        for (k, contour) in self.contours.iter().enumerate() {
+            if let Some(forward) = contour.direction(column.joint) {
+                let sign = if forward { 1.0 } else { -1.0 };
+                for (o, b) in out[k * dim..].iter_mut().zip(&self.basis) {
+                    *o = sign * power(b, &column.twist);
+                }
+            }
+        }
+        out
+    }
+
+    /// Twists of the links when the freedoms move at these speeds; by link.
+    #[must_use]
+    pub fn link_twists(&self, links: usize, speeds: &[f64]) -> Vec<Six> {
+        let mut of_joint = vec![[0.0; 6]; self.points.len()];
+        for (c, s) in self.columns.iter().zip(speeds) {
+            for (o, t) in of_joint[c.joint].iter_mut().zip(&c.twist) {
+                *o += s * t;
+            }
+        }
+        let mut out = vec![[0.0; 6]; links];
+        for &(link, from, joint, forward) in &self.tree {
+            let sign = if forward { 1.0 } else { -1.0 };
+            out[link] = std::array::from_fn(|i| out[from][i] + sign * of_joint[joint][i]);
+        }
+        out
+    }
+}
+
+/// Where a point of a link is now, in the file's unit.
+fn moved(pose: &Pose, link: LinkId, point: [f64; 3]) -> [f64; 3] {
+    let from = [0, 1, 2].map(|i| (point[i] - pose.middle[i]) / pose.length);
+    let to = pose.links[link].point(from);
+    [0, 1, 2].map(|i| pose.middle[i] + pose.length * to[i])
+}
+
+fn tree(m: &Mechanism, joints: &[JointId]) -> Vec<(LinkId, LinkId, JointId, bool)> {
+    let mut out = Vec::new();
+    let mut reached = vec![false; m.links.len()];
+    let mut queue = VecDeque::from([m.frame()]);
+    reached[m.frame()] = true;
+    while let Some(at) = queue.pop_front() {
+        for &j in joints {
+            let [a, b] = m.joints[j].links;
+            for (from, to, forward) in [(a, b, true), (b, a, false)] {
+                if from == at && !reached[to] {
+                    reached[to] = true;
+                    out.push((to, at, j, forward));
+                    queue.push_back(to);
+                }
+            }
+        }
+    }
+    out
+}

@@ -1,0 +1,238 @@
+//! Inertia forces of the links while the drives go at constant speeds.
+//!
+//! Speeds of the freedoms close every contour, Σ ± q̇ t = 0, and so do their rates: Σ ± q̈ t = -Σ ± q̇ [V, t], where V is the
+//! velocity of what carries the freedom's twist t along the contour and [V, t] the bracket of twists
+//! [Müller 2018, "Screw and Lie group theory in multibody kinematics", sec. 4]. Idle freedoms take the least speeds and rates
+//! that close. Then, by D'Alembert, a link carries -m a at its mass centre and -(I α + ω × I ω) besides.
+
+use crate::model::loads::{Inertia, Loads};
+use crate::model::mechanism::{LinkId, Mechanism};
+use crate::motion::pose::Pose;
+use crate::statics::reactions::drives::Driven;
+use crate::statics::reactions::geometry::{Column, Geometry, Six, cross, dot, power, wrench};
+use crate::statics::reactions::{TOLERANCE, Unsolved};
+use faer::Mat;
+
+/// Contours may stay open by this fraction of the speeds (or rates) in them.
+const CLOSES: f64 = 1e-7;
+/// Turns are about one direction where they are this near to it.
+const PARALLEL: f64 = 1e-9;
+
+/// Velocities and accelerations of the links, as twists and their rates about the geometry's middle, lengths in its size.
+#[derive(Debug, Clone)]
+pub struct Motion {
+    /// (ω; velocity of the link's point at the middle) by link.
+    pub velocity: Vec<Six>,
+    /// The rate of that twist by link.
+    pub rate: Vec<Six>,
+}
+
+/// The bracket of two twists: the rate of `t` carried along with velocity `v`.
+fn bracket(v: &Six, t: &Six) -> Six {
+    let (w, u) = ([v[0], v[1], v[2]], [v[3], v[4], v[5]]);
+    let (tw, tv) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
+    let (turn, a, b) = (cross(w, tw), cross(w, tv), cross(u, tw));
+    [
+        turn[0],
+        turn[1],
+        turn[2],
+        a[0] + b[0],
+        a[1] + b[1],
+        a[2] + b[2],
+    ]
+}
+
+fn add(to: &mut Six, factor: f64, x: &Six) {
+    for (o, x) in to.iter_mut().zip(x) {
+        *o += factor * x;
+    }
+}
+
+/// The columns of a joint in the order they are passed in, with their direction.
+fn walk(geometry: &Geometry, joint: usize, forward: bool) -> Vec<(usize, f64)> {
+    let own = (0..geometry.columns.len()).filter(|&c| geometry.columns[c].joint == joint);
+    if forward {
+        own.map(|c| (c, 1.0)).collect()
+    } else {
+        own.rev().map(|c| (c, -1.0)).collect()
+    }
+}
+
+/// The least x with `matrix` x = `right`; `None` where there is none.
+fn least(matrix: &Mat<f64>, right: &[f64], scale: f64) -> Result<Option<Vec<f64>>, Unsolved> {
+    let (rows, columns) = matrix.shape();
+    let mut x = vec![0.0; columns];
+    if rows > 0 && columns > 0 {
+        let svd = matrix.svd().map_err(|_| Unsolved::NoConvergence)?;
+        let s = svd.S().column_vector();
+        for i in (0..s.nrows()).filter(|&i| s[i] > TOLERANCE * s[0]) {
+            let share: f64 = (0..rows).map(|r| svd.U()[(r, i)] * right[r]).sum();
+            for (c, x) in x.iter_mut().enumerate() {
+                *x += share / s[i] * svd.V()[(c, i)];
+            }
+        }
+    }
+    let left = (0..rows).map(|r| {
+        let sum: f64 = (0..columns).map(|c| matrix[(r, c)] * x[c]).sum();
+        (sum - right[r]).abs()
+    });
+    let size = x.iter().fold(scale, |a, v| a.max(v.abs()));
+    let open = left.fold(0.0, f64::max) > CLOSES * size;
+    Ok((!open && x.iter().all(|v| v.is_finite())).then_some(x))
+}
+
+/// The motion of the links in a pose when the drives go at constant `speeds`: `[rad/s]`, or the file's unit a second; those
+/// not stated stand still.
+///
+/// # Errors
+/// Where the drives cannot go at these speeds, as at a dead point.
+///
+/// # Complexity
+/// O((6k)²·f) for k contours and f freedoms.
+pub fn motion(
+    m: &Mechanism,
+    geometry: &Geometry,
+    drives: &[Driven],
+    speeds: &[f64],
+) -> Result<Motion, Unsolved> {
+    let f = geometry.columns.len();
+    let held = |c: &Column| drives.iter().position(|d| *d == (c.joint, c.freedom));
+    let given = |c: &Column| {
+        let speed = held(c).and_then(|i| speeds.get(i)).copied().unwrap_or(0.0);
+        let slides = c.twist[..3] == [0.0; 3];
+        speed
+            * if slides {
+                geometry.metres / geometry.size
+            } else {
+                1.0
+            }
+    };
+    let free: Vec<usize> = (0..f)
+        .filter(|&c| held(&geometry.columns[c]).is_none())
+        .collect();
+    let rows: Vec<Vec<f64>> = geometry.columns.iter().map(|c| geometry.row(c)).collect();
+    let height = geometry.basis.len() * geometry.contours.len();
+    let part = Mat::from_fn(height, free.len(), |r, c| rows[free[c]][r]);
+    let stuck = || Unsolved::Stuck;
+    let mut speed: Vec<f64> = geometry.columns.iter().map(given).collect();
+    let fastest = speed.iter().fold(0.0, |a: f64, s| a.max(s.abs()));
+    let right: Vec<f64> = (0..height)
+        .map(|r| -(0..f).map(|c| rows[c][r] * speed[c]).sum::<f64>())
+        .collect();
+    let found = least(&part, &right, fastest)?.ok_or_else(stuck)?;
+    for (&c, x) in free.iter().zip(&found) {
+        speed[c] = *x;
+    }
+    let fastest = speed.iter().fold(0.0, |a: f64, s| a.max(s.abs()));
+    // What the contours would gain at constant speeds of all freedoms.
+    let mut right = Vec::with_capacity(height);
+    for contour in &geometry.contours {
+        let (mut velocity, mut gain) = ([0.0; 6], [0.0; 6]);
+        for &(joint, forward) in &contour.joints {
+            for (c, sign) in walk(geometry, joint, forward) {
+                let t = &geometry.columns[c].twist;
+                add(&mut gain, sign * speed[c], &bracket(&velocity, t));
+                add(&mut velocity, sign * speed[c], t);
+            }
+        }
+        right.extend(geometry.basis.iter().map(|b| -power(b, &gain)));
+    }
+    let found = least(&part, &right, fastest * fastest)?.ok_or_else(stuck)?;
+    let mut rates = vec![0.0; f];
+    for (&c, x) in free.iter().zip(&found) {
+        rates[c] = *x;
+    }
+    let mut out = Motion {
+        velocity: vec![[0.0; 6]; m.links.len()],
+        rate: vec![[0.0; 6]; m.links.len()],
+    };
+    for &(link, from, joint, forward) in &geometry.tree {
+        let (mut v, mut a) = (out.velocity[from], out.rate[from]);
+        for (c, sign) in walk(geometry, joint, forward) {
+            let t = &geometry.columns[c].twist;
+            add(&mut a, sign * rates[c], t);
+            add(&mut a, sign * speed[c], &bracket(&v, t));
+            add(&mut v, sign * speed[c], t);
+        }
+        (out.velocity[link], out.rate[link]) = (v, a);
+    }
+    Ok(out)
+}
+
+fn turn(t: &Six) -> [f64; 3] {
+    [t[0], t[1], t[2]]
+}
+
+/// Inertia of a link now about global axes times a vector `[kg·m²]`.
+fn times(pose: &Pose, link: LinkId, inertia: &Inertia, v: [f64; 3]) -> [f64; 3] {
+    let [xx, yy, zz, xy, yz, zx] = match *inertia {
+        // About the one direction all turn about.
+        Inertia::Plane(i) => return v.map(|x| i * x),
+        Inertia::Principal([x, y, z]) => [x, y, z, 0.0, 0.0, 0.0],
+        Inertia::Tensor(t) => t,
+    };
+    // Back to where the file states it, and forth again.
+    let unit = |i: usize| [0, 1, 2].map(|k| f64::from(u8::from(k == i)));
+    let axes = [0, 1, 2].map(|i| pose.links[link].direction(unit(i)));
+    let own = axes.map(|a| dot(a, v));
+    let turned = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]].map(|r| dot(r, own));
+    [0, 1, 2].map(|i| (0..3).map(|k| turned[k] * axes[k][i]).sum())
+}
+
+/// The inertia forces of the links by link, about the geometry's middle, moments in newtons times the size.
+///
+/// # Errors
+/// Where the drives cannot go at the stated speeds, and where a link that states its inertia for a plane turns in space.
+pub fn inertia_loads(
+    m: &Mechanism,
+    loads: &Loads,
+    geometry: &Geometry,
+    pose: &Pose,
+    drives: &[Driven],
+) -> Result<Vec<Six>, Unsolved> {
+    let mut out = vec![[0.0; 6]; m.links.len()];
+    if loads.drive_speeds.iter().all(|s| *s == 0.0) {
+        return Ok(out);
+    }
+    let moves = motion(m, geometry, drives, &loads.drive_speeds)?;
+    let size = |v: [f64; 3]| dot(v, v).sqrt();
+    let fastest = moves
+        .velocity
+        .iter()
+        .map(turn)
+        .max_by(|a, b| size(*a).total_cmp(&size(*b)));
+    let about = fastest.filter(|w| size(*w) > 0.0);
+    let aside = |v: [f64; 3]| {
+        about.is_some_and(|w| size(cross(w, v)) > PARALLEL * size(w) * size(w).max(size(v)))
+    };
+    let flat = !moves.velocity.iter().any(|v| aside(turn(v)));
+    for &(l, ..) in &geometry.tree {
+        let Some(mass) = &m.links[l].mass else {
+            continue;
+        };
+        let (v, a) = (&moves.velocity[l], &moves.rate[l]);
+        let (w, alpha) = (turn(v), turn(a));
+        let file = [0, 1, 2].map(|i| mass.centre[i].to_f64());
+        let p = geometry.place(pose, l, file);
+        let at = |t: &Six| {
+            let c = cross(turn(t), p);
+            [t[3] + c[0], t[4] + c[1], t[5] + c[2]]
+        };
+        let (velocity, there) = (at(v), at(a));
+        let round = cross(w, velocity);
+        let force = [0, 1, 2].map(|i| -mass.mass * geometry.size * (there[i] + round[i]));
+        let mut moment = [0.0; 3];
+        if let Some(inertia) = &mass.inertia {
+            if matches!(inertia, Inertia::Plane(_)) && !flat {
+                return Err(Unsolved::PlaneInertia {
+                    link: m.links[l].id.clone(),
+                });
+            }
+            let gained = times(pose, l, inertia, alpha);
+            let carried = cross(w, times(pose, l, inertia, w));
+            moment = [0, 1, 2].map(|i| -(gained[i] + carried[i]) / geometry.size);
+        }
+        out[l] = geometry.within(&wrench(p, force, moment));
+    }
+    Ok(out)
+}

@@ -1,0 +1,118 @@
+//! How fast joints move when the drive does.
+
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::motion::follow::slides;
+use crate::motion::pose::Pose;
+use faer::Mat;
+use thiserror::Error;
+
+/// Singular values below this fraction of the largest count as zero.
+const TOLERANCE: f64 = 1e-9;
+
+/// Why there is no transmission ratio.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum TransmissionError {
+    /// Not one drive.
+    #[error("the mechanism has {0} drives; a transmission ratio needs one")]
+    Drives(usize),
+    /// The drive has no or several freedoms.
+    #[error("joint \"{0}\" must have one freedom, a turn or a slide, for a transmission ratio")]
+    Freedoms(String),
+    /// The drive cannot move.
+    #[error("drive \"{0}\" cannot move in this pose")]
+    Stuck(String),
+    /// The joint moves on its own.
+    #[error("the speed of joint \"{0}\" does not follow from the drive's")]
+    Loose(String),
+    /// No decomposition.
+    #[error("the closure equations have no decomposition; check the coordinates")]
+    Numeric,
+}
+
+/// Speeds of joints for unit speed of the drive.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rates {
+    /// Whether the drive slides; it turns otherwise.
+    pub slides: bool,
+    /// Size of each joint's speed: `[rad/m]` for turning joints of a sliding drive (with lengths in metres), `[1]` for those of a
+    /// turning one.
+    pub rates: Vec<f64>,
+}
+
+/// Speeds of turning joints when the one drive moves at unit speed, in a pose of the free state.
+///
+/// # Errors
+/// Where the mechanism has no such ratio.
+///
+/// # Complexity
+/// One singular value decomposition of J.
+pub fn rates(
+    mechanism: &Mechanism,
+    pose: &Pose,
+    joints: &[JointId],
+) -> Result<Rates, TransmissionError> {
+    let drives: Vec<JointId> = (0..mechanism.joints.len())
+        .filter(|&j| mechanism.joints[j].drive)
+        .collect();
+    let [drive] = drives[..] else {
+        return Err(TransmissionError::Drives(drives.len()));
+    };
+    let f = pose.columns.len();
+    let id = |j: JointId| mechanism.joints[j].id.clone();
+    let only = |j: JointId| {
+        let mut own = (0..f).filter(|&c| pose.columns[c].joint == j);
+        match (own.next(), own.next()) {
+            (Some(c), None) if matches!(pose.columns[c].freedom, Freedom::Rz | Freedom::Tz) => {
+                Ok(c)
+            }
+            _ => Err(TransmissionError::Freedoms(id(j))),
+        }
+    };
+    let at = only(drive)?;
+    let jacobian = pose.jacobian(&vec![0.0; f]);
+    // Padded to a square, so that the decomposition has a vector for every column.
+    let matrix = Mat::from_fn(pose.rows().max(f), f, |r, c| {
+        if r < pose.rows() {
+            jacobian[(r, c)]
+        } else {
+            0.0
+        }
+    });
+    let svd = matrix.svd().map_err(|_| TransmissionError::Numeric)?;
+    let (values, v) = (svd.S().column_vector(), svd.V());
+    let largest = values.iter().copied().fold(0.0, f64::max);
+    let free: Vec<usize> = (0..f)
+        .filter(|&i| values[i] <= TOLERANCE * largest)
+        .collect();
+    let drive_row: Vec<f64> = free.iter().map(|&i| v[(at, i)]).collect();
+    let size: f64 = drive_row.iter().map(|x| x * x).sum();
+    if size.sqrt() <= TOLERANCE {
+        return Err(TransmissionError::Stuck(id(drive)));
+    }
+    let slides = slides(pose, at);
+    let unit = if slides {
+        pose.length * mechanism.length_unit.metres
+    } else {
+        1.0
+    };
+    let rates = joints.iter().map(|&j| {
+        let c = only(j)?;
+        let row: Vec<f64> = free.iter().map(|&i| v[(c, i)]).collect();
+        let along: f64 = row.iter().zip(&drive_row).map(|(a, b)| a * b).sum::<f64>() / size;
+        let rest: f64 = row
+            .iter()
+            .zip(&drive_row)
+            .map(|(a, b)| (a - along * b).powi(2))
+            .sum();
+        if rest.sqrt() > 1e-6 {
+            return Err(TransmissionError::Loose(id(j)));
+        }
+        Ok((along / unit).abs())
+    });
+    Ok(Rates {
+        slides,
+        rates: rates.collect::<Result<_, _>>()?,
+    })
+}
