@@ -16,7 +16,6 @@ mod loops;
 mod mimic;
 mod mjcf;
 mod parts;
-mod pose;
 mod problem;
 mod sdf;
 mod single_freedoms;

@@ -1,5 +1,6 @@
 //! What a gripper can hold over a range of diameters and motions, and the drive moment that takes.
 
+use crate::geom::vector::unit;
 use crate::grip::contact::{Gripper, Pose, Unholdable};
 use crate::grip::holding::{Coupling, Holding, HoldingError, Load, Outcome, Slip, Spatial, hold};
 use crate::grip::lever_arm::{Arms, Lever, LeverError};
@@ -158,11 +159,6 @@ fn cases(load: &GripLoad) -> Vec<Case> {
         },
     };
     load.accelerations.iter().map(each).collect()
-}
-
-fn unit(v: Spatial) -> Spatial {
-    let size = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    v.map(|x| x / size)
 }
 
 fn cube_directions() -> impl Iterator<Item = Spatial> {

@@ -4,6 +4,7 @@
 //! cone is kept exact (a second-order cone programme). Forces that *can* hold are asked for: where more than one set does, nature
 //! may choose another, which is what the safety factor is for.
 
+use crate::geom::vector::cross;
 use crate::grip::contact::Pose;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
@@ -45,7 +46,7 @@ impl Load {
         let force = [0, 1, 2].map(|i| mass * (gravity[i] - acceleration[i]));
         Load {
             force,
-            moment: cross3(offset, force),
+            moment: cross(offset, force),
         }
     }
 
@@ -126,14 +127,6 @@ pub enum HoldingError {
     Solver(String),
 }
 
-fn cross3(a: Spatial, b: Spatial) -> Spatial {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
 /// A linear programme over cones: minimise the drive moment subject to `row · x + s = right`, s in the cone of the row.
 /// Dimensionless: lengths over the lever's, forces over the load.
 struct Programme<'a> {
@@ -195,7 +188,7 @@ impl<'a> Programme<'a> {
             .components()
             .map(|(c, d, v)| {
                 let f = self.directions[c][d];
-                (v, f, cross3(self.from(self.pose.centre, c), f))
+                (v, f, cross(self.from(self.pose.centre, c), f))
             })
             .collect();
         for axis in 0..3 {
@@ -219,7 +212,7 @@ impl<'a> Programme<'a> {
         own.map(|(c, d, v)| {
             (
                 v,
-                sign * cross3(self.from(self.pose.pivots[k], c), self.directions[c][d])[2],
+                sign * cross(self.from(self.pose.pivots[k], c), self.directions[c][d])[2],
             )
         })
         .collect()

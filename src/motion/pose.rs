@@ -9,10 +9,13 @@
 //! mechanism and taken from its middle, so that coordinates are radians and fractions of that size.
 
 use crate::closure::contour::{Contour, contour_basis};
+use crate::closure::tree::spanning_tree;
 use crate::closure::twist::{FrameValues, MotionSpace, Twist};
 use crate::geom::exact::ExactError;
 use crate::geom::extent::Extent;
+use crate::geom::rigid::{RigidMotion, halves};
 use crate::geom::scalars::Reals;
+use crate::geom::vector::{self, across, cross, dot, length, sub};
 use crate::model::coupling::{CoupledFreedom, Coupling};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
@@ -24,132 +27,17 @@ pub const CLOSED: f64 = 1e-12;
 /// Newton steps before a pose is given up.
 const STEPS: usize = 60;
 
-/// A rigid displacement: rotation (rows) and translation.
-#[derive(Debug, Clone, Copy)]
-pub struct Displacement {
-    rotation: [[f64; 3]; 3],
-    translation: [f64; 3],
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn halves(t: &Twist<f64>) -> ([f64; 3], [f64; 3]) {
-    ([t[0], t[1], t[2]], [t[3], t[4], t[5]])
-}
-
-impl Displacement {
-    /// No displacement.
-    pub const IDENTITY: Displacement = Displacement {
-        rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-        translation: [0.0; 3],
+/// Turn and shift as six numbers that vanish together with a motion: (sin θ · axis; translation).
+fn defect(motion: &RigidMotion) -> [f64; 6] {
+    // Beyond a quarter turn the sine falls again; keep it growing so that half a turn is no solution.
+    let cosine = motion.cosine();
+    let grow = if cosine < 0.0 {
+        1.0 - 2.0 * cosine
+    } else {
+        1.0
     };
-
-    /// The displacement of a unit twist (unit angular velocity, or none) through `q`.
-    #[must_use]
-    pub fn exp(twist: &Twist<f64>, q: f64) -> Displacement {
-        let (w, v) = halves(twist);
-        if w == [0.0; 3] {
-            return Displacement {
-                translation: v.map(|x| x * q),
-                ..Displacement::IDENTITY
-            };
-        }
-        let (s, c) = q.sin_cos();
-        let k = 1.0 - c;
-        let rotation = [
-            [
-                c + w[0] * w[0] * k,
-                w[0] * w[1] * k - w[2] * s,
-                w[0] * w[2] * k + w[1] * s,
-            ],
-            [
-                w[1] * w[0] * k + w[2] * s,
-                c + w[1] * w[1] * k,
-                w[1] * w[2] * k - w[0] * s,
-            ],
-            [
-                w[2] * w[0] * k - w[1] * s,
-                w[2] * w[1] * k + w[0] * s,
-                c + w[2] * w[2] * k,
-            ],
-        ];
-        // (I - R)(ω × v) + ω (ω·v) q
-        let u = cross(w, v);
-        let along = dot(w, v) * q;
-        let translation = [0, 1, 2].map(|i| u[i] - dot(rotation[i], u) + w[i] * along);
-        Displacement {
-            rotation,
-            translation,
-        }
-    }
-
-    /// This displacement after `other`.
-    #[must_use]
-    pub fn after(&self, other: &Displacement) -> Displacement {
-        let column = |j: usize| [0, 1, 2].map(|i| other.rotation[i][j]);
-        Displacement {
-            rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| dot(self.rotation[i], column(j)))),
-            translation: self.point(other.translation),
-        }
-    }
-
-    /// Where a point goes.
-    #[must_use]
-    pub fn point(&self, p: [f64; 3]) -> [f64; 3] {
-        let turned = self.direction(p);
-        [0, 1, 2].map(|i| turned[i] + self.translation[i])
-    }
-
-    /// Where a direction goes.
-    #[must_use]
-    pub fn direction(&self, d: [f64; 3]) -> [f64; 3] {
-        [0, 1, 2].map(|i| dot(self.rotation[i], d))
-    }
-
-    /// The angle of the turn `[rad]`, 0 to π.
-    #[must_use]
-    pub fn angle(&self) -> f64 {
-        let r = &self.rotation;
-        let axis = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]];
-        let (sine, cosine) = (dot(axis, axis).sqrt(), r[0][0] + r[1][1] + r[2][2] - 1.0);
-        sine.atan2(cosine)
-    }
-
-    /// A twist carried along.
-    #[must_use]
-    pub fn twist(&self, t: &Twist<f64>) -> Twist<f64> {
-        let (w, v) = halves(t);
-        let w = self.direction(w);
-        let (v, m) = (self.direction(v), cross(self.translation, w));
-        [w[0], w[1], w[2], v[0] + m[0], v[1] + m[1], v[2] + m[2]]
-    }
-
-    /// Turn and shift as six numbers that vanish together with the displacement: (sin θ · axis; translation).
-    fn defect(&self) -> [f64; 6] {
-        let r = &self.rotation;
-        // Beyond a quarter turn the sine falls again; keep it growing so that half a turn is no solution.
-        let trace = r[0][0] + r[1][1] + r[2][2];
-        let grow = if trace < 1.0 { 2.0 - trace } else { 1.0 };
-        let t = self.translation;
-        [
-            grow * (r[2][1] - r[1][2]) / 2.0,
-            grow * (r[0][2] - r[2][0]) / 2.0,
-            grow * (r[1][0] - r[0][1]) / 2.0,
-            t[0],
-            t[1],
-            t[2],
-        ]
-    }
+    let ([x, y, z], [u, v, w]) = (motion.sine(), motion.translation);
+    [grow * x, grow * y, grow * z, u, v, w]
 }
 
 /// One freedom of a joint at a pose.
@@ -177,8 +65,8 @@ pub struct Pose {
     pub length: f64,
     /// The middle that coordinates are taken from, in the file's unit.
     pub middle: [f64; 3],
-    /// Displacement of each link since the file's pose, in [`Pose::length`] about the middle.
-    pub links: Vec<Displacement>,
+    /// RigidMotion of each link since the file's pose, in [`Pose::length`] about the middle.
+    pub links: Vec<RigidMotion>,
     /// Relative error of the coordinates: contours need not close better than that.
     accuracy: f64,
     /// Contours as (column, direction).
@@ -220,15 +108,18 @@ impl Pose {
             .map(|&j| FrameValues::new(&Reals, &mechanism.joints[j].frame))
             .collect::<Result<Vec<_>, _>>()?;
         let points: Vec<[f64; 3]> = frames.iter().map(|f| f.point).collect();
-        let Extent { middle, length } = Extent::of(&points);
+        let Extent {
+            middle,
+            length: size,
+        } = Extent::of(&points);
         let (mut columns, mut base) = (Vec::new(), Vec::new());
         let mut of_joint = vec![Vec::new(); mechanism.joints.len()];
         for (&j, frame) in joints.iter().zip(&frames) {
             let joint = &mechanism.joints[j];
             let unit = FrameValues {
-                axes: frame.axes.map(|a| a.map(|x| x / dot(a, a).sqrt())),
-                point: [0, 1, 2].map(|i| (frame.point[i] - middle[i]) / length),
-                pitch: frame.pitch / length,
+                axes: frame.axes.map(vector::unit),
+                point: sub(frame.point, middle).map(|x| x / size),
+                pitch: frame.pitch / size,
             };
             let kept = crate::closure::twist::joint_twists(
                 &Reals,
@@ -263,33 +154,21 @@ impl Pose {
         };
         let couplings = mechanism
             .couplings_in(state)
-            .filter_map(|c| coupled(c, &columns, length))
+            .filter_map(|c| coupled(c, &columns, size))
             .collect();
         let contours = contour_basis(mechanism, state)
             .iter()
             .map(|c: &Contour| c.joints.iter().flat_map(|&(j, d)| walk(j, d)).collect())
             .collect();
-        let mut tree = Vec::new();
-        let mut reached = vec![false; mechanism.links.len()];
-        let mut queue = std::collections::VecDeque::from([mechanism.frame()]);
-        reached[mechanism.frame()] = true;
-        while let Some(at) = queue.pop_front() {
-            for &j in &joints {
-                let [a, b] = mechanism.joints[j].links;
-                for (from, to, forward) in [(a, b, true), (b, a, false)] {
-                    if from == at && !reached[to] {
-                        reached[to] = true;
-                        tree.push((to, at, walk(j, forward)));
-                        queue.push_back(to);
-                    }
-                }
-            }
-        }
+        let tree = spanning_tree(mechanism, state)
+            .into_iter()
+            .map(|s| (s.link, s.from, walk(s.joint, s.forward)))
+            .collect();
         Ok(Pose {
             columns,
-            length,
+            length: size,
             middle,
-            links: vec![Displacement::IDENTITY; mechanism.links.len()],
+            links: vec![RigidMotion::IDENTITY; mechanism.links.len()],
             accuracy: 0.0,
             contours,
             couplings,
@@ -335,11 +214,11 @@ impl Pose {
     pub fn gaps(&self, q: &[f64]) -> Vec<f64> {
         let mut out = Vec::with_capacity(self.rows());
         for contour in &self.contours {
-            let mut at = Displacement::IDENTITY;
+            let mut at = RigidMotion::IDENTITY;
             for &(c, sign) in contour {
-                at = at.after(&Displacement::exp(&self.columns[c].twist, sign * q[c]));
+                at = at.then(&RigidMotion::exp(&self.columns[c].twist, sign * q[c]));
             }
-            out.extend(at.defect());
+            out.extend(defect(&at));
         }
         let from_file = |&(c, factor): &(usize, f64)| factor * (self.columns[c].moved + q[c]);
         out.extend(
@@ -355,13 +234,13 @@ impl Pose {
     pub fn jacobian(&self, q: &[f64]) -> Mat<f64> {
         let mut matrix = Mat::zeros(self.rows(), self.columns.len());
         for (k, contour) in self.contours.iter().enumerate() {
-            let mut at = Displacement::IDENTITY;
+            let mut at = RigidMotion::IDENTITY;
             for &(c, sign) in contour {
                 let twist = at.twist(&self.columns[c].twist);
                 for (i, x) in twist.iter().enumerate() {
                     matrix[(6 * k + i, c)] += sign * x;
                 }
-                at = at.after(&Displacement::exp(&self.columns[c].twist, sign * q[c]));
+                at = at.then(&RigidMotion::exp(&self.columns[c].twist, sign * q[c]));
             }
         }
         for (row, coupling) in (6 * self.contours.len()..).zip(&self.couplings) {
@@ -427,11 +306,11 @@ impl Pose {
     /// The pose at coordinates `q` from this one, its twists taken there.
     #[must_use]
     pub fn moved(&self, q: &[f64]) -> Pose {
-        let mut since = vec![Displacement::IDENTITY; self.links.len()];
+        let mut since = vec![RigidMotion::IDENTITY; self.links.len()];
         for (to, from, walk) in &self.tree {
             let mut at = since[*from];
             for &(c, sign) in walk {
-                at = at.after(&Displacement::exp(&self.columns[c].twist, sign * q[c]));
+                at = at.then(&RigidMotion::exp(&self.columns[c].twist, sign * q[c]));
             }
             since[*to] = at;
         }
@@ -439,14 +318,14 @@ impl Pose {
         for (c, &(link, before)) in self.base.iter().enumerate() {
             let mut at = since[link];
             for (p, x) in q.iter().enumerate().take(c).skip(c - before) {
-                at = at.after(&Displacement::exp(&self.columns[p].twist, *x));
+                at = at.then(&RigidMotion::exp(&self.columns[p].twist, *x));
             }
             next.columns[c].twist = unit(at.twist(&self.columns[c].twist));
             next.columns[c].moved += q[c];
         }
         square_balls(&mut next.columns);
         for (link, d) in next.links.iter_mut().zip(&since) {
-            *link = d.after(link);
+            *link = d.then(link);
         }
         next
     }
@@ -481,7 +360,7 @@ fn planar_ball(
         && turns.iter().all(|t| freedoms.contains(t))
         && !slides.iter().any(|t| freedoms.contains(t))
     {
-        frame.axes = [*e1, *e2, *n].map(|a| a.map(|x| x / dot(a, a).sqrt()));
+        frame.axes = [*e1, *e2, *n].map(vector::unit);
     }
     frame
 }
@@ -489,8 +368,8 @@ fn planar_ball(
 /// Rounding must not let axes grow or shrink over many steps.
 fn unit(mut t: Twist<f64>) -> Twist<f64> {
     let (w, v) = halves(&t);
-    let size = match dot(w, w).sqrt() {
-        0.0 => dot(v, v).sqrt(),
+    let size = match length(w) {
+        0.0 => length(v),
         turn => turn,
     };
     t.iter_mut().for_each(|x| *x /= size);
@@ -509,12 +388,7 @@ fn square_balls(columns: &mut [PoseColumn]) {
             // The common point c: v = c × ω for two of the axes; two equations in the least-squares sense.
             let centre = meeting_point(w0, v0, w2, v2);
             let e0 = w0;
-            let e1 = {
-                let off = dot(w2, e0);
-                let u = [0, 1, 2].map(|k| w2[k] - off * e0[k]);
-                let size = dot(u, u).sqrt();
-                u.map(|x| x / size)
-            };
+            let e1 = vector::unit(across(w2, e0));
             for (n, w) in [e0, e1, cross(e0, e1)].into_iter().enumerate() {
                 let v = cross(centre, w);
                 columns[i + n].twist = [w[0], w[1], w[2], v[0], v[1], v[2]];
@@ -529,7 +403,7 @@ fn square_balls(columns: &mut [PoseColumn]) {
 /// Where two lines with unit directions meet (their twists about the origin given): the middle of the common normal.
 fn meeting_point(w0: [f64; 3], v0: [f64; 3], w1: [f64; 3], v1: [f64; 3]) -> [f64; 3] {
     let (p0, p1) = (cross(w0, v0), cross(w1, v1));
-    let d = [0, 1, 2].map(|i| p1[i] - p0[i]);
+    let d = sub(p1, p0);
     let (c, a, b) = (dot(w0, w1), dot(d, w0), dot(d, w1));
     let s = 1.0 - c * c;
     let (t0, t1) = ((a - c * b) / s, (c * a - b) / s);

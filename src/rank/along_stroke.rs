@@ -5,7 +5,7 @@
 //! shows as a smallest kept singular value that falls and rises again; its lowest point is found by golden section and
 //! counts where the value vanishes there.
 
-use crate::closure::matrix::path_from_frame;
+use crate::closure::tree::path_from_frame;
 use crate::model::mechanism::{LinkId, Mechanism, Mode, Role, StateId};
 use crate::motion::follow::{FLAT, Follower, Stop, Why, positions};
 use crate::motion::pose::Pose;

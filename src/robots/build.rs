@@ -1,6 +1,8 @@
 //! From a robot as read to a mechanism file: pose, frame, loops, bodies, outputs.
 
+use crate::closure::tree::forest;
 use crate::file::read::LIMITS;
+use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
 use crate::robots::Options;
 use crate::robots::close::{self, CLOSED, close, gaps, size, worst};
@@ -8,7 +10,6 @@ use crate::robots::coupling;
 use crate::robots::emit::{self, Bodies, Content};
 use crate::robots::kinematics::{Tree, places, spanning_tree};
 use crate::robots::parts::{Part, Robot, free};
-use crate::robots::pose::Pose;
 use crate::robots::problem::{RobotProblem, known};
 use std::collections::BTreeSet;
 
@@ -79,13 +80,13 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, R
     }
     let world = match robot.world {
         Some(w) => w,
-        None => robot.link("world", Pose::IDENTITY),
+        None => robot.link("world", RigidMotion::IDENTITY),
     };
     robot.world = Some(world);
     // Every tree of links that the world does not hold floats by itself.
     let tree = spanning_tree(robot, world);
     for &r in tree.roots.iter().skip(1) {
-        let sides = [robot.places[r], Pose::IDENTITY];
+        let sides = [robot.places[r], RigidMotion::IDENTITY];
         let id = format!("floating-{}", robot.links[r]);
         robot.joints.push(Part::new(&id, [world, r], sides, free()));
         robot.report.map("floating base");
@@ -306,30 +307,24 @@ fn output_links(
 
 /// The links of one joint; where there are none, those farthest from the frame by number of joints.
 fn end_links(robot: &Robot, bodies: &Bodies, joints: &[usize], frame: usize) -> Vec<usize> {
-    let mut at: Vec<Vec<usize>> = vec![Vec::new(); robot.links.len()];
-    for &j in joints {
-        let [a, b] = robot.joints[j].links.map(|l| bodies.of[l]);
-        at[a].push(b);
-        at[b].push(a);
-    }
-    let ends: Vec<usize> = (0..at.len())
-        .filter(|&b| b != frame && at[b].len() == 1)
+    let n = robot.links.len();
+    let ends = joints
+        .iter()
+        .map(|&j| robot.joints[j].links.map(|l| bodies.of[l]));
+    let mut joints_at = vec![0; n];
+    ends.clone().flatten().for_each(|b| joints_at[b] += 1);
+    let ends_of_chains: Vec<usize> = (0..n)
+        .filter(|&b| b != frame && joints_at[b] == 1)
         .collect();
-    if !ends.is_empty() {
-        return ends;
+    if !ends_of_chains.is_empty() {
+        return ends_of_chains;
     }
-    let (mut seen, mut last) = (vec![false; at.len()], vec![frame]);
-    seen[frame] = true;
-    loop {
-        let mut next = Vec::new();
-        for &b in last.iter().flat_map(|&l| &at[l]) {
-            if !std::mem::replace(&mut seen[b], true) {
-                next.push(b);
-            }
-        }
-        if next.is_empty() {
-            return last;
-        }
-        last = next;
+    let (_, steps) = forest(n, ends, |_| false, [frame]);
+    let mut depth = vec![0; n];
+    for s in &steps {
+        depth[s.link] = depth[s.from] + 1;
     }
+    let deepest = steps.last().map_or(0, |s| depth[s.link]);
+    let last = steps.iter().map(|s| s.link);
+    last.filter(|&b| depth[b] == deepest).collect()
 }

@@ -1,9 +1,10 @@
 //! The mechanism file of a robot.
 
+use crate::geom::rigid::{RigidMotion, towards};
+use crate::geom::vector::{Vector, length};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::kinematics::world_axes;
 use crate::robots::parts::{Part, Robot};
-use crate::robots::pose::{Pose, V3, clean, length, unit};
 use std::collections::{BTreeMap, BTreeSet};
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value};
 
@@ -63,7 +64,7 @@ impl Names {
 pub(crate) struct Content<'a> {
     pub(super) robot: &'a Robot,
     pub(super) file: &'a str,
-    pub(super) places: &'a [Pose],
+    pub(super) places: &'a [RigidMotion],
     pub(super) bodies: &'a Bodies,
     pub(super) frame: usize,
     /// Bodies that are outputs.
@@ -184,6 +185,13 @@ fn comment(table: &mut Table, text: &str) {
     table.decor_mut().set_prefix(lines);
 }
 
+/// A number as it is written: rounding errors around multiples of 1e-9 are taken off.
+fn clean(x: f64) -> f64 {
+    let r = (x * 1e9).round() / 1e9;
+    let y = if (r - x).abs() < 1e-12 { r } else { x };
+    if y == 0.0 { 0.0 } else { y }
+}
+
 fn number(x: f64) -> Value {
     let x = clean(x);
     #[allow(clippy::cast_possible_truncation, reason = "whole and small")]
@@ -194,17 +202,17 @@ fn number(x: f64) -> Value {
     }
 }
 
-fn vector(v: V3) -> Item {
+fn vector(v: Vector) -> Item {
     toml_edit::value(v.into_iter().map(number).collect::<Array>())
 }
 
 /// A direction as written: of its own length unless that is extreme.
-fn direction(v: V3) -> Item {
+fn direction(v: Vector) -> Item {
     let l = length(v);
     vector(if (0.1..=10.0).contains(&l) {
         v
     } else {
-        unit(v)
+        towards(v)
     })
 }
 
@@ -230,7 +238,7 @@ fn joint(j: usize, id: &str, c: &Content<'_>, ids: &BTreeMap<usize, String>) -> 
         t["freedoms"] = toml_edit::value(list.iter().map(|f| f.name()).collect::<Array>());
     }
     let place = c.places[p.links[0]].then(&p.sides[0]);
-    t["point"] = vector(place.at);
+    t["point"] = vector(place.translation);
     let axes = world_axes(p, c.places);
     let about = |f: &[Freedom]| {
         let found = axes.iter().find(|a| f.contains(&a.freedom));
@@ -240,7 +248,7 @@ fn joint(j: usize, id: &str, c: &Content<'_>, ids: &BTreeMap<usize, String>) -> 
         let z = about(&[Freedom::Rz, Freedom::Tz, Freedom::Screw]);
         let z = z.unwrap_or_else(|| place.direction(p.axis));
         t["axis"] = if c.coupled(j) {
-            vector(unit(z))
+            vector(towards(z))
         } else {
             direction(z)
         };

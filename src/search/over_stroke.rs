@@ -9,7 +9,7 @@
 //! idle motion that leaves the outputs at rest in the file's pose may move them in others; and the file's pose may be a
 //! singular one, where more seems to move, and to bind, than does.
 
-use crate::closure::matrix::path_from_frame;
+use crate::closure::tree::path_from_frame;
 use crate::geom::exact::ExactError;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism};

@@ -3,6 +3,7 @@
 //! A body is placed by where its origin (the mean of its pairs' points) is and how far it has turned since the pose of
 //! the file: (x, y, θ). Velocities and accelerations are the derivatives of these three.
 
+use crate::geom::vector::{add_scaled, dot, norm, quarter, sub, turned};
 use crate::statics::planar::{BodyId, Pair, PairId, PairKind, PlanarMechanism};
 
 /// (x `[m]`, y `[m]`, θ `[rad]`) of a body, or derivatives of it.
@@ -13,47 +14,6 @@ pub type Row = [[f64; 3]; 2];
 
 /// Where every body is.
 pub type Pose = Vec<Placement>;
-
-/// A quarter turn of a vector.
-#[must_use]
-pub fn quarter(v: [f64; 2]) -> [f64; 2] {
-    [-v[1], v[0]]
-}
-
-/// Scalar product.
-#[must_use]
-pub fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-/// Vector product: the moment of force `b` at arm `a`.
-#[must_use]
-pub fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
-}
-
-/// `a - b`.
-#[must_use]
-pub fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-/// `a + s·b`.
-#[must_use]
-pub fn plus(a: [f64; 2], s: f64, b: [f64; 2]) -> [f64; 2] {
-    [a[0] + s * b[0], a[1] + s * b[1]]
-}
-
-/// Length of a vector.
-#[must_use]
-pub fn length(v: [f64; 2]) -> f64 {
-    v[0].hypot(v[1])
-}
-
-fn turned(v: [f64; 2], angle: f64) -> [f64; 2] {
-    let (s, c) = angle.sin_cos();
-    [c * v[0] - s * v[1], s * v[0] + c * v[1]]
-}
 
 /// A planar mechanism with the origins of its bodies.
 #[derive(Debug, Clone)]
@@ -85,7 +45,7 @@ impl Linkage {
         let mean = |points: &[[f64; 2]]| {
             #[allow(clippy::cast_precision_loss, reason = "a few thousand at most")]
             let n = points.len().max(1) as f64;
-            let sum = points.iter().fold([0.0; 2], |s, p| plus(s, 1.0, *p));
+            let sum = points.iter().fold([0.0; 2], |s, p| add_scaled(s, 1.0, *p));
             sum.map(|c| c / n)
         };
         let of = |b: BodyId| -> Vec<[f64; 2]> {
@@ -99,7 +59,7 @@ impl Linkage {
         let middle = mean(&all);
         let far = all
             .iter()
-            .map(|p| length(minus(*p, middle)))
+            .map(|p| norm(sub(*p, middle)))
             .fold(0.0, f64::max);
         Linkage {
             mechanism,
@@ -118,17 +78,17 @@ impl Linkage {
     #[must_use]
     pub fn point(&self, pose: &Pose, body: BodyId, point: [f64; 2]) -> [f64; 2] {
         let [x, y, angle] = pose[body];
-        plus([x, y], 1.0, turned(minus(point, self.origins[body]), angle))
+        add_scaled([x, y], 1.0, turned(sub(point, self.origins[body]), angle))
     }
 
     /// Velocity of a body's point.
     #[must_use]
     pub fn velocity(&self, pose: &Pose, v: &Pose, body: BodyId, point: [f64; 2]) -> [f64; 2] {
-        let arm = minus(
+        let arm = sub(
             self.point(pose, body, point),
             [pose[body][0], pose[body][1]],
         );
-        plus([v[body][0], v[body][1]], v[body][2], quarter(arm))
+        add_scaled([v[body][0], v[body][1]], v[body][2], quarter(arm))
     }
 
     /// Acceleration of a body's point.
@@ -141,12 +101,12 @@ impl Linkage {
         body: BodyId,
         point: [f64; 2],
     ) -> [f64; 2] {
-        let arm = minus(
+        let arm = sub(
             self.point(pose, body, point),
             [pose[body][0], pose[body][1]],
         );
-        let turning = plus([a[body][0], a[body][1]], a[body][2], quarter(arm));
-        plus(turning, -v[body][2] * v[body][2], arm)
+        let turning = add_scaled([a[body][0], a[body][1]], a[body][2], quarter(arm));
+        add_scaled(turning, -v[body][2] * v[body][2], arm)
     }
 
     /// Direction of a sliding pair in a pose.
@@ -166,12 +126,12 @@ impl Linkage {
     fn now(&self, pose: &Pose, pair: &Pair) -> Now {
         let arms = pair.bodies.map(|b| {
             let at = self.point(pose, b, pair.point);
-            minus(at, [pose[b][0], pose[b][1]])
+            sub(at, [pose[b][0], pose[b][1]])
         });
         let [a, b] = pair.bodies.map(|b| self.point(pose, b, pair.point));
         Now {
             arms,
-            gap: minus(b, a),
+            gap: sub(b, a),
             along: turned(pair.along, pose[pair.bodies[0]][2]),
         }
     }
@@ -245,12 +205,12 @@ impl Linkage {
         let now = self.now(pose, p);
         let [w0, w1] = p.bodies.map(|b| v[b][2]);
         let [r0, r1] = now.arms;
-        let inward = minus(r1.map(|c| c * w1 * w1), r0.map(|c| c * w0 * w0));
+        let inward = sub(r1.map(|c| c * w1 * w1), r0.map(|c| c * w0 * w0));
         let [v0, v1] = [0, 1].map(|e| {
             let b = v[p.bodies[e]];
-            plus([b[0], b[1]], b[2], quarter(now.arms[e]))
+            add_scaled([b[0], b[1]], b[2], quarter(now.arms[e]))
         });
-        let opening = minus(v1, v0);
+        let opening = sub(v1, v0);
         let carried = |n: [f64; 2]| {
             dot(n, inward) - 2.0 * w0 * dot(quarter(n), opening) + w0 * w0 * dot(n, now.gap)
         };

@@ -1,10 +1,11 @@
 //! URDF: a tree of links and joints, with mimic joints, transmissions and the loop extensions in use.
 
 use crate::file::problem::ImportError;
+use crate::geom::rigid::RigidMotion;
+use crate::geom::vector::{Vector, X, length};
 use crate::model::joint_type::JointType;
 use crate::robots::coupling::Ratio;
 use crate::robots::parts::{Format, Part, Robot, free};
-use crate::robots::pose::{Pose, V3, X, length};
 use crate::robots::problem::{RobotProblem, known};
 use crate::robots::xml::Element;
 
@@ -24,7 +25,7 @@ pub(crate) fn read(root: Element<'_>) -> Result<Robot, ImportError> {
                 },
             ));
         }
-        robot.link(name, Pose::IDENTITY);
+        robot.link(name, RigidMotion::IDENTITY);
         for c in link.children() {
             robot.report.drop(c.name(), None);
         }
@@ -55,17 +56,17 @@ pub(crate) fn read(root: Element<'_>) -> Result<Robot, ImportError> {
     Ok(robot)
 }
 
-fn origin(e: Element<'_>) -> Result<Pose, ImportError> {
+fn origin(e: Element<'_>) -> Result<RigidMotion, ImportError> {
     let Some(o) = e.child("origin") else {
-        return Ok(Pose::IDENTITY);
+        return Ok(RigidMotion::IDENTITY);
     };
     if let Some(q) = o.numbers::<4>("quat_xyzw")? {
-        return Ok(Pose::quaternion(
+        return Ok(RigidMotion::quaternion(
             o.vector("xyz", [0.0; 3])?,
             [q[3], q[0], q[1], q[2]],
         ));
     }
-    Ok(Pose::roll_pitch_yaw(
+    Ok(RigidMotion::roll_pitch_yaw(
         o.vector("xyz", [0.0; 3])?,
         o.vector("rpy", [0.0; 3])?,
     ))
@@ -95,7 +96,7 @@ fn unknown_link(e: Element<'_>, name: &str, robot: &Robot) -> RobotProblem {
     }
 }
 
-fn axis(e: Element<'_>) -> Result<V3, ImportError> {
+fn axis(e: Element<'_>) -> Result<Vector, ImportError> {
     let Some(a) = e.child("axis") else {
         return Ok(X);
     };
@@ -124,7 +125,7 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     if links[0] == links[1] {
         return Err(same_link(e));
     }
-    let sides = [origin(e)?, Pose::IDENTITY];
+    let sides = [origin(e)?, RigidMotion::IDENTITY];
     let joint_type = match word {
         "revolute" | "continuous" => JointType::Revolute,
         "prismatic" => JointType::Prismatic,
@@ -195,10 +196,11 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     if links[0] == links[1] {
         return Err(same_link(e));
     }
-    let mut sides = [Pose::IDENTITY; 2];
+    let mut sides = [RigidMotion::IDENTITY; 2];
     for (side, tag) in sides.iter_mut().zip(["link1", "link2"]) {
         if let Some(c) = e.child(tag) {
-            *side = Pose::roll_pitch_yaw(c.vector("xyz", [0.0; 3])?, c.vector("rpy", [0.0; 3])?);
+            *side =
+                RigidMotion::roll_pitch_yaw(c.vector("xyz", [0.0; 3])?, c.vector("rpy", [0.0; 3])?);
         }
     }
     let word = e.required("type")?;
@@ -224,7 +226,7 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
 
 /// Drake's ball constraint: a point of one body held to a point of another.
 pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
-    let (mut links, mut sides) = ([0; 2], [Pose::IDENTITY; 2]);
+    let (mut links, mut sides) = ([0; 2], [RigidMotion::IDENTITY; 2]);
     for (i, (body, point)) in [("A", "p_AP"), ("B", "p_BQ")].into_iter().enumerate() {
         let part = |k: &str| {
             let tag = format!("drake:ball_constraint_{k}");
@@ -245,7 +247,7 @@ pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), I
             None => p.text_numbers()?,
         };
         links[i] = link;
-        sides[i] = frame.then(&Pose::shift(at));
+        sides[i] = frame.then(&RigidMotion::shift(at));
     }
     if links[0] == links[1] {
         return Err(same_link(e));

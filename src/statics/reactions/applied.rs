@@ -24,7 +24,7 @@ pub fn link_loads(
 ) -> Vec<Six> {
     let mut out = vec![[0.0; 6]; m.links.len()];
     let mut there = vec![false; m.links.len()];
-    geometry.tree.iter().for_each(|t| there[t.0] = true);
+    geometry.tree.iter().for_each(|s| there[s.link] = true);
     let mut add = |link: usize, w: Six| {
         if there[link] {
             for (o, x) in out[link].iter_mut().zip(geometry.within(&w)) {
