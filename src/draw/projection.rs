@@ -3,6 +3,7 @@
 use super::labels::Rect;
 use super::layout::{Point, norm as norm2, segments_cross, sub as sub2, to_segment};
 use crate::geom::expr::Expr;
+use crate::geom::extent::diagonal;
 pub(super) use crate::geom::vector::{Vector, add, cross, dot, length as norm, scale, sub};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, JointId, LinkId, Mechanism};
@@ -395,14 +396,7 @@ pub(super) fn bounds(points: &[Point]) -> Rect {
 }
 
 fn extent(places: &[Place]) -> f64 {
-    let span = |i: usize| {
-        let all = places.iter().map(|p| p.point[i]);
-        let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
-            (l.min(v), h.max(v))
-        });
-        if high > low { high - low } else { 0.0 }
-    };
-    norm([span(0), span(1), span(2)])
+    diagonal(places.iter().map(|p| p.point))
 }
 
 fn middle(places: &[Place]) -> Vector {

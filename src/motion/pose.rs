@@ -1,5 +1,4 @@
-//! Poses of a closed mechanism: every contour as a product of exponentials, every coupling as a linear equation, and
-//! Newton's method to close them.
+//! Poses of a closed mechanism: every contour as a product of exponentials, every coupling as a linear equation.
 //!
 //! Each freedom is one unit twist at a reference pose; a contour is closed at coordinates q when the product of
 //! exp(±q_i ξ_i) along it is the identity [Brockett 1984; Lynch & Park, "Modern Robotics", 2017, ch. 4 and 7]. Within a
@@ -20,12 +19,11 @@ use crate::model::coupling::{CoupledFreedom, Coupling};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use faer::Mat;
-use faer::linalg::solvers::SolveLstsq;
 
 /// Largest residual of a closed pose: radians, and fractions of the mechanism's size.
 pub const CLOSED: f64 = 1e-12;
-/// Newton steps before a pose is given up.
-const STEPS: usize = 60;
+/// Singular values of J below this fraction of the largest count as zero at a pose that Newton's method has closed.
+pub const FLAT: f64 = 1e-6;
 
 /// Turn and shift as six numbers that vanish together with a motion: (sin θ · axis; translation).
 fn defect(motion: &RigidMotion) -> [f64; 6] {
@@ -79,22 +77,6 @@ pub struct Pose {
     base: Vec<(LinkId, usize)>,
 }
 
-/// Why a pose could not be reached.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum PoseError {
-    /// Newton's method found no closed pose.
-    #[error(
-        "the contours do not close: after {steps} steps a gap of {residual:.1e} of the mechanism's size is left"
-    )]
-    Open {
-        /// Steps taken.
-        steps: usize,
-        /// The gap.
-        residual: f64,
-    },
-}
-
 impl Pose {
     /// The pose of the file.
     ///
@@ -116,6 +98,8 @@ impl Pose {
         let mut of_joint = vec![Vec::new(); mechanism.joints.len()];
         for (&j, frame) in joints.iter().zip(&frames) {
             let joint = &mechanism.joints[j];
+            let freedoms = joint.joint_type.freedoms();
+            let frame = frame.clone().within(&space, freedoms);
             let unit = FrameValues {
                 axes: frame.axes.map(vector::unit),
                 point: sub(frame.point, middle).map(|x| x / size),
@@ -127,20 +111,18 @@ impl Pose {
                 &joint.frame,
                 &joint.joint_type,
             )?;
-            let turned = planar_ball(&space, joint.joint_type.freedoms(), unit);
-            let mut freedoms: Vec<Freedom> = kept.into_iter().map(|(f, _)| f).collect();
-            let slides = |f: &Freedom| matches!(f, Freedom::Tx | Freedom::Ty | Freedom::Tz);
+            let mut kept: Vec<Freedom> = kept.into_iter().map(|(f, _)| f).collect();
             // A pin in a slot: the pin first, as in `workload::planar`.
-            let has = |f| joint.joint_type.freedoms().contains(&f);
+            let has = |f| freedoms.contains(&f);
             let slot = has(Freedom::Tx) && !has(Freedom::Ty);
-            freedoms.sort_by_key(|f| slides(f) == slot);
-            for (n, freedom) in freedoms.into_iter().enumerate() {
+            kept.sort_by_key(|f| f.slides() == slot);
+            for (n, freedom) in kept.into_iter().enumerate() {
                 of_joint[j].push(columns.len());
                 base.push((joint.links[0], n));
                 columns.push(PoseColumn {
                     joint: j,
                     freedom,
-                    twist: turned.twist(&Reals, freedom),
+                    twist: unit.twist(&Reals, freedom),
                     moved: 0.0,
                 });
             }
@@ -251,56 +233,20 @@ impl Pose {
         matrix
     }
 
-    /// The closed coordinates nearest (nearly) to `q`, by damped least-norm Newton steps; `hold` keeps some coordinates.
-    ///
-    /// # Errors
-    /// [`PoseError::Open`] where the gaps do not go below [`Pose::closed`].
-    ///
-    /// # Complexity
-    /// O((6k)²·f) a step.
-    pub fn close(&self, mut q: Vec<f64>, hold: &[usize]) -> Result<Vec<f64>, PoseError> {
-        let closed = self.closed();
-        // Errors of the coordinates must not be mended by running along the motion.
-        let floor = (1e3 * self.accuracy).clamp(1e-11, 1e-2);
-        let (mut residual, mut before) = (f64::INFINITY, f64::INFINITY);
-        let mut best = (f64::INFINITY, q.clone());
-        for _ in 0..STEPS {
-            let gaps = self.gaps(&q);
-            residual = gaps.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if residual < best.0 {
-                best = (residual, q.clone());
-            }
-            // The last steps are for free: Newton's are quadratic, unless the pose is singular.
-            if residual < 1e-14 || !residual.is_finite() {
-                break;
-            }
-            // Measured contours never close quite: further steps would creep along the motion, to where they close better.
-            if self.accuracy > 0.0 && residual < closed && residual > before / 2.0 {
-                break;
-            }
-            before = residual;
-            let mut jacobian = self.jacobian(&q);
-            for &c in hold {
-                jacobian.col_mut(c).fill(0.0);
-            }
-            let step = least_norm(&jacobian, &gaps, residual.clamp(floor, 1e-2));
-            let length = step.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if !length.is_finite() || (length < 1e-16 && residual < closed) {
-                break;
-            }
-            let shorten = (0.5 / length).min(1.0);
-            for (x, s) in q.iter_mut().zip(&step) {
-                *x -= shorten * s;
-            }
-        }
-        if best.0 < closed {
-            Ok(best.1)
-        } else {
-            Err(PoseError::Open {
-                steps: STEPS,
-                residual: residual.min(best.0),
-            })
-        }
+    /// J at this pose, with six rows more for each path of joints: the twist at its end.
+    #[must_use]
+    pub fn jacobian_with(&self, paths: &[Vec<(JointId, bool)>]) -> Mat<f64> {
+        let f = self.columns.len();
+        let (closure, rows) = (self.jacobian(&vec![0.0; f]), self.rows());
+        Mat::from_fn(rows + 6 * paths.len(), f, |r, c| {
+            let Some(r) = r.checked_sub(rows) else {
+                return closure[(r, c)];
+            };
+            let column = &self.columns[c];
+            let passed = paths[r / 6].iter().find(|(j, _)| *j == column.joint);
+            let twist = column.twist[r % 6];
+            passed.map_or(0.0, |&(_, forward)| if forward { twist } else { -twist })
+        })
     }
 
     /// The pose at coordinates `q` from this one, its twists taken there.
@@ -333,10 +279,7 @@ impl Pose {
 
 /// A coupling in the coordinates of a pose, where slides are counted in `length`.
 fn coupled(coupling: &Coupling, columns: &[PoseColumn], length: f64) -> Option<[(usize, f64); 2]> {
-    let unit = |f: Freedom| match f {
-        Freedom::Tx | Freedom::Ty | Freedom::Tz => length,
-        _ => 1.0,
-    };
+    let unit = |f: Freedom| if f.slides() { length } else { 1.0 };
     let [a, b] = coupling.ends;
     let at = |e: CoupledFreedom| {
         columns
@@ -346,23 +289,6 @@ fn coupled(coupling: &Coupling, columns: &[PoseColumn], length: f64) -> Option<[
     let factors = [-coupling.ratio.to_f64() * unit(a.freedom), unit(b.freedom)];
     let size = factors[0].hypot(factors[1]);
     Some([(at(a)?, factors[0] / size), (at(b)?, factors[1] / size)])
-}
-
-/// In a plane, joints with all three turns turn about the normal, as in [`crate::closure::twist::joint_twists`].
-fn planar_ball(
-    space: &MotionSpace<f64>,
-    freedoms: &[Freedom],
-    mut frame: FrameValues<f64>,
-) -> FrameValues<f64> {
-    let turns = [Freedom::Rx, Freedom::Ry, Freedom::Rz];
-    let slides = [Freedom::Tx, Freedom::Ty, Freedom::Tz];
-    if let MotionSpace::Planar { axes: [n, e1, e2] } = space
-        && turns.iter().all(|t| freedoms.contains(t))
-        && !slides.iter().any(|t| freedoms.contains(t))
-    {
-        frame.axes = [*e1, *e2, *n].map(vector::unit);
-    }
-    frame
 }
 
 /// Rounding must not let axes grow or shrink over many steps.
@@ -378,11 +304,13 @@ fn unit(mut t: Twist<f64>) -> Twist<f64> {
 
 /// The three turns of a ball, squared up again, so that no two of its axes ever come to lie along each other.
 fn square_balls(columns: &mut [PoseColumn]) {
-    let turn = |c: &PoseColumn| matches!(c.freedom, Freedom::Rx | Freedom::Ry | Freedom::Rz);
     let mut i = 0;
     while i + 2 < columns.len() {
         let j = columns[i].joint;
-        if columns[i..i + 3].iter().all(|c| c.joint == j && turn(c)) {
+        if columns[i..i + 3]
+            .iter()
+            .all(|c| c.joint == j && c.freedom.turns())
+        {
             let (w0, v0) = halves(&columns[i].twist);
             let (w2, v2) = halves(&columns[i + 2].twist);
             // The common point c: v = c × ω for two of the axes; two equations in the least-squares sense.
@@ -408,21 +336,4 @@ fn meeting_point(w0: [f64; 3], v0: [f64; 3], w1: [f64; 3], v1: [f64; 3]) -> [f64
     let s = 1.0 - c * c;
     let (t0, t1) = ((a - c * b) / s, (c * a - b) / s);
     [0, 1, 2].map(|i| f64::midpoint(p0[i] + t0 * w0[i], p1[i] + t1 * w1[i]))
-}
-
-/// The damped solution of J·x = gaps, min |J·x - gaps|² + λ|x|² by orthogonal factors, λ in proportion to the gap: where J is
-/// singular at the solution this still converges, and where it is regular the damping vanishes faster than the error
-/// [Yamashita & Fukushima 2001].
-fn least_norm(jacobian: &Mat<f64>, gaps: &[f64], damping: f64) -> Vec<f64> {
-    let (rows, columns) = jacobian.shape();
-    let stacked = Mat::from_fn(rows + columns, columns, |r, c| match r.checked_sub(rows) {
-        None => jacobian[(r, c)],
-        Some(i) if i == c => damping,
-        Some(_) => 0.0,
-    });
-    let right = Mat::from_fn(rows + columns, 1, |r, _| {
-        gaps.get(r).copied().unwrap_or(0.0)
-    });
-    let x = stacked.qr().solve_lstsq(&right);
-    (0..columns).map(|i| x[(i, 0)]).collect()
 }

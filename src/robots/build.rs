@@ -2,13 +2,15 @@
 
 use crate::closure::tree::forest;
 use crate::file::read::LIMITS;
+use crate::file::schema::MechanismFile;
+use crate::file::write::Comment;
 use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
-use crate::robots::Options;
 use crate::robots::close::{self, CLOSED, close, gaps, size, worst};
 use crate::robots::coupling;
 use crate::robots::emit::{self, Bodies, Content};
 use crate::robots::kinematics::{Tree, places, spanning_tree};
+use crate::robots::options::Options;
 use crate::robots::parts::{Part, Robot, free};
 use crate::robots::problem::{RobotProblem, known};
 use std::collections::BTreeSet;
@@ -201,12 +203,14 @@ pub(crate) fn close_loops(
     })
 }
 
-pub(crate) fn write(
+/// The entries of the file called `file` of a `format`, with what is to be said above them.
+pub(crate) fn entries(
     robot: &mut Robot,
     tree: &Tree,
     file: &str,
+    format: &'static str,
     options: &Options,
-) -> Result<String, RobotProblem> {
+) -> Result<(MechanismFile, Vec<Comment>), RobotProblem> {
     let places = places(robot, tree);
     let fixed = |j: usize| robot.joints[j].joint_type == JointType::Fixed;
     let rigid = tree
@@ -265,9 +269,10 @@ pub(crate) fn write(
     }
     robot.report = report;
     let file = std::path::Path::new(file).file_name();
-    Ok(emit::toml(&Content {
+    Ok(emit::entries(&Content {
         robot,
         file: &file.unwrap_or_default().to_string_lossy(),
+        format,
         places: &places,
         bodies: &bodies,
         frame,

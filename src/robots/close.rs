@@ -55,13 +55,8 @@ fn mismatch(robot: &Robot, places: &[RigidMotion], j: usize) -> (Vector, Vector)
 }
 
 fn free_turns(robot: &Robot, j: usize) -> usize {
-    let turns = |f: &&Freedom| matches!(f, Freedom::Rx | Freedom::Ry | Freedom::Rz);
-    robot.joints[j]
-        .joint_type
-        .freedoms()
-        .iter()
-        .filter(turns)
-        .count()
+    let freedoms = robot.joints[j].joint_type.freedoms().iter();
+    freedoms.filter(|f| f.turns()).count()
 }
 
 /// The gaps of all loops.
@@ -141,7 +136,7 @@ fn wind_back(j: &mut Part) -> bool {
     const TURN: f64 = std::f64::consts::TAU;
     let middle = j.limits.map_or(0.0, |(low, high)| f64::midpoint(low, high));
     for (v, f) in j.values.iter_mut().zip(j.joint_type.freedoms()) {
-        if matches!(f, Freedom::Rx | Freedom::Ry | Freedom::Rz) {
+        if f.turns() {
             *v -= TURN * ((*v - middle) / TURN).round();
         }
     }
@@ -220,9 +215,8 @@ fn descend(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
             1.0
         };
         for (j, &first) in robot.joints.iter_mut().zip(&offsets) {
-            let prismatic: Vec<bool> = j.joint_type.freedoms().iter().map(is_shift).collect();
-            for (i, v) in j.values.iter_mut().enumerate() {
-                *v += shrink * change[(first + i, 0)] * if prismatic[i] { size } else { 1.0 };
+            for (i, (v, f)) in j.values.iter_mut().zip(j.joint_type.freedoms()).enumerate() {
+                *v += shrink * change[(first + i, 0)] * if f.slides() { size } else { 1.0 };
             }
         }
         let after = self::cost(robot, tree, size);
@@ -237,10 +231,6 @@ fn descend(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
         }
     }
     left
-}
-
-fn is_shift(f: &Freedom) -> bool {
-    matches!(f, Freedom::Tx | Freedom::Ty | Freedom::Tz)
 }
 
 fn cost(robot: &Robot, tree: &Tree, size: f64) -> f64 {

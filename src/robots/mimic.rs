@@ -1,7 +1,6 @@
 //! Couplings as mimic joints: each joint follows one other at most, so that a tree of couplings can be said, and no more.
 
 use crate::closure::tree::forest;
-use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism};
 
 /// What a joint follows.
@@ -30,7 +29,7 @@ pub(crate) fn mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follows>>, 
     for s in steps {
         let coupling = &m.couplings[s.joint];
         let unit = |e: usize| match coupling.ends[e].freedom {
-            Freedom::Tx | Freedom::Ty | Freedom::Tz => m.length_unit.metres,
+            f if f.slides() => m.length_unit.metres,
             _ => 1.0,
         };
         let forward = coupling.ratio.to_f64() * unit(1) / unit(0);

@@ -84,34 +84,10 @@ pub(crate) fn free() -> JointType {
     JointType::Custom(vec![Tx, Ty, Tz, Rx, Ry, Rz])
 }
 
-/// The format of a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// Unified Robot Description Format.
-    Urdf,
-    /// MuJoCo's XML.
-    Mjcf,
-    /// Simulation Description Format.
-    Sdf,
-}
-
-impl Format {
-    /// The usual name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Format::Urdf => "URDF",
-            Format::Mjcf => "MJCF",
-            Format::Sdf => "SDF",
-        }
-    }
-}
-
 /// A robot as read.
 #[derive(Debug)]
 pub(crate) struct Robot {
     pub(super) name: String,
-    pub(super) format: Format,
     /// Names of the links.
     pub(super) links: Vec<String>,
     pub(super) joints: Vec<Part>,
@@ -127,10 +103,9 @@ pub(crate) struct Robot {
 }
 
 impl Robot {
-    pub(crate) fn new(name: &str, format: Format) -> Robot {
+    pub(crate) fn new(name: &str) -> Robot {
         Robot {
             name: name.to_owned(),
-            format,
             links: Vec::new(),
             joints: Vec::new(),
             couplings: Vec::new(),

@@ -4,12 +4,11 @@
 //! (F to M) and 7 (K to L), which carry the slider 10 on its guide. In any other mechanism 4, 6, 7 and 10 are the links in
 //! those places.
 
-use crate::geom::vector::{cross_plane, dot, quarter, sub};
 use crate::statics::assur::Group;
 use crate::statics::assur_class::Kind;
 use crate::statics::kinetostatics::{Equilibrium, Load, Source};
 use crate::statics::planar::{BodyId, PairId, PairKind, PlanarMechanism};
-use crate::statics::pose::{Linkage, Pose};
+use crate::statics::pose::{Linkage, Pose, cross, dot, minus, quarter};
 
 /// Places of the letters in a mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -197,7 +196,7 @@ impl GroupReactions {
         let greatest = theirs.iter().map(|v| size(*v)).fold(0.0, f64::max);
         let mut worst = 0.0;
         for (a, b) in mine.iter().zip(&theirs) {
-            let away = size(sub(*a, *b));
+            let away = size(minus(*a, *b));
             if away.is_nan() {
                 return f64::INFINITY;
             }
@@ -214,7 +213,7 @@ impl GroupReactions {
     #[must_use]
     pub fn guide_offset(&self, pose: &GroupPose, point: [f64; 2]) -> f64 {
         // A force N along the normal n at D + a has the moment a × n·N; along the guide u that is a·u N.
-        self.arm * cross_plane(pose.guide, pose.normal()) - dot(sub(point, pose.d), pose.guide)
+        self.arm * cross(pose.guide, pose.normal()) - dot(minus(point, pose.d), pose.guide)
     }
 
     /// The same reactions out of the equilibrium of a whole mechanism.

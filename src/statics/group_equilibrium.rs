@@ -1,8 +1,8 @@
 //! The twelve equilibrium equations of the four-link group with a closed contour: by LU in double precision, and exactly.
 
-use crate::geom::vector::{norm, sub};
 use crate::statics::contour_group::{GroupPose, GroupReactions};
 use crate::statics::dense::System;
+use crate::statics::pose::{length, minus};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -88,7 +88,7 @@ fn reactions(x: &[f64], arm: f64) -> GroupReactions {
 #[must_use]
 pub fn solve(g: &GroupPose) -> Option<(GroupReactions, Worth)> {
     let size = [g.f, g.k, g.m, g.l]
-        .map(|p| norm(sub(p, g.d)))
+        .map(|p| length(minus(p, g.d)))
         .into_iter()
         .fold(0.0, f64::max);
     let mut rows = equations(g, |x| x, [g.d, g.m, g.l, g.m]);

@@ -5,14 +5,13 @@
 
 use crate::geom::scalars::Reals;
 use crate::geom::scalars::Scalars;
-use crate::geom::vector::{add_scaled, cross_plane, dot, quarter, sub};
 use crate::model::loads::Inertia;
 use crate::model::mechanism::Mechanism;
 use crate::statics::assur::Decomposition;
 use crate::statics::dense::System;
 use crate::statics::planar::{BodyId, PairId, PairKind};
 use crate::statics::planar_motion::Instant;
-use crate::statics::pose::{Linkage, Pose};
+use crate::statics::pose::{Linkage, Pose, cross, dot, minus, plus, quarter};
 
 /// Where a load comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,7 +43,7 @@ impl Load {
     /// Moment about a point `[N·m]`.
     #[must_use]
     pub fn moment_about(&self, point: [f64; 2]) -> f64 {
-        self.moment + cross_plane(sub(self.point, point), self.force)
+        self.moment + cross(minus(self.point, point), self.force)
     }
 }
 
@@ -237,7 +236,7 @@ impl Reaction {
             [a, _] if a == body => -1.0,
             _ => 0.0,
         };
-        let moment = self.moment + cross_plane(sub(self.point, about), self.force);
+        let moment = self.moment + cross(minus(self.point, about), self.force);
         [self.force[0], self.force[1], moment].map(|x| sign * x)
     }
 }
@@ -305,7 +304,7 @@ pub fn equilibrium(
                 let Some(at) = bodies.iter().position(|&b| b == body) else {
                     continue;
                 };
-                let turn = moment + cross_plane(sub(point, origin(body)), force);
+                let turn = moment + cross(minus(point, origin(body)), force);
                 rows[3 * at][column] += sign * force[0];
                 rows[3 * at + 1][column] += sign * force[1];
                 rows[3 * at + 2][column] += sign * turn / linkage.size;
@@ -336,7 +335,7 @@ pub fn equilibrium(
         };
         for (&(p, k, force, moment), value) in unknowns.iter().zip(&x) {
             if p == pair {
-                out.force = add_scaled(out.force, *value, force);
+                out.force = plus(out.force, *value, force);
                 out.moment += value * moment;
                 if k == 2 && drives.contains(&p) {
                     let turning = linkage.mechanism.pairs[p].kind == PairKind::Turning;
@@ -416,8 +415,8 @@ pub fn by_groups(
 pub fn power(now: &Instant, loads: &[Load]) -> f64 {
     let of = |l: &Load| {
         let v = now.velocity[l.body];
-        let arm = sub(l.point, [now.pose[l.body][0], now.pose[l.body][1]]);
-        dot(l.force, add_scaled([v[0], v[1]], v[2], quarter(arm))) + l.moment * v[2]
+        let arm = minus(l.point, [now.pose[l.body][0], now.pose[l.body][1]]);
+        dot(l.force, plus([v[0], v[1]], v[2], quarter(arm))) + l.moment * v[2]
     };
     loads.iter().map(of).sum()
 }

@@ -3,7 +3,10 @@
 //! A body is placed by where its origin (the mean of its pairs' points) is and how far it has turned since the pose of
 //! the file: (x, y, θ). Velocities and accelerations are the derivatives of these three.
 
-use crate::geom::vector::{add_scaled, dot, norm, quarter, sub, turned};
+use crate::geom::vector::turned;
+pub use crate::geom::vector::{
+    add_scaled as plus, cross_plane as cross, dot, norm as length, quarter, sub as minus,
+};
 use crate::statics::planar::{BodyId, Pair, PairId, PairKind, PlanarMechanism};
 
 /// (x `[m]`, y `[m]`, θ `[rad]`) of a body, or derivatives of it.
@@ -45,7 +48,7 @@ impl Linkage {
         let mean = |points: &[[f64; 2]]| {
             #[allow(clippy::cast_precision_loss, reason = "a few thousand at most")]
             let n = points.len().max(1) as f64;
-            let sum = points.iter().fold([0.0; 2], |s, p| add_scaled(s, 1.0, *p));
+            let sum = points.iter().fold([0.0; 2], |s, p| plus(s, 1.0, *p));
             sum.map(|c| c / n)
         };
         let of = |b: BodyId| -> Vec<[f64; 2]> {
@@ -59,7 +62,7 @@ impl Linkage {
         let middle = mean(&all);
         let far = all
             .iter()
-            .map(|p| norm(sub(*p, middle)))
+            .map(|p| length(minus(*p, middle)))
             .fold(0.0, f64::max);
         Linkage {
             mechanism,
@@ -78,17 +81,17 @@ impl Linkage {
     #[must_use]
     pub fn point(&self, pose: &Pose, body: BodyId, point: [f64; 2]) -> [f64; 2] {
         let [x, y, angle] = pose[body];
-        add_scaled([x, y], 1.0, turned(sub(point, self.origins[body]), angle))
+        plus([x, y], 1.0, turned(minus(point, self.origins[body]), angle))
     }
 
     /// Velocity of a body's point.
     #[must_use]
     pub fn velocity(&self, pose: &Pose, v: &Pose, body: BodyId, point: [f64; 2]) -> [f64; 2] {
-        let arm = sub(
+        let arm = minus(
             self.point(pose, body, point),
             [pose[body][0], pose[body][1]],
         );
-        add_scaled([v[body][0], v[body][1]], v[body][2], quarter(arm))
+        plus([v[body][0], v[body][1]], v[body][2], quarter(arm))
     }
 
     /// Acceleration of a body's point.
@@ -101,12 +104,12 @@ impl Linkage {
         body: BodyId,
         point: [f64; 2],
     ) -> [f64; 2] {
-        let arm = sub(
+        let arm = minus(
             self.point(pose, body, point),
             [pose[body][0], pose[body][1]],
         );
-        let turning = add_scaled([a[body][0], a[body][1]], a[body][2], quarter(arm));
-        add_scaled(turning, -v[body][2] * v[body][2], arm)
+        let turning = plus([a[body][0], a[body][1]], a[body][2], quarter(arm));
+        plus(turning, -v[body][2] * v[body][2], arm)
     }
 
     /// Direction of a sliding pair in a pose.
@@ -126,12 +129,12 @@ impl Linkage {
     fn now(&self, pose: &Pose, pair: &Pair) -> Now {
         let arms = pair.bodies.map(|b| {
             let at = self.point(pose, b, pair.point);
-            sub(at, [pose[b][0], pose[b][1]])
+            minus(at, [pose[b][0], pose[b][1]])
         });
         let [a, b] = pair.bodies.map(|b| self.point(pose, b, pair.point));
         Now {
             arms,
-            gap: sub(b, a),
+            gap: minus(b, a),
             along: turned(pair.along, pose[pair.bodies[0]][2]),
         }
     }
@@ -205,12 +208,12 @@ impl Linkage {
         let now = self.now(pose, p);
         let [w0, w1] = p.bodies.map(|b| v[b][2]);
         let [r0, r1] = now.arms;
-        let inward = sub(r1.map(|c| c * w1 * w1), r0.map(|c| c * w0 * w0));
+        let inward = minus(r1.map(|c| c * w1 * w1), r0.map(|c| c * w0 * w0));
         let [v0, v1] = [0, 1].map(|e| {
             let b = v[p.bodies[e]];
-            add_scaled([b[0], b[1]], b[2], quarter(now.arms[e]))
+            plus([b[0], b[1]], b[2], quarter(now.arms[e]))
         });
-        let opening = sub(v1, v0);
+        let opening = minus(v1, v0);
         let carried = |n: [f64; 2]| {
             dot(n, inward) - 2.0 * w0 * dot(quarter(n), opening) + w0 * w0 * dot(n, now.gap)
         };

@@ -9,8 +9,8 @@
 //! `[Bychkov, Dvornikov & Zhukov 2018]` for the method; R. S. Ball, "A Treatise on the Theory of Screws", 1900, for forces as
 //! lines.
 
-use crate::geom::vector::{add_scaled, cross_plane, dot, quarter, sub};
 use crate::statics::contour_group::{GroupPose, GroupReactions};
+use crate::statics::pose::{cross, dot, minus, plus, quarter};
 
 /// A force with its line: (fx, fy, moment about the origin).
 type Line = [f64; 3];
@@ -19,7 +19,7 @@ type Line = [f64; 3];
 type Point = [f64; 3];
 
 fn force_at(point: [f64; 2], force: [f64; 2]) -> Line {
-    [force[0], force[1], cross_plane(point, force)]
+    [force[0], force[1], cross(point, force)]
 }
 
 fn sum(lines: impl IntoIterator<Item = Line>) -> Line {
@@ -59,13 +59,13 @@ fn moment(about: Point, l: Line) -> f64 {
 pub fn solve(g: &GroupPose) -> GroupReactions {
     // The origin amid the group keeps moments small.
     let points = [g.d, g.f, g.k, g.m, g.l];
-    let middle = points.iter().fold([0.0; 2], |s, p| add_scaled(s, 0.2, *p));
-    let [d, f, k, m, l] = points.map(|p| sub(p, middle));
+    let middle = points.iter().fold([0.0; 2], |s, p| plus(s, 0.2, *p));
+    let [d, f, k, m, l] = points.map(|p| minus(p, middle));
     let load = |link: usize| -> Line {
         let force = g.force_on(link);
         [force[0], force[1], g.moment_on(link, middle)]
     };
-    let (to_f, to_k) = (sub(f, m), sub(k, l));
+    let (to_f, to_k) = (minus(f, m), minus(k, l));
     // Tangential parts, on link 6 at F and on link 7 at K.
     let tangential = |link: usize, foot: [f64; 2], rod: [f64; 2], head: [f64; 2]| {
         let part = -moment(finite(foot), load(link)) / dot(rod, rod);
@@ -77,19 +77,15 @@ pub fn solve(g: &GroupPose) -> GroupReactions {
     let delta = meet(line6, line7);
     // Moments of link 4 about δ leave R34 across the direction from D to δ.
     let on4 = sum([load(0), scaled(-1.0, on6), scaled(-1.0, on7)]);
-    let along = add_scaled([delta[0], delta[1]], -delta[2], d);
+    let along = plus([delta[0], delta[1]], -delta[2], d);
     let part = moment(delta, on4) / dot(along, along);
     let across = quarter(along).map(|c| c * part);
     // Forces of the whole group across the guide's normal, then along it.
     let loads = sum((0..4).map(load));
-    let known = add_scaled([loads[0], loads[1]], 1.0, across);
+    let known = plus([loads[0], loads[1]], 1.0, across);
     let normal = g.normal();
-    let r34 = add_scaled(
-        across,
-        -cross_plane(normal, known) / cross_plane(normal, along),
-        along,
-    );
-    let guide = -dot(add_scaled([loads[0], loads[1]], 1.0, r34), normal) / dot(normal, normal);
+    let r34 = plus(across, -cross(normal, known) / cross(normal, along), along);
+    let guide = -dot(plus([loads[0], loads[1]], 1.0, r34), normal) / dot(normal, normal);
     // Moments of the group about D.
     let guide_moment = -moment(finite(d), loads);
     // Moments of link 4 about a point of one rod's line leave the other rod.
@@ -101,14 +97,14 @@ pub fn solve(g: &GroupPose) -> GroupReactions {
         -moment(finite(best), on4) / arm(&best)
     };
     let (s6, s7) = (along_rod(line6, [k, l]), along_rod(line7, [f, m]));
-    let f = add_scaled([on6[0], on6[1]], -s6, to_f);
-    let k = add_scaled([on7[0], on7[1]], -s7, to_k);
+    let f = plus([on6[0], on6[1]], -s6, to_f);
+    let k = plus([on7[0], on7[1]], -s7, to_k);
     GroupReactions {
         d: r34,
         f,
         k,
-        m: add_scaled(g.force_on(1), 1.0, f).map(|c| -c),
-        l: add_scaled(g.force_on(2), 1.0, k).map(|c| -c),
+        m: plus(g.force_on(1), 1.0, f).map(|c| -c),
+        l: plus(g.force_on(2), 1.0, k).map(|c| -c),
         guide,
         guide_moment,
         arm: guide_moment / guide,

@@ -21,14 +21,13 @@ pub mod geometry;
 pub mod inertia;
 
 use crate::geom::exact::ExactError;
-use crate::geom::vector::dot;
 use crate::model::joint_type::Freedom;
 use crate::model::loads::Loads;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::applied::link_loads;
 use crate::statics::reactions::drives::{Driven, driven};
-use crate::statics::reactions::geometry::{Geometry, Six, about, power};
+use crate::statics::reactions::geometry::{Geometry, Six, about, dot, power};
 use crate::statics::reactions::inertia::inertia_loads;
 use faer::Mat;
 use faer::linalg::solvers::Svd;

@@ -3,9 +3,9 @@
 //! The reference is exact: the same doubles solved in rational arithmetic. Every distance is tried on several groups that
 //! differ by small random shifts of their points, and the median error is kept.
 
-use crate::geom::vector::{add_scaled, cross_plane, norm, sub, turned};
 use crate::statics::contour_group::{GroupPose, GroupReactions};
 use crate::statics::group_equilibrium::{exact, solve};
+use crate::statics::pose::{cross, length, minus, plus, quarter};
 use crate::statics::{delta_point, projective};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
@@ -61,9 +61,13 @@ pub struct Sample {
     pub condition: f64,
 }
 
+fn turned(v: [f64; 2], angle: f64) -> [f64; 2] {
+    plus(v.map(|c| c * angle.cos()), angle.sin(), quarter(v))
+}
+
 fn delta(g: &GroupPose) -> [f64; 2] {
-    let (u, v) = (sub(g.f, g.m), sub(g.k, g.l));
-    add_scaled(g.m, cross_plane(sub(g.l, g.m), v) / cross_plane(u, v), u)
+    let (u, v) = (minus(g.f, g.m), minus(g.k, g.l));
+    plus(g.m, cross(minus(g.l, g.m), v) / cross(u, v), u)
 }
 
 /// A group at a distance from a failure; at distance 1 it is of the size of `base`. `None` where `base` has no exact solution.
@@ -73,25 +77,21 @@ pub fn at_distance(base: &GroupPose, failure: Failure, distance: f64) -> Option<
     let delta = delta(base);
     match failure {
         Failure::ParallelRods => {
-            let (rod6, rod7) = (sub(g.m, g.f), sub(g.l, g.k));
-            let sense = if cross_plane(rod6, rod7) < 0.0 {
-                -1.0
-            } else {
-                1.0
-            };
-            let scale = norm(rod7) / norm(rod6);
-            g.l = add_scaled(g.k, scale, turned(rod6, sense * distance));
+            let (rod6, rod7) = (minus(g.m, g.f), minus(g.l, g.k));
+            let sense = if cross(rod6, rod7) < 0.0 { -1.0 } else { 1.0 };
+            let scale = length(rod7) / length(rod6);
+            g.l = plus(g.k, scale, turned(rod6, sense * distance));
         }
         Failure::AcrossGuide => {
-            let from = sub(g.d, delta);
-            let along = add_scaled(
+            let from = minus(g.d, delta);
+            let along = plus(
                 g.normal().map(|c| c * distance.cos()),
                 distance.sin(),
                 g.guide,
             );
-            g.d = add_scaled(delta, norm(from), along);
+            g.d = plus(delta, length(from), along);
         }
-        Failure::AtDelta => g.d = add_scaled(delta, distance, sub(g.d, delta)),
+        Failure::AtDelta => g.d = plus(delta, distance, minus(g.d, delta)),
         Failure::NoGuideReaction => {
             let off = exact(base)?.guide * (1.0 - distance);
             g.push(3, g.m, g.normal().map(|c| c * off));
@@ -125,7 +125,7 @@ pub fn errors(g: &GroupPose, distance: f64) -> Option<Sample> {
 }
 
 fn shifted(base: &GroupPose, rng: &mut ChaCha8Rng) -> GroupPose {
-    let size = norm(sub(base.f, base.d));
+    let size = length(minus(base.f, base.d));
     let mut g = base.clone();
     for p in [&mut g.d, &mut g.f, &mut g.k, &mut g.m, &mut g.l] {
         for c in p {

@@ -2,7 +2,8 @@
 
 use crate::common::near;
 use microlp::{ComparisonOp, OptimizationDirection, Problem};
-use ozols::grip::contact::{Gripper, Pose, Unholdable, cross};
+use ozols::geom::vector::cross_plane as cross;
+use ozols::grip::contact::{Gripper, Pose, Unholdable};
 use ozols::grip::holding::{ContactForce, Coupling, Holding, Load, Outcome, Spatial, hold};
 use ozols::grip::lever_arm::Lever;
 use proptest::prelude::*;

@@ -5,9 +5,11 @@ use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{X, Y, Z, cross, dot, length, scale, sub};
 use crate::model::joint_type::JointType;
 use crate::robots::mjcf::defaults::Defaults;
-use crate::robots::parts::{Format, Part, Robot, free};
+use crate::robots::mjcf::include;
+use crate::robots::options::{Options, Reader};
+use crate::robots::parts::{Part, Robot, free};
 use crate::robots::problem::RobotProblem;
-use crate::robots::xml::Element;
+use crate::robots::xml::{Document, Element};
 use std::collections::BTreeMap;
 
 /// What `<compiler>` sets.
@@ -35,10 +37,17 @@ struct Waiting<'a> {
     class: Option<&'a str>,
 }
 
-/// Reads a `<mujoco>` whose includes are expanded.
-pub(crate) fn read(root: Element<'_>) -> Result<Robot, ImportError> {
+/// Reads a `<mujoco>` and the files it includes.
+pub(crate) fn read(
+    document: &mut Document,
+    root: usize,
+    inner: Reader<'_>,
+    _: &Options,
+) -> Result<Robot, ImportError> {
+    include::expand(document, root, inner)?;
+    let root = document.element(root);
     let name = root.attribute("model").unwrap_or("robot");
-    let mut robot = Robot::new(name, Format::Mjcf);
+    let mut robot = Robot::new(name);
     let mut context = Context {
         compiler: compiler(root)?,
         defaults: Defaults::read(root)?,

@@ -4,17 +4,24 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{length, scale};
 use crate::model::joint_type::JointType;
-use crate::robots::parts::{Format, Part, Robot};
+use crate::robots::options::{Options, Reader};
+use crate::robots::parts::{Part, Robot};
 use crate::robots::problem::RobotProblem;
 use crate::robots::sdf::joints::{joint, weld};
 use crate::robots::sdf::scene::{Placed, Scene, absolute, insert, moves_with, resolve};
 use crate::robots::urdf::read::ball_constraint;
-use crate::robots::xml::Element;
+use crate::robots::xml::{Document, Element};
 
 /// Reads an `<sdf>`.
-pub(crate) fn read(root: Element<'_>, assemble: bool) -> Result<Robot, ImportError> {
+pub(crate) fn read(
+    document: &mut Document,
+    root: usize,
+    _: Reader<'_>,
+    options: &Options,
+) -> Result<Robot, ImportError> {
+    let (root, assemble) = (document.element(root), options.assemble);
     let mut models: Vec<(Element<'_>, bool)> = root.named("model").map(|m| (m, false)).collect();
-    let mut robot = Robot::new("robot", Format::Sdf);
+    let mut robot = Robot::new("robot");
     for w in root.named("world") {
         models.extend(w.named("model").map(|m| (m, false)));
         for e in w

@@ -5,15 +5,22 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, length};
 use crate::model::joint_type::JointType;
 use crate::robots::coupling::Ratio;
-use crate::robots::parts::{Format, Part, Robot, free};
+use crate::robots::options::{Options, Reader};
+use crate::robots::parts::{Part, Robot, free};
 use crate::robots::problem::{RobotProblem, known};
-use crate::robots::xml::Element;
+use crate::robots::xml::{Document, Element};
 
 const TYPES: &str = "revolute, continuous, prismatic, fixed, planar, floating";
 
 /// Reads a `<robot>`.
-pub(crate) fn read(root: Element<'_>) -> Result<Robot, ImportError> {
-    let mut robot = Robot::new(root.attribute("name").unwrap_or("robot"), Format::Urdf);
+pub(crate) fn read(
+    document: &mut Document,
+    root: usize,
+    _: Reader<'_>,
+    _: &Options,
+) -> Result<Robot, ImportError> {
+    let root = document.element(root);
+    let mut robot = Robot::new(root.attribute("name").unwrap_or("robot"));
     for link in root.named("link") {
         let name = link.required("name")?;
         link.room("links", robot.links.len())?;

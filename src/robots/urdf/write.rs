@@ -4,8 +4,8 @@ use crate::closure::tree::spanning_tree;
 use crate::geom::vector::sub;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
-use crate::robots::export::ExportError;
 use crate::robots::mimic::{mimics, settled, stand_in};
+use crate::robots::problem::ExportError;
 use crate::robots::single_freedoms::{
     Names, Single, comment, escape, number, numbers, place, singles,
 };
@@ -15,7 +15,7 @@ use std::fmt::Write;
 ///
 /// # Errors
 /// Where a joint screws: URDF has no such joint.
-pub fn urdf(m: &Mechanism) -> Result<String, ExportError> {
+pub(crate) fn urdf(m: &Mechanism) -> Result<String, ExportError> {
     let joints: Vec<JointId> = m.joints_in(0).collect();
     let mut names = Names::default();
     let mut links: Vec<Option<(String, [f64; 3])>> = vec![None; m.links.len()];
