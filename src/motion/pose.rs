@@ -12,7 +12,7 @@ use crate::closure::tree::spanning_tree;
 use crate::closure::twist::{FrameValues, MotionSpace, Twist};
 use crate::geom::exact::ExactError;
 use crate::geom::extent::Extent;
-use crate::geom::rigid::{RigidMotion, halves};
+use crate::geom::rigid::{Motion, halves};
 use crate::geom::scalars::Reals;
 use crate::geom::vector::{self, across, cross, dot, length, sub};
 use crate::model::coupling::{CoupledFreedom, Coupling};
@@ -26,7 +26,7 @@ pub const CLOSED: f64 = 1e-12;
 pub const FLAT: f64 = 1e-6;
 
 /// Turn and shift as six numbers that vanish together with a motion: (sin θ · axis; translation).
-fn defect(motion: &RigidMotion) -> [f64; 6] {
+fn defect(motion: &Motion) -> [f64; 6] {
     // Beyond a quarter turn the sine falls again; keep it growing so that half a turn is no solution.
     let cosine = motion.cosine();
     let grow = if cosine < 0.0 {
@@ -63,8 +63,8 @@ pub struct Pose {
     pub length: f64,
     /// The middle that coordinates are taken from, in the file's unit.
     pub middle: [f64; 3],
-    /// RigidMotion of each link since the file's pose, in [`Pose::length`] about the middle.
-    pub links: Vec<RigidMotion>,
+    /// Motion of each link since the file's pose, in [`Pose::length`] about the middle.
+    pub links: Vec<Motion>,
     /// Relative error of the coordinates: contours need not close better than that.
     accuracy: f64,
     /// Contours as (column, direction).
@@ -150,7 +150,7 @@ impl Pose {
             columns,
             length: size,
             middle,
-            links: vec![RigidMotion::IDENTITY; mechanism.links.len()],
+            links: vec![Motion::IDENTITY; mechanism.links.len()],
             accuracy: 0.0,
             contours,
             couplings,
@@ -196,9 +196,9 @@ impl Pose {
     pub fn gaps(&self, q: &[f64]) -> Vec<f64> {
         let mut out = Vec::with_capacity(self.rows());
         for contour in &self.contours {
-            let mut at = RigidMotion::IDENTITY;
+            let mut at = Motion::IDENTITY;
             for &(c, sign) in contour {
-                at = at.then(&RigidMotion::exp(&self.columns[c].twist, sign * q[c]));
+                at = at.then(&Motion::exp(&self.columns[c].twist, sign * q[c]));
             }
             out.extend(defect(&at));
         }
@@ -216,13 +216,13 @@ impl Pose {
     pub fn jacobian(&self, q: &[f64]) -> Mat<f64> {
         let mut matrix = Mat::zeros(self.rows(), self.columns.len());
         for (k, contour) in self.contours.iter().enumerate() {
-            let mut at = RigidMotion::IDENTITY;
+            let mut at = Motion::IDENTITY;
             for &(c, sign) in contour {
                 let twist = at.twist(&self.columns[c].twist);
                 for (i, x) in twist.iter().enumerate() {
                     matrix[(6 * k + i, c)] += sign * x;
                 }
-                at = at.then(&RigidMotion::exp(&self.columns[c].twist, sign * q[c]));
+                at = at.then(&Motion::exp(&self.columns[c].twist, sign * q[c]));
             }
         }
         for (row, coupling) in (6 * self.contours.len()..).zip(&self.couplings) {
@@ -252,11 +252,11 @@ impl Pose {
     /// The pose at coordinates `q` from this one, its twists taken there.
     #[must_use]
     pub fn moved(&self, q: &[f64]) -> Pose {
-        let mut since = vec![RigidMotion::IDENTITY; self.links.len()];
+        let mut since = vec![Motion::IDENTITY; self.links.len()];
         for (to, from, walk) in &self.tree {
             let mut at = since[*from];
             for &(c, sign) in walk {
-                at = at.then(&RigidMotion::exp(&self.columns[c].twist, sign * q[c]));
+                at = at.then(&Motion::exp(&self.columns[c].twist, sign * q[c]));
             }
             since[*to] = at;
         }
@@ -264,7 +264,7 @@ impl Pose {
         for (c, &(link, before)) in self.base.iter().enumerate() {
             let mut at = since[link];
             for (p, x) in q.iter().enumerate().take(c).skip(c - before) {
-                at = at.then(&RigidMotion::exp(&self.columns[p].twist, *x));
+                at = at.then(&Motion::exp(&self.columns[p].twist, *x));
             }
             next.columns[c].twist = unit(at.twist(&self.columns[c].twist));
             next.columns[c].moved += q[c];

@@ -4,7 +4,7 @@ use crate::closure::tree::forest;
 use crate::file::read::LIMITS;
 use crate::file::schema::MechanismFile;
 use crate::file::write::Comment;
-use crate::geom::rigid::RigidMotion;
+use crate::geom::rigid::Motion;
 use crate::model::joint_type::JointType;
 use crate::robots::close::{self, CLOSED, close, gaps, size, worst};
 use crate::robots::coupling;
@@ -82,13 +82,13 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, R
     }
     let world = match robot.world {
         Some(w) => w,
-        None => robot.link("world", RigidMotion::IDENTITY),
+        None => robot.link("world", Motion::IDENTITY),
     };
     robot.world = Some(world);
     // Every tree of links that the world does not hold floats by itself.
     let tree = spanning_tree(robot, world);
     for &r in tree.roots.iter().skip(1) {
-        let sides = [robot.places[r], RigidMotion::IDENTITY];
+        let sides = [robot.places[r], Motion::IDENTITY];
         let id = format!("floating-{}", robot.links[r]);
         robot.joints.push(Part::new(&id, [world, r], sides, free()));
         robot.report.map("floating base");

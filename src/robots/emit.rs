@@ -4,7 +4,7 @@ use crate::file::schema::{
     Coordinate, CouplingEntry, JointEntry, LinkEntry, MechanismFile, OptionEntry, SearchEntry,
 };
 use crate::file::write::Comment;
-use crate::geom::rigid::{RigidMotion, towards};
+use crate::geom::rigid::{Motion, towards};
 use crate::geom::vector::{Vector, length};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::kinematics::world_axes;
@@ -69,7 +69,7 @@ pub(crate) struct Content<'a> {
     /// Name of the file read, and of its format.
     pub(super) file: &'a str,
     pub(super) format: &'static str,
-    pub(super) places: &'a [RigidMotion],
+    pub(super) places: &'a [Motion],
     pub(super) bodies: &'a Bodies,
     pub(super) frame: usize,
     /// Bodies that are outputs.

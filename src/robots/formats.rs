@@ -139,3 +139,31 @@ pub(crate) fn roots() -> String {
         .map_or(("", &[][..]), |(l, f)| (l.as_str(), f));
     format!("{} and {last}", first.join(", "))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use itertools::Itertools;
+
+    #[test]
+    fn words_and_root_elements_are_unique() {
+        assert!(FORMATS.iter().map(|f| f.word).all_unique());
+        assert!(
+            FORMATS
+                .iter()
+                .filter_map(|f| f.read)
+                .map(|r| r.0)
+                .all_unique()
+        );
+        for f in &FORMATS {
+            assert!(f.read.is_some() || f.write.is_some(), "{}", f.word);
+            // Descriptions are told by their ending.
+            assert_eq!(f.read.is_some(), !f.endings.is_empty(), "{}", f.word);
+        }
+    }
+
+    #[test]
+    fn root_elements_are_listed() {
+        assert_eq!(roots(), "<robot> (URDF), <mujoco> (MJCF) and <sdf> (SDF)");
+    }
+}

@@ -1,9 +1,8 @@
 //! What the three formats have in common: links, joints with a place on either side, named frames.
 
-use crate::geom::rigid::{RigidMotion, perpendicular};
+use crate::geom::rigid::{Motion, perpendicular};
 use crate::geom::vector::{Vector, X, Z, cross};
 use crate::model::joint_type::{Freedom, JointType};
-use crate::robots::coupling::Ratio;
 use crate::robots::warning::Report;
 use std::collections::BTreeMap;
 
@@ -15,7 +14,7 @@ pub(crate) struct Part {
     /// Parent and child.
     pub(super) links: [usize; 2],
     /// The joint's place on the parent and on the child.
-    pub(super) sides: [RigidMotion; 2],
+    pub(super) sides: [Motion; 2],
     pub(super) joint_type: JointType,
     /// Direction of z in the joint's own frame, of any length.
     pub(super) axis: Vector,
@@ -41,7 +40,7 @@ impl Part {
     pub(crate) fn new(
         id: &str,
         links: [usize; 2],
-        sides: [RigidMotion; 2],
+        sides: [Motion; 2],
         joint_type: JointType,
     ) -> Part {
         Part {
@@ -84,6 +83,17 @@ pub(crate) fn free() -> JointType {
     JointType::Custom(vec![Tx, Ty, Tz, Rx, Ry, Rz])
 }
 
+/// Rate of one joint over that of another.
+#[derive(Debug, Clone)]
+pub(crate) struct Ratio {
+    /// Names of the joint that leads and the one that follows.
+    pub(super) joints: [String; 2],
+    /// Rate of the follower over that of the leader, in radians and metres.
+    pub(super) ratio: f64,
+    /// The element that says so.
+    pub(super) element: String,
+}
+
 /// A robot as read.
 #[derive(Debug)]
 pub(crate) struct Robot {
@@ -96,9 +106,9 @@ pub(crate) struct Robot {
     /// The link that is the world, where the format has one.
     pub(super) world: Option<usize>,
     /// Named frames: the link they are fixed to and their place on it.
-    pub(super) frames: BTreeMap<String, (usize, RigidMotion)>,
+    pub(super) frames: BTreeMap<String, (usize, Motion)>,
     /// Places of links in the file, for those that nothing else places.
-    pub(super) places: Vec<RigidMotion>,
+    pub(super) places: Vec<Motion>,
     pub(super) report: Report,
 }
 
@@ -117,17 +127,16 @@ impl Robot {
     }
 
     /// Adds a link; its frame gets its name.
-    pub(crate) fn link(&mut self, name: &str, place: RigidMotion) -> usize {
+    pub(crate) fn link(&mut self, name: &str, place: Motion) -> usize {
         let l = self.links.len();
         self.links.push(name.to_owned());
         self.places.push(place);
-        self.frames
-            .insert(name.to_owned(), (l, RigidMotion::IDENTITY));
+        self.frames.insert(name.to_owned(), (l, Motion::IDENTITY));
         l
     }
 
     /// The link or frame of a name.
-    pub(crate) fn frame(&self, name: &str) -> Option<(usize, RigidMotion)> {
+    pub(crate) fn frame(&self, name: &str) -> Option<(usize, Motion)> {
         self.frames.get(name).copied()
     }
 }

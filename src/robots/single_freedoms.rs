@@ -1,7 +1,6 @@
 //! Joints in metres and double precision, taken apart into single freedoms.
 
-use crate::geom::rigid::towards;
-use crate::geom::vector::{Vector, across, cross, real};
+use crate::geom::vector::{Vector, across, cross, real, unit};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Joint, Mechanism};
 use std::collections::BTreeSet;
@@ -25,8 +24,8 @@ pub(crate) enum Single {
 
 pub(crate) fn place(m: &Mechanism, j: &Joint) -> Place {
     let metres = m.length_unit.metres;
-    let z = towards(real(&j.frame.axis));
-    let x = towards(across(real(&j.frame.reference), z));
+    let z = unit(real(&j.frame.axis));
+    let x = unit(across(real(&j.frame.reference), z));
     let y = cross(z, x);
     Place {
         point: real(&j.frame.point).map(|c| c * metres),

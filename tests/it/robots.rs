@@ -2,6 +2,7 @@
 
 use crate::cli::ozols;
 use ozols::file::text::mechanism_from_str;
+use ozols::file::write::mechanism_file;
 use ozols::redundancy::analysis::{Elimination, Method, StateAnalysis, analyse};
 use ozols::robots::{Imported, Options, import};
 use std::path::PathBuf;
@@ -22,6 +23,9 @@ pub(crate) fn model(path: &str, options: &Options) -> Imported {
 /// n, p, k, f, W, σ of the imported mechanism by singular values.
 pub(crate) fn figures(imported: &Imported, tolerance: f64) -> [i64; 6] {
     let m = mechanism_from_str("imported.toml", &imported.toml().unwrap()).unwrap();
+    // What is written is what was built.
+    let entries = |m| mechanism_file(m).json();
+    assert_eq!(entries(&m), entries(&imported.mechanism));
     let s: &StateAnalysis =
         &analyse(&m, &[0], Method::Numeric(Elimination::Svd, tolerance)).unwrap()[0];
     [

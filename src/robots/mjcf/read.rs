@@ -1,7 +1,7 @@
 //! MJCF: bodies with joints in series, sites, equality constraints, default classes and includes.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::{RigidMotion, towards};
+use crate::geom::rigid::{Motion, towards};
 use crate::geom::vector::{X, Y, Z, cross, dot, length, scale, sub};
 use crate::model::joint_type::JointType;
 use crate::robots::mjcf::defaults::Defaults;
@@ -26,14 +26,14 @@ pub(crate) struct Context<'a> {
     compiler: Compiler,
     pub(crate) defaults: Defaults<'a>,
     /// Sites by name: the link and the place on it.
-    pub(crate) sites: BTreeMap<String, (usize, RigidMotion)>,
+    pub(crate) sites: BTreeMap<String, (usize, Motion)>,
 }
 
 /// Something still to be read: a body or frame, the link that holds it, the place there, and the class of its children.
 struct Waiting<'a> {
     element: Element<'a>,
     link: usize,
-    place: RigidMotion,
+    place: Motion,
     class: Option<&'a str>,
 }
 
@@ -53,13 +53,13 @@ pub(crate) fn read(
         defaults: Defaults::read(root)?,
         sites: BTreeMap::new(),
     };
-    let world = robot.link("world", RigidMotion::IDENTITY);
+    let world = robot.link("world", Motion::IDENTITY);
     robot.world = Some(world);
     for w in root.named("worldbody") {
         let start = Waiting {
             element: w,
             link: world,
-            place: RigidMotion::IDENTITY,
+            place: Motion::IDENTITY,
             class: w.attribute("childclass"),
         };
         bodies(start, &mut context, &mut robot)?;
@@ -150,7 +150,7 @@ fn compiler(root: Element<'_>) -> Result<Compiler, ImportError> {
 
 impl Compiler {
     /// The place that `pos` and one of the five ways to give an orientation stand for.
-    fn place(&self, e: Element<'_>) -> Result<RigidMotion, ImportError> {
+    fn place(&self, e: Element<'_>) -> Result<Motion, ImportError> {
         let at = e.vector("pos", [0.0; 3])?;
         let zero = |name: &str| {
             e.fail(
@@ -172,17 +172,17 @@ impl Compiler {
             let why = format!("it has two orientations, {}", given.join(" and "));
             return Err(unsupported(e, &why, "keep one"));
         }
-        let mut pose = RigidMotion::shift(at);
+        let mut pose = Motion::shift(at);
         if let Some(q) = e.numbers::<4>("quat")? {
             if q.iter().all(|x| x.abs() < 1e-9) {
                 return Err(zero("quat"));
             }
-            pose = RigidMotion::quaternion(at, q);
+            pose = Motion::quaternion(at, q);
         } else if let Some([x, y, z, angle]) = e.numbers::<4>("axisangle")? {
             if length([x, y, z]) < 1e-9 {
                 return Err(zero("axisangle"));
             }
-            pose = pose.then(&RigidMotion::turn([x, y, z], angle * self.angle));
+            pose = pose.then(&Motion::turn([x, y, z], angle * self.angle));
         } else if let Some([a, b, c, d, f, g]) = e.numbers::<6>("xyaxes")? {
             let x = towards([a, b, c]);
             let y = sub([d, f, g], scale(x, dot(x, [d, f, g])));
@@ -195,16 +195,16 @@ impl Compiler {
             if length(z) < 1e-9 {
                 return Err(zero("zaxis"));
             }
-            pose = pose.then(&RigidMotion::z_to(z));
+            pose = pose.then(&Motion::z_to(z));
         } else if let Some(angles) = e.numbers::<3>("euler")? {
-            let mut turn = RigidMotion::IDENTITY;
+            let mut turn = Motion::IDENTITY;
             for (axis, angle) in self.eulerseq.chars().zip(angles) {
                 let about = match axis.to_ascii_lowercase() {
                     'x' => X,
                     'y' => Y,
                     _ => Z,
                 };
-                let step = RigidMotion::turn(about, angle * self.angle);
+                let step = Motion::turn(about, angle * self.angle);
                 // Small letters turn with the frame, capitals about the fixed axes.
                 turn = if axis.is_lowercase() {
                     turn.then(&step)
@@ -237,7 +237,7 @@ fn bodies<'a>(
                 "body" => {
                     let place = w.place.then(&context.compiler.place(e)?);
                     let link = body(e, w.link, place, inner(0, place).class, context, robot)?;
-                    here.push(inner(link, RigidMotion::IDENTITY));
+                    here.push(inner(link, Motion::IDENTITY));
                 }
                 "frame" => {
                     if e.named("joint")
@@ -308,7 +308,7 @@ fn site(
 fn body<'a>(
     e: Element<'a>,
     parent: usize,
-    place: RigidMotion,
+    place: Motion,
     class: Option<&'a str>,
     context: &Context<'a>,
     robot: &mut Robot,
@@ -333,7 +333,7 @@ fn body<'a>(
         let part = Part::new(
             &name,
             [parent, link],
-            [place, RigidMotion::IDENTITY],
+            [place, Motion::IDENTITY],
             JointType::Fixed,
         );
         robot.joints.push(part);
@@ -349,7 +349,7 @@ fn body<'a>(
         };
         let part = joint(*j, &name, [from, link], at, class, context, robot)?;
         robot.joints.push(part);
-        (from, at) = (link, RigidMotion::IDENTITY);
+        (from, at) = (link, Motion::IDENTITY);
     }
     if joints.len() > 1 {
         let what = format!(
@@ -365,7 +365,7 @@ fn joint<'a>(
     e: Element<'a>,
     body: &str,
     links: [usize; 2],
-    place: RigidMotion,
+    place: Motion,
     class: Option<&'a str>,
     context: &Context<'a>,
     robot: &mut Robot,
@@ -393,9 +393,9 @@ fn joint<'a>(
     };
     let pos = look.vector("pos", [0.0; 3])?;
     let at = if word == "free" {
-        RigidMotion::IDENTITY
+        Motion::IDENTITY
     } else {
-        RigidMotion::shift(pos)
+        Motion::shift(pos)
     };
     let mut part = Part::new(&id, links, [place.then(&at), at], joint_type);
     if matches!(word, "hinge" | "slide") {

@@ -1,11 +1,10 @@
 //! The joints and constraints of an SDF file.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::{RigidMotion, towards};
+use crate::geom::rigid::{Motion, towards};
 use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
 use crate::model::joint_type::JointType;
-use crate::robots::coupling::Ratio;
-use crate::robots::parts::{Part, Robot, free};
+use crate::robots::parts::{Part, Ratio, Robot, free};
 use crate::robots::problem::RobotProblem;
 use crate::robots::sdf::read::{end, unsupported};
 use crate::robots::sdf::scene::{Scene, absolute, located};
@@ -23,7 +22,7 @@ pub(crate) fn axis(
     tag: &str,
     scope: &str,
     scene: &Scene<'_>,
-    at: &RigidMotion,
+    at: &Motion,
 ) -> Result<Vector, ImportError> {
     let Some(a) = e.child(tag) else {
         let what = format!("<{tag}>");
@@ -84,7 +83,7 @@ pub(crate) fn joint(
         .placed
         .get(&name)
         .and_then(|p| p.world)
-        .unwrap_or(RigidMotion::IDENTITY);
+        .unwrap_or(Motion::IDENTITY);
     let local = |d: Vector| world.inverse().direction(d);
     let joint_type = match word {
         "revolute" | "continuous" | "hinge" => JointType::Revolute,
@@ -104,7 +103,7 @@ pub(crate) fn joint(
         .is_some_and(|p| p.link.is_none());
     let apart = is_frame && length(sub(parent_world.translation, world.translation)) > APART * size;
     let on_parent = if apart && scene.assemble {
-        RigidMotion {
+        Motion {
             translation: parent_world.translation,
             ..world
         }
@@ -239,18 +238,18 @@ pub(crate) fn two_axes(
         robot.joints.push(part);
         return Ok(());
     }
-    let between = robot.link(&format!("{}~1", part.id), RigidMotion::IDENTITY);
+    let between = robot.link(&format!("{}~1", part.id), Motion::IDENTITY);
     let [parent, child] = part.links;
     let one = Part::new(
         &part.id,
         [parent, between],
-        [part.sides[0], RigidMotion::IDENTITY],
+        [part.sides[0], Motion::IDENTITY],
         JointType::Revolute,
     );
     let two = Part::new(
         &format!("{}~2", part.id),
         [between, child],
-        [RigidMotion::IDENTITY, part.sides[1]],
+        [Motion::IDENTITY, part.sides[1]],
         JointType::Revolute,
     );
     robot.report.approximate(
@@ -269,7 +268,7 @@ pub(crate) fn weld(
     scene: &Scene<'_>,
     robot: &mut Robot,
 ) -> Result<(), ImportError> {
-    let mut ends = [(0, RigidMotion::IDENTITY); 2];
+    let mut ends = [(0, Motion::IDENTITY); 2];
     for (x, tag) in ends.iter_mut().zip(["parent", "child"]) {
         let (c, name) = end(e, tag)?;
         let (link, world) = located(c, &absolute(scope, name), scene)?;

@@ -1,7 +1,7 @@
 //! SDF: models with links, frames and joints, places relative to each other, loops closed by joints as they stand.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::RigidMotion;
+use crate::geom::rigid::Motion;
 use crate::geom::vector::{length, scale};
 use crate::model::joint_type::JointType;
 use crate::robots::options::{Options, Reader};
@@ -53,7 +53,7 @@ pub(crate) fn read(
         .attribute("name")
         .unwrap_or("robot")
         .clone_into(&mut robot.name);
-    robot.world = Some(robot.link("world", RigidMotion::IDENTITY));
+    robot.world = Some(robot.link("world", Motion::IDENTITY));
     let version = root
         .attribute("version")
         .and_then(|v| v.parse::<f64>().ok());
@@ -88,7 +88,7 @@ pub(crate) fn read(
     }
     for &link in &scene.fixed {
         let id = format!("static-{}", robot.links[link]);
-        let sides = [robot.places[link], RigidMotion::IDENTITY];
+        let sides = [robot.places[link], Motion::IDENTITY];
         robot
             .joints
             .push(Part::new(&id, [0, link], sides, JointType::Fixed));
@@ -138,20 +138,20 @@ fn include(e: Element<'_>) -> ImportError {
 }
 
 /// The pose child: numbers, what it is relative to, and in which unit.
-fn pose(e: Element<'_>) -> Result<(RigidMotion, Option<&str>), ImportError> {
+fn pose(e: Element<'_>) -> Result<(Motion, Option<&str>), ImportError> {
     let Some(p) = e.child("pose") else {
-        return Ok((RigidMotion::IDENTITY, None));
+        return Ok((Motion::IDENTITY, None));
     };
     let relative = p
         .attribute("relative_to")
         .or(p.attribute("frame"))
         .filter(|r| !r.is_empty());
     if p.text().is_empty() {
-        return Ok((RigidMotion::IDENTITY, relative));
+        return Ok((Motion::IDENTITY, relative));
     }
     if p.attribute("rotation_format") == Some("quat_xyzw") {
         let [a, b, c, x, y, z, w] = p.text_numbers::<7>()?;
-        return Ok((RigidMotion::quaternion([a, b, c], [w, x, y, z]), relative));
+        return Ok((Motion::quaternion([a, b, c], [w, x, y, z]), relative));
     }
     let [x, y, z, roll, pitch, yaw] = p.text_numbers::<6>()?;
     let degrees = p
@@ -165,7 +165,7 @@ fn pose(e: Element<'_>) -> Result<(RigidMotion, Option<&str>), ImportError> {
             1.0
         },
     );
-    Ok((RigidMotion::roll_pitch_yaw([x, y, z], turn), relative))
+    Ok((Motion::roll_pitch_yaw([x, y, z], turn), relative))
 }
 
 /// Takes in what a model holds; places are worked out afterwards.
@@ -209,7 +209,7 @@ fn model<'a>(
         insert(
             scene,
             alias,
-            placed(m, own.clone(), RigidMotion::IDENTITY, own.clone(), None),
+            placed(m, own.clone(), Motion::IDENTITY, own.clone(), None),
         )?;
     }
     for e in m.children() {
@@ -220,7 +220,7 @@ fn model<'a>(
                 e.room("links", robot.links.len())?;
                 let name = named(e)?;
                 let (raw, relative) = pose(e)?;
-                let link = robot.link(&name, RigidMotion::IDENTITY);
+                let link = robot.link(&name, Motion::IDENTITY);
                 let to = relative.map_or_else(|| own.clone(), |r| absolute(scope, r));
                 insert(scene, name.clone(), placed(e, to, raw, name, Some(link)))?;
                 for c in e.children().filter(|c| c.name() != "pose") {

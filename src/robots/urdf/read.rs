@@ -1,12 +1,11 @@
 //! URDF: a tree of links and joints, with mimic joints, transmissions and the loop extensions in use.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::RigidMotion;
+use crate::geom::rigid::Motion;
 use crate::geom::vector::{Vector, X, length};
 use crate::model::joint_type::JointType;
-use crate::robots::coupling::Ratio;
 use crate::robots::options::{Options, Reader};
-use crate::robots::parts::{Part, Robot, free};
+use crate::robots::parts::{Part, Ratio, Robot, free};
 use crate::robots::problem::{RobotProblem, known};
 use crate::robots::xml::{Document, Element};
 
@@ -32,7 +31,7 @@ pub(crate) fn read(
                 },
             ));
         }
-        robot.link(name, RigidMotion::IDENTITY);
+        robot.link(name, Motion::IDENTITY);
         for c in link.children() {
             robot.report.drop(c.name(), None);
         }
@@ -63,17 +62,17 @@ pub(crate) fn read(
     Ok(robot)
 }
 
-fn origin(e: Element<'_>) -> Result<RigidMotion, ImportError> {
+fn origin(e: Element<'_>) -> Result<Motion, ImportError> {
     let Some(o) = e.child("origin") else {
-        return Ok(RigidMotion::IDENTITY);
+        return Ok(Motion::IDENTITY);
     };
     if let Some(q) = o.numbers::<4>("quat_xyzw")? {
-        return Ok(RigidMotion::quaternion(
+        return Ok(Motion::quaternion(
             o.vector("xyz", [0.0; 3])?,
             [q[3], q[0], q[1], q[2]],
         ));
     }
-    Ok(RigidMotion::roll_pitch_yaw(
+    Ok(Motion::roll_pitch_yaw(
         o.vector("xyz", [0.0; 3])?,
         o.vector("rpy", [0.0; 3])?,
     ))
@@ -132,7 +131,7 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     if links[0] == links[1] {
         return Err(same_link(e));
     }
-    let sides = [origin(e)?, RigidMotion::IDENTITY];
+    let sides = [origin(e)?, Motion::IDENTITY];
     let joint_type = match word {
         "revolute" | "continuous" => JointType::Revolute,
         "prismatic" => JointType::Prismatic,
@@ -203,11 +202,10 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     if links[0] == links[1] {
         return Err(same_link(e));
     }
-    let mut sides = [RigidMotion::IDENTITY; 2];
+    let mut sides = [Motion::IDENTITY; 2];
     for (side, tag) in sides.iter_mut().zip(["link1", "link2"]) {
         if let Some(c) = e.child(tag) {
-            *side =
-                RigidMotion::roll_pitch_yaw(c.vector("xyz", [0.0; 3])?, c.vector("rpy", [0.0; 3])?);
+            *side = Motion::roll_pitch_yaw(c.vector("xyz", [0.0; 3])?, c.vector("rpy", [0.0; 3])?);
         }
     }
     let word = e.required("type")?;
@@ -233,7 +231,7 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
 
 /// Drake's ball constraint: a point of one body held to a point of another.
 pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
-    let (mut links, mut sides) = ([0; 2], [RigidMotion::IDENTITY; 2]);
+    let (mut links, mut sides) = ([0; 2], [Motion::IDENTITY; 2]);
     for (i, (body, point)) in [("A", "p_AP"), ("B", "p_BQ")].into_iter().enumerate() {
         let part = |k: &str| {
             let tag = format!("drake:ball_constraint_{k}");
@@ -254,7 +252,7 @@ pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), I
             None => p.text_numbers()?,
         };
         links[i] = link;
-        sides[i] = frame.then(&RigidMotion::shift(at));
+        sides[i] = frame.then(&Motion::shift(at));
     }
     if links[0] == links[1] {
         return Err(same_link(e));
