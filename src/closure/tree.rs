@@ -23,11 +23,18 @@ pub struct Step<N = LinkId, E = JointId> {
 #[must_use]
 pub fn spanning_tree(mechanism: &Mechanism, state: StateId) -> Vec<Step> {
     let joints: Vec<JointId> = mechanism.joints_in(state).collect();
-    let ends = joints.iter().map(|&j| mechanism.joints[j].links);
-    let (_, steps) = forest(mechanism.links.len(), ends, |_| false, [mechanism.frame()]);
+    let ends = joints
+        .iter()
+        .map(|&j| mechanism.joints[j].links.map(LinkId::index));
+    let (_, steps) = forest(
+        mechanism.links.len(),
+        ends,
+        |_| false,
+        [mechanism.frame().index()],
+    );
     let named = |s: Step<usize, usize>| Step {
-        link: s.link,
-        from: s.from,
+        link: LinkId::new(s.link),
+        from: LinkId::new(s.from),
         joint: joints[s.joint],
         forward: s.forward,
     };

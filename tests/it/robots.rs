@@ -3,6 +3,7 @@
 use crate::cli::ozols;
 use ozols::file::text::mechanism_from_str;
 use ozols::file::write::mechanism_file;
+use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Elimination, Method, StateAnalysis, analyse};
 use ozols::robots::{Imported, Options, import};
 use std::path::PathBuf;
@@ -26,8 +27,12 @@ pub(crate) fn figures(imported: &Imported, tolerance: f64) -> [i64; 6] {
     // What is written is what was built.
     let entries = |m| mechanism_file(m).json();
     assert_eq!(entries(&m), entries(&imported.mechanism));
-    let s: &StateAnalysis =
-        &analyse(&m, &[0], Method::Numeric(Elimination::Svd, tolerance)).unwrap()[0];
+    let s: &StateAnalysis = &analyse(
+        &m,
+        &[StateId::FREE],
+        Method::Numeric(Elimination::Svd, tolerance),
+    )
+    .unwrap()[0];
     [
         s.links,
         s.joints,

@@ -3,7 +3,7 @@
 use crate::closure::tree::spanning_tree;
 use crate::geom::vector::sub;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, LinkId, Mechanism};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::robots::mimic::{mimics, settled, stand_in};
 use crate::robots::problem::ExportError;
 use crate::robots::single_freedoms::{
@@ -16,7 +16,7 @@ use std::fmt::Write;
 /// # Errors
 /// Where a joint screws: URDF has no such joint.
 pub(crate) fn urdf(m: &Mechanism) -> Result<String, ExportError> {
-    let joints: Vec<JointId> = m.joints_in(0).collect();
+    let joints: Vec<JointId> = m.joints_in(StateId::FREE).collect();
     let mut names = Names::default();
     let mut links: Vec<Option<(String, [f64; 3])>> = vec![None; m.links.len()];
     let mut head = String::new();
@@ -32,7 +32,7 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<String, ExportError> {
     };
     links[frame] = Some((link(frame, &mut head, &mut names), [0.0; 3]));
     let mut joint_names = Names::default();
-    for step in spanning_tree(m, 0) {
+    for step in spanning_tree(m, StateId::FREE) {
         let (j, from, to) = (step.joint, step.from, step.link);
         let joint = &m.joints[j];
         used[j] = true;
