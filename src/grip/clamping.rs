@@ -1,7 +1,7 @@
 //! What a gripper can hold over a range of diameters and motions, and the drive moment that takes.
 
 use crate::grip::contact::{Gripper, Pose, Unholdable};
-use crate::grip::holding::{Coupling, Holding, HoldingError, Load, Outcome, Slip, Spatial, hold};
+use crate::grip::holding::{Holding, HoldingError, Load, Outcome, Slip, Spatial, hold};
 use crate::grip::lever_arm::{Arms, Lever, LeverError};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, Pivots, Toward};
 use itertools::Itertools;
@@ -185,12 +185,7 @@ fn hardness(v: &Verdict) -> f64 {
 }
 
 fn verdict(pose: &Pose, load: &Load, friction: f64, levers: LeverDrive) -> Verdict {
-    let coupling = match levers {
-        LeverDrive::Coupled => Coupling::Coupled,
-        LeverDrive::Equal => Coupling::Equal,
-        LeverDrive::Independent => Coupling::Independent,
-    };
-    match hold(pose, load, friction, coupling) {
+    match hold(pose, load, friction, levers) {
         Ok(Outcome::Held(h)) => Verdict::Held(h),
         Ok(Outcome::Slips(s)) => Verdict::Slips(s),
         Err(e) => Verdict::Undecided(e),

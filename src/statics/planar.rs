@@ -72,30 +72,14 @@ pub enum PairKind {
     Rigid,
 }
 
-impl PairKind {
-    /// Constraints of the pair: 3 less its freedoms.
-    #[must_use]
-    pub fn constraints(self) -> usize {
-        match self {
-            PairKind::Turning | PairKind::Sliding => 2,
-            PairKind::Rigid => 3,
-        }
-    }
-
-    /// R, P or F, as structural formulas write it.
-    #[must_use]
-    pub fn letter(self) -> char {
-        match self {
-            PairKind::Turning => 'R',
-            PairKind::Sliding => 'P',
-            PairKind::Rigid => 'F',
-        }
-    }
-}
-
 impl fmt::Display for PairKind {
+    /// R, P or F, as structural formulas write it.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.letter())
+        f.write_str(match self {
+            PairKind::Turning => "R",
+            PairKind::Sliding => "P",
+            PairKind::Rigid => "F",
+        })
     }
 }
 
@@ -290,12 +274,12 @@ impl PlanarMechanism {
             (0, []) => push(bodies, PairKind::Rigid, [0.0; 2], name()),
             (1, []) => push(bodies, PairKind::Turning, [0.0; 2], name()),
             (0, [u]) => {
-                let u = [Reals.dot(self.axes[0], *u), Reals.dot(self.axes[1], *u)];
+                let u = self.across(*u);
                 push(bodies, PairKind::Sliding, u, name());
             }
             (1, [_]) if joint.drive => return Err(PlanarError::DriveOfTwo { joint: name() }),
             (1, [u]) => {
-                let u = [Reals.dot(self.axes[0], *u), Reals.dot(self.axes[1], *u)];
+                let u = self.across(*u);
                 let block = self.bodies.len();
                 let [a, b] = bodies;
                 push([a, block], PairKind::Turning, [0.0; 2], name());
