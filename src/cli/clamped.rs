@@ -24,7 +24,7 @@ fn chosen<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g Row>> {
     let found = g.study.rows.iter().find(near);
     let known = || {
         let all = g.study.rows.iter().take(30);
-        let all = all.map(|r| crate::view::words::significant(r.diameter / unit.metres));
+        let all = all.map(|r| crate::format::number::significant(r.diameter / unit.metres));
         all.collect::<Vec<_>>().join(", ")
     };
     let row = found.with_context(|| {

@@ -1,10 +1,11 @@
 //! What a grip loads its mechanism with, for people and as data.
 
+use crate::format::number::significant;
 use crate::grip::clamping::{Hardest, Row, Verdict};
 use crate::grip::jaw_loads::{Fit, Gripping};
 use crate::model::mechanism::Mechanism;
 use crate::view::grip_text::reason;
-use crate::view::words::{significant, table};
+use crate::view::layout::table;
 use serde_json::{Value, json};
 use std::fmt::Write;
 

@@ -5,9 +5,11 @@ use crate::drive::programme::{Endurance, Event, PATIENCE};
 use crate::drive::swing::End;
 use crate::drive::torsion::{Remedy, Sizing, decrement};
 use crate::file::read::workload::Workload;
+use crate::format::number::significant;
+use crate::format::phrase::plural;
 use crate::model::drive::DriveSpec;
 use crate::view::layout::fit;
-use crate::view::words::{plural, significant, table};
+use crate::view::layout::table;
 use std::fmt::Write;
 
 /// Rows of the programme shown before the rest is left out.

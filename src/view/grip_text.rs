@@ -1,13 +1,15 @@
 //! A gripper for people: whether it holds, with what drive, and why.
 
 use crate::file::read::workload::Workload;
+use crate::format::number::significant;
+use crate::format::phrase::plural;
 use crate::grip::arm_charts::findings;
 use crate::grip::clamping::{Hardest, Row, Study, Verdict};
 use crate::grip::holding::{Holding, Slip};
 use crate::model::grip::{GripSpec, LeverDrive, PartMass, Pivots, Toward};
 use crate::statics::transmission::Rates;
 use crate::view::layout::fit;
-use crate::view::words::{plural, significant, table};
+use crate::view::layout::table;
 use std::fmt::Write;
 
 /// What a report is made of.

@@ -1,13 +1,15 @@
 //! Joint reactions over a stroke, for people and as data.
 
+use crate::format::number::figure;
+use crate::format::phrase::plural;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::cycle::Cycle;
 use crate::statics::reactions::{Choice, NEARLY_SINGULAR, Solution};
+use crate::view::layout::table;
 use crate::view::reactions_data::{csv_rows, json};
 use crate::view::reactions_text::NOTHING;
-use crate::view::statics_words::{figure, prefix};
-use crate::view::words::{plural, table};
+use crate::view::statics_words::prefix;
 use serde_json::{Value, json as value};
 use std::fmt::Write;
 

@@ -1,11 +1,13 @@
 //! Joint reactions for people.
 
+use crate::format::number::figure;
+use crate::format::phrase::plural;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::{Choice, JointReaction, NEARLY_SINGULAR, Solution};
 use crate::view::layout::fit;
-use crate::view::statics_words::{figure, prefix};
-use crate::view::words::{plural, table};
+use crate::view::layout::table;
+use crate::view::statics_words::prefix;
 use std::fmt::Write;
 
 /// Self-stresses told at most.

@@ -1,14 +1,15 @@
 //! Statics for people: the groups, the reactions over the cycle, the greatest of each joint.
 
+use crate::format::number::figure;
+use crate::format::phrase::plural;
 use crate::statics::assur::{Decomposition, Group};
 use crate::statics::cycle::{Statics, Structure};
 use crate::statics::planar::{PairId, PlanarMechanism};
 use crate::view::layout::fit;
+use crate::view::layout::table;
 use crate::view::statics_words::{
-    GroupMethod, bodies, disagreement, drive_position, drive_unit, figure, group, magnitudes,
-    pairs, prefix,
+    GroupMethod, bodies, disagreement, drive_position, drive_unit, group, magnitudes, pairs, prefix,
 };
-use crate::view::words::{plural, table};
 use itertools::Itertools;
 use std::fmt::Write;
 

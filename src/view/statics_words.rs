@@ -105,34 +105,6 @@ pub fn prefix(greatest: f64) -> (f64, &'static str) {
     }
 }
 
-/// A value with five significant figures; a dash where there is none.
-#[must_use]
-pub fn figure(x: f64) -> String {
-    if !x.is_finite() {
-        return "-".to_owned();
-    }
-    let magnitude = if x == 0.0 {
-        0.0
-    } else {
-        x.abs().log10().floor()
-    };
-    if !(-4.0..7.0).contains(&magnitude) {
-        return format!("{x:.4e}");
-    }
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0 to 8"
-    )]
-    let decimals = (4.0 - magnitude).clamp(0.0, 8.0) as usize;
-    let text = format!("{x:.decimals$}");
-    if text.trim_matches(['-', '0', '.']).is_empty() {
-        "0".to_owned()
-    } else {
-        text
-    }
-}
-
 /// The six reactions of a group by name, as magnitudes, the guide's with its sign.
 #[must_use]
 pub fn magnitudes(r: &GroupReactions, pose: &GroupPose) -> [(&'static str, f64); 6] {
