@@ -1,5 +1,6 @@
 //! What a gripper can hold over a range of diameters and motions, and the drive moment that takes.
 
+use crate::format::number::decimals;
 use crate::grip::contact::{Gripper, Pose, Unholdable};
 use crate::grip::holding::{Holding, HoldingError, Load, Outcome, Slip, Spatial, hold};
 use crate::grip::lever_arm::{Arms, Lever, LeverError};
@@ -105,15 +106,7 @@ struct Case {
 }
 
 fn vector([x, y, z]: Spatial) -> String {
-    let round = |v: f64| {
-        let text = format!("{v:.3}");
-        let short = text.trim_end_matches('0').trim_end_matches('.');
-        if short == "-0" {
-            "0".to_owned()
-        } else {
-            short.to_owned()
-        }
-    };
+    let round = |v| decimals(v, 3);
     format!("({}, {}, {})", round(x), round(y), round(z))
 }
 

@@ -249,9 +249,9 @@ impl PlanarMechanism {
                 Freedom::Rx if normal(0) => turns += 1,
                 Freedom::Ry if normal(1) => turns += 1,
                 Freedom::Rz if normal(2) => turns += 1,
-                Freedom::Tx if across(0) => slides.push(axes[0]),
-                Freedom::Ty if across(1) => slides.push(axes[1]),
-                Freedom::Tz if across(2) => slides.push(axes[2]),
+                Freedom::Tx if across(0) => slides.push(self.across(axes[0])),
+                Freedom::Ty if across(1) => slides.push(self.across(axes[1])),
+                Freedom::Tz if across(2) => slides.push(self.across(axes[2])),
                 _ => outside = true,
             }
         }
@@ -273,20 +273,16 @@ impl PlanarMechanism {
         match (turns, slides.as_slice()) {
             (0, []) => push(bodies, PairKind::Rigid, [0.0; 2], name()),
             (1, []) => push(bodies, PairKind::Turning, [0.0; 2], name()),
-            (0, [u]) => {
-                let u = self.across(*u);
-                push(bodies, PairKind::Sliding, u, name());
-            }
+            (0, [u]) => push(bodies, PairKind::Sliding, *u, name()),
             (1, [_]) if joint.drive => return Err(PlanarError::DriveOfTwo { joint: name() }),
             (1, [u]) => {
-                let u = self.across(*u);
                 let block = self.bodies.len();
                 let [a, b] = bodies;
                 push([a, block], PairKind::Turning, [0.0; 2], name());
                 push(
                     [block, b],
                     PairKind::Sliding,
-                    u,
+                    *u,
                     format!("{} slot", joint.id),
                 );
                 self.bodies.push(Body {

@@ -161,10 +161,8 @@ impl<'a> Reactions<'a> {
         lists.into_iter().flat_map(|(kind, list)| {
             list.into_iter().flatten().map(move |r| {
                 let mut row = [kind, r.joint, r.kind].map(str::to_owned).to_vec();
-                for (vector, size) in [
-                    (r.force, r.force_magnitude),
-                    (r.moment, r.moment_magnitude),
-                ] {
+                for (vector, size) in [(r.force, r.force_magnitude), (r.moment, r.moment_magnitude)]
+                {
                     row.extend(vector.map(|x| x.to_string()));
                     row.push(size.to_string());
                 }

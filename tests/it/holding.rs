@@ -9,7 +9,11 @@ use ozols::model::grip::LeverDrive;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-const COUPLINGS: [LeverDrive; 3] = [LeverDrive::Coupled, LeverDrive::Equal, LeverDrive::Independent];
+const COUPLINGS: [LeverDrive; 3] = [
+    LeverDrive::Coupled,
+    LeverDrive::Equal,
+    LeverDrive::Independent,
+];
 
 fn lever(length: f64, prism: f64, mounting: f64) -> Lever {
     Lever::new(length, prism.to_radians(), mounting.to_radians()).unwrap()

@@ -4,8 +4,8 @@ use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::follow::{Follower, slides};
 use crate::motion::pose::Pose;
-use crate::statics::reactions::unsolved::Unsolved;
 use crate::statics::reactions::drives::Driven;
+use crate::statics::reactions::unsolved::Unsolved;
 
 /// Greatest change of the drive between two poses that are closed: radians, or fractions of the mechanism's size.
 const STEP: f64 = 0.05;

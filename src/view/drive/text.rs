@@ -1,11 +1,11 @@
 //! A torsional drive for people: the bar, whether it runs its programme, and why.
 
-use crate::format::number::significant;
-use crate::format::phrase::plural;
 use crate::drive::driving::DampingFrom;
 use crate::drive::programme::{Event, PATIENCE};
 use crate::drive::swing::End;
 use crate::drive::torsion::stored_energy;
+use crate::format::number::significant;
+use crate::format::phrase::plural;
 use crate::view::drive::{Design, Drive, Endurance, Remedies};
 use crate::view::layout::{fit, table};
 use std::fmt::Write;

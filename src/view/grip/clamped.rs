@@ -210,11 +210,7 @@ impl<'a> Clamped<'a> {
             self.case.unwrap_or(""),
             significant(self.safety)
         )?;
-        write!(
-            out,
-            "The grip asks {} N·m per lever",
-            significant(moment)
-        )?;
+        write!(out, "The grip asks {} N·m per lever", significant(moment))?;
         if let Some(effort) = self.drive_effort {
             write!(out, ", {}", effort_of_drive(effort, self.slides))?;
         }

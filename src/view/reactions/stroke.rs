@@ -147,7 +147,11 @@ impl<'a> Stroke<'a> {
         let peaks: Vec<_> = (0..first.reactions.len())
             .map(|i| {
                 let force = greatest_of(i, |j| j.force_magnitude);
-                (&first.reactions[i], force, greatest_of(i, |j| j.moment_magnitude))
+                (
+                    &first.reactions[i],
+                    force,
+                    greatest_of(i, |j| j.moment_magnitude),
+                )
             })
             .collect();
         let greatest = peaks.iter().map(|p| p.1.0.max(p.2.0)).fold(0.0, f64::max);

@@ -100,14 +100,13 @@ pub fn cycle(s: &Statics<'_>) -> Vec<Named> {
     for (i, (index, letters)) in found.contour_groups.iter().enumerate() {
         let title = s.groups[*index].name();
         let place = |p: PairId| m.pairs[p].name.as_str();
-        let solved = |x: &Moment, f: &dyn Fn(&GroupSolutions, GroupReactions) -> Vec<(&str, f64)>| {
-            let found = x.groups.get(i).and_then(|g| Some(f(g, g.by(shown)?)));
-            let named = found.into_iter().flatten();
-            named.map(|(n, v)| (n.to_owned(), v)).collect_vec()
-        };
-        let mut series = over(s, |x| {
-            solved(x, &|g, r| magnitudes(&r, &g.pose).to_vec())
-        });
+        let solved =
+            |x: &Moment, f: &dyn Fn(&GroupSolutions, GroupReactions) -> Vec<(&str, f64)>| {
+                let found = x.groups.get(i).and_then(|g| Some(f(g, g.by(shown)?)));
+                let named = found.into_iter().flatten();
+                named.map(|(n, v)| (n.to_owned(), v)).collect_vec()
+            };
+        let mut series = over(s, |x| solved(x, &|g, r| magnitudes(&r, &g.pose).to_vec()));
         let prefix = scale(&mut series);
         let letters_named = [letters.d, letters.f, letters.k, letters.m, letters.l];
         let key = "DFKML"

@@ -50,13 +50,12 @@ pub fn csv(s: &Statics<'_>) -> String {
 }
 
 /// What the six joints of a four-link group pass on by one method.
-fn of_group<'a>(
-    s: &Statics<'a>,
-    x: &Moment,
-    at: usize,
-    method: GroupMethod,
-) -> Vec<Reaction<'a>> {
-    let (linkage, g, l) = (&s.found.linkage, &x.groups[at], &s.found.contour_groups[at].1);
+fn of_group<'a>(s: &Statics<'a>, x: &Moment, at: usize, method: GroupMethod) -> Vec<Reaction<'a>> {
+    let (linkage, g, l) = (
+        &s.found.linkage,
+        &x.groups[at],
+        &s.found.contour_groups[at].1,
+    );
     let Some(r) = g.by(method) else {
         return Vec::new();
     };

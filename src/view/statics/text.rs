@@ -296,9 +296,7 @@ fn summary(out: &mut String, s: &Statics<'_>) -> std::fmt::Result {
     };
     let power = greatest(&|x| x.load_power.abs());
     let balance = greatest(&|x| (x.load_power + x.drive_power).abs());
-    let of = |f: fn(&Equilibrium) -> f64| {
-        greatest(&move |x| x.whole.as_ref().map_or(f64::NAN, f))
-    };
+    let of = |f: fn(&Equilibrium) -> f64| greatest(&move |x| x.whole.as_ref().map_or(f64::NAN, f));
     writeln!(
         out,
         "Equilibrium: condition up to {}, residual up to {:.0e} of the load",

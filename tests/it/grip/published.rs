@@ -220,7 +220,10 @@ fn the_findings_of_the_paper_are_confirmed() {
         format!("l1/l2 from {least:.3} to {most:.3} on the curves"),
     ];
     for (finding, numbers) in FINDINGS[1..5].iter().zip(&told) {
-        assert!(finding.evidence.starts_with(numbers), "{finding:?}: {numbers}");
+        assert!(
+            finding.evidence.starts_with(numbers),
+            "{finding:?}: {numbers}"
+        );
     }
     assert!(FINDINGS.iter().all(|f| f.holds));
 }

@@ -2,9 +2,9 @@
 
 use super::{mechanism, shears};
 use ozols::model::loads::Stroke;
+use ozols::statics::contour_group::equilibrium;
 use ozols::statics::contour_group::pose::GroupPose;
 use ozols::statics::cycle::statics;
-use ozols::statics::contour_group::equilibrium;
 use ozols::statics::pose::{cross, dot, length, minus, plus, quarter};
 
 fn unit(v: [f64; 2]) -> [f64; 2] {

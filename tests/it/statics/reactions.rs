@@ -83,8 +83,7 @@ fn three_methods_agree_on_the_shears_to_nine_digits() {
         for (g, (_, letters)) in m.groups.iter().zip(&s.contour_groups) {
             let (lu, worth) = g.equilibrium.unwrap();
             let exact = ozols::statics::contour_group::equilibrium::exact(&g.pose).unwrap();
-            let out_of_whole =
-                from_equilibrium(&s.linkage, letters, &g.pose, whole).unwrap();
+            let out_of_whole = from_equilibrium(&s.linkage, letters, &g.pose, whole).unwrap();
             for (name, found) in [
                 ("δ", g.delta),
                 ("projective", g.projective),

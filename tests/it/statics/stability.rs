@@ -3,9 +3,9 @@
 use super::{mechanism, shears};
 use ozols::model::loads::Stroke;
 use ozols::statics::contour_group::pose::GroupPose;
-use ozols::statics::cycle::statics;
 use ozols::statics::contour_group::stability::{Failure, Sample, at_distance, samples};
 use ozols::statics::contour_group::{delta_point, equilibrium, projective};
+use ozols::statics::cycle::statics;
 
 fn base() -> GroupPose {
     let at = Stroke {
