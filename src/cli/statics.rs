@@ -25,7 +25,7 @@ pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
     if a.planar {
         load::put_in_plane(&mut m);
     }
-    let Some(state) = m.states.iter().position(|s| *s == a.state) else {
+    let Some(state) = m.state(&a.state) else {
         bail!(
             "{} has no state {}; it has: {}",
             m.name,

@@ -6,7 +6,7 @@ use crate::grip::holding::Holding;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::grip::lever_arm::LeverError;
 use crate::model::grip::{GripSpec, LeverDrive, Transmission};
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::statics::transmission::{Rates, TransmissionError, rates};
 use thiserror::Error;
@@ -78,7 +78,7 @@ pub fn grip(spec: &GripSpec, mechanism: Option<&Mechanism>) -> Result<Grip, Grip
             vec![rates; study.rows.len()]
         }
         (Transmission::Joints(joints), Some(m)) => {
-            let at_home = rates(m, &Pose::of_file(m, 0)?, &joints)?;
+            let at_home = rates(m, &Pose::of_file(m, StateId::FREE)?, &joints)?;
             let states = spec.contacts.and_then(|c| m.joints[c[0]].states.as_ref());
             let state = states.and_then(|s| s.first());
             let gripping = match state.map(|&s| Gripping::of_study(m, s, study.clone())) {

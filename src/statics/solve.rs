@@ -75,11 +75,12 @@ pub(crate) fn is_for_space(error: &PlanarStaticsError) -> bool {
 /// # Examples
 /// The parallel shears, held in their first position:
 /// ```
+/// use ozols::model::mechanism::StateId;
 /// use ozols::statics::solve::{Answer, Model, solve};
 ///
 /// let text = ozols::builtin::text("parallel-shears").expect("it is built in");
 /// let shears = ozols::file::text::mechanism_from_str(text)?;
-/// let Answer::Planar(found) = solve(&shears, 0, None, Model::Either)? else {
+/// let Answer::Planar(found) = solve(&shears, StateId::FREE, None, Model::Either)? else {
 ///     panic!("the shears are planar")
 /// };
 /// assert_eq!(found.decomposition.class(), 4);
