@@ -12,9 +12,8 @@ use crate::score::terms::axis_of;
 use crate::search::request::Search;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::applied::link_loads;
-use crate::statics::reactions::drives::Driven;
+use crate::statics::reactions::drives::{Driven, period};
 use crate::statics::reactions::geometry::{Geometry, Six, about, power, wrench};
-use crate::statics::reactions::period;
 
 /// What a choice puts at one joint.
 #[derive(Debug, Clone)]

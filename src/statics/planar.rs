@@ -73,30 +73,14 @@ pub enum PairKind {
     Rigid,
 }
 
-impl PairKind {
-    /// Constraints of the pair: 3 less its freedoms.
-    #[must_use]
-    pub fn constraints(self) -> usize {
-        match self {
-            PairKind::Turning | PairKind::Sliding => 2,
-            PairKind::Rigid => 3,
-        }
-    }
-
-    /// R, P or F, as structural formulas write it.
-    #[must_use]
-    pub fn letter(self) -> char {
-        match self {
-            PairKind::Turning => 'R',
-            PairKind::Sliding => 'P',
-            PairKind::Rigid => 'F',
-        }
-    }
-}
-
 impl fmt::Display for PairKind {
+    /// R, P or F, as structural formulas write it.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.letter())
+        f.write_str(match self {
+            PairKind::Turning => "R",
+            PairKind::Sliding => "P",
+            PairKind::Rigid => "F",
+        })
     }
 }
 
@@ -260,9 +244,9 @@ impl PlanarMechanism {
                 Freedom::Rx if normal(0) => turns += 1,
                 Freedom::Ry if normal(1) => turns += 1,
                 Freedom::Rz if normal(2) => turns += 1,
-                Freedom::Tx if across(0) => slides.push(axes[0]),
-                Freedom::Ty if across(1) => slides.push(axes[1]),
-                Freedom::Tz if across(2) => slides.push(axes[2]),
+                Freedom::Tx if across(0) => slides.push(self.across(axes[0])),
+                Freedom::Ty if across(1) => slides.push(self.across(axes[1])),
+                Freedom::Tz if across(2) => slides.push(self.across(axes[2])),
                 _ => outside = true,
             }
         }
@@ -270,7 +254,7 @@ impl PlanarMechanism {
             return Err(PlanarError::NotPlanar { joint: name() });
         }
         let point = self.flat(values.point);
-        let along: Vec<[f64; 2]> = slides.iter().map(|u| self.across(*u)).collect();
+        let along: Vec<[f64; 2]> = slides;
         let mut push = |bodies, kind, along, name| {
             self.pairs.push(Pair {
                 joint: j,

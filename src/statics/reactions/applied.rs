@@ -1,7 +1,7 @@
 //! The loads of a mechanism as one wrench a link.
 
 use crate::geom::expr::Expr;
-use crate::model::loads::Loads;
+use crate::model::loads::{ExternalForce, Loads, acts_at};
 use crate::model::mechanism::{LinkId, Mechanism};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::geometry::{Geometry, Six, wrench};
@@ -41,7 +41,8 @@ pub fn link_loads(
             }
         }
     }
-    for f in loads.forces.iter().filter(|f| f.acts_at(drive, period)) {
+    let now = |f: &&ExternalForce| acts_at(f.range, drive, period);
+    for f in loads.forces.iter().filter(now) {
         let at = geometry.place(pose, f.link, real(&f.point));
         add(f.link, wrench(at, real(&f.force), [0.0; 3]));
     }

@@ -16,6 +16,9 @@ use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
 
+/// Singular values below this fraction of the greatest count as zero.
+pub const TOLERANCE: f64 = 1e-9;
+
 /// A twist or a wrench.
 pub type Six = [f64; 6];
 

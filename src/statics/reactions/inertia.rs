@@ -11,8 +11,8 @@ use crate::model::loads::{Inertia, Loads};
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::drives::Driven;
-use crate::statics::reactions::geometry::{Column, Geometry, Six, power, wrench};
-use crate::statics::reactions::{TOLERANCE, Unsolved};
+use crate::statics::reactions::geometry::{Column, Geometry, Six, TOLERANCE, power, wrench};
+use crate::statics::reactions::unsolved::Unsolved;
 use faer::Mat;
 
 /// Contours may stay open by this fraction of the speeds (or rates) in them.
