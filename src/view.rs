@@ -17,6 +17,8 @@ pub mod ranking;
 pub mod reactions_cycle;
 pub mod reactions_data;
 pub mod reactions_text;
+pub mod search_csv;
+pub mod search_data;
 pub mod search_json;
 pub mod search_text;
 pub mod statics_charts;

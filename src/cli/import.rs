@@ -1,13 +1,56 @@
 //! `ozols import`.
 
-use super::args::{Args, Import, ImportFormat};
+use super::args::Args;
 use super::{Done, load, output};
 use crate::file::schema::MechanismFile;
 use crate::robots::{self, Options};
 use crate::view::layout::fit;
 use crate::view::next::{self, Step};
 use anyhow::{Context, bail};
-use std::path::Path;
+use clap::{Args as ClapArgs, ValueEnum, ValueHint};
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ImportFormat {
+    Toml,
+    Json,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Import {
+    /// A robot description: URDF, MJCF or SDF, by its root element.
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    file: String,
+    /// A file of loop closures (YAML, JSON or TOML): [[loop]] with a, b and type; robot.yaml of
+    /// example-parallel-robots; Drake's list of ball constraints.
+    #[arg(long, value_name = "SIDE")]
+    loops: Option<PathBuf>,
+    /// Value of a joint in radians or metres: elbow=0.3 (repeatable); several with commas for joints of several
+    /// freedoms. Loops that are open there are closed from there.
+    #[arg(long, value_name = "JOINT=VALUE", allow_hyphen_values = true)]
+    pose: Vec<String>,
+    /// Let a robot without a fixed link float: a joint of six freedoms to the world.
+    #[arg(long)]
+    floating: bool,
+    /// SDF drawn in parts: every joint puts the frame that is its parent onto its child.
+    #[arg(long)]
+    assemble: bool,
+    /// Take loops that are open in the given pose as they are.
+    #[arg(long)]
+    open: bool,
+    /// The fixed link; the root by default.
+    #[arg(long, value_name = "LINK")]
+    frame: Option<String>,
+    /// A link whose motion is the working motion (repeatable); the ends of chains by default.
+    #[arg(long, value_name = "LINK")]
+    working_link: Vec<String>,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "toml")]
+    format: ImportFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
 
 /// Largest robot description and file beside it, in bytes.
 const MAX_BYTES: u64 = 64 << 20;

@@ -5,6 +5,7 @@ use crate::model::coupling::Coupling;
 use crate::model::joint_type::JointType;
 use crate::model::loads::{Loads, MassProperties};
 use crate::model::ranking::{Ranking, TypeOverride};
+use std::sync::Arc;
 
 /// Index of a link in [`Mechanism::links`].
 pub type LinkId = usize;
@@ -181,6 +182,12 @@ pub struct Mechanism {
     pub joint_types: Vec<TypeOverride>,
     /// Known figures.
     pub expected: Vec<Expected>,
+}
+
+impl From<&Mechanism> for Arc<Mechanism> {
+    fn from(mechanism: &Mechanism) -> Self {
+        Arc::new(mechanism.clone())
+    }
 }
 
 impl Mechanism {
