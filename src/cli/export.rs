@@ -3,7 +3,7 @@
 use super::args::{Args, File};
 use super::request::Which;
 use super::{Done, load, output, variant};
-use crate::robots::export;
+use crate::api::{self, Format};
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::PathBuf;
 
@@ -49,14 +49,15 @@ pub(super) fn run(_: &Args, a: &Export) -> anyhow::Result<Done> {
         let request = a.which.request(a.state.as_deref())?;
         m = variant::kth(m, request, k, |v| v.mechanism())?;
     }
-    let text = match a.to {
-        ExportFormat::Toml => export::toml(&m)?,
-        ExportFormat::Json => format!("{:#}\n", export::mechanism_file(&m).json()),
-        ExportFormat::Urdf => export::urdf(&m)?,
-        ExportFormat::Sdf => export::sdf(&m),
-        ExportFormat::Dot => export::dot(&m),
-        ExportFormat::Graphml => export::graphml(&m),
+    let format = match a.to {
+        ExportFormat::Toml => Format::Toml,
+        ExportFormat::Json => Format::Json,
+        ExportFormat::Urdf => Format::Urdf,
+        ExportFormat::Sdf => Format::Sdf,
+        ExportFormat::Dot => Format::Dot,
+        ExportFormat::Graphml => Format::Graphml,
     };
+    let text = api::export(&m, format)?;
     output::to(a.output.as_deref(), |out| {
         write!(out, "{text}")?;
         Ok(Done::Found)

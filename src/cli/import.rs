@@ -1,12 +1,13 @@
 //! `ozols import`.
 
 use super::args::Args;
-use super::{Done, load, output};
+use super::{Done, output};
+use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::file::schema::MechanismFile;
 use crate::robots::{self, Options};
 use crate::view::layout::fit;
 use crate::view::next::{self, Step};
-use anyhow::{Context, bail};
+use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueEnum, ValueHint};
 use std::path::{Path, PathBuf};
 
@@ -52,9 +53,6 @@ pub(super) struct Import {
     output: Option<PathBuf>,
 }
 
-/// Largest robot description and file beside it, in bytes.
-const MAX_BYTES: u64 = 64 << 20;
-
 pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
     let mut options = Options {
         floating: a.floating,
@@ -68,7 +66,7 @@ pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
         options.pose.push(pose(p)?);
     }
     if let Some(path) = &a.loops {
-        let bytes = load::bytes(path, MAX_BYTES)?;
+        let bytes = api::bytes(path, MAX_DESCRIPTION_BYTES)?;
         options.loops = Some((path.display().to_string(), bytes));
     }
     let imported = description(Path::new(&a.file), &options)?;
@@ -113,26 +111,12 @@ fn pose(text: &str) -> anyhow::Result<(String, Vec<f64>)> {
     Ok((joint.to_owned(), values))
 }
 
-/// Imports a description; files it includes are read from its folder and nowhere else.
+/// Imports a description.
 pub(super) fn description(path: &Path, options: &Options) -> anyhow::Result<robots::Imported> {
-    let name = path.display().to_string();
-    if !path.is_file() {
-        bail!("{name} is not a file; give the path of a URDF, MJCF or SDF file");
-    }
-    let bytes = load::bytes(path, MAX_BYTES)?;
-    let folder = path
-        .parent()
-        .filter(|p| !p.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
-    let folder = std::fs::canonicalize(folder).with_context(|| format!("cannot read {name}"))?;
-    let read = |inner: &str| {
-        let inside = std::fs::canonicalize(folder.join(inner))?;
-        if !inside.starts_with(&folder) {
-            return Err(std::io::Error::other(
-                "it is outside the folder of the file",
-            ));
-        }
-        load::bytes_of(&inside, MAX_BYTES)
-    };
-    Ok(robots::import(&name, &bytes, &read, options)?)
+    ensure!(
+        path.is_file(),
+        "{} is not a file; give the path of a URDF, MJCF or SDF file",
+        path.display()
+    );
+    Ok(api::description(path, options)?)
 }

@@ -1,7 +1,7 @@
 //! `ozols list`.
 
 use super::args::List;
-use super::{Done, load, near, output};
+use super::{Done, near, output};
 use crate::builtin;
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{Method, analyse};
@@ -17,7 +17,7 @@ pub(super) fn run(a: &List) -> anyhow::Result<Done> {
     for (family, names) in builtin::families() {
         let mut heading = Some(family.clone());
         for name in names {
-            let m = load::mechanism_built_in(name)?;
+            let m = Mechanism::builtin(name)?;
             let about = format!("{name} {family} {}", m.description).to_lowercase();
             if !wanted.iter().all(|w| about.contains(w)) {
                 continue;
