@@ -151,7 +151,7 @@ pub(crate) fn description(path: &Path, options: &Options) -> Result<Imported, Er
 /// # Ok::<(), ozols::Error>(())
 /// ```
 pub fn analyze(mechanism: &Mechanism) -> Result<Vec<StateAnalysis>, Error> {
-    let states: Vec<StateId> = (0..mechanism.states.len()).collect();
+    let states: Vec<StateId> = mechanism.state_ids().collect();
     let method = Method::Auto { tolerance: None };
     Ok(analyse(mechanism, &states, method)?)
 }
@@ -220,10 +220,14 @@ pub enum Scheme {
 /// # Errors
 /// As [`analyze`]: the structural scheme shows where the redundant constraints are.
 pub fn draw(mechanism: &Mechanism, scheme: Scheme) -> Result<String, Error> {
-    let found = analyse(mechanism, &[0], Method::Auto { tolerance: None })?;
+    let found = analyse(
+        mechanism,
+        &[StateId::FREE],
+        Method::Auto { tolerance: None },
+    )?;
     let subject = Subject {
         mechanism,
-        state: 0,
+        state: StateId::FREE,
         analysis: found.first(),
         marks: None,
     };

@@ -1,6 +1,9 @@
 //! The arguments, as data.
 
-use super::examples;
+use super::{
+    accuracy, analyze, check, completions, draw, examples, explain, export, import, list, man, new,
+    report, search, verify,
+};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
@@ -35,10 +38,10 @@ pub(super) struct Args {
 pub(super) enum Command {
     /// Mobility and redundant constraints in each state.
     #[command(after_help = examples::ANALYZE)]
-    Analyze(Analyze),
+    Analyze(analyze::Analyze),
     /// Every redesign that removes the redundant constraints: exact counts and the best ones.
     #[command(after_help = examples::SEARCH)]
-    Search(super::search::Search),
+    Search(search::Search),
     /// Assur groups of a planar mechanism, and its joint reactions over the cycle.
     #[command(after_help = examples::STATICS)]
     Statics(Statics),
@@ -50,94 +53,46 @@ pub(super) enum Command {
     Drive(Drive),
     /// Confirm the certificates of rank that `ozols analyze --certificate` wrote.
     #[command(after_help = examples::VERIFY)]
-    Verify(Verify),
+    Verify(verify::Verify),
     /// Make a mechanism file of a robot description: URDF, MJCF or SDF.
     #[command(after_help = examples::IMPORT)]
-    Import(super::import::Import),
+    Import(import::Import),
     /// Draw the structural or the kinematic scheme as SVG.
     #[command(after_help = examples::DRAW)]
-    Draw(super::draw::Draw),
+    Draw(draw::Draw),
     /// One HTML page: the verdict, drawings, contours, and the variants to sort, filter and look at.
     #[command(after_help = examples::REPORT)]
-    Report(super::report::Report),
+    Report(report::Report),
     /// Write a mechanism in another format: TOML, JSON, URDF, SDF, Graphviz DOT, GraphML.
     #[command(after_help = examples::EXPORT)]
-    Export(super::export::Export),
+    Export(export::Export),
     /// How right and how fast each method is on every built-in mechanism, and where its numbers fail.
     #[command(after_help = examples::ACCURACY)]
-    Accuracy(Accuracy),
+    Accuracy(accuracy::Accuracy),
     /// Write a commented mechanism file to start from.
     #[command(after_help = examples::NEW)]
-    New(New),
+    New(new::New),
     /// What a file describes, and what is wrong or doubtful in it.
     #[command(after_help = examples::CHECK)]
     Check(File),
     /// The built-in mechanisms.
     #[command(after_help = examples::LIST)]
-    List(List),
+    List(list::List),
     /// Print the file of a built-in mechanism.
     #[command(after_help = examples::SHOW)]
-    Show(Show),
+    Show(check::Show),
     /// Print the JSON Schema of the mechanism file.
     #[command(after_help = examples::SCHEMA)]
     Schema,
     /// What a word in the output or the help means.
     #[command(after_help = examples::EXPLAIN)]
-    Explain(Explain),
+    Explain(explain::Explain),
     /// Print the script that completes commands and options in a shell.
     #[command(after_help = examples::COMPLETIONS)]
-    Completions(Completions),
+    Completions(completions::Completions),
     /// Print the manual page, or write one for each command.
     #[command(after_help = examples::MAN)]
-    Man(Man),
-}
-
-#[derive(Debug, ClapArgs)]
-pub(super) struct New {
-    /// The file to write; its ending is .toml, and the mechanism is named after it.
-    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(super) file: PathBuf,
-    /// The built-in mechanism to start from.
-    #[arg(long, value_name = "NAME", default_value = "four-bar")]
-    pub(super) from: String,
-    /// Replace a file that is there.
-    #[arg(long)]
-    pub(super) force: bool,
-}
-
-#[derive(Debug, ClapArgs)]
-pub(super) struct Show {
-    /// The name of a built-in mechanism.
-    #[arg(value_name = "NAME")]
-    pub(super) name: String,
-}
-
-#[derive(Debug, ClapArgs)]
-pub(super) struct List {
-    /// Only those with every one of these words in name, family or description.
-    #[arg(value_name = "WORD")]
-    pub(super) words: Vec<String>,
-}
-
-#[derive(Debug, ClapArgs)]
-pub(super) struct Explain {
-    /// The term, such as sigma, σ, or redundant constraint; all terms where left out.
-    #[arg(value_name = "TERM")]
-    pub(super) term: Vec<String>,
-}
-
-#[derive(Debug, ClapArgs)]
-pub(super) struct Completions {
-    /// The shell.
-    #[arg(value_enum, value_name = "SHELL")]
-    pub(super) shell: clap_complete::Shell,
-}
-
-#[derive(Debug, ClapArgs)]
-pub(super) struct Man {
-    /// Write a page for the program and one for each command into this folder.
-    #[arg(long, short, value_name = "DIR")]
-    pub(super) output: Option<PathBuf>,
+    Man(man::Man),
 }
 
 #[derive(Debug, ClapArgs)]
@@ -145,100 +100,6 @@ pub(super) struct File {
     /// A path, `-`, or the name of a built-in mechanism.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) file: String,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum RankMethod {
-    /// The cheapest that is certain: exact where the geometry is, singular values where it was measured.
-    Auto,
-    /// Modulo two primes near 2^61, every digit taken at its word.
-    Modular,
-    /// Exact elimination in fractions (rational coordinates only).
-    Rational,
-    /// Singular values in double precision, with the gap.
-    Svd,
-    /// Column-pivoted QR in double precision.
-    Qr,
-    /// Column-pivoted QR in single precision.
-    Qr32,
-    /// LU with full pivoting in double precision.
-    Lu,
-    /// LU with full pivoting in single precision.
-    Lu32,
-    /// Counting formula in space, 6(n-1) less the constraints.
-    Count,
-    /// Counting formula in the plane, 3(n-1) less the constraints.
-    CountPlanar,
-    /// Freedoms less the sum of the contours' own ranks.
-    Loops,
-    /// The same structure in general position, by a pebble game.
-    Generic,
-    /// Exact rank, and the mobility that is really there.
-    Finite,
-}
-
-#[derive(Debug, ClapArgs)]
-pub(super) struct Analyze {
-    #[command(flatten)]
-    pub(super) file: File,
-    /// A state named in the file, such as free or clamped, or all.
-    #[arg(long, default_value = "all")]
-    pub(super) state: String,
-    /// How the rank is found.
-    #[arg(long, value_enum, default_value = "auto")]
-    pub(super) method: RankMethod,
-    /// Relative tolerance of the floating-point methods, and of snapping measured geometry; by default what suits the
-    /// method and the digits.
-    #[arg(long, visible_alias = "snap", value_name = "T")]
-    pub(super) tolerance: Option<f64>,
-    /// Model the mechanism in its plane (normal z) with 3 rows per contour, whatever the file says.
-    #[arg(long)]
-    pub(super) planar: bool,
-    /// Output format.
-    #[arg(long, value_enum, default_value = "text")]
-    pub(super) format: AnalyzeFormat,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    pub(super) output: Option<PathBuf>,
-    /// Also write a proof of each state's rank to a JSON file, for `ozols verify`.
-    #[arg(long, value_name = "FILE")]
-    pub(super) certificate: Option<PathBuf>,
-    /// Also look at the poses over a range of the drive, in steps: 0:360deg:72. Counted from the pose of the file; radians
-    /// where no unit stands, the file's length unit for drives that slide. In the first state unless --state names one.
-    #[arg(long, value_name = "FROM:TO:STEPS", allow_hyphen_values = true)]
-    pub(super) stroke: Option<String>,
-    /// The joint that moves over the stroke, JOINT:FREEDOM where it has several; by default the file's first drive. The
-    /// file's other drives are held, unless this is none of them.
-    #[arg(long, value_name = "JOINT", requires = "stroke")]
-    pub(super) drive: Option<String>,
-    /// Write a chart of the conditioning over the stroke to a file.
-    #[arg(long, value_name = "FILE", requires = "stroke")]
-    pub(super) svg: Option<PathBuf>,
-}
-
-#[derive(Debug, ClapArgs)]
-pub(super) struct Verify {
-    #[command(flatten)]
-    pub(super) file: File,
-    /// The certificates, as written by `ozols analyze FILE --certificate CERTIFICATES`.
-    #[arg(value_name = "CERTIFICATES")]
-    pub(super) certificates: PathBuf,
-    /// The certificates were made with `analyze --planar`.
-    #[arg(long)]
-    pub(super) planar: bool,
-}
-
-#[derive(Debug, ClapArgs)]
-pub(super) struct Accuracy {
-    /// Write charts and tables to this folder, index.html first among them; without it only the table is printed.
-    #[arg(long, short, value_name = "DIR")]
-    pub(super) output: Option<PathBuf>,
-    /// Fewer repeats and coarser stability charts: some seconds instead of a minute or two.
-    #[arg(long)]
-    pub(super) quick: bool,
-    /// Times each answer is timed; the median counts. 5 by default, 1 with --quick.
-    #[arg(long, value_name = "N")]
-    pub(super) repeat: Option<usize>,
 }
 
 #[derive(Debug, ClapArgs)]

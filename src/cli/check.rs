@@ -1,6 +1,6 @@
 //! `ozols check`, `show` and `schema`.
 
-use super::args::{Args, File, Show};
+use super::args::{Args, File};
 use super::{Done, load, output};
 use crate::builtin;
 use crate::file::lint::{Checked, DoubtKind, Doubts, across, check};
@@ -11,6 +11,14 @@ use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{Method, analyse};
 use crate::view::{mechanism_text, words};
 use anyhow::{Context, bail};
+use clap::Args as ClapArgs;
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Show {
+    /// The name of a built-in mechanism.
+    #[arg(value_name = "NAME")]
+    name: String,
+}
 
 pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
     let (name, bytes) = load::named(&a.file)?;
@@ -21,7 +29,7 @@ pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
         });
     }
     let mut checked = check(&name, &bytes)?;
-    for state in 0..checked.mechanism.states.len() {
+    for state in checked.mechanism.state_ids() {
         match Gripping::new(&checked.mechanism, state) {
             // What cannot be held is for `ozols grip` to say; the file is valid.
             Ok(_) | Err(JawError::Nominal(_)) => {}
@@ -56,7 +64,7 @@ pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
 /// Doubts the figures that the file states where the analysis finds others.
 fn stale(m: &Mechanism, doubts: &mut Doubts) {
     for (i, e) in m.expected.iter().enumerate() {
-        let Some(s) = m.states.iter().position(|s| *s == e.state) else {
+        let Some(s) = m.state(&e.state) else {
             continue;
         };
         // Why there is no analysis is for `ozols analyze` to say.

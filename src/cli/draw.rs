@@ -4,6 +4,7 @@ use super::args::{Args, File};
 use super::request::Which;
 use super::{Done, load, output, variant};
 use crate::draw::{self, Drawing, Size, Subject};
+use crate::model::mechanism::StateId;
 use crate::redundancy::analysis::{Method, analyse};
 use anyhow::{bail, ensure};
 use clap::{Args as ClapArgs, ValueEnum};
@@ -50,7 +51,7 @@ pub(super) struct Draw {
 pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     let wanted = picture(a)?;
     let mut mechanism = load::mechanism(&a.file.file)?;
-    let Some(state) = mechanism.states.iter().position(|s| *s == a.state) else {
+    let Some(state) = mechanism.state(&a.state) else {
         bail!(
             "{} has no state {}; it has: {}",
             mechanism.name,
@@ -60,7 +61,7 @@ pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     };
     let mut marks = None;
     if let Some(k) = a.variant {
-        let external = a.which.max_external.is_some() && state > 0;
+        let external = a.which.max_external.is_some() && state != StateId::FREE;
         let request = a.which.request(external.then_some(a.state.as_str()))?;
         let (realized, changes) = variant::kth(mechanism, request, k, |v| {
             let search = &v.outcome().search;

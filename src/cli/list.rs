@@ -1,12 +1,19 @@
 //! `ozols list`.
 
-use super::args::List;
 use super::{Done, near, output};
 use crate::builtin;
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::analysis::{Method, analyse};
 use crate::view::words;
 use anyhow::Context;
+use clap::Args as ClapArgs;
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct List {
+    /// Only those with every one of these words in name, family or description.
+    #[arg(value_name = "WORD")]
+    words: Vec<String>,
+}
 
 /// The narrowest column that a description is worth.
 const NARROWEST: usize = 16;
@@ -71,7 +78,7 @@ pub(super) fn run(a: &List) -> anyhow::Result<Done> {
 
 /// A row for each state.
 fn rows_of(name: &str, m: &Mechanism) -> anyhow::Result<Vec<Vec<String>>> {
-    let states: Vec<usize> = (0..m.states.len()).collect();
+    let states: Vec<StateId> = m.state_ids().collect();
     let analysed = analyse(m, &states, Method::Modular)
         .with_context(|| format!("built-in mechanism {name}"))?;
     let row = |(i, s): (usize, crate::redundancy::analysis::StateAnalysis)| {

@@ -4,7 +4,7 @@ use super::args::{Args, File};
 use super::progress::{Watch, note};
 use super::request::Checked;
 use super::{Done, load, output};
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::page::{Commands, Page, Redesigns, html};
 use crate::redundancy::analysis::{Method, analyse};
 use crate::score::request::{List, Request};
@@ -44,7 +44,7 @@ pub(super) fn run(args: &Args, a: &Report) -> anyhow::Result<Done> {
     let mechanism = Arc::new(request.prepare(load::mechanism(&a.file.file)?, &mut note)?);
     // An unknown state is a mistake; geometry that cannot be searched is not.
     request.state(&mechanism)?;
-    let states: Vec<usize> = (0..mechanism.states.len()).collect();
+    let states: Vec<StateId> = mechanism.state_ids().collect();
     let states = analyse(&mechanism, &states, Method::Auto { tolerance: None })?;
     let write = |redesigns: Result<Redesigns<'_>, String>| -> anyhow::Result<Done> {
         let page = html(&Page {

@@ -36,7 +36,10 @@ fn further(r: &Redesigns<'_>) -> Result<Vec<Further>, AnalysisError> {
     let exact = search.field();
     let one = |(i, c): (usize, &Variant<'_>)| -> Result<Further, AnalysisError> {
         let m = search.realize(&c.assignment().choices);
-        let states = (1..m.states.len()).map(|s| figures::figures(exact, &m, s));
+        let states = m
+            .state_ids()
+            .skip(1)
+            .map(|s| figures::figures(exact, &m, s));
         Ok(Further {
             states: states.collect::<Result<_, _>>()?,
             idle: if i < CHECKED {

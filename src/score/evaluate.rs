@@ -75,11 +75,14 @@ impl<'s> Evaluator<'s> {
         states: &[StateId],
     ) -> Result<Evaluator<'s>, ScoreError> {
         let m = &*search.mechanism;
-        no_couplings(m, 0)?;
+        no_couplings(m, StateId::FREE)?;
         let types = JointTypes::of(m);
-        let start = follow(m, 0, &[], None)?;
+        let start = follow(m, StateId::FREE, &[], None)?;
         let drives = match start.poses.first() {
-            Some((_, pose)) => driven(m, &Geometry::new(m, 0, pose).map_err(Unsolved::from)?)?,
+            Some((_, pose)) => driven(
+                m,
+                &Geometry::new(m, StateId::FREE, pose).map_err(Unsolved::from)?,
+            )?,
             None => Vec::new(),
         };
         let cases = cases(m, &drives, states)?;
@@ -89,7 +92,7 @@ impl<'s> Evaluator<'s> {
             .iter()
             .map(|case| Table::new(search, &types, &outputs, &drives, case))
             .collect::<Result<_, _>>()?;
-        let states = analyse(m, &[0], Method::Modular)?;
+        let states = analyse(m, &[StateId::FREE], Method::Modular)?;
         let working = states
             .first()
             .map_or(0, |s| i64::try_from(s.working_mobility).unwrap_or(0));

@@ -3,7 +3,7 @@
 use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactError;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, Mechanism};
+use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::redundancy::share::{ContourShare, shares};
 use crate::score::ranking::{Ranked, RankedPool};
 use crate::score::request::{Check, List, LooksMeasured, Request};
@@ -402,7 +402,7 @@ impl<'o> Variant<'o> {
     pub fn redundant_by_contour(&self) -> Result<Vec<ContourShare>, ExactError> {
         let search = &self.outcome.search;
         let realized = search.realize(&self.assignment().choices);
-        let closure = Closure::new(search.field(), &realized, 0)?;
+        let closure = Closure::new(search.field(), &realized, StateId::FREE)?;
         Ok(shares(search.field(), &closure))
     }
 }

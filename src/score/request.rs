@@ -264,16 +264,16 @@ impl Request {
             (None, Some(_)) if mechanism.states.len() < 2 => {
                 Err(RequestError::OnlyFree { mechanism: name() })
             }
-            (None, Some(external)) => Ok(Some((1, external))),
+            (None, Some(external)) => Ok(Some((StateId::new(1), external))),
             (Some(state), external) => {
-                let Some(s) = mechanism.states.iter().position(|s| s == state) else {
+                let Some(s) = mechanism.state(state) else {
                     return Err(RequestError::NoState {
                         mechanism: name(),
                         state: state.clone(),
                         known: mechanism.states.clone(),
                     });
                 };
-                Ok((s > 0).then_some((s, external.unwrap_or(u32::MAX))))
+                Ok((s != StateId::FREE).then_some((s, external.unwrap_or(u32::MAX))))
             }
         }
     }
@@ -334,7 +334,7 @@ impl Request {
             return Ok(None);
         };
         let fields = [exact_field(mechanism, 0)?, exact_field(mechanism, 1)?];
-        let verdicts = std::iter::once(0)
+        let verdicts = std::iter::once(StateId::FREE)
             .chain(state)
             .map(|s| Verdicts::new(&fields, mechanism, s, why.tolerance()))
             .collect::<Result<Vec<_>, _>>()?;
@@ -414,7 +414,7 @@ impl Request {
             }
         }
         mechanism.search.hold.extend(held);
-        for (id, joint) in mechanism.joints.iter_mut().enumerate() {
+        for (id, joint) in mechanism.joint_ids().zip(&mut mechanism.joints) {
             let kept = |name: &String| {
                 let mut own = rules.iter().filter(|(j, ..)| *j == id);
                 (self.options.is_empty() || self.options.contains(name))

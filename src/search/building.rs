@@ -2,7 +2,7 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::{JointId, LinkId};
+use crate::model::mechanism::{JointId, LinkId, StateId};
 use crate::search::conditions::Search;
 use crate::search::diagram::{self, Collapse, Diagram, Limits, Progress, Stage, Stop};
 use crate::search::lookahead::lookahead;
@@ -43,7 +43,7 @@ impl Search {
         let (free, added): (Vec<usize>, Vec<usize>) =
             (0..self.space.variables.len()).partition(|&v| !self.space.variables[v].external);
         let order = variable_order(&self.mechanism, &self.space, &free, &[]);
-        let joints = |order: &[usize]| -> Vec<usize> {
+        let joints = |order: &[usize]| -> Vec<JointId> {
             order
                 .iter()
                 .flat_map(|&v| self.space.variables[v].joints.iter().copied())
@@ -81,7 +81,7 @@ impl Search {
         pinned.extend(&self.kept.0);
         let free_links: Vec<LinkId> = self
             .mechanism
-            .joints_in(0)
+            .joints_in(StateId::FREE)
             .flat_map(|j| self.mechanism.joints[j].links)
             .collect();
         let contacts = joints(&added)

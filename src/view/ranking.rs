@@ -266,7 +266,7 @@ impl<'a> RankedData<'a> {
     /// Of a ranked variant, with the reason of its place.
     #[must_use]
     pub fn new(m: &'a Mechanism, r: &Ranked, reason: Option<String>) -> Self {
-        let joint = |j: JointId| m.joints.get(j).map(|j| j.id.as_str());
+        let joint = |j: JointId| m.joints.get(j.index()).map(|j| j.id.as_str());
         let s = &r.scores;
         RankedData {
             peak_force: s.force.utilisation,
