@@ -16,8 +16,8 @@ mod workload;
 
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{AnalysisError, StateAnalysis};
-use crate::search::certify::{Certified, Summary};
-use crate::view::search_json::Found;
+use crate::score::outcome::{Outcome, Variant};
+use crate::search::certify::Summary;
 use embed::{fill, script_json, text};
 use serde_json::json;
 
@@ -40,9 +40,9 @@ pub struct Page<'a> {
 #[derive(Debug)]
 pub struct Redesigns<'a> {
     /// Counts and conditions.
-    pub found: &'a Found<'a>,
+    pub found: &'a Outcome,
     /// The variants of the page, in their order.
-    pub variants: Vec<Certified>,
+    pub variants: Vec<Variant<'a>>,
     /// What second opinions and other poses say of them.
     pub summary: Summary,
     /// Whether the giving was interrupted.

@@ -11,6 +11,8 @@ pub mod next;
 mod prefix;
 pub mod ranking;
 pub mod reactions;
+pub mod search_csv;
+pub mod search_data;
 pub mod search_json;
 pub mod search_text;
 pub mod statics;

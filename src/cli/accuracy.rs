@@ -1,6 +1,6 @@
 //! `ozols accuracy`.
 
-use super::args::{Accuracy, Args};
+use super::args::Args;
 use super::progress::Bar;
 use super::{Done, output};
 use crate::accuracy::folder;
@@ -9,6 +9,21 @@ use crate::accuracy::survey::Survey;
 use crate::view::accuracy_text;
 use crate::view::next::{self, Step};
 use anyhow::{Context, ensure};
+use clap::Args as ClapArgs;
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Accuracy {
+    /// Write charts and tables to this folder, index.html first among them; without it only the table is printed.
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Fewer repeats and coarser stability charts: some seconds instead of a minute or two.
+    #[arg(long)]
+    quick: bool,
+    /// Times each answer is timed; the median counts. 5 by default, 1 with --quick.
+    #[arg(long, value_name = "N")]
+    repeat: Option<usize>,
+}
 
 pub(super) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
     let repeat = a.repeat.unwrap_or(if a.quick { 1 } else { 5 });

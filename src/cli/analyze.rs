@@ -1,6 +1,6 @@
 //! `ozols analyze`.
 
-use super::args::{Analyze, AnalyzeFormat, Args, RankMethod};
+use super::args::{AnalyzeFormat, Args, File};
 use super::{Done, load, output, stroke, verify};
 use crate::model::measured::looks_measured;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -14,6 +14,77 @@ use crate::view::layout::fit;
 use crate::view::suggestions::{self, Advice};
 use crate::view::{analysis_json, analysis_text, next};
 use anyhow::{Context, bail};
+use clap::{Args as ClapArgs, ValueEnum};
+use std::path::PathBuf;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum RankMethod {
+    /// The cheapest that is certain: exact where the geometry is, singular values where it was measured.
+    Auto,
+    /// Modulo two primes near 2^61, every digit taken at its word.
+    Modular,
+    /// Exact elimination in fractions (rational coordinates only).
+    Rational,
+    /// Singular values in double precision, with the gap.
+    Svd,
+    /// Column-pivoted QR in double precision.
+    Qr,
+    /// Column-pivoted QR in single precision.
+    Qr32,
+    /// LU with full pivoting in double precision.
+    Lu,
+    /// LU with full pivoting in single precision.
+    Lu32,
+    /// Counting formula in space, 6(n-1) less the constraints.
+    Count,
+    /// Counting formula in the plane, 3(n-1) less the constraints.
+    CountPlanar,
+    /// Freedoms less the sum of the contours' own ranks.
+    Loops,
+    /// The same structure in general position, by a pebble game.
+    Generic,
+    /// Exact rank, and the mobility that is really there.
+    Finite,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Analyze {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// A state named in the file, such as free or clamped, or all.
+    #[arg(long, default_value = "all")]
+    pub(super) state: String,
+    /// How the rank is found.
+    #[arg(long, value_enum, default_value = "auto")]
+    method: RankMethod,
+    /// Relative tolerance of the floating-point methods, and of snapping measured geometry; by default what suits the
+    /// method and the digits.
+    #[arg(long, visible_alias = "snap", value_name = "T")]
+    pub(super) tolerance: Option<f64>,
+    /// Model the mechanism in its plane (normal z) with 3 rows per contour, whatever the file says.
+    #[arg(long)]
+    pub(super) planar: bool,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    pub(super) format: AnalyzeFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+    /// Also write a proof of each state's rank to a JSON file, for `ozols verify`.
+    #[arg(long, value_name = "FILE")]
+    pub(super) certificate: Option<PathBuf>,
+    /// Also look at the poses over a range of the drive, in steps: 0:360deg:72. Counted from the pose of the file; radians
+    /// where no unit stands, the file's length unit for drives that slide. In the first state unless --state names one.
+    #[arg(long, value_name = "FROM:TO:STEPS", allow_hyphen_values = true)]
+    pub(super) stroke: Option<String>,
+    /// The joint that moves over the stroke, JOINT:FREEDOM where it has several; by default the file's first drive. The
+    /// file's other drives are held, unless this is none of them.
+    #[arg(long, value_name = "JOINT", requires = "stroke")]
+    pub(super) drive: Option<String>,
+    /// Write a chart of the conditioning over the stroke to a file.
+    #[arg(long, value_name = "FILE", requires = "stroke")]
+    pub(super) svg: Option<PathBuf>,
+}
 
 pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file.file)?;

@@ -1,6 +1,6 @@
 //! `ozols check`, `show` and `schema`.
 
-use super::args::{Args, File, Show};
+use super::args::{Args, File};
 use super::{Done, load, output};
 use crate::builtin;
 use crate::file::lint::{Checked, DoubtKind, Doubts, across, check};
@@ -12,6 +12,14 @@ use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{Method, analyse};
 use crate::view::mechanism_text;
 use anyhow::{Context, bail};
+use clap::Args as ClapArgs;
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Show {
+    /// The name of a built-in mechanism.
+    #[arg(value_name = "NAME")]
+    name: String,
+}
 
 pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
     let (name, bytes) = load::named(&a.file)?;

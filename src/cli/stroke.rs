@@ -1,6 +1,6 @@
 //! The stroke of `ozols analyze`.
 
-use super::args::Analyze;
+use super::analyze::Analyze;
 use super::{Done, output, statics};
 use crate::model::joint_type::Freedom;
 use crate::model::loads::Stroke;

@@ -1,7 +1,7 @@
 //! What a gripper can hold over a range of diameters and motions, and the drive moment that takes.
 
-use crate::geom::vector::unit;
 use crate::format::number::decimals;
+use crate::geom::vector::unit;
 use crate::grip::contact::{Gripper, Pose, Unholdable};
 use crate::grip::holding::{Holding, HoldingError, Load, Outcome, Slip, Spatial, hold};
 use crate::grip::lever_arm::{Arms, Lever, LeverError};

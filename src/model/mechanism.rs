@@ -5,6 +5,7 @@ use crate::model::coupling::Coupling;
 use crate::model::joint_type::JointType;
 use crate::model::loads::{Loads, MassProperties};
 use crate::model::ranking::{Ranking, TypeOverride};
+use std::sync::Arc;
 
 pub use crate::model::id::{JointId, LinkId, StateId};
 
@@ -176,6 +177,12 @@ pub struct Mechanism {
     pub joint_types: Vec<TypeOverride>,
     /// Known figures.
     pub expected: Vec<Expected>,
+}
+
+impl From<&Mechanism> for Arc<Mechanism> {
+    fn from(mechanism: &Mechanism) -> Self {
+        Arc::new(mechanism.clone())
+    }
 }
 
 impl Mechanism {

@@ -2,7 +2,7 @@
 
 use super::embed::text;
 use super::{Page, Redesigns};
-use crate::search::primes::Verdict;
+use crate::search::primes::{PrimeCheck, Verdict};
 use crate::view::search_text;
 use itertools::Itertools;
 
@@ -51,20 +51,19 @@ fn search(r: &Redesigns<'_>) -> Vec<String> {
     let found = r.found;
     let mut lines = Vec::new();
     match found.check {
-        Some(([p, q], Verdict::Agree)) => {
-            lines.push(format!("Checked: modulo {p} and {q} the same"));
-        }
-        Some((_, Verdict::Interrupted)) => {
-            lines.push("Not checked by a second prime: interrupted".to_owned());
-        }
+        Some(PrimeCheck {
+            primes: [p, q],
+            verdict: Verdict::Agree,
+        }) => lines.push(format!("Checked: modulo {p} and {q} the same")),
+        Some(_) => lines.push("Not checked by a second prime: interrupted".to_owned()),
         None => lines.push("One prime, without a second opinion".to_owned()),
     }
-    if found.stop == "exhausted" {
+    if found.is_exact() {
         lines.push("Every variant was counted; none was left out".to_owned());
     } else {
         lines.push(format!(
             "Stopped early ({}): counts are lower bounds, variants are valid but may not be the cheapest",
-            found.stop
+            found.stop.word()
         ));
     }
     if let Some((why, verdicts)) = &found.measured {

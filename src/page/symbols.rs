@@ -20,7 +20,7 @@ fn places<'a>(page: &'a Page<'_>, state: StateId) -> Vec<(usize, usize, Swap<'a>
     let Ok(r) = &page.redesigns else {
         return Vec::new();
     };
-    let search = r.found.search;
+    let search = &r.found.search;
     let there: Vec<JointId> = page.mechanism.joints_in(state).collect();
     let mut out = Vec::new();
     for (v, variable) in search.space.variables.iter().enumerate() {

@@ -3,8 +3,9 @@
 use super::embed::{measured, text};
 use super::{Page, Redesigns, figures, workload};
 use crate::model::mechanism::Mechanism;
-use crate::redundancy::analysis::{AnalysisError, exact_field};
-use crate::search::certify::{CHECKED, Certified};
+use crate::redundancy::analysis::AnalysisError;
+use crate::score::outcome::Variant;
+use crate::search::certify::CHECKED;
 use crate::search::space::choice_name;
 use crate::view::search_text;
 use rayon::prelude::*;
@@ -31,23 +32,23 @@ struct Further {
 }
 
 fn further(r: &Redesigns<'_>) -> Result<Vec<Further>, AnalysisError> {
-    let search = r.found.search;
-    let exact = exact_field(search.mechanism, 0)?;
-    let one = |(i, c): (usize, &Certified)| -> Result<Further, AnalysisError> {
-        let m = search.realize(&c.variant.choices);
+    let search = &r.found.search;
+    let exact = search.field();
+    let one = |(i, c): (usize, &Variant<'_>)| -> Result<Further, AnalysisError> {
+        let m = search.realize(&c.assignment().choices);
         let states = m
             .state_ids()
             .skip(1)
-            .map(|s| figures::figures(&exact, &m, s));
+            .map(|s| figures::figures(exact, &m, s));
         Ok(Further {
             states: states.collect::<Result<_, _>>()?,
             idle: if i < CHECKED {
-                figures::idle(&exact, &m)?
+                figures::idle(exact, &m)?
             } else {
                 String::new()
             },
-            contours: (c.variant.key.internal() > 0)
-                .then(|| figures::redundant_by_contour(&exact, &m))
+            contours: (c.redundant() > 0)
+                .then(|| figures::redundant_by_contour(exact, &m))
                 .transpose()?,
         })
     };
@@ -56,8 +57,8 @@ fn further(r: &Redesigns<'_>) -> Result<Vec<Further>, AnalysisError> {
 
 /// Everything the script knows of the search.
 pub(super) fn json(page: &Page<'_>, r: &Redesigns<'_>) -> Result<Value, AnalysisError> {
-    let search = r.found.search;
-    let m = search.mechanism;
+    let search = &r.found.search;
+    let m = &search.mechanism;
     let further = further(r)?;
     let variables = search.space.variables.iter().map(|v| {
         let choices = v.choices.iter().map(|c| {
@@ -75,7 +76,7 @@ pub(super) fn json(page: &Page<'_>, r: &Redesigns<'_>) -> Result<Value, Analysis
         json!({"joints": v.joints, "choices": choices.collect::<Vec<_>>()})
     });
     let column =
-        |of: &dyn Fn(&Certified) -> Value| -> Vec<Value> { r.variants.iter().map(of).collect() };
+        |of: &dyn Fn(&Variant<'_>) -> Value| -> Vec<Value> { r.variants.iter().map(of).collect() };
     let working = page.states.first().map(|s| s.working_mobility);
     let working = working.and_then(|w| i64::try_from(w).ok());
     // Idle motions repeat: each text once, and its number by variant.
@@ -104,30 +105,29 @@ pub(super) fn json(page: &Page<'_>, r: &Redesigns<'_>) -> Result<Value, Analysis
         "space": search.size().to_string(),
         "determinate": r.found.determinate.total.to_string(),
         "admissible": r.found.admissible.total.to_string(),
-        "max_redundant": search.request.max_redundant,
-        "state": search.request.state.map(|(s, _)| s),
+        "max_redundant": search.conditions.max_redundant,
+        "state": search.conditions.state.map(|(s, _)| s),
         "variables": variables.collect::<Vec<_>>(),
         "choices": column(&|c| {
-            let changed = c.variant.choices.iter().enumerate().filter(|(_, c)| **c != 0);
+            let changed = c.assignment().choices.iter().enumerate().filter(|(_, c)| **c != 0);
             changed.flat_map(|(v, &c)| [v, c]).collect()
         }),
-        "cost": column(&|c| measured_cost(search.steps.milli(c.variant.key.cost()))),
-        "changes": column(&|c| json!(c.variant.key.changes())),
-        "mobility": column(&|c| json!(search.mobility(c.variant.key))),
-        "redundant": column(&|c| json!(c.variant.key.internal())),
-        "external": search.request.state.map(|_| column(&|c| json!(c.variant.key.external()))),
-        "idle": search.request.keep_output.then(|| column(&|c| {
-            json!(working.map(|w| search.mobility(c.variant.key) - w))
+        "cost": column(&|c| measured_cost(c.cost_milli())),
+        "changes": column(&|c| json!(c.change_count())),
+        "mobility": column(&|c| json!(c.mobility())),
+        "redundant": column(&|c| json!(c.redundant())),
+        "external": search.conditions.state.map(|_| column(&|c| json!(c.external_redundant()))),
+        "idle": search.conditions.keep_output.then(|| column(&|c| {
+            json!(working.map(|w| c.mobility() - w))
         })),
         "idle_words": words,
         "idle_word": idle,
         "states": states,
         "contours": further.iter().map(|f| f.contours.clone()).collect::<Vec<_>>(),
-        "conditioning": column(&|c| c.second.opinion().map_or(Value::Null, |o| measured(o.conditioning))),
-        "agree": column(&|c| json!(c.second.opinion().map(|o| o.agree))),
-        "lucky": column(&|c| json!(c.stroke.and_then(|s| s.lucky()))),
-        "notes": r.variants.iter().enumerate()
-            .map(|(i, c)| search_text::note(c, i + 1)).collect::<Vec<_>>(),
+        "conditioning": column(&|c| c.second().opinion().map_or(Value::Null, |o| measured(o.conditioning))),
+        "agree": column(&|c| json!(c.second().opinion().map(|o| o.agree))),
+        "lucky": column(&|c| json!(c.over_stroke().and_then(|s| s.lucky()))),
+        "notes": r.variants.iter().map(search_text::note).collect::<Vec<_>>(),
         "workload": workload::json(r),
     }))
 }

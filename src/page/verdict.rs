@@ -7,6 +7,8 @@ use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, Role};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::stress::Verdict;
+use crate::score::outcome::Variant;
+use crate::search::best::Assignment;
 use crate::view::words;
 use itertools::Itertools;
 use num_traits::{One, Zero};
@@ -123,13 +125,9 @@ fn redesigns(page: &Page<'_>, s: &StateAnalysis) -> String {
         return "No joint has a choice, so there is nothing to search: list options under [search] in the file."
             .to_owned();
     }
-    let least = if found.stop == "exhausted" {
-        ""
-    } else {
-        "at least "
-    };
+    let least = if found.is_exact() { "" } else { "at least " };
     let (all, good) = (big(&size), &found.admissible.total);
-    let request = &found.search.request;
+    let request = &found.search.conditions;
     let one = good.is_one();
     let goal = match (request.max_redundant, one) {
         (0, _) if s.redundant == 0 => (if one { "is" } else { "are" }).to_owned() + " determinate",
@@ -154,7 +152,7 @@ fn redesigns(page: &Page<'_>, s: &StateAnalysis) -> String {
     if let Some(first) = out.get(..1) {
         out = first.to_uppercase() + &out[1..];
     }
-    if s.redundant == 0 && r.variants.iter().any(|c| c.variant.key.changes() == 0) {
+    if s.redundant == 0 && r.variants.iter().any(|c| c.change_count() == 0) {
         return format!("Nothing needs changing. {out}.");
     }
     out + &best(r) + "."
@@ -164,7 +162,7 @@ fn redesigns(page: &Page<'_>, s: &StateAnalysis) -> String {
 fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
     let s = if one { "s" } else { "" };
     let have = if one { "has" } else { "have" };
-    let request = &r.found.search.request;
+    let request = &r.found.search.conditions;
     let outputs = m.links.iter().filter(|l| l.role == Role::Output);
     let outputs = outputs.map(|l| l.id.as_str()).collect_vec();
     let motion = match outputs.as_slice() {
@@ -195,8 +193,8 @@ fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
 
 /// What the best is like.
 fn best(r: &Redesigns<'_>) -> String {
-    let search = r.found.search;
-    let like = |v: &crate::search::best::Variant| match v.key.changes() {
+    let search = &r.found.search;
+    let like = |v: &Assignment| match v.key.changes() {
         0 => "changes nothing".to_owned(),
         n => format!(
             "changes {} at cost {}",
@@ -204,7 +202,7 @@ fn best(r: &Redesigns<'_>) -> String {
             cost(search.steps.milli(v.key.cost()))
         ),
     };
-    let cheapest = r.variants.iter().map(|c| &c.variant);
+    let cheapest = r.variants.iter().map(Variant::assignment);
     match (&r.found.ranking, r.variants.first()) {
         (Some(p), Some(first)) => {
             let cheapest = p.cheapest.as_ref().map_or(String::new(), |c| {
@@ -212,7 +210,7 @@ fn best(r: &Redesigns<'_>) -> String {
             });
             format!(
                 "; the best under the loads {}{cheapest}",
-                like(&first.variant)
+                like(first.assignment())
             )
         }
         (Some(_), None) => "; none of those scored is in equilibrium within the limits".to_owned(),

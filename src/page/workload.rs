@@ -10,7 +10,6 @@ use crate::score::evaluate::Evaluator;
 use crate::score::terms::Scores;
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
 
 /// What one variant scores; `None` where its loads have no equilibrium.
 type Scored = Option<(Scores, Vec<Option<Bearing>>)>;
@@ -22,8 +21,8 @@ const ARM: f64 = 1e-12;
 
 /// Scores and bearings of the variants for the script; null where the file states no loads and asks for no ranking.
 pub(super) fn json(r: &Redesigns<'_>) -> Value {
-    let search = r.found.search;
-    let m = search.mechanism;
+    let search = &r.found.search;
+    let m = &*search.mechanism;
     let ranking = r.found.ranking.as_ref();
     if !is_loaded(m) && ranking.is_none() {
         return Value::Null;
@@ -38,7 +37,7 @@ pub(super) fn json(r: &Redesigns<'_>) -> Value {
         .variants
         .par_iter()
         .map_init(Scratch::default, |scratch, v| {
-            evaluator.bearings(&v.variant, scratch).ok()
+            evaluator.bearings(v.assignment(), scratch).ok()
         })
         .collect();
     let column = |of: &dyn Fn(&Scores) -> Value| -> Vec<Value> {
@@ -62,27 +61,17 @@ pub(super) fn json(r: &Redesigns<'_>) -> Value {
         };
         scored.iter().map(one).collect()
     };
-    // The order of a ranked list is its own; places are looked up by choices.
-    let places: BTreeMap<&[usize], usize> = ranking.map_or_else(BTreeMap::new, |p| {
-        let list = p.list.iter().enumerate();
-        list.map(|(i, r)| (r.variant.choices.as_slice(), i))
-            .collect()
-    });
     let ranked = ranking.map(|p| {
-        let of = |v: &crate::search::certify::Certified| {
-            let place = *places.get(v.variant.choices.as_slice())?;
-            Some((place, &p.list[place]))
-        };
-        let all: Vec<_> = r.variants.iter().map(of).collect();
+        let all: Vec<_> = r.variants.iter().map(|v| v.ranked()).collect();
         json!({
             "head": crate::view::ranking::head(p),
             "notes": crate::view::ranking::notes(m, p).lines().map(str::trim)
                 .filter(|l| !l.is_empty() && !l.starts_with("rank ")).collect::<Vec<_>>(),
             "terms": p.ranking.terms.iter().map(|(t, _)| t.name()).collect::<Vec<_>>(),
-            "by_cost": all.iter().map(|x| x.map(|(_, r)| r.by_cost)).collect::<Vec<_>>(),
-            "total": all.iter().map(|x| x.and_then(|(_, r)| r.total).map(measured)).collect::<Vec<_>>(),
-            "front": all.iter().map(|x| x.and_then(|(_, r)| r.front)).collect::<Vec<_>>(),
-            "reason": all.iter().map(|x| x.and_then(|(i, _)| p.reason(m, i + 1))).collect::<Vec<_>>(),
+            "by_cost": all.iter().map(|x| x.map(|r| r.by_cost)).collect::<Vec<_>>(),
+            "total": all.iter().map(|x| x.and_then(|r| r.total).map(measured)).collect::<Vec<_>>(),
+            "front": all.iter().map(|x| x.and_then(|r| r.front)).collect::<Vec<_>>(),
+            "reason": r.variants.iter().map(|v| v.reason()).collect::<Vec<_>>(),
         })
     });
     json!({

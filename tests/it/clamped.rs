@@ -14,13 +14,12 @@ use ozols::motion::pose::Pose;
 use ozols::redundancy::analysis::exact_field;
 use ozols::score::elimination::Scratch;
 use ozols::score::evaluate::Evaluator;
-use ozols::search::request::{Request, Search};
+use ozols::search::conditions::{Conditions, Search};
 use ozols::statics::reactions::drives::driven;
 use ozols::statics::reactions::follow::follow_to;
 use ozols::statics::reactions::geometry::{Geometry, cross, dot};
 use ozols::statics::reactions::{JointReaction, Reactions, Solution};
 use serde_json::Value;
-use std::ops::ControlFlow;
 
 fn text() -> &'static str {
     builtin::text("lever-gripper").unwrap()
@@ -508,13 +507,9 @@ fn statics_say_which_loads_came_from_the_grip() {
     );
 }
 
-fn pool(s: &Search<'_>, n: usize) -> Vec<ozols::search::best::Variant> {
+fn pool(s: &Search, n: usize) -> Vec<ozols::search::best::Assignment> {
     let d = s.build(&|| false, &mut |_| {});
-    let mut out = Vec::new();
-    s.cheapest(&d, n, |v| {
-        out.push(v);
-        ControlFlow::Continue(())
-    });
+    let out: Vec<_> = s.cheapest(&d, n).collect();
     out
 }
 
@@ -523,9 +518,9 @@ fn pool(s: &Search<'_>, n: usize) -> Vec<ozols::search::best::Variant> {
 fn variants_are_scored_by_the_worst_part() {
     let m = built_in();
     for redundant in [0, 1] {
-        let request = Request {
+        let request = Conditions {
             max_redundant: redundant,
-            ..Request::default()
+            ..Conditions::default()
         };
         let s = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
         let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();

@@ -524,7 +524,7 @@ fn redesigns_of_a_geared_gripper() {
 #[test]
 fn couplings_have_mirror_images() {
     use ozols::redundancy::analysis::exact_field;
-    use ozols::search::request::{Request, Search, Symmetry};
+    use ozols::search::conditions::{Conditions, Search, Symmetry};
     let text = pair(
         TURN,
         TURN,
@@ -533,9 +533,9 @@ fn couplings_have_mirror_images() {
     let with = |ratio: &str| {
         mechanism(&text.replacen("[search]", &(coupled("a", "b", ratio) + "[search]"), 1))
     };
-    let request = || Request {
+    let request = || Conditions {
         symmetry: Symmetry::OnePerOrbit,
-        ..Request::default()
+        ..Conditions::default()
     };
     let made = |m: &Mechanism| {
         Search::new(exact_field(m, 0).unwrap(), m, request())

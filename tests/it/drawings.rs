@@ -6,10 +6,9 @@ use ozols::draw::{Drawing, Rect, Subject, kinematic, marks, scheme};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::redundancy::analysis::{Method, StateAnalysis, analyse, exact_field};
-use ozols::search::request::{Request, Search};
+use ozols::search::conditions::{Conditions, Search};
 use proptest::prelude::*;
 use std::fmt::Write as _;
-use std::ops::ControlFlow;
 
 fn built_in(name: &str) -> Mechanism {
     mechanism_from_str(&format!("{name}.toml"), builtin::text(name).unwrap()).unwrap()
@@ -288,17 +287,13 @@ fn the_scheme_says_what_the_field_says() {
 #[test]
 fn variants_are_marked() {
     let m = built_in("gripper-10");
-    let request = Request {
+    let request = Conditions {
         state: Some((StateId::new(1), 2)),
-        ..Request::default()
+        ..Conditions::default()
     };
     let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
     let diagrams = search.build(&|| false, &mut |_| {});
-    let mut first = None;
-    search.cheapest(&diagrams, 1, |v| {
-        first = Some(v);
-        ControlFlow::Break(())
-    });
+    let first = search.cheapest(&diagrams, 1).next();
     let (realized, marks) = marks::of_variant(&search, &first.unwrap(), "variant 1");
     assert_eq!(marks.links, 11);
     assert!(

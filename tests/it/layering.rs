@@ -16,6 +16,7 @@ const LAYERS: [&[&str]; 14] = [
     &["redundancy", "file"],
     &["search", "robots"],
     &["accuracy", "score", "draw"],
+    &["api"],
     &["view"],
     &["page"],
     &["cli"],

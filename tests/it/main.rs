@@ -20,6 +20,7 @@ mod first_hour;
 mod grip;
 mod holding;
 mod layering;
+mod library;
 mod mobility;
 mod png;
 mod programmes;

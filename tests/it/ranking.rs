@@ -12,35 +12,30 @@ use ozols::score::evaluate::Evaluator;
 use ozols::score::joint_types::JointTypes;
 use ozols::score::pareto::{dominates, fronts};
 use ozols::score::ranking::{RankedPool, Ranker, compare, weighted};
-use ozols::search::best::Variant;
-use ozols::search::request::{Request, Search};
+use ozols::search::best::Assignment;
+use ozols::search::conditions::{Conditions, Search};
 use proptest::prelude::*;
-use std::ops::ControlFlow;
 
 fn loaded() -> Mechanism {
     let text = builtin::text("gripper-10-loaded").unwrap();
     mechanism_from_str("gripper-10-loaded.toml", text).unwrap()
 }
 
-fn search(m: &Mechanism, redundant: u32) -> Search<'_> {
-    let request = Request {
+fn search(m: &Mechanism, redundant: u32) -> Search {
+    let request = Conditions {
         max_redundant: redundant,
-        ..Request::default()
+        ..Conditions::default()
     };
     Search::new(exact_field(m, 0).unwrap(), m, request).unwrap()
 }
 
-fn cheapest(s: &Search<'_>, n: usize) -> Vec<Variant> {
+fn cheapest(s: &Search, n: usize) -> Vec<Assignment> {
     let d = s.build(&|| false, &mut |_| {});
-    let mut out = Vec::new();
-    s.cheapest(&d, n, |v| {
-        out.push(v);
-        ControlFlow::Continue(())
-    });
+    let out: Vec<_> = s.cheapest(&d, n).collect();
     out
 }
 
-fn sampled(s: &Search<'_>, n: usize) -> Vec<Variant> {
+fn sampled(s: &Search, n: usize) -> Vec<Assignment> {
     s.sample(&s.build(&|| false, &mut |_| {}), n, 7)
 }
 
@@ -502,7 +497,7 @@ fn joint_types_can_be_overridden() {
     let of = |m: &Mechanism| {
         let s = search(m, 11);
         let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
-        let present = Variant {
+        let present = Assignment {
             choices: vec![0; s.space.variables.len()],
             key: cheapest(&s, 1)[0].key,
         };

@@ -8,10 +8,9 @@ use ozols::model::coupling::CoupledFreedom;
 use ozols::model::joint_type::{Freedom, JointType};
 use ozols::model::mechanism::{Frame, JointId, LinkId, Mechanism, Mode, Role, StateId};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
-use ozols::search::request::{Request, Search, Symmetry};
+use ozols::search::conditions::{Conditions, Search, Symmetry};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 
 type Q = BigRational;
 
@@ -474,12 +473,12 @@ fn agrees(text: &str, allowed: u32, keep: bool) -> Result<(), TestCaseError> {
     }
     // Every variant.
     let external = if clamped { allowed * 2 } else { 0 };
-    let request = Request {
+    let request = Conditions {
         max_redundant: allowed,
         state: clamped.then_some((StateId::new(1), external)),
         keep_output: keep,
         symmetry: Symmetry::All,
-        ..Request::default()
+        ..Conditions::default()
     };
     let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
     let diagrams = search.build(&|| false, &mut |_| {});
@@ -507,22 +506,14 @@ fn agrees(text: &str, allowed: u32, keep: bool) -> Result<(), TestCaseError> {
     );
     prop_assert_eq!((determinate, admissible.clone()), search.brute());
     // The k best: all of them, each once, cheapest first; a shorter list is a prefix of a longer one.
-    let mut list = Vec::new();
-    search.cheapest(&diagrams, usize::MAX / 4, |v| {
-        list.push(v);
-        ControlFlow::Continue(())
-    });
+    let list: Vec<_> = search.cheapest(&diagrams, usize::MAX / 4).collect();
     prop_assert_eq!(admissible.total, list.len().into());
     let mut distinct: Vec<_> = list.iter().map(|v| v.choices.clone()).collect();
     distinct.sort();
     distinct.dedup();
     prop_assert_eq!(distinct.len(), list.len());
     prop_assert!(list.windows(2).all(|w| w[0].key.cost() <= w[1].key.cost()));
-    let mut three = Vec::new();
-    search.cheapest(&diagrams, 3, |v| {
-        three.push(v);
-        ControlFlow::Continue(())
-    });
+    let three: Vec<_> = search.cheapest(&diagrams, 3).collect();
     prop_assert_eq!(&three[..], &list[..list.len().min(3)]);
     for v in search.sample(&diagrams, 5, 7) {
         prop_assert!(list.contains(&v));

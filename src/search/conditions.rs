@@ -1,4 +1,4 @@
-//! A search from question to answer: what is asked, and which variants answer it.
+//! The conditions that variants must meet, and a search made ready for them.
 
 use crate::closure::contour::contour_basis;
 use crate::geom::exact::{ExactError, ExactField};
@@ -7,7 +7,7 @@ use crate::model::coupling::{CoupledFreedom, Coupling};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::redundancy::motion::joint_motion;
-use crate::search::best::{self, Variant};
+use crate::search::best::{self, Assignment, Cheapest};
 use crate::search::brute::{self, Matrices};
 use crate::search::building::Diagrams;
 use crate::search::cost::CostTable;
@@ -16,7 +16,7 @@ use crate::search::diagram::Diagram;
 use crate::search::space::Space;
 use crate::search::tally::{Key, Kinds, Steps, Tally};
 use num_bigint::BigUint;
-use std::ops::ControlFlow;
+use std::sync::Arc;
 use thiserror::Error;
 
 /// Which variants of a mirror-symmetric mechanism are wanted.
@@ -31,9 +31,9 @@ pub enum Symmetry {
     OnePerOrbit,
 }
 
-/// What is asked.
+/// What variants must be like, said of one mechanism: its state by number.
 #[derive(Debug, Clone)]
-pub struct Request {
+pub struct Conditions {
     /// Redundant constraints allowed within the mechanism.
     pub max_redundant: u32,
     /// The state whose additional joints take part, with the external redundancy allowed there.
@@ -52,9 +52,9 @@ pub struct Request {
     pub tolerance: f64,
 }
 
-impl Default for Request {
+impl Default for Conditions {
     fn default() -> Self {
-        Request {
+        Conditions {
             max_redundant: 0,
             state: None,
             max_mobility: None,
@@ -104,11 +104,11 @@ pub enum SearchError {
 
 /// A search made ready: space, costs, and the diagram of the admissible variants.
 #[derive(Debug)]
-pub struct Search<'m> {
+pub struct Search {
     /// The mechanism.
-    pub mechanism: &'m Mechanism,
-    /// What is asked.
-    pub request: Request,
+    pub mechanism: Arc<Mechanism>,
+    /// What variants must be like.
+    pub conditions: Conditions,
     /// The space (with mirrored pairs as one variable where only symmetric variants are wanted).
     pub space: Space,
     /// Its costs.
@@ -120,17 +120,18 @@ pub struct Search<'m> {
     pub(super) kept: (Vec<LinkId>, Vec<Vec<Residue>>),
 }
 
-impl<'m> Search<'m> {
-    /// Makes a search ready.
+impl Search {
+    /// Makes a search ready; a mechanism given by reference is copied.
     ///
     /// # Errors
     /// Where the geometry has no exact image, or symmetry is asked of an unsymmetric file.
     pub fn new(
         exact: ExactField,
-        mechanism: &'m Mechanism,
-        request: Request,
+        mechanism: impl Into<Arc<Mechanism>>,
+        conditions: Conditions,
     ) -> Result<Self, SearchError> {
-        if request.symmetry != Symmetry::All {
+        let mechanism: Arc<Mechanism> = mechanism.into();
+        if conditions.symmetry != Symmetry::All {
             if mechanism.search.mirror.is_empty() {
                 return Err(SearchError::NoMirror {
                     mechanism: mechanism.name.clone(),
@@ -152,18 +153,22 @@ impl<'m> Search<'m> {
                     });
                 }
             }
-            if let Some(c) = mechanism.couplings.iter().find(|c| !mirrored(mechanism, c)) {
+            if let Some(c) = mechanism
+                .couplings
+                .iter()
+                .find(|c| !mirrored(&mechanism, c))
+            {
                 return Err(SearchError::UnlikeCoupling {
-                    coupling: c.name(mechanism),
+                    coupling: c.name(&mechanism),
                 });
             }
         }
         let costs = CostTable::new(&mechanism.search.costs);
-        let symmetric = request.symmetry == Symmetry::SymmetricOnly;
+        let symmetric = conditions.symmetry == Symmetry::SymmetricOnly;
         let space = Space::new(
             &exact,
-            mechanism,
-            request.state.map(|(s, _)| s),
+            &mechanism,
+            conditions.state.map(|(s, _)| s),
             symmetric,
             &costs,
         )?;
@@ -176,19 +181,25 @@ impl<'m> Search<'m> {
             .collect();
         kept.sort_unstable();
         kept.dedup();
-        let present = joint_motion(&exact, mechanism, StateId::FREE, &kept)?;
-        let rows = space.dim * contour_basis(mechanism, StateId::FREE).len()
+        let present = joint_motion(&exact, &mechanism, StateId::FREE, &kept)?;
+        let rows = space.dim * contour_basis(&mechanism, StateId::FREE).len()
             + mechanism.couplings_in(StateId::FREE).count();
         let rows = i64::try_from(rows).unwrap_or(i64::MAX);
         Ok(Search {
             mechanism,
-            request,
+            conditions,
             space,
             steps,
             exact,
             rows,
             kept: (kept, present),
         })
+    }
+
+    /// The prime field of the search.
+    #[must_use]
+    pub fn field(&self) -> &ExactField {
+        &self.exact
     }
 
     /// Number of variants asked about: of orbits, where one of each is wanted.
@@ -206,59 +217,54 @@ impl<'m> Search<'m> {
     /// Whether a variant's key meets the conditions on mobility and changes.
     #[must_use]
     pub fn wanted(&self, key: Key) -> bool {
-        self.request
+        self.conditions
             .max_mobility
             .is_none_or(|m| self.mobility(key) <= m)
-            && self.request.max_changes.is_none_or(|c| key.changes() <= c)
+            && self
+                .conditions
+                .max_changes
+                .is_none_or(|c| key.changes() <= c)
     }
 
-    /// Gives `visit` the admissible variants, cheapest first, then by W, then by changes, then in the order of the
-    /// diagram's variables, until it breaks or `top` have been given.
-    pub fn cheapest(
-        &self,
-        diagrams: &Diagrams,
+    /// The admissible variants, cheapest first, then by W, then by changes, then in the order of the diagram's variables;
+    /// `top` of them at most.
+    pub fn cheapest<'a>(
+        &'a self,
+        diagrams: &'a Diagrams,
         top: usize,
-        visit: impl FnMut(Variant) -> ControlFlow<()>,
-    ) {
+    ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+        if self.conditions.symmetry != Symmetry::OnePerOrbit {
+            return self.in_order(&diagrams.admissible, top);
+        }
+        // At most every other variant is dropped, so twice as many always suffice.
+        let all = self.in_order(&diagrams.admissible, top.saturating_mul(2));
+        let first_of_orbit = |v: &Assignment| self.mirrored(&v.choices) >= v.choices;
+        Box::new(all.filter(first_of_orbit).take(top))
+    }
+
+    fn in_order<'a>(
+        &'a self,
+        diagram: &'a Diagram,
+        top: usize,
+    ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
         let rank = |k: Key| (self.mobility(k), k.changes());
         let wanted = |k: Key| self.wanted(k);
-        if self.request.symmetry == Symmetry::OnePerOrbit {
-            // At most every other variant is dropped, so twice as many always suffice.
-            let (mut visit, mut left) = (visit, top);
-            let visit = |v: Variant| {
-                if self.mirrored(&v.choices) < v.choices {
-                    return ControlFlow::Continue(());
-                }
-                if left == 0 {
-                    return ControlFlow::Break(());
-                }
-                left -= 1;
-                visit(v)
-            };
-            self.cheapest_with(
-                &diagrams.admissible,
-                top.saturating_mul(2),
+        if self.fits() {
+            Box::new(Cheapest::<u128>::new(
+                diagram,
+                &self.steps,
+                top,
                 wanted,
                 rank,
-                visit,
-            );
+            ))
         } else {
-            self.cheapest_with(&diagrams.admissible, top, wanted, rank, visit);
-        }
-    }
-
-    fn cheapest_with<R: Ord>(
-        &self,
-        diagram: &Diagram,
-        top: usize,
-        wanted: impl Fn(Key) -> bool,
-        rank: impl Fn(Key) -> R,
-        visit: impl FnMut(Variant) -> ControlFlow<()>,
-    ) {
-        if self.fits() {
-            best::cheapest::<u128, R>(diagram, &self.steps, top, wanted, rank, visit);
-        } else {
-            best::cheapest::<BigUint, R>(diagram, &self.steps, top, wanted, rank, visit);
+            Box::new(Cheapest::<BigUint>::new(
+                diagram,
+                &self.steps,
+                top,
+                wanted,
+                rank,
+            ))
         }
     }
 
@@ -277,10 +283,10 @@ impl<'m> Search<'m> {
 
     /// Draws admissible variants, each with the same chance.
     #[must_use]
-    pub fn sample(&self, diagrams: &Diagrams, count: usize, seed: u64) -> Vec<Variant> {
+    pub fn sample(&self, diagrams: &Diagrams, count: usize, seed: u64) -> Vec<Assignment> {
         let kinds = Kinds {
-            freedoms: self.request.max_mobility.is_some(),
-            changes: self.request.max_changes.is_some(),
+            freedoms: self.conditions.max_mobility.is_some(),
+            changes: self.conditions.max_changes.is_some(),
             cost: false,
         };
         let keys = self.steps.only(kinds);
@@ -298,13 +304,16 @@ impl<'m> Search<'m> {
     /// Counts by looking at every variant: (determinate, admissible).
     #[must_use]
     pub fn brute(&self) -> (Counts, Counts) {
-        let matrices = Matrices::new(&self.exact, self.mechanism, &self.space, &self.kept.0);
+        let matrices = Matrices::new(&self.exact, &self.mechanism, &self.space, &self.kept.0);
         let admissible = |seen: brute::Seen| {
-            (!self.request.keep_output || seen.motion == self.kept.1.len())
-                && self.request.state.is_none_or(|(_, e)| seen.external <= e)
+            (!self.conditions.keep_output || seen.motion == self.kept.1.len())
+                && self
+                    .conditions
+                    .state
+                    .is_none_or(|(_, e)| seen.external <= e)
         };
         let class = |seen: brute::Seen| {
-            (seen.internal <= self.request.max_redundant).then(|| admissible(seen))
+            (seen.internal <= self.conditions.max_redundant).then(|| admissible(seen))
         };
         let (mut all, mut good) = (Counts::default(), Counts::default());
         for ((key, admissible), count) in brute::count(&matrices, &self.steps, class) {
