@@ -4,7 +4,8 @@ use super::Verdict;
 use super::survey::{Case, Reply, Standing, Survey};
 use super::words::{duration, list, signed};
 use crate::chart::{Axis, Cell, Chart, Kind, Matrix, Scale, Series, Style};
-use crate::rank::method::{self, MobilityMethod};
+use crate::rank::method::MobilityMethod;
+use crate::rank::registry;
 
 /// The methods that no other one beats in both share and time, the fastest first.
 #[must_use]
@@ -35,7 +36,9 @@ fn percent(share: f64) -> String {
 /// Share of right answers against median time of an answer.
 #[must_use]
 pub fn share_time(survey: &Survey) -> Chart {
-    let standings: Vec<Standing> = (0..method::ALL.len()).map(|m| survey.standing(m)).collect();
+    let standings: Vec<Standing> = (0..registry::ALL.len())
+        .map(|m| survey.standing(m))
+        .collect();
     let front = pareto(&standings);
     let mut steps: Vec<(f64, f64)> = front
         .iter()
@@ -50,7 +53,7 @@ pub fn share_time(survey: &Survey) -> Chart {
         points: steps,
         style: Style::Steps,
     }];
-    series.extend(method::ALL.iter().zip(&standings).map(|(m, s)| Series {
+    series.extend(registry::ALL.iter().zip(&standings).map(|(m, s)| Series {
         name: m.name().to_owned(),
         points: vec![(s.seconds, 100.0 * s.share)],
         style: Style::Points,
@@ -75,7 +78,7 @@ pub fn share_time(survey: &Survey) -> Chart {
 
 fn share_sentence(survey: &Survey, standings: &[Standing], front: &[usize]) -> String {
     let cases = survey.cases.len();
-    let all: Vec<String> = method::ALL
+    let all: Vec<String> = registry::ALL
         .iter()
         .zip(standings)
         .filter(|(_, s)| s.right == cases)
@@ -89,7 +92,7 @@ fn share_sentence(survey: &Survey, standings: &[Standing], front: &[usize]) -> S
     let front: Vec<String> = front
         .iter()
         .map(|&m| {
-            let (name, s) = (method::ALL[m].name(), &standings[m]);
+            let (name, s) = (registry::ALL[m].name(), &standings[m]);
             format!("{name} ({}, {})", percent(s.share), duration(s.seconds))
         })
         .collect();
@@ -103,7 +106,7 @@ fn share_sentence(survey: &Survey, standings: &[Standing], front: &[usize]) -> S
 /// Mechanisms down, methods across: right, wrong by how much, or not applicable.
 #[must_use]
 pub fn matrix(survey: &Survey) -> Matrix {
-    let columns: Vec<String> = method::ALL.iter().map(|m| m.name().to_owned()).collect();
+    let columns: Vec<String> = registry::ALL.iter().map(|m| m.name().to_owned()).collect();
     let rows = survey.cases.iter().map(Case::name).collect();
     let cell = |case: &Case, (method, reply): (&&dyn MobilityMethod, &Reply)| {
         let (text, kind) = match reply.verdict {
@@ -122,7 +125,7 @@ pub fn matrix(survey: &Survey) -> Matrix {
     let cells = survey.cases.iter().zip(&survey.replies);
     let cells = cells
         .map(|(case, replies)| {
-            let pairs = method::ALL.iter().zip(replies);
+            let pairs = registry::ALL.iter().zip(replies);
             pairs.map(|pair| cell(case, pair)).collect()
         })
         .collect();
@@ -152,7 +155,7 @@ fn tooltip(case: &Case, method: &dyn MobilityMethod, reply: &Reply) -> String {
     match reply.verdict {
         Verdict::Right => format!("{says}, right"),
         Verdict::Pose(_) => format!("{says}; {is}: the method speaks of the pose alone"),
-        _ => format!("{says}; {is}: {}", method.guarantee()),
+        _ => format!("{says}; {is}: {}", method.about().guarantee),
     }
 }
 
@@ -174,6 +177,6 @@ fn matrix_sentence(survey: &Survey) -> String {
          answers are wrong, {pose} are right at the pose of the file but not for the motion, n/a is where a method does \
          not apply.",
         survey.cases.len(),
-        method::ALL.len(),
+        registry::ALL.len(),
     )
 }

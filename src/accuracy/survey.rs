@@ -6,7 +6,8 @@ use crate::builtin;
 use crate::file::problem::ImportError;
 use crate::file::text::mechanism_from_str;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::method::{self, Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
+use crate::rank::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
+use crate::rank::registry;
 use rayon::prelude::*;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -96,7 +97,7 @@ pub struct Standing {
 pub struct Survey {
     /// The cases, by name.
     pub cases: Vec<Case>,
-    /// What each method of [`method::ALL`] said, case by case.
+    /// What each method of [`registry::ALL`] said, case by case.
     pub replies: Vec<Vec<Reply>>,
 }
 
@@ -138,7 +139,7 @@ impl Survey {
         let answers: Vec<Vec<Result<Answer, NoAnswer>>> = cases
             .par_iter()
             .map(|c| {
-                method::ALL
+                registry::ALL
                     .iter()
                     .map(|m| m.answer(&c.mechanism, c.state))
                     .collect()
@@ -152,7 +153,7 @@ impl Survey {
                 answer,
                 seconds: time(*method, &case.mechanism, case.state, repeat),
             };
-            replies.push(method::ALL.iter().zip(answers).map(reply).collect());
+            replies.push(registry::ALL.iter().zip(answers).map(reply).collect());
         }
         progress(cases.len(), cases.len());
         Ok(Survey { cases, replies })
@@ -204,7 +205,7 @@ impl Survey {
             "median_seconds",
         ]);
         for (case, replies) in self.cases.iter().zip(&self.replies) {
-            for (method, reply) in method::ALL.iter().zip(replies) {
+            for (method, reply) in registry::ALL.iter().zip(replies) {
                 let answer = reply.answer.as_ref().ok();
                 let say = |f: &dyn Fn(&Answer) -> String| answer.map_or_else(String::new, f);
                 csv.row(&[
@@ -246,16 +247,16 @@ impl Survey {
             "share_of_answered",
             "median_seconds",
         ]);
-        for (n, method) in method::ALL.iter().enumerate() {
+        for (n, method) in registry::ALL.iter().enumerate() {
             let s = self.standing(n);
             #[allow(clippy::cast_precision_loss, reason = "counts are small")]
             let answered = s.right as f64 / s.applies.max(1) as f64;
             csv.row(&[
                 method.name().to_owned(),
-                method.title().to_owned(),
-                method.guarantee().to_owned(),
-                method.complexity().to_owned(),
-                method.source().to_owned(),
+                method.about().title.to_owned(),
+                method.about().guarantee.to_owned(),
+                method.about().complexity.to_owned(),
+                method.about().source.to_owned(),
                 self.cases.len().to_string(),
                 s.applies.to_string(),
                 s.right.to_string(),
@@ -279,15 +280,14 @@ fn quantity(q: Quantity) -> &'static str {
 
 fn certainty(c: &Certainty) -> String {
     match c {
-        Certainty::Counted => "counted".to_owned(),
-        Certainty::Exact => "exact".to_owned(),
-        Certainty::Traced => "traced".to_owned(),
         Certainty::Numeric {
             tolerance,
             kept,
             dropped,
+            ..
         } => format!(
             "numeric at {tolerance:.0e}: smallest kept {kept:.1e}, largest dropped {dropped:.1e}"
         ),
+        other => other.word().to_owned(),
     }
 }

@@ -1,14 +1,11 @@
 //! `ozols analyze`.
 
-use super::args::{Analyze, AnalyzeFormat, Args, RankMethod};
+use super::args::{Analyze, AnalyzeFormat, Args};
 use super::{Done, load, output, stroke, verify};
 use crate::model::measured::looks_measured;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::method;
-use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::rank::scaled::Precision;
 use crate::rank::snap::snap;
-use crate::redundancy::analysis::{Elimination, Method, StateAnalysis, analyse};
+use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::search::suggest::single_changes;
 use crate::view::layout::fit;
 use crate::view::suggestions::{self, Advice};
@@ -39,22 +36,8 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
         bail!("--tolerance must be between 0 and 1");
     }
     let stroke = stroke::Asked::new(&mechanism, a)?;
-    let eliminate = |e: Elimination, usual: f64| Method::Numeric(e, a.tolerance.unwrap_or(usual));
-    let method = match a.method {
-        RankMethod::Auto => Method::Auto {
-            tolerance: a.tolerance,
-        },
-        RankMethod::Modular | RankMethod::Finite => Method::Modular,
-        RankMethod::Svd => eliminate(Elimination::Svd, DEFAULT_TOLERANCE),
-        RankMethod::Qr => eliminate(Elimination::Qr, f64::TOLERANCE),
-        RankMethod::Qr32 => eliminate(Elimination::Qr32, f32::TOLERANCE),
-        RankMethod::Lu => eliminate(Elimination::Lu, f64::TOLERANCE),
-        RankMethod::Lu32 => eliminate(Elimination::Lu32, f32::TOLERANCE),
-        RankMethod::Rational => return by(&mechanism, &states, "rational", a),
-        RankMethod::Count => return by(&mechanism, &states, "count", a),
-        RankMethod::CountPlanar => return by(&mechanism, &states, "count-planar", a),
-        RankMethod::Loops => return by(&mechanism, &states, "loops", a),
-        RankMethod::Generic => return by(&mechanism, &states, "generic", a),
+    let Some(method) = Method::of(a.method, a.tolerance) else {
+        return mobility_alone(&mechanism, &states, a);
     };
     let found = analyse(&mechanism, &states, method)?;
     if let Some(path) = &a.certificate {
@@ -131,17 +114,20 @@ fn advise(
     Ok((advice, snapped.map(|(_, t)| t)))
 }
 
-/// A method that gives a mobility and nothing else.
-fn by(mechanism: &Mechanism, states: &[StateId], name: &str, a: &Analyze) -> anyhow::Result<Done> {
-    let method = method::by_name(name).with_context(|| format!("there is no method {name}"))?;
+/// By a method that gives a mobility and nothing else.
+fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> anyhow::Result<Done> {
+    let method = a.method;
     if a.stroke.is_some() {
-        bail!("--stroke needs the rank of J, which --method {name} does not give; use auto or svd");
+        bail!(
+            "--stroke needs the rank of J, which --method {} does not give; use auto or svd",
+            method.name()
+        );
     }
     let answers = states
         .iter()
         .map(|&s| Ok((s, method.answer(mechanism, s)?)))
         .collect::<anyhow::Result<Vec<_>>>()
-        .with_context(|| format!("{} by {}", mechanism.name, method.title()))?;
+        .with_context(|| format!("{} by {}", mechanism.name, method.about().title))?;
     output::to(a.output.as_deref(), |out| {
         match a.format {
             AnalyzeFormat::Json => {

@@ -1,6 +1,9 @@
 //! The arguments, as data.
 
 use super::examples;
+use crate::rank::method::MobilityMethod;
+use crate::rank::registry;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
@@ -262,34 +265,12 @@ pub(super) struct File {
     pub(super) file: String,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum RankMethod {
-    /// The cheapest that is certain: exact where the geometry is, singular values where it was measured.
-    Auto,
-    /// Modulo two primes near 2^61, every digit taken at its word.
-    Modular,
-    /// Exact elimination in fractions (rational coordinates only).
-    Rational,
-    /// Singular values in double precision, with the gap.
-    Svd,
-    /// Column-pivoted QR in double precision.
-    Qr,
-    /// Column-pivoted QR in single precision.
-    Qr32,
-    /// LU with full pivoting in double precision.
-    Lu,
-    /// LU with full pivoting in single precision.
-    Lu32,
-    /// Counting formula in space, 6(n-1) less the constraints.
-    Count,
-    /// Counting formula in the plane, 3(n-1) less the constraints.
-    CountPlanar,
-    /// Freedoms less the sum of the contours' own ranks.
-    Loops,
-    /// The same structure in general position, by a pebble game.
-    Generic,
-    /// Exact rank, and the mobility that is really there.
-    Finite,
+/// A rank method by its name, listed the surest first.
+fn rank_method() -> impl TypedValueParser<Value = &'static dyn MobilityMethod> {
+    let each = registry::ALL.into_iter().rev();
+    let values = each.map(|m| PossibleValue::new(m.name()).help(m.about().help));
+    PossibleValuesParser::new(values)
+        .try_map(|name| registry::by_name(&name).ok_or("there is no such method"))
 }
 
 #[derive(Debug, ClapArgs)]
@@ -300,8 +281,8 @@ pub(super) struct Analyze {
     #[arg(long, default_value = "all")]
     pub(super) state: String,
     /// How the rank is found.
-    #[arg(long, value_enum, default_value = "auto")]
-    pub(super) method: RankMethod,
+    #[arg(long, value_parser = rank_method(), default_value = "auto")]
+    pub(super) method: &'static dyn MobilityMethod,
     /// Relative tolerance of the floating-point methods, and of snapping measured geometry; by default what suits the
     /// method and the digits.
     #[arg(long, visible_alias = "snap", value_name = "T")]
