@@ -3,7 +3,7 @@
 use super::args::{Args, Statics, StaticsFormat, StaticsMethod};
 use super::{Done, clamped, load, output, reactions};
 use crate::chart::page;
-use crate::file::read::loads::{MAX_STEPS, position};
+use crate::file::read::motion::{MAX_STEPS, position};
 use crate::geom::expr::Expr;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::Stroke;

@@ -1,6 +1,6 @@
 //! From a robot as read to a mechanism file: pose, frame, loops, bodies, outputs.
 
-use crate::file::read::LIMITS;
+use crate::file::read::limits::LIMITS;
 use crate::model::joint_type::JointType;
 use crate::robots::Options;
 use crate::robots::close::{self, CLOSED, close, gaps, size, worst};
