@@ -219,9 +219,9 @@ fn numerically(
     let working_mobility = measured.span_of_links(&outputs(mechanism));
     let external = match whole.external {
         Some(e) => {
-            let own: Vec<JointId> = mechanism.joints_in(0).collect();
-            let free = Measured::new(mechanism, 0, tolerance)?;
-            let free_rows = Closure::new(&Reals, mechanism, 0)?;
+            let own: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
+            let free = Measured::new(mechanism, StateId::FREE, tolerance)?;
+            let free_rows = Closure::new(&Reals, mechanism, StateId::FREE)?;
             let free_redundant = free_rows.rows() + free.mobility() - free_rows.columns.len();
             let (actual, working) = (int(free.mobility()), int(measured.span_of_joints(&own)));
             let redundant = whole.rows + measured.mobility() - whole.freedoms;
@@ -254,7 +254,8 @@ fn numerically(
 }
 
 fn outputs(mechanism: &Mechanism) -> Vec<LinkId> {
-    (0..mechanism.links.len())
+    mechanism
+        .link_ids()
         .filter(|&l| mechanism.links[l].role == Role::Output)
         .collect()
 }
@@ -342,7 +343,7 @@ fn exactly(
             - int(closure.couplings.len()),
         per_contour: shares(exact, &closure),
         per_coupling: coupling_shares(exact, mechanism, &closure),
-        external: if state == 0 {
+        external: if state == StateId::FREE {
             None
         } else {
             Some(external(exact, mechanism, &closure, &kernel)?)

@@ -4,7 +4,7 @@ use crate::closure::matrix::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::{JointId, LinkId, Mechanism};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::rank::modular;
 use crate::redundancy::motion::Speeds;
 
@@ -32,10 +32,10 @@ pub(super) fn external(
     closure: &Closure<Residue>,
     kernel: &[Speeds],
 ) -> Result<External, ExactError> {
-    let free = Closure::new(exact, mechanism, 0)?;
+    let free = Closure::new(exact, mechanism, StateId::FREE)?;
     let free_rank = modular::rank(exact, &free);
     let rank = modular::rank(exact, closure);
-    let own: Vec<JointId> = mechanism.joints_in(0).collect();
+    let own: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
     let all: Vec<JointId> = mechanism.joints_in(closure.state).collect();
     let added = || all.iter().filter(|j| !own.contains(j));
     let of_joints: i64 = added()
