@@ -79,7 +79,9 @@ impl Case {
         let real = Closure::new(&Reals, m, StateId::FREE).expect("real");
         let columns = real.dense(&Reals);
         let f64s = Mat::from_fn(real.rows(), columns.len(), |r, c| columns[c][r]);
-        let whole = Closure::new(&Doubled, m, StateId::FREE).expect("whole").dense(&Doubled);
+        let whole = Closure::new(&Doubled, m, StateId::FREE)
+            .expect("whole")
+            .dense(&Doubled);
         Case {
             name: format!("{name}, {} x {}", real.rows(), columns.len()),
             dense: closure.dense(&exact),

@@ -1,6 +1,5 @@
 //! The page "How to add": its files exist, and its lists are the only ones.
 
-use ozols::model::joint_type::JointType;
 use ozols::rank::registry;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -66,13 +65,5 @@ fn the_words_of_rank_methods_stand_in_their_own_files() {
         if !["count", "finite", "auto", "modular", "svd", "generic"].contains(&name) {
             assert_eq!(elsewhere(name, &homes), [""; 0], "{name}");
         }
-    }
-}
-
-#[test]
-fn every_joint_type_has_a_cost_and_what_it_bears() {
-    let catalogue = ozols::score::joint_types::JointTypes::built_in();
-    for joint_type in JointType::NAMED {
-        assert!(catalogue.get(joint_type.name()).is_some(), "{joint_type}");
     }
 }

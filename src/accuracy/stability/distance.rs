@@ -204,7 +204,10 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
                 At {
                     distance: *distance,
                     truth,
-                    answers: registry::ALL.iter().map(|x| x.answer(&m, StateId::FREE)).collect(),
+                    answers: registry::ALL
+                        .iter()
+                        .map(|x| x.answer(&m, StateId::FREE))
+                        .collect(),
                     smallest: smallest(&m, rank),
                 }
             })
