@@ -2,7 +2,8 @@
 //!
 //! Start with [`first_hour`]. Then one chapter for each system: [`structure`] (redundant constraints and the search for
 //! redesigns), [`grip`], [`kinetostatics`], [`drive`]; and one each for [`ranking`] under a workload, [`mobility`] where
-//! formulas and numbers fail, [`robots`] (import and export), and [`speed`]. For programs: [`rust`].
+//! formulas and numbers fail, [`robots`] (import and export), and [`speed`]. For programs: [`rust`]; [`adding`] is for who
+//! extends the program.
 //!
 //! Every block that begins with `$ ozols` is run by the tests (`tests/it/documents.rs`); `...` stands for lines left out.
 
@@ -35,3 +36,5 @@ pub mod speed {}
 
 #[doc = include_str!("guide/rust.md")]
 pub mod rust {}
+#[doc = include_str!("guide/adding.md")]
+pub mod adding {}

@@ -4,47 +4,25 @@ use super::args::{AnalyzeFormat, Args, File};
 use super::{Done, load, output, stroke, verify};
 use crate::model::measured::looks_measured;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::method;
-use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::rank::scaled::Precision;
+use crate::rank::method::MobilityMethod;
+use crate::rank::registry;
 use crate::rank::snap::snap;
-use crate::redundancy::analysis::{Elimination, Method, StateAnalysis, analyse};
+use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::search::suggest::single_changes;
 use crate::view::layout::fit;
 use crate::view::suggestions::{self, Advice};
 use crate::view::{analysis_json, analysis_text, next};
 use anyhow::{Context, bail};
-use clap::{Args as ClapArgs, ValueEnum};
+use clap::Args as ClapArgs;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum RankMethod {
-    /// The cheapest that is certain: exact where the geometry is, singular values where it was measured.
-    Auto,
-    /// Modulo two primes near 2^61, every digit taken at its word.
-    Modular,
-    /// Exact elimination in fractions (rational coordinates only).
-    Rational,
-    /// Singular values in double precision, with the gap.
-    Svd,
-    /// Column-pivoted QR in double precision.
-    Qr,
-    /// Column-pivoted QR in single precision.
-    Qr32,
-    /// LU with full pivoting in double precision.
-    Lu,
-    /// LU with full pivoting in single precision.
-    Lu32,
-    /// Counting formula in space, 6(n-1) less the constraints.
-    Count,
-    /// Counting formula in the plane, 3(n-1) less the constraints.
-    CountPlanar,
-    /// Freedoms less the sum of the contours' own ranks.
-    Loops,
-    /// The same structure in general position, by a pebble game.
-    Generic,
-    /// Exact rank, and the mobility that is really there.
-    Finite,
+/// A rank method by its name, listed the surest first.
+fn rank_method() -> impl TypedValueParser<Value = &'static dyn MobilityMethod> {
+    let each = registry::ALL.into_iter().rev();
+    let values = each.map(|m| PossibleValue::new(m.name()).help(m.about().help));
+    PossibleValuesParser::new(values)
+        .try_map(|name| registry::by_name(&name).ok_or("there is no such method"))
 }
 
 #[derive(Debug, ClapArgs)]
@@ -55,8 +33,8 @@ pub(super) struct Analyze {
     #[arg(long, default_value = "all")]
     pub(super) state: String,
     /// How the rank is found.
-    #[arg(long, value_enum, default_value = "auto")]
-    method: RankMethod,
+    #[arg(long, value_parser = rank_method(), default_value = "auto")]
+    method: &'static dyn MobilityMethod,
     /// Relative tolerance of the floating-point methods, and of snapping measured geometry; by default what suits the
     /// method and the digits.
     #[arg(long, visible_alias = "snap", value_name = "T")]
@@ -107,22 +85,8 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
         bail!("--tolerance must be between 0 and 1");
     }
     let stroke = stroke::Asked::new(&mechanism, a)?;
-    let eliminate = |e: Elimination, usual: f64| Method::Numeric(e, a.tolerance.unwrap_or(usual));
-    let method = match a.method {
-        RankMethod::Auto => Method::Auto {
-            tolerance: a.tolerance,
-        },
-        RankMethod::Modular | RankMethod::Finite => Method::Modular,
-        RankMethod::Svd => eliminate(Elimination::Svd, DEFAULT_TOLERANCE),
-        RankMethod::Qr => eliminate(Elimination::Qr, f64::TOLERANCE),
-        RankMethod::Qr32 => eliminate(Elimination::Qr32, f32::TOLERANCE),
-        RankMethod::Lu => eliminate(Elimination::Lu, f64::TOLERANCE),
-        RankMethod::Lu32 => eliminate(Elimination::Lu32, f32::TOLERANCE),
-        RankMethod::Rational => return by(&mechanism, &states, "rational", a),
-        RankMethod::Count => return by(&mechanism, &states, "count", a),
-        RankMethod::CountPlanar => return by(&mechanism, &states, "count-planar", a),
-        RankMethod::Loops => return by(&mechanism, &states, "loops", a),
-        RankMethod::Generic => return by(&mechanism, &states, "generic", a),
+    let Some(method) = Method::of(a.method, a.tolerance) else {
+        return mobility_alone(&mechanism, &states, a);
     };
     let found = analyse(&mechanism, &states, method)?;
     if let Some(path) = &a.certificate {
@@ -199,17 +163,20 @@ fn advise(
     Ok((advice, snapped.map(|(_, t)| t)))
 }
 
-/// A method that gives a mobility and nothing else.
-fn by(mechanism: &Mechanism, states: &[StateId], name: &str, a: &Analyze) -> anyhow::Result<Done> {
-    let method = method::by_name(name).with_context(|| format!("there is no method {name}"))?;
+/// By a method that gives a mobility and nothing else.
+fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> anyhow::Result<Done> {
+    let method = a.method;
     if a.stroke.is_some() {
-        bail!("--stroke needs the rank of J, which --method {name} does not give; use auto or svd");
+        bail!(
+            "--stroke needs the rank of J, which --method {} does not give; use auto or svd",
+            method.name()
+        );
     }
     let answers = states
         .iter()
         .map(|&s| Ok((s, method.answer(mechanism, s)?)))
         .collect::<anyhow::Result<Vec<_>>>()
-        .with_context(|| format!("{} by {}", mechanism.name, method.title()))?;
+        .with_context(|| format!("{} by {}", mechanism.name, method.about().title))?;
     output::to(a.output.as_deref(), |out| {
         match a.format {
             AnalyzeFormat::Json => {

@@ -3,9 +3,10 @@
 use super::args::{Args, File};
 use super::{Done, load, output};
 use crate::builtin;
-use crate::file::lint::{Checked, DoubtKind, Doubts, across, check};
+use crate::file::lint::{Checked, across, check};
 use crate::file::locate::Step;
 use crate::file::read::workload::tables_alone;
+use crate::file::warning::{WarningKind, Warnings};
 use crate::format::phrase::plural;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::mechanism::Mechanism;
@@ -37,17 +38,17 @@ pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
             Err(e) => return Err(e).with_context(|| format!("{name}: [workload.grip]")),
         }
     }
-    stale(&checked.mechanism, &mut checked.doubts);
+    stale(&checked.mechanism, &mut checked.warnings);
     let Checked {
         mechanism,
         tables,
-        doubts,
+        warnings,
     } = &checked;
-    if !doubts.doubts.is_empty() && !args.quiet {
-        output::coloured_note(&doubts.render(true));
+    if !warnings.warnings.is_empty() && !args.quiet {
+        output::coloured_note(&warnings.render(true));
     }
     output::to(None, |out| {
-        let verdict = match doubts.doubts.len() {
+        let verdict = match warnings.warnings.len() {
             0 => "valid".to_owned(),
             n => format!("valid, {}", plural(n, "warning")),
         };
@@ -62,8 +63,8 @@ pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
     })
 }
 
-/// Doubts the figures that the file states where the analysis finds others.
-fn stale(m: &Mechanism, doubts: &mut Doubts) {
+/// Warns of the figures that the file states where the analysis finds others.
+fn stale(m: &Mechanism, warnings: &mut Warnings) {
     for (i, e) in m.expected.iter().enumerate() {
         let Some(s) = m.state(&e.state) else {
             continue;
@@ -109,9 +110,9 @@ fn stale(m: &Mechanism, doubts: &mut Doubts) {
                     Step::Key(key.to_owned()),
                 ];
                 let state = e.state.clone();
-                doubts.add(
+                warnings.add(
                     &path,
-                    DoubtKind::Stale {
+                    WarningKind::Stale {
                         key,
                         state,
                         stated,

@@ -22,7 +22,7 @@ pub(super) fn run(a: &List) -> anyhow::Result<Done> {
     let wanted: Vec<String> = a.words.iter().map(|w| w.to_lowercase()).collect();
     let (mut rows, mut notes) = (Vec::new(), Vec::new());
     for (family, names) in builtin::families() {
-        let mut heading = Some(family.clone());
+        let mut heading = Some(family);
         for name in names {
             let m = Mechanism::builtin(name)?;
             let about = format!("{name} {family} {}", m.description).to_lowercase();

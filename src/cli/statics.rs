@@ -2,7 +2,7 @@
 
 use super::args::{Args, Statics, StaticsFormat, StaticsMethod};
 use super::{Done, charts, clamped, load, output};
-use crate::file::read::loads::{MAX_STEPS, position};
+use crate::file::read::motion::{MAX_STEPS, position};
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};

@@ -278,3 +278,18 @@ impl Mechanism {
         self.joint_ids().find(|&j| self.joints[j].id == id)
     }
 }
+
+impl Coupling {
+    /// Its name for people: the two joints, each with its freedom where it has several.
+    #[must_use]
+    pub fn name(&self, mechanism: &Mechanism) -> String {
+        let [a, b] = self.ends.map(|e| {
+            let joint = &mechanism.joints[e.joint];
+            match joint.joint_type.freedoms() {
+                [_] => joint.id.clone(),
+                _ => format!("{}:{}", joint.id, e.freedom.name()),
+            }
+        });
+        format!("{a} ~ {b}")
+    }
+}

@@ -120,7 +120,6 @@ impl Evaluator<'_> {
             let joint = &m.joints[j];
             let bears = |o: Option<&crate::model::mechanism::JointOption>| {
                 let nothing = JointType {
-                    cost: 0.0,
                     capacity_force: 1.0,
                     capacity_moment: None,
                     clearance: 0.0,

@@ -3,7 +3,7 @@
 use crate::accuracy::Verdict;
 use crate::accuracy::survey::{Case, Survey};
 use crate::format::number::{duration, signed};
-use crate::rank::method;
+use crate::rank::registry;
 use crate::view::layout::{fit, table};
 use std::cmp::Reverse;
 use std::fmt::Write;
@@ -25,11 +25,11 @@ pub fn summary<'a>(
         "median time",
         "what fails, and why",
     ];
-    let rows = (0..method::ALL.len()).map(|m| {
+    let rows = (0..registry::ALL.len()).map(|m| {
         let s = survey.standing(m);
         let count = |n: usize| if n == 0 { String::new() } else { n.to_string() };
         vec![
-            method::ALL[m].name().to_owned(),
+            registry::ALL[m].name().to_owned(),
             s.right.to_string(),
             count(s.pose),
             count(s.applies - s.right - s.pose),
@@ -39,7 +39,7 @@ pub fn summary<'a>(
         ]
     });
     let standing = |name: &str| {
-        let m = method::ALL.iter().position(|x| x.name() == name)?;
+        let m = registry::ALL.iter().position(|x| x.name() == name)?;
         Some(survey.standing(m).right)
     };
     let mut out = format!("{cases} cases of known mobility");
@@ -77,5 +77,9 @@ fn failures(survey: &Survey, m: usize) -> String {
             String::new()
         };
     };
-    format!("{by} on {}; {}", worst.name(), method::ALL[m].guarantee())
+    format!(
+        "{by} on {}; {}",
+        worst.name(),
+        registry::ALL[m].about().guarantee
+    )
 }

@@ -91,7 +91,7 @@ fn state(mechanism: &Mechanism, s: &StateAnalysis) -> Value {
         "idle": idle.collect::<Vec<_>>(),
         "self_stresses": stresses.collect::<Vec<_>>(),
         "left_out": s.left_out.iter().map(|&(j, n)| json!({"joint": joint(j), "freedoms": n})).collect::<Vec<_>>(),
-        "method": s.certainty.method(),
+        "method": s.method,
         "certainty": s.certainty.describe(),
         "certainty_kind": s.certainty.word(),
         "choice": s.choice,
@@ -133,7 +133,7 @@ pub fn by_method(
             "mobility": answer.mobility,
             "redundant": answer.mobility + shape.rows - shape.freedoms,
             "method": method.name(),
-            "certainty": method.guarantee(),
+            "certainty": method.about().guarantee,
         })
     });
     json!({

@@ -205,7 +205,7 @@ pub fn by_method(
             mechanism.name,
             mechanism.states[*s],
             answer.mobility,
-            method.title(),
+            method.about().title,
             shape.rows,
             answer.mobility + shape.rows - shape.freedoms
         );
@@ -213,9 +213,9 @@ pub fn by_method(
     let _ = writeln!(
         out,
         "  {} ({}; {})",
-        method.guarantee(),
-        method.source(),
-        method.complexity()
+        method.about().guarantee,
+        method.about().source,
+        method.about().complexity
     );
     out
 }

@@ -3,7 +3,8 @@
 use crate::cli::ozols;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
-use ozols::rank::method::{NoAnswer, by_name};
+use ozols::rank::method::NoAnswer;
+use ozols::rank::registry::by_name;
 use ozols::redundancy::analysis::{Method, StateAnalysis, analyse};
 
 const FRAME: &str = r#"

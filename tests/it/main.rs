@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, missing_docs, reason = "tests")]
 
 mod accuracy;
+mod adding;
 mod bytes;
 mod catalogs;
 mod certificates;

@@ -8,8 +8,9 @@ use ozols::geom::expr::Expr;
 use ozols::model::mechanism::{Frame, Mechanism, Mode, StateId};
 use ozols::motion::pose::Pose;
 use ozols::rank::auto::decide;
+use ozols::rank::field::field_of;
 use ozols::rank::finite::{How, finite, followed};
-use ozols::rank::{field_of, generic, method, modular, trace};
+use ozols::rank::{generic, modular, registry, trace};
 use ozols::redundancy::analysis::{Method, analyse};
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
@@ -291,13 +292,13 @@ fn each_formula_has_its_known_failures() {
         ("collinear-truss", "finite", 0),
         ("collinear-truss", "auto", 0),
     ] {
-        let answer = method::by_name(by)
+        let answer = registry::by_name(by)
             .unwrap()
             .answer(&built_in(mechanism), StateId::FREE)
             .unwrap();
         assert_eq!(answer.mobility, says, "{mechanism} by {by}");
     }
-    let planar = method::by_name("count-planar").unwrap();
+    let planar = registry::by_name("count-planar").unwrap();
     assert!(planar.answer(&built_in("bennett"), StateId::FREE).is_err());
 }
 
