@@ -7,8 +7,8 @@ use crate::file::problem::ImportError;
 use crate::file::text::{MAX_BYTES, mechanism_from_bytes, mechanism_from_str};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::analysis::{AnalysisError, Method, StateAnalysis, analyse};
-use crate::robots::export::{self as formats, ExportError};
-use crate::robots::{self, Imported, Options};
+use crate::robots::ExportError;
+use crate::robots::{self, Imported, Options, formats};
 use crate::score::outcome::Outcome;
 use crate::score::request::Request;
 use crate::score::run::{RunError, run};
@@ -67,11 +67,7 @@ impl Mechanism {
         let path = path.as_ref();
         let name = path.display().to_string();
         if robots::is_description(&name) {
-            let imported = description(path, &Options::default())?;
-            return Ok(mechanism_from_str(
-                "the imported mechanism",
-                &imported.toml,
-            )?);
+            return Ok(description(path, &Options::default())?.mechanism);
         }
         Ok(mechanism_from_bytes(&name, &bytes(path, MAX_BYTES)?)?)
     }
@@ -174,36 +170,13 @@ pub fn search(mechanism: &Mechanism, request: &Request) -> Result<Outcome, Error
     Ok(run(mechanism.clone(), request, &|| false, &mut |_| {})?)
 }
 
-/// A format that other programs read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// The mechanism file, every joint with its own options.
-    Toml,
-    /// The same as JSON.
-    Json,
-    /// A spanning tree; loops as comments.
-    Urdf,
-    /// Loops closed by joints.
-    Sdf,
-    /// Graphviz.
-    Dot,
-    /// GraphML, for graph programs.
-    Graphml,
-}
-
-/// A mechanism in another format, as text.
+/// A mechanism in another format, as text: `toml` and `json` for the mechanism file, `urdf`, `sdf`, `dot` and `graphml`; see
+/// [`formats::written`].
 ///
 /// # Errors
-/// Where the format has no such joint.
-pub fn export(mechanism: &Mechanism, format: Format) -> Result<String, Error> {
-    Ok(match format {
-        Format::Toml => formats::toml(mechanism)?,
-        Format::Json => format!("{:#}\n", formats::mechanism_file(mechanism).json()),
-        Format::Urdf => formats::urdf(mechanism)?,
-        Format::Sdf => formats::sdf(mechanism),
-        Format::Dot => formats::dot(mechanism),
-        Format::Graphml => formats::graphml(mechanism),
-    })
+/// Where there is no such format, or it has no such joint.
+pub fn export(mechanism: &Mechanism, format: &str) -> Result<String, Error> {
+    Ok(formats::write(mechanism, format)?)
 }
 
 /// A drawing of a mechanism.

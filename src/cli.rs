@@ -21,7 +21,7 @@ mod near;
 mod new;
 mod output;
 mod progress;
-mod reactions;
+
 mod report;
 mod request;
 mod search;

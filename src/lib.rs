@@ -52,7 +52,7 @@
 //! - `[Klyuchkovskyi 1999]` S. M. Klyuchkovskyi, a universal module of transport and feeding mechanisms for robots and
 //!   cyclic automata, UDC 621.01, 1999.
 
-pub use api::{Error, Format, Scheme, analyze, draw, export, search};
+pub use api::{Error, Scheme, analyze, draw, export, search};
 pub use model::mechanism::Mechanism;
 pub use redundancy::analysis::StateAnalysis as Analysis;
 pub use score::outcome::{Outcome, Variant};
@@ -67,6 +67,7 @@ pub mod closure;
 pub mod draw;
 pub mod drive;
 pub mod file;
+mod format;
 pub mod geom;
 pub mod grip;
 pub mod guide;

@@ -3,7 +3,6 @@
 use super::args::Args;
 use super::{Done, output};
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
-use crate::file::schema::MechanismFile;
 use crate::robots::{self, Options};
 use crate::view::layout::fit;
 use crate::view::next::{self, Step};
@@ -76,11 +75,8 @@ pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            ImportFormat::Toml => write!(out, "{}", imported.toml)?,
-            ImportFormat::Json => {
-                let file: MechanismFile = toml::from_str(&imported.toml)?;
-                writeln!(out, "{:#}", file.json())?;
-            }
+            ImportFormat::Toml => write!(out, "{}", imported.toml()?)?,
+            ImportFormat::Json => writeln!(out, "{:#}", imported.file.json())?,
         }
         Ok(Done::Found)
     })?;

@@ -4,7 +4,7 @@ use super::{Done, near, output};
 use crate::builtin;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::analysis::{Method, analyse};
-use crate::view::words;
+use crate::view::layout::table;
 use anyhow::Context;
 use clap::Args as ClapArgs;
 
@@ -44,7 +44,7 @@ pub(super) fn run(a: &List) -> anyhow::Result<Done> {
         return Ok(Done::Nothing);
     }
     let header = ["mechanism", "state", "n", "p", "k", "f", "W", "σ"];
-    let table = words::table(&header, rows, None);
+    let table = table(&header, rows, None);
     let width = output::width(None).map(usize::from);
     output::to(None, |out| {
         let lines: Vec<&str> = table.lines().collect();

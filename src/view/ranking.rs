@@ -1,10 +1,11 @@
 //! A ranking in words and as data.
 
+use crate::format::number::{grouped, significant};
+use crate::format::phrase::plural;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::model::ranking::{ClearanceSum, Order, Term};
 use crate::score::cases::Gripped;
 use crate::score::ranking::{Ranked, RankedPool};
-use crate::view::words::{grouped, plural, significant};
 use itertools::Itertools;
 use serde::Serialize;
 use std::fmt::Write;

@@ -1,11 +1,11 @@
 //! The variants of a search as CSV, one a line, a column for each joint that has a choice.
 
+use crate::format::number::cost;
 use crate::model::mechanism::JointId;
 use crate::score::outcome::{Outcome, Variants};
 use crate::search::conditions::Search;
 use crate::search::over_stroke::OverStroke;
 use crate::search::space::choice_name;
-use crate::view::words::cost;
 use std::io::{self, Write};
 
 /// Columns before the joints.

@@ -1,5 +1,6 @@
 //! A search as data: the keys are a stable contract, in this order. Counts are strings, since they outgrow 2^53.
 
+use crate::format::number::cost;
 use crate::rank::measured::Verdicts;
 use crate::score::outcome::{Outcome, Variant};
 use crate::score::request::LooksMeasured;
@@ -9,7 +10,6 @@ use crate::search::diagram::Diagram;
 use crate::search::over_stroke::OverStroke;
 use crate::search::relax::Relaxation;
 use crate::view::ranking::{RankedData, RankingData};
-use crate::view::words::cost;
 use num_bigint::BigUint;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;

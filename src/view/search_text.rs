@@ -1,5 +1,6 @@
 //! A search for people.
 
+use crate::format::number::{cost, grouped};
 use crate::score::outcome::{Outcome, Variant, Variants, in_words};
 use crate::score::request::List;
 use crate::search::certify::{NEARLY_SINGULAR, Opinion, Second, Summary};
@@ -9,7 +10,6 @@ use crate::view::layout::{fit, table};
 use crate::view::next::{self, Step, file_name};
 use crate::view::ranking;
 use crate::view::search_data::condition;
-use crate::view::words::{cost, grouped};
 use itertools::Itertools;
 use num_bigint::BigUint;
 use num_traits::Zero;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// The layers, lowest first; modules of one row do not import each other, except where a row says so by order.
 const LAYERS: [&[&str]; 14] = [
+    &["format"],
     &["linalg", "chart", "terms", "guide", "builtin"],
     &["geom", "verify"],
     &["model"],

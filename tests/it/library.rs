@@ -7,7 +7,7 @@ use ozols::score::run::{Event, run};
 use ozols::search::conditions::Symmetry;
 use ozols::search::diagram::Stop;
 use ozols::view::{search_csv, search_json, search_text};
-use ozols::{Error, Format, Mechanism, Outcome, Request, Scheme};
+use ozols::{Error, Mechanism, Outcome, Request, Scheme};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 fn search(name: &str, request: &Request) -> Outcome {
@@ -195,13 +195,13 @@ fn a_variant_tells_of_itself() {
 fn formats_and_drawings_are_those_of_the_command() {
     let m = Mechanism::builtin("four-bar").unwrap();
     let printed = |args: &[&str]| String::from_utf8(ozols(args).output().unwrap().stdout).unwrap();
-    let sdf = ozols::export(&m, Format::Sdf).unwrap();
+    let sdf = ozols::export(&m, "sdf").unwrap();
     assert_eq!(sdf, printed(&["export", "four-bar", "--to", "sdf"]));
     let svg = ozols::draw(&m, Scheme::Kinematic).unwrap();
     assert_eq!(svg, printed(&["draw", "four-bar", "--kind", "kinematic"]));
-    let toml = ozols::export(&m, Format::Toml).unwrap();
+    let toml = ozols::export(&m, "toml").unwrap();
     let again = Mechanism::from_toml(&toml).unwrap();
-    assert_eq!(ozols::export(&again, Format::Toml).unwrap(), toml);
+    assert_eq!(ozols::export(&again, "toml").unwrap(), toml);
 }
 
 #[test]
