@@ -1,8 +1,7 @@
 //! Finished values as JSON and as text for people.
 
-pub mod accuracy_text;
-pub mod analysis_json;
-pub mod analysis_text;
+pub mod accuracy;
+pub mod analysis;
 pub mod clamped;
 pub mod drive_charts;
 pub mod drive_json;
@@ -10,8 +9,10 @@ pub mod drive_text;
 pub mod grip_charts;
 pub mod grip_json;
 pub mod grip_text;
+pub mod idle;
 pub mod layout;
-pub mod mechanism_text;
+pub mod mechanism;
+pub mod mobility;
 pub mod next;
 pub mod ranking;
 pub mod reactions_cycle;
@@ -25,4 +26,3 @@ pub mod statics_text;
 pub mod statics_words;
 pub mod stroke;
 pub mod suggestions;
-pub mod words;
