@@ -89,7 +89,7 @@ const SECTIONS: [(&str, &str); 5] = [
 pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
     let m = page.mechanism;
     let analysis = Analysis::new(m, page.states, &[]);
-    let drawn: Vec<Drawn<'_>> = (0..m.states.len()).map(|s| Drawn::new(page, s)).collect();
+    let drawn: Vec<Drawn<'_>> = m.state_ids().map(|s| Drawn::new(page, s)).collect();
     let (store, swaps) = symbols::store(&drawn);
     let search = match &page.redesigns {
         Ok(r) if !r.variants.is_empty() => Some(variants::Found::new(page, r)?),

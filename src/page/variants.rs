@@ -73,7 +73,10 @@ fn further(r: &Redesigns<'_>) -> Result<Vec<Further>, AnalysisError> {
     let exact = exact_field(search.mechanism, 0)?;
     let one = |(i, c): (usize, &Certified)| -> Result<Further, AnalysisError> {
         let m = search.realize(&c.variant.choices);
-        let states = (1..m.states.len()).map(|s| figures::figures(&exact, &m, s));
+        let states = m
+            .state_ids()
+            .skip(1)
+            .map(|s| figures::figures(&exact, &m, s));
         Ok(Further {
             states: states.collect::<Result<_, _>>()?,
             idle: if i < CHECKED {
@@ -118,7 +121,7 @@ impl Found {
             determinate: r.found.determinate.total.to_string(),
             admissible: r.found.admissible.total.to_string(),
             max_redundant: request.max_redundant,
-            state: request.state.map(|(s, _)| s),
+            state: request.state.map(|(s, _)| s.index()),
             variables: search
                 .space
                 .variables
@@ -177,7 +180,7 @@ impl Choices {
             }
         });
         Choices {
-            joints: v.joints.clone(),
+            joints: v.joints.iter().map(|j| j.index()).collect(),
             choices: choices.collect(),
         }
     }

@@ -189,7 +189,7 @@ impl Found<'_> {
     fn text(&self, width: Option<u16>) -> String {
         let source = match (self.options, self.state) {
             ("file", _) => "the file's options",
-            (_, 0) => "the usual options, as the file has none",
+            (_, StateId::FREE) => "the usual options, as the file has none",
             _ => "ball pivots in series with the contacts, as the file has no unloading joints",
         };
         let tried = self.tried;
@@ -226,7 +226,7 @@ impl Found<'_> {
         });
         let at = if self.found == 1 { "at" } else { "at (one of)" };
         let body = table(&[at, "change", "removes", "cost"], rows.collect(), width);
-        let loose = if self.state > 0 {
+        let loose = if self.state != StateId::FREE {
             "\n  (the pad of an unloading joint hangs loose while nothing is held)"
         } else {
             ""
@@ -249,13 +249,13 @@ pub fn next(m: &Mechanism, states: &[State<'_>], file: &str, snap: Option<f64>) 
         };
         let of = found.of;
         match (found.options == "usual", found.state) {
-            (false, 0) => steps.push(Step::new(
+            (false, StateId::FREE) => steps.push(Step::new(
                 "search",
                 file,
                 &joined(""),
                 &format!("every redesign that removes all {of}, cheapest first"),
             )),
-            (true, 0) => {
+            (true, StateId::FREE) => {
                 let names = USUAL.iter().map(|t| format!("\"{}\"", t.name())).join(", ");
                 steps.push(Step {
                     command: format!("Write under [search]: options = [{names}]"),
@@ -266,7 +266,7 @@ pub fn next(m: &Mechanism, states: &[State<'_>], file: &str, snap: Option<f64>) 
             }
             (false, n) => {
                 let left = found.changes.first().map_or(of, |x| x.remaining);
-                let state = if n == 1 {
+                let state = if n == StateId::new(1) {
                     String::new()
                 } else {
                     format!(" --state {}", word(s.state))

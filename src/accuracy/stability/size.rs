@@ -10,7 +10,7 @@ use crate::closure::matrix::Closure;
 use crate::format::csv;
 use crate::format::number::duration;
 use crate::format::phrase::list;
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::{self, MobilityMethod};
 use crate::rank::{field_of, modular};
 use serde::Serialize;
@@ -54,8 +54,8 @@ fn truth(shape: Shape, m: &Mechanism) -> Truth {
         return one;
     }
     let free = |nth| {
-        let exact = field_of(m, 0, nth).ok()?;
-        let closure = Closure::new(&exact, m, 0).ok()?;
+        let exact = field_of(m, StateId::FREE, nth).ok()?;
+        let closure = Closure::new(&exact, m, StateId::FREE).ok()?;
         i64::try_from(closure.columns.len() - modular::rank(&exact, &closure)).ok()
     };
     let free = (0..2).filter_map(free).min().unwrap_or(0);
@@ -130,12 +130,12 @@ fn ask(
     m: &Mechanism,
 ) -> (Result<method::Answer, method::NoAnswer>, f64) {
     let begun = Instant::now();
-    let answer = method.answer(m, 0);
+    let answer = method.answer(m, StateId::FREE);
     let first = begun.elapsed().as_secs_f64();
     if first > 0.05 {
         return (answer, first);
     }
-    (answer, time(method, m, 0, 5))
+    (answer, time(method, m, StateId::FREE, 5))
 }
 
 fn points(sizes: &[usize], records: &[Record]) -> Vec<(f64, f64)> {
