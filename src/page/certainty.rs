@@ -32,8 +32,9 @@ fn row(head: &str, lines: &[String]) -> Markup {
 }
 
 fn state(s: &State<'_>) -> Vec<String> {
-    let mut lines = vec![s.certainty.clone(), s.finite()];
+    let mut lines = vec![s.certainty.clone()];
     lines.extend(s.method_lines());
+    lines.push(s.finite());
     lines.extend(s.left_out.iter().map(LeftOut::words));
     lines
 }
