@@ -53,7 +53,7 @@ pub(super) fn to(
     Ok(done)
 }
 
-/// Writes a value as JSON.
+/// A value as JSON for people to read and programs to parse.
 pub(super) fn json(out: &mut dyn Write, value: &impl serde::Serialize) -> anyhow::Result<()> {
     Ok(writeln!(out, "{}", serde_json::to_string_pretty(value)?)?)
 }

@@ -10,6 +10,8 @@ use crate::file::schema::{MechanismFile, OptionEntry, Unloading};
 use crate::file::text::{is_json, read, text_of};
 use crate::format::number::significant;
 use crate::geom::expr::Expr;
+use crate::geom::extent::diagonal;
+use crate::geom::vector::{length, real, sub};
 use crate::model::joint_type::JointType;
 use crate::model::measured::looks_measured;
 use crate::model::mechanism::{Joint, JointId, Mechanism, Role, StateId};
@@ -233,27 +235,17 @@ fn find(file: &MechanismFile, m: &Mechanism) -> Found {
 }
 
 fn place(j: &Joint) -> [f64; 3] {
-    [0, 1, 2].map(|i| j.frame.point[i].to_f64())
+    real(&j.frame.point)
 }
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+    length(sub(a, b))
 }
 
 /// Diagonal of the box round the joints, in the file's unit.
 #[must_use]
 pub fn across(m: &Mechanism) -> f64 {
-    let bound = |i: usize, pick: fn(f64, f64) -> f64| {
-        m.joints
-            .iter()
-            .map(|j| place(j)[i])
-            .reduce(pick)
-            .unwrap_or(0.0)
-    };
-    distance(
-        [0, 1, 2].map(|i| bound(i, f64::min)),
-        [0, 1, 2].map(|i| bound(i, f64::max)),
-    )
+    diagonal(m.joints.iter().map(place))
 }
 
 fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {

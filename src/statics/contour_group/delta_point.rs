@@ -4,7 +4,7 @@
 //! `[Bychkov, Dvornikov & Zhukov 2018]`, equations for links 4, 6, 7, 10. DIFFERENCE: the moment of an inertia force is added as
 //! a couple, not by offsetting the force by h = M/F, which has no value for a link that turns about its mass centre.
 
-use crate::statics::contour_group::{GroupPose, GroupReactions};
+use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::pose::{cross, dot, length, minus, plus, quarter};
 
 /// What the method finds on its way; lengths `[m]`, forces `[N]`.

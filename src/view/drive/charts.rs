@@ -1,25 +1,26 @@
 //! Charts of a drive's programme: angles and energies over time.
 
 use crate::chart::{Axis, Chart, Scale, Series, Style};
-use crate::drive::driving::Design;
 use crate::drive::programme::Sample;
-use crate::file::read::workload::Workload;
-use crate::model::drive::DriveSpec;
+use crate::view::drive::Drive;
 
 /// Points drawn of a swing.
 const PER_SWING: u32 = 48;
 
-/// Both charts with the names of their files.
+/// Both charts with the names of their files; none without a bar.
 #[must_use]
-pub fn charts(file: &Workload<DriveSpec>, design: &Design) -> Vec<(&'static str, Chart)> {
-    let samples = design.module.samples(&design.run, PER_SWING);
+pub fn charts(d: &Drive<'_>) -> Vec<(String, Chart)> {
+    let Some(found) = d.found else {
+        return Vec::new();
+    };
+    let samples = found.module.samples(&found.run, PER_SWING);
     let series = |name: &str, style, y: &dyn Fn(&Sample) -> f64| Series {
         name: name.to_owned(),
         points: samples.iter().map(|s| (s.time, y(s))).collect(),
         style,
     };
     let chart = |title: &str, y: &str, series| Chart {
-        title: format!("{}: {title}", file.name),
+        title: format!("{}: {title}", d.mechanism),
         subtitle: String::new(),
         x: Axis {
             label: "time, s".to_owned(),
@@ -42,9 +43,9 @@ pub fn charts(file: &Workload<DriveSpec>, design: &Design) -> Vec<(&'static str,
     ];
     vec![
         (
-            "angles",
+            "angles".to_owned(),
             chart("angles of the discs", "angle, degrees", angles),
         ),
-        ("energy", chart("energy", "energy, J", energies)),
+        ("energy".to_owned(), chart("energy", "energy, J", energies)),
     ]
 }

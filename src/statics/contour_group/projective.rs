@@ -9,7 +9,7 @@
 //! `[Bychkov, Dvornikov & Zhukov 2018]` for the method; R. S. Ball, "A Treatise on the Theory of Screws", 1900, for forces as
 //! lines.
 
-use crate::statics::contour_group::{GroupPose, GroupReactions};
+use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::pose::{cross, dot, minus, plus, quarter};
 
 /// A force with its line: (fx, fy, moment about the origin).

@@ -1,6 +1,6 @@
 //! The twelve equilibrium equations of the four-link group with a closed contour: by LU in double precision, and exactly.
 
-use crate::statics::contour_group::{GroupPose, GroupReactions};
+use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::dense::System;
 use crate::statics::pose::{length, minus};
 use num_bigint::BigInt;

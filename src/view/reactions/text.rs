@@ -1,47 +1,36 @@
-//! Joint reactions for people.
+//! Joint reactions in one pose for people.
 
 use crate::format::number::figure;
 use crate::format::phrase::plural;
-use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{Mechanism, StateId};
-use crate::statics::reactions::{Choice, JointReaction, NEARLY_SINGULAR, Solution};
-use crate::view::layout::fit;
-use crate::view::layout::table;
-use crate::view::statics_words::prefix;
+use crate::statics::reactions::NEARLY_SINGULAR;
+use crate::view::layout::{fit, table};
+use crate::view::prefix::prefix;
+use crate::view::reactions::{Joint, Reactions};
 use std::fmt::Write;
 
 /// Self-stresses told at most.
 const STRESSES: usize = 12;
 
-/// Whether the freedom of a drive is a shift, so that its effort is a force.
-fn slides(freedom: Freedom) -> bool {
-    matches!(freedom, Freedom::Tx | Freedom::Ty | Freedom::Tz)
-}
-
 /// What a component is next to: below this fraction of the greatest it is rounding.
 pub(super) const NOTHING: f64 = 1e-12;
 
-fn reactions(m: &Mechanism, list: &[JointReaction], size: f64, width: Option<u16>) -> String {
+fn joints(list: &[Joint<'_>], size: f64, width: Option<u16>) -> String {
     let greatest = list
         .iter()
-        .map(|r| r.force_size().max(r.moment_size() / size))
+        .map(|r| r.force_magnitude.max(r.moment_magnitude / size))
         .fold(0.0, f64::max);
     let (unit, prefix) = prefix(greatest);
-    let show = |x: f64, least: f64| {
-        if x.abs() <= least {
-            "0".to_owned()
-        } else {
-            figure(x / unit)
-        }
+    let show = |x: f64, least: f64| match x.abs() <= least {
+        true => "0".to_owned(),
+        false => figure(x / unit),
     };
     let rows = list.iter().map(|r| {
-        let joint = &m.joints[r.joint];
         let (force, moment) = (NOTHING * greatest, NOTHING * greatest * size);
-        let mut row = vec![joint.id.clone(), joint.joint_type.name().to_owned()];
+        let mut row = [r.joint, r.kind].map(str::to_owned).to_vec();
         row.extend(r.force.map(|x| show(x, force)));
-        row.push(show(r.force_size(), force));
+        row.push(show(r.force_magnitude, force));
         row.extend(r.moment.map(|x| show(x, moment)));
-        row.push(show(r.moment_size(), moment));
+        row.push(show(r.moment_magnitude, moment));
         row
     });
     let (n, nm) = (format!("|F|, {prefix}N"), format!("|M|, {prefix}N·m"));
@@ -49,52 +38,39 @@ fn reactions(m: &Mechanism, list: &[JointReaction], size: f64, width: Option<u16
     table(&header, rows.collect(), width)
 }
 
-/// The whole report, fitted to a terminal of `width` columns where one is given; `pose` in words.
+/// The report, fitted to a terminal of `width` columns where one is given; `pose` in words.
 #[must_use]
-pub fn solution(
-    m: &Mechanism,
-    state: StateId,
-    pose: &str,
-    s: &Solution,
-    width: Option<u16>,
-) -> String {
+pub fn reactions(s: &Reactions<'_>, pose: &str, width: Option<u16>) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
-    let _ = write_solution(&mut out, m, state, pose, s, width);
+    let _ = write(&mut out, s, pose, width);
     fit(&out, width)
 }
 
-fn write_solution(
-    out: &mut String,
-    m: &Mechanism,
-    state: StateId,
-    pose: &str,
-    s: &Solution,
-    width: Option<u16>,
-) -> std::fmt::Result {
+fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) -> std::fmt::Result {
+    let (m, loads) = (s.of, &s.of.loads);
     let open = s.self_stresses.len();
-    let what = match s.choice {
-        Choice::Unique => "the only ones in equilibrium".to_owned(),
-        Choice::MinimumNorm => format!(
-            "of minimum norm among a family with {}: Σ |F|² + |M|²/ℓ² least, ℓ = {} m",
-            if open == 1 {
-                "1 self-stress".to_owned()
-            } else {
-                format!("{open} self-stresses")
-            },
+    let stresses = if open == 1 {
+        "self-stress"
+    } else {
+        "self-stresses"
+    };
+    let what = match s.unique {
+        true => "the only ones in equilibrium".to_owned(),
+        false => format!(
+            "of minimum norm among a family with {open} {stresses}: Σ |F|² + |M|²/ℓ² least, ℓ = {} m",
             figure(s.size)
         ),
     };
     writeln!(
         out,
         "{}, state {}, {pose}: joint reactions, {what}",
-        m.name, m.states[state]
+        s.mechanism, s.state
     )?;
     writeln!(
         out,
         "First link on second, in the joint's own frame (z its axis), moments about its point\n"
     )?;
-    let loads = &m.loads;
     if loads.drive_speeds.iter().any(|s| *s != 0.0) {
         writeln!(out, "Inertia forces of the stated drive speed included\n")?;
     }
@@ -105,10 +81,10 @@ fn write_solution(
             "The file states no loads: give links a mass and centre and the [workload] gravity, or forces under [[workload.force]].\n"
         )?;
     }
-    writeln!(out, "{}\n", reactions(m, &s.reactions, s.size, width))?;
+    writeln!(out, "{}\n", joints(&s.reactions, s.size, width))?;
     for r in &s.reactions {
-        if let Some((freedom, effort)) = r.effort {
-            let (what, unit) = if slides(freedom) {
+        if let Some(d) = &r.drive {
+            let (what, unit) = if d.slides {
                 ("force", "N")
             } else {
                 ("torque", "N·m")
@@ -116,9 +92,9 @@ fn write_solution(
             writeln!(
                 out,
                 "Drive {} holds {}: {what} {} {unit}",
-                m.joints[r.joint].id,
-                freedom.name(),
-                figure(effort)
+                r.joint,
+                d.freedom,
+                figure(d.effort)
             )?;
         }
     }
@@ -135,7 +111,7 @@ fn write_solution(
         figure(s.condition),
         s.residual
     )?;
-    if s.nearly_singular() {
+    if s.nearly_singular {
         writeln!(
             out,
             "Warning: nearly singular (condition above {NEARLY_SINGULAR:.0e}): small errors of manufacture change these reactions much"
@@ -144,18 +120,13 @@ fn write_solution(
     if open > 0 {
         writeln!(
             out,
-            "\nRedundant constraints leave these reactions open: any multiples of the {open} {} may be added",
-            if open == 1 {
-                "self-stress"
-            } else {
-                "self-stresses"
-            }
+            "\nRedundant constraints leave these reactions open: any multiples of the {open} {stresses} may be added"
         )?;
         for (i, stress) in s.self_stresses.iter().take(STRESSES).enumerate() {
             let loaded = stress
                 .iter()
-                .filter(|r| r.force_size() > 1e-9 || r.moment_size() > 1e-9 * s.size);
-            let names: Vec<&str> = loaded.map(|r| m.joints[r.joint].id.as_str()).collect();
+                .filter(|r| r.force_magnitude > 1e-9 || r.moment_magnitude > 1e-9 * s.size);
+            let names: Vec<&str> = loaded.map(|r| r.joint).collect();
             writeln!(out, "  {}: {}", i + 1, names.join(", "))?;
         }
         if open > STRESSES {
@@ -171,7 +142,7 @@ fn write_solution(
             writeln!(
                 out,
                 "\nReactions of elastic joints of the stated stiffness, {askew}\n\n{}",
-                reactions(m, list, s.size, width)
+                joints(list, s.size, width)
             )?;
         }
         None if open > 0 => writeln!(

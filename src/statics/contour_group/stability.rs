@@ -3,12 +3,16 @@
 //! The reference is exact: the same doubles solved in rational arithmetic. Every distance is tried on several groups that
 //! differ by small random shifts of their points, and the median error is kept.
 
-use crate::statics::contour_group::{GroupPose, GroupReactions};
-use crate::statics::group_equilibrium::{exact, solve};
+use crate::statics::contour_group::equilibrium::{exact, solve};
+use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
+use crate::statics::contour_group::{delta_point, projective};
 use crate::statics::pose::{cross, length, minus, plus, quarter};
-use crate::statics::{delta_point, projective};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
+use rayon::prelude::*;
+
+/// Groups tried at each distance in [`study`].
+pub const GROUPS: usize = 9;
 
 /// Where the δ-point method fails. `[Bychkov, Dvornikov & Zhukov 2018]`
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -172,8 +176,17 @@ pub fn samples(
     out
 }
 
-/// Distances 1 down to 1e-15, four a decade.
+/// Median errors near every failure at distances 1 down to 1e-15, of [`GROUPS`] groups near `base` each.
 #[must_use]
-pub fn distances() -> Vec<f64> {
+pub fn study(base: &GroupPose, seed: u64) -> Vec<(Failure, Vec<Sample>)> {
+    let distances = distances();
+    Failure::ALL
+        .par_iter()
+        .map(|&f| (f, samples(base, f, &distances, GROUPS, seed)))
+        .collect()
+}
+
+/// Distances 1 down to 1e-15, four a decade.
+fn distances() -> Vec<f64> {
     (0..=60).map(|i| 10f64.powf(-f64::from(i) / 4.0)).collect()
 }

@@ -1,144 +1,140 @@
 //! A torsional drive for people: the bar, whether it runs its programme, and why.
 
-use crate::drive::driving::{DampingFrom, Design, Driving};
-use crate::drive::programme::{Endurance, Event, PATIENCE};
+use crate::drive::driving::DampingFrom;
+use crate::drive::programme::{Event, PATIENCE};
 use crate::drive::swing::End;
-use crate::drive::torsion::{Remedy, Sizing, decrement};
-use crate::file::read::workload::Workload;
+use crate::drive::torsion::stored_energy;
 use crate::format::number::significant;
 use crate::format::phrase::plural;
-use crate::model::drive::DriveSpec;
-use crate::view::layout::fit;
-use crate::view::layout::table;
+use crate::view::drive::{Design, Drive, Endurance, Remedies};
+use crate::view::layout::{fit, table};
 use std::fmt::Write;
 
 /// Rows of the programme shown before the rest is left out.
 const SHOWN: usize = 24;
 
-/// The whole report, fitted to a terminal of `width` columns where one is given.
+/// The report, fitted to a terminal of `width` columns where one is given.
 #[must_use]
-pub fn drive(file: &Workload<DriveSpec>, found: &Driving, width: Option<u16>) -> String {
+pub fn drive(d: &Drive<'_>, width: Option<u16>) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
-    let _ = match &found.design {
-        Some(design) => designed(&mut out, file, found, design, width),
-        None => refused(&mut out, file, &found.sizing, width),
+    let _ = match &d.design {
+        Some(design) => designed(&mut out, d, design, width),
+        None => refused(&mut out, d, width),
     };
     fit(&out, width)
+}
+
+/// A length in the file's unit, with its symbol.
+fn length(d: &Drive<'_>, x: f64) -> String {
+    let unit = d.file.length_unit;
+    format!("{} {}", significant(x / unit.metres), unit.symbol)
 }
 
 fn degrees(x: f64) -> String {
     format!("{}°", significant(x.to_degrees()))
 }
 
-fn refused(
-    out: &mut String,
-    file: &Workload<DriveSpec>,
-    sizing: &Sizing,
-    width: Option<u16>,
-) -> std::fmt::Result {
-    let (metres, symbol) = (file.length_unit.metres, file.length_unit.symbol);
-    let length = |x: f64| format!("{} {symbol}", significant(x / metres));
-    let spec = &file.spec;
+fn refused(out: &mut String, d: &Drive<'_>, width: Option<u16>) -> std::fmt::Result {
     writeln!(
         out,
         "{}: no torsion bar swings {} in {} s\n",
-        file.name,
-        degrees(2.0 * spec.twist),
-        significant(spec.period / 2.0)
+        d.mechanism,
+        degrees(2.0 * d.half_swing),
+        significant(d.period / 2.0)
     )?;
-    if let Some(t) = sizing.trials.last() {
-        let twist = degrees(t.allowable_twist);
-        match (t.strong, t.fits) {
-            (false, _) => writeln!(
+    if let Some(t) = d.sizing.trials.last() {
+        match t.strong {
+            false => writeln!(
                 out,
-                "  (11) fails: the last bar tried, d = {} and l = {}, may be twisted by [φ] = {twist}, not more than φ0 = {}",
-                length(t.bar.diameter),
-                length(t.bar.length),
-                degrees(spec.twist)
+                "  (11) fails: the last bar tried, d = {} and l = {}, may be twisted by [φ] = {}, not more than φ0 = {}",
+                length(d, t.diameter),
+                length(d, t.length),
+                degrees(t.allowable_twist),
+                degrees(d.half_swing)
             )?,
-            (true, _) => writeln!(
+            true => writeln!(
                 out,
                 "  no room: the bar that satisfies (11), d = {}, must be l = {} long; there are {}",
-                length(t.bar.diameter),
-                length(t.bar.length),
-                spec.max_length.map_or_else(String::new, length)
+                length(d, t.diameter),
+                length(d, t.length),
+                d.file
+                    .spec
+                    .max_length
+                    .map_or_else(String::new, |l| length(d, l))
             )?,
         }
     }
-    if let Some(Remedy {
-        length: l,
-        allowable_stress,
-        period,
-        twist,
-        inertia,
-    }) = sizing.remedy
+    if let Some(Remedies {
+        length_above,
+        allowable_stress_above,
+        period_above,
+        half_swing_below,
+        inertia_below,
+    }) = d.sizing.remedies
     {
-        writeln!(
-            out,
-            "  Any one of these is enough, bars of any diameter being had:"
-        )?;
-        writeln!(out, "    a bar longer than {}", length(l))?;
-        writeln!(
-            out,
-            "    a material of [τ_s] above {} MPa",
-            significant(allowable_stress * 1e-6)
-        )?;
-        writeln!(out, "    a period above {} s", significant(period))?;
-        writeln!(out, "    a swing 2φ0 below {}", degrees(2.0 * twist))?;
-        writeln!(out, "    an inertia below {} kg·m²", significant(inertia))?;
+        let lines = [
+            "  Any one of these is enough, bars of any diameter being had:".to_owned(),
+            format!("    a bar longer than {}", length(d, length_above)),
+            format!(
+                "    a material of [τ_s] above {} MPa",
+                significant(allowable_stress_above * 1e-6)
+            ),
+            format!("    a period above {} s", significant(period_above)),
+            format!("    a swing 2φ0 below {}", degrees(2.0 * half_swing_below)),
+            format!("    an inertia below {} kg·m²", significant(inertia_below)),
+        ];
+        writeln!(out, "{}", lines.join("\n"))?;
     }
-    writeln!(out, "\n{}", trials(file, sizing, width))
+    writeln!(out, "\n{}", trials(d, width))
 }
 
-fn trials(file: &Workload<DriveSpec>, sizing: &Sizing, width: Option<u16>) -> String {
-    let (metres, symbol) = (file.length_unit.metres, file.length_unit.symbol);
-    let rows = sizing.trials.iter().map(|t| {
+fn trials(d: &Drive<'_>, width: Option<u16>) -> String {
+    let (metres, symbol) = (d.file.length_unit.metres, d.file.length_unit.symbol);
+    let rows = d.sizing.trials.iter().map(|t| {
         let verdict = match (t.strong, t.fits) {
             (true, true) => "holds",
             (false, _) => "(11) fails",
             (true, false) => "too long",
         };
-        vec![
-            significant(t.bar.length / metres),
-            significant(t.bar.diameter / metres),
-            significant(t.allowable_twist.to_degrees()),
-            significant(file.spec.twist.to_degrees()),
-            verdict.to_owned(),
+        let mut row = [
+            t.length / metres,
+            t.diameter / metres,
+            t.allowable_twist.to_degrees(),
+            d.half_swing.to_degrees(),
         ]
+        .map(significant)
+        .to_vec();
+        row.push(verdict.to_owned());
+        row
     });
-    let (l, d) = (format!("l, {symbol}"), format!("d, {symbol}"));
-    table(&[&l, &d, "[φ], °", "φ0, °", ""], rows.collect(), width)
+    let (l, bar) = (format!("l, {symbol}"), format!("d, {symbol}"));
+    table(&[&l, &bar, "[φ], °", "φ0, °", ""], rows.collect(), width)
 }
 
 fn designed(
     out: &mut String,
-    file: &Workload<DriveSpec>,
-    found: &Driving,
+    d: &Drive<'_>,
     design: &Design,
     width: Option<u16>,
 ) -> std::fmt::Result {
-    let (metres, symbol) = (file.length_unit.metres, file.length_unit.symbol);
-    let length = |x: f64| format!("{} {symbol}", significant(x / metres));
-    let (spec, run) = (&file.spec, &design.run);
-    let verdict = match run.complete() {
-        true => format!("all {} latched", plural(run.wanted, "swing")),
-        false => format!(
-            "fails after {} of {}",
-            run.latched,
-            plural(run.wanted, "swing")
-        ),
+    let spec = &d.file.spec;
+    let wanted = plural(design.wanted, "swing");
+    let verdict = match d.complete {
+        true => format!("all {wanted} latched"),
+        false => format!("fails after {} of {wanted}", design.latched),
     };
     writeln!(
         out,
         "{}: torsion bar d = {}, l = {}; swings {} in {} s, {verdict}\n",
-        file.name,
-        length(design.bar.diameter),
-        length(design.bar.length),
-        degrees(2.0 * spec.twist),
-        significant(spec.period / 2.0)
+        d.mechanism,
+        length(d, design.diameter),
+        length(d, design.length),
+        degrees(2.0 * d.half_swing),
+        significant(d.period / 2.0)
     )?;
-    if let Some((disc, swing)) = run.swings().last().filter(|_| !run.complete()) {
+    let last = d.found.and_then(|f| f.run.swings().last());
+    if let Some((disc, swing)) = last.filter(|_| !d.complete) {
         let why = match swing.end {
             End::Stuck => "is stuck: friction is stronger than the wound bar".to_owned(),
             End::Missed { missing } => format!(
@@ -150,33 +146,28 @@ fn designed(
         };
         writeln!(out, "  disc {} {why}\n", disc + 1)?;
     }
-    let second = match spec.inertias[1] == spec.inertias[0] {
+    let second = match d.inertias[1] == d.inertias[0] {
         true => String::new(),
-        false => format!(" and {} kg·m²", significant(spec.inertias[1])),
+        false => format!(" and {} kg·m²", significant(d.inertias[1])),
     };
     writeln!(
         out,
         "  I = {} kg·m²{second}, k = {} N·m/rad, wound by {} at {} MPa of {}: {} J",
-        significant(spec.inertias[0]),
+        significant(d.inertias[0]),
         significant(design.stiffness),
-        degrees(spec.twist),
-        significant(design.bar.stress(spec.twist) * 1e-6),
+        degrees(d.half_swing),
+        significant(design.stress * 1e-6),
         significant(spec.allowable_stress * 1e-6),
-        significant(design.stiffness * spec.twist * spec.twist / 2.0)
+        significant(stored_energy(design.stiffness, d.half_swing))
     )?;
-    losses(out, file, design)?;
-    motions(out, file, design)?;
-    writeln!(
-        out,
-        "\n  Sizing, (10) and (11):\n\n{}",
-        trials(file, &found.sizing, width)
-    )?;
-    writeln!(out, "\n  Programme:\n\n{}", programme(design, width))
+    losses(out, d, design)?;
+    motions(out, d, design)?;
+    writeln!(out, "\n  Sizing, (10) and (11):\n\n{}", trials(d, width))?;
+    writeln!(out, "\n  Programme:\n\n{}", programme(d, width))
 }
 
-fn losses(out: &mut String, file: &Workload<DriveSpec>, design: &Design) -> std::fmt::Result {
-    let spec = &file.spec;
-    let from = match design.damping_from {
+fn losses(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result {
+    let from = match design.damping.from {
         DampingFrom::Stated => "as stated",
         DampingFrom::MissingAngle => "viscous, from the missing angle",
         DampingFrom::None => "none stated",
@@ -187,12 +178,12 @@ fn losses(out: &mut String, file: &Workload<DriveSpec>, design: &Design) -> std:
         significant(design.damping.viscous),
         significant(design.damping.coulomb)
     )?;
-    if design.missing > 0.0 {
+    if design.missing_angle > 0.0 {
         writeln!(
             out,
             "  without the cam a swing ends Δφ = {} short: δ = {} a swing (6), E_fr = {} J (12)",
-            degrees(design.missing),
-            significant(decrement(spec.twist, spec.twist - design.missing)),
+            degrees(design.missing_angle),
+            significant(design.decrement),
             significant(design.friction_energy)
         )?;
     }
@@ -214,40 +205,46 @@ fn losses(out: &mut String, file: &Workload<DriveSpec>, design: &Design) -> std:
             "  no work of the cam brings the disc to its latch: it stops before the push begins"
         )?,
     }
-    if design.run.complete() {
+    if d.complete {
         match design.endurance {
-            Endurance::Lasts { missing } => writeln!(
+            Endurance::Going {
+                lasts: Some(_),
+                missing,
+            } => writeln!(
                 out,
                 "  in the long run every swing is latched, {} short",
                 degrees(missing)
             )?,
-            Endurance::Drifts { missing } => writeln!(
+            Endurance::Going {
+                lasts: None,
+                missing,
+            } => writeln!(
                 out,
                 "  after {PATIENCE} more swings they still drift, {} short by then",
                 degrees(missing)
             )?,
-            Endurance::Fails { after } => writeln!(
+            Endurance::Failing { after, .. } => writeln!(
                 out,
                 "  BUT NOT FOR LONG: swings fall ever shorter, and after {after} of them a latch is missed; the cam must give more"
             )?,
         }
     }
     if let Some(cam) = &design.cam {
-        let exact = cam.needed.map_or_else(String::new, |s| {
+        let exact = cam.needed.as_ref().map_or_else(String::new, |s| {
             format!("; {} N/m by the simulation", significant(s.rate))
         });
         writeln!(
             out,
             "  cam spring: c = {} N/m (14), which gives {} J (13){exact}",
             significant(cam.spring.rate),
-            significant(cam.spring.energy())
+            significant(cam.spring.energy)
         )?;
     }
     Ok(())
 }
 
-fn motions(out: &mut String, file: &Workload<DriveSpec>, design: &Design) -> std::fmt::Result {
-    let same = file.spec.inertias[0] == file.spec.inertias[1];
+fn motions(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result {
+    let same = d.inertias[0] == d.inertias[1];
     for (i, m) in design
         .motions
         .iter()
@@ -265,12 +262,12 @@ fn motions(out: &mut String, file: &Workload<DriveSpec>, design: &Design) -> std
             significant(m.angular_acceleration),
             significant(m.angular_speed)
         )?;
-        if let (Some(a), Some(p)) = (m.acceleration, file.spec.payload) {
-            let radius = significant(p.radius / file.length_unit.metres);
+        if let (Some(a), Some(p)) = (m.acceleration, d.file.spec.payload) {
+            let radius = significant(p.radius / d.file.length_unit.metres);
             writeln!(
                 out,
                 "    at {radius} {} from the axis {} m/s²; a grip there must hold: ozols grip FILE --any-acceleration {:.3}",
-                file.length_unit.symbol,
+                d.file.length_unit.symbol,
                 significant(a),
                 a
             )?;
@@ -279,18 +276,12 @@ fn motions(out: &mut String, file: &Workload<DriveSpec>, design: &Design) -> std
     Ok(())
 }
 
-fn programme(design: &Design, width: Option<u16>) -> String {
+fn programme(d: &Drive<'_>, width: Option<u16>) -> String {
     let mut rows = Vec::new();
-    for s in &design.run.steps {
+    for s in d.found.iter().flat_map(|f| &f.run.steps) {
         let mut row = vec![significant(s.start), significant(s.duration)];
         match &s.event {
-            Event::Dwell => row.extend([
-                "dwell".to_owned(),
-                String::new(),
-                String::new(),
-                String::new(),
-                String::new(),
-            ]),
+            Event::Dwell => row.extend(["dwell", "", "", "", ""].map(str::to_owned)),
             Event::Swing { disc, swing } => {
                 let ahead = (s.angles[*disc] - s.angles[1 - disc]).signum();
                 let to = s.angles[1 - disc] - ahead * swing.place;

@@ -1,13 +1,14 @@
 //! Charts of reactions over the cycle and of the methods' stability.
 
 use crate::chart::{Axis, Chart, Scale, Series, Style};
-use crate::statics::cycle::{Moment, Statics};
+use crate::statics::contour_group::pose::GroupReactions;
+use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
+use crate::statics::contour_group::stability::{Failure, Sample};
+use crate::statics::cycle::Moment;
 use crate::statics::kinetostatics::Source;
 use crate::statics::planar::PairId;
-use crate::statics::stability::{Failure, Sample};
-use crate::view::statics_words::{
-    GroupMethod, disagreement, drive_position, group, magnitudes, prefix,
-};
+use crate::view::prefix::prefix;
+use crate::view::statics::{Statics, magnitudes};
 use itertools::Itertools;
 
 /// A chart with the name of its file, without the ending.
@@ -27,18 +28,14 @@ fn log(label: impl Into<String>) -> Axis {
     }
 }
 
-fn drive_axis(s: &Statics) -> Axis {
-    let name = s
-        .decomposition
-        .drives
-        .first()
-        .map(|&p| s.linkage.mechanism.pairs[p].name.as_str());
-    let unit = if s.drive_slides() {
+fn drive_axis(s: &Statics<'_>) -> Axis {
+    let name = s.drives.first().copied().unwrap_or("");
+    let unit = if s.found.drive_slides() {
         "length units"
     } else {
         "degrees"
     };
-    linear(format!("position of drive {}, {unit}", name.unwrap_or("")))
+    linear(format!("position of drive {name}, {unit}"))
 }
 
 /// How many forces from outside act.
@@ -48,11 +45,11 @@ fn acting(x: &Moment) -> usize {
 }
 
 /// Values over the cycle, one series a name; where forces set in or end the lines are broken.
-fn over(s: &Statics, f: impl Fn(&Moment) -> Vec<(String, f64)>) -> Vec<Series> {
+fn over(s: &Statics<'_>, f: impl Fn(&Moment) -> Vec<(String, f64)>) -> Vec<Series> {
     let mut series: Vec<Series> = Vec::new();
-    let mut before = s.moments.first().map_or(0, acting);
-    for x in &s.moments {
-        let at = drive_position(s, x.instant.drive);
+    let mut before = s.found.moments.first().map_or(0, acting);
+    for x in &s.found.moments {
+        let at = s.shown(x.instant.drive);
         if acting(x) != before {
             series
                 .iter_mut()
@@ -83,23 +80,33 @@ fn scale(series: &mut [Series]) -> &'static str {
 
 /// Reactions of every group, where the guides' reactions act, the drives' effort, and how far the methods differ.
 #[must_use]
-pub fn cycle(name: &str, s: &Statics, methods: &[GroupMethod]) -> Vec<Named> {
-    let (m, d) = (&s.linkage.mechanism, &s.decomposition);
+pub fn cycle(s: &Statics<'_>) -> Vec<Named> {
+    let (found, methods, name) = (s.found, s.methods, s.mechanism);
+    let (m, d) = (&found.linkage.mechanism, &found.decomposition);
     let mut out = Vec::new();
-    let Some(shown) = methods.last() else {
+    let Some(&shown) = methods.last() else {
         return out;
     };
-    for (i, (index, letters)) in s.contour_groups.iter().enumerate() {
-        let title = group(m, d, *index);
+    let mut add = |file: String, title: String, subtitle: String, y: Axis, series: Vec<Series>| {
+        let chart = Chart {
+            title: format!("{name}: {title}"),
+            subtitle,
+            x: drive_axis(s),
+            y,
+            series,
+        };
+        out.push((file, chart));
+    };
+    for (i, (index, letters)) in found.contour_groups.iter().enumerate() {
+        let title = s.groups[*index].name();
         let place = |p: PairId| m.pairs[p].name.as_str();
-        let mut series = over(s, |x| {
-            let found = x.groups.get(i).and_then(|g| Some((g, shown.of(g)?)));
-            let all = found.map(|(g, r)| magnitudes(&r, &g.pose));
-            all.into_iter()
-                .flatten()
-                .map(|(n, v)| (n.to_owned(), v))
-                .collect()
-        });
+        let solved =
+            |x: &Moment, f: &dyn Fn(&GroupSolutions, GroupReactions) -> Vec<(&str, f64)>| {
+                let found = x.groups.get(i).and_then(|g| Some(f(g, g.by(shown)?)));
+                let named = found.into_iter().flatten();
+                named.map(|(n, v)| (n.to_owned(), v)).collect_vec()
+            };
+        let mut series = over(s, |x| solved(x, &|g, r| magnitudes(&r, &g.pose).to_vec()));
         let prefix = scale(&mut series);
         let letters_named = [letters.d, letters.f, letters.k, letters.m, letters.l];
         let key = "DFKML"
@@ -107,70 +114,59 @@ pub fn cycle(name: &str, s: &Statics, methods: &[GroupMethod]) -> Vec<Named> {
             .zip(letters_named)
             .map(|(c, p)| format!("{c} = {}", place(p)))
             .join(", ");
-        out.push((
+        add(
             format!("group-{title}"),
-            Chart {
-                title: format!("{name}: reactions of group {title}"),
-                subtitle: format!("{key}; guide {} with its sign", place(letters.guide)),
-                x: drive_axis(s),
-                y: linear(format!("reaction, {prefix}N")),
-                series,
-            },
-        ));
-        let far = 2.0 * s.linkage.size;
+            format!("reactions of group {title}"),
+            format!("{key}; guide {} with its sign", place(letters.guide)),
+            linear(format!("reaction, {prefix}N")),
+            series,
+        );
+        let far = 2.0 * found.linkage.size;
+        // Far out the line only says that the reaction changes its sign.
+        let near = |x: f64| if x.abs() <= far { x } else { f64::NAN };
         let series = over(s, |x| {
-            let found = x.groups.get(i).and_then(|g| Some((g, shown.of(g)?)));
-            let guide = s.linkage.place(&x.instant.pose, letters.guide);
-            // Far out the line only says that the reaction changes its sign.
-            let near = |x: f64| if x.abs() <= far { x } else { f64::NAN };
-            let all = found.map(|(g, r)| {
-                [
+            let guide = found.linkage.place(&x.instant.pose, letters.guide);
+            solved(x, &|g, r| {
+                let offset = r.guide_offset(&g.pose, guide);
+                vec![
                     ("arm h about D", near(r.arm)),
-                    (
-                        "offset along the guide",
-                        near(r.guide_offset(&g.pose, guide)),
-                    ),
+                    ("offset along the guide", near(offset)),
                 ]
-            });
-            all.into_iter()
-                .flatten()
-                .map(|(n, v)| (n.to_owned(), v))
-                .collect()
+            })
         });
-        out.push((
+        add(
             format!("guide-{title}"),
-            Chart {
-                title: format!(
-                    "{name}: where the guide bears link {}",
-                    m.bodies[letters.slider].name
-                ),
-                subtitle: format!(
-                    "Point of application of the reaction of {}; broken where it vanishes",
-                    place(letters.guide)
-                ),
-                x: drive_axis(s),
-                y: linear("m"),
-                series,
-            },
-        ));
+            format!(
+                "where the guide bears link {}",
+                m.bodies[letters.slider].name
+            ),
+            format!(
+                "Point of application of the reaction of {}; broken where it vanishes",
+                place(letters.guide)
+            ),
+            linear("m"),
+            series,
+        );
     }
     for (index, g) in d.groups.iter().enumerate() {
-        if s.contour_groups.iter().any(|c| c.0 == index) {
+        if found.contour_groups.iter().any(|c| c.0 == index) {
             continue;
         }
-        let title = group(m, d, index);
-        let mut series = over(s, |x| forces(s, x, &g.pairs()));
+        let (title, pairs) = (s.groups[index].name(), g.pairs());
+        let mut series = over(s, |x| {
+            let all = x.whole.iter().flat_map(|e| &e.reactions);
+            let own = all.filter(|r| pairs.contains(&r.pair));
+            own.map(|r| (m.pairs[r.pair].name.clone(), r.force[0].hypot(r.force[1])))
+                .collect()
+        });
         let prefix = scale(&mut series);
-        out.push((
+        add(
             format!("group-{title}"),
-            Chart {
-                title: format!("{name}: reactions of group {title}"),
-                subtitle: g.class.to_string(),
-                x: drive_axis(s),
-                y: linear(format!("reaction, {prefix}N")),
-                series,
-            },
-        ));
+            format!("reactions of group {title}"),
+            g.class.to_string(),
+            linear(format!("reaction, {prefix}N")),
+            series,
+        );
     }
     let mut series = over(s, |x| {
         let all = x.whole.iter().flat_map(|e| &e.reactions);
@@ -179,55 +175,40 @@ pub fn cycle(name: &str, s: &Statics, methods: &[GroupMethod]) -> Vec<Named> {
     });
     if !series.is_empty() {
         let prefix = scale(&mut series);
-        let what = if s.drive_slides() { "force" } else { "torque" };
-        let unit = if s.drive_slides() { "N" } else { "N·m" };
-        out.push((
+        let (what, unit) = match found.drive_slides() {
+            true => ("force", "N"),
+            false => ("torque", "N·m"),
+        };
+        add(
             "drive".to_owned(),
-            Chart {
-                title: format!("{name}: {what} of the drive"),
-                subtitle: String::new(),
-                x: drive_axis(s),
-                y: linear(format!("{what}, {prefix}{unit}")),
-                series,
-            },
-        ));
+            format!("{what} of the drive"),
+            String::new(),
+            linear(format!("{what}, {prefix}{unit}")),
+            series,
+        );
     }
-    if methods.len() > 1 && !s.contour_groups.is_empty() {
+    if methods.len() > 1 && !found.contour_groups.is_empty() {
         let series = over(s, |x| {
             let named = x.groups.iter().map(|g| {
-                let differ = disagreement(g, methods).unwrap_or(f64::NAN);
-                (format!("group {}", group(m, d, g.group)), differ.max(1e-17))
+                let differ = g.disagreement(methods).unwrap_or(f64::NAN);
+                let name = s.groups[g.group].name();
+                (format!("group {name}"), differ.max(1e-17))
             });
             named.collect()
         });
-        out.push((
+        add(
             "methods".to_owned(),
-            Chart {
-                title: format!("{name}: how far the methods differ"),
-                subtitle: methods.iter().map(|x| x.name()).join(", "),
-                x: drive_axis(s),
-                y: log("greatest difference over the greatest reaction"),
-                series,
-            },
-        ));
+            "how far the methods differ".to_owned(),
+            methods.iter().map(|x| x.name()).join(", "),
+            log("greatest difference over the greatest reaction"),
+            series,
+        );
     }
     out
 }
 
-fn forces(s: &Statics, x: &Moment, pairs: &[PairId]) -> Vec<(String, f64)> {
-    let all = x.whole.iter().flat_map(|e| &e.reactions);
-    all.filter(|r| pairs.contains(&r.pair))
-        .map(|r| {
-            (
-                s.linkage.mechanism.pairs[r.pair].name.clone(),
-                r.force[0].hypot(r.force[1]),
-            )
-        })
-        .collect()
-}
-
 /// What a stability chart shows: title, subtitle, axis.
-fn words(failure: Failure) -> (&'static str, &'static str, &'static str) {
+fn labels(failure: Failure) -> (&'static str, &'static str, &'static str) {
     match failure {
         Failure::ParallelRods => (
             "Rods 6 and 7 nearly parallel",
@@ -285,7 +266,7 @@ pub fn stability(failure: Failure, samples: &[Sample]) -> Named {
             &|s| s.condition * f64::EPSILON / 2.0,
         ));
     }
-    let (title, subtitle, x) = words(failure);
+    let (title, subtitle, x) = labels(failure);
     let chart = Chart {
         title: title.to_owned(),
         subtitle: subtitle.to_owned(),
