@@ -6,7 +6,7 @@ use super::{Done, output};
 use crate::accuracy::folder;
 use crate::accuracy::stability::{self, Effort};
 use crate::accuracy::survey::Survey;
-use crate::view::accuracy_text;
+use crate::view::accuracy::summary;
 use crate::view::next::{self, Step};
 use anyhow::{Context, ensure};
 use clap::Args as ClapArgs;
@@ -55,7 +55,7 @@ pub(super) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
         let sentences = studies
             .iter()
             .map(|s| (s.title.as_str(), s.sentence.as_str()));
-        let text = accuracy_text::summary(&survey, sentences, output::width(None));
+        let text = summary(&survey, sentences, output::width(None));
         return output::to(None, |out| {
             writeln!(
                 out,
@@ -67,7 +67,7 @@ pub(super) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
     }
     bar.clear();
     output::to(None, |out| {
-        let text = accuracy_text::summary(&survey, [], output::width(None));
+        let text = summary(&survey, [], output::width(None));
         let charts = Step {
             command: "ozols accuracy -o accuracy".to_owned(),
             gives: "the same as charts, and where each method's numbers fail".to_owned(),

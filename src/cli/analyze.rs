@@ -9,9 +9,11 @@ use crate::rank::registry;
 use crate::rank::snap::snap;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::search::suggest::single_changes;
+use crate::view::analysis::Analysis;
 use crate::view::layout::fit;
+use crate::view::mobility::ByMethod;
+use crate::view::next;
 use crate::view::suggestions::{self, Advice};
-use crate::view::{analysis_json, analysis_text, next};
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -92,36 +94,34 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     if let Some(path) = &a.certificate {
         verify::write(path, &mechanism, &states)?;
     }
-    let stroke = stroke.map(|s| s.follow()).transpose()?;
+    let stroke = stroke.as_ref().map(stroke::Asked::follow).transpose()?;
     if let (Some(s), Some(path)) = (&stroke, &a.svg) {
-        s.chart(path)?;
+        output::to(Some(path), |out| {
+            write!(out, "{}", s.chart().svg())?;
+            Ok(Done::Found)
+        })?;
     }
     let (advice, snapped) = advise(&mechanism, &states, &found, a.tolerance)?;
-    let next = suggestions::next(&mechanism, &found, &advice, &a.file.file, snapped);
+    let analysis = Analysis {
+        stroke,
+        ..Analysis::new(&mechanism, &found, &advice)
+    };
+    let next = suggestions::next(&mechanism, &analysis.states, &a.file.file, snapped);
     let width = output::width(a.output.as_deref());
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            AnalyzeFormat::Json => {
-                let mut value = analysis_json::analysis(&mechanism, &found, &advice);
-                if let Some(s) = &stroke {
-                    value["stroke"] = s.json();
-                }
-                writeln!(out, "{value:#}")?;
-            }
+            AnalyzeFormat::Json => output::json(out, &analysis)?,
             AnalyzeFormat::Text => {
-                let text = analysis_text::analysis(&mechanism, &found, &advice, width);
-                write!(out, "{text}")?;
-                if let Some(s) = &stroke {
+                write!(out, "{}", analysis.text(width))?;
+                if let Some(s) = &analysis.stroke {
                     write!(out, "\n{}", fit(&s.text(width), width))?;
                 }
                 write!(out, "{}", next::text(&next, width))?;
             }
         }
         // A stroke that could not be finished is no success.
-        Ok(match stroke {
-            Some(s) if s.stopped() => Done::Nothing,
-            _ => Done::Found,
-        })
+        let stopped = analysis.stroke.is_some_and(|s| s.stop.is_some());
+        Ok(if stopped { Done::Nothing } else { Done::Found })
     })
 }
 
@@ -177,17 +177,11 @@ fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> any
         .map(|&s| Ok((s, method.answer(mechanism, s)?)))
         .collect::<anyhow::Result<Vec<_>>>()
         .with_context(|| format!("{} by {}", mechanism.name, method.about().title))?;
+    let found = ByMethod::new(mechanism, method, &answers);
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            AnalyzeFormat::Json => {
-                let value = analysis_json::by_method(mechanism, method, &answers);
-                writeln!(out, "{value:#}")?;
-            }
-            AnalyzeFormat::Text => write!(
-                out,
-                "{}",
-                analysis_text::by_method(mechanism, method, &answers)
-            )?,
+            AnalyzeFormat::Json => output::json(out, &found)?,
+            AnalyzeFormat::Text => write!(out, "{}", found.text())?,
         }
         Ok(Done::Found)
     })

@@ -11,7 +11,7 @@ use crate::format::phrase::plural;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{Method, analyse};
-use crate::view::mechanism_text;
+use crate::view::mechanism::describe;
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
 
@@ -53,7 +53,7 @@ pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
             n => format!("valid, {}", plural(n, "warning")),
         };
         writeln!(out, "{}: {verdict}", mechanism.name)?;
-        for line in mechanism_text::describe(mechanism, across(mechanism)) {
+        for line in describe(mechanism, across(mechanism)) {
             writeln!(out, "  {line}")?;
         }
         for table in tables {

@@ -1,55 +1,48 @@
 //! The verdict in words.
 
-use super::embed::text;
 use super::{Page, Redesigns};
 use crate::format::number::{cost, grouped};
-use crate::format::phrase::plural;
+use crate::format::phrase::{list, plural};
 use crate::model::mechanism::{Mechanism, Role};
-use crate::redundancy::analysis::StateAnalysis;
-use crate::redundancy::stress::Verdict;
 use crate::score::outcome::Variant;
 use crate::search::best::Assignment;
-use crate::view::words;
+use crate::view::analysis::{Analysis, State};
 use itertools::Itertools;
+use maud::{Markup, html};
 use num_traits::{One, Zero};
 
 /// Idle motions told at most.
 const TOLD: usize = 4;
 
-pub(super) fn html(page: &Page<'_>) -> String {
-    let mut out = String::new();
-    let several = page.states.len() > 1;
-    for (i, s) in page.states.iter().enumerate() {
-        let label = if several {
-            format!("<p class=\"label\">State {}</p>\n", text(&s.state))
-        } else {
-            String::new()
-        };
-        let good = s.redundant == 0;
-        let mut sentences = state(page.mechanism, s);
-        if i == 0 {
-            sentences.push(redesigns(page, s));
+pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
+    let several = analysis.states.len() > 1;
+    html! {
+        @for (i, s) in analysis.states.iter().enumerate() {
+            div class={ "verdict " (if s.redundant == 0 { "good" } else { "bad" }) } {
+                @if several { p.label { "State " (s.state) } }
+                p.head { (head(s)) }
+                p {
+                    (state(s).join(" "))
+                    @if i == 0 { " " (redesigns(page, s)) }
+                }
+            }
         }
-        out += &format!(
-            "<div class=\"verdict {}\">\n{label}<p class=\"head\">{}</p>\n<p>{}</p>\n</div>\n",
-            if good { "good" } else { "bad" },
-            text(&head(s)),
-            sentences.iter().map(|t| text(t)).join(" ")
-        );
     }
-    out
 }
 
 /// The answer in a few words.
-pub(super) fn head(s: &StateAnalysis) -> String {
-    match s.redundant {
-        0 => "Statically determinate".to_owned(),
-        n => plural(n, "redundant constraint"),
-    }
+pub(super) fn head(s: &State<'_>) -> String {
+    capitalised(&s.verdict())
+}
+
+fn capitalised(text: &str) -> String {
+    let mut rest = text.chars();
+    let first = rest.next().map(|c| c.to_ascii_uppercase());
+    first.into_iter().chain(rest).collect()
 }
 
 /// What that means, in sentences.
-fn state(m: &Mechanism, s: &StateAnalysis) -> Vec<String> {
+fn state(s: &State<'_>) -> Vec<String> {
     let mut out = Vec::new();
     out.push(
         if s.redundant == 0 {
@@ -60,12 +53,12 @@ fn state(m: &Mechanism, s: &StateAnalysis) -> Vec<String> {
         }
         .to_owned(),
     );
-    if let Some(e) = s.external.filter(|e| e.redundant > 0) {
-        let of = |v: Verdict| {
+    if let Some(e) = s.external.as_ref().filter(|e| e.redundant > 0) {
+        let of = |v: &str| {
             let external = s.self_stresses.iter().filter(|t| t.external);
             external.filter(|t| t.verdict == v).count()
         };
-        let (harmless, harmful) = (of(Verdict::Harmless), of(Verdict::Harmful));
+        let (harmless, harmful) = (of("harmless"), of("harmful"));
         let split = if harmless + harmful == 0 {
             String::new()
         } else {
@@ -78,7 +71,7 @@ fn state(m: &Mechanism, s: &StateAnalysis) -> Vec<String> {
         ));
     }
     out.push(moves(s));
-    let idle = words::idle_list(m, &s.idle);
+    let idle = s.idle_motions();
     let more = idle.len().saturating_sub(TOLD);
     if !idle.is_empty() {
         let list = idle.iter().take(TOLD).join("; ");
@@ -92,9 +85,9 @@ fn state(m: &Mechanism, s: &StateAnalysis) -> Vec<String> {
     out
 }
 
-fn moves(s: &StateAnalysis) -> String {
+fn moves(s: &State<'_>) -> String {
     let ways = |n: usize| plural(n, "way");
-    match (s.mobility, s.finite.mobility) {
+    match (s.mobility, s.finite_mobility) {
         (0, _) => "Nothing moves in this state.".to_owned(),
         (w, f) if w == f && s.local_mobility == 0 => format!("It moves in {} (W = {w}).", ways(w)),
         (w, f) if w == f => format!(
@@ -113,7 +106,7 @@ fn moves(s: &StateAnalysis) -> String {
 }
 
 /// What the search says, in one or two sentences.
-fn redesigns(page: &Page<'_>, s: &StateAnalysis) -> String {
+fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
     let r = match &page.redesigns {
         Ok(r) => r,
         Err(why) => return format!("Redesigns were not searched: {why}"),
@@ -148,10 +141,8 @@ fn redesigns(page: &Page<'_>, s: &StateAnalysis) -> String {
             )
         };
     }
-    let mut out = format!("{least}{} of {all} variants {goal}{conditions}", big(good));
-    if let Some(first) = out.get(..1) {
-        out = first.to_uppercase() + &out[1..];
-    }
+    let out = format!("{least}{} of {all} variants {goal}{conditions}", big(good));
+    let out = capitalised(&out);
     if s.redundant == 0 && r.variants.iter().any(|c| c.change_count() == 0) {
         return format!("Nothing needs changing. {out}.");
     }
@@ -165,10 +156,10 @@ fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
     let request = &r.found.search.conditions;
     let outputs = m.links.iter().filter(|l| l.role == Role::Output);
     let outputs = outputs.map(|l| l.id.as_str()).collect_vec();
-    let motion = match outputs.as_slice() {
-        [] => format!("keep{s} the motion"),
-        [one] => format!("keep{s} the motion of link {one}"),
-        [head @ .., last] => format!("keep{s} the motion of links {} and {last}", head.join(", ")),
+    let motion = match outputs.len() {
+        0 => format!("keep{s} the motion"),
+        1 => format!("keep{s} the motion of link {}", outputs[0]),
+        _ => format!("keep{s} the motion of links {}", list(&outputs)),
     };
     let all = [
         request.keep_output.then_some(motion),
