@@ -54,6 +54,7 @@
 pub mod accuracy;
 pub mod builtin;
 pub mod chart;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod closure;
 pub mod draw;
@@ -72,6 +73,7 @@ pub mod robots;
 pub mod score;
 pub mod search;
 pub mod statics;
+pub(crate) mod svg;
 pub mod terms;
 pub mod verify;
 pub mod view;

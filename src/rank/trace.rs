@@ -9,9 +9,9 @@
 //! Numeric: nothing is proven, and the certainty says so. Random directions come from a fixed seed.
 
 use crate::motion::pose::Pose;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use faer::Mat;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 /// Singular values of J below this count as zero at a pose reached by Newton's method.
 const FLAT: f64 = 1e-6;

@@ -17,9 +17,9 @@ use crate::motion::pose::Pose;
 use crate::rank::trace::motions;
 use crate::search::best::Variant;
 use crate::search::request::Search;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use faer::Mat;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 /// Singular values of J below this fraction of the largest count as zero at a pose that Newton's method has closed.
 pub const FLAT: f64 = 1e-6;

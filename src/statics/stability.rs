@@ -7,8 +7,8 @@ use crate::statics::contour_group::{GroupPose, GroupReactions};
 use crate::statics::group_equilibrium::{exact, solve};
 use crate::statics::pose::{cross, length, minus, plus, quarter};
 use crate::statics::{delta_point, projective};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 
 /// Where the δ-point method fails. `[Bychkov, Dvornikov & Zhukov 2018]`
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
