@@ -1,6 +1,6 @@
 //! One HTML page for several pictures.
 
-use super::xml::escape;
+use crate::svg::xml::escape;
 
 const STYLE: &str = "
 :root{color-scheme:light dark;--ink:#1c2126;--soft:#59636e;--back:#fff;--rule:#e3e7eb;--link:#0b4a83}

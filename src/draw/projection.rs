@@ -1,10 +1,9 @@
 //! Where joints are shown and from which side.
 
-use super::labels::Rect;
-use super::layout::{Point, norm as norm2, segments_cross, sub as sub2, to_segment};
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, JointId, LinkId, Mechanism};
+use crate::svg::plane::{Point, Rect, norm as norm2, segments_cross, sub as sub2, to_segment};
 
 /// A vector of space.
 pub(super) type Vector = [f64; 3];

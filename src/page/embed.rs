@@ -1,6 +1,6 @@
 //! Putting text, data and parts into a page so that none can be taken for another.
 
-use crate::chart::xml::escape;
+use crate::svg::xml::escape;
 use serde_json::{Number, Value};
 
 /// Text as HTML character data, fit for attributes too.

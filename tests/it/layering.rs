@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 /// The layers, lowest first; modules of one row do not import each other, except where a row says so by order.
 const LAYERS: [&[&str]; 13] = [
-    &["linalg", "chart", "terms", "guide", "builtin"],
-    &["geom", "verify"],
+    &["linalg", "svg", "terms", "guide", "builtin"],
+    &["geom", "verify", "chart"],
     &["model"],
     &["closure"],
     &["motion"],
