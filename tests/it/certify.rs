@@ -1,6 +1,6 @@
 //! The checks of the search: a second prime, and singular values.
 
-use crate::cli::{json, out, ozols};
+use crate::common::{json, out, ozols};
 use ozols::file::text::mechanism_from_str;
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::primes::{Verdict, build_both, compare, compare_counts, primes};

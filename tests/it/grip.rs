@@ -1,7 +1,7 @@
 //! Clamping levers against `[Pavlenko & Godunko 2010]`, and holding forces against independent statics.
 
-use crate::cli::{json, out};
 use crate::common::{changed, near, run_on};
+use crate::common::{json, out};
 use ozols::grip::arm_charts::{figures, findings};
 use ozols::grip::contact::Gripper;
 use ozols::grip::lever_arm::{Lever, LeverError};

@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used, missing_docs, reason = "tests")]
 
 mod accuracy;
-mod bytes;
 mod catalogs;
 mod certificates;
 mod certify;
@@ -17,6 +16,7 @@ mod drive;
 mod drive_command;
 mod exports;
 mod first_hour;
+mod fuzz;
 mod grip;
 mod holding;
 mod layering;
@@ -28,7 +28,6 @@ mod ranking;
 mod reactions;
 mod reactions_cycle;
 mod report_page;
-mod robot_bytes;
 mod robot_mjcf;
 mod robot_models;
 mod robot_sdf;
