@@ -15,12 +15,13 @@
 //!
 //! ```
 //! use ozols::file::text::mechanism_from_str;
+//! use ozols::model::mechanism::StateId;
 //! use ozols::redundancy::analysis::{Method, analyse, exact_field};
 //! use ozols::search::request::{Request, Search};
 //!
 //! let text = ozols::builtin::text("gripper-10").expect("it is built in");
 //! let gripper = mechanism_from_str("gripper-10.toml", text)?;
-//! let free = &analyse(&gripper, &[0], Method::Modular)?[0];
+//! let free = &analyse(&gripper, &[StateId::FREE], Method::Modular)?[0];
 //! assert_eq!((free.mobility, free.redundant), (1, 11)); // [Pogrebnyak 2018]
 //!
 //! let search = Search::new(exact_field(&gripper, 0)?, &gripper, Request::default())?;
@@ -33,9 +34,7 @@
 //!
 //! # Layers
 //!
-//! linalg -> geom, verify -> model -> closure -> motion -> rank, statics -> grip, drive -> redundancy, file -> search,
-//! robots -> score, draw, accuracy -> view -> page -> cli. Imports go one way; a test holds them to it. [`chart`] draws
-//! finished numbers and imports nothing, as [`terms`] says what words mean.
+//! mechanism -> search -> outcome -> view: [`guide::architecture`] says what each module holds and which may import which.
 //!
 //! # Sources
 //!
@@ -73,7 +72,7 @@ pub mod robots;
 pub mod score;
 pub mod search;
 pub mod statics;
-pub(crate) mod svg;
+mod svg;
 pub mod terms;
 pub mod verify;
 pub mod view;

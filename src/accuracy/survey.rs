@@ -30,7 +30,7 @@ impl Case {
     #[must_use]
     pub fn name(&self) -> String {
         match self.state {
-            0 => self.mechanism.name.clone(),
+            StateId::FREE => self.mechanism.name.clone(),
             s => format!("{}, {}", self.mechanism.name, self.mechanism.states[s]),
         }
     }
@@ -45,7 +45,7 @@ pub fn cases() -> Result<Vec<Case>, ImportError> {
     for name in builtin::names() {
         let text = builtin::text(name).unwrap_or_default();
         let mechanism = mechanism_from_str(&format!("{name}.toml"), text)?;
-        for (state, named) in mechanism.states.iter().enumerate() {
+        for (state, named) in mechanism.states_with_ids() {
             let stated = mechanism.expected.iter().find(|e| e.state == *named);
             let Some((Some(instantaneous), Some(finite))) =
                 stated.map(|e| (e.mobility, e.finite_mobility))

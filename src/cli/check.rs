@@ -21,7 +21,7 @@ pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
         });
     }
     let mut checked = check(&name, &bytes)?;
-    for state in 0..checked.mechanism.states.len() {
+    for state in checked.mechanism.state_ids() {
         match Gripping::new(&checked.mechanism, state) {
             // What cannot be held is for `ozols grip` to say; the file is valid.
             Ok(_) | Err(JawError::Nominal(_)) => {}
@@ -56,7 +56,7 @@ pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
 /// Doubts the figures that the file states where the analysis finds others.
 fn stale(m: &Mechanism, doubts: &mut Doubts) {
     for (i, e) in m.expected.iter().enumerate() {
-        let Some(s) = m.states.iter().position(|s| *s == e.state) else {
+        let Some(s) = m.state(&e.state) else {
             continue;
         };
         // Why there is no analysis is for `ozols analyze` to say.

@@ -6,6 +6,7 @@ use crate::file::read::workload::{Workload, grip_from_bytes};
 use crate::grip::clamping::{Row, Study, study};
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::grip::{GripSpec, Toward, Transmission};
+use crate::model::mechanism::StateId;
 use crate::motion::pose::Pose;
 use crate::statics::transmission::{Rates, rates};
 use crate::view::next::{self, Step};
@@ -77,7 +78,7 @@ fn transmission(file: &Workload<GripSpec>, found: &Study) -> anyhow::Result<Vec<
             ])
         }
         (Transmission::Joints(joints), Some(m)) => {
-            let at_home = rates(m, &Pose::of_file(m, 0)?, &joints)?;
+            let at_home = rates(m, &Pose::of_file(m, StateId::FREE)?, &joints)?;
             let states = file
                 .spec
                 .contacts

@@ -7,7 +7,7 @@ use crate::file::read::loads::{MAX_STEPS, position};
 use crate::geom::expr::Expr;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::Stroke;
-use crate::model::mechanism::{Mechanism, Mode};
+use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::statics::contour_group::GroupPose;
 use crate::statics::cycle::{statics, structures};
 use crate::statics::kinetostatics::Source;
@@ -31,7 +31,7 @@ pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
             normal: [0, 0, 1].map(Expr::from),
         };
     }
-    let Some(state) = m.states.iter().position(|s| *s == a.state) else {
+    let Some(state) = m.state(&a.state) else {
         bail!(
             "{} has no state {}; it has: {}",
             m.name,
@@ -153,7 +153,7 @@ pub(super) fn stroke(text: &str) -> anyhow::Result<Stroke> {
     }
 }
 
-fn groups(m: &Mechanism, state: usize, a: &Statics) -> anyhow::Result<Done> {
+fn groups(m: &Mechanism, state: StateId, a: &Statics) -> anyhow::Result<Done> {
     let (planar, found) = structures(m, state)?;
     let any = found.iter().any(|x| x.found.is_ok());
     output::to(a.output.as_deref(), |out| {
@@ -205,7 +205,7 @@ fn write_charts(folder: &Path, title: &str, charts: &[Named]) -> anyhow::Result<
 }
 
 /// A group in a pose with its loads, the heaviest of the stroke where forces act from outside.
-fn typical(m: &Mechanism, state: usize, stroke: Option<Stroke>) -> anyhow::Result<GroupPose> {
+fn typical(m: &Mechanism, state: StateId, stroke: Option<Stroke>) -> anyhow::Result<GroupPose> {
     let found = statics(m, state, stroke)?;
     let heavy = |l: &crate::statics::kinetostatics::Load| {
         if l.source == Source::External {
@@ -228,7 +228,7 @@ fn typical(m: &Mechanism, state: usize, stroke: Option<Stroke>) -> anyhow::Resul
 
 fn stability(
     m: &Mechanism,
-    state: usize,
+    state: StateId,
     stroke: Option<Stroke>,
     folder: &Path,
     seed: u64,

@@ -62,7 +62,7 @@ impl<'a> Asked<'a> {
         let Some(range) = &a.stroke else {
             return Ok(None);
         };
-        let state = m.states.iter().position(|s| *s == a.state).unwrap_or(0);
+        let state = m.state(&a.state).unwrap_or(StateId::FREE);
         let pose = Pose::of_file(m, state)?;
         let (drive, held) = drive(m, &pose, state, a.drive.as_deref())?;
         let slide = slides(&pose, drive);

@@ -82,7 +82,7 @@ impl<'a> Kinematic<'a> {
         let m = subject.mechanism;
         let joints: Vec<JointId> = m.joints_in(subject.state).collect();
         let mut links: Vec<(LinkId, Vec<usize>)> = Vec::new();
-        for l in 0..m.links.len() {
+        for l in m.link_ids() {
             let of: Vec<usize> = (0..joints.len())
                 .filter(|&i| m.joints[joints[i]].links.contains(&l))
                 .collect();

@@ -1,7 +1,7 @@
 //! What is drawn: a mechanism in one state, and what a redesign of it changed.
 
 use super::sheet::{SMALL, Shape, Swatch};
-use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::svg::text::width;
 
@@ -55,15 +55,15 @@ impl Mark {
 impl Subject<'_> {
     pub(super) fn joint_mark(&self, joint: JointId) -> Mark {
         match &self.marks {
-            Some(m) if joint >= m.joints => Mark::New,
+            Some(m) if joint.index() >= m.joints => Mark::New,
             Some(m) if m.changed.iter().any(|(j, _)| *j == joint) => Mark::Changed,
             _ => Mark::None,
         }
     }
 
-    pub(super) fn link_mark(&self, link: usize) -> Mark {
+    pub(super) fn link_mark(&self, link: LinkId) -> Mark {
         match &self.marks {
-            Some(m) if link >= m.links => Mark::New,
+            Some(m) if link.index() >= m.links => Mark::New,
             _ => Mark::None,
         }
     }
@@ -73,7 +73,7 @@ impl Subject<'_> {
         self.mechanism.joints[joint]
             .states
             .as_ref()
-            .is_some_and(|s| !s.contains(&0))
+            .is_some_and(|s| !s.contains(&StateId::FREE))
     }
 
     pub(super) fn title(&self) -> String {

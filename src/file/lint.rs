@@ -11,7 +11,7 @@ use crate::file::text::{is_json, read, text_of};
 use crate::geom::expr::Expr;
 use crate::model::joint_type::JointType;
 use crate::model::measured::looks_measured;
-use crate::model::mechanism::{Joint, JointId, Mechanism, Role};
+use crate::model::mechanism::{Joint, JointId, Mechanism, Role, StateId};
 use crate::model::ranking::Term;
 use annotate_snippets::Level;
 use itertools::Itertools;
@@ -279,7 +279,7 @@ fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
         out.push((root("joint"), DoubtKind::Measured { what }));
         return;
     }
-    let pairs = (0..m.joints.len()).tuple_combinations();
+    let pairs = m.joint_ids().tuple_combinations();
     let near = pairs.filter(|&(a, b)| {
         let shared = m.joints[a]
             .links
@@ -299,16 +299,18 @@ fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
             across: short(across),
             unit: m.length_unit.symbol,
         };
-        out.push((key(&index(&root("joint"), b), "point"), kind));
+        out.push((key(&index(&root("joint"), b.index()), "point"), kind));
     }
 }
 
 fn contours(m: &Mechanism, out: &mut Found) {
     let joints = |c: &Contour| c.joints.iter().map(|&(j, _)| j).sorted().collect_vec();
-    let bases: Vec<Vec<Vec<JointId>>> = (0..m.states.len())
+    let bases: Vec<Vec<Vec<JointId>>> = m
+        .state_ids()
         .map(|s| contour_basis(m, s).iter().map(joints).collect())
         .collect();
-    let walked: Vec<bool> = (0..m.joints.len())
+    let walked: Vec<bool> = m
+        .joint_ids()
         .map(|j| {
             let coupled = m.couplings.iter().flat_map(|c| &c.ends);
             bases.iter().flatten().any(|c| c.contains(&j))
@@ -318,7 +320,7 @@ fn contours(m: &Mechanism, out: &mut Found) {
     if !walked.contains(&true) {
         out.push((root("joint"), DoubtKind::NoContour));
     } else {
-        let open: Vec<JointId> = (0..m.joints.len()).filter(|&j| !walked[j]).collect();
+        let open: Vec<JointId> = m.joint_ids().filter(|&j| !walked[j]).collect();
         if let Some(&first) = open.first() {
             let names = open.iter().take(SHOWN).map(|&j| m.joints[j].id.as_str());
             let more = match open.len().saturating_sub(SHOWN) {
@@ -327,7 +329,7 @@ fn contours(m: &Mechanism, out: &mut Found) {
             };
             let joints = format!("{}{more}", names.format(", "));
             out.push((
-                index(&root("joint"), first),
+                index(&root("joint"), first.index()),
                 DoubtKind::OpenChain { joints },
             ));
         }
@@ -344,27 +346,27 @@ fn contours(m: &Mechanism, out: &mut Found) {
 }
 
 fn structure(m: &Mechanism, out: &mut Found) {
-    for (l, link) in m.links.iter().enumerate() {
+    for (l, link) in m.links_with_ids() {
         if link.role != Role::Object {
             continue;
         }
-        let at = key(&index(&root("link"), l), "id");
-        let here = |s: usize| {
+        let at = key(&index(&root("link"), l.index()), "id");
+        let here = |s: StateId| {
             let of = |&j: &JointId| m.joints[j].links.contains(&l);
             m.joints_in(s).filter(of).count()
         };
-        if here(0) > 0 {
+        if here(StateId::FREE) > 0 {
             let link = link.id.clone();
             out.push((at, DoubtKind::ObjectAlwaysThere { link }));
             continue;
         }
-        if let Some(s) = (0..m.states.len()).find(|&s| here(s) == 1) {
+        if let Some(s) = m.state_ids().find(|&s| here(s) == 1) {
             let (link, state) = (link.id.clone(), m.states[s].clone());
             out.push((at, DoubtKind::Dangling { link, state }));
         }
     }
-    for (i, j) in m.joints.iter().enumerate() {
-        let at = index(&root("joint"), i);
+    for (i, j) in m.joints_with_ids() {
+        let at = index(&root("joint"), i.index());
         if j.joint_type == JointType::Fixed && j.states.is_none() {
             let kind = DoubtKind::AlwaysFixed {
                 joint: j.id.clone(),
@@ -373,7 +375,7 @@ fn structure(m: &Mechanism, out: &mut Found) {
             };
             out.push((key(&at, "type"), kind));
         }
-        let twin = m.joints[..i].iter().find(|o| twins(o, j));
+        let twin = m.joints[..i.index()].iter().find(|o| twins(o, j));
         if let Some(o) = twin {
             let (first, second) = (o.id.clone(), j.id.clone());
             out.push((key(&at, "links"), DoubtKind::Twin { first, second }));

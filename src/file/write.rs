@@ -17,13 +17,15 @@ use crate::geom::expr::Expr;
 use crate::model::coupling::Coupling;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::loads::{ExternalMoment, Inertia, Stiffness};
-use crate::model::mechanism::{Expected, Frame, Joint, JointOption, Mechanism, Mode, Role};
+use crate::model::mechanism::{
+    Expected, Frame, Joint, JointId, JointOption, Mechanism, Mode, Role, StateId,
+};
 use std::collections::BTreeMap;
 
 /// The file of a mechanism. Options that the file had in common stand at each joint; nothing else is changed.
 #[must_use]
 pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
-    let ids = |list: &[usize]| list.iter().map(|&j| m.joints[j].id.clone()).collect();
+    let ids = |list: &[JointId]| list.iter().map(|&j| m.joints[j].id.clone()).collect();
     let (mode, plane_normal) = match &m.mode {
         Mode::Spatial => (None, None),
         Mode::Planar { normal } => (Some("planar".to_owned()), Some(vector(normal))),
@@ -126,7 +128,7 @@ fn cost(milli: i64) -> f64 {
 }
 
 fn joint(m: &Mechanism, j: &Joint) -> JointEntry {
-    let names = |s: &Vec<usize>| s.iter().map(|&s| m.states[s].clone()).collect::<Vec<_>>();
+    let names = |s: &Vec<StateId>| s.iter().map(|&s| m.states[s].clone()).collect::<Vec<_>>();
     // The present joint is understood, unless it has a cost of its own.
     let priced = j.options.first().is_some_and(|o| o.cost_milli.is_some());
     let listed = j.options.iter().skip(usize::from(!priced));

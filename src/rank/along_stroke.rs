@@ -148,7 +148,8 @@ impl<'a> Looker<'a> {
                 Mode::Planar { .. } => 3,
             },
             unit: if slides { pose.length } else { 1.0 },
-            outputs: (0..m.links.len())
+            outputs: m
+                .link_ids()
                 .filter(|&l| m.links[l].role == Role::Output)
                 .filter(present)
                 .map(|l| (l, middle(l)))

@@ -235,7 +235,8 @@ fn zeros(mechanism: &mut Mechanism, near: f64, tolerance: f64, moved: &mut Vec<S
 
 /// Lines through a common point, and lines that coincide.
 fn concurrent(mechanism: &mut Mechanism, near: f64, moved: &mut Vec<String>) {
-    let lines: Vec<JointId> = (0..mechanism.joints.len())
+    let lines: Vec<JointId> = mechanism
+        .joint_ids()
         .filter(|&j| uses(&mechanism.joints[j].joint_type).1)
         .collect();
     let line = |m: &Mechanism, j: JointId| {

@@ -4,7 +4,7 @@ use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::model::joint_type::Freedom;
 use crate::model::measured::looks_measured;
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::numeric::{DEFAULT_TOLERANCE, rank_with_tolerance};
 use crate::robots::parts::Robot;
 use crate::robots::warning::Kept;
@@ -73,7 +73,7 @@ pub(crate) fn kept(m: &Mechanism) -> Option<Kept> {
     }
     let tolerance = looks_measured(m).map_or(DEFAULT_TOLERANCE, |x| x.tolerance());
     let mobility = |m: &Mechanism| {
-        let closure = Closure::new(&Reals, m, 0).ok()?;
+        let closure = Closure::new(&Reals, m, StateId::FREE).ok()?;
         let (rows, columns) = (closure.rows(), closure.columns.len());
         if rows * columns * rows.min(columns) > LARGEST {
             return None;

@@ -1,7 +1,7 @@
 //! Couplings as mimic joints: each joint follows one other at most, so that a tree of couplings can be said, and no more.
 
 use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{JointId, Mechanism};
+use crate::model::mechanism::{JointId, Mechanism, StateId};
 
 /// What a joint follows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,8 +20,8 @@ pub(crate) fn mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follows>>, 
     let fits = |j: JointId| written[j] && m.joints[j].joint_type.freedoms().len() == 1;
     let mut reached = vec![false; m.joints.len()];
     // Drives lead.
-    let drives = (0..m.joints.len()).filter(|&j| m.joints[j].drive);
-    for root in drives.chain(0..m.joints.len()) {
+    let drives = m.joint_ids().filter(|&j| m.joints[j].drive);
+    for root in drives.chain(m.joint_ids()) {
         if reached[root] || !fits(root) {
             continue;
         }
@@ -49,7 +49,7 @@ pub(crate) fn mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follows>>, 
         }
     }
     let left = m.couplings.iter().zip(&said).filter(|(_, s)| !**s);
-    let present = left.filter(|(c, _)| m.couplings_in(0).any(|x| x.ends == c.ends));
+    let present = left.filter(|(c, _)| m.couplings_in(StateId::FREE).any(|x| x.ends == c.ends));
     (follows, present.map(|(c, _)| c.name(m)).collect())
 }
 
@@ -58,15 +58,15 @@ const MARK: char = '\0';
 
 /// Stands in a text for what is known of a joint only when all are written.
 pub(crate) fn stand_in(joint: JointId) -> String {
-    format!("{MARK}{joint}{MARK}")
+    format!("{MARK}{}{MARK}", joint.index())
 }
 
 /// The text with what is known now in those places.
 pub(crate) fn settled(text: &str, known: impl Fn(JointId) -> String) -> String {
     let mut out = String::with_capacity(text.len());
     for (i, part) in text.split(MARK).enumerate() {
-        match part.parse::<JointId>() {
-            Ok(joint) if i % 2 == 1 => out.push_str(&known(joint)),
+        match part.parse() {
+            Ok(joint) if i % 2 == 1 => out.push_str(&known(JointId::new(joint))),
             _ => out.push_str(part),
         }
     }

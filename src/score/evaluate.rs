@@ -78,11 +78,14 @@ impl<'s, 'm> Evaluator<'s, 'm> {
         states: &[StateId],
     ) -> Result<Evaluator<'s, 'm>, ScoreError> {
         let m = search.mechanism;
-        no_couplings(m, 0)?;
+        no_couplings(m, StateId::FREE)?;
         let types = JointTypes::of(m);
-        let start = follow(m, 0, &[], None)?;
+        let start = follow(m, StateId::FREE, &[], None)?;
         let drives = match start.poses.first() {
-            Some((_, pose)) => driven(m, &Geometry::new(m, 0, pose).map_err(Unsolved::from)?)?,
+            Some((_, pose)) => driven(
+                m,
+                &Geometry::new(m, StateId::FREE, pose).map_err(Unsolved::from)?,
+            )?,
             None => Vec::new(),
         };
         let cases = cases(m, &drives, states)?;
@@ -92,7 +95,7 @@ impl<'s, 'm> Evaluator<'s, 'm> {
             .iter()
             .map(|case| Table::new(search, &types, &outputs, &drives, case))
             .collect::<Result<_, _>>()?;
-        let states = analyse(m, &[0], Method::Modular)?;
+        let states = analyse(m, &[StateId::FREE], Method::Modular)?;
         let working = states
             .first()
             .map_or(0, |s| i64::try_from(s.working_mobility).unwrap_or(0));

@@ -1,6 +1,6 @@
 //! The order of a pool of variants, why it is what it is, and whether a variant outside of the pool could win.
 
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{JointId, Mechanism};
 use crate::model::ranking::{Order, Ranking, Term};
 use crate::score::cases::Gripped;
 use crate::score::elimination::Scratch;
@@ -298,7 +298,7 @@ fn three(x: f64) -> String {
 
 /// What a term came from and went to, in words.
 fn change(m: &Mechanism, term: Term, from: &Scores, to: &Scores) -> String {
-    let joint = |j: usize| m.joints.get(j).map_or("", |j| j.id.as_str());
+    let joint = |j: JointId| m.joints.get(j.index()).map_or("", |j| j.id.as_str());
     match term {
         Term::PeakForce => format!(
             "peak force {} N ({} of capacity, joint {}) instead of {} N ({}, joint {})",

@@ -2,7 +2,7 @@
 
 use crate::model::joint_type::Freedom;
 use crate::model::loads::{ExternalForce, Loads};
-use crate::model::mechanism::JointId;
+use crate::model::mechanism::{JointId, StateId};
 use crate::score::bearing::Load;
 use crate::score::evaluate::Evaluator;
 use crate::score::joint_types::JointType;
@@ -49,13 +49,14 @@ impl Evaluator<'_, '_> {
         let types = self.realized_types(&variant.choices);
         let mut worst: Option<Scores> = None;
         let positions: Vec<f64> = self.cases.list.iter().map(|c| c.drive).collect();
-        let followed = follow_to(&m, 0, &self.drives, &positions)?;
+        let followed = follow_to(&m, StateId::FREE, &self.drives, &positions)?;
         for case in &self.cases.list {
             let there = followed.poses.iter().find(|(at, _)| *at == case.drive);
             let Some((drive, pose)) = there else {
                 return Err(Unsolved::NoConvergence);
             };
-            let solve = |loads: &Loads| Reactions::at(&m, 0, loads, pose, *drive, &self.drives);
+            let solve =
+                |loads: &Loads| Reactions::at(&m, StateId::FREE, loads, pose, *drive, &self.drives);
             let solution = solve(&case.loads)?;
             let mut now = self.plain(variant);
             now.conditioning = 1.0 / solution.condition;
@@ -118,7 +119,7 @@ impl Evaluator<'_, '_> {
             }
         }
         let (mut here, mut inserted) = (Vec::new(), Vec::new());
-        for (j, (option, unloading)) in chosen.into_iter().enumerate() {
+        for (j, (option, unloading)) in m.joint_ids().zip(chosen) {
             let joint = &m.joints[j];
             let bears = |o: Option<&crate::model::mechanism::JointOption>| {
                 let nothing = JointType {

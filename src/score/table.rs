@@ -3,7 +3,7 @@
 use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
 use crate::geom::scalars::Reals;
 use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism};
+use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::score::cases::Case;
 use crate::score::joint_types::JointTypes;
@@ -68,7 +68,7 @@ impl Table {
         Case { drive, pose, loads }: &Case,
     ) -> Result<Table, Unsolved> {
         let m = search.mechanism;
-        let geometry = Geometry::new(m, 0, pose)?;
+        let geometry = Geometry::new(m, StateId::FREE, pose)?;
         let mut cases = vec![link_loads(
             m,
             loads,

@@ -21,7 +21,7 @@ impl Peak {
     pub(super) const NONE: Peak = Peak {
         utilisation: 0.0,
         value: 0.0,
-        joint: 0,
+        joint: JointId::new(0),
     };
 
     /// Takes the greater of two, the first where they are alike.
@@ -106,7 +106,7 @@ impl Scores {
 /// its first joint.
 #[must_use]
 pub fn output_points(m: &Mechanism, cases: &Cases) -> Vec<(LinkId, [f64; 3])> {
-    let outputs = (0..m.links.len()).filter(|&l| m.links[l].role == Role::Output);
+    let outputs = m.link_ids().filter(|&l| m.links[l].role == Role::Output);
     let each = outputs.filter_map(|l| {
         let mut forces = cases.list.iter().flat_map(|c| &c.loads.forces);
         let force = forces.find(|f| f.link == l).map(|f| &f.point);

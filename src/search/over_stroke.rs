@@ -12,7 +12,7 @@
 use crate::closure::matrix::path_from_frame;
 use crate::geom::exact::ExactError;
 use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{JointId, Mechanism};
+use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::rank::trace::motions;
 use crate::search::best::Variant;
@@ -88,7 +88,7 @@ impl Search<'_> {
     /// # Complexity
     /// Some closings of O((6k)² f) a pose.
     pub fn stroke(&self, count: usize, seed: u64) -> Result<Stroke, ExactError> {
-        let pose = Pose::of_file(self.mechanism, 0)?;
+        let pose = Pose::of_file(self.mechanism, StateId::FREE)?;
         let span = motions(&pose);
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut poses = Vec::new();
@@ -131,7 +131,7 @@ impl Search<'_> {
             poses: 0,
             other: None,
         };
-        let Ok(pose) = Pose::of_file(m, 0) else {
+        let Ok(pose) = Pose::of_file(m, StateId::FREE) else {
             return out;
         };
         for (coordinates, output) in &stroke.poses {
@@ -159,7 +159,13 @@ impl Search<'_> {
             let screw = || match (freedom, of(Freedom::Screw)?.2) {
                 (Freedom::Rz, q) => Some(q),
                 (Freedom::Tz, q) => {
-                    let pitch = self.mechanism.joints.get(joint)?.frame.pitch.to_f64();
+                    let pitch = self
+                        .mechanism
+                        .joints
+                        .get(joint.index())?
+                        .frame
+                        .pitch
+                        .to_f64();
                     Some(q * pitch / pose.length)
                 }
                 _ => None,
@@ -195,7 +201,7 @@ impl Search<'_> {
             .kept
             .0
             .iter()
-            .map(|&l| path_from_frame(m, 0, l))
+            .map(|&l| path_from_frame(m, StateId::FREE, l))
             .collect();
         let rows = pose.rows();
         let stacked = Mat::from_fn(rows + 6 * paths.len(), f, |r, c| {

@@ -196,7 +196,7 @@ impl PlanarMechanism {
             unit: m.length_unit.symbol,
         };
         let mut body_of = vec![None; m.links.len()];
-        for (l, link) in m.links.iter().enumerate() {
+        for (l, link) in m.links_with_ids() {
             let joined = m.joints_in(state).any(|j| m.joints[j].links.contains(&l));
             if joined || l == m.frame() {
                 body_of[l] = Some(planar.bodies.len());

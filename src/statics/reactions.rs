@@ -23,7 +23,7 @@ pub mod inertia;
 use crate::geom::exact::ExactError;
 use crate::model::joint_type::Freedom;
 use crate::model::loads::Loads;
-use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::applied::link_loads;
 use crate::statics::reactions::drives::{Driven, driven};
@@ -256,8 +256,8 @@ impl Reactions {
             }
             let twists = geometry.link_twists(m.links.len(), &speeds);
             // The loaded link that the motion carries along most, else the fastest.
-            let gain = |l: usize| -power(&twists[l], &loads_of_links[l]).abs();
-            let fastest = (0..m.links.len()).min_by(|&a, &b| gain(a).total_cmp(&gain(b)));
+            let gain = |l: LinkId| -power(&twists[l], &loads_of_links[l]).abs();
+            let fastest = m.link_ids().min_by(|&a, &b| gain(a).total_cmp(&gain(b)));
             return Err(Unsolved::Moves {
                 link: fastest.map_or_else(String::new, |l| m.links[l].id.clone()),
                 mobility: system.undriven(),

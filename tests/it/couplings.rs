@@ -4,7 +4,7 @@ mod exchange;
 
 use crate::common::ozols;
 use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
+use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::method::{NoAnswer, by_name};
 use ozols::redundancy::analysis::{Method, StateAnalysis, analyse};
 
@@ -45,7 +45,9 @@ fn builtin(name: &str) -> Mechanism {
 }
 
 fn exact(m: &Mechanism) -> StateAnalysis {
-    analyse(m, &[0], Method::Modular).unwrap().remove(0)
+    analyse(m, &[StateId::FREE], Method::Modular)
+        .unwrap()
+        .remove(0)
 }
 
 fn problem(text: &str) -> String {
@@ -184,7 +186,7 @@ fn rack_and_pinion() {
         (1, 0, 1, 1)
     );
     assert!(s.finite.is_proven());
-    let pose = Pose::of_file(&m, 0).unwrap();
+    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let way = follow(&pose, 0, &[], [0.0, 7.0], 7);
     assert!(way.stop.is_none());
     let last = way.reached.last().unwrap().pose();
@@ -236,7 +238,7 @@ fn the_carrier_follows_the_sun() {
     use ozols::motion::follow::follow;
     use ozols::motion::pose::Pose;
     let m = builtin("planetary-gear");
-    let pose = Pose::of_file(&m, 0).unwrap();
+    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let way = follow(&pose, 0, &[], [0.0, 1.0], 4);
     let last = way.reached.last().unwrap().pose();
     let at = |id: &str| {
@@ -278,20 +280,30 @@ fn every_method_counts_the_rows() {
         for method in [
             "lu32", "lu", "qr32", "qr", "svd", "modular", "finite", "auto",
         ] {
-            let answer = by_name(method).unwrap().answer(&m, 0).unwrap();
+            let answer = by_name(method).unwrap().answer(&m, StateId::FREE).unwrap();
             assert_eq!(answer.mobility, w, "{name} by {method}");
         }
-        match by_name("rational").unwrap().answer(&m, 0) {
+        match by_name("rational").unwrap().answer(&m, StateId::FREE) {
             Ok(answer) => assert_eq!(answer.mobility, w),
             Err(e) => assert!(matches!(e, NoAnswer::DoesNotApply(_)) && name == "planetary-gear"),
         }
-        let e = by_name("generic").unwrap().answer(&m, 0).unwrap_err();
+        let e = by_name("generic")
+            .unwrap()
+            .answer(&m, StateId::FREE)
+            .unwrap_err();
         assert!(e.to_string().contains("no couplings of joints"));
     }
     // 6·4 - 25 - 1, 3·4 - 10 - 1, and 5 - 3 - 1 by contours.
     let m = builtin("geared-five-bar");
     for (method, w) in [("count", -2), ("count-planar", 1), ("loops", 1)] {
-        assert_eq!(by_name(method).unwrap().answer(&m, 0).unwrap().mobility, w);
+        assert_eq!(
+            by_name(method)
+                .unwrap()
+                .answer(&m, StateId::FREE)
+                .unwrap()
+                .mobility,
+            w
+        );
     }
 }
 
@@ -301,12 +313,13 @@ fn certificates_hold_the_coupling() {
     use ozols::rank::certificate::{certify, matrix, number_field};
     let text = ozols::builtin::text("geared-five-bar").unwrap();
     let m = mechanism(text);
-    let certificate = certify(&m, 0).unwrap();
+    let certificate = certify(&m, StateId::FREE).unwrap();
     assert_eq!(
         (certificate.rows, certificate.columns, certificate.rank),
         (7, 5, 4)
     );
-    let of = |m: &Mechanism| matrix(&number_field(m, 0).unwrap(), m, 0).unwrap();
+    let of =
+        |m: &Mechanism| matrix(&number_field(m, StateId::FREE).unwrap(), m, StateId::FREE).unwrap();
     assert_eq!(ozols::verify::check(&of(&m), &certificate), Ok(4));
     let other = mechanism(&text.replacen("ratio = \"-1/2\"", "ratio = \"-1/3\"", 1));
     assert!(ozols::verify::check(&of(&other), &certificate).is_err());

@@ -8,7 +8,7 @@ use crate::common::{out, ozols};
 use ozols::builtin;
 use ozols::draw::{Drawing, Rect, Subject, kinematic, marks, scheme};
 use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
+use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
 use ozols::search::request::{Request, Search};
 use std::fmt::Write as _;
@@ -24,9 +24,9 @@ fn every_built_in_is_drawn_right() {
     let mut drawn = 0;
     for name in builtin::names() {
         let m = built_in(name);
-        let states: Vec<usize> = (0..m.states.len()).collect();
+        let states: Vec<StateId> = m.state_ids().collect();
         let found = analyse(&m, &states, Method::Modular).unwrap();
-        for (state, analysis) in found.iter().enumerate() {
+        for (state, analysis) in m.state_ids().zip(&found) {
             let subject = Subject {
                 mechanism: &m,
                 state,
@@ -49,7 +49,7 @@ fn every_built_in_is_drawn_right() {
                     all.extend(misread(&d, &m, state, analysis));
                 }
                 for c in all {
-                    wrong.push(format!("{name} {state} {kind}: {c}"));
+                    wrong.push(format!("{name} {state:?} {kind}: {c}"));
                 }
             }
         }
@@ -61,14 +61,14 @@ fn every_built_in_is_drawn_right() {
 #[test]
 fn the_scheme_says_what_the_field_says() {
     let m = built_in("gripper-10");
-    let found = analyse(&m, &[0, 1], Method::Modular).unwrap();
-    let subject = |state: usize| Subject {
+    let found = analyse(&m, &[StateId::FREE, StateId::new(1)], Method::Modular).unwrap();
+    let subject = |state: StateId| Subject {
         mechanism: &m,
         state,
         analysis: Some(&found[state]),
         marks: None,
     };
-    let free = scheme(&subject(0));
+    let free = scheme(&subject(StateId::FREE));
     let says = |d: &Drawing, text: &str| d.labels.iter().any(|l| l.text == text);
     // [Pogrebnyak 2018]: shares 2, 3, 3, 3; twelve hinges of class V and the driving pair of class IV
     for row in [
@@ -90,7 +90,7 @@ fn the_scheme_says_what_the_field_says() {
     let large = free.symbols.iter().filter(|s| s.right - s.left > 25.0);
     assert_eq!(large.count(), 1);
     assert_eq!(count(&free, "a"), 0, "the clamped part is not there");
-    let clamped = scheme(&subject(1));
+    let clamped = scheme(&subject(StateId::new(1)));
     assert_eq!((count(&clamped, "VI"), count(&clamped, "a")), (2, 1));
     assert!(says(&clamped, "in state clamped only"));
     assert!(clamped.svg.contains("joint dash"));
@@ -100,7 +100,7 @@ fn the_scheme_says_what_the_field_says() {
 fn variants_are_marked() {
     let m = built_in("gripper-10");
     let request = Request {
-        state: Some((1, 2)),
+        state: Some((StateId::new(1), 2)),
         ..Request::default()
     };
     let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
@@ -119,7 +119,7 @@ fn variants_are_marked() {
     let changed: Vec<String> = marks.changed.iter().map(|(_, w)| w.clone()).collect();
     let subject = Subject {
         mechanism: &realized,
-        state: 1,
+        state: StateId::new(1),
         analysis: None,
         marks: Some(marks),
     };
@@ -178,7 +178,7 @@ fn a_plane_is_seen_face_on() {
         let m = tilted(across, up);
         let d = kinematic(&Subject {
             mechanism: &m,
-            state: 0,
+            state: StateId::FREE,
             analysis: None,
             marks: None,
         });
@@ -203,7 +203,7 @@ fn links_side_by_side_show_their_contour() {
     let m = built_in("door-two-hinges");
     let d = scheme(&Subject {
         mechanism: &m,
-        state: 0,
+        state: StateId::FREE,
         analysis: None,
         marks: None,
     });
@@ -227,7 +227,7 @@ fn the_same_bytes_each_time() {
         let m = built_in(name);
         let subject = Subject {
             mechanism: &m,
-            state: 0,
+            state: StateId::FREE,
             analysis: None,
             marks: None,
         };

@@ -3,7 +3,7 @@
 use crate::common::{out, ozols};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mechanism, Mode};
+use ozols::model::mechanism::{Mechanism, Mode, StateId};
 use ozols::redundancy::analysis::{Elimination, Method, analyse};
 use ozols::robots::export;
 use ozols::robots::{Options, import};
@@ -38,7 +38,7 @@ fn toml_and_json() {
                     .collect::<Vec<_>>()
             };
             assert_eq!(names(&back), names(&m), "{}", m.name);
-            let states: Vec<usize> = (0..m.states.len()).collect();
+            let states: Vec<StateId> = m.state_ids().collect();
             let figures = |m: &Mechanism| {
                 let all = analyse(m, &states, Method::Modular).unwrap();
                 all.iter()
@@ -187,7 +187,8 @@ fn sdf_there_and_back() {
         // A joint mimics one other: couplings beyond a tree, which are redundant where the mechanism moves, are comments.
         let unsaid = text.matches("<!-- coupled, ").count();
         let figures = |m: &Mechanism, unsaid: usize| {
-            let s = &analyse(m, &[0], Method::Numeric(Elimination::Svd, 1e-9)).unwrap()[0];
+            let s =
+                &analyse(m, &[StateId::FREE], Method::Numeric(Elimination::Svd, 1e-9)).unwrap()[0];
             (s.contours, s.mobility, s.redundant - unsaid)
         };
         assert_eq!(figures(&back, 0), figures(&m, unsaid), "{}\n{text}", m.name);
@@ -200,7 +201,7 @@ fn sdf_there_and_back() {
 #[test]
 fn urdf_trees() {
     for m in all() {
-        let s = &analyse(&m, &[0], Method::Modular).unwrap()[0];
+        let s = &analyse(&m, &[StateId::FREE], Method::Modular).unwrap()[0];
         let text = match export::urdf(&m) {
             Ok(t) => t,
             Err(e) => {
@@ -221,7 +222,12 @@ fn urdf_trees() {
         match import("x.urdf", text.as_bytes(), &none, &Options::default()) {
             Ok(i) => {
                 let back = mechanism_from_str("x.toml", &i.toml).unwrap();
-                let t = &analyse(&back, &[0], Method::Numeric(Elimination::Svd, 1e-9)).unwrap()[0];
+                let t = &analyse(
+                    &back,
+                    &[StateId::FREE],
+                    Method::Numeric(Elimination::Svd, 1e-9),
+                )
+                .unwrap()[0];
                 assert_eq!((t.contours, t.redundant), (0, 0));
                 assert!(t.mobility <= s.freedoms);
             }

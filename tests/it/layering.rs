@@ -74,3 +74,17 @@ fn no_module_imports_upward_or_sideways() {
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
+
+#[test]
+fn the_architecture_page_names_every_room_in_order() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = fs::read_to_string(root.join("src/guide/architecture.md")).unwrap();
+    let rows = page.lines().filter_map(|l| l.strip_prefix("| `"));
+    let named: Vec<&str> = rows
+        .flat_map(|l| l.split(" | ").next().unwrap().split(", "))
+        .map(|room| room.trim_matches('`'))
+        .collect();
+    let layers: Vec<usize> = named.iter().map(|room| layer(room).unwrap()).collect();
+    assert!(layers.is_sorted(), "{named:?}");
+    assert_eq!(named.len(), LAYERS.concat().len());
+}

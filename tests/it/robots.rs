@@ -2,6 +2,7 @@
 
 use crate::common::ozols;
 use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Elimination, Method, StateAnalysis, analyse};
 use ozols::robots::{Imported, Options, import};
 use std::path::PathBuf;
@@ -22,8 +23,12 @@ pub(crate) fn model(path: &str, options: &Options) -> Imported {
 /// n, p, k, f, W, σ of the imported mechanism by singular values.
 pub(crate) fn figures(imported: &Imported, tolerance: f64) -> [i64; 6] {
     let m = mechanism_from_str("imported.toml", &imported.toml).unwrap();
-    let s: &StateAnalysis =
-        &analyse(&m, &[0], Method::Numeric(Elimination::Svd, tolerance)).unwrap()[0];
+    let s: &StateAnalysis = &analyse(
+        &m,
+        &[StateId::FREE],
+        Method::Numeric(Elimination::Svd, tolerance),
+    )
+    .unwrap()[0];
     [
         s.links,
         s.joints,

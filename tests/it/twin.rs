@@ -1,134 +1,20 @@
 //! The search against a slow twin in rational arithmetic that shares no code with it, on random mechanisms.
 
 mod random;
+mod rational;
 
 pub(crate) use self::random::random;
 use self::random::random_coupled;
-use num_bigint::BigInt;
-use num_rational::BigRational;
+use self::rational::{Q, allowed_twists, length, reduce};
 use num_traits::{One, Zero};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::coupling::CoupledFreedom;
-use ozols::model::joint_type::{Freedom, JointType};
-use ozols::model::mechanism::{Frame, JointId, LinkId, Mechanism, Mode, Role};
+use ozols::model::mechanism::{Frame, JointId, LinkId, Mechanism, Mode, Role, StateId};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
 use ozols::search::request::{Request, Search, Symmetry};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
-
-type Q = BigRational;
-
-fn cross(a: &[Q], b: &[Q]) -> Vec<Q> {
-    let m = |i: usize, j: usize| &a[i] * &b[j] - &a[j] * &b[i];
-    vec![m(1, 2), m(2, 0), m(0, 1)]
-}
-
-fn dot(a: &[Q], b: &[Q]) -> Q {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-/// Axes z, x, y of a frame, from the conventions of the design: z the axis, x the reference made perpendicular, y = z × x.
-fn axes(frame: &Frame) -> [Vec<Q>; 3] {
-    let value = |v: &[ozols::geom::expr::Expr; 3]| {
-        v.iter()
-            .map(|e| e.as_rational().unwrap())
-            .collect::<Vec<Q>>()
-    };
-    let (z, r) = (value(&frame.axis), value(&frame.reference));
-    let (zz, zr) = (dot(&z, &z), dot(&z, &r));
-    let x: Vec<Q> = (0..3).map(|i| &r[i] * &zz - &z[i] * &zr).collect();
-    let y = cross(&z, &x);
-    [z, x, y]
-}
-
-/// The length of the axis of a freedom, which must be rational.
-fn length(frame: &Frame, freedom: Freedom) -> Q {
-    let [z, x, y] = axes(frame);
-    let along = match freedom {
-        Freedom::Rz | Freedom::Tz | Freedom::Screw => z,
-        Freedom::Rx | Freedom::Tx => x,
-        Freedom::Ry | Freedom::Ty => y,
-    };
-    let square = dot(&along, &along);
-    let root = Q::new(square.numer().sqrt(), square.denom().sqrt());
-    assert_eq!(&root * &root, square, "an axis of irrational length");
-    root
-}
-
-/// Twists of a joint.
-fn twists(frame: &Frame, kind: &JointType) -> Vec<Vec<Q>> {
-    let value = |v: &[ozols::geom::expr::Expr; 3]| {
-        v.iter()
-            .map(|e| e.as_rational().unwrap())
-            .collect::<Vec<Q>>()
-    };
-    let p = value(&frame.point);
-    let [z, x, y] = axes(frame);
-    let turn = |u: &Vec<Q>| [u.clone(), cross(&p, u)].concat();
-    let slide = |u: &Vec<Q>| [vec![Q::zero(); 3], u.clone()].concat();
-    let one = |f: &Freedom| match f {
-        Freedom::Rx => turn(&x),
-        Freedom::Ry => turn(&y),
-        Freedom::Rz => turn(&z),
-        Freedom::Tx => slide(&x),
-        Freedom::Ty => slide(&y),
-        Freedom::Tz => slide(&z),
-        Freedom::Screw => {
-            let pitch = frame.pitch.as_rational().unwrap();
-            let turned = turn(&z);
-            let slid = slide(&z.iter().map(|c| c * &pitch).collect());
-            turned.iter().zip(&slid).map(|(a, b)| a + b).collect()
-        }
-    };
-    kind.freedoms().iter().map(one).collect()
-}
-
-/// Those of a joint's twists that stay in the plane of a planar mechanism; all in space. A ball turns about the normal.
-fn allowed_twists(mode: &Mode, frame: &Frame, kind: &JointType) -> Vec<Vec<Q>> {
-    let all = twists(frame, kind);
-    let Mode::Planar { normal } = mode else {
-        return all;
-    };
-    let n: Vec<Q> = normal.iter().map(|e| e.as_rational().unwrap()).collect();
-    if *kind == JointType::Spherical {
-        let p: Vec<Q> = frame
-            .point
-            .iter()
-            .map(|e| e.as_rational().unwrap())
-            .collect();
-        return vec![[n.clone(), cross(&p, &n)].concat()];
-    }
-    all.into_iter()
-        .filter(|t| cross(&t[..3], &n).iter().all(Zero::is_zero) && dot(&t[3..], &n).is_zero())
-        .collect()
-}
-
-/// Reduced row echelon form of rows, with its pivots.
-fn reduce(mut rows: Vec<Vec<Q>>) -> (Vec<Vec<Q>>, Vec<usize>) {
-    let (width, mut pivots) = (rows.first().map_or(0, Vec::len), Vec::new());
-    for c in 0..width {
-        let r = pivots.len();
-        let Some(i) = (r..rows.len()).find(|&i| !rows[i][c].is_zero()) else {
-            continue;
-        };
-        rows.swap(r, i);
-        let inverse = Q::one() / &rows[r][c];
-        rows[r].iter_mut().for_each(|x| *x *= &inverse);
-        for j in (0..rows.len()).filter(|&j| j != r) {
-            let a = rows[j][c].clone();
-            if !a.is_zero() {
-                let pivot = rows[r].clone();
-                rows[j]
-                    .iter_mut()
-                    .zip(&pivot)
-                    .for_each(|(x, y)| *x -= &a * y);
-            }
-        }
-        pivots.push(c);
-    }
-    (rows, pivots)
-}
 
 /// Joint motion written out with a twist for every link: unknowns are link twists and joint speeds; each joint demands
 /// t_b - t_a = Σ speeds · twists, and the frame rests; `coupled` are sums of two speeds with factors that must vanish. No
@@ -153,8 +39,8 @@ fn figures(
     for ([a, b], columns) in joints {
         for c in 0..6 {
             let mut row = vec![Q::zero(); width];
-            row[b * 6 + c] += Q::one();
-            row[a * 6 + c] -= Q::one();
+            row[b.index() * 6 + c] += Q::one();
+            row[a.index() * 6 + c] -= Q::one();
             for (i, t) in columns.iter().enumerate() {
                 row[at + i] -= &t[c];
             }
@@ -171,14 +57,14 @@ fn figures(
     }
     let rest = |l: LinkId, c: usize| {
         let mut row = vec![Q::zero(); width];
-        row[l * 6 + c] = Q::one();
+        row[l.index() * 6 + c] = Q::one();
         row
     };
     rows.extend((0..6).map(|c| rest(frame, c)));
     // Links that no joint holds in this state rest too.
     let held = |l: LinkId| joints.iter().any(|(ends, _)| ends.contains(&l));
     rows.extend(
-        (0..links)
+        LinkId::first(links)
             .filter(|&l| l != frame && !held(l))
             .flat_map(|l| (0..6).map(move |c| (l, c)))
             .map(|(l, c)| rest(l, c)),
@@ -208,20 +94,21 @@ pub(crate) struct Twin {
 
 /// Looks at one variant: `choice[j]` is (option, unloading) of joint j.
 pub(crate) fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>)]) -> Twin {
-    let outputs: Vec<LinkId> = (0..m.links.len())
+    let outputs: Vec<LinkId> = m
+        .link_ids()
         .filter(|&l| m.links[l].role == Role::Output || m.search.hold.contains(&l))
         .collect();
     let rows = match m.mode {
         Mode::Spatial => 6,
         Mode::Planar { .. } => 3,
     };
-    let of = |state: usize| {
+    let of = |state: StateId| {
         // An unloading joint is a joint in series with an extra link at the end of the list.
         let mut links = m.links.len();
         let mut joints: Vec<([LinkId; 2], Vec<Vec<Q>>)> = Vec::new();
         // Where the columns of each joint's own option begin.
         let mut own = vec![None; m.joints.len()];
-        for (j, joint) in m.joints.iter().enumerate() {
+        for (j, joint) in m.joints_with_ids() {
             let present = m.joints_in(state).any(|x| x == j);
             let (option, unloading) = choice[j];
             let span = allowed_twists(
@@ -231,7 +118,7 @@ pub(crate) fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>
             );
             match unloading {
                 Some(u) => {
-                    let pad = links;
+                    let pad = LinkId::new(links);
                     links += 1;
                     let pad_joint = &joint.unloading[u];
                     let extra = allowed_twists(&m.mode, &pad_joint.frame, &pad_joint.joint_type);
@@ -266,14 +153,19 @@ pub(crate) fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>
                 Some([(a, -c.ratio.as_rational()? * x), (b, y)])
             })
             .collect();
-        let used: std::collections::BTreeSet<usize> = joints.iter().flat_map(|(l, _)| *l).collect();
+        let used: std::collections::BTreeSet<LinkId> =
+            joints.iter().flat_map(|(l, _)| *l).collect();
         let contours = joints.len() + 1 - used.len();
         let f = figures(links, m.frame(), &joints, &coupled, &outputs);
         let sigma = f.mobility + rows * contours + coupled.len() - f.freedoms;
         (f, sigma)
     };
-    let (free, internal) = of(0);
-    let external = if clamped { of(1).1 - internal } else { 0 };
+    let (free, internal) = of(StateId::FREE);
+    let external = if clamped {
+        of(StateId::new(1)).1 - internal
+    } else {
+        0
+    };
     let changes = choice
         .iter()
         .map(|(o, u)| u32::from(*o != 0) + u32::from(u.is_some()))
@@ -289,8 +181,8 @@ pub(crate) fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>
 
 pub(crate) fn variants(m: &Mechanism, clamped: bool) -> Vec<Vec<(usize, Option<usize>)>> {
     let mut out = vec![Vec::new()];
-    for (j, joint) in m.joints.iter().enumerate() {
-        let free = m.joints_in(0).any(|x: JointId| x == j);
+    for (j, joint) in m.joints_with_ids() {
+        let free = m.joints_in(StateId::FREE).any(|x: JointId| x == j);
         let choices: Vec<(usize, Option<usize>)> = if free || clamped {
             std::iter::once(None)
                 .chain((0..joint.unloading.len()).map(Some))
@@ -331,7 +223,7 @@ fn agrees(text: &str, allowed: u32, keep: bool) -> Result<(), TestCaseError> {
     prop_assume!(all.len() <= 64);
     let present = look(&m, clamped, &vec![(0, None); m.joints.len()]);
     // The analysis of the mechanism as it is.
-    let states: Vec<usize> = (0..m.states.len()).collect();
+    let states: Vec<StateId> = m.state_ids().collect();
     let found = analyse(&m, &states, Method::Modular).unwrap();
     prop_assert_eq!(found[0].redundant, present.internal as usize);
     prop_assert_eq!(found[0].mobility as i64, present.mobility);
@@ -345,7 +237,7 @@ fn agrees(text: &str, allowed: u32, keep: bool) -> Result<(), TestCaseError> {
     let external = if clamped { allowed * 2 } else { 0 };
     let request = Request {
         max_redundant: allowed,
-        state: clamped.then_some((1, external)),
+        state: clamped.then_some((StateId::new(1), external)),
         keep_output: keep,
         symmetry: Symmetry::All,
         ..Request::default()
@@ -404,7 +296,7 @@ proptest! {
     #[test]
     fn adding_freedoms_never_raises_redundancy_and_the_frame_does_not_matter(text in random(), move_by in -5i32..6) {
         let m = mechanism_from_str("random.toml", &text).unwrap();
-        let before = &analyse(&m, &[0], Method::Modular).unwrap()[0];
+        let before = &analyse(&m, &[StateId::FREE], Method::Modular).unwrap()[0];
         // Turn the whole about z by a right angle and shift it.
         let mut moved = m.clone();
         let shift = ozols::geom::expr::Expr::from(i64::from(move_by));
@@ -424,27 +316,16 @@ proptest! {
         for j in &mut moved.joints {
             j.links.reverse();
         }
-        let after = &analyse(&moved, &[0], Method::Modular).unwrap()[0];
+        let after = &analyse(&moved, &[StateId::FREE], Method::Modular).unwrap()[0];
         prop_assert_eq!((before.redundant, before.mobility), (after.redundant, after.mobility));
         prop_assert_eq!(before.working_mobility, after.working_mobility);
-        for j in 0..m.joints.len() {
+        for j in m.joint_ids() {
             for option in m.joints[j].options.clone() {
                 let mut freed = m.clone();
                 (freed.joints[j].joint_type, freed.joints[j].frame) = (option.joint_type, option.frame);
-                let s = &analyse(&freed, &[0], Method::Modular).unwrap()[0];
+                let s = &analyse(&freed, &[StateId::FREE], Method::Modular).unwrap()[0];
                 prop_assert!(s.redundant <= before.redundant);
             }
         }
     }
-}
-
-#[test]
-fn the_rational_elimination_is_right_on_a_known_matrix() {
-    let q = |n: i64| Q::from_integer(BigInt::from(n));
-    let (_, pivots) = reduce(vec![
-        vec![q(1), q(2), q(3)],
-        vec![q(2), q(4), q(7)],
-        vec![q(3), q(6), q(10)],
-    ]);
-    assert_eq!(pivots, vec![0, 2]);
 }

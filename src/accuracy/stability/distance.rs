@@ -13,7 +13,7 @@ use crate::file::problem::ImportError;
 use crate::file::text::mechanism_from_str;
 use crate::geom::expr::Expr;
 use crate::geom::scalars::Reals;
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::{self, Answer, NoAnswer};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::{field_of, modular, scaled};
@@ -96,8 +96,8 @@ struct At {
 /// The true figures: the larger of the ranks over two primes, and no motion where not even an instantaneous one is left.
 fn truth(m: &Mechanism) -> (Truth, usize) {
     let rank = |nth| {
-        let exact = field_of(m, 0, nth).ok()?;
-        let closure = Closure::new(&exact, m, 0).ok()?;
+        let exact = field_of(m, StateId::FREE, nth).ok()?;
+        let closure = Closure::new(&exact, m, StateId::FREE).ok()?;
         Some((closure.columns.len(), modular::rank(&exact, &closure)))
     };
     let (f, rank) = (0..2)
@@ -108,7 +108,7 @@ fn truth(m: &Mechanism) -> (Truth, usize) {
     let finite = if free == 0 {
         Some(0)
     } else {
-        let answer = method::by_name("finite").map(|x| x.answer(m, 0));
+        let answer = method::by_name("finite").map(|x| x.answer(m, StateId::FREE));
         answer.and_then(Result::ok).map(|a| a.mobility)
     };
     let truth = Truth {
@@ -119,7 +119,7 @@ fn truth(m: &Mechanism) -> (Truth, usize) {
 }
 
 fn smallest(m: &Mechanism, rank: usize) -> f64 {
-    let values = Closure::new(&Reals, m, 0)
+    let values = Closure::new(&Reals, m, StateId::FREE)
         .ok()
         .and_then(|c| scaled::scaled(&c).singular_values().ok());
     let mut values = values.unwrap_or_default();
@@ -193,7 +193,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
         // A method that is wrong about the special mechanism cannot tell another one from it.
         let knows: Vec<bool> = method::ALL
             .iter()
-            .map(|x| Verdict::keeps_promise(&x.answer(&mechanism, 0), at_zero))
+            .map(|x| Verdict::keeps_promise(&x.answer(&mechanism, StateId::FREE), at_zero))
             .collect();
         let found: Vec<At> = distances
             .par_iter()
@@ -203,7 +203,10 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
                 At {
                     distance: *distance,
                     truth,
-                    answers: method::ALL.iter().map(|x| x.answer(&m, 0)).collect(),
+                    answers: method::ALL
+                        .iter()
+                        .map(|x| x.answer(&m, StateId::FREE))
+                        .collect(),
                     smallest: smallest(&m, rank),
                 }
             })

@@ -9,7 +9,7 @@ use crate::accuracy::words::{duration, list};
 use crate::accuracy::{Truth, Verdict};
 use crate::chart::{Axis, Bands, Chart, Kind, Scale, Series, Style};
 use crate::closure::matrix::Closure;
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::{self, MobilityMethod};
 use crate::rank::{field_of, modular};
 use std::time::{Duration, Instant};
@@ -38,8 +38,8 @@ fn truth(shape: Shape, m: &Mechanism) -> Truth {
         return one;
     }
     let free = |nth| {
-        let exact = field_of(m, 0, nth).ok()?;
-        let closure = Closure::new(&exact, m, 0).ok()?;
+        let exact = field_of(m, StateId::FREE, nth).ok()?;
+        let closure = Closure::new(&exact, m, StateId::FREE).ok()?;
         i64::try_from(closure.columns.len() - modular::rank(&exact, &closure)).ok()
     };
     let free = (0..2).filter_map(free).min().unwrap_or(0);
@@ -117,12 +117,12 @@ fn ask(
     m: &Mechanism,
 ) -> (Result<method::Answer, method::NoAnswer>, f64) {
     let begun = Instant::now();
-    let answer = method.answer(m, 0);
+    let answer = method.answer(m, StateId::FREE);
     let first = begun.elapsed().as_secs_f64();
     if first > 0.05 {
         return (answer, first);
     }
-    (answer, time(method, m, 0, 5))
+    (answer, time(method, m, StateId::FREE, 5))
 }
 
 fn points(sizes: &[usize], records: &[Record]) -> Vec<(f64, f64)> {

@@ -1,7 +1,7 @@
 //! URDF: a spanning tree of the free state; the joints that close loops are comments.
 
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, LinkId, Mechanism};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::robots::export::ExportError;
 use crate::robots::mimic::{mimics, settled, stand_in};
 use crate::robots::single_freedoms::{
@@ -14,7 +14,7 @@ use std::fmt::Write;
 /// # Errors
 /// Where a joint screws: URDF has no such joint.
 pub fn urdf(m: &Mechanism) -> Result<String, ExportError> {
-    let joints: Vec<JointId> = m.joints_in(0).collect();
+    let joints: Vec<JointId> = m.joints_in(StateId::FREE).collect();
     let mut names = Names::default();
     let mut links: Vec<Option<(String, [f64; 3])>> = vec![None; m.links.len()];
     let mut head = String::new();

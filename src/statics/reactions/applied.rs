@@ -2,7 +2,7 @@
 
 use crate::geom::expr::Expr;
 use crate::model::loads::Loads;
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{LinkId, Mechanism};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::geometry::{Geometry, Six, wrench};
 
@@ -25,7 +25,7 @@ pub fn link_loads(
     let mut out = vec![[0.0; 6]; m.links.len()];
     let mut there = vec![false; m.links.len()];
     geometry.tree.iter().for_each(|t| there[t.0] = true);
-    let mut add = |link: usize, w: Six| {
+    let mut add = |link: LinkId, w: Six| {
         if there[link] {
             for (o, x) in out[link].iter_mut().zip(geometry.within(&w)) {
                 *o += x;
@@ -34,7 +34,7 @@ pub fn link_loads(
     };
     if let Some(g) = &loads.gravity {
         let g = real(g);
-        for (l, link) in m.links.iter().enumerate() {
+        for (l, link) in m.links_with_ids() {
             if let Some(mass) = &link.mass {
                 let at = geometry.place(pose, l, real(&mass.centre));
                 add(l, wrench(at, g.map(|x| x * mass.mass), [0.0; 3]));

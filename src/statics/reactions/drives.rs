@@ -1,7 +1,7 @@
 //! Which freedom of a driven joint the drive holds.
 
 use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{JointId, Mechanism, Role};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::geometry::Geometry;
 use faer::Mat;
@@ -67,7 +67,8 @@ fn working_motions(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Vec<f64>>, 
         rows[c].get(r).copied().unwrap_or(0.0)
     });
     let null = null_space(&jacobian)?;
-    let outputs: Vec<usize> = (0..m.links.len())
+    let outputs: Vec<LinkId> = m
+        .link_ids()
         .filter(|&l| m.links[l].role == Role::Output)
         .collect();
     let twists: Vec<_> = null

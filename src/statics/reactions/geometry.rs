@@ -116,7 +116,7 @@ impl Geometry {
             vec![[0.0; 3]; m.joints.len()],
             vec![[[0.0; 3]; 3]; m.joints.len()],
         );
-        for (j, joint) in m.joints.iter().enumerate() {
+        for (j, joint) in m.joints_with_ids() {
             let frame = FrameValues::new(&Reals, &joint.frame)?;
             let carried = &pose.links[joint.links[0]];
             points[j] = moved(pose, joint.links[0], frame.point);

@@ -6,7 +6,7 @@
 //! that close. Then, by D'Alembert, a link carries -m a at its mass centre and -(I α + ω × I ω) besides.
 
 use crate::model::loads::{Inertia, Loads};
-use crate::model::mechanism::{LinkId, Mechanism};
+use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::drives::Driven;
 use crate::statics::reactions::geometry::{Column, Geometry, Six, cross, dot, power, wrench};
@@ -49,7 +49,7 @@ fn add(to: &mut Six, factor: f64, x: &Six) {
 }
 
 /// The columns of a joint in the order they are passed in, with their direction.
-fn walk(geometry: &Geometry, joint: usize, forward: bool) -> Vec<(usize, f64)> {
+fn walk(geometry: &Geometry, joint: JointId, forward: bool) -> Vec<(usize, f64)> {
     let own = (0..geometry.columns.len()).filter(|&c| geometry.columns[c].joint == joint);
     if forward {
         own.map(|c| (c, 1.0)).collect()

@@ -4,6 +4,7 @@ use super::refused::run;
 use super::{built_in, text};
 use crate::common::{json, out};
 use ozols::builtin;
+use ozols::model::mechanism::StateId;
 use ozols::model::ranking::{ClearanceSum, Term};
 use ozols::redundancy::analysis::exact_field;
 use ozols::score::elimination::Scratch;
@@ -50,11 +51,16 @@ fn variants_are_scored_by_the_worst_part() {
         }
         assert!(greatest > 100.0, "{greatest}");
         // The free state has no loads.
-        let free = Evaluator::in_states(&s, ClearanceSum::Worst, &[0]).unwrap();
+        let free = Evaluator::in_states(&s, ClearanceSum::Worst, &[StateId::FREE]).unwrap();
         for v in pool(&s, 3) {
             assert_eq!(free.scores(&v, &mut scratch).unwrap().force.value, 0.0);
         }
-        let both = Evaluator::in_states(&s, ClearanceSum::Worst, &[1, 0, 1]).unwrap();
+        let both = Evaluator::in_states(
+            &s,
+            ClearanceSum::Worst,
+            &[StateId::new(1), StateId::FREE, StateId::new(1)],
+        )
+        .unwrap();
         assert_eq!((both.cases.list.len(), both.cases.free), (6, 1));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{SLIDE, TURN, builtin, coupled, exact, mechanism, pair};
 use crate::common::ozols;
+use ozols::model::mechanism::StateId;
 
 #[test]
 fn the_report_has_a_row_for_each_coupling() {
@@ -111,7 +112,7 @@ fn equalities_of_mujoco() {
     let kept = i.report.kept.unwrap();
     assert_eq!((kept.couplings, kept.mobility), (2, Some((3, 1))));
     // Rates are those of the joints, whatever the length of their axes.
-    let rows = ozols::closure::coupling::coefficients(&m, 0);
+    let rows = ozols::closure::coupling::coefficients(&m, StateId::FREE);
     assert!(
         rows.iter()
             .zip([0.25, -1.0])

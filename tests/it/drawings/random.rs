@@ -3,7 +3,7 @@
 use super::reading::collisions;
 use ozols::draw::{Subject, kinematic, scheme};
 use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
+use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::redundancy::analysis::{Method, analyse};
 use proptest::prelude::*;
 use std::fmt::Write as _;
@@ -83,9 +83,9 @@ proptest! {
 
     #[test]
     fn any_graph_is_drawn(m in any_mechanism()) {
-        let found = analyse(&m, &[0], Method::Modular).ok();
+        let found = analyse(&m, &[StateId::FREE], Method::Modular).ok();
         for analysis in [None, found.as_ref().and_then(|f| f.first())] {
-            let subject = Subject { mechanism: &m, state: 0, analysis, marks: None };
+            let subject = Subject { mechanism: &m, state: StateId::FREE, analysis, marks: None };
             for d in [scheme(&subject), kinematic(&subject)] {
                 prop_assert!(!d.svg.contains("NaN") && !d.svg.contains("inf "));
                 let wrong = collisions(&d);

@@ -1,7 +1,7 @@
 //! A drawing read back from its SVG: where labels and lines are, what touches what.
 
 use ozols::draw::{Drawing, Rect};
-use ozols::model::mechanism::Mechanism;
+use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::redundancy::analysis::StateAnalysis;
 
 /// How far the groups round an element move it.
@@ -147,7 +147,7 @@ pub(super) fn outside(d: &Drawing) -> Vec<String> {
 pub(super) fn misread(
     d: &Drawing,
     m: &Mechanism,
-    state: usize,
+    state: StateId,
     analysis: &StateAnalysis,
 ) -> Vec<String> {
     let mut out = Vec::new();

@@ -3,6 +3,7 @@
 use super::{edits, runs, spoilt};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::StateId;
 use ozols::rank::certificate::{certify, matrix, number_field};
 use ozols::verify;
 use ozols::verify::certificate::{CertificateFile, FORMAT};
@@ -37,7 +38,7 @@ const WORDS: [&str; 16] = [
 static CERTIFIED: LazyLock<Vec<(MatrixOverRing, usize, String)>> = LazyLock::new(|| {
     let certified = |name: &str| {
         let m = mechanism_from_str(name, builtin::text(name).unwrap()).unwrap();
-        let certificate = certify(&m, 0).unwrap();
+        let certificate = certify(&m, StateId::FREE).unwrap();
         let rank = certificate.rank;
         let file = CertificateFile {
             format: FORMAT.to_owned(),
@@ -45,7 +46,7 @@ static CERTIFIED: LazyLock<Vec<(MatrixOverRing, usize, String)>> = LazyLock::new
             certificates: vec![certificate],
             without: Vec::new(),
         };
-        let over = matrix(&number_field(&m, 0).unwrap(), &m, 0).unwrap();
+        let over = matrix(&number_field(&m, StateId::FREE).unwrap(), &m, StateId::FREE).unwrap();
         (over, rank, serde_json::to_string_pretty(&file).unwrap())
     };
     NAMES.iter().map(|name| certified(name)).collect()

@@ -4,6 +4,7 @@ use super::{edits, runs, spoilt};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_bytes;
 use ozols::file::write::mechanism_file;
+use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Method, analyse};
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -42,7 +43,7 @@ fn read(name: &str, bytes: &[u8]) {
                 written
             );
             if m.joints.len() < 20 {
-                let _ = analyse(&m, &[0], Method::Auto { tolerance: None });
+                let _ = analyse(&m, &[StateId::FREE], Method::Auto { tolerance: None });
             }
         }
         Err(e) => {

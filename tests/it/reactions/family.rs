@@ -3,6 +3,7 @@
 use super::{SOLVED, built_in, left_over, solve};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::loads::{Misalignment, Stiffness};
+use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Method, analyse};
 use ozols::statics::reactions::JointReaction;
 
@@ -11,7 +12,7 @@ fn self_stresses_are_in_equilibrium_and_as_many_as_the_redundant_constraints() {
     for name in SOLVED {
         let mut m = built_in(name);
         let s = solve(&m);
-        let by_rank = analyse(&m, &[0], Method::Modular).unwrap()[0].redundant;
+        let by_rank = analyse(&m, &[StateId::FREE], Method::Modular).unwrap()[0].redundant;
         assert_eq!(s.self_stresses.len(), by_rank, "{name}");
         m.loads = Default::default();
         for stress in &s.self_stresses {

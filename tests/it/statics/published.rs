@@ -2,6 +2,7 @@
 
 use super::{mechanism, shears};
 use ozols::model::loads::Stroke;
+use ozols::model::mechanism::StateId;
 use ozols::statics::contour_group::GroupPose;
 use ozols::statics::cycle::statics;
 use ozols::statics::group_equilibrium;
@@ -32,7 +33,7 @@ fn each_equation_gives_its_component() {
         to: std::f64::consts::TAU,
         steps: 24,
     };
-    let s = statics(&mechanism(shears()), 0, Some(stroke)).unwrap();
+    let s = statics(&mechanism(shears()), StateId::FREE, Some(stroke)).unwrap();
     let mut tried = 0;
     for g in s.moments.iter().flat_map(|m| &m.groups) {
         let (p, steps) = (&g.pose, &g.steps);

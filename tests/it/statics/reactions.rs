@@ -3,6 +3,7 @@
 use super::{J, Mass, file_with, mechanism, p, r, shears};
 use itertools::Itertools;
 use ozols::model::loads::Stroke;
+use ozols::model::mechanism::StateId;
 use ozols::statics::contour_group::GroupReactions;
 use ozols::statics::cycle::{Moment, Statics, statics};
 use ozols::statics::kinetostatics::{Equilibrium, Source};
@@ -10,7 +11,12 @@ use ozols::statics::pose::{cross, minus};
 use proptest::prelude::*;
 
 fn over(text: &str, from: f64, to: f64, steps: usize) -> Statics {
-    statics(&mechanism(text), 0, Some(Stroke { from, to, steps })).unwrap()
+    statics(
+        &mechanism(text),
+        StateId::FREE,
+        Some(Stroke { from, to, steps }),
+    )
+    .unwrap()
 }
 
 fn shears_cycle() -> Statics {

@@ -2,6 +2,7 @@
 
 use super::{mechanism, shears};
 use ozols::model::loads::Stroke;
+use ozols::model::mechanism::StateId;
 use ozols::statics::contour_group::GroupPose;
 use ozols::statics::cycle::statics;
 use ozols::statics::stability::{Failure, Sample, at_distance, samples};
@@ -13,7 +14,10 @@ fn base() -> GroupPose {
         to: 3.1,
         steps: 1,
     };
-    statics(&mechanism(shears()), 0, Some(at)).unwrap().moments[0].groups[0]
+    statics(&mechanism(shears()), StateId::FREE, Some(at))
+        .unwrap()
+        .moments[0]
+        .groups[0]
         .pose
         .clone()
 }

@@ -1,6 +1,6 @@
 //! Small random mechanisms, with and without couplings.
 
-use super::{Q, axes, dot};
+use super::rational::{Q, axes, dot};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::joint_type::{Freedom, JointType};
 use proptest::prelude::*;
@@ -102,7 +102,7 @@ pub(super) fn random_coupled() -> impl Strategy<Value = Option<String>> {
             .replace("axis = [0, 1, 0]", "axis = [0, 3, 0]");
         let m = mechanism_from_str("random.toml", &text).unwrap();
         let mut ends = Vec::new();
-        for (j, joint) in m.joints.iter().enumerate() {
+        for (j, joint) in m.joints_with_ids() {
             let ball = joint.joint_type == JointType::Spherical;
             for f in joint.joint_type.freedoms().iter().filter(|_| !ball) {
                 let [z, x, _] = axes(&joint.frame);

@@ -3,6 +3,7 @@
 use super::{J, file, mechanism, p, r};
 use super::{by_brute_force, laws};
 use itertools::Itertools;
+use ozols::model::mechanism::StateId;
 use ozols::statics::assur::{alternatives, decompose};
 use ozols::statics::planar::{PairKind, PlanarMechanism};
 use proptest::prelude::*;
@@ -83,7 +84,7 @@ fn grown_mechanism(joints: &[J]) -> PlanarMechanism {
             format!("[[joint]]\nid = \"j{n} {part}")
         }
     });
-    PlanarMechanism::new(&mechanism(&renamed.collect::<String>()), 0).unwrap()
+    PlanarMechanism::new(&mechanism(&renamed.collect::<String>()), StateId::FREE).unwrap()
 }
 
 proptest! {
