@@ -59,6 +59,7 @@ pub mod closure;
 pub mod draw;
 pub mod drive;
 pub mod file;
+mod format;
 pub mod geom;
 pub mod grip;
 pub mod guide;

@@ -2,8 +2,9 @@
 
 use super::axis::{Fit, Room, Ruler};
 use super::frame::{self, Head};
-use super::look::{self, PAD, TICK, WIDTH};
+use super::look::{PAD, TICK, WIDTH};
 use super::{Bands, Kind, Scale};
+use crate::format::number::tooltip;
 use crate::svg::plane::Rect;
 use crate::svg::text;
 use crate::svg::xml::Xml;
@@ -71,8 +72,8 @@ impl Bands {
                 let meaning = MEANINGS.iter().find(|m| m.0 == kind).map_or("", |m| m.1);
                 let tip = format!(
                     "{name}: {meaning} from {} to {}",
-                    look::value(from),
-                    look::value(to)
+                    tooltip(from),
+                    tooltip(to)
                 );
                 bar(&mut xml, kind, (place(a), place(b)), y + ROW / 2.0, &tip);
             }
@@ -100,7 +101,7 @@ impl Bands {
     fn about(&self) -> String {
         let rows = self.rows.iter().map(|(name, bands)| {
             let right = bands.iter().filter(|b| b.2 == Kind::Good);
-            let right = right.map(|b| format!("{} to {}", look::value(b.0), look::value(b.1)));
+            let right = right.map(|b| format!("{} to {}", tooltip(b.0), tooltip(b.1)));
             match right.collect::<Vec<_>>().join(", ").as_str() {
                 "" => format!("{name}: nowhere right"),
                 regions => format!("{name}: right from {regions}"),

@@ -2,8 +2,9 @@
 
 use super::frame;
 use super::labels;
-use super::look::{self, COLOURS, PAD, TICK, WIDTH};
+use super::look::{COLOURS, PAD, TICK, WIDTH};
 use super::{Series, Style};
+use crate::format::number::tooltip;
 use crate::svg::plane::Rect;
 use crate::svg::text;
 use crate::svg::xml::{Xml, number};
@@ -146,7 +147,7 @@ pub(super) fn body(xml: &mut Xml, d: &Drawn) {
     let count = d.points().count();
     let alone = d.runs.iter().filter(|run| run.len() == 1).flatten();
     let tip = |point: (f64, f64)| {
-        let (x, y) = (look::value(point.0), look::value(point.1));
+        let (x, y) = (tooltip(point.0), tooltip(point.1));
         format!("{}: {x}, {y}", d.series.name)
     };
     if d.marked() {

@@ -5,6 +5,7 @@ use super::drawn::{self, Drawn, LEAD, SAMPLE, STEP};
 use super::frame::{self, Head};
 use super::look::{COLOURS, PAD, TICK, WIDTH};
 use super::{Chart, Series, Style};
+use crate::format::csv;
 use crate::svg::plane::Rect;
 use crate::svg::text;
 use crate::svg::xml::Xml;
@@ -121,17 +122,11 @@ impl Chart {
 
     /// The points in long form, one a line, under the heads `series,x,y`.
     pub fn csv(&self) -> String {
-        let mut out = String::from("series,x,y\n");
-        for series in &self.series {
-            let name = match series.name.contains([',', '"', '\n', '\r']) {
-                true => format!("\"{}\"", series.name.replace('"', "\"\"")),
-                false => series.name.clone(),
-            };
-            for (x, y) in &series.points {
-                out += &format!("{name},{x:?},{y:?}\n");
-            }
-        }
-        out
+        let points = |s: &Series| {
+            let one = |(x, y)| [s.name.clone(), format!("{x:?}"), format!("{y:?}")];
+            s.points.iter().copied().map(one).collect::<Vec<_>>()
+        };
+        csv::table(&["series", "x", "y"], self.series.iter().flat_map(points))
     }
 
     /// What a screen reader says.

@@ -6,10 +6,11 @@ use crate::builtin;
 use crate::file::lint::{Checked, DoubtKind, Doubts, across, check};
 use crate::file::locate::Step;
 use crate::file::read::workload::tables_alone;
+use crate::format::phrase::plural;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{Method, analyse};
-use crate::view::{mechanism_text, words};
+use crate::view::mechanism_text;
 use anyhow::{Context, bail};
 
 pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
@@ -40,7 +41,7 @@ pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
     output::to(None, |out| {
         let verdict = match doubts.doubts.len() {
             0 => "valid".to_owned(),
-            n => format!("valid, {}", words::plural(n, "warning")),
+            n => format!("valid, {}", plural(n, "warning")),
         };
         writeln!(out, "{}: {verdict}", mechanism.name)?;
         for line in mechanism_text::describe(mechanism, across(mechanism)) {

@@ -10,6 +10,7 @@ use super::sheet::{Anchor, Caption, Drawing, Sheet, Swatch, plan};
 use super::subject::{Mark, Subject, roominess};
 use super::swap::{self, Swap};
 use super::symbols::{self, Pose, hull};
+use crate::format::number::decimals;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Role};
 use crate::svg::plane::{Point, Rect, add, mean, polyline, scale, sub, unit};
@@ -323,23 +324,12 @@ impl<'a> Kinematic<'a> {
                 " Joint {} ({}) between {a} and {b} at {}, {}, {} {}.",
                 joint.id,
                 joint.joint_type,
-                short(p[0]),
-                short(p[1]),
-                short(p[2]),
+                decimals(p[0], 4),
+                decimals(p[1], 4),
+                decimals(p[2], 4),
                 m.length_unit.symbol
             );
         }
         out + &self.subject.coupling_words()
-    }
-}
-
-/// A coordinate in words.
-fn short(x: f64) -> String {
-    let text = format!("{x:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" {
-        "0".to_owned()
-    } else {
-        text.to_owned()
     }
 }

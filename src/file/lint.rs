@@ -8,7 +8,10 @@ use crate::file::read::resolve::{index, key};
 use crate::file::read::workload::workload_tables;
 use crate::file::schema::{MechanismFile, OptionEntry, Unloading};
 use crate::file::text::{is_json, read, text_of};
+use crate::format::number::significant;
 use crate::geom::expr::Expr;
+use crate::geom::extent::diagonal;
+use crate::geom::vector::{length, real, sub};
 use crate::model::joint_type::JointType;
 use crate::model::measured::looks_measured;
 use crate::model::mechanism::{Joint, JointId, Mechanism, Role, StateId};
@@ -232,46 +235,27 @@ fn find(file: &MechanismFile, m: &Mechanism) -> Found {
 }
 
 fn place(j: &Joint) -> [f64; 3] {
-    [0, 1, 2].map(|i| j.frame.point[i].to_f64())
+    real(&j.frame.point)
 }
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
-}
-
-fn short(x: f64) -> String {
-    if (1e-3..1e5).contains(&x) {
-        let text = format!("{x:.3}");
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        format!("{x:.2e}")
-    }
+    length(sub(a, b))
 }
 
 /// Diagonal of the box round the joints, in the file's unit.
 #[must_use]
 pub fn across(m: &Mechanism) -> f64 {
-    let bound = |i: usize, pick: fn(f64, f64) -> f64| {
-        m.joints
-            .iter()
-            .map(|j| place(j)[i])
-            .reduce(pick)
-            .unwrap_or(0.0)
-    };
-    distance(
-        [0, 1, 2].map(|i| bound(i, f64::min)),
-        [0, 1, 2].map(|i| bound(i, f64::max)),
-    )
+    diagonal(m.joints.iter().map(place))
 }
 
 fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
     let across = across(m);
     let metres = across * m.length_unit.metres;
     if file.length_unit.is_none() && metres > FORGOTTEN_UNIT {
-        let across = short(metres);
+        let across = significant(metres);
         out.push((root("name"), DoubtKind::ForgottenUnit { across }));
     } else if across > 0.0 && !(SIZES.0..=SIZES.1).contains(&metres) {
-        let (across, unit) = (short(metres), m.length_unit.symbol);
+        let (across, unit) = (significant(metres), m.length_unit.symbol);
         out.push((root("length_unit"), DoubtKind::OddSize { across, unit }));
     }
     if let Some(measured) = looks_measured(m) {
@@ -295,8 +279,8 @@ fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
         let kind = DoubtKind::NearlyOnePlace {
             first: m.joints[a].id.clone(),
             second: m.joints[b].id.clone(),
-            apart: short(apart),
-            across: short(across),
+            apart: significant(apart),
+            across: significant(across),
             unit: m.length_unit.symbol,
         };
         out.push((key(&index(&root("joint"), b.index()), "point"), kind));

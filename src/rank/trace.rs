@@ -8,13 +8,11 @@
 //!
 //! Numeric: nothing is proven, and the certainty says so. Random directions come from a fixed seed.
 
-use crate::motion::pose::Pose;
+use crate::motion::pose::{FLAT, Pose};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use faer::Mat;
 
-/// Singular values of J below this count as zero at a pose reached by Newton's method.
-const FLAT: f64 = 1e-6;
 /// Length of a trial step: radians, and fractions of the mechanism's size.
 const STEP: f64 = 0.02;
 /// Steps used to look for poses away from a singular one.

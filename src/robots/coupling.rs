@@ -12,17 +12,6 @@ use crate::robots::warning::Kept;
 /// Work of singular values, rows · columns · the lesser of them, up to which the figures are told.
 const LARGEST: usize = 2_000_000_000;
 
-/// Rate of one joint over that of another.
-#[derive(Debug, Clone)]
-pub(crate) struct Ratio {
-    /// Names of the joint that leads and the one that follows.
-    pub(super) joints: [String; 2],
-    /// Rate of the follower over that of the leader, in radians and metres.
-    pub(super) ratio: f64,
-    /// The element that says so.
-    pub(super) element: String,
-}
-
 /// Sorts out the couplings that a mechanism file can say, as joint indices; the others are noted and left out. `written`
 /// are the joints that go into the file.
 pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<([usize; 2], f64)> {

@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 /// Links as nodes (the frame doubly outlined, outputs filled), joints as edges with their class.
 #[must_use]
-pub fn dot(m: &Mechanism) -> String {
+pub(super) fn dot(m: &Mechanism) -> String {
     let mut graph: UnGraph<LinkId, JointId> = UnGraph::new_undirected();
     let nodes: Vec<_> = m.link_ids().map(|l| graph.add_node(l)).collect();
     for (j, joint) in m.joints_with_ids() {
@@ -53,7 +53,7 @@ fn quoted(text: &str) -> String {
 
 /// Links as nodes and joints as edges, with all that bears on the structure as data.
 #[must_use]
-pub fn graphml(m: &Mechanism) -> String {
+pub(super) fn graphml(m: &Mechanism) -> String {
     let mut out = String::from(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n",
     );

@@ -1,6 +1,6 @@
 //! Couplings as mimic joints: each joint follows one other at most, so that a tree of couplings can be said, and no more.
 
-use crate::model::joint_type::Freedom;
+use crate::closure::tree::forest;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 
 /// What a joint follows.
@@ -18,35 +18,28 @@ pub(crate) fn mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follows>>, 
     let mut follows = vec![None; m.joints.len()];
     let mut said = vec![false; m.couplings.len()];
     let fits = |j: JointId| written[j] && m.joints[j].joint_type.freedoms().len() == 1;
-    let mut reached = vec![false; m.joints.len()];
-    // Drives lead.
+    // Drives lead. A coupling of joints that cannot follow is a loop of one node, which no tree takes.
     let drives = m.joint_ids().filter(|&j| m.joints[j].drive);
-    for root in drives.chain(m.joint_ids()) {
-        if reached[root] || !fits(root) {
-            continue;
-        }
-        reached[root] = true;
-        let mut queue = vec![root];
-        let mut next = 0;
-        while let Some(&leader) = queue.get(next) {
-            next += 1;
-            for (q, end) in m.couplings_of(leader) {
-                let coupling = &m.couplings[q];
-                let other = coupling.ends[1 - end].joint;
-                if said[q] || reached[other] || !fits(other) {
-                    continue;
-                }
-                let unit = |e: usize| match coupling.ends[e].freedom {
-                    Freedom::Tx | Freedom::Ty | Freedom::Tz => m.length_unit.metres,
-                    _ => 1.0,
-                };
-                let forward = coupling.ratio.to_f64() * unit(1) / unit(0);
-                let ratio = if end == 0 { forward } else { 1.0 / forward };
-                follows[other] = Some(Follows { leader, ratio });
-                (said[q], reached[other]) = (true, true);
-                queue.push(other);
-            }
-        }
+    let edges = m.couplings.iter().map(|c| {
+        let [a, b] = c.ends.map(|e| e.joint);
+        let ends = if fits(a) && fits(b) { [a, b] } else { [a, a] };
+        ends.map(JointId::index)
+    });
+    let starts = drives.chain(m.joint_ids()).map(JointId::index);
+    let (_, steps) = forest(m.joints.len(), edges, |_| false, starts);
+    for s in steps {
+        let coupling = &m.couplings[s.joint];
+        let unit = |e: usize| match coupling.ends[e].freedom {
+            f if f.slides() => m.length_unit.metres,
+            _ => 1.0,
+        };
+        let forward = coupling.ratio.to_f64() * unit(1) / unit(0);
+        let ratio = if s.forward { forward } else { 1.0 / forward };
+        follows[s.link] = Some(Follows {
+            leader: JointId::new(s.from),
+            ratio,
+        });
+        said[s.joint] = true;
     }
     let left = m.couplings.iter().zip(&said).filter(|(_, s)| !**s);
     let present = left.filter(|(c, _)| m.couplings_in(StateId::FREE).any(|x| x.ends == c.ends));

@@ -1,5 +1,6 @@
 //! The scores of variants, fast.
 
+use crate::geom::vector::dot;
 use crate::model::mechanism::{LinkId, StateId};
 use crate::model::ranking::ClearanceSum;
 use crate::redundancy::analysis::{AnalysisError, Method, analyse};
@@ -13,7 +14,7 @@ use crate::search::best::Variant;
 use crate::search::request::Search;
 use crate::statics::reactions::drives::{Driven, driven};
 use crate::statics::reactions::follow::follow;
-use crate::statics::reactions::geometry::{Geometry, dot};
+use crate::statics::reactions::geometry::Geometry;
 use crate::statics::reactions::{Unsolved, no_couplings};
 use thiserror::Error;
 

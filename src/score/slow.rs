@@ -1,5 +1,6 @@
 //! The scores of a variant the plain way: built as a mechanism and solved by singular values.
 
+use crate::geom::vector::length;
 use crate::model::joint_type::Freedom;
 use crate::model::loads::{ExternalForce, Loads};
 use crate::model::mechanism::{JointId, StateId};
@@ -23,10 +24,6 @@ fn borne(r: &JointReaction) -> ([f64; 3], [f64; 3]) {
         None => {}
     }
     (f, m)
-}
-
-fn size(v: [f64; 3]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 impl Evaluator<'_, '_> {
@@ -66,13 +63,13 @@ impl Evaluator<'_, '_> {
                 let (f, moment) = borne(r);
                 each(Load {
                     joint: *at,
-                    force: size(f),
-                    moment: size(moment),
+                    force: length(f),
+                    moment: length(moment),
                     capacity: (t.capacity_force, t.capacity_moment),
                 });
-                now.force.raise(size(f), t.capacity_force, *at);
+                now.force.raise(length(f), t.capacity_force, *at);
                 if let Some(capacity) = t.capacity_moment {
-                    now.moment.raise(size(moment), capacity, *at);
+                    now.moment.raise(length(moment), capacity, *at);
                 }
             }
             for &(link, point) in &self.outputs {
@@ -92,7 +89,7 @@ impl Evaluator<'_, '_> {
                         ..Loads::default()
                     };
                     for r in &solve(&loads)?.reactions {
-                        let f = size(borne(r).0);
+                        let f = length(borne(r).0);
                         error.joint(types[r.joint].1.clearance, f * f);
                     }
                     error.end_axis();

@@ -4,7 +4,6 @@ use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
 use crate::model::ranking::{ClearanceSum, Term};
 use crate::score::cases::Cases;
-use crate::statics::reactions::geometry::dot;
 
 /// A joint that bears the greatest part of its capacity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -159,12 +158,6 @@ impl ErrorSum {
     pub(super) fn error(&self) -> f64 {
         self.square.sqrt()
     }
-}
-
-/// What is left of a vector without its part along a unit vector.
-pub(super) fn across(v: [f64; 3], along: [f64; 3]) -> [f64; 3] {
-    let part = dot(v, along);
-    [0, 1, 2].map(|i| v[i] - part * along[i])
 }
 
 /// The axis of the joint's frame that a freedom is along, and whether it is a shift.

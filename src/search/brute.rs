@@ -1,7 +1,7 @@
 //! The twin of the diagram: look at every variant. Kept for checking and for the comparison of speed.
 
 use crate::closure::contour::contour_basis;
-use crate::closure::matrix::path_from_frame;
+use crate::closure::tree::path_from_frame;
 use crate::geom::exact::ExactField;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};

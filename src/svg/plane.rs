@@ -1,6 +1,7 @@
 //! Points, segments, polygons and rectangles of a picture.
 
 use super::xml::number;
+pub(crate) use crate::geom::vector::{add, cross_plane as cross, dot, norm, scale, sub};
 use std::fmt::Write as _;
 
 /// A point of the picture; y goes down.
@@ -129,30 +130,6 @@ pub(crate) fn mean(points: impl Iterator<Item = Point>) -> Point {
         n += 1.0;
     }
     scale(sum, 1.0 / n.max(1.0))
-}
-
-pub(crate) fn add(a: Point, b: Point) -> Point {
-    [a[0] + b[0], a[1] + b[1]]
-}
-
-pub(crate) fn sub(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-pub(crate) fn scale(a: Point, by: f64) -> Point {
-    [a[0] * by, a[1] * by]
-}
-
-pub(crate) fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-pub(crate) fn cross(a: Point, b: Point) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
-}
-
-pub(crate) fn norm(a: Point) -> f64 {
-    a[0].hypot(a[1])
 }
 
 /// The direction of a vector; across where it has none.

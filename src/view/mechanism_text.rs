@@ -1,7 +1,9 @@
 //! What a mechanism file describes, in a few lines and without any analysis.
 
+use crate::format::number::{grouped, significant};
+use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, Mode, Role, StateId};
-use crate::view::words::{Shape, grouped, plural, significant};
+use crate::view::words::Shape;
 use itertools::Itertools;
 use num_bigint::BigUint;
 

@@ -1,11 +1,12 @@
 //! A ranking in words and as data.
 
+use crate::format::number::{grouped, significant};
+use crate::format::phrase::plural;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::model::ranking::{ClearanceSum, Order, Term};
 use crate::score::cases::Gripped;
 use crate::score::ranking::{Ranked, RankedPool};
 use crate::score::terms::Scores;
-use crate::view::words::{grouped, plural, significant};
 use itertools::Itertools;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;

@@ -1,10 +1,11 @@
 //! Single changes in words and as data, and what to do after an analysis.
 
+use crate::format::number::cost;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::search::suggest::{Suggestion, Suggestions, USUAL, USUAL_UNLOADING};
+use crate::view::layout::table;
 use crate::view::next::{Step, file_name};
-use crate::view::words::{cost, table};
 use itertools::Itertools;
 use serde_json::{Value, json};
 

@@ -4,9 +4,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers, lowest first; modules of one row do not import each other, except where a row says so by order.
-const LAYERS: [&[&str]; 13] = [
-    &["linalg", "svg", "terms", "guide", "builtin"],
-    &["geom", "verify", "chart"],
+const LAYERS: [&[&str]; 16] = [
+    &["format"],
+    &["linalg", "terms", "guide", "builtin"],
+    &["geom", "verify"],
+    &["svg"],
+    &["chart"],
     &["model"],
     &["closure"],
     &["motion"],

@@ -225,7 +225,7 @@ fn where_no_single_change_helps_it_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("slots.toml");
     let m = built_in("four-bar");
-    let mut copy = ozols::robots::export::toml(&m)
+    let mut copy = ozols::robots::formats::write(&m, "toml")
         .unwrap()
         .parse::<toml_edit::DocumentMut>()
         .unwrap();

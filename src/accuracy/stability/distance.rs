@@ -3,14 +3,15 @@
 use super::change::power_of_ten;
 use super::sweep::bands;
 use super::{Effort, Picture, Progress, Study};
-use crate::accuracy::csv::Csv;
-use crate::accuracy::words::{list, scientific};
 use crate::accuracy::{Truth, Verdict};
 use crate::builtin;
 use crate::chart::{Axis, Bands, Chart, Kind, Scale, Series, Style};
 use crate::closure::matrix::Closure;
 use crate::file::problem::ImportError;
 use crate::file::text::mechanism_from_str;
+use crate::format::csv;
+use crate::format::number::scientific;
+use crate::format::phrase::list;
 use crate::geom::expr::Expr;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -18,6 +19,7 @@ use crate::rank::method::{self, Answer, NoAnswer};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::{field_of, modular, scaled};
 use rayon::prelude::*;
+use serde::Serialize;
 
 /// A special mechanism and how it is spoiled.
 struct Special {
@@ -91,6 +93,20 @@ struct At {
     answers: Vec<Result<Answer, NoAnswer>>,
     /// The smallest singular value that the exact rank counts, relative to the largest.
     smallest: f64,
+}
+
+/// A line of the table: what one method said at one distance.
+#[derive(Serialize)]
+struct Row {
+    mechanism: &'static str,
+    distance: String,
+    method: &'static str,
+    answer: Option<i64>,
+    exact_instantaneous: i64,
+    exact_finite: i64,
+    special_instantaneous: i64,
+    special_finite: i64,
+    smallest_singular_value: String,
 }
 
 /// The true figures: the larger of the ranks over two primes, and no motion where not even an instantaneous one is left.
@@ -171,17 +187,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
             }
         }
     }
-    let mut csv = Csv::new(&[
-        "mechanism",
-        "distance",
-        "method",
-        "answer",
-        "exact_instantaneous",
-        "exact_finite",
-        "special_instantaneous",
-        "special_finite",
-        "smallest_singular_value",
-    ]);
+    let mut table = Vec::new();
     let mut pictures = Vec::new();
     let mut values = Vec::new();
     let mut met: Vec<Vec<Seen>> = vec![Vec::new(); method::ALL.len()];
@@ -213,19 +219,17 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
             .collect();
         for at in &found {
             for (method, answer) in method::ALL.iter().zip(&at.answers) {
-                csv.row(&[
-                    special.name.to_owned(),
-                    format!("{:e}", at.distance),
-                    method.name().to_owned(),
-                    answer
-                        .as_ref()
-                        .map_or_else(|_| String::new(), |a| a.mobility.to_string()),
-                    at.truth.instantaneous.to_string(),
-                    at.truth.finite.to_string(),
-                    at_zero.instantaneous.to_string(),
-                    at_zero.finite.to_string(),
-                    format!("{:.3e}", at.smallest),
-                ]);
+                table.push(Row {
+                    mechanism: special.name,
+                    distance: format!("{:e}", at.distance),
+                    method: method.name(),
+                    answer: answer.as_ref().ok().map(|a| a.mobility),
+                    exact_instantaneous: at.truth.instantaneous,
+                    exact_finite: at.truth.finite,
+                    special_instantaneous: at_zero.instantaneous,
+                    special_finite: at_zero.finite,
+                    smallest_singular_value: format!("{:.3e}", at.smallest),
+                });
             }
         }
         let xs: Vec<f64> = found.iter().map(|a| a.distance).collect();
@@ -259,7 +263,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
         title: "Distance from special geometry".to_owned(),
         sentence: sentence(&met),
         pictures,
-        csv: csv.finish(),
+        csv: csv::records(table),
     })
 }
 

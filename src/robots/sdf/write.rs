@@ -11,7 +11,7 @@ use std::fmt::Write;
 /// The mechanism's free state as SDF 1.9. All links have the global axes; joints of several freedoms that SDF does not
 /// know become joints in series through links without mass.
 #[must_use]
-pub fn sdf(m: &Mechanism) -> String {
+pub(crate) fn sdf(m: &Mechanism) -> String {
     // Mimic joints are of 1.11.
     let version = if m.couplings_in(StateId::FREE).next().is_some() {
         "1.11"

@@ -37,7 +37,7 @@ fn the_file_comes_back_from_export() {
         "type = \"cylindrical\"\naxis = [0, 0, 2]",
         &coupled("a", "b:tz", "\"sqrt(2)/3\""),
     ));
-    let again = mechanism(&ozols::robots::export::toml(&m).unwrap());
+    let again = mechanism(&ozols::robots::formats::write(&m, "toml").unwrap());
     assert_eq!(again.couplings.len(), 1);
     assert_eq!(again.couplings[0].ends, m.couplings[0].ends);
     assert_eq!(
@@ -50,21 +50,21 @@ fn the_file_comes_back_from_export() {
 /// joints cannot hold, are comments.
 #[test]
 fn exported_as_mimic_joints() {
-    use ozols::robots::export;
+    use ozols::robots::formats;
     let m = mechanism(&pair(SLIDE, TURN, &coupled("a", "b", "\"1/20\"")));
-    let urdf = export::urdf(&m).unwrap();
+    let urdf = formats::write(&m, "urdf").unwrap();
     // 1/20 rad a mm is 50 rad a m.
     assert!(
         urdf.contains("<mimic joint=\"a\" multiplier=\"50\" offset=\"0\"/>"),
         "{urdf}"
     );
-    let sdf = export::sdf(&m);
+    let sdf = formats::write(&m, "sdf").unwrap();
     assert!(
         sdf.contains("<sdf version=\"1.11\">") && sdf.contains("<multiplier>50</multiplier>"),
         "{sdf}"
     );
     let gear = builtin("planetary-gear");
-    let sdf = export::sdf(&gear);
+    let sdf = formats::write(&gear, "sdf").unwrap();
     assert_eq!(
         (
             sdf.matches("<mimic ").count(),
@@ -74,7 +74,7 @@ fn exported_as_mimic_joints() {
         "{sdf}"
     );
     assert!(!sdf.contains('\0'));
-    let urdf = export::urdf(&builtin("geared-gripper")).unwrap();
+    let urdf = formats::write(&builtin("geared-gripper"), "urdf").unwrap();
     assert!(
         urdf.contains("<mimic joint=\"0-1\" multiplier=\"-1\" offset=\"0\"/>"),
         "{urdf}"
@@ -105,7 +105,7 @@ fn equalities_of_mujoco() {
     let i = mjcf(
         r#"<joint joint1="b" joint2="a" polycoef="0.1 -0.25"/><joint joint1="c" joint2="a"/>"#,
     );
-    let m = mechanism(&i.toml);
+    let m = mechanism(&i.toml().unwrap());
     let ends = |q: usize| m.couplings[q].ends.map(|e| m.joints[e.joint].id.as_str());
     assert_eq!((ends(0), ends(1)), (["a", "b"], ["a", "c"]));
     assert_eq!([0, 1].map(|q| m.couplings[q].ratio.to_f64()), [-0.25, 1.0]);
@@ -140,7 +140,7 @@ fn equalities_of_mujoco() {
             "{}",
             i.report.text("x.xml")
         );
-        assert_eq!(exact(&mechanism(&i.toml)).mobility, 3);
+        assert_eq!(exact(&mechanism(&i.toml().unwrap())).mobility, 3);
     }
 }
 

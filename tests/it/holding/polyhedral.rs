@@ -3,8 +3,10 @@
 use super::{COUPLINGS, assert_statics, cross3, force, held, lever, pose, pull};
 use crate::common::near;
 use microlp::{ComparisonOp, OptimizationDirection, Problem};
-use ozols::grip::contact::{Gripper, Pose, cross};
-use ozols::grip::holding::{ContactForce, Coupling, Load, Outcome, Spatial, hold};
+use ozols::geom::vector::cross_plane as cross;
+use ozols::grip::contact::{Gripper, Pose};
+use ozols::grip::holding::{ContactForce, Load, Outcome, Spatial, hold};
+use ozols::model::grip::LeverDrive;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -14,7 +16,7 @@ fn polyhedral(
     pose: &Pose,
     load: &Load,
     friction: f64,
-    coupling: Coupling,
+    coupling: LeverDrive,
     facets: usize,
     outer: bool,
 ) -> Option<f64> {
@@ -29,7 +31,7 @@ fn polyhedral(
         lp.add_var(
             0.0,
             (
-                if coupling == Coupling::Independent {
+                if coupling == LeverDrive::Independent {
                     0.0
                 } else {
                     f64::NEG_INFINITY
@@ -78,17 +80,17 @@ fn polyhedral(
         lp.add_constraint(l.as_slice(), ComparisonOp::Eq, 0.0);
     });
     match coupling {
-        Coupling::Coupled => {
+        LeverDrive::Coupled => {
             lp.add_constraint(
                 [(t, 2.0), (moments[0], -1.0), (moments[1], -1.0)],
                 ComparisonOp::Ge,
                 0.0,
             );
         }
-        Coupling::Equal => moments.iter().for_each(|m| {
+        LeverDrive::Equal => moments.iter().for_each(|m| {
             lp.add_constraint([(t, 1.0), (*m, -1.0)], ComparisonOp::Eq, 0.0);
         }),
-        Coupling::Independent => moments.iter().for_each(|m| {
+        LeverDrive::Independent => moments.iter().for_each(|m| {
             lp.add_constraint([(t, 1.0), (*m, -1.0)], ComparisonOp::Ge, 0.0);
         }),
     }
@@ -100,7 +102,7 @@ fn direction() -> impl Strategy<Value = Spatial> {
         .prop_filter("not zero", |v| v.iter().map(|x| x * x).sum::<f64>() > 0.01)
 }
 
-pub(super) fn coupling() -> impl Strategy<Value = Coupling> {
+pub(super) fn coupling() -> impl Strategy<Value = LeverDrive> {
     prop::sample::select(COUPLINGS.to_vec())
 }
 
