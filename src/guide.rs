@@ -2,8 +2,8 @@
 //!
 //! Start with [`first_hour`]. Then one chapter for each system: [`structure`] (redundant constraints and the search for
 //! redesigns), [`grip`], [`kinetostatics`], [`drive`]; and one each for [`ranking`] under a workload, [`mobility`] where
-//! formulas and numbers fail, [`robots`] (import and export), and [`speed`]. For programs: [`rust`]; [`adding`] is for who
-//! extends the program.
+//! formulas and numbers fail, [`robots`] (import and export), and [`speed`]. For programs: [`rust`]. Who carries the program
+//! on reads [`architecture`] and [`adding`]; what changed is in the [`changelog`].
 //!
 //! Every block that begins with `$ ozols` is run by the tests (`tests/it/documents.rs`); `...` stands for lines left out.
 
@@ -38,3 +38,8 @@ pub mod speed {}
 pub mod rust {}
 #[doc = include_str!("guide/adding.md")]
 pub mod adding {}
+#[doc = include_str!("guide/architecture.md")]
+pub mod architecture {}
+
+#[doc = include_str!("guide/changelog.md")]
+pub mod changelog {}

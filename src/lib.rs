@@ -33,10 +33,7 @@
 //!
 //! # Layers
 //!
-//! linalg -> geom, verify -> model -> closure -> motion -> rank, statics -> grip, drive -> redundancy, file -> search,
-//! robots -> score, draw, accuracy -> view -> page -> cli; the root stands on score, draw and robots. Imports go one way; a
-//! test holds them to it. [`chart`] draws
-//! finished numbers and imports nothing, as [`terms`] says what words mean.
+//! mechanism -> search -> outcome -> view: [`guide::architecture`] says what each module holds and which may import which.
 //!
 //! # Sources
 //!
@@ -62,6 +59,7 @@ pub mod accuracy;
 mod api;
 pub mod builtin;
 pub mod chart;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod closure;
 pub mod draw;
@@ -81,6 +79,7 @@ pub mod robots;
 pub mod score;
 pub mod search;
 pub mod statics;
+mod svg;
 pub mod terms;
 pub mod verify;
 pub mod view;

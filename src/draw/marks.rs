@@ -1,6 +1,6 @@
 //! What a variant of a search changed.
 
-use super::Marks;
+use super::subject::Marks;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::search::best::Assignment;
 use crate::search::conditions::Search;

@@ -1,8 +1,7 @@
 //! The drawings of each state, and every symbol that a variant may put into them.
 
 use super::Page;
-use crate::draw::swap::{Swap, kinematic_with, scheme_with};
-use crate::draw::{Drawing, Subject};
+use crate::draw::{Drawing, Subject, Swap, kinematic_with, scheme_with};
 use crate::model::mechanism::{JointId, StateId};
 use maud::{Markup, PreEscaped, html};
 use serde::Serialize;

@@ -9,9 +9,9 @@
 //! Numeric: nothing is proven, and the certainty says so. Random directions come from a fixed seed.
 
 use crate::motion::pose::{FLAT, Pose};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use faer::Mat;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 /// Length of a trial step: radians, and fractions of the mechanism's size.
 const STEP: f64 = 0.02;

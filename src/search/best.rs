@@ -5,10 +5,10 @@
 
 use crate::search::diagram::{DEAD, Diagram};
 use crate::search::tally::{Count, Key, Steps, Tally};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigUint;
 use num_traits::Zero;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 /// A variant found on a diagram.
 #[derive(Debug, Clone, PartialEq, Eq)]

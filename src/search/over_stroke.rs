@@ -18,9 +18,9 @@ use crate::rank::scaled::rank_of_values;
 use crate::rank::trace::motions;
 use crate::search::best::Assignment;
 use crate::search::conditions::Search;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use faer::Mat;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 /// The largest coordinate of the first steps: radians, and fractions of the mechanism's size.
 const STEP: f64 = 0.2;

@@ -1,6 +1,6 @@
 //! The checks of the search: a second prime, and singular values.
 
-use crate::cli::{json, out, ozols};
+use crate::common::{json, out, ozols};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::exact_field;

@@ -5,10 +5,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers, lowest first; modules of one row do not import each other, except where a row says so by order.
-const LAYERS: [&[&str]; 14] = [
+const LAYERS: [&[&str]; 16] = [
     &["format"],
-    &["linalg", "chart", "terms", "guide", "builtin"],
+    &["linalg", "terms", "guide", "builtin"],
     &["geom", "verify"],
+    &["svg"],
+    &["chart"],
     &["model"],
     &["closure"],
     &["motion"],
@@ -219,4 +221,18 @@ fn no_files_import_each_other_in_a_circle() {
         .map(|(m, of)| format!("{m} -> {:?}", of.intersection(&names).collect::<Vec<_>>()))
         .collect();
     assert!(tied.is_empty(), "in a circle, or import one: {tied:#?}");
+}
+
+#[test]
+fn the_architecture_page_names_every_room_in_order() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = fs::read_to_string(root.join("src/guide/architecture.md")).unwrap();
+    let rows = page.lines().filter_map(|l| l.strip_prefix("| `"));
+    let named: Vec<&str> = rows
+        .flat_map(|l| l.split(" | ").next().unwrap().split(", "))
+        .map(|room| room.trim_matches('`'))
+        .collect();
+    let layers: Vec<usize> = named.iter().map(|room| layer(room).unwrap()).collect();
+    assert!(layers.is_sorted(), "{named:?}");
+    assert_eq!(named.len(), LAYERS.concat().len());
 }

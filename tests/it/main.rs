@@ -3,7 +3,6 @@
 
 mod accuracy;
 mod adding;
-mod bytes;
 mod catalogs;
 mod certificates;
 mod certify;
@@ -18,6 +17,7 @@ mod drive;
 mod drive_command;
 mod exports;
 mod first_hour;
+mod fuzz;
 mod grip;
 mod holding;
 mod layering;
@@ -30,7 +30,6 @@ mod ranking;
 mod reactions;
 mod reactions_cycle;
 mod report_page;
-mod robot_bytes;
 mod robot_mjcf;
 mod robot_models;
 mod robot_sdf;

@@ -1,6 +1,8 @@
 //! Mobility methods: the automatic choice on every built-in mechanism, turned, scaled and measured; finite mobility by proof
 //! against finite mobility by following the motion; poses against finite differences.
 
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use faer::Mat;
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
@@ -13,8 +15,6 @@ use ozols::rank::finite::{How, finite, followed};
 use ozols::rank::{generic, modular, registry, trace};
 use ozols::redundancy::analysis::{Method, analyse};
 use proptest::prelude::*;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 fn built_in(name: &str) -> Mechanism {
     mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap()

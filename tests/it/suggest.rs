@@ -1,6 +1,6 @@
 //! Single changes, against building each and analysing it.
 
-use crate::cli::{json, out, ozols};
+use crate::common::{json, out, ozols};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::joint_type::JointType;

@@ -1,25 +1,15 @@
-//! No file makes the program panic.
+//! Mechanism files in TOML and JSON.
 
+use super::{edits, runs, spoilt};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_bytes;
+use ozols::file::write::mechanism_file;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Method, analyse};
 use proptest::prelude::*;
+use proptest::sample::Index;
 
-fn read(name: &str, bytes: &[u8]) {
-    match mechanism_from_bytes(name, bytes) {
-        Ok(m) if m.joints.len() < 20 => {
-            let _ = analyse(&m, &[StateId::FREE], Method::Auto { tolerance: None });
-        }
-        Ok(_) => {}
-        Err(e) => {
-            assert!(!e.problems.is_empty());
-            let _ = (e.render(true), e.to_string());
-        }
-    }
-}
-
-const NASTY: [&str; 12] = [
+const WORDS: [&str; 20] = [
     "1e308",
     "-0.0",
     "nan",
@@ -28,14 +18,48 @@ const NASTY: [&str; 12] = [
     "\"sqrt(-1)\"",
     "\"1/0\"",
     "\"tan(90deg)\"",
+    "\"2^(2^9)\"",
     "[]",
     "{}",
     "\"\"",
-    "\"2^(2^9)\"",
+    "\"",
+    "\"\"\"",
+    "\\u0000",
+    "null",
+    "spherical",
+    "frame",
+    "[[joint]]\n",
+    "\n",
 ];
 
+/// What is read can be analysed, and written so that it reads as the same.
+fn read(name: &str, bytes: &[u8]) {
+    match mechanism_from_bytes(name, bytes) {
+        Ok(m) => {
+            let written = serde_json::to_vec(&mechanism_file(&m)).unwrap();
+            let again = mechanism_from_bytes("written.json", &written).unwrap();
+            assert_eq!(
+                serde_json::to_vec(&mechanism_file(&again)).unwrap(),
+                written
+            );
+            if m.joints.len() < 20 {
+                let _ = analyse(&m, &[StateId::FREE], Method::Auto { tolerance: None });
+            }
+        }
+        Err(e) => {
+            assert!(!e.problems.is_empty());
+            let _ = (e.render(true), e.to_string());
+        }
+    }
+}
+
+fn built_in(which: Index) -> &'static str {
+    let names = builtin::names();
+    builtin::text(names[which.index(names.len())]).unwrap()
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 256, ..ProptestConfig::default() })]
+    #![proptest_config(runs(256))]
     #[test]
     fn random_bytes(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
         read("x.toml", &bytes);
@@ -43,27 +67,14 @@ proptest! {
     }
 
     #[test]
-    fn spoilt_files(
-        which in any::<prop::sample::Index>(),
-        at in any::<prop::sample::Index>(),
-        length in 0usize..40,
-        put in prop_oneof![".{0,8}", prop::sample::select(&NASTY[..]).prop_map(str::to_owned)],
-    ) {
-        let names = builtin::names();
-        let mut text = builtin::text(names[which.index(names.len())]).unwrap().as_bytes().to_vec();
-        let start = at.index(text.len());
-        let end = (start + length).min(text.len());
-        text.splice(start..end, put.bytes());
-        read("x.toml", &text);
+    fn spoilt_toml(which in any::<Index>(), edits in edits(&WORDS)) {
+        read("x.toml", &spoilt(built_in(which), &edits));
     }
 
     #[test]
-    fn spoilt_numbers(which in any::<prop::sample::Index>(), at in any::<prop::sample::Index>(), put in prop::sample::select(&NASTY[..])) {
-        let names = builtin::names();
-        let text = builtin::text(names[which.index(names.len())]).unwrap();
-        let digits: Vec<usize> = text.match_indices(|c: char| c.is_ascii_digit()).map(|(i, _)| i).collect();
-        let i = digits[at.index(digits.len())];
-        read("x.toml", format!("{}{put}{}", &text[..i], &text[i + 1..]).as_bytes());
+    fn spoilt_json(which in any::<Index>(), edits in edits(&WORDS)) {
+        let value: toml::Value = toml::from_str(built_in(which)).unwrap();
+        read("x.json", &spoilt(&serde_json::to_string_pretty(&value).unwrap(), &edits));
     }
 }
 
