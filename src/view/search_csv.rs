@@ -36,6 +36,7 @@ const SCORES: [&str; 8] = [
 /// # Errors
 /// Those of the writer.
 pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> io::Result<()> {
+    let mut out = csv::Writer::from_writer(out);
     let search = &outcome.search;
     let joints = columns(search);
     let mut row: Vec<String> = FIGURES.map(str::to_owned).to_vec();
@@ -48,7 +49,7 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> 
     if outcome.ranking.is_some() {
         row.extend(SCORES.map(str::to_owned));
     }
-    line(out, &row)?;
+    out.write_record(&row)?;
     for v in variants {
         row.clear();
         row.extend([
@@ -85,9 +86,9 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> 
                 None => Default::default(),
             });
         }
-        line(out, &row)?;
+        out.write_record(&row)?;
     }
-    Ok(())
+    out.flush()
 }
 
 fn told<T: ToString>(value: Option<T>) -> String {
@@ -103,18 +104,4 @@ fn columns(search: &Search) -> Vec<(usize, JointId)> {
         .collect();
     out.sort_by_key(|&(_, j)| j);
     out
-}
-
-fn line(out: &mut dyn Write, row: &[String]) -> io::Result<()> {
-    for (i, field) in row.iter().enumerate() {
-        if i > 0 {
-            write!(out, ",")?;
-        }
-        if field.contains([',', '"', '\n', '\r']) {
-            write!(out, "\"{}\"", field.replace('"', "\"\""))?;
-        } else {
-            write!(out, "{field}")?;
-        }
-    }
-    writeln!(out)
 }
