@@ -1,6 +1,6 @@
 //! The library by its front door: what a program gets is what the command writes.
 
-use crate::cli::ozols;
+use crate::common::ozols;
 use ozols::model::ranking::Term;
 use ozols::score::request::{Check, JointOptions, List, Method};
 use ozols::score::run::{Event, run};

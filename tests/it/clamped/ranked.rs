@@ -9,18 +9,13 @@ use ozols::model::ranking::{ClearanceSum, Term};
 use ozols::redundancy::analysis::exact_field;
 use ozols::score::elimination::Scratch;
 use ozols::score::evaluate::Evaluator;
-use ozols::search::request::{Request, Search};
+use ozols::search::best::Assignment;
+use ozols::search::conditions::{Conditions, Search};
 use serde_json::Value;
-use std::ops::ControlFlow;
 
-fn pool(s: &Search<'_>, n: usize) -> Vec<ozols::search::best::Variant> {
+fn pool(s: &Search, n: usize) -> Vec<Assignment> {
     let d = s.build(&|| false, &mut |_| {});
-    let mut out = Vec::new();
-    s.cheapest(&d, n, |v| {
-        out.push(v);
-        ControlFlow::Continue(())
-    });
-    out
+    s.cheapest(&d, n).collect()
 }
 
 /// The slow twin builds each variant as a mechanism, follows it to every part and takes singular values.
@@ -28,9 +23,9 @@ fn pool(s: &Search<'_>, n: usize) -> Vec<ozols::search::best::Variant> {
 fn variants_are_scored_by_the_worst_part() {
     let m = built_in();
     for redundant in [0, 1] {
-        let request = Request {
+        let request = Conditions {
             max_redundant: redundant,
-            ..Request::default()
+            ..Conditions::default()
         };
         let s = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
         let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();

@@ -170,25 +170,26 @@ fn check_doubts_what_is_likely_a_slip() {
 /// What the built-in files are doubted for is so: common options that suit none of their joints, and an arm.
 #[test]
 fn check_doubts_built_in_mechanisms_only_with_reason() {
-    use ozols::file::lint::{DoubtKind, check};
+    use ozols::file::lint::check;
+    use ozols::file::warning::WarningKind;
     let mut doubted = 0;
     for name in builtin::names() {
         let text = builtin::text(name).unwrap();
         let checked = check(&format!("{name}.toml"), text.as_bytes()).unwrap();
-        doubted += usize::from(!checked.doubts.doubts.is_empty());
-        for d in &checked.doubts.doubts {
+        doubted += usize::from(!checked.warnings.warnings.is_empty());
+        for d in &checked.warnings.warnings {
             let known = match &d.kind {
-                DoubtKind::UselessOption { option } => {
+                WarningKind::UselessOption { option } => {
                     let named = |n: &String| n == option;
                     let m = &checked.mechanism;
                     !m.joints
                         .iter()
                         .any(|j| j.options.iter().any(|o| named(&o.name)))
                 }
-                DoubtKind::OpenChain { .. } => name == "pantograph",
+                WarningKind::OpenChain { .. } => name == "pantograph",
                 _ => false,
             };
-            assert!(known, "{name}: {}", checked.doubts.render(false));
+            assert!(known, "{name}: {}", checked.warnings.render(false));
         }
     }
     assert!(doubted * 10 < builtin::names().len(), "{doubted}");

@@ -7,7 +7,7 @@ use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
 use ozols::model::ranking::ClearanceSum;
 use ozols::score::evaluate::Evaluator;
-use ozols::search::best::Variant;
+use ozols::search::best::Assignment;
 
 #[test]
 fn the_command_changes_the_order_and_says_why() {
@@ -142,7 +142,7 @@ fn joint_types_can_be_overridden() {
     let of = |m: &Mechanism| {
         let s = search(m, 11);
         let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
-        let present = Variant {
+        let present = Assignment {
             choices: vec![0; s.space.variables.len()],
             key: cheapest(&s, 1)[0].key,
         };
