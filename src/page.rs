@@ -8,6 +8,7 @@ mod certainty;
 mod data;
 mod explorer;
 mod figures;
+mod number;
 mod states;
 mod symbols;
 mod variants;

@@ -10,6 +10,7 @@ use crate::rank::snap::snap;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::search::suggest::single_changes;
 use crate::view::analysis::Analysis;
+use crate::view::analysis::next::next as steps;
 use crate::view::layout::fit;
 use crate::view::mobility::ByMethod;
 use crate::view::next;
@@ -86,7 +87,20 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     {
         bail!("--tolerance must be between 0 and 1");
     }
-    let stroke = stroke::Asked::new(&mechanism, a)?;
+    let stroke = match &a.stroke {
+        None => None,
+        Some(range) => {
+            let state = mechanism.state(&a.state).unwrap_or(StateId::FREE);
+            let drive = a.drive.as_deref();
+            Some(stroke::Asked::new(
+                &mechanism,
+                state,
+                range,
+                drive,
+                a.tolerance,
+            )?)
+        }
+    };
     let Some(method) = Method::of(a.method, a.tolerance) else {
         return mobility_alone(&mechanism, &states, a);
     };
@@ -106,7 +120,7 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
         stroke,
         ..Analysis::new(&mechanism, &found, &advice)
     };
-    let next = suggestions::next(&mechanism, &analysis.states, &a.file.file, snapped);
+    let next = steps(&mechanism, &analysis.states, &a.file.file, snapped);
     let width = output::width(a.output.as_deref());
     output::to(a.output.as_deref(), |out| {
         match a.format {

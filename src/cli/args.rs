@@ -43,7 +43,7 @@ pub(super) enum Command {
     Search(search::Search),
     /// Assur groups of a planar mechanism, and its joint reactions over the cycle.
     #[command(after_help = examples::STATICS)]
-    Statics(statics::Statics),
+    Statics(statics::args::Statics),
     /// What a lever gripper can hold, and the drive moment it takes.
     #[command(after_help = examples::GRIP)]
     Grip(grip::Grip),

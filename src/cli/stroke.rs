@@ -1,6 +1,5 @@
 //! The stroke of `ozols analyze`.
 
-use super::analyze::Analyze;
 use super::statics;
 use crate::model::joint_type::Freedom;
 use crate::model::loads;
@@ -48,14 +47,16 @@ fn names(m: &Mechanism, pose: &Pose) -> Vec<(usize, String)> {
 }
 
 impl<'a> Asked<'a> {
-    /// What the arguments ask, if anything.
-    pub(super) fn new(m: &'a Mechanism, a: &Analyze) -> anyhow::Result<Option<Asked<'a>>> {
-        let Some(range) = &a.stroke else {
-            return Ok(None);
-        };
-        let state = m.state(&a.state).unwrap_or(StateId::FREE);
+    /// What `range`, and the joint named as the drive, ask.
+    pub(super) fn new(
+        m: &'a Mechanism,
+        state: StateId,
+        range: &str,
+        named: Option<&str>,
+        tolerance: Option<f64>,
+    ) -> anyhow::Result<Asked<'a>> {
         let pose = Pose::of_file(m, state)?;
-        let (drive, held) = drive(m, &pose, state, a.drive.as_deref())?;
+        let (drive, held) = drive(m, &pose, state, named)?;
         let slide = slides(&pose, drive);
         if slide && (range.contains("deg") || range.contains("rad")) {
             bail!(
@@ -68,15 +69,15 @@ impl<'a> Asked<'a> {
         if range.steps > MOST || range.from.abs() > far || range.to.abs() > far {
             bail!("--stroke goes to at most {MOST} steps and {far:.0} radians or length units");
         }
-        Ok(Some(Asked {
+        Ok(Asked {
             mechanism: m,
             state,
-            tolerance: a.tolerance,
+            tolerance,
             range,
             pose,
             drive,
             held,
-        }))
+        })
     }
 
     /// Goes there.

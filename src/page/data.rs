@@ -5,7 +5,7 @@ use super::symbols::Swaps;
 use super::variants::Found;
 use crate::model::mechanism::{Joint, Mechanism};
 use crate::view::analysis::{Analysis, State};
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 /// All of it.
 #[derive(Serialize)]
@@ -119,34 +119,6 @@ impl<'a> JointData<'a> {
     }
 }
 
-/// A number; whole ones without a `.0`, and null where it is none.
-#[derive(Clone, Copy)]
-pub(super) struct Number(f64);
-
-impl Number {
-    /// To five significant digits.
-    pub(super) fn measured(x: f64) -> Number {
-        Number(format!("{x:.4e}").parse().unwrap_or(f64::NAN))
-    }
-
-    /// A cost in thousandths.
-    #[allow(clippy::cast_precision_loss, reason = "costs are small")]
-    pub(super) fn cost(milli: i64) -> Number {
-        Number(milli as f64 / 1000.0)
-    }
-}
-
-impl Serialize for Number {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        #[allow(clippy::cast_possible_truncation, reason = "whole and below 2^53")]
-        if self.0.fract() == 0.0 && self.0.abs() < 1e15 {
-            to.serialize_i64(self.0 as i64)
-        } else {
-            to.serialize_f64(self.0)
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -158,17 +130,5 @@ mod tests {
         let written = escaped(&hostile.to_string());
         assert!(!written.contains(['<', '>', '&', '\u{2028}']), "{written}");
         assert_eq!(serde_json::from_str::<Value>(&written).unwrap(), hostile);
-    }
-
-    #[test]
-    fn numbers_are_short() {
-        let of = |x| serde_json::to_string(&Number::measured(x)).unwrap();
-        assert_eq!(of(2.0), "2");
-        assert_eq!(of(0.022_345_678), "0.022346");
-        assert_eq!(of(f64::NAN), "null");
-        assert_eq!(
-            serde_json::to_string(&Number::cost(12_500)).unwrap(),
-            "12.5"
-        );
     }
 }

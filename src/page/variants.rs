@@ -1,6 +1,6 @@
 //! The variants as columns for the script.
 
-use super::data::Number;
+use super::number::Number;
 use super::workload::{Workload, workload};
 use super::{Page, Redesigns, figures};
 use crate::model::mechanism::Mechanism;

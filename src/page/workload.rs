@@ -1,7 +1,7 @@
 //! What the joints of each variant bear, and its scores, where the file states loads.
 
 use super::Redesigns;
-use super::data::Number;
+use super::number::Number;
 use crate::model::ranking::Term;
 use crate::score::bearing::Bearing;
 use crate::score::cases::is_loaded;

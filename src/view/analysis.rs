@@ -1,5 +1,6 @@
 //! An analysis as what is told of it, as JSON, as text and on the page; the keys of JSON are a stable contract.
 
+pub mod next;
 mod text;
 
 use crate::model::mechanism::{JointId, Mechanism};

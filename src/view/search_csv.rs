@@ -49,7 +49,7 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> 
     if outcome.ranking.is_some() {
         row.extend(SCORES.map(str::to_owned));
     }
-    out.write_record(&row)?;
+    out.write_record(&row).map_err(of_writer)?;
     for v in variants {
         row.clear();
         row.extend([
@@ -86,9 +86,17 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> 
                 None => Default::default(),
             });
         }
-        out.write_record(&row)?;
+        out.write_record(&row).map_err(of_writer)?;
     }
     out.flush()
+}
+
+/// The writer's own error, by which a closed pipe is known.
+fn of_writer(e: csv::Error) -> io::Error {
+    match e.into_kind() {
+        csv::ErrorKind::Io(e) => e,
+        other => io::Error::other(format!("{other:?}")),
+    }
 }
 
 fn told<T: ToString>(value: Option<T>) -> String {

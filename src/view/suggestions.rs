@@ -3,10 +3,8 @@
 use crate::format::number::cost;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::analysis::StateAnalysis;
-use crate::search::suggest::{self, Suggestion, USUAL, USUAL_UNLOADING};
-use crate::view::analysis::State;
+use crate::search::suggest::{self, Suggestion};
 use crate::view::layout::table;
-use crate::view::next::{Step, file_name, word};
 use itertools::Itertools;
 use serde::{Serialize, Serializer};
 
@@ -72,7 +70,7 @@ pub struct Found<'a> {
     pub changes: Vec<Change<'a>>,
     /// The state, 0 for the free one.
     #[serde(skip)]
-    state: StateId,
+    pub(super) state: StateId,
 }
 
 /// One change.
@@ -235,80 +233,4 @@ impl Found<'_> {
             "\n  Single changes that remove redundant constraints and leave all motions as they are\n  (of {tried} tried: {source}):\n\n{body}{rest}{loose}\n"
         )
     }
-}
-
-/// What to do after an analysis of `file`; `snap` is the tolerance its coordinates were snapped by, where they were.
-#[must_use]
-pub fn next(m: &Mechanism, states: &[State<'_>], file: &str, snap: Option<f64>) -> Vec<Step> {
-    let snap = snap.map_or(String::new(), |t| format!("--snap {t:e}"));
-    let joined = |more: &str| format!("{more} {snap}").trim().to_owned();
-    let mut steps = Vec::new();
-    for s in states {
-        let Some(Suggestions::Found(found)) = &s.suggestions else {
-            continue;
-        };
-        let of = found.of;
-        match (found.options == "usual", found.state) {
-            (false, StateId::FREE) => steps.push(Step::new(
-                "search",
-                file,
-                &joined(""),
-                &format!("every redesign that removes all {of}, cheapest first"),
-            )),
-            (true, StateId::FREE) => {
-                let names = USUAL.iter().map(|t| format!("\"{}\"", t.name())).join(", ");
-                steps.push(Step {
-                    command: format!("Write under [search]: options = [{names}]"),
-                    gives:
-                        "so that joints have a choice; then `ozols search` finds what removes all"
-                            .to_owned(),
-                });
-            }
-            (false, n) => {
-                let left = found.changes.first().map_or(of, |x| x.remaining);
-                let state = if n == StateId::new(1) {
-                    String::new()
-                } else {
-                    format!(" --state {}", word(s.state))
-                };
-                steps.push(Step::new(
-                    "search",
-                    file,
-                    &joined(&format!("--max-external {left}{state}")),
-                    &format!("redesigns that leave at most {left} of the {of} external, too"),
-                ));
-            }
-            (true, _) if !found.changes.is_empty() => steps.push(Step {
-                command: format!(
-                    "Write at a contact of state {}: unloading = [\"{}\"]",
-                    s.state,
-                    USUAL_UNLOADING.name()
-                ),
-                gives: "so that `ozols search` may insert it; --max-external N asks for it"
-                    .to_owned(),
-            }),
-            (true, _) => {}
-        }
-    }
-    if !steps.is_empty() {
-        return steps;
-    }
-    let loaded =
-        !m.loads.forces.is_empty() || !m.loads.moments.is_empty() || m.loads.gravity.is_some();
-    if loaded {
-        steps.push(Step::new(
-            "statics",
-            file,
-            "",
-            "the joints' reactions to its loads",
-        ));
-    }
-    let svg = file_name(&m.name, "svg");
-    steps.push(Step::new(
-        "draw",
-        file,
-        &format!("-o {svg}"),
-        "its structural scheme",
-    ));
-    steps
 }

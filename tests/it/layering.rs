@@ -81,18 +81,16 @@ fn no_module_imports_upward_or_sideways() {
 }
 
 /// Files that list others which use them in turn: a registry, or a command and its parts.
-const REGISTRIES: [&str; 4] = ["accuracy/stability", "cli", "page", "rank/registry"];
+const REGISTRIES: [&str; 5] = [
+    "accuracy/stability",
+    "cli",
+    "cli/args",
+    "page",
+    "rank/registry",
+];
 
 /// Files and folders whose circles are still to be untied; none may be added.
-const STILL_TIED: [&str; 7] = [
-    "cli/import",
-    "draw/",
-    "geom/",
-    "robots",
-    "score/",
-    "search/",
-    "statics/",
-];
+const STILL_TIED: [&str; 0] = [];
 
 /// A file as a module, such as `rank/method`, and its source without comments and tests.
 fn modules() -> BTreeMap<String, String> {
