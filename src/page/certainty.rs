@@ -19,7 +19,7 @@ pub(super) fn html(page: &Page<'_>) -> String {
         lines.extend(s.choice.iter().map(|c| format!("method: {c}")));
         lines.push(format!(
             "finite mobility {}: {}",
-            s.finite.mobility,
+            s.finite.figure(),
             s.finite.describe()
         ));
         lines.extend(s.snapped.iter().map(|m| format!("snapped: {m}")));

@@ -109,8 +109,8 @@ fn figures(s: &StateAnalysis) -> String {
             s.freedoms, s.rank, s.working_mobility, s.local_mobility
         ),
     );
-    if s.finite.mobility != s.mobility {
-        row("", s.finite.mobility.to_string(), "finite mobility");
+    if s.finite.figure() != s.mobility.to_string() {
+        row("", s.finite.figure(), "finite mobility");
     }
     if i64::try_from(s.mobility) != Ok(s.formula_mobility) {
         row(

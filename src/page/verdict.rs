@@ -90,6 +90,14 @@ fn state(m: &Mechanism, s: &StateAnalysis) -> Vec<String> {
 
 fn moves(s: &StateAnalysis) -> String {
     let ways = |n: usize| plural(n, "way");
+    if s.finite.at_most() > s.finite.mobility {
+        return format!(
+            "W = {} in this pose; how much of that is really there is undecided: between {} and {}.",
+            s.mobility,
+            s.finite.mobility,
+            s.finite.at_most()
+        );
+    }
     match (s.mobility, s.finite.mobility) {
         (0, _) => "Nothing moves in this state.".to_owned(),
         (w, f) if w == f && s.local_mobility == 0 => format!("It moves in {} (W = {w}).", ways(w)),

@@ -1,7 +1,7 @@
 //! The automatic choice: the cheapest method that is certain for this mechanism, and one line that says what was chosen,
 //! why, and what was left out.
 
-use super::finite::{Finite, finite, finite_within, followed};
+use super::finite::{Finite, How, finite, finite_within, followed};
 use super::measured::Verdicts;
 use super::method::{Answer, Certainty as Sure, MobilityMethod, NoAnswer, Quantity};
 use super::numeric::NumericRank;
@@ -197,6 +197,9 @@ impl MobilityMethod for Auto {
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         let decision = decide(mechanism, state, None)?;
+        if let How::Undecided { .. } = decision.finite.how {
+            return Err(NoAnswer::Failed(decision.finite.describe()));
+        }
         let numeric = decision
             .numeric
             .filter(|_| matches!(decision.geometry, Geometry::Measured(_)));

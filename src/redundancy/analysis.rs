@@ -10,7 +10,7 @@ use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism, Role, StateId};
 use crate::rank::auto::{self, Geometry};
 use crate::rank::certificate::{self, Budget};
-use crate::rank::finite::{Finite, finite};
+use crate::rank::finite::{Finite, finite, followed};
 use crate::rank::lu::Lu;
 use crate::rank::method::NoAnswer;
 use crate::rank::numeric::{self, NumericError, NumericRank};
@@ -223,9 +223,19 @@ pub fn analyse(
                 let whole = exactly(mechanism, s, None)?;
                 let certainty = numeric_certainty(elimination.name(), rank, tolerance);
                 if rank.rank == whole.rank {
-                    Ok(StateAnalysis { certainty, ..whole })
+                    let finite = whole.finite.by_numeric_rank();
+                    Ok(StateAnalysis {
+                        certainty,
+                        finite,
+                        ..whole
+                    })
                 } else {
-                    numerically(mechanism, s, whole, rank.rank, certainty, tolerance)
+                    let finite = followed(mechanism, s, whole.freedoms - rank.rank, tolerance)?;
+                    let found = numerically(mechanism, s, whole, rank.rank, certainty, tolerance)?;
+                    Ok(StateAnalysis {
+                        finite: finite.by_numeric_rank(),
+                        ..found
+                    })
                 }
             }
         })

@@ -112,6 +112,10 @@ fn state(mechanism: &Mechanism, s: &StateAnalysis) -> Value {
         });
         value["per_coupling"] = each.collect::<Vec<_>>().into();
     }
+    // Undecided: the figure above is the least it can be.
+    if s.finite.at_most() > s.finite.mobility {
+        value["finite_mobility_at_most"] = s.finite.at_most().into();
+    }
     value
 }
 

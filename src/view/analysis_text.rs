@@ -72,7 +72,7 @@ fn state(
     writeln!(
         out,
         "  finite mobility {}: {}",
-        s.finite.mobility,
+        s.finite.figure(),
         s.finite.describe()
     )?;
     writeln!(
