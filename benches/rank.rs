@@ -27,7 +27,7 @@ use ozols::geom::scalars::{Reals, Scalars};
 use ozols::linalg::echelon;
 use ozols::linalg::lanes::{LaneMatrix, SmallField};
 use ozols::linalg::modp::{Field, Residue};
-use ozols::model::mechanism::Mechanism;
+use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::{modular, numeric};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
 use std::fmt::Write as _;
@@ -77,11 +77,13 @@ struct Case {
 impl Case {
     fn new(name: String, m: &Mechanism) -> Case {
         let exact = exact_field(m, 0).expect("exact");
-        let closure = Closure::new(&exact, m, 0).expect("exact");
-        let real = Closure::new(&Reals, m, 0).expect("real");
+        let closure = Closure::new(&exact, m, StateId::FREE).expect("exact");
+        let real = Closure::new(&Reals, m, StateId::FREE).expect("real");
         let columns = real.dense(&Reals);
         let f64s = Mat::from_fn(real.rows(), columns.len(), |r, c| columns[c][r]);
-        let whole = Closure::new(&Doubled, m, 0).expect("whole").dense(&Doubled);
+        let whole = Closure::new(&Doubled, m, StateId::FREE)
+            .expect("whole")
+            .dense(&Doubled);
         let small = SmallField::new(SmallField::GREATEST);
         let modulus = i128::from(small.modulus());
         let lanes = LaneMatrix::from_fn(small, real.rows(), columns.len(), |r, c| {
@@ -261,7 +263,7 @@ fn ratios() {
         for k in [10, 25, 50, 100, 200, 400] {
             let m = lattice::mechanism(kind, k);
             let exact = exact_field(&m, 0).expect("exact");
-            let closure = Closure::new(&exact, &m, 0).expect("exact");
+            let closure = Closure::new(&exact, &m, StateId::FREE).expect("exact");
             let mut only: Vec<Timed<'_>> = vec![("", Box::new(|| modular::rank(&exact, &closure)))];
             let t = best(&mut only, 30)[0].0;
             let k = closure.contours.len();
@@ -474,7 +476,7 @@ fn analysis(c: &mut Criterion) {
     for (kind, k) in Kind::ALL.into_iter().cartesian_product([50, 200]) {
         let m = lattice::mechanism(kind, k);
         group.bench_function(format!("{kind:?} {k}"), |b| {
-            b.iter(|| analyse(&m, &[0], Method::Modular))
+            b.iter(|| analyse(&m, &[StateId::FREE], Method::Modular))
         });
     }
     group.finish();

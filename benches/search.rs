@@ -14,7 +14,7 @@ use ozols::closure::matrix::Closure;
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::scalars::Reals;
 use ozols::model::joint_type::{Freedom, JointType};
-use ozols::model::mechanism::{JointOption, Mechanism};
+use ozols::model::mechanism::{JointOption, Mechanism, StateId};
 use ozols::rank::{modular, numeric};
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::request::{Request, Search};
@@ -65,8 +65,8 @@ fn whole(m: &Mechanism, top: usize) -> (usize, usize) {
 fn rank(c: &mut Criterion) {
     let m = gripper();
     let exact = exact_field(&m, 0).expect("exact");
-    let closure = Closure::new(&exact, &m, 0).expect("exact");
-    let real = Closure::new(&Reals, &m, 0).expect("real");
+    let closure = Closure::new(&exact, &m, StateId::FREE).expect("exact");
+    let real = Closure::new(&Reals, &m, StateId::FREE).expect("real");
     let mut group = c.benchmark_group("rank of one candidate, 24 x 14");
     group.bench_function("modulo a prime", |b| {
         b.iter(|| modular::rank(&exact, black_box(&closure)))

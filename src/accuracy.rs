@@ -4,13 +4,11 @@
 //! geometry, size, scale, noise and tolerance until answers turn wrong. Verdicts are the same on every run; only times
 //! differ.
 
-pub mod csv;
 pub mod folder;
 pub mod lattice;
 pub mod pictures;
 pub mod stability;
 pub mod survey;
-pub mod words;
 
 use crate::rank::method::{Answer, NoAnswer, Quantity};
 

@@ -24,7 +24,6 @@ mod output;
 mod progress;
 mod question;
 mod ranked;
-mod reactions;
 mod report;
 mod search;
 mod statics;

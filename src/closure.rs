@@ -3,4 +3,5 @@
 pub mod contour;
 pub mod coupling;
 pub mod matrix;
+pub mod tree;
 pub mod twist;

@@ -27,7 +27,7 @@ pub use kinematic::kinematic;
 pub use labels::Rect;
 pub use scheme::scheme;
 
-use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::redundancy::analysis::StateAnalysis;
 use sheet::{Shape, Swatch};
 
@@ -114,15 +114,15 @@ impl Mark {
 impl Subject<'_> {
     fn joint_mark(&self, joint: JointId) -> Mark {
         match &self.marks {
-            Some(m) if joint >= m.joints => Mark::New,
+            Some(m) if joint.index() >= m.joints => Mark::New,
             Some(m) if m.changed.iter().any(|(j, _)| *j == joint) => Mark::Changed,
             _ => Mark::None,
         }
     }
 
-    fn link_mark(&self, link: usize) -> Mark {
+    fn link_mark(&self, link: LinkId) -> Mark {
         match &self.marks {
-            Some(m) if link >= m.links => Mark::New,
+            Some(m) if link.index() >= m.links => Mark::New,
             _ => Mark::None,
         }
     }
@@ -132,7 +132,7 @@ impl Subject<'_> {
         self.mechanism.joints[joint]
             .states
             .as_ref()
-            .is_some_and(|s| !s.contains(&0))
+            .is_some_and(|s| !s.contains(&StateId::FREE))
     }
 
     fn title(&self) -> String {

@@ -1,4 +1,6 @@
 //! A torsional drive of two discs: its bar, a swing, a programme of swings, and its design.
+//!
+//! [`driving::drive`] does all of it.
 
 pub mod driving;
 pub mod programme;

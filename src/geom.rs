@@ -5,4 +5,6 @@ pub mod exact;
 pub mod expr;
 pub mod extent;
 pub mod number_field;
+pub mod rigid;
 pub mod scalars;
+pub mod vector;

@@ -15,12 +15,13 @@
 //!
 //! ```
 //! use ozols::file::text::mechanism_from_str;
+//! use ozols::model::mechanism::StateId;
 //! use ozols::redundancy::analysis::{Method, analyse, exact_field};
 //! use ozols::search::request::{Request, Search};
 //!
 //! let text = ozols::builtin::text("gripper-10").expect("it is built in");
 //! let gripper = mechanism_from_str("gripper-10.toml", text)?;
-//! let free = &analyse(&gripper, &[0], Method::Modular)?[0];
+//! let free = &analyse(&gripper, &[StateId::FREE], Method::Modular)?[0];
 //! assert_eq!((free.mobility, free.redundant), (1, 11)); // [Pogrebnyak 2018]
 //!
 //! let search = Search::new(exact_field(&gripper, 0)?, &gripper, Request::default())?;
@@ -59,6 +60,7 @@ pub mod closure;
 pub mod draw;
 pub mod drive;
 pub mod file;
+mod format;
 pub mod geom;
 pub mod grip;
 pub mod guide;

@@ -6,6 +6,7 @@
 pub mod coupling;
 pub mod drive;
 pub mod grip;
+pub mod id;
 pub mod joint_type;
 pub mod loads;
 pub mod measured;

@@ -1,4 +1,5 @@
 //! Poses of closed mechanisms, and mechanisms followed along a drive.
 
+pub mod close;
 pub mod follow;
 pub mod pose;

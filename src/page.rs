@@ -71,7 +71,8 @@ const SCRIPT: [&str; 7] = [
 /// Two drawings a state; for each variant a rank in each further state, and a scoring where the file states loads.
 pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
     let m = page.mechanism;
-    let drawn: Vec<symbols::Drawn> = (0..m.states.len())
+    let drawn: Vec<symbols::Drawn> = m
+        .state_ids()
         .map(|s| symbols::Drawn::new(page, s))
         .collect();
     let (store, swaps) = symbols::store(page, &drawn);

@@ -1,18 +1,18 @@
 //! Statics of mechanisms: Assur groups and their kinetostatics, and joint reactions of any mechanism, planar or spatial.
 //! Knows geometry and motion, and nothing of files, searches or reports.
+//!
+//! [`solve::solve`] takes a mechanism to its reactions: in its plane ([`cycle`]) where that determines them, otherwise in
+//! space ([`reactions`]).
 
 pub mod assur;
 pub mod assur_class;
 pub mod contour_group;
 pub mod cycle;
-pub mod delta_point;
 mod dense;
-pub mod group_equilibrium;
 pub mod kinetostatics;
 pub mod planar;
 pub mod planar_motion;
 pub mod pose;
-pub mod projective;
 pub mod reactions;
-pub mod stability;
+pub mod solve;
 pub mod transmission;

@@ -2,8 +2,9 @@
 
 use super::Verdict;
 use super::survey::{Case, Reply, Standing, Survey};
-use super::words::{duration, list, signed};
 use crate::chart::{Axis, Cell, Chart, Kind, Matrix, Scale, Series, Style};
+use crate::format::number::{duration, signed};
+use crate::format::phrase::list;
 use crate::rank::method::{self, MobilityMethod};
 
 /// The methods that no other one beats in both share and time, the fastest first.

@@ -1,13 +1,14 @@
 //! Every method on every built-in mechanism.
 
-use super::csv::Csv;
 use super::{Truth, Verdict};
 use crate::builtin;
 use crate::file::problem::ImportError;
 use crate::file::text::mechanism_from_str;
+use crate::format::csv;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::{self, Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
 use rayon::prelude::*;
+use serde::Serialize;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -30,7 +31,7 @@ impl Case {
     #[must_use]
     pub fn name(&self) -> String {
         match self.state {
-            0 => self.mechanism.name.clone(),
+            StateId::FREE => self.mechanism.name.clone(),
             s => format!("{}, {}", self.mechanism.name, self.mechanism.states[s]),
         }
     }
@@ -45,7 +46,7 @@ pub fn cases() -> Result<Vec<Case>, ImportError> {
     for name in builtin::names() {
         let text = builtin::text(name).unwrap_or_default();
         let mechanism = mechanism_from_str(&format!("{name}.toml"), text)?;
-        for (state, named) in mechanism.states.iter().enumerate() {
+        for (state, named) in mechanism.states_with_ids() {
             let stated = mechanism.expected.iter().find(|e| e.state == *named);
             let Some((Some(instantaneous), Some(finite))) =
                 stated.map(|e| (e.mobility, e.finite_mobility))
@@ -187,86 +188,86 @@ impl Survey {
     }
 
     /// One line for each case and method.
-    #[must_use]
-    pub fn csv(&self) -> String {
-        let mut csv = Csv::new(&[
-            "mechanism",
-            "state",
-            "method",
-            "answer",
-            "quantity",
-            "certainty",
-            "expected_instantaneous",
-            "expected_finite",
-            "verdict",
-            "error",
-            "reason",
-            "median_seconds",
-        ]);
-        for (case, replies) in self.cases.iter().zip(&self.replies) {
-            for (method, reply) in method::ALL.iter().zip(replies) {
+    pub(crate) fn csv(&self) -> String {
+        let of_case = |(case, replies): (&Case, &Vec<Reply>)| {
+            let row = |(method, reply): (&&dyn MobilityMethod, &Reply)| {
                 let answer = reply.answer.as_ref().ok();
-                let say = |f: &dyn Fn(&Answer) -> String| answer.map_or_else(String::new, f);
-                csv.row(&[
-                    case.mechanism.name.clone(),
-                    case.mechanism.states[case.state].clone(),
-                    method.name().to_owned(),
-                    say(&|a| a.mobility.to_string()),
-                    say(&|a| quantity(a.quantity).to_owned()),
-                    say(&|a| certainty(&a.certainty)),
-                    case.truth.instantaneous.to_string(),
-                    case.truth.finite.to_string(),
-                    reply.verdict.word().to_owned(),
-                    say(&|a| (a.mobility - case.truth.finite).to_string()),
-                    match &reply.answer {
-                        Err(e) => e.to_string(),
-                        Ok(_) => String::new(),
-                    },
-                    format!("{:.3e}", reply.seconds),
-                ]);
-            }
-        }
-        csv.finish()
+                ReplyRow {
+                    mechanism: case.mechanism.name.clone(),
+                    state: case.mechanism.states[case.state].clone(),
+                    method: method.name(),
+                    answer: answer.map(|a| a.mobility),
+                    quantity: answer.map(|a| quantity(a.quantity)),
+                    certainty: answer.map(|a| certainty(&a.certainty)),
+                    expected_instantaneous: case.truth.instantaneous,
+                    expected_finite: case.truth.finite,
+                    verdict: reply.verdict.word(),
+                    error: answer.map(|a| a.mobility - case.truth.finite),
+                    reason: reply.answer.as_ref().err().map(ToString::to_string),
+                    median_seconds: format!("{:.3e}", reply.seconds),
+                }
+            };
+            method::ALL.iter().zip(replies).map(row).collect::<Vec<_>>()
+        };
+        csv::records(self.cases.iter().zip(&self.replies).flat_map(of_case))
     }
 
     /// One line for each method.
-    #[must_use]
-    pub fn methods_csv(&self) -> String {
-        let mut csv = Csv::new(&[
-            "method",
-            "title",
-            "guarantee",
-            "complexity",
-            "source",
-            "cases",
-            "applies_to",
-            "right",
-            "right_at_the_pose_only",
-            "share_of_all",
-            "share_of_answered",
-            "median_seconds",
-        ]);
-        for (n, method) in method::ALL.iter().enumerate() {
+    pub(crate) fn methods_csv(&self) -> String {
+        csv::records(method::ALL.iter().enumerate().map(|(n, method)| {
             let s = self.standing(n);
             #[allow(clippy::cast_precision_loss, reason = "counts are small")]
             let answered = s.right as f64 / s.applies.max(1) as f64;
-            csv.row(&[
-                method.name().to_owned(),
-                method.title().to_owned(),
-                method.guarantee().to_owned(),
-                method.complexity().to_owned(),
-                method.source().to_owned(),
-                self.cases.len().to_string(),
-                s.applies.to_string(),
-                s.right.to_string(),
-                s.pose.to_string(),
-                format!("{:.4}", s.share),
-                format!("{answered:.4}"),
-                format!("{:.3e}", s.seconds),
-            ]);
-        }
-        csv.finish()
+            MethodRow {
+                method: method.name(),
+                title: method.title(),
+                guarantee: method.guarantee(),
+                complexity: method.complexity(),
+                source: method.source(),
+                cases: self.cases.len(),
+                applies_to: s.applies,
+                right: s.right,
+                right_at_the_pose_only: s.pose,
+                share_of_all: format!("{:.4}", s.share),
+                share_of_answered: format!("{answered:.4}"),
+                median_seconds: format!("{:.3e}", s.seconds),
+            }
+        }))
     }
+}
+
+/// A line of the survey: what one method said of one case.
+#[derive(Serialize)]
+struct ReplyRow {
+    mechanism: String,
+    state: String,
+    method: &'static str,
+    answer: Option<i64>,
+    quantity: Option<&'static str>,
+    certainty: Option<String>,
+    expected_instantaneous: i64,
+    expected_finite: i64,
+    verdict: &'static str,
+    error: Option<i64>,
+    reason: Option<String>,
+    median_seconds: String,
+}
+
+/// A line of the table of methods.
+#[derive(Serialize)]
+struct MethodRow {
+    method: &'static str,
+    title: &'static str,
+    guarantee: &'static str,
+    complexity: &'static str,
+    source: &'static str,
+    cases: usize,
+    applies_to: usize,
+    right: usize,
+    right_at_the_pose_only: usize,
+    share_of_all: String,
+    share_of_answered: String,
+    median_seconds: String,
 }
 
 fn quantity(q: Quantity) -> &'static str {

@@ -2,6 +2,7 @@
 
 use super::Scale;
 use super::look::{self, TICK};
+use crate::format::number::minus;
 
 /// The range of an axis with its ticks; places are fractions of the axis from its low end.
 #[derive(Clone, Debug)]
@@ -253,7 +254,7 @@ fn decimal(whole: i64, exponent: i32, most: i64) -> Label {
     let mantissa = whole.unsigned_abs() as f64 / ten(decimals);
     Label {
         base: format!("{sign}{mantissa:.0$}×10", decimals as usize),
-        power: Some(look::minus(&top.to_string())),
+        power: Some(minus(&top.to_string())),
     }
 }
 
@@ -311,7 +312,7 @@ fn decade(exponent: i32, plain: bool) -> Label {
     if !plain {
         return Label {
             base: "10".to_owned(),
-            power: Some(look::minus(&exponent.to_string())),
+            power: Some(minus(&exponent.to_string())),
         };
     }
     let digits = format!("{:.1$}", ten(exponent), (-exponent).max(0) as usize);

@@ -6,6 +6,7 @@ use super::labels::Rect;
 use super::look::{self, PAD, TICK, WIDTH};
 use super::xml::Xml;
 use super::{Bands, Kind, Scale};
+use crate::format::number::tooltip;
 
 /// The height of a row.
 const ROW: f64 = 28.0;
@@ -65,8 +66,8 @@ impl Bands {
                 let meaning = MEANINGS.iter().find(|m| m.0 == kind).map_or("", |m| m.1);
                 let tip = format!(
                     "{name}: {meaning} from {} to {}",
-                    look::value(from),
-                    look::value(to)
+                    tooltip(from),
+                    tooltip(to)
                 );
                 bar(&mut xml, kind, (place(a), place(b)), y + ROW / 2.0, &tip);
             }
@@ -94,7 +95,7 @@ impl Bands {
     fn about(&self) -> String {
         let rows = self.rows.iter().map(|(name, bands)| {
             let right = bands.iter().filter(|b| b.2 == Kind::Good);
-            let right = right.map(|b| format!("{} to {}", look::value(b.0), look::value(b.1)));
+            let right = right.map(|b| format!("{} to {}", tooltip(b.0), tooltip(b.1)));
             match right.collect::<Vec<_>>().join(", ").as_str() {
                 "" => format!("{name}: nowhere right"),
                 regions => format!("{name}: right from {regions}"),

@@ -5,6 +5,7 @@ use super::labels::{self, Rect};
 use super::look::{self, COLOURS, PAD, TICK, WIDTH};
 use super::xml::{Xml, number};
 use super::{Series, Style};
+use crate::format::number::tooltip;
 
 /// The height between names in the margin.
 pub(super) const STEP: f64 = 18.0;
@@ -144,7 +145,7 @@ pub(super) fn body(xml: &mut Xml, d: &Drawn) {
     let count = d.points().count();
     let alone = d.runs.iter().filter(|run| run.len() == 1).flatten();
     let tip = |point: (f64, f64)| {
-        let (x, y) = (look::value(point.0), look::value(point.1));
+        let (x, y) = (tooltip(point.0), tooltip(point.1));
         format!("{}: {x}, {y}", d.series.name)
     };
     if d.marked() {

@@ -7,6 +7,7 @@ use super::labels::Rect;
 use super::look::{self, COLOURS, PAD, TICK, WIDTH};
 use super::xml::Xml;
 use super::{Chart, Series, Style};
+use crate::format::csv;
 
 impl Chart {
     /// The chart as a self-contained SVG element, for a file of its own or inside HTML.
@@ -115,17 +116,11 @@ impl Chart {
 
     /// The points in long form, one a line, under the heads `series,x,y`.
     pub fn csv(&self) -> String {
-        let mut out = String::from("series,x,y\n");
-        for series in &self.series {
-            let name = match series.name.contains([',', '"', '\n', '\r']) {
-                true => format!("\"{}\"", series.name.replace('"', "\"\"")),
-                false => series.name.clone(),
-            };
-            for (x, y) in &series.points {
-                out += &format!("{name},{x:?},{y:?}\n");
-            }
-        }
-        out
+        let points = |s: &Series| {
+            let one = |(x, y)| [s.name.clone(), format!("{x:?}"), format!("{y:?}")];
+            s.points.iter().copied().map(one).collect::<Vec<_>>()
+        };
+        csv::table(&["series", "x", "y"], self.series.iter().flat_map(points))
     }
 
     /// What a screen reader says.

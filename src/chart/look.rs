@@ -119,11 +119,6 @@ pub(crate) fn wrap(text: &str, size: f64, room: f64) -> Vec<String> {
     lines
 }
 
-/// A number's text with a true minus sign.
-pub(super) fn minus(text: &str) -> String {
-    text.replace('-', "\u{2212}")
-}
-
 /// Digits with a narrow space between thousands, from five digits on.
 pub(super) fn grouped(digits: &str) -> String {
     let (whole, rest) = digits.split_at(digits.find('.').unwrap_or(digits.len()));
@@ -138,24 +133,4 @@ pub(super) fn grouped(digits: &str) -> String {
         out.push(c);
     }
     out + rest
-}
-
-/// A value for a tooltip, to six digits.
-pub(super) fn value(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 || !value.is_finite() {
-        return minus(&format!("{}", value + 0.0));
-    }
-    let text = format!("{value:.5e}");
-    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let trim = |t: &str| match t.contains('.') {
-        true => t.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => t.to_owned(),
-    };
-    minus(&if (1e-4..1e6).contains(&size) {
-        let decimals = 5 - exponent.parse::<i32>().unwrap_or(0);
-        trim(&format!("{value:.0$}", decimals.max(0) as usize))
-    } else {
-        format!("{}e{exponent}", trim(mantissa))
-    })
 }

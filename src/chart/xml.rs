@@ -1,6 +1,6 @@
 //! A small XML writer: it closes what it opens, escapes what it is given and writes numbers in one way.
 
-use std::fmt::Write as _;
+use crate::format::number::decimals;
 
 /// A document being written.
 #[derive(Debug, Default)]
@@ -116,11 +116,7 @@ impl Tag<'_> {
 
 /// A coordinate: at most two decimals, no trailing zeros, no negative zero.
 pub(crate) fn number(value: f64) -> String {
-    let mut text = String::new();
-    // writing to a string does not fail
-    let _ = write!(text, "{value:.2}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0" } else { text }.to_owned()
+    decimals(value, 2)
 }
 
 /// Appends `text` so that it is plain character data anywhere in XML or HTML; a character XML forbids becomes U+FFFD.

@@ -20,13 +20,10 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     if a.planar {
         load::put_in_plane(&mut mechanism);
     }
-    let states: Vec<usize> = match (
-        a.state.as_str(),
-        mechanism.states.iter().position(|s| *s == a.state),
-    ) {
+    let states: Vec<StateId> = match (a.state.as_str(), mechanism.state(&a.state)) {
         (_, Some(s)) => vec![s],
-        ("all", None) if a.stroke.is_some() => vec![0],
-        ("all", None) => (0..mechanism.states.len()).collect(),
+        ("all", None) if a.stroke.is_some() => vec![StateId::FREE],
+        ("all", None) => mechanism.state_ids().collect(),
         (other, None) => bail!(
             "{} has no state {other}; it has: {}",
             mechanism.name,

@@ -2,6 +2,7 @@
 
 use super::args::{Search as SearchArgs, SearchFormat};
 use super::{output, question};
+use crate::format::number::cost;
 use crate::model::mechanism::JointId;
 use crate::search::certify::{Certified, Summary};
 use crate::search::relax::Relaxation;
@@ -9,7 +10,6 @@ use crate::search::request::Search;
 use crate::view::layout::fit;
 use crate::view::search_json::{self, Found};
 use crate::view::search_text;
-use crate::view::words::cost;
 use crate::view::{next, ranking};
 use num_bigint::BigUint;
 use num_traits::Zero;

@@ -1,6 +1,8 @@
 //! The arguments, as data.
 
 use super::examples;
+use crate::robots::formats::{self, Format};
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
@@ -182,20 +184,9 @@ pub(super) struct Import {
     pub(super) output: Option<PathBuf>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum ExportFormat {
-    /// The mechanism file, every joint with its own options.
-    Toml,
-    /// The same as JSON.
-    Json,
-    /// A spanning tree; loops as comments.
-    Urdf,
-    /// Loops closed by joints.
-    Sdf,
-    /// Graphviz.
-    Dot,
-    /// GraphML, for graph programs.
-    Graphml,
+fn export_formats() -> PossibleValuesParser {
+    let value = |f: &'static Format| PossibleValue::new(f.word).help(f.about);
+    PossibleValuesParser::new(formats::written().map(value))
 }
 
 #[derive(Debug, ClapArgs)]
@@ -203,8 +194,8 @@ pub(super) struct Export {
     #[command(flatten)]
     pub(super) file: File,
     /// The format.
-    #[arg(long, value_enum)]
-    pub(super) to: ExportFormat,
+    #[arg(long, value_parser = export_formats())]
+    pub(super) to: String,
     /// Write variant K of the list that `ozols search FILE` gives, with the same of the options below.
     #[arg(long, value_name = "K")]
     pub(super) variant: Option<usize>,

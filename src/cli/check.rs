@@ -6,10 +6,11 @@ use crate::builtin;
 use crate::file::lint::{Checked, DoubtKind, Doubts, across, check};
 use crate::file::locate::Step;
 use crate::file::read::workload::tables_alone;
+use crate::format::phrase::plural;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{Method, analyse};
-use crate::view::{mechanism_text, words};
+use crate::view::mechanism_text;
 use anyhow::{Context, bail};
 
 pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
@@ -21,7 +22,7 @@ pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
         });
     }
     let mut checked = check(&name, &bytes)?;
-    for state in 0..checked.mechanism.states.len() {
+    for state in checked.mechanism.state_ids() {
         match Gripping::new(&checked.mechanism, state) {
             // What cannot be held is for `ozols grip` to say; the file is valid.
             Ok(_) | Err(JawError::Nominal(_)) => {}
@@ -40,7 +41,7 @@ pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
     output::to(None, |out| {
         let verdict = match doubts.doubts.len() {
             0 => "valid".to_owned(),
-            n => format!("valid, {}", words::plural(n, "warning")),
+            n => format!("valid, {}", plural(n, "warning")),
         };
         writeln!(out, "{}: {verdict}", mechanism.name)?;
         for line in mechanism_text::describe(mechanism, across(mechanism)) {
@@ -56,7 +57,7 @@ pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
 /// Doubts the figures that the file states where the analysis finds others.
 fn stale(m: &Mechanism, doubts: &mut Doubts) {
     for (i, e) in m.expected.iter().enumerate() {
-        let Some(s) = m.states.iter().position(|s| *s == e.state) else {
+        let Some(s) = m.state(&e.state) else {
             continue;
         };
         // Why there is no analysis is for `ozols analyze` to say.

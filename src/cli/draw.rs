@@ -3,6 +3,7 @@
 use super::args::{Args, Draw, DrawKind};
 use super::{Done, load, output, variant};
 use crate::draw::{self, Drawing, Size, Subject};
+use crate::model::mechanism::StateId;
 use crate::redundancy::analysis::{Method, analyse};
 use anyhow::{bail, ensure};
 use std::io::IsTerminal;
@@ -10,7 +11,7 @@ use std::io::IsTerminal;
 pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     let wanted = picture(a)?;
     let mut mechanism = load::mechanism(&a.file.file)?;
-    let Some(state) = mechanism.states.iter().position(|s| *s == a.state) else {
+    let Some(state) = mechanism.state(&a.state) else {
         bail!(
             "{} has no state {}; it has: {}",
             mechanism.name,
@@ -20,7 +21,7 @@ pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     };
     let mut marks = None;
     if let Some(k) = a.variant {
-        let external = a.question.max_external.is_some() && state > 0;
+        let external = a.question.max_external.is_some() && state != StateId::FREE;
         let named = external.then_some(a.state.as_str());
         let (realized, changes) =
             variant::kth(&mut mechanism, &a.question, named, k, |search, v| {

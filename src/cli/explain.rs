@@ -3,7 +3,7 @@
 use super::args::Explain;
 use super::{Done, near, output};
 use crate::terms::{Term, Terms};
-use crate::view::words;
+use crate::view::layout::table;
 use anyhow::bail;
 use itertools::Itertools;
 use std::io::Write;
@@ -45,7 +45,7 @@ fn all(terms: &Terms, width: Option<u16>) -> String {
         let also = t.also.iter().take(2).join(", ");
         vec![t.name.clone(), also, t.first_sentence().to_owned()]
     });
-    words::table(&["term", "also", "what it is"], rows.collect(), width)
+    table(&["term", "also", "what it is"], rows.collect(), width)
 }
 
 fn one(out: &mut dyn Write, terms: &Terms, term: &Term) -> std::io::Result<()> {

@@ -1,8 +1,8 @@
 //! `ozols export`.
 
-use super::args::{Args, Export, ExportFormat};
+use super::args::{Args, Export};
 use super::{Done, load, output, variant};
-use crate::robots::export;
+use crate::robots::formats;
 
 pub(super) fn run(_: &Args, a: &Export) -> anyhow::Result<Done> {
     let mut m = load::mechanism(&a.file.file)?;
@@ -11,14 +11,7 @@ pub(super) fn run(_: &Args, a: &Export) -> anyhow::Result<Done> {
             variant::mechanism(search, v, k)
         })?;
     }
-    let text = match a.to {
-        ExportFormat::Toml => export::toml(&m)?,
-        ExportFormat::Json => format!("{:#}\n", export::mechanism_file(&m).json()),
-        ExportFormat::Urdf => export::urdf(&m)?,
-        ExportFormat::Sdf => export::sdf(&m),
-        ExportFormat::Dot => export::dot(&m),
-        ExportFormat::Graphml => export::graphml(&m),
-    };
+    let text = formats::write(&m, &a.to)?;
     output::to(a.output.as_deref(), |out| {
         write!(out, "{text}")?;
         Ok(Done::Found)

@@ -2,7 +2,6 @@
 
 use super::args::{Args, Import, ImportFormat};
 use super::{Done, load, output};
-use crate::file::schema::MechanismFile;
 use crate::robots::{self, Options};
 use crate::view::layout::fit;
 use crate::view::next::{self, Step};
@@ -35,11 +34,8 @@ pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            ImportFormat::Toml => write!(out, "{}", imported.toml)?,
-            ImportFormat::Json => {
-                let file: MechanismFile = toml::from_str(&imported.toml)?;
-                writeln!(out, "{:#}", file.json())?;
-            }
+            ImportFormat::Toml => write!(out, "{}", imported.toml()?)?,
+            ImportFormat::Json => writeln!(out, "{:#}", imported.file.json())?,
         }
         Ok(Done::Found)
     })?;

@@ -3,9 +3,9 @@
 use super::args::List;
 use super::{Done, load, near, output};
 use crate::builtin;
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::analysis::{Method, analyse};
-use crate::view::words;
+use crate::view::layout::table;
 use anyhow::Context;
 
 /// The narrowest column that a description is worth.
@@ -37,7 +37,7 @@ pub(super) fn run(a: &List) -> anyhow::Result<Done> {
         return Ok(Done::Nothing);
     }
     let header = ["mechanism", "state", "n", "p", "k", "f", "W", "σ"];
-    let table = words::table(&header, rows, None);
+    let table = table(&header, rows, None);
     let width = output::width(None).map(usize::from);
     output::to(None, |out| {
         let lines: Vec<&str> = table.lines().collect();
@@ -71,7 +71,7 @@ pub(super) fn run(a: &List) -> anyhow::Result<Done> {
 
 /// A row for each state.
 fn rows_of(name: &str, m: &Mechanism) -> anyhow::Result<Vec<Vec<String>>> {
-    let states: Vec<usize> = (0..m.states.len()).collect();
+    let states: Vec<StateId> = m.state_ids().collect();
     let analysed = analyse(m, &states, Method::Modular)
         .with_context(|| format!("built-in mechanism {name}"))?;
     let row = |(i, s): (usize, crate::redundancy::analysis::StateAnalysis)| {

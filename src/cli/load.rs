@@ -11,6 +11,9 @@ use std::io::Read;
 
 /// Reads the mechanism that an argument names. A file wins over a built-in mechanism of the same name.
 pub(super) fn mechanism(file: &str) -> anyhow::Result<Mechanism> {
+    if let Some(imported) = imported(file)? {
+        return Ok(imported.mechanism);
+    }
     let (name, bytes) = named(file)?;
     Ok(mechanism_from_bytes(&name, &bytes)?)
 }
@@ -31,18 +34,11 @@ pub(super) fn named(file: &str) -> anyhow::Result<(String, Vec<u8>)> {
     if file == "-" {
         return Ok(("standard input".to_owned(), read(std::io::stdin().lock())?));
     }
-    let path = std::path::Path::new(file);
-    if path.is_file() && robots::is_description(file) {
-        let imported = super::import::description(path, &robots::Options::default())?;
-        let doubts = imported.report.doubts();
-        if !doubts.is_empty() {
-            super::output::note(&format!("{file}: {}\n{doubts}", imported.format.name()));
-        }
-        return Ok((
-            "the imported mechanism".to_owned(),
-            imported.toml.into_bytes(),
-        ));
+    if let Some(imported) = imported(file)? {
+        let text = imported.toml()?;
+        return Ok(("the imported mechanism".to_owned(), text.into_bytes()));
     }
+    let path = std::path::Path::new(file);
     if path.is_file() {
         let open = std::fs::File::open(path).with_context(|| format!("cannot read {file}"))?;
         let bytes = read(open).with_context(|| format!("cannot read {file}"))?;
@@ -52,6 +48,20 @@ pub(super) fn named(file: &str) -> anyhow::Result<(String, Vec<u8>)> {
         bail!(unknown(file))
     };
     Ok((format!("{file}.toml"), text.as_bytes().to_vec()))
+}
+
+/// The mechanism of a robot description, with what is doubtful said; none where the argument is no such file.
+fn imported(file: &str) -> anyhow::Result<Option<robots::Imported>> {
+    let path = std::path::Path::new(file);
+    if !path.is_file() || !robots::is_description(file) {
+        return Ok(None);
+    }
+    let imported = super::import::description(path, &robots::Options::default())?;
+    let doubts = imported.report.doubts();
+    if !doubts.is_empty() {
+        super::output::note(&format!("{file}: {}\n{doubts}", imported.format.name));
+    }
+    Ok(Some(imported))
 }
 
 /// Models a mechanism in the plane of x and y.

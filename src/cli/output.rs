@@ -53,6 +53,11 @@ pub(super) fn to(
     Ok(done)
 }
 
+/// A value as JSON for people to read and programs to parse.
+pub(super) fn json(out: &mut dyn Write, value: &impl serde::Serialize) -> anyhow::Result<()> {
+    Ok(writeln!(out, "{}", serde_json::to_string_pretty(value)?)?)
+}
+
 /// Width of the terminal that standard output is, if it is one.
 pub(super) fn width(path: Option<&Path>) -> Option<u16> {
     (path.is_none() && std::io::stdout().is_terminal())

@@ -74,17 +74,17 @@ pub(super) fn state(
                 "{} has no state besides free",
                 mechanism.name
             );
-            Some((1, external))
+            Some((StateId::new(1), external))
         }
         (Some(name), external) => {
-            let Some(s) = mechanism.states.iter().position(|s| s == name) else {
+            let Some(s) = mechanism.state(name) else {
                 bail!(
                     "{} has no state {name}; it has: {}",
                     mechanism.name,
                     mechanism.states.join(", ")
                 );
             };
-            (s > 0).then_some((s, external.unwrap_or(u32::MAX)))
+            (s != StateId::FREE).then_some((s, external.unwrap_or(u32::MAX)))
         }
     })
 }
@@ -100,7 +100,7 @@ fn measured(
         return Ok(None);
     };
     let fields = [exact_field(mechanism, 0)?, exact_field(mechanism, 1)?];
-    let states = std::iter::once(0).chain(state);
+    let states = std::iter::once(StateId::FREE).chain(state);
     let verdicts = states
         .map(|s| Verdicts::new(&fields, mechanism, s, why.tolerance()))
         .collect::<Result<Vec<_>, _>>()?;
@@ -184,7 +184,7 @@ fn restrict(mechanism: &mut Mechanism, a: &Question) -> anyhow::Result<()> {
             rules.push((id, names, allow));
         }
     }
-    for (id, joint) in mechanism.joints.iter_mut().enumerate() {
+    for (id, joint) in mechanism.joint_ids().zip(&mut mechanism.joints) {
         let mut place = 0;
         joint.options.retain(|o| {
             place += 1;

@@ -4,7 +4,7 @@ use super::args::{Args, Report};
 use super::question::{ask, flags, ready, state};
 use super::search::{Wanted, answered};
 use super::{Done, load, output};
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::page::{Commands, Page, Redesigns, html};
 use crate::redundancy::analysis::{Method, analyse};
 use crate::search::certify::Summary;
@@ -25,7 +25,7 @@ pub(super) fn run(args: &Args, a: &Report) -> anyhow::Result<Done> {
     ready(&mut mechanism, question)?;
     // An unknown state is a mistake; geometry that cannot be searched is not.
     state(&mechanism, question, named)?;
-    let states: Vec<usize> = (0..mechanism.states.len()).collect();
+    let states: Vec<StateId> = mechanism.state_ids().collect();
     let states = analyse(&mechanism, &states, Method::Auto { tolerance: None })?;
     let commands = commands(&mechanism, a);
     let write = |redesigns: Result<Redesigns<'_>, String>| -> anyhow::Result<Done> {

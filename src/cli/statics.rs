@@ -1,37 +1,31 @@
 //! `ozols statics`.
 
 use super::args::{Args, Statics, StaticsFormat, StaticsMethod};
-use super::{Done, clamped, load, output, reactions};
-use crate::chart::page;
+use super::{Done, charts, clamped, load, output};
 use crate::file::read::loads::{MAX_STEPS, position};
-use crate::geom::expr::Expr;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::Stroke;
-use crate::model::mechanism::{Mechanism, Mode};
-use crate::statics::contour_group::GroupPose;
-use crate::statics::cycle::{statics, structures};
-use crate::statics::kinetostatics::Source;
-use crate::statics::stability::{Failure, Sample, distances, samples};
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::statics::contour_group::solutions::GroupMethod;
+use crate::statics::contour_group::stability::{GROUPS, study};
+use crate::statics::cycle;
+use crate::statics::reactions::Cycle;
+use crate::statics::solve::{Answer, Model, solve};
+use crate::view;
+use crate::view::layout::table;
 use crate::view::next::{self, Step};
-use crate::view::statics_charts::{self, Named};
-use crate::view::statics_words::GroupMethod;
-use crate::view::words::table;
-use crate::view::{statics_data, statics_text};
+use crate::view::reactions::stroke::Stroke as StrokeView;
+use crate::view::reactions::{Reactions, text::reactions};
+use crate::view::statics::{Structures, charts as drawn, csv::csv, text};
 use anyhow::{Context, bail};
-use rayon::prelude::*;
 use std::path::Path;
-
-/// Groups tried at each distance of a stability chart.
-const GROUPS: usize = 9;
 
 pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
     let mut m = load::mechanism(a.file.as_deref().unwrap_or("parallel-shears"))?;
     if a.planar {
-        m.mode = Mode::Planar {
-            normal: [0, 0, 1].map(Expr::from),
-        };
+        load::put_in_plane(&mut m);
     }
-    let Some(state) = m.states.iter().position(|s| *s == a.state) else {
+    let Some(state) = m.state(&a.state) else {
         bail!(
             "{} has no state {}; it has: {}",
             m.name,
@@ -70,46 +64,49 @@ pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
     if let (true, Some(folder)) = (a.stability, &a.output) {
         return stability(&m, state, stroke, folder, args.seed);
     }
-    if a.spatial {
-        return reactions::run(&m, state, stroke, a);
-    }
-    let found = match statics(&m, state, stroke) {
-        Err(e) if reactions::takes(&e, a) => return reactions::run(&m, state, stroke, a),
-        found => found?,
+    let own = matches!(a.method, StaticsMethod::Delta | StaticsMethod::Projective);
+    let model = match (a.spatial, own || a.svg.is_some()) {
+        (true, _) => Model::Spatial,
+        (false, true) => Model::Planar,
+        (false, false) => Model::Either,
     };
+    let found = solve(&m, state, stroke, model)?;
+    match &found {
+        Answer::Planar(found) => planar(&m, found, own, a)?,
+        Answer::Spatial(found) => spatial(&m, state, stroke, found, a)?,
+    };
+    // A stroke that could not be finished is no success.
+    Ok(if found.complete() {
+        Done::Found
+    } else {
+        Done::Nothing
+    })
+}
+
+fn planar(m: &Mechanism, found: &cycle::Statics, own: bool, a: &Statics) -> anyhow::Result<Done> {
     let methods: &[GroupMethod] = match a.method {
         StaticsMethod::Delta => &[GroupMethod::Delta],
         StaticsMethod::Projective => &[GroupMethod::Projective],
         StaticsMethod::Equilibrium => &[GroupMethod::Equilibrium],
         StaticsMethod::All => &GroupMethod::ALL,
     };
-    let own = matches!(a.method, StaticsMethod::Delta | StaticsMethod::Projective);
     if own && found.contour_groups.is_empty() {
         bail!(
             "{} has no four-link group with a closed contour, which --method delta and projective are for; use --method equilibrium",
             m.name
         );
     }
+    let shown = view::statics::Statics::new(&m.name, found, methods);
     if let Some(folder) = &a.svg {
-        write_charts(
-            folder,
-            &m.name,
-            &statics_charts::cycle(&m.name, &found, methods),
-        )?;
+        charts::write(folder, Some(&m.name), &drawn::cycle(&shown))?;
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            StaticsFormat::Json => {
-                writeln!(out, "{:#}", statics_data::json(&m.name, &found, methods))?;
-            }
-            StaticsFormat::Csv => write!(out, "{}", statics_data::csv(&found, methods))?,
+            StaticsFormat::Json => output::json(out, &shown)?,
+            StaticsFormat::Csv => write!(out, "{}", csv(&shown))?,
             StaticsFormat::Text => {
                 let width = output::width(a.output.as_deref());
-                write!(
-                    out,
-                    "{}",
-                    statics_text::statics(&m.name, &found, methods, width)
-                )?;
+                write!(out, "{}", text::statics(&shown, width))?;
                 let loaded = found.moments.iter().any(|x| !x.loads.is_empty());
                 let file = a.file.as_deref().unwrap_or(&m.name);
                 let mut steps = Vec::new();
@@ -125,12 +122,55 @@ pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
                 write!(out, "{}", next::text(&steps, width))?;
             }
         }
-        // A cycle that could not be finished is no success.
-        Ok(if found.dead.is_some() {
-            Done::Nothing
-        } else {
-            Done::Found
-        })
+        Ok(Done::Found)
+    })
+}
+
+fn spatial(
+    m: &Mechanism,
+    state: StateId,
+    stroke: Option<Stroke>,
+    found: &Cycle,
+    a: &Statics,
+) -> anyhow::Result<Done> {
+    let width = output::width(a.output.as_deref());
+    if let ([(_, Ok(one))], None) = (&found.positions[..], stroke) {
+        let shown = Reactions::new(m, state, one);
+        return output::to(a.output.as_deref(), |out| {
+            match a.format {
+                StaticsFormat::Json => output::json(out, &shown)?,
+                StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
+                StaticsFormat::Text => {
+                    write!(out, "{}", reactions(&shown, "pose of the file", width))?;
+                    let file = a.file.as_deref().unwrap_or(&m.name);
+                    let step = match shown.unique {
+                        false => Step::new(
+                            "search",
+                            file,
+                            "",
+                            "redesigns without redundant constraints, whose reactions are the only ones",
+                        ),
+                        true => Step::new(
+                            "statics",
+                            file,
+                            "--spatial --format csv -o reactions.csv",
+                            "the components of every joint's reaction",
+                        ),
+                    };
+                    write!(out, "{}", next::text(&[step], width))?;
+                }
+            }
+            Ok(Done::Found)
+        });
+    }
+    let shown = StrokeView::new(m, state, found);
+    output::to(a.output.as_deref(), |out| {
+        match a.format {
+            StaticsFormat::Json => output::json(out, &shown)?,
+            StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
+            StaticsFormat::Text => write!(out, "{}", shown.text(width))?,
+        }
+        Ok(Done::Found)
     })
 }
 
@@ -153,101 +193,44 @@ pub(super) fn stroke(text: &str) -> anyhow::Result<Stroke> {
     }
 }
 
-fn groups(m: &Mechanism, state: usize, a: &Statics) -> anyhow::Result<Done> {
-    let (planar, found) = structures(m, state)?;
-    let any = found.iter().any(|x| x.found.is_ok());
+fn groups(m: &Mechanism, state: StateId, a: &Statics) -> anyhow::Result<Done> {
+    let (planar, found) = cycle::structures(m, state)?;
+    let shown = Structures::new(&m.name, &planar, &found);
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            StaticsFormat::Json => {
-                writeln!(
-                    out,
-                    "{:#}",
-                    statics_data::structures(&m.name, &planar, &found)
-                )?;
-            }
+            StaticsFormat::Json => output::json(out, &shown)?,
             StaticsFormat::Csv => bail!("--groups has no CSV; use --format json"),
             StaticsFormat::Text => {
                 let width = output::width(a.output.as_deref());
-                write!(
-                    out,
-                    "{}",
-                    statics_text::structures(&m.name, &planar, &found, width)
-                )?;
+                write!(out, "{}", text::structures(&shown, width))?;
             }
         }
-        Ok(if any { Done::Found } else { Done::Nothing })
-    })
-}
-
-/// Writes each chart as SVG and CSV, and a page of all.
-fn write_charts(folder: &Path, title: &str, charts: &[Named]) -> anyhow::Result<()> {
-    std::fs::create_dir_all(folder)
-        .with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    let write = |name: &str, text: &str| {
-        output::to(Some(&folder.join(name)), |out| {
-            write!(out, "{text}")?;
-            Ok(Done::Found)
-        })
-    };
-    let mut parts = Vec::new();
-    for (name, chart) in charts {
-        let svg = chart.svg();
-        write(&format!("{name}.svg"), &svg)?;
-        let mut table = chart.clone();
-        for series in &mut table.series {
-            series.points.retain(|p| p.1.is_finite());
-        }
-        write(&format!("{name}.csv"), &table.csv())?;
-        parts.push((chart.title.clone(), chart.subtitle.clone(), svg));
-    }
-    write("index.html", &page(title, &parts))?;
-    Ok(())
-}
-
-/// A group in a pose with its loads, the heaviest of the stroke where forces act from outside.
-fn typical(m: &Mechanism, state: usize, stroke: Option<Stroke>) -> anyhow::Result<GroupPose> {
-    let found = statics(m, state, stroke)?;
-    let heavy = |l: &crate::statics::kinetostatics::Load| {
-        if l.source == Source::External {
-            l.force[0].hypot(l.force[1])
+        Ok(if found.iter().any(|x| x.found.is_ok()) {
+            Done::Found
         } else {
-            0.0
-        }
-    };
-    let weight = |g: &GroupPose| -> f64 { g.loads.iter().map(heavy).sum() };
-    let first = found.moments.iter().filter_map(|x| x.groups.first());
-    let best = first.max_by(|a, b| weight(&a.pose).total_cmp(&weight(&b.pose)));
-    match best {
-        Some(g) => Ok(g.pose.clone()),
-        None => bail!(
-            "{} has no four-link group with a closed contour to compare the methods on",
-            m.name
-        ),
-    }
+            Done::Nothing
+        })
+    })
 }
 
 fn stability(
     m: &Mechanism,
-    state: usize,
+    state: StateId,
     stroke: Option<Stroke>,
     folder: &Path,
     seed: u64,
 ) -> anyhow::Result<Done> {
-    let base = typical(m, state, stroke)?;
-    let distances = distances();
-    let found: Vec<(Failure, Vec<Sample>)> = Failure::ALL
-        .par_iter()
-        .map(|&f| (f, samples(&base, f, &distances, GROUPS, seed)))
-        .collect();
-    let charts: Vec<Named> = found
-        .iter()
-        .map(|(f, s)| statics_charts::stability(*f, s))
-        .collect();
-    write_charts(folder, "Stability of the δ-point method", &charts)?;
-    let rows = found
-        .iter()
-        .flat_map(|(f, all)| statics_charts::stability_rows(*f, all))
-        .collect();
+    let found = cycle::statics(m, state, stroke)?;
+    let base = found.heaviest_contour_group().with_context(|| {
+        format!(
+            "{} has no four-link group with a closed contour to compare the methods on",
+            m.name
+        )
+    })?;
+    let found = study(base, seed);
+    let all: Vec<drawn::Named> = found.iter().map(|(f, s)| drawn::stability(*f, s)).collect();
+    charts::write(folder, Some("Stability of the δ-point method"), &all)?;
+    let rows = found.iter().flat_map(|(f, s)| drawn::stability_rows(*f, s));
     output::to(None, |out| {
         writeln!(
             out,
@@ -256,7 +239,8 @@ fn stability(
         let header = [
             "failure", "figure", "method", "1", "1e-3", "1e-6", "1e-9", "1e-12", "1e-15",
         ];
-        writeln!(out, "{}\n", table(&header, rows, output::width(None)))?;
+        let table = table(&header, rows.collect(), output::width(None));
+        writeln!(out, "{table}\n")?;
         writeln!(
             out,
             "Charts and tables: {}",

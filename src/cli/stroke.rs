@@ -5,8 +5,8 @@ use super::{Done, output, statics};
 use crate::model::joint_type::Freedom;
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::motion::follow::{FLAT, Follower, slides};
-use crate::motion::pose::Pose;
+use crate::motion::follow::{Follower, slides};
+use crate::motion::pose::{FLAT, Pose};
 use crate::rank::along_stroke::{StrokeFigures, StrokeRequest, stroke};
 use crate::rank::auto::{Geometry, decide};
 use crate::view::stroke::{Shown, chart, json, text};
@@ -62,7 +62,7 @@ impl<'a> Asked<'a> {
         let Some(range) = &a.stroke else {
             return Ok(None);
         };
-        let state = m.states.iter().position(|s| *s == a.state).unwrap_or(0);
+        let state = m.state(&a.state).unwrap_or(StateId::FREE);
         let pose = Pose::of_file(m, state)?;
         let (drive, held) = drive(m, &pose, state, a.drive.as_deref())?;
         let slide = slides(&pose, drive);

@@ -55,7 +55,7 @@ pub(super) fn run(_: &Args, a: &Verify) -> anyhow::Result<Done> {
         Done::Found
     };
     for certificate in &file.certificates {
-        let Some(state) = m.states.iter().position(|s| *s == certificate.state) else {
+        let Some(state) = m.state(&certificate.state) else {
             bail!(
                 "{name} is about a state {}; {} has: {}",
                 certificate.state,

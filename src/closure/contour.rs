@@ -91,7 +91,11 @@ pub fn contour_basis(mechanism: &Mechanism, state: StateId) -> Vec<Contour> {
     };
     let mut contours = Vec::new();
     // The contours of the free state come first, so that what a state adds is at the end.
-    let states: &[StateId] = if state == 0 { &[0] } else { &[0, state] };
+    let states: &[StateId] = if state == StateId::FREE {
+        &[StateId::FREE]
+    } else {
+        &[StateId::FREE, state]
+    };
     for &st in states {
         let all: Vec<JointId> = mechanism.joints_in(state).collect();
         let present: Vec<JointId> = mechanism
@@ -132,7 +136,10 @@ fn components(mechanism: &Mechanism, joints: &[JointId]) -> usize {
     let mut sets = petgraph::unionfind::UnionFind::<usize>::new(mechanism.links.len());
     let merged = joints
         .iter()
-        .filter(|&&j| sets.union(mechanism.joints[j].links[0], mechanism.joints[j].links[1]))
+        .filter(|&&j| {
+            let [a, b] = mechanism.joints[j].links;
+            sets.union(a.index(), b.index())
+        })
         .count();
     touched(mechanism, joints) - merged
 }
@@ -153,8 +160,8 @@ fn shortest_cycles(
         let [a, b] = mechanism.joints[j].links;
         let excess = (i as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 38;
         graph.add_edge(
-            NodeIndex::new(a),
-            NodeIndex::new(b),
+            NodeIndex::new(a.index()),
+            NodeIndex::new(b.index()),
             (j, UNIT + (i as u64 + 1) * (1 << 20) + (excess & 0xf_ffff)),
         );
     }
@@ -301,7 +308,7 @@ impl Basis {
     fn insert(&mut self, cycle: &[JointId]) -> bool {
         let mut bits = vec![0u64; self.words];
         for &j in cycle {
-            bits[j / 64] ^= 1 << (j % 64);
+            bits[j.index() / 64] ^= 1 << (j.index() % 64);
         }
         for (pivot, row) in &self.rows {
             if bits[pivot / 64] >> (pivot % 64) & 1 == 1 {

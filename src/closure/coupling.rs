@@ -7,7 +7,7 @@
 use crate::geom::expr::Expr;
 use crate::model::coupling::Coupling;
 use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{Frame, Mechanism, StateId};
+use crate::model::mechanism::{Frame, JointId, Mechanism, StateId};
 
 /// Squares of lengths that differ by less than this part are those of two axes of one length, written in decimals.
 const UNIT: f64 = 1e-12;
@@ -59,7 +59,7 @@ pub fn length_ratio(of: (&Frame, Freedom), over: (&Frame, Freedom)) -> Expr {
 #[must_use]
 pub fn coefficient(mechanism: &Mechanism, coupling: &Coupling) -> Expr {
     let [a, b] = coupling.ends;
-    let frame = |j: usize| &mechanism.joints[j].frame;
+    let frame = |j: JointId| &mechanism.joints[j].frame;
     let length = length_ratio((frame(a.joint), a.freedom), (frame(b.joint), b.freedom));
     -(&coupling.ratio * &length)
 }

@@ -2,6 +2,7 @@
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::coupling::coefficient;
+use crate::closure::tree::path_from_frame;
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
@@ -201,44 +202,4 @@ fn coupling_rows<N: Clone + Default + PartialEq, S: Scalars<Number = N>>(
         }
     }
     Ok(rows)
-}
-
-/// Joints on a shortest path from the frame to a link, with the direction they are passed in; empty where there is none.
-///
-/// # Complexity
-/// O(n + m) for n links, m joints.
-#[must_use]
-pub fn path_from_frame(
-    mechanism: &Mechanism,
-    state: StateId,
-    link: LinkId,
-) -> Vec<(JointId, bool)> {
-    let frame = mechanism.frame();
-    let mut joints_at: Vec<Vec<JointId>> = vec![Vec::new(); mechanism.links.len()];
-    for j in mechanism.joints_in(state) {
-        for end in mechanism.joints[j].links {
-            joints_at[end].push(j);
-        }
-    }
-    let mut came: Vec<Option<(JointId, bool)>> = vec![None; mechanism.links.len()];
-    let mut queue = std::collections::VecDeque::from([frame]);
-    while let Some(at) = queue.pop_front() {
-        for &j in &joints_at[at] {
-            let [a, b] = mechanism.joints[j].links;
-            for (from, to, forward) in [(a, b, true), (b, a, false)] {
-                if from == at && to != frame && came[to].is_none() {
-                    came[to] = Some((j, forward));
-                    queue.push_back(to);
-                }
-            }
-        }
-    }
-    let mut path = Vec::new();
-    let mut at = link;
-    while let Some((j, forward)) = came[at] {
-        path.push((j, forward));
-        at = mechanism.joints[j].links[usize::from(!forward)];
-    }
-    path.reverse();
-    path
 }

@@ -110,6 +110,20 @@ impl<N: Clone> FrameValues<N> {
         })
     }
 
+    /// The frame in a motion space: in a plane, a joint with all three turns and no slide turns about the normal whatever
+    /// its own axis.
+    #[must_use]
+    pub fn within(mut self, space: &MotionSpace<N>, freedoms: &[Freedom]) -> Self {
+        let turns = freedoms.iter().filter(|f| f.turns()).count();
+        if let MotionSpace::Planar { axes: [n, e1, e2] } = space
+            && turns == 3
+            && !freedoms.iter().any(|f| f.slides())
+        {
+            self.axes = [e1.clone(), e2.clone(), n.clone()];
+        }
+        self
+    }
+
     /// The twist of one freedom.
     pub fn twist<S: Scalars<Number = N>>(&self, s: &S, freedom: Freedom) -> Twist<N> {
         let zero = || s.sub(self.point[0].clone(), self.point[0].clone());
@@ -139,8 +153,8 @@ impl<N: Clone> FrameValues<N> {
 /// Freedoms, each with its twist.
 pub type FreedomTwists<N> = Vec<(Freedom, Vec<N>)>;
 
-/// The freedoms of a joint as twists in a motion space, each with the freedom it comes from. In a plane, a joint whose
-/// rotations are complete (spherical and its kin) turns about the plane's normal whatever its own axis.
+/// The freedoms of a joint as twists in a motion space, each with the freedom it comes from; see
+/// [`FrameValues::within`].
 ///
 /// # Errors
 /// Where a coordinate has no value in the number system.
@@ -150,20 +164,8 @@ pub fn joint_twists<S: Scalars>(
     frame: &Frame,
     joint_type: &JointType,
 ) -> Result<FreedomTwists<S::Number>, ExactError> {
-    let mut values = FrameValues::new(s, frame)?;
     let freedoms = joint_type.freedoms();
-    if let MotionSpace::Planar { axes: [n, e1, e2] } = space {
-        let all_turns = [Freedom::Rx, Freedom::Ry, Freedom::Rz]
-            .iter()
-            .all(|r| freedoms.contains(r));
-        if all_turns
-            && !freedoms
-                .iter()
-                .any(|f| matches!(f, Freedom::Tx | Freedom::Ty | Freedom::Tz))
-        {
-            values.axes = [e1.clone(), e2.clone(), n.clone()];
-        }
-    }
+    let values = FrameValues::new(s, frame)?.within(space, freedoms);
     Ok(freedoms
         .iter()
         .filter_map(|&f| space.components(s, &values.twist(s, f)).map(|c| (f, c)))

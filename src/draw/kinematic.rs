@@ -9,6 +9,7 @@ use super::sheet::{Anchor, Caption, PAD, Shape, Sheet, Swatch, plan, polyline};
 use super::swap::{self, Swap};
 use super::symbols::{self, Pose, hull};
 use super::{Drawing, Mark, Subject};
+use crate::format::number::decimals;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, LinkId, Role};
 use std::fmt::Write as _;
@@ -139,7 +140,7 @@ impl<'a> Kinematic<'a> {
         let m = subject.mechanism;
         let joints: Vec<JointId> = m.joints_in(subject.state).collect();
         let mut links: Vec<(LinkId, Vec<usize>)> = Vec::new();
-        for l in 0..m.links.len() {
+        for l in m.link_ids() {
             let of: Vec<usize> = (0..joints.len())
                 .filter(|&i| m.joints[joints[i]].links.contains(&l))
                 .collect();
@@ -457,9 +458,9 @@ impl<'a> Kinematic<'a> {
                 " Joint {} ({}) between {a} and {b} at {}, {}, {} {}.",
                 joint.id,
                 joint.joint_type,
-                short(p[0]),
-                short(p[1]),
-                short(p[2]),
+                decimals(p[0], 4),
+                decimals(p[1], 4),
+                decimals(p[2], 4),
                 m.length_unit.symbol
             );
         }
@@ -479,15 +480,4 @@ fn round_below(x: f64) -> Option<f64> {
     let (mantissa, exponent) = text.split_once('e')?;
     let mantissa: f64 = mantissa.parse().ok()?;
     format!("{}e{exponent}", mantissa.round()).parse().ok()
-}
-
-/// A coordinate in words.
-fn short(x: f64) -> String {
-    let text = format!("{x:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" {
-        "0".to_owned()
-    } else {
-        text.to_owned()
-    }
 }

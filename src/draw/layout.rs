@@ -10,6 +10,7 @@
 use super::initial_layout::{self, Start};
 use super::layout_penalty::Crowding;
 use super::mirror::Mirror;
+pub(super) use crate::geom::vector::{add, cross_plane as cross, dot, norm, scale, sub};
 
 /// A point of the picture; y goes down.
 pub(super) type Point = [f64; 2];
@@ -300,30 +301,6 @@ pub(super) fn mean(points: impl Iterator<Item = Point>) -> Point {
         n += 1.0;
     }
     scale(sum, 1.0 / n.max(1.0))
-}
-
-pub(super) fn add(a: Point, b: Point) -> Point {
-    [a[0] + b[0], a[1] + b[1]]
-}
-
-pub(super) fn sub(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-pub(super) fn scale(a: Point, by: f64) -> Point {
-    [a[0] * by, a[1] * by]
-}
-
-pub(super) fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-pub(super) fn cross(a: Point, b: Point) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
-}
-
-pub(super) fn norm(a: Point) -> f64 {
-    a[0].hypot(a[1])
 }
 
 /// The direction of a vector; across where it has none.

@@ -3,11 +3,10 @@
 use super::labels::Rect;
 use super::layout::{Point, norm as norm2, segments_cross, sub as sub2, to_segment};
 use crate::geom::expr::Expr;
+use crate::geom::extent::diagonal;
+pub(super) use crate::geom::vector::{Vector, add, cross, dot, length as norm, scale, sub};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, JointId, LinkId, Mechanism};
-
-/// A vector of space.
-pub(super) type Vector = [f64; 3];
 
 /// A side to look from.
 #[derive(Debug, Clone, Copy)]
@@ -397,47 +396,12 @@ pub(super) fn bounds(points: &[Point]) -> Rect {
 }
 
 fn extent(places: &[Place]) -> f64 {
-    let span = |i: usize| {
-        let all = places.iter().map(|p| p.point[i]);
-        let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
-            (l.min(v), h.max(v))
-        });
-        if high > low { high - low } else { 0.0 }
-    };
-    norm([span(0), span(1), span(2)])
+    diagonal(places.iter().map(|p| p.point))
 }
 
 fn middle(places: &[Place]) -> Vector {
     let sum = places.iter().fold([0.0; 3], |s, p| add(s, p.point));
     scale(sum, 1.0 / places.len().max(1) as f64)
-}
-
-pub(super) fn add(a: Vector, b: Vector) -> Vector {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-pub(super) fn sub(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-pub(super) fn scale(a: Vector, by: f64) -> Vector {
-    a.map(|x| x * by)
-}
-
-pub(super) fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(super) fn cross(a: Vector, b: Vector) -> Vector {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-pub(super) fn norm(a: Vector) -> f64 {
-    a[0].hypot(a[1]).hypot(a[2])
 }
 
 fn unit(a: Vector, or: Vector) -> Vector {

@@ -4,14 +4,17 @@ use crate::drive::programme::{Endurance, Module, Run};
 use crate::drive::swing::{Disc, Feed, Latch, SwingError};
 use crate::drive::torsion::{Bar, CamSpring, Sizing, Wanted, frequency, friction_energy};
 use crate::model::drive::{Damping, DriveSpec};
+use serde::Serialize;
 
 /// Lengths of bars that are chosen are multiples of this. `[m]`
 pub const LENGTH_STEP: f64 = 1e-3;
 
 /// Where the damping of a simulation comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum DampingFrom {
     /// The file.
+    #[serde(rename = "file")]
     Stated,
     /// The viscous damping that gives the missing angle.
     MissingAngle,
@@ -116,6 +119,16 @@ fn motion(stiffness: f64, inertia: f64, twist: f64, radius: Option<f64>) -> Moti
 ///
 /// # Sources
 /// `[Klyuchkovskyi 1999]`: φ0, hardest motion, largest inertia, then bar, missing angle, spring.
+///
+/// # Examples
+/// ```
+/// let text = ozols::builtin::text("torsion-module").expect("it is built in");
+/// let file = ozols::file::read::workload::drive_from_bytes("torsion-module.toml", text.as_bytes())?;
+/// let found = ozols::drive::driving::drive(&file.spec)?;
+/// let design = found.design.expect("a bar is found");
+/// assert!(design.run.complete());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
     let sizing = wanted(spec).size();
     let Some(bar) = sizing.bar else {
@@ -126,25 +139,18 @@ pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
     };
     let stiffness = bar.stiffness();
     let largest = usize::from(spec.inertias[1] > spec.inertias[0]);
+    let viscous = |viscous| Damping {
+        viscous,
+        coulomb: 0.0,
+    };
     let (damping, damping_from) = match (spec.damping, spec.missing) {
         (Some(d), _) => (d, DampingFrom::Stated),
         (None, Some(missing)) => {
-            let viscous = Disc::viscous_for(spec.inertias[largest], stiffness, spec.twist, missing);
-            (
-                Damping {
-                    viscous,
-                    coulomb: 0.0,
-                },
-                DampingFrom::MissingAngle,
-            )
+            let inertia = spec.inertias[largest];
+            let needed = Disc::viscous_for(inertia, stiffness, spec.twist, missing);
+            (viscous(needed), DampingFrom::MissingAngle)
         }
-        (None, None) => (
-            Damping {
-                viscous: 0.0,
-                coulomb: 0.0,
-            },
-            DampingFrom::None,
-        ),
+        (None, None) => (viscous(0.0), DampingFrom::None),
     };
     let disc = |inertia| Disc {
         inertia,

@@ -3,6 +3,7 @@
 //!
 //! The disc starts at rest at -A from the neutral position and moves towards the latch at +φ0; `u` is its place, growing.
 
+use serde::Serialize;
 use std::f64::consts::PI;
 use thiserror::Error;
 
@@ -85,7 +86,7 @@ struct Piece {
 }
 
 /// Where the energy of a swing went. `[J]`
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Balance {
     /// In the bar at the start.
     pub initial: f64,

@@ -8,10 +8,13 @@ use crate::file::read::resolve::{index, key};
 use crate::file::read::workload::workload_tables;
 use crate::file::schema::{MechanismFile, OptionEntry, Unloading};
 use crate::file::text::{is_json, read, text_of};
+use crate::format::number::significant;
 use crate::geom::expr::Expr;
+use crate::geom::extent::diagonal;
+use crate::geom::vector::{length, real, sub};
 use crate::model::joint_type::JointType;
 use crate::model::measured::looks_measured;
-use crate::model::mechanism::{Joint, JointId, Mechanism, Role};
+use crate::model::mechanism::{Joint, JointId, Mechanism, Role, StateId};
 use crate::model::ranking::Term;
 use annotate_snippets::Level;
 use itertools::Itertools;
@@ -232,46 +235,27 @@ fn find(file: &MechanismFile, m: &Mechanism) -> Found {
 }
 
 fn place(j: &Joint) -> [f64; 3] {
-    [0, 1, 2].map(|i| j.frame.point[i].to_f64())
+    real(&j.frame.point)
 }
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
-}
-
-fn short(x: f64) -> String {
-    if (1e-3..1e5).contains(&x) {
-        let text = format!("{x:.3}");
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        format!("{x:.2e}")
-    }
+    length(sub(a, b))
 }
 
 /// Diagonal of the box round the joints, in the file's unit.
 #[must_use]
 pub fn across(m: &Mechanism) -> f64 {
-    let bound = |i: usize, pick: fn(f64, f64) -> f64| {
-        m.joints
-            .iter()
-            .map(|j| place(j)[i])
-            .reduce(pick)
-            .unwrap_or(0.0)
-    };
-    distance(
-        [0, 1, 2].map(|i| bound(i, f64::min)),
-        [0, 1, 2].map(|i| bound(i, f64::max)),
-    )
+    diagonal(m.joints.iter().map(place))
 }
 
 fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
     let across = across(m);
     let metres = across * m.length_unit.metres;
     if file.length_unit.is_none() && metres > FORGOTTEN_UNIT {
-        let across = short(metres);
+        let across = significant(metres);
         out.push((root("name"), DoubtKind::ForgottenUnit { across }));
     } else if across > 0.0 && !(SIZES.0..=SIZES.1).contains(&metres) {
-        let (across, unit) = (short(metres), m.length_unit.symbol);
+        let (across, unit) = (significant(metres), m.length_unit.symbol);
         out.push((root("length_unit"), DoubtKind::OddSize { across, unit }));
     }
     if let Some(measured) = looks_measured(m) {
@@ -279,7 +263,7 @@ fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
         out.push((root("joint"), DoubtKind::Measured { what }));
         return;
     }
-    let pairs = (0..m.joints.len()).tuple_combinations();
+    let pairs = m.joint_ids().tuple_combinations();
     let near = pairs.filter(|&(a, b)| {
         let shared = m.joints[a]
             .links
@@ -295,20 +279,22 @@ fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
         let kind = DoubtKind::NearlyOnePlace {
             first: m.joints[a].id.clone(),
             second: m.joints[b].id.clone(),
-            apart: short(apart),
-            across: short(across),
+            apart: significant(apart),
+            across: significant(across),
             unit: m.length_unit.symbol,
         };
-        out.push((key(&index(&root("joint"), b), "point"), kind));
+        out.push((key(&index(&root("joint"), b.index()), "point"), kind));
     }
 }
 
 fn contours(m: &Mechanism, out: &mut Found) {
     let joints = |c: &Contour| c.joints.iter().map(|&(j, _)| j).sorted().collect_vec();
-    let bases: Vec<Vec<Vec<JointId>>> = (0..m.states.len())
+    let bases: Vec<Vec<Vec<JointId>>> = m
+        .state_ids()
         .map(|s| contour_basis(m, s).iter().map(joints).collect())
         .collect();
-    let walked: Vec<bool> = (0..m.joints.len())
+    let walked: Vec<bool> = m
+        .joint_ids()
         .map(|j| {
             let coupled = m.couplings.iter().flat_map(|c| &c.ends);
             bases.iter().flatten().any(|c| c.contains(&j))
@@ -318,7 +304,7 @@ fn contours(m: &Mechanism, out: &mut Found) {
     if !walked.contains(&true) {
         out.push((root("joint"), DoubtKind::NoContour));
     } else {
-        let open: Vec<JointId> = (0..m.joints.len()).filter(|&j| !walked[j]).collect();
+        let open: Vec<JointId> = m.joint_ids().filter(|&j| !walked[j]).collect();
         if let Some(&first) = open.first() {
             let names = open.iter().take(SHOWN).map(|&j| m.joints[j].id.as_str());
             let more = match open.len().saturating_sub(SHOWN) {
@@ -327,7 +313,7 @@ fn contours(m: &Mechanism, out: &mut Found) {
             };
             let joints = format!("{}{more}", names.format(", "));
             out.push((
-                index(&root("joint"), first),
+                index(&root("joint"), first.index()),
                 DoubtKind::OpenChain { joints },
             ));
         }
@@ -344,27 +330,27 @@ fn contours(m: &Mechanism, out: &mut Found) {
 }
 
 fn structure(m: &Mechanism, out: &mut Found) {
-    for (l, link) in m.links.iter().enumerate() {
+    for (l, link) in m.links_with_ids() {
         if link.role != Role::Object {
             continue;
         }
-        let at = key(&index(&root("link"), l), "id");
-        let here = |s: usize| {
+        let at = key(&index(&root("link"), l.index()), "id");
+        let here = |s: StateId| {
             let of = |&j: &JointId| m.joints[j].links.contains(&l);
             m.joints_in(s).filter(of).count()
         };
-        if here(0) > 0 {
+        if here(StateId::FREE) > 0 {
             let link = link.id.clone();
             out.push((at, DoubtKind::ObjectAlwaysThere { link }));
             continue;
         }
-        if let Some(s) = (0..m.states.len()).find(|&s| here(s) == 1) {
+        if let Some(s) = m.state_ids().find(|&s| here(s) == 1) {
             let (link, state) = (link.id.clone(), m.states[s].clone());
             out.push((at, DoubtKind::Dangling { link, state }));
         }
     }
-    for (i, j) in m.joints.iter().enumerate() {
-        let at = index(&root("joint"), i);
+    for (i, j) in m.joints_with_ids() {
+        let at = index(&root("joint"), i.index());
         if j.joint_type == JointType::Fixed && j.states.is_none() {
             let kind = DoubtKind::AlwaysFixed {
                 joint: j.id.clone(),
@@ -373,7 +359,7 @@ fn structure(m: &Mechanism, out: &mut Found) {
             };
             out.push((key(&at, "type"), kind));
         }
-        let twin = m.joints[..i].iter().find(|o| twins(o, j));
+        let twin = m.joints[..i.index()].iter().find(|o| twins(o, j));
         if let Some(o) = twin {
             let (first, second) = (o.id.clone(), j.id.clone());
             out.push((key(&at, "links"), DoubtKind::Twin { first, second }));

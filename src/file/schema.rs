@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// A mechanism: links, joints, and what a search may change.
-#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MechanismFile {
     /// Short name, such as "four-bar".
@@ -277,7 +277,7 @@ impl MechanismFile {
     }
 }
 
-/// Removes what says nothing: null, false, "" and empty tables and lists.
+/// Removes what says nothing: null, false, "" (but for names) and empty tables and lists.
 fn strip(value: &mut serde_json::Value) {
     use serde_json::Value;
     match value {
@@ -286,7 +286,7 @@ fn strip(value: &mut serde_json::Value) {
             map.values_mut().for_each(strip);
             map.retain(|k, v| match v {
                 Value::Null | Value::Bool(false) => false,
-                Value::String(s) => !s.is_empty(),
+                Value::String(s) => !s.is_empty() || k == "name",
                 Value::Array(a) => !a.is_empty() || k == "freedoms",
                 Value::Object(o) => !o.is_empty(),
                 _ => true,

@@ -17,13 +17,20 @@ use crate::geom::expr::Expr;
 use crate::model::coupling::Coupling;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::loads::{ExternalMoment, Inertia, Stiffness};
-use crate::model::mechanism::{Expected, Frame, Joint, JointOption, Mechanism, Mode, Role};
+use crate::model::mechanism::{
+    Expected, Frame, Joint, JointId, JointOption, Mechanism, Mode, Role, StateId,
+};
+use serde::ser::Error;
 use std::collections::BTreeMap;
+use toml_edit::{DocumentMut, Item};
+
+/// Columns of a comment, without its mark.
+const LONGEST_COMMENT: usize = 110;
 
 /// The file of a mechanism. Options that the file had in common stand at each joint; nothing else is changed.
 #[must_use]
 pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
-    let ids = |list: &[usize]| list.iter().map(|&j| m.joints[j].id.clone()).collect();
+    let ids = |list: &[JointId]| list.iter().map(|&j| m.joints[j].id.clone()).collect();
     let (mode, plane_normal) = match &m.mode {
         Mode::Spatial => (None, None),
         Mode::Planar { normal } => (Some("planar".to_owned()), Some(vector(normal))),
@@ -59,6 +66,66 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
         joint_types: ranking::joint_types(m),
         expected: m.expected.iter().map(expected).collect(),
     }
+}
+
+/// What is said above a table of a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Comment {
+    /// The table's name, such as "joint".
+    table: &'static str,
+    /// Which of the tables of that name.
+    index: usize,
+    /// The words.
+    text: String,
+}
+
+impl Comment {
+    /// Words above the table of a name, the `index`th where there are several.
+    #[must_use]
+    pub fn new(table: &'static str, index: usize, text: &str) -> Comment {
+        Comment {
+            table,
+            index,
+            text: text.replace(char::is_control, " "),
+        }
+    }
+
+    /// The words as lines of TOML, a blank one first.
+    fn lines(&self) -> String {
+        let (mut out, mut width) = (String::from("\n#"), 0);
+        for word in self.text.split_whitespace() {
+            if width > 0 && width + word.len() > LONGEST_COMMENT {
+                out.push_str("\n#");
+                width = 0;
+            }
+            width += usize::from(width > 0) + word.len();
+            out.push(' ');
+            out.push_str(word);
+        }
+        out + "\n"
+    }
+}
+
+/// A file as TOML.
+///
+/// # Errors
+/// Never for the file of a validated mechanism, as far as is known.
+pub fn toml(file: &MechanismFile, comments: &[Comment]) -> Result<String, toml::ser::Error> {
+    let text = toml::to_string(&file.json())?;
+    if comments.is_empty() {
+        return Ok(text);
+    }
+    let mut document: DocumentMut = text.parse().map_err(toml::ser::Error::custom)?;
+    for c in comments {
+        let table = match document.get_mut(c.table) {
+            Some(Item::ArrayOfTables(tables)) => tables.get_mut(c.index),
+            other => other.and_then(Item::as_table_mut),
+        };
+        if let Some(table) = table {
+            table.decor_mut().set_prefix(c.lines());
+        }
+    }
+    Ok(document.to_string())
 }
 
 /// The word for a role.
@@ -126,7 +193,7 @@ fn cost(milli: i64) -> f64 {
 }
 
 fn joint(m: &Mechanism, j: &Joint) -> JointEntry {
-    let names = |s: &Vec<usize>| s.iter().map(|&s| m.states[s].clone()).collect::<Vec<_>>();
+    let names = |s: &Vec<StateId>| s.iter().map(|&s| m.states[s].clone()).collect::<Vec<_>>();
     // The present joint is understood, unless it has a cost of its own.
     let priced = j.options.first().is_some_and(|o| o.cost_milli.is_some());
     let listed = j.options.iter().skip(usize::from(!priced));

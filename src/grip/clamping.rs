@@ -1,7 +1,9 @@
 //! What a gripper can hold over a range of diameters and motions, and the drive moment that takes.
 
+use crate::format::number::decimals;
+use crate::geom::vector::unit;
 use crate::grip::contact::{Gripper, Pose, Unholdable};
-use crate::grip::holding::{Coupling, Holding, HoldingError, Load, Outcome, Slip, Spatial, hold};
+use crate::grip::holding::{Holding, HoldingError, Load, Outcome, Slip, Spatial, hold};
 use crate::grip::lever_arm::{Arms, Lever, LeverError};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, Pivots, Toward};
 use itertools::Itertools;
@@ -105,15 +107,7 @@ struct Case {
 }
 
 fn vector([x, y, z]: Spatial) -> String {
-    let round = |v: f64| {
-        let text = format!("{v:.3}");
-        let short = text.trim_end_matches('0').trim_end_matches('.');
-        if short == "-0" {
-            "0".to_owned()
-        } else {
-            short.to_owned()
-        }
-    };
+    let round = |v| decimals(v, 3);
     format!("({}, {}, {})", round(x), round(y), round(z))
 }
 
@@ -160,11 +154,6 @@ fn cases(load: &GripLoad) -> Vec<Case> {
     load.accelerations.iter().map(each).collect()
 }
 
-fn unit(v: Spatial) -> Spatial {
-    let size = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    v.map(|x| x / size)
-}
-
 fn cube_directions() -> impl Iterator<Item = Spatial> {
     let steps = [-1.0, 0.0, 1.0];
     let all = steps
@@ -185,12 +174,7 @@ fn hardness(v: &Verdict) -> f64 {
 }
 
 fn verdict(pose: &Pose, load: &Load, friction: f64, levers: LeverDrive) -> Verdict {
-    let coupling = match levers {
-        LeverDrive::Coupled => Coupling::Coupled,
-        LeverDrive::Equal => Coupling::Equal,
-        LeverDrive::Independent => Coupling::Independent,
-    };
-    match hold(pose, load, friction, coupling) {
+    match hold(pose, load, friction, levers) {
         Ok(Outcome::Held(h)) => Verdict::Held(h),
         Ok(Outcome::Slips(s)) => Verdict::Slips(s),
         Err(e) => Verdict::Undecided(e),

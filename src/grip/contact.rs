@@ -3,6 +3,7 @@
 //! Axes: x along the gripper's axis of symmetry from the pivots to the part, y from the lower to the upper lever, z along
 //! the pivots and the part. The origin is midway between the pivots.
 
+use crate::geom::vector::{cross_plane, dot, turned};
 use crate::grip::lever_arm::Lever;
 use std::fmt;
 
@@ -147,17 +148,6 @@ impl fmt::Display for Unholdable {
     }
 }
 
-fn turned([x, y]: Planar, angle: f64) -> Planar {
-    let (s, c) = angle.sin_cos();
-    [x * c - y * s, x * s + y * c]
-}
-
-/// z component of the vector product.
-#[must_use]
-pub fn cross(a: Planar, b: Planar) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
-}
-
 impl Gripper {
     /// The gripper for which a diameter is nominal.
     #[must_use]
@@ -201,7 +191,7 @@ impl Gripper {
         let centre = [ahead.sqrt(), 0.0];
         let pivot = [0.0, self.pivot];
         let wanted = [centre[0], -self.pivot];
-        let turn = cross(across, wanted).atan2(across[0] * wanted[0] + across[1] * wanted[1]);
+        let turn = cross_plane(across, wanted).atan2(dot(across, wanted));
         let arm = turned([-pivot_there[0], -pivot_there[1]], turn);
         let vertex = [pivot[0] + arm[0], pivot[1] + arm[1]];
         let down = turned([0.0, -1.0], turn);

@@ -4,7 +4,9 @@
 //! cone is kept exact (a second-order cone programme). Forces that *can* hold are asked for: where more than one set does, nature
 //! may choose another, which is what the safety factor is for.
 
+use crate::geom::vector::cross;
 use crate::grip::contact::Pose;
+use crate::model::grip::LeverDrive;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettings, DefaultSolution, DefaultSolver, IPSolver, SolverStatus, SupportedConeT,
@@ -14,17 +16,6 @@ use thiserror::Error;
 
 /// A vector in the gripper's axes, see [`crate::grip::contact`].
 pub type Spatial = [f64; 3];
-
-/// How the drive reaches the two levers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Coupling {
-    /// One drive turns both levers by the same angle through gears or a slider, which pass any difference on.
-    Coupled,
-    /// Both levers are given the same moment, as from one pressure in two cylinders.
-    Equal,
-    /// Each lever has a drive of its own that gives any moment from zero to the stated one.
-    Independent,
-}
 
 /// A wrench on the part at its centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +36,7 @@ impl Load {
         let force = [0, 1, 2].map(|i| mass * (gravity[i] - acceleration[i]));
         Load {
             force,
-            moment: cross3(offset, force),
+            moment: cross(offset, force),
         }
     }
 
@@ -126,14 +117,6 @@ pub enum HoldingError {
     Solver(String),
 }
 
-fn cross3(a: Spatial, b: Spatial) -> Spatial {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
 /// A linear programme over cones: minimise the drive moment subject to `row · x + s = right`, s in the cone of the row.
 /// Dimensionless: lengths over the lever's, forces over the load.
 struct Programme<'a> {
@@ -195,7 +178,7 @@ impl<'a> Programme<'a> {
             .components()
             .map(|(c, d, v)| {
                 let f = self.directions[c][d];
-                (v, f, cross3(self.from(self.pose.centre, c), f))
+                (v, f, cross(self.from(self.pose.centre, c), f))
             })
             .collect();
         for axis in 0..3 {
@@ -219,7 +202,7 @@ impl<'a> Programme<'a> {
         own.map(|(c, d, v)| {
             (
                 v,
-                sign * cross3(self.from(self.pose.pivots[k], c), self.directions[c][d])[2],
+                sign * cross(self.from(self.pose.pivots[k], c), self.directions[c][d])[2],
             )
         })
         .collect()
@@ -233,9 +216,9 @@ impl<'a> Programme<'a> {
         }
     }
 
-    fn write(mut self, load: &Load, unit: f64, friction: f64, coupling: Coupling) -> Self {
+    fn write(mut self, load: &Load, unit: f64, friction: f64, levers: LeverDrive) -> Self {
         self.balance(load, unit);
-        if coupling == Coupling::Equal {
+        if levers == LeverDrive::Equal {
             self.equal_levers();
         }
         // Components that frictionless contacts do not have are held at zero.
@@ -246,19 +229,19 @@ impl<'a> Programme<'a> {
         self.cones.push(ZeroConeT(self.rows.len()));
         let equations = self.rows.len();
         self.row([(DRIVE, -1.0)], 0.0);
-        match coupling {
-            Coupling::Coupled => {
+        match levers {
+            LeverDrive::Coupled => {
                 let both = self.lever(0, 0.5).into_iter().chain(self.lever(1, 0.5));
                 self.row(both.chain([(DRIVE, -1.0)]), 0.0);
             }
-            Coupling::Independent => {
+            LeverDrive::Independent => {
                 self.equal_levers();
                 for k in 0..2 {
                     let row = self.lever(k, -1.0);
                     self.row(row, 0.0);
                 }
             }
-            Coupling::Equal => {}
+            LeverDrive::Equal => {}
         }
         if friction == 0.0 {
             (0..4).for_each(|c| self.row([(3 * c, -1.0)], 0.0));
@@ -326,7 +309,7 @@ pub fn hold(
     pose: &Pose,
     load: &Load,
     friction: f64,
-    coupling: Coupling,
+    levers: LeverDrive,
 ) -> Result<Outcome, HoldingError> {
     if !(0.0..=10.0).contains(&friction) {
         return Err(HoldingError::Friction(friction));
@@ -355,7 +338,7 @@ pub fn hold(
             lower_bound: 0.0,
         }));
     }
-    let programme = programme.write(load, unit, friction, coupling);
+    let programme = programme.write(load, unit, friction, levers);
     let s = programme.solve()?;
     match s.status {
         SolverStatus::Solved | SolverStatus::AlmostSolved => {
@@ -378,9 +361,9 @@ pub fn hold(
             };
             let moments = [moment(0), moment(1)];
             // That of these forces, so that statics find the same, and not the solver's own to its tolerance.
-            let drive = match coupling {
-                Coupling::Coupled => f64::midpoint(moments[0], moments[1]),
-                Coupling::Equal | Coupling::Independent => moments[0].max(moments[1]),
+            let drive = match levers {
+                LeverDrive::Coupled => f64::midpoint(moments[0], moments[1]),
+                LeverDrive::Equal | LeverDrive::Independent => moments[0].max(moments[1]),
             };
             Ok(Outcome::Held(Holding {
                 forces,

@@ -18,6 +18,7 @@
 
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
+use crate::geom::vector::{cross, dot, sub};
 use crate::grip::clamping::{Row, Study, Verdict, study};
 use crate::grip::contact::{self, Contact, Unholdable};
 use crate::grip::lever_arm::LeverError;
@@ -27,7 +28,6 @@ use crate::model::loads::{ExternalForce, Loads};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::follow::{Follower, slides};
 use crate::motion::pose::Pose;
-use crate::statics::reactions::geometry::{cross, dot};
 use thiserror::Error;
 
 /// Points of the file may be this fraction of the lever's length from where the grip's figures have them.
@@ -167,10 +167,6 @@ fn mean(points: &[[f64; 3]]) -> [f64; 3] {
     [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / n)
 }
 
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|i| a[i] - b[i])
-}
-
 fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
     let size = dot(a, a).sqrt();
     (size > 0.0).then(|| a.map(|x| x / size))
@@ -182,10 +178,10 @@ fn axes(contacts: [[f64; 3]; 4], pivots: [[f64; 3]; 2], hinge: [f64; 3]) -> Opti
         let along = dot(v, hinge);
         [0, 1, 2].map(|i| v[i] - along * hinge[i])
     };
-    let ahead = minus(mean(&contacts), mean(&pivots));
+    let ahead = sub(mean(&contacts), mean(&pivots));
     let x = unit(across(ahead))?;
-    let up = across(minus(mean(&contacts[..2]), mean(&contacts[2..])));
-    let y = unit(minus(up, x.map(|c| c * dot(up, x))))?;
+    let up = across(sub(mean(&contacts[..2]), mean(&contacts[2..])));
+    let y = unit(sub(up, x.map(|c| c * dot(up, x))))?;
     let (z, along) = (cross(x, y), dot(ahead, hinge));
     Some(Axes {
         // Midway between the pivots, in the plane of the contacts.

@@ -1,10 +1,11 @@
 //! Force arms of a clamping lever with a V-prism, in closed form.
 
+use serde::Serialize;
 use std::f64::consts::PI;
 use thiserror::Error;
 
 /// A clamping lever whose end carries a V-prism. `[Pavlenko & Godunko 2010]`, fig. 1.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Lever {
     /// L, from the pivot to the vertex of the prism. `[m]`
     pub length: f64,
@@ -32,7 +33,7 @@ pub enum LeverError {
 }
 
 /// The arms of the two clamping forces about the lever's pivot, with their parts. `[m]`
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Arms {
     /// l11 = L cos(180° - α - γ), equation (4).
     pub l11: f64,
@@ -46,19 +47,6 @@ pub struct Arms {
     pub l22: f64,
     /// l2 = l21 - l22, of the contact near the pivot, equations (2) and (6).
     pub l2: f64,
-}
-
-impl Arms {
-    /// The longer arm over the shorter; infinite where one is not positive.
-    #[must_use]
-    pub fn ratio(&self) -> f64 {
-        let (short, long) = (self.l1.min(self.l2), self.l1.max(self.l2));
-        if short > 0.0 {
-            long / short
-        } else {
-            f64::INFINITY
-        }
-    }
 }
 
 impl Lever {

@@ -16,11 +16,11 @@ pub enum Pivots {
 /// How the drive reaches the levers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LeverDrive {
-    /// One drive, both levers by the same angle.
+    /// One drive turns both levers by the same angle through gears or a slider, which pass any difference on.
     Coupled,
-    /// The same moment on both.
+    /// Both levers are given the same moment, as from one pressure in two cylinders.
     Equal,
-    /// A drive each.
+    /// Each lever has a drive of its own that gives any moment from zero to the stated one.
     Independent,
 }
 

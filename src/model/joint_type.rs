@@ -39,6 +39,18 @@ impl Freedom {
         Freedom::ALL[self as usize].1
     }
 
+    /// Whether it is a turn; a screw is neither a turn nor a slide.
+    #[must_use]
+    pub fn turns(self) -> bool {
+        matches!(self, Freedom::Rx | Freedom::Ry | Freedom::Rz)
+    }
+
+    /// Whether it is a slide.
+    #[must_use]
+    pub fn slides(self) -> bool {
+        matches!(self, Freedom::Tx | Freedom::Ty | Freedom::Tz)
+    }
+
     /// The freedom a word names, if any.
     #[must_use]
     pub fn from_name(word: &str) -> Option<Freedom> {

@@ -41,20 +41,18 @@ pub struct ExternalForce {
     pub range: Option<[f64; 2]>,
 }
 
-impl ExternalForce {
-    /// Whether it acts when the first drive is at a position, counted from the pose of the file; its range comes again
-    /// after `period`, where there is one.
-    #[must_use]
-    pub fn acts_at(&self, drive: f64, period: Option<f64>) -> bool {
-        /// Drive positions nearer than this to the end of a range are in it.
-        const AT_END: f64 = 1e-9;
-        let Some([from, to]) = self.range else {
-            return true;
-        };
-        match period.filter(|_| from.is_finite() && to.is_finite()) {
-            Some(period) => (drive - from + AT_END).rem_euclid(period) <= to - from + 2.0 * AT_END,
-            None => (from - AT_END..=to + AT_END).contains(&drive),
-        }
+/// Whether a force acts when the first drive is at a position, counted from the pose of the file, given the range it acts
+/// in (always where there is none); the range comes again after `period`, where there is one.
+#[must_use]
+pub fn acts_at(range: Option<[f64; 2]>, drive: f64, period: Option<f64>) -> bool {
+    /// Drive positions nearer than this to the end of a range are in it.
+    const AT_END: f64 = 1e-9;
+    let Some([from, to]) = range else {
+        return true;
+    };
+    match period.filter(|_| from.is_finite() && to.is_finite()) {
+        Some(period) => (drive - from + AT_END).rem_euclid(period) <= to - from + 2.0 * AT_END,
+        None => (from - AT_END..=to + AT_END).contains(&drive),
     }
 }
 
@@ -94,6 +92,19 @@ pub struct Stroke {
     pub to: f64,
     /// Number of equal steps, at least 1.
     pub steps: usize,
+}
+
+impl Stroke {
+    /// Its positions, both ends included.
+    #[must_use]
+    pub fn positions(&self) -> Vec<f64> {
+        let steps = self.steps.max(1);
+        #[allow(clippy::cast_precision_loss, reason = "at most 1e5 steps")]
+        let part = |i: usize| i as f64 / steps as f64;
+        (0..=steps)
+            .map(|i| self.from + (self.to - self.from) * part(i))
+            .collect()
+    }
 }
 
 /// Loads and drive of a mechanism.

@@ -6,12 +6,7 @@ use crate::model::joint_type::JointType;
 use crate::model::loads::{Loads, MassProperties};
 use crate::model::ranking::{Ranking, TypeOverride};
 
-/// Index of a link in [`Mechanism::links`].
-pub type LinkId = usize;
-/// Index of a joint in [`Mechanism::joints`].
-pub type JointId = usize;
-/// Index of a state in [`Mechanism::states`]; 0 is the free state.
-pub type StateId = usize;
+pub use crate::model::id::{JointId, LinkId, StateId};
 
 /// What a link is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -184,9 +179,45 @@ pub struct Mechanism {
 }
 
 impl Mechanism {
+    /// The ids of the links, in file order.
+    pub fn link_ids(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = LinkId> + ExactSizeIterator + Clone + use<> {
+        LinkId::first(self.links.len())
+    }
+
+    /// The ids of the joints, in file order.
+    pub fn joint_ids(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = JointId> + ExactSizeIterator + Clone + use<> {
+        JointId::first(self.joints.len())
+    }
+
+    /// The ids of the states, the free one first.
+    pub fn state_ids(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = StateId> + ExactSizeIterator + Clone + use<> {
+        StateId::first(self.states.len())
+    }
+
+    /// The links with their ids, in file order.
+    pub fn links_with_ids(&self) -> impl Iterator<Item = (LinkId, &Link)> {
+        self.link_ids().zip(&self.links)
+    }
+
+    /// The joints with their ids, in file order.
+    pub fn joints_with_ids(&self) -> impl Iterator<Item = (JointId, &Joint)> {
+        self.joint_ids().zip(&self.joints)
+    }
+
+    /// The states' names with their ids, the free one first.
+    pub fn states_with_ids(&self) -> impl Iterator<Item = (StateId, &String)> {
+        self.state_ids().zip(&self.states)
+    }
+
     /// The joints present in a state, in file order.
     pub fn joints_in(&self, state: StateId) -> impl Iterator<Item = JointId> + '_ {
-        (0..self.joints.len()).filter(move |&j| {
+        self.joint_ids().filter(move |&j| {
             self.joints[j]
                 .states
                 .as_ref()
@@ -217,21 +248,26 @@ impl Mechanism {
     /// Never: a validated mechanism has one.
     #[must_use]
     pub fn frame(&self) -> LinkId {
-        self.links
-            .iter()
-            .position(|l| l.role == Role::Frame)
+        self.link_ids()
+            .find(|&l| self.links[l].role == Role::Frame)
             .expect("a validated mechanism has a frame")
     }
 
     /// The link with this id.
     #[must_use]
     pub fn link(&self, id: &str) -> Option<LinkId> {
-        self.links.iter().position(|l| l.id == id)
+        self.link_ids().find(|&l| self.links[l].id == id)
+    }
+
+    /// The state with this name.
+    #[must_use]
+    pub fn state(&self, name: &str) -> Option<StateId> {
+        self.state_ids().find(|&s| self.states[s] == name)
     }
 
     /// The joint with this id.
     #[must_use]
     pub fn joint(&self, id: &str) -> Option<JointId> {
-        self.joints.iter().position(|j| j.id == id)
+        self.joint_ids().find(|&j| self.joints[j].id == id)
     }
 }

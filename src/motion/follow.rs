@@ -11,13 +11,10 @@
 //! Coordinates are counted from one pose, so that errors of closing do not add up; only balls that have turned far get a
 //! new one.
 
-use crate::model::joint_type::Freedom;
-use crate::motion::pose::Pose;
+use crate::motion::pose::{FLAT, Pose};
 use faer::Mat;
 use thiserror::Error;
 
-/// Singular values of J below this fraction of the largest count as zero at a pose that Newton's method has closed.
-pub const FLAT: f64 = 1e-6;
 /// The longest step of the drive: radians, or fractions of the mechanism's size.
 const LONGEST: f64 = 0.1;
 /// The longest step of any coordinate.
@@ -274,10 +271,10 @@ impl Follower {
 
     /// Counts coordinates from here where a ball has turned so far that its axes are about to meet.
     fn drop_anchor(&mut self) {
-        let turn = |f: Freedom| matches!(f, Freedom::Rx | Freedom::Ry | Freedom::Rz);
         let columns = &self.anchor.columns;
         let far = columns.windows(3).enumerate().any(|(i, w)| {
-            w.iter().all(|c| c.joint == w[0].joint && turn(c.freedom)) && self.q[i + 1].abs() > BALL
+            w.iter().all(|c| c.joint == w[0].joint && c.freedom.turns())
+                && self.q[i + 1].abs() > BALL
         });
         // In a singular pose the direction one came from would be lost.
         if far && self.tangent.motions == self.fewest {
@@ -409,10 +406,7 @@ pub fn follow(
 /// Whether a column of a pose slides.
 #[must_use]
 pub fn slides(pose: &Pose, column: usize) -> bool {
-    matches!(
-        pose.columns[column].freedom,
-        Freedom::Tx | Freedom::Ty | Freedom::Tz
-    )
+    pose.columns[column].freedom.slides()
 }
 
 /// The positions of a stroke in equal steps, both ends included.

@@ -1,5 +1,4 @@
-//! Poses of a closed mechanism: every contour as a product of exponentials, every coupling as a linear equation, and
-//! Newton's method to close them.
+//! Poses of a closed mechanism: every contour as a product of exponentials, every coupling as a linear equation.
 //!
 //! Each freedom is one unit twist at a reference pose; a contour is closed at coordinates q when the product of
 //! exp(±q_i ξ_i) along it is the identity [Brockett 1984; Lynch & Park, "Modern Robotics", 2017, ch. 4 and 7]. Within a
@@ -9,147 +8,34 @@
 //! mechanism and taken from its middle, so that coordinates are radians and fractions of that size.
 
 use crate::closure::contour::{Contour, contour_basis};
+use crate::closure::tree::spanning_tree;
 use crate::closure::twist::{FrameValues, MotionSpace, Twist};
 use crate::geom::exact::ExactError;
 use crate::geom::extent::Extent;
+use crate::geom::rigid::{Motion, halves};
 use crate::geom::scalars::Reals;
+use crate::geom::vector::{self, across, cross, dot, length, sub};
 use crate::model::coupling::{CoupledFreedom, Coupling};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use faer::Mat;
-use faer::linalg::solvers::SolveLstsq;
 
 /// Largest residual of a closed pose: radians, and fractions of the mechanism's size.
 pub const CLOSED: f64 = 1e-12;
-/// Newton steps before a pose is given up.
-const STEPS: usize = 60;
+/// Singular values of J below this fraction of the largest count as zero at a pose that Newton's method has closed.
+pub const FLAT: f64 = 1e-6;
 
-/// A rigid displacement: rotation (rows) and translation.
-#[derive(Debug, Clone, Copy)]
-pub struct Displacement {
-    rotation: [[f64; 3]; 3],
-    translation: [f64; 3],
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn halves(t: &Twist<f64>) -> ([f64; 3], [f64; 3]) {
-    ([t[0], t[1], t[2]], [t[3], t[4], t[5]])
-}
-
-impl Displacement {
-    /// No displacement.
-    pub const IDENTITY: Displacement = Displacement {
-        rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-        translation: [0.0; 3],
+/// Turn and shift as six numbers that vanish together with a motion: (sin θ · axis; translation).
+fn defect(motion: &Motion) -> [f64; 6] {
+    // Beyond a quarter turn the sine falls again; keep it growing so that half a turn is no solution.
+    let cosine = motion.cosine();
+    let grow = if cosine < 0.0 {
+        1.0 - 2.0 * cosine
+    } else {
+        1.0
     };
-
-    /// The displacement of a unit twist (unit angular velocity, or none) through `q`.
-    #[must_use]
-    pub fn exp(twist: &Twist<f64>, q: f64) -> Displacement {
-        let (w, v) = halves(twist);
-        if w == [0.0; 3] {
-            return Displacement {
-                translation: v.map(|x| x * q),
-                ..Displacement::IDENTITY
-            };
-        }
-        let (s, c) = q.sin_cos();
-        let k = 1.0 - c;
-        let rotation = [
-            [
-                c + w[0] * w[0] * k,
-                w[0] * w[1] * k - w[2] * s,
-                w[0] * w[2] * k + w[1] * s,
-            ],
-            [
-                w[1] * w[0] * k + w[2] * s,
-                c + w[1] * w[1] * k,
-                w[1] * w[2] * k - w[0] * s,
-            ],
-            [
-                w[2] * w[0] * k - w[1] * s,
-                w[2] * w[1] * k + w[0] * s,
-                c + w[2] * w[2] * k,
-            ],
-        ];
-        // (I - R)(ω × v) + ω (ω·v) q
-        let u = cross(w, v);
-        let along = dot(w, v) * q;
-        let translation = [0, 1, 2].map(|i| u[i] - dot(rotation[i], u) + w[i] * along);
-        Displacement {
-            rotation,
-            translation,
-        }
-    }
-
-    /// This displacement after `other`.
-    #[must_use]
-    pub fn after(&self, other: &Displacement) -> Displacement {
-        let column = |j: usize| [0, 1, 2].map(|i| other.rotation[i][j]);
-        Displacement {
-            rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| dot(self.rotation[i], column(j)))),
-            translation: self.point(other.translation),
-        }
-    }
-
-    /// Where a point goes.
-    #[must_use]
-    pub fn point(&self, p: [f64; 3]) -> [f64; 3] {
-        let turned = self.direction(p);
-        [0, 1, 2].map(|i| turned[i] + self.translation[i])
-    }
-
-    /// Where a direction goes.
-    #[must_use]
-    pub fn direction(&self, d: [f64; 3]) -> [f64; 3] {
-        [0, 1, 2].map(|i| dot(self.rotation[i], d))
-    }
-
-    /// The angle of the turn `[rad]`, 0 to π.
-    #[must_use]
-    pub fn angle(&self) -> f64 {
-        let r = &self.rotation;
-        let axis = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]];
-        let (sine, cosine) = (dot(axis, axis).sqrt(), r[0][0] + r[1][1] + r[2][2] - 1.0);
-        sine.atan2(cosine)
-    }
-
-    /// A twist carried along.
-    #[must_use]
-    pub fn twist(&self, t: &Twist<f64>) -> Twist<f64> {
-        let (w, v) = halves(t);
-        let w = self.direction(w);
-        let (v, m) = (self.direction(v), cross(self.translation, w));
-        [w[0], w[1], w[2], v[0] + m[0], v[1] + m[1], v[2] + m[2]]
-    }
-
-    /// Turn and shift as six numbers that vanish together with the displacement: (sin θ · axis; translation).
-    fn defect(&self) -> [f64; 6] {
-        let r = &self.rotation;
-        // Beyond a quarter turn the sine falls again; keep it growing so that half a turn is no solution.
-        let trace = r[0][0] + r[1][1] + r[2][2];
-        let grow = if trace < 1.0 { 2.0 - trace } else { 1.0 };
-        let t = self.translation;
-        [
-            grow * (r[2][1] - r[1][2]) / 2.0,
-            grow * (r[0][2] - r[2][0]) / 2.0,
-            grow * (r[1][0] - r[0][1]) / 2.0,
-            t[0],
-            t[1],
-            t[2],
-        ]
-    }
+    let ([x, y, z], [u, v, w]) = (motion.sine(), motion.translation);
+    [grow * x, grow * y, grow * z, u, v, w]
 }
 
 /// One freedom of a joint at a pose.
@@ -177,8 +63,8 @@ pub struct Pose {
     pub length: f64,
     /// The middle that coordinates are taken from, in the file's unit.
     pub middle: [f64; 3],
-    /// Displacement of each link since the file's pose, in [`Pose::length`] about the middle.
-    pub links: Vec<Displacement>,
+    /// Motion of each link since the file's pose, in [`Pose::length`] about the middle.
+    pub links: Vec<Motion>,
     /// Relative error of the coordinates: contours need not close better than that.
     accuracy: f64,
     /// Contours as (column, direction).
@@ -189,22 +75,6 @@ pub struct Pose {
     tree: Vec<(LinkId, LinkId, Walk)>,
     /// First link of every column's joint, and the columns of that joint before it.
     base: Vec<(LinkId, usize)>,
-}
-
-/// Why a pose could not be reached.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum PoseError {
-    /// Newton's method found no closed pose.
-    #[error(
-        "the contours do not close: after {steps} steps a gap of {residual:.1e} of the mechanism's size is left"
-    )]
-    Open {
-        /// Steps taken.
-        steps: usize,
-        /// The gap.
-        residual: f64,
-    },
 }
 
 impl Pose {
@@ -220,15 +90,20 @@ impl Pose {
             .map(|&j| FrameValues::new(&Reals, &mechanism.joints[j].frame))
             .collect::<Result<Vec<_>, _>>()?;
         let points: Vec<[f64; 3]> = frames.iter().map(|f| f.point).collect();
-        let Extent { middle, length } = Extent::of(&points);
+        let Extent {
+            middle,
+            length: size,
+        } = Extent::of(&points);
         let (mut columns, mut base) = (Vec::new(), Vec::new());
         let mut of_joint = vec![Vec::new(); mechanism.joints.len()];
         for (&j, frame) in joints.iter().zip(&frames) {
             let joint = &mechanism.joints[j];
+            let freedoms = joint.joint_type.freedoms();
+            let frame = frame.clone().within(&space, freedoms);
             let unit = FrameValues {
-                axes: frame.axes.map(|a| a.map(|x| x / dot(a, a).sqrt())),
-                point: [0, 1, 2].map(|i| (frame.point[i] - middle[i]) / length),
-                pitch: frame.pitch / length,
+                axes: frame.axes.map(vector::unit),
+                point: sub(frame.point, middle).map(|x| x / size),
+                pitch: frame.pitch / size,
             };
             let kept = crate::closure::twist::joint_twists(
                 &Reals,
@@ -236,20 +111,18 @@ impl Pose {
                 &joint.frame,
                 &joint.joint_type,
             )?;
-            let turned = planar_ball(&space, joint.joint_type.freedoms(), unit);
-            let mut freedoms: Vec<Freedom> = kept.into_iter().map(|(f, _)| f).collect();
-            let slides = |f: &Freedom| matches!(f, Freedom::Tx | Freedom::Ty | Freedom::Tz);
+            let mut kept: Vec<Freedom> = kept.into_iter().map(|(f, _)| f).collect();
             // A pin in a slot: the pin first, as in `workload::planar`.
-            let has = |f| joint.joint_type.freedoms().contains(&f);
+            let has = |f| freedoms.contains(&f);
             let slot = has(Freedom::Tx) && !has(Freedom::Ty);
-            freedoms.sort_by_key(|f| slides(f) == slot);
-            for (n, freedom) in freedoms.into_iter().enumerate() {
+            kept.sort_by_key(|f| f.slides() == slot);
+            for (n, freedom) in kept.into_iter().enumerate() {
                 of_joint[j].push(columns.len());
                 base.push((joint.links[0], n));
                 columns.push(PoseColumn {
                     joint: j,
                     freedom,
-                    twist: turned.twist(&Reals, freedom),
+                    twist: unit.twist(&Reals, freedom),
                     moved: 0.0,
                 });
             }
@@ -263,33 +136,21 @@ impl Pose {
         };
         let couplings = mechanism
             .couplings_in(state)
-            .filter_map(|c| coupled(c, &columns, length))
+            .filter_map(|c| coupled(c, &columns, size))
             .collect();
         let contours = contour_basis(mechanism, state)
             .iter()
             .map(|c: &Contour| c.joints.iter().flat_map(|&(j, d)| walk(j, d)).collect())
             .collect();
-        let mut tree = Vec::new();
-        let mut reached = vec![false; mechanism.links.len()];
-        let mut queue = std::collections::VecDeque::from([mechanism.frame()]);
-        reached[mechanism.frame()] = true;
-        while let Some(at) = queue.pop_front() {
-            for &j in &joints {
-                let [a, b] = mechanism.joints[j].links;
-                for (from, to, forward) in [(a, b, true), (b, a, false)] {
-                    if from == at && !reached[to] {
-                        reached[to] = true;
-                        tree.push((to, at, walk(j, forward)));
-                        queue.push_back(to);
-                    }
-                }
-            }
-        }
+        let tree = spanning_tree(mechanism, state)
+            .into_iter()
+            .map(|s| (s.link, s.from, walk(s.joint, s.forward)))
+            .collect();
         Ok(Pose {
             columns,
-            length,
+            length: size,
             middle,
-            links: vec![Displacement::IDENTITY; mechanism.links.len()],
+            links: vec![Motion::IDENTITY; mechanism.links.len()],
             accuracy: 0.0,
             contours,
             couplings,
@@ -335,11 +196,11 @@ impl Pose {
     pub fn gaps(&self, q: &[f64]) -> Vec<f64> {
         let mut out = Vec::with_capacity(self.rows());
         for contour in &self.contours {
-            let mut at = Displacement::IDENTITY;
+            let mut at = Motion::IDENTITY;
             for &(c, sign) in contour {
-                at = at.after(&Displacement::exp(&self.columns[c].twist, sign * q[c]));
+                at = at.then(&Motion::exp(&self.columns[c].twist, sign * q[c]));
             }
-            out.extend(at.defect());
+            out.extend(defect(&at));
         }
         let from_file = |&(c, factor): &(usize, f64)| factor * (self.columns[c].moved + q[c]);
         out.extend(
@@ -355,13 +216,13 @@ impl Pose {
     pub fn jacobian(&self, q: &[f64]) -> Mat<f64> {
         let mut matrix = Mat::zeros(self.rows(), self.columns.len());
         for (k, contour) in self.contours.iter().enumerate() {
-            let mut at = Displacement::IDENTITY;
+            let mut at = Motion::IDENTITY;
             for &(c, sign) in contour {
                 let twist = at.twist(&self.columns[c].twist);
                 for (i, x) in twist.iter().enumerate() {
                     matrix[(6 * k + i, c)] += sign * x;
                 }
-                at = at.after(&Displacement::exp(&self.columns[c].twist, sign * q[c]));
+                at = at.then(&Motion::exp(&self.columns[c].twist, sign * q[c]));
             }
         }
         for (row, coupling) in (6 * self.contours.len()..).zip(&self.couplings) {
@@ -372,66 +233,30 @@ impl Pose {
         matrix
     }
 
-    /// The closed coordinates nearest (nearly) to `q`, by damped least-norm Newton steps; `hold` keeps some coordinates.
-    ///
-    /// # Errors
-    /// [`PoseError::Open`] where the gaps do not go below [`Pose::closed`].
-    ///
-    /// # Complexity
-    /// O((6k)²·f) a step.
-    pub fn close(&self, mut q: Vec<f64>, hold: &[usize]) -> Result<Vec<f64>, PoseError> {
-        let closed = self.closed();
-        // Errors of the coordinates must not be mended by running along the motion.
-        let floor = (1e3 * self.accuracy).clamp(1e-11, 1e-2);
-        let (mut residual, mut before) = (f64::INFINITY, f64::INFINITY);
-        let mut best = (f64::INFINITY, q.clone());
-        for _ in 0..STEPS {
-            let gaps = self.gaps(&q);
-            residual = gaps.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if residual < best.0 {
-                best = (residual, q.clone());
-            }
-            // The last steps are for free: Newton's are quadratic, unless the pose is singular.
-            if residual < 1e-14 || !residual.is_finite() {
-                break;
-            }
-            // Measured contours never close quite: further steps would creep along the motion, to where they close better.
-            if self.accuracy > 0.0 && residual < closed && residual > before / 2.0 {
-                break;
-            }
-            before = residual;
-            let mut jacobian = self.jacobian(&q);
-            for &c in hold {
-                jacobian.col_mut(c).fill(0.0);
-            }
-            let step = least_norm(&jacobian, &gaps, residual.clamp(floor, 1e-2));
-            let length = step.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if !length.is_finite() || (length < 1e-16 && residual < closed) {
-                break;
-            }
-            let shorten = (0.5 / length).min(1.0);
-            for (x, s) in q.iter_mut().zip(&step) {
-                *x -= shorten * s;
-            }
-        }
-        if best.0 < closed {
-            Ok(best.1)
-        } else {
-            Err(PoseError::Open {
-                steps: STEPS,
-                residual: residual.min(best.0),
-            })
-        }
+    /// J at this pose, with six rows more for each path of joints: the twist at its end.
+    #[must_use]
+    pub fn jacobian_with(&self, paths: &[Vec<(JointId, bool)>]) -> Mat<f64> {
+        let f = self.columns.len();
+        let (closure, rows) = (self.jacobian(&vec![0.0; f]), self.rows());
+        Mat::from_fn(rows + 6 * paths.len(), f, |r, c| {
+            let Some(r) = r.checked_sub(rows) else {
+                return closure[(r, c)];
+            };
+            let column = &self.columns[c];
+            let passed = paths[r / 6].iter().find(|(j, _)| *j == column.joint);
+            let twist = column.twist[r % 6];
+            passed.map_or(0.0, |&(_, forward)| if forward { twist } else { -twist })
+        })
     }
 
     /// The pose at coordinates `q` from this one, its twists taken there.
     #[must_use]
     pub fn moved(&self, q: &[f64]) -> Pose {
-        let mut since = vec![Displacement::IDENTITY; self.links.len()];
+        let mut since = vec![Motion::IDENTITY; self.links.len()];
         for (to, from, walk) in &self.tree {
             let mut at = since[*from];
             for &(c, sign) in walk {
-                at = at.after(&Displacement::exp(&self.columns[c].twist, sign * q[c]));
+                at = at.then(&Motion::exp(&self.columns[c].twist, sign * q[c]));
             }
             since[*to] = at;
         }
@@ -439,14 +264,14 @@ impl Pose {
         for (c, &(link, before)) in self.base.iter().enumerate() {
             let mut at = since[link];
             for (p, x) in q.iter().enumerate().take(c).skip(c - before) {
-                at = at.after(&Displacement::exp(&self.columns[p].twist, *x));
+                at = at.then(&Motion::exp(&self.columns[p].twist, *x));
             }
             next.columns[c].twist = unit(at.twist(&self.columns[c].twist));
             next.columns[c].moved += q[c];
         }
         square_balls(&mut next.columns);
         for (link, d) in next.links.iter_mut().zip(&since) {
-            *link = d.after(link);
+            *link = d.then(link);
         }
         next
     }
@@ -454,10 +279,7 @@ impl Pose {
 
 /// A coupling in the coordinates of a pose, where slides are counted in `length`.
 fn coupled(coupling: &Coupling, columns: &[PoseColumn], length: f64) -> Option<[(usize, f64); 2]> {
-    let unit = |f: Freedom| match f {
-        Freedom::Tx | Freedom::Ty | Freedom::Tz => length,
-        _ => 1.0,
-    };
+    let unit = |f: Freedom| if f.slides() { length } else { 1.0 };
     let [a, b] = coupling.ends;
     let at = |e: CoupledFreedom| {
         columns
@@ -469,28 +291,11 @@ fn coupled(coupling: &Coupling, columns: &[PoseColumn], length: f64) -> Option<[
     Some([(at(a)?, factors[0] / size), (at(b)?, factors[1] / size)])
 }
 
-/// In a plane, joints with all three turns turn about the normal, as in [`crate::closure::twist::joint_twists`].
-fn planar_ball(
-    space: &MotionSpace<f64>,
-    freedoms: &[Freedom],
-    mut frame: FrameValues<f64>,
-) -> FrameValues<f64> {
-    let turns = [Freedom::Rx, Freedom::Ry, Freedom::Rz];
-    let slides = [Freedom::Tx, Freedom::Ty, Freedom::Tz];
-    if let MotionSpace::Planar { axes: [n, e1, e2] } = space
-        && turns.iter().all(|t| freedoms.contains(t))
-        && !slides.iter().any(|t| freedoms.contains(t))
-    {
-        frame.axes = [*e1, *e2, *n].map(|a| a.map(|x| x / dot(a, a).sqrt()));
-    }
-    frame
-}
-
 /// Rounding must not let axes grow or shrink over many steps.
 fn unit(mut t: Twist<f64>) -> Twist<f64> {
     let (w, v) = halves(&t);
-    let size = match dot(w, w).sqrt() {
-        0.0 => dot(v, v).sqrt(),
+    let size = match length(w) {
+        0.0 => length(v),
         turn => turn,
     };
     t.iter_mut().for_each(|x| *x /= size);
@@ -499,22 +304,19 @@ fn unit(mut t: Twist<f64>) -> Twist<f64> {
 
 /// The three turns of a ball, squared up again, so that no two of its axes ever come to lie along each other.
 fn square_balls(columns: &mut [PoseColumn]) {
-    let turn = |c: &PoseColumn| matches!(c.freedom, Freedom::Rx | Freedom::Ry | Freedom::Rz);
     let mut i = 0;
     while i + 2 < columns.len() {
         let j = columns[i].joint;
-        if columns[i..i + 3].iter().all(|c| c.joint == j && turn(c)) {
+        if columns[i..i + 3]
+            .iter()
+            .all(|c| c.joint == j && c.freedom.turns())
+        {
             let (w0, v0) = halves(&columns[i].twist);
             let (w2, v2) = halves(&columns[i + 2].twist);
             // The common point c: v = c × ω for two of the axes; two equations in the least-squares sense.
             let centre = meeting_point(w0, v0, w2, v2);
             let e0 = w0;
-            let e1 = {
-                let off = dot(w2, e0);
-                let u = [0, 1, 2].map(|k| w2[k] - off * e0[k]);
-                let size = dot(u, u).sqrt();
-                u.map(|x| x / size)
-            };
+            let e1 = vector::unit(across(w2, e0));
             for (n, w) in [e0, e1, cross(e0, e1)].into_iter().enumerate() {
                 let v = cross(centre, w);
                 columns[i + n].twist = [w[0], w[1], w[2], v[0], v[1], v[2]];
@@ -529,26 +331,9 @@ fn square_balls(columns: &mut [PoseColumn]) {
 /// Where two lines with unit directions meet (their twists about the origin given): the middle of the common normal.
 fn meeting_point(w0: [f64; 3], v0: [f64; 3], w1: [f64; 3], v1: [f64; 3]) -> [f64; 3] {
     let (p0, p1) = (cross(w0, v0), cross(w1, v1));
-    let d = [0, 1, 2].map(|i| p1[i] - p0[i]);
+    let d = sub(p1, p0);
     let (c, a, b) = (dot(w0, w1), dot(d, w0), dot(d, w1));
     let s = 1.0 - c * c;
     let (t0, t1) = ((a - c * b) / s, (c * a - b) / s);
     [0, 1, 2].map(|i| f64::midpoint(p0[i] + t0 * w0[i], p1[i] + t1 * w1[i]))
-}
-
-/// The damped solution of J·x = gaps, min |J·x - gaps|² + λ|x|² by orthogonal factors, λ in proportion to the gap: where J is
-/// singular at the solution this still converges, and where it is regular the damping vanishes faster than the error
-/// [Yamashita & Fukushima 2001].
-fn least_norm(jacobian: &Mat<f64>, gaps: &[f64], damping: f64) -> Vec<f64> {
-    let (rows, columns) = jacobian.shape();
-    let stacked = Mat::from_fn(rows + columns, columns, |r, c| match r.checked_sub(rows) {
-        None => jacobian[(r, c)],
-        Some(i) if i == c => damping,
-        Some(_) => 0.0,
-    });
-    let right = Mat::from_fn(rows + columns, 1, |r, _| {
-        gaps.get(r).copied().unwrap_or(0.0)
-    });
-    let x = stacked.qr().solve_lstsq(&right);
-    (0..columns).map(|i| x[(i, 0)]).collect()
 }

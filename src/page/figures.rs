@@ -22,9 +22,10 @@ pub(super) fn figures(
 
 /// Its idle motions in the free state, in words.
 pub(super) fn idle(exact: &ExactField, m: &Mechanism) -> Result<String, ExactError> {
-    let closure = Closure::new(exact, m, 0)?;
+    let closure = Closure::new(exact, m, StateId::FREE)?;
     let kernel = motions(exact, &closure);
-    let outputs: Vec<LinkId> = (0..m.links.len())
+    let outputs: Vec<LinkId> = m
+        .link_ids()
         .filter(|&l| m.links[l].role == Role::Output)
         .collect();
     let idle = idle_motions(exact, m, &closure, &kernel, &outputs);
@@ -36,7 +37,7 @@ pub(super) fn redundant_by_contour(
     exact: &ExactField,
     m: &Mechanism,
 ) -> Result<Vec<usize>, ExactError> {
-    let closure = Closure::new(exact, m, 0)?;
+    let closure = Closure::new(exact, m, StateId::FREE)?;
     Ok(shares(exact, &closure)
         .iter()
         .map(|s| s.redundant)

@@ -3,6 +3,7 @@
 use super::embed::text;
 use super::symbols::Drawn;
 use super::{Page, verdict};
+use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, Mode};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::stress::{SelfStress, Verdict};
@@ -22,9 +23,9 @@ pub(super) fn facts(page: &Page<'_>) -> String {
         .first()
         .map_or([0; 3], |s| [s.links, s.joints, s.contours]);
     [
-        words::plural(links, "link"),
-        words::plural(joints, "joint"),
-        words::plural(contours, "contour"),
+        plural(links, "link"),
+        plural(joints, "joint"),
+        plural(contours, "contour"),
         plane.to_owned(),
         format!("lengths in {}", m.length_unit.symbol),
     ]

@@ -3,7 +3,7 @@
 use super::Page;
 use crate::draw::swap::{Swap, kinematic_with, scheme_with};
 use crate::draw::{Drawing, Subject};
-use crate::model::mechanism::JointId;
+use crate::model::mechanism::{JointId, StateId};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ pub(super) struct Drawn<'a> {
 }
 
 /// Each joint of a state with each choice but the present one: the variable, the choice, and what it puts there.
-fn places<'a>(page: &'a Page<'_>, state: usize) -> Vec<(usize, usize, Swap<'a>)> {
+fn places<'a>(page: &'a Page<'_>, state: StateId) -> Vec<(usize, usize, Swap<'a>)> {
     let Ok(r) = &page.redesigns else {
         return Vec::new();
     };
@@ -43,11 +43,11 @@ fn places<'a>(page: &'a Page<'_>, state: usize) -> Vec<(usize, usize, Swap<'a>)>
 }
 
 impl<'a> Drawn<'a> {
-    pub(super) fn new(page: &'a Page<'_>, state: usize) -> Drawn<'a> {
+    pub(super) fn new(page: &'a Page<'_>, state: StateId) -> Drawn<'a> {
         let subject = Subject {
             mechanism: page.mechanism,
             state,
-            analysis: page.states.get(state),
+            analysis: page.states.get(state.index()),
             marks: None,
         };
         let places = places(page, state);

@@ -35,7 +35,10 @@ fn further(r: &Redesigns<'_>) -> Result<Vec<Further>, AnalysisError> {
     let exact = exact_field(search.mechanism, 0)?;
     let one = |(i, c): (usize, &Certified)| -> Result<Further, AnalysisError> {
         let m = search.realize(&c.variant.choices);
-        let states = (1..m.states.len()).map(|s| figures::figures(&exact, &m, s));
+        let states = m
+            .state_ids()
+            .skip(1)
+            .map(|s| figures::figures(&exact, &m, s));
         Ok(Further {
             states: states.collect::<Result<_, _>>()?,
             idle: if i < CHECKED {

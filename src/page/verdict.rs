@@ -2,10 +2,12 @@
 
 use super::embed::text;
 use super::{Page, Redesigns};
+use crate::format::number::{cost, grouped};
+use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, Role};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::stress::Verdict;
-use crate::view::words::{self, cost, grouped, plural};
+use crate::view::words;
 use itertools::Itertools;
 use num_traits::{One, Zero};
 

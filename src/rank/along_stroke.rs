@@ -5,10 +5,10 @@
 //! shows as a smallest kept singular value that falls and rises again; its lowest point is found by golden section and
 //! counts where the value vanishes there.
 
-use crate::closure::matrix::path_from_frame;
+use crate::closure::tree::path_from_frame;
 use crate::model::mechanism::{LinkId, Mechanism, Mode, Role, StateId};
-use crate::motion::follow::{FLAT, Follower, Stop, Why, positions};
-use crate::motion::pose::Pose;
+use crate::motion::follow::{Follower, Stop, Why, positions};
+use crate::motion::pose::{FLAT, Pose};
 use crate::rank::scaled::{NumericRank, rank_of_values};
 use faer::Mat;
 
@@ -122,7 +122,7 @@ struct Sample {
 impl<'a> Looker<'a> {
     fn new(request: &'a StrokeRequest<'a>, pose: &Pose) -> Looker<'a> {
         let m = request.mechanism;
-        let slides = crate::motion::follow::slides(pose, request.drive);
+        let slides = pose.columns[request.drive].freedom.slides();
         let middle = |l: LinkId| {
             let of = m
                 .joints_in(request.state)
@@ -148,7 +148,8 @@ impl<'a> Looker<'a> {
                 Mode::Planar { .. } => 3,
             },
             unit: if slides { pose.length } else { 1.0 },
-            outputs: (0..m.links.len())
+            outputs: m
+                .link_ids()
                 .filter(|&l| m.links[l].role == Role::Output)
                 .filter(present)
                 .map(|l| (l, middle(l)))
@@ -306,23 +307,10 @@ impl<'a> Looker<'a> {
         let free: Vec<usize> = (0..f)
             .filter(|c| *c != self.request.drive && !self.request.held.contains(c))
             .collect();
-        let jacobian = pose.jacobian(&vec![0.0; f]);
-        let rows = jacobian.nrows();
-        let stacked = |extra: usize| {
-            Mat::from_fn(rows + extra, free.len(), |r, c| {
-                let column = &pose.columns[free[c]];
-                match r.checked_sub(rows) {
-                    None => jacobian[(r, free[c])],
-                    Some(r) => {
-                        let passed = paths[r / 6].iter().find(|(j, _)| *j == column.joint);
-                        let t = column.twist[r % 6];
-                        passed.map_or(0.0, |&(_, forward)| if forward { t } else { -t })
-                    }
-                }
-            })
-        };
-        let rank = |extra| rank_of_values(values(&stacked(extra)), self.tolerance).rank;
-        rank(6 * paths.len()) - rank(0)
+        let whole = pose.jacobian_with(&paths);
+        let part = |rows: usize| Mat::from_fn(rows, free.len(), |r, c| whole[(r, free[c])]);
+        let rank = |rows| rank_of_values(values(&part(rows)), self.tolerance).rank;
+        rank(whole.nrows()) - rank(pose.rows())
     }
 }
 

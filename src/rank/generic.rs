@@ -16,13 +16,13 @@ pub struct Generic;
 struct Pebbles {
     free: Vec<usize>,
     /// Directed bars: `out[a]` lists the heads of the bars that hold a pebble of `a`.
-    out: Vec<Vec<LinkId>>,
+    out: Vec<Vec<usize>>,
 }
 
 impl Pebbles {
     /// Brings one more free pebble to `to` without touching those of `keep`.
-    fn gather(&mut self, to: LinkId, keep: LinkId) -> bool {
-        let mut came: Vec<Option<LinkId>> = vec![None; self.free.len()];
+    fn gather(&mut self, to: usize, keep: usize) -> bool {
+        let mut came: Vec<Option<usize>> = vec![None; self.free.len()];
         let mut stack = vec![to];
         came[to] = Some(to);
         came[keep] = Some(keep);
@@ -53,7 +53,7 @@ impl Pebbles {
         false
     }
 
-    fn insert(&mut self, a: LinkId, b: LinkId, dim: usize) -> bool {
+    fn insert(&mut self, a: usize, b: usize, dim: usize) -> bool {
         while self.free[a] < dim {
             if !self.gather(a, b) {
                 break;
@@ -73,7 +73,7 @@ impl Pebbles {
 
 /// Number of independent bars between bodies in general position.
 #[must_use]
-pub fn generic_rank(bodies: usize, bars: &[(LinkId, LinkId)], dim: usize) -> usize {
+pub fn generic_rank(bodies: usize, bars: &[(usize, usize)], dim: usize) -> usize {
     let mut game = Pebbles {
         free: vec![dim; bodies],
         out: vec![Vec::new(); bodies],

@@ -19,7 +19,7 @@ use crate::closure::matrix::{Closure, Column};
 use crate::geom::exact::ExactField;
 use crate::linalg::echelon;
 use crate::linalg::modp::{Field, Residue};
-use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::mechanism::{JointId, Mechanism, StateId};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -130,7 +130,7 @@ impl Plan {
     fn new(closure: &Closure<Residue>) -> Plan {
         let (k, joints) = (
             closure.contours.len() + closure.couplings.len(),
-            closure.columns.last().map_or(0, |c| c.joint + 1),
+            closure.columns.last().map_or(0, |c| c.joint.index() + 1),
         );
         // Joints without columns (rigid ones) link no contours.
         let mut columns_of = vec![(0, 0); joints];
@@ -141,7 +141,7 @@ impl Plan {
             }
             range.1 = i + 1;
         }
-        let with_columns = |j: usize| columns_of.get(j).is_some_and(|r| r.1 > 0);
+        let with_columns = |j: JointId| columns_of.get(j.index()).is_some_and(|r| r.1 > 0);
         let incidences = || {
             let contours = closure.contours.iter().enumerate();
             let couplings = (closure.contours.len()..).zip(&closure.couplings);
@@ -156,7 +156,7 @@ impl Plan {
         };
         let mut passes_from = vec![0; joints + 1];
         for (_, j, _) in incidences() {
-            passes_from[j + 1] += 1;
+            passes_from[j.index() + 1] += 1;
         }
         for j in 0..joints {
             passes_from[j + 1] += passes_from[j];
@@ -189,8 +189,8 @@ impl Plan {
         }
     }
 
-    fn passes(&self, joint: usize) -> &[(usize, bool)] {
-        match self.passes_from.get(joint..joint + 2) {
+    fn passes(&self, joint: JointId) -> &[(usize, bool)] {
+        match self.passes_from.get(joint.index()..joint.index() + 2) {
             Some(range) => &self.passes[range[0]..range[1]],
             None => &[],
         }
@@ -199,7 +199,7 @@ impl Plan {
     fn columns<'a>(
         &self,
         closure: &'a Closure<Residue>,
-        joint: usize,
+        joint: JointId,
     ) -> impl Iterator<Item = (usize, &'a Column<Residue>)> {
         let (from, to) = self.columns_of[joint];
         (from..).zip(&closure.columns[from..to])

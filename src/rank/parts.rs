@@ -51,7 +51,7 @@ pub fn parts(closure: &Closure<Residue>) -> Vec<Vec<JointId>> {
 #[must_use]
 pub fn alone(mechanism: &Mechanism, joints: &[JointId]) -> Mechanism {
     let mut out = mechanism.clone();
-    for j in 0..out.joints.len() {
+    for j in mechanism.joint_ids() {
         if !joints.contains(&j) {
             out.joints[j].states = Some(Vec::new());
         }
@@ -93,7 +93,7 @@ pub fn lock_idle(
         }
     }
     let mut locked = 0;
-    for link in 0..mechanism.links.len() {
+    for link in mechanism.link_ids() {
         let at: Vec<JointId> = mechanism
             .joints_in(state)
             .filter(|&j| mechanism.joints[j].links.contains(&link))

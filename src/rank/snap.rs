@@ -2,6 +2,7 @@
 //! so exactly, and everything moved is listed. The coordinates stay rational, so exact arithmetic applies afterwards.
 
 use crate::geom::expr::Expr;
+use crate::geom::vector::{Vector, cross, dot, length, real, sub, unit};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, JointId, Mechanism};
 
@@ -12,32 +13,6 @@ pub struct Snapped {
     pub mechanism: Mechanism,
     /// What was moved, a sentence each.
     pub moved: Vec<String>,
-}
-
-type V = [f64; 3];
-
-fn real(v: &[Expr; 3]) -> V {
-    [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()]
-}
-fn dot(a: V, b: V) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-fn cross(a: V, b: V) -> V {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-fn norm(a: V) -> f64 {
-    dot(a, a).sqrt()
-}
-fn minus(a: V, b: V) -> V {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-fn unit(a: V) -> V {
-    let n = norm(a);
-    a.map(|x| x / n)
 }
 
 fn exact_dot(a: &[Expr; 3], b: &[Expr; 3]) -> Expr {
@@ -65,7 +40,7 @@ impl Directions {
         for k in &self.known {
             let u = unit(real(k));
             let along = dot(u, v);
-            if norm(cross(u, v)) <= self.tolerance {
+            if length(cross(u, v)) <= self.tolerance {
                 let sign = Expr::from(if along < 0.0 { -1 } else { 1 });
                 let same = exact_cross(k, d).iter().all(is_zero);
                 let out = k.clone().map(|x| &x * &sign);
@@ -86,7 +61,7 @@ impl Directions {
         if let Some(first) = square.first() {
             let across = square
                 .iter()
-                .find(|k| norm(cross(unit(real(first)), unit(real(k)))) > 0.1);
+                .find(|k| length(cross(unit(real(first)), unit(real(k)))) > 0.1);
             let snapped = match across {
                 Some(second) => {
                     let c = exact_cross(first, second);
@@ -133,7 +108,7 @@ fn uses(joint_type: &JointType) -> (bool, bool) {
 pub fn snap(mechanism: &Mechanism, tolerance: f64) -> Snapped {
     let mut out = mechanism.clone();
     let mut moved = Vec::new();
-    let points: Vec<V> = out.joints.iter().map(|j| real(&j.frame.point)).collect();
+    let points: Vec<Vector> = out.joints.iter().map(|j| real(&j.frame.point)).collect();
     // Errors go with the size of the coordinates, and a mechanism about one point has no other size.
     let size = points
         .iter()
@@ -213,7 +188,7 @@ fn zeros(mechanism: &mut Mechanism, near: f64, tolerance: f64, moved: &mut Vec<S
             let limit = if limit > 0.0 {
                 limit
             } else {
-                tolerance * norm(real(vector))
+                tolerance * length(real(vector))
             };
             for x in vector.iter_mut() {
                 let value = x.to_f64();
@@ -235,7 +210,8 @@ fn zeros(mechanism: &mut Mechanism, near: f64, tolerance: f64, moved: &mut Vec<S
 
 /// Lines through a common point, and lines that coincide.
 fn concurrent(mechanism: &mut Mechanism, near: f64, moved: &mut Vec<String>) {
-    let lines: Vec<JointId> = (0..mechanism.joints.len())
+    let lines: Vec<JointId> = mechanism
+        .joint_ids()
         .filter(|&j| uses(&mechanism.joints[j].joint_type).1)
         .collect();
     let line = |m: &Mechanism, j: JointId| {
@@ -244,12 +220,12 @@ fn concurrent(mechanism: &mut Mechanism, near: f64, moved: &mut Vec<String>) {
             unit(real(&m.joints[j].frame.axis)),
         )
     };
-    let off = |p: V, (q, u): (V, V)| norm(cross(minus(p, q), u));
+    let off = |p: Vector, (q, u): (Vector, Vector)| length(cross(sub(p, q), u));
     let is_point = |m: &Mechanism, j: JointId| {
         !uses(&m.joints[j].joint_type).0 || m.joints[j].joint_type == JointType::Universal
     };
     // Candidates: centres of balls and universal joints, and the points where two lines (nearly) meet.
-    let mut candidates: Vec<([Expr; 3], V)> = Vec::new();
+    let mut candidates: Vec<([Expr; 3], Vector)> = Vec::new();
     for (n, &a) in lines.iter().enumerate() {
         let frame = &mechanism.joints[a].frame;
         let own = (frame.point.clone(), real(&frame.point));
@@ -261,14 +237,14 @@ fn concurrent(mechanism: &mut Mechanism, near: f64, moved: &mut Vec<String>) {
             if s2 < 1e-6 || is_point(mechanism, a) || is_point(mechanism, b) {
                 continue;
             }
-            let gap = dot(minus(q, p), normal).abs() / s2.sqrt();
+            let gap = dot(sub(q, p), normal).abs() / s2.sqrt();
             if gap > near {
                 continue;
             }
             // On line a, at t along its axis as the file has it; a decimal, so the point stays rational.
-            let t = dot(cross(minus(q, p), w), normal) / s2;
+            let t = dot(cross(sub(q, p), w), normal) / s2;
             let (Ok(t), axis) = (
-                Expr::from_f64(t / norm(real(&mechanism.joints[a].frame.axis))),
+                Expr::from_f64(t / length(real(&mechanism.joints[a].frame.axis))),
                 &mechanism.joints[a].frame.axis,
             ) else {
                 continue;
@@ -278,13 +254,13 @@ fn concurrent(mechanism: &mut Mechanism, near: f64, moved: &mut Vec<String>) {
             candidates.push((point, value));
         }
     }
-    let passing = |m: &Mechanism, p: V| -> Vec<JointId> {
+    let passing = |m: &Mechanism, p: Vector| -> Vec<JointId> {
         lines
             .iter()
             .copied()
             .filter(|&j| {
                 if is_point(m, j) {
-                    norm(minus(p, real(&m.joints[j].frame.point))) <= near
+                    length(sub(p, real(&m.joints[j].frame.point))) <= near
                 } else {
                     off(p, line(m, j)) <= near
                 }
@@ -322,11 +298,11 @@ fn concurrent(mechanism: &mut Mechanism, near: f64, moved: &mut Vec<String>) {
                 }
                 Some(first) => {
                     let along = [0, 1, 2].map(|k| &point[k] - &first[k]);
-                    let far = norm(real(&along));
+                    let far = length(real(&along));
                     let straight = exact_cross(&along, &joint.frame.axis).iter().all(is_zero);
                     if far > 1e3 * near
                         && !straight
-                        && norm(cross(unit(real(&along)), unit(real(&joint.frame.axis))))
+                        && length(cross(unit(real(&along)), unit(real(&joint.frame.axis))))
                             <= near / far * 4.0
                     {
                         moved.push(format!(

@@ -10,14 +10,12 @@
 //! Numeric: nothing is proven, and the certainty says so. Random directions come from a fixed seed.
 
 use super::tangent_cone::{self, Quadrics};
-use crate::motion::pose::Pose;
+use crate::motion::pose::{FLAT, Pose};
 use faer::Mat;
 use faer::linalg::solvers::SolveLstsq;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
-/// Singular values of J below this count as zero at a pose reached by Newton's method.
-const FLAT: f64 = 1e-6;
 /// Singular values in this range are too near to zero to be told from it.
 const UNCLEAR: std::ops::Range<f64> = 1e-9..1e-6;
 /// Lengths of trial steps at a pose that may be regular: radians, and fractions of the mechanism's size.

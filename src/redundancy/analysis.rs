@@ -306,9 +306,9 @@ fn numerically(
     let working_mobility = measured.span_of_links(&outputs(mechanism));
     let external = match whole.external {
         Some(e) => {
-            let own: Vec<JointId> = mechanism.joints_in(0).collect();
-            let free = Measured::new(mechanism, 0, tolerance)?;
-            let free_rows = Closure::new(&Reals, mechanism, 0)?;
+            let own: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
+            let free = Measured::new(mechanism, StateId::FREE, tolerance)?;
+            let free_rows = Closure::new(&Reals, mechanism, StateId::FREE)?;
             let free_redundant = free_rows.rows() + free.mobility() - free_rows.columns.len();
             let (actual, working) = (int(free.mobility()), int(measured.span_of_joints(&own)));
             let redundant = whole.rows + measured.mobility() - whole.freedoms;
@@ -342,7 +342,8 @@ fn numerically(
 }
 
 fn outputs(mechanism: &Mechanism) -> Vec<LinkId> {
-    (0..mechanism.links.len())
+    mechanism
+        .link_ids()
         .filter(|&l| mechanism.links[l].role == Role::Output)
         .collect()
 }
@@ -430,7 +431,7 @@ fn exactly(
             - int(closure.couplings.len()),
         per_contour: shares(exact, &closure),
         per_coupling: coupling_shares(exact, mechanism, &closure),
-        external: if state == 0 {
+        external: if state == StateId::FREE {
             None
         } else {
             Some(external(exact, mechanism, &closure, &kernel)?)
@@ -489,10 +490,10 @@ fn external(
     closure: &Closure<Residue>,
     kernel: &[Speeds],
 ) -> Result<External, ExactError> {
-    let free = Closure::new(exact, mechanism, 0)?;
+    let free = Closure::new(exact, mechanism, StateId::FREE)?;
     let free_rank = modular::rank(exact, &free);
     let rank = modular::rank(exact, closure);
-    let own: Vec<JointId> = mechanism.joints_in(0).collect();
+    let own: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
     let all: Vec<JointId> = mechanism.joints_in(closure.state).collect();
     let added = || all.iter().filter(|j| !own.contains(j));
     let of_joints: i64 = added()

@@ -32,7 +32,8 @@ pub fn idle_motions(
     outputs: &[LinkId],
 ) -> Vec<Idle> {
     let f = exact.field();
-    let links: Vec<LinkId> = (0..mechanism.links.len())
+    let links: Vec<LinkId> = mechanism
+        .link_ids()
         .filter(|&l| {
             mechanism
                 .joints_in(closure.state)

@@ -9,7 +9,7 @@ use crate::geom::scalars::Scalars;
 use crate::linalg::echelon::{Echelon, relations, transpose};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, Mechanism};
+use crate::model::mechanism::{JointId, Mechanism, StateId};
 use itertools::Itertools;
 
 /// What a self-stress does to the parts.
@@ -83,7 +83,7 @@ pub fn self_stresses(
 ) -> Result<Vec<SelfStress>, ExactError> {
     let f = exact.field();
     let stresses = stress_basis(exact, closure);
-    let own: Vec<JointId> = mechanism.joints_in(0).collect();
+    let own: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
     let added: Vec<JointId> = mechanism
         .joints_in(closure.state)
         .filter(|j| !own.contains(j))

@@ -1,14 +1,17 @@
 //! From a robot as read to a mechanism file: pose, frame, loops, bodies, outputs.
 
+use crate::closure::tree::forest;
 use crate::file::read::LIMITS;
+use crate::file::schema::MechanismFile;
+use crate::file::write::Comment;
+use crate::geom::rigid::Motion;
 use crate::model::joint_type::JointType;
-use crate::robots::Options;
 use crate::robots::close::{self, CLOSED, close, gaps, size, worst};
 use crate::robots::coupling;
 use crate::robots::emit::{self, Bodies, Content};
 use crate::robots::kinematics::{Tree, places, spanning_tree};
+use crate::robots::options::Options;
 use crate::robots::parts::{Part, Robot, free};
-use crate::robots::pose::Pose;
 use crate::robots::problem::{RobotProblem, known};
 use std::collections::BTreeSet;
 
@@ -79,13 +82,13 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, R
     }
     let world = match robot.world {
         Some(w) => w,
-        None => robot.link("world", Pose::IDENTITY),
+        None => robot.link("world", Motion::IDENTITY),
     };
     robot.world = Some(world);
     // Every tree of links that the world does not hold floats by itself.
     let tree = spanning_tree(robot, world);
     for &r in tree.roots.iter().skip(1) {
-        let sides = [robot.places[r], Pose::IDENTITY];
+        let sides = [robot.places[r], Motion::IDENTITY];
         let id = format!("floating-{}", robot.links[r]);
         robot.joints.push(Part::new(&id, [world, r], sides, free()));
         robot.report.map("floating base");
@@ -200,12 +203,14 @@ pub(crate) fn close_loops(
     })
 }
 
-pub(crate) fn write(
+/// The entries of the file called `file` of a `format`, with what is to be said above them.
+pub(crate) fn entries(
     robot: &mut Robot,
     tree: &Tree,
     file: &str,
+    format: &'static str,
     options: &Options,
-) -> Result<String, RobotProblem> {
+) -> Result<(MechanismFile, Vec<Comment>), RobotProblem> {
     let places = places(robot, tree);
     let fixed = |j: usize| robot.joints[j].joint_type == JointType::Fixed;
     let rigid = tree
@@ -264,9 +269,10 @@ pub(crate) fn write(
     }
     robot.report = report;
     let file = std::path::Path::new(file).file_name();
-    Ok(emit::toml(&Content {
+    Ok(emit::entries(&Content {
         robot,
         file: &file.unwrap_or_default().to_string_lossy(),
+        format,
         places: &places,
         bodies: &bodies,
         frame,
@@ -306,30 +312,24 @@ fn output_links(
 
 /// The links of one joint; where there are none, those farthest from the frame by number of joints.
 fn end_links(robot: &Robot, bodies: &Bodies, joints: &[usize], frame: usize) -> Vec<usize> {
-    let mut at: Vec<Vec<usize>> = vec![Vec::new(); robot.links.len()];
-    for &j in joints {
-        let [a, b] = robot.joints[j].links.map(|l| bodies.of[l]);
-        at[a].push(b);
-        at[b].push(a);
-    }
-    let ends: Vec<usize> = (0..at.len())
-        .filter(|&b| b != frame && at[b].len() == 1)
+    let n = robot.links.len();
+    let ends = joints
+        .iter()
+        .map(|&j| robot.joints[j].links.map(|l| bodies.of[l]));
+    let mut joints_at = vec![0; n];
+    ends.clone().flatten().for_each(|b| joints_at[b] += 1);
+    let ends_of_chains: Vec<usize> = (0..n)
+        .filter(|&b| b != frame && joints_at[b] == 1)
         .collect();
-    if !ends.is_empty() {
-        return ends;
+    if !ends_of_chains.is_empty() {
+        return ends_of_chains;
     }
-    let (mut seen, mut last) = (vec![false; at.len()], vec![frame]);
-    seen[frame] = true;
-    loop {
-        let mut next = Vec::new();
-        for &b in last.iter().flat_map(|&l| &at[l]) {
-            if !std::mem::replace(&mut seen[b], true) {
-                next.push(b);
-            }
-        }
-        if next.is_empty() {
-            return last;
-        }
-        last = next;
+    let (_, steps) = forest(n, ends, |_| false, [frame]);
+    let mut depth = vec![0; n];
+    for s in &steps {
+        depth[s.link] = depth[s.from] + 1;
     }
+    let deepest = steps.last().map_or(0, |s| depth[s.link]);
+    let last = steps.iter().map(|s| s.link);
+    last.filter(|&b| depth[b] == deepest).collect()
 }

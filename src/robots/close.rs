@@ -1,9 +1,10 @@
 //! Closing loops: damped least squares over all joint values, from the pose of the file.
 
+use crate::geom::rigid::{Motion, towards};
+use crate::geom::vector::{Vector, add, cross, dot, length, scale, sub};
 use crate::model::joint_type::Freedom;
 use crate::robots::kinematics::{Tree, displacement, places, world_axes};
 use crate::robots::parts::{Part, Robot};
-use crate::robots::pose::{Pose, V3, add, cross, length, scale, sub, unit};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 
@@ -32,19 +33,19 @@ pub(crate) fn size(robot: &Robot) -> f64 {
     robot
         .joints
         .iter()
-        .flat_map(|j| j.sides.iter().map(|s| length(s.at)))
+        .flat_map(|j| j.sides.iter().map(|s| length(s.translation)))
         .fold(1e-3, f64::max)
 }
 
 /// How the two sides of a loop joint differ: a shift and a rotation vector, in the world.
-fn mismatch(robot: &Robot, places: &[Pose], j: usize) -> (V3, V3) {
+fn mismatch(robot: &Robot, places: &[Motion], j: usize) -> (Vector, Vector) {
     let p = &robot.joints[j];
     let near = places[p.links[0]].then(&p.sides[0]).then(&displacement(p));
     let far = places[p.links[1]].then(&p.sides[1]);
     let turn = near.inverse().then(&far).rotation_vector();
     let spherical = free_turns(robot, j) == 3;
     (
-        sub(far.at, near.at),
+        sub(far.translation, near.translation),
         if spherical {
             [0.0; 3]
         } else {
@@ -54,13 +55,8 @@ fn mismatch(robot: &Robot, places: &[Pose], j: usize) -> (V3, V3) {
 }
 
 fn free_turns(robot: &Robot, j: usize) -> usize {
-    let turns = |f: &&Freedom| matches!(f, Freedom::Rx | Freedom::Ry | Freedom::Rz);
-    robot.joints[j]
-        .joint_type
-        .freedoms()
-        .iter()
-        .filter(turns)
-        .count()
+    let freedoms = robot.joints[j].joint_type.freedoms().iter();
+    freedoms.filter(|f| f.turns()).count()
 }
 
 /// The gaps of all loops.
@@ -140,7 +136,7 @@ fn wind_back(j: &mut Part) -> bool {
     const TURN: f64 = std::f64::consts::TAU;
     let middle = j.limits.map_or(0.0, |(low, high)| f64::midpoint(low, high));
     for (v, f) in j.values.iter_mut().zip(j.joint_type.freedoms()) {
-        if matches!(f, Freedom::Rx | Freedom::Ry | Freedom::Rz) {
+        if f.turns() {
             *v -= TURN * ((*v - middle) / TURN).round();
         }
     }
@@ -219,9 +215,8 @@ fn descend(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
             1.0
         };
         for (j, &first) in robot.joints.iter_mut().zip(&offsets) {
-            let prismatic: Vec<bool> = j.joint_type.freedoms().iter().map(is_shift).collect();
-            for (i, v) in j.values.iter_mut().enumerate() {
-                *v += shrink * change[(first + i, 0)] * if prismatic[i] { size } else { 1.0 };
+            for (i, (v, f)) in j.values.iter_mut().zip(j.joint_type.freedoms()).enumerate() {
+                *v += shrink * change[(first + i, 0)] * if f.slides() { size } else { 1.0 };
             }
         }
         let after = self::cost(robot, tree, size);
@@ -238,13 +233,9 @@ fn descend(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
     left
 }
 
-fn is_shift(f: &Freedom) -> bool {
-    matches!(f, Freedom::Tx | Freedom::Ty | Freedom::Tz)
-}
-
 fn cost(robot: &Robot, tree: &Tree, size: f64) -> f64 {
     let places = places(robot, tree);
-    let square = |v: V3| v.iter().map(|x| x * x).sum::<f64>();
+    let square = |v: Vector| dot(v, v);
     tree.loops
         .iter()
         .map(|&j| {
@@ -277,12 +268,12 @@ fn linearise(
         let near = places[p.links[0]]
             .then(&p.sides[0])
             .then(&displacement(p))
-            .at;
-        let far = places[p.links[1]].then(&p.sides[1]).at;
-        let mut put = |joint: usize, at: V3, sign: f64| {
+            .translation;
+        let far = places[p.links[1]].then(&p.sides[1]).translation;
+        let mut put = |joint: usize, at: Vector, sign: f64| {
             let part = &robot.joints[joint];
             for (i, a) in world_axes(part, &places).iter().enumerate() {
-                let d = unit(a.direction);
+                let d = towards(a.direction);
                 let (v, w) = match a.freedom {
                     Freedom::Rx | Freedom::Ry | Freedom::Rz => (cross(d, sub(at, a.point)), d),
                     Freedom::Tx | Freedom::Ty | Freedom::Tz => (scale(d, size), [0.0; 3]),

@@ -4,24 +4,13 @@ use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::model::joint_type::Freedom;
 use crate::model::measured::looks_measured;
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::numeric::{DEFAULT_TOLERANCE, rank_with_tolerance};
 use crate::robots::parts::Robot;
 use crate::robots::warning::Kept;
 
 /// Work of singular values, rows · columns · the lesser of them, up to which the figures are told.
 const LARGEST: usize = 2_000_000_000;
-
-/// Rate of one joint over that of another.
-#[derive(Debug, Clone)]
-pub(crate) struct Ratio {
-    /// Names of the joint that leads and the one that follows.
-    pub(super) joints: [String; 2],
-    /// Rate of the follower over that of the leader, in radians and metres.
-    pub(super) ratio: f64,
-    /// The element that says so.
-    pub(super) element: String,
-}
 
 /// Sorts out the couplings that a mechanism file can say, as joint indices; the others are noted and left out. `written`
 /// are the joints that go into the file.
@@ -73,7 +62,7 @@ pub(crate) fn kept(m: &Mechanism) -> Option<Kept> {
     }
     let tolerance = looks_measured(m).map_or(DEFAULT_TOLERANCE, |x| x.tolerance());
     let mobility = |m: &Mechanism| {
-        let closure = Closure::new(&Reals, m, 0).ok()?;
+        let closure = Closure::new(&Reals, m, StateId::FREE).ok()?;
         let (rows, columns) = (closure.rows(), closure.columns.len());
         if rows * columns * rows.min(columns) > LARGEST {
             return None;

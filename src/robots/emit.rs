@@ -1,11 +1,15 @@
-//! The mechanism file of a robot.
+//! The entries of the mechanism file of a robot.
 
+use crate::file::schema::{
+    Coordinate, CouplingEntry, JointEntry, LinkEntry, MechanismFile, OptionEntry, SearchEntry,
+};
+use crate::file::write::Comment;
+use crate::geom::rigid::{Motion, towards};
+use crate::geom::vector::{Vector, length};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::kinematics::world_axes;
 use crate::robots::parts::{Part, Robot};
-use crate::robots::pose::{Pose, V3, clean, length, unit};
 use std::collections::{BTreeMap, BTreeSet};
-use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value};
 
 /// Longest name in a mechanism file, in characters.
 const LONGEST: usize = 64;
@@ -62,8 +66,10 @@ impl Names {
 #[derive(Debug)]
 pub(crate) struct Content<'a> {
     pub(super) robot: &'a Robot,
+    /// Name of the file read, and of its format.
     pub(super) file: &'a str,
-    pub(super) places: &'a [Pose],
+    pub(super) format: &'static str,
+    pub(super) places: &'a [Motion],
     pub(super) bodies: &'a Bodies,
     pub(super) frame: usize,
     /// Bodies that are outputs.
@@ -81,26 +87,15 @@ impl Content<'_> {
     }
 }
 
-/// The file's text.
-pub(crate) fn toml(c: &Content<'_>) -> String {
-    let mut doc = DocumentMut::new();
+/// The entries of the file and what is to be said above them.
+pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
+    let mut comments = Vec::new();
     let one_line = |s: &str| s.chars().filter(|c| !c.is_control()).collect::<String>();
-    doc["name"] = toml_edit::value(one_line(&c.robot.name));
-    let description = format!(
-        "Imported from {} ({}).{}",
-        one_line(c.file),
-        c.robot.format.name(),
-        if c.robot.report.coupling_rows > 0 {
-            " Some couplings of joints are left out."
-        } else {
-            ""
-        }
-    );
-    doc["description"] = toml_edit::value(description);
-    doc["length_unit"] = toml_edit::value("m");
-    let mut names = Names::default();
-    let mut ids: BTreeMap<usize, String> = BTreeMap::new();
-    let mut links = ArrayOfTables::new();
+    let left_out = if c.robot.report.coupling_rows > 0 {
+        " Some couplings of joints are left out."
+    } else {
+        ""
+    };
     let mut merged: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
     for (l, &b) in c.bodies.of.iter().enumerate() {
         if l != b {
@@ -112,150 +107,124 @@ pub(crate) fn toml(c: &Content<'_>) -> String {
         .iter()
         .flat_map(|&j| c.robot.joints[j].links.map(|l| c.bodies.of[l]))
         .collect();
-    let order = std::iter::once(c.frame).chain(used.iter().copied().filter(|&b| b != c.frame));
+    let order = std::iter::once(c.frame).chain(used.into_iter().filter(|&b| b != c.frame));
+    let (mut names, mut ids, mut links) = (Names::default(), BTreeMap::new(), Vec::new());
     for b in order {
         let id = names.fit(&c.robot.links[b]);
-        let mut table = Table::new();
-        table["id"] = toml_edit::value(&id);
-        if b == c.frame {
-            table["role"] = toml_edit::value("frame");
-        } else if c.outputs.contains(&b) {
-            table["role"] = toml_edit::value("output");
-        }
+        let role = if b == c.frame {
+            Some("frame")
+        } else {
+            c.outputs.contains(&b).then_some("output")
+        };
         if let Some(with) = merged.get(&b) {
-            comment(
-                &mut table,
-                &format!("with {}, fixed to it", with.join(", ")),
-            );
+            let text = format!("with {}, fixed to it", with.join(", "));
+            comments.push(Comment::new("link", links.len(), &text));
         }
-        ids.insert(b, id);
-        links.push(table);
+        ids.insert(b, id.clone());
+        links.push(LinkEntry {
+            id,
+            role: role.map(str::to_owned),
+            mass: None,
+            centre: None,
+            inertia: None,
+        });
     }
-    doc["link"] = Item::ArrayOfTables(links);
-    let mut names = Names::default();
-    let mut joints = ArrayOfTables::new();
-    let mut joint_ids: BTreeMap<usize, String> = BTreeMap::new();
+    let (mut names, mut joint_ids, mut joints) = (Names::default(), BTreeMap::new(), Vec::new());
     for &j in c.joints {
         let id = names.fit(&c.robot.joints[j].id);
-        joints.push(joint(j, &id, c, &ids));
-        joint_ids.insert(j, id);
+        joint_ids.insert(j, id.clone());
+        if let Some(what) = &c.robot.joints[j].comment {
+            comments.push(Comment::new("joint", joints.len(), what));
+        }
+        joints.push(joint(j, id, c, &ids));
     }
-    doc["joint"] = Item::ArrayOfTables(joints);
-    let couplings: ArrayOfTables = c
-        .couplings
-        .iter()
-        .map(|x| coupling(x, &joint_ids))
-        .collect();
-    if !couplings.is_empty() {
-        doc["coupling"] = Item::ArrayOfTables(couplings);
-    }
-    let mut options = Array::new();
-    for o in ["revolute", "cylindrical", "universal", "spherical"] {
-        options.push(o);
-    }
-    let mut search = Table::new();
-    search["options"] = toml_edit::value(options);
-    comment(
-        &mut search,
-        "What a search may put in place of a joint; edit freely.",
-    );
-    doc["search"] = Item::Table(search);
-    doc.to_string()
+    let coupling = |(ends, ratio): &([usize; 2], f64)| CouplingEntry {
+        joints: ends.map(|j| joint_ids[&j].clone()),
+        ratio: number(*ratio),
+    };
+    let what = "What a search may put in place of a joint; edit freely.";
+    comments.push(Comment::new("search", 0, what));
+    let options = ["revolute", "cylindrical", "universal", "spherical"];
+    let file = MechanismFile {
+        name: one_line(&c.robot.name),
+        description: format!(
+            "Imported from {} ({}).{left_out}",
+            one_line(c.file),
+            c.format
+        ),
+        length_unit: Some("m".to_owned()),
+        link: links,
+        joint: joints,
+        coupling: c.couplings.iter().map(coupling).collect(),
+        search: SearchEntry {
+            options: options.map(|o| OptionEntry::Word(o.to_owned())).to_vec(),
+            ..SearchEntry::default()
+        },
+        ..MechanismFile::default()
+    };
+    (file, comments)
 }
 
-fn comment(table: &mut Table, text: &str) {
-    let mut lines = String::from("\n");
-    let text: String = text
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect();
-    let mut line = String::new();
-    for word in text.split_whitespace() {
-        if !line.is_empty() && line.len() + word.len() > 110 {
-            lines.push_str(&format!("# {line}\n"));
-            line.clear();
-        }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        line.push_str(word);
-    }
-    lines.push_str(&format!("# {line}\n"));
-    table.decor_mut().set_prefix(lines);
-}
-
-fn number(x: f64) -> Value {
-    let x = clean(x);
+/// A number as it is written: rounding errors around multiples of 1e-9 are taken off.
+fn number(x: f64) -> Coordinate {
+    let r = (x * 1e9).round() / 1e9;
+    let x = if (r - x).abs() < 1e-12 { r } else { x };
     #[allow(clippy::cast_possible_truncation, reason = "whole and small")]
     if x == x.trunc() && x.abs() < 1e15 {
-        Value::from(x as i64)
+        Coordinate::Integer(x as i64)
     } else {
-        Value::from(x)
+        Coordinate::Decimal(x)
     }
-}
-
-fn vector(v: V3) -> Item {
-    toml_edit::value(v.into_iter().map(number).collect::<Array>())
 }
 
 /// A direction as written: of its own length unless that is extreme.
-fn direction(v: V3) -> Item {
-    let l = length(v);
-    vector(if (0.1..=10.0).contains(&l) {
+fn direction(v: Vector) -> Vector {
+    if (0.1..=10.0).contains(&length(v)) {
         v
     } else {
-        unit(v)
-    })
-}
-
-fn coupling((ends, ratio): &([usize; 2], f64), ids: &BTreeMap<usize, String>) -> Table {
-    let mut t = Table::new();
-    t["joints"] = toml_edit::value(ends.iter().map(|j| ids[j].as_str()).collect::<Array>());
-    t["ratio"] = toml_edit::value(number(*ratio));
-    t
-}
-
-fn joint(j: usize, id: &str, c: &Content<'_>, ids: &BTreeMap<usize, String>) -> Table {
-    let p: &Part = &c.robot.joints[j];
-    let mut t = Table::new();
-    t["id"] = toml_edit::value(id);
-    let ends: Array = p
-        .links
-        .iter()
-        .map(|&l| ids[&c.bodies.of[l]].as_str())
-        .collect();
-    t["links"] = toml_edit::value(ends);
-    t["type"] = toml_edit::value(p.joint_type.name());
-    if let JointType::Custom(list) = &p.joint_type {
-        t["freedoms"] = toml_edit::value(list.iter().map(|f| f.name()).collect::<Array>());
+        towards(v)
     }
+}
+
+fn joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, String>) -> JointEntry {
+    let p: &Part = &c.robot.joints[j];
     let place = c.places[p.links[0]].then(&p.sides[0]);
-    t["point"] = vector(place.at);
     let axes = world_axes(p, c.places);
     let about = |f: &[Freedom]| {
         let found = axes.iter().find(|a| f.contains(&a.freedom));
         found.map(|a| a.direction)
     };
-    if !matches!(p.joint_type, JointType::Spherical | JointType::Fixed) {
+    let axis = || {
         let z = about(&[Freedom::Rz, Freedom::Tz, Freedom::Screw]);
         let z = z.unwrap_or_else(|| place.direction(p.axis));
-        t["axis"] = if c.coupled(j) {
-            vector(unit(z))
+        let z = if c.coupled(j) {
+            towards(z)
         } else {
             direction(z)
         };
+        z.map(number)
+    };
+    let ball = matches!(p.joint_type, JointType::Spherical | JointType::Fixed);
+    let universal = p.joint_type == JointType::Universal;
+    let screws = p.joint_type.freedoms().contains(&Freedom::Screw);
+    JointEntry {
+        id,
+        links: p.links.map(|l| ids[&c.bodies.of[l]].clone()),
+        kind: p.joint_type.name().to_owned(),
+        freedoms: match &p.joint_type {
+            JointType::Custom(list) => Some(list.iter().map(|f| f.name().to_owned()).collect()),
+            _ => None,
+        },
+        point: place.translation.map(number),
+        axis: (!ball).then(axis),
+        reference: about(&[Freedom::Rx])
+            .filter(|_| universal)
+            .map(|x| direction(x).map(number)),
+        pitch: screws.then(|| number(p.pitch)),
+        drive: p.drive,
+        state: None,
+        options: None,
+        forbid: Vec::new(),
+        unloading: None,
     }
-    if let (JointType::Universal, Some(x)) = (&p.joint_type, about(&[Freedom::Rx])) {
-        t["reference"] = direction(x);
-    }
-    if p.joint_type.freedoms().contains(&Freedom::Screw) {
-        t["pitch"] = toml_edit::value(number(p.pitch));
-    }
-    if p.drive {
-        t["drive"] = toml_edit::value(true);
-    }
-    if let Some(what) = &p.comment {
-        comment(&mut t, what);
-    }
-    t
 }

@@ -1,7 +1,7 @@
 //! The graph of links and joints: Graphviz DOT and GraphML.
 
 use crate::file::write::role;
-use crate::model::mechanism::{Mechanism, Role};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
 use crate::robots::single_freedoms::escape;
 use petgraph::dot::{Config, Dot};
 use petgraph::graph::UnGraph;
@@ -9,14 +9,14 @@ use std::fmt::Write;
 
 /// Links as nodes (the frame doubly outlined, outputs filled), joints as edges with their class.
 #[must_use]
-pub fn dot(m: &Mechanism) -> String {
-    let mut graph: UnGraph<usize, usize> = UnGraph::new_undirected();
-    let nodes: Vec<_> = (0..m.links.len()).map(|l| graph.add_node(l)).collect();
-    for (j, joint) in m.joints.iter().enumerate() {
+pub(super) fn dot(m: &Mechanism) -> String {
+    let mut graph: UnGraph<LinkId, JointId> = UnGraph::new_undirected();
+    let nodes: Vec<_> = m.link_ids().map(|l| graph.add_node(l)).collect();
+    for (j, joint) in m.joints_with_ids() {
         let [a, b] = joint.links;
         graph.add_edge(nodes[a], nodes[b], j);
     }
-    let edge = |_: &UnGraph<usize, usize>, e: petgraph::graph::EdgeReference<'_, usize>| {
+    let edge = |_: &UnGraph<LinkId, JointId>, e: petgraph::graph::EdgeReference<'_, JointId>| {
         let j = &m.joints[*e.weight()];
         let drive = if j.drive { " penwidth=3" } else { "" };
         let dashed = if j.states.is_some() {
@@ -27,7 +27,7 @@ pub fn dot(m: &Mechanism) -> String {
         let label = format!("{}\n{} {}", j.id, j.joint_type.class(), j.joint_type.name());
         format!("label={}{drive}{dashed}", quoted(&label))
     };
-    let node = |_: &UnGraph<usize, usize>, (_, l): (petgraph::graph::NodeIndex, &usize)| {
+    let node = |_: &UnGraph<LinkId, JointId>, (_, l): (petgraph::graph::NodeIndex, &LinkId)| {
         let link = &m.links[*l];
         let shape = match link.role {
             Role::Frame => " shape=box peripheries=2",
@@ -53,7 +53,7 @@ fn quoted(text: &str) -> String {
 
 /// Links as nodes and joints as edges, with all that bears on the structure as data.
 #[must_use]
-pub fn graphml(m: &Mechanism) -> String {
+pub(super) fn graphml(m: &Mechanism) -> String {
     let mut out = String::from(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n",
     );

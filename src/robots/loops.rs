@@ -6,9 +6,10 @@
 //! - Drake's list of `ball_constraint_body_A`, `ball_constraint_p_AP`, `..._body_B`, `..._p_BQ`.
 
 use crate::file::problem::ImportError;
+use crate::geom::rigid::Motion;
+use crate::geom::vector::{Vector, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::parts::{Part, Robot};
-use crate::robots::pose::{Pose, V3, Z, length, turn_z_to};
 use crate::robots::problem::{RobotProblem, known};
 use serde_json::{Map, Value};
 
@@ -87,7 +88,7 @@ fn word<'a>(v: Option<&'a Value>, what: &str) -> Result<&'a str, RobotProblem> {
 }
 
 /// The link and place of a name: of a link or frame, or of the child's side of a joint.
-fn place(element: &str, name: &str, robot: &Robot) -> Result<(usize, Pose), RobotProblem> {
+fn place(element: &str, name: &str, robot: &Robot) -> Result<(usize, Motion), RobotProblem> {
     if let Some(j) = robot.joints.iter().find(|j| j.id == name) {
         return Ok((j.links[1], j.sides[1]));
     }
@@ -119,7 +120,7 @@ fn joint_type(element: &str, word: &str) -> Result<JointType, RobotProblem> {
 
 fn put(
     element: &str,
-    ends: [(usize, Pose); 2],
+    ends: [(usize, Motion); 2],
     kind: JointType,
     robot: &mut Robot,
 ) -> Result<(), RobotProblem> {
@@ -153,7 +154,7 @@ fn pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), RobotProblem> 
             None => JointType::Fixed,
             Some(t) => joint_type(&element, word(Some(t), "type")?)?,
         };
-        let mut ends = [(0, Pose::IDENTITY); 2];
+        let mut ends = [(0, Motion::IDENTITY); 2];
         for (end, name) in ends.iter_mut().zip([a, b]) {
             *end = place(&element, word(Some(name), "the end of a loop")?, robot)?;
         }
@@ -170,7 +171,7 @@ fn pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), RobotProblem> 
 }
 
 /// Numbers as a list, or as text with spaces as Drake writes them.
-fn vector(v: Option<&Value>, what: &str) -> Result<Option<V3>, RobotProblem> {
+fn vector(v: Option<&Value>, what: &str) -> Result<Option<Vector>, RobotProblem> {
     let bad = || {
         whole(format!(
             "{what} is not three finite numbers; write [0, 0, 1]"
@@ -193,7 +194,7 @@ fn vector(v: Option<&Value>, what: &str) -> Result<Option<V3>, RobotProblem> {
 
 fn ball(i: usize, item: &Value, robot: &mut Robot) -> Result<(), RobotProblem> {
     let element = format!("ball-{}", i + 1);
-    let mut ends = [(0, Pose::IDENTITY); 2];
+    let mut ends = [(0, Motion::IDENTITY); 2];
     for (end, (body, point)) in ends
         .iter_mut()
         .zip([("body_A", "p_AP"), ("body_B", "p_BQ")])
@@ -208,7 +209,7 @@ fn ball(i: usize, item: &Value, robot: &mut Robot) -> Result<(), RobotProblem> {
             robot,
         )?;
         let at = vector(item.get(&point), &format!("{point} of {element}"))?.unwrap_or([0.0; 3]);
-        *end = (link, frame.then(&Pose::shift(at)));
+        *end = (link, frame.then(&Motion::shift(at)));
     }
     put(&element, ends, JointType::Spherical, robot)
 }
@@ -232,7 +233,7 @@ fn own(i: usize, item: &Value, robot: &mut Robot) -> Result<(), RobotProblem> {
         None => JointType::Spherical,
         some => joint_type(&element, word(some, "type")?)?,
     };
-    let mut ends = [(0, Pose::IDENTITY); 2];
+    let mut ends = [(0, Motion::IDENTITY); 2];
     for (end, side) in ends.iter_mut().zip(["a", "b"]) {
         let (link, frame) = place(
             &element,
@@ -248,7 +249,10 @@ fn own(i: usize, item: &Value, robot: &mut Robot) -> Result<(), RobotProblem> {
                 key("axis")
             )));
         }
-        *end = (link, frame.then(&Pose::shift(at)).then(&turn_z_to(axis)));
+        *end = (
+            link,
+            frame.then(&Motion::shift(at)).then(&Motion::z_to(axis)),
+        );
     }
     put(&element, ends, kind, robot)
 }

@@ -1,7 +1,7 @@
 //! Couplings as mimic joints: each joint follows one other at most, so that a tree of couplings can be said, and no more.
 
-use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{JointId, Mechanism};
+use crate::closure::tree::forest;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
 
 /// What a joint follows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,38 +18,31 @@ pub(crate) fn mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follows>>, 
     let mut follows = vec![None; m.joints.len()];
     let mut said = vec![false; m.couplings.len()];
     let fits = |j: JointId| written[j] && m.joints[j].joint_type.freedoms().len() == 1;
-    let mut reached = vec![false; m.joints.len()];
-    // Drives lead.
-    let drives = (0..m.joints.len()).filter(|&j| m.joints[j].drive);
-    for root in drives.chain(0..m.joints.len()) {
-        if reached[root] || !fits(root) {
-            continue;
-        }
-        reached[root] = true;
-        let mut queue = vec![root];
-        let mut next = 0;
-        while let Some(&leader) = queue.get(next) {
-            next += 1;
-            for (q, end) in m.couplings_of(leader) {
-                let coupling = &m.couplings[q];
-                let other = coupling.ends[1 - end].joint;
-                if said[q] || reached[other] || !fits(other) {
-                    continue;
-                }
-                let unit = |e: usize| match coupling.ends[e].freedom {
-                    Freedom::Tx | Freedom::Ty | Freedom::Tz => m.length_unit.metres,
-                    _ => 1.0,
-                };
-                let forward = coupling.ratio.to_f64() * unit(1) / unit(0);
-                let ratio = if end == 0 { forward } else { 1.0 / forward };
-                follows[other] = Some(Follows { leader, ratio });
-                (said[q], reached[other]) = (true, true);
-                queue.push(other);
-            }
-        }
+    // Drives lead. A coupling of joints that cannot follow is a loop of one node, which no tree takes.
+    let drives = m.joint_ids().filter(|&j| m.joints[j].drive);
+    let edges = m.couplings.iter().map(|c| {
+        let [a, b] = c.ends.map(|e| e.joint);
+        let ends = if fits(a) && fits(b) { [a, b] } else { [a, a] };
+        ends.map(JointId::index)
+    });
+    let starts = drives.chain(m.joint_ids()).map(JointId::index);
+    let (_, steps) = forest(m.joints.len(), edges, |_| false, starts);
+    for s in steps {
+        let coupling = &m.couplings[s.joint];
+        let unit = |e: usize| match coupling.ends[e].freedom {
+            f if f.slides() => m.length_unit.metres,
+            _ => 1.0,
+        };
+        let forward = coupling.ratio.to_f64() * unit(1) / unit(0);
+        let ratio = if s.forward { forward } else { 1.0 / forward };
+        follows[s.link] = Some(Follows {
+            leader: JointId::new(s.from),
+            ratio,
+        });
+        said[s.joint] = true;
     }
     let left = m.couplings.iter().zip(&said).filter(|(_, s)| !**s);
-    let present = left.filter(|(c, _)| m.couplings_in(0).any(|x| x.ends == c.ends));
+    let present = left.filter(|(c, _)| m.couplings_in(StateId::FREE).any(|x| x.ends == c.ends));
     (follows, present.map(|(c, _)| c.name(m)).collect())
 }
 
@@ -58,15 +51,15 @@ const MARK: char = '\0';
 
 /// Stands in a text for what is known of a joint only when all are written.
 pub(crate) fn stand_in(joint: JointId) -> String {
-    format!("{MARK}{joint}{MARK}")
+    format!("{MARK}{}{MARK}", joint.index())
 }
 
 /// The text with what is known now in those places.
 pub(crate) fn settled(text: &str, known: impl Fn(JointId) -> String) -> String {
     let mut out = String::with_capacity(text.len());
     for (i, part) in text.split(MARK).enumerate() {
-        match part.parse::<JointId>() {
-            Ok(joint) if i % 2 == 1 => out.push_str(&known(joint)),
+        match part.parse() {
+            Ok(joint) if i % 2 == 1 => out.push_str(&known(JointId::new(joint))),
             _ => out.push_str(part),
         }
     }

@@ -2,5 +2,5 @@
 
 mod defaults;
 mod equality;
-pub(super) mod include;
+mod include;
 pub(super) mod read;

@@ -1,8 +1,8 @@
 //! What the three formats have in common: links, joints with a place on either side, named frames.
 
+use crate::geom::rigid::{Motion, perpendicular};
+use crate::geom::vector::{Vector, X, Z, cross};
 use crate::model::joint_type::{Freedom, JointType};
-use crate::robots::coupling::Ratio;
-use crate::robots::pose::{Pose, V3, X, Z, across, cross};
 use crate::robots::warning::Report;
 use std::collections::BTreeMap;
 
@@ -14,12 +14,12 @@ pub(crate) struct Part {
     /// Parent and child.
     pub(super) links: [usize; 2],
     /// The joint's place on the parent and on the child.
-    pub(super) sides: [Pose; 2],
+    pub(super) sides: [Motion; 2],
     pub(super) joint_type: JointType,
     /// Direction of z in the joint's own frame, of any length.
-    pub(super) axis: V3,
+    pub(super) axis: Vector,
     /// Direction of x in the joint's own frame.
-    pub(super) second: V3,
+    pub(super) second: Vector,
     /// Translation per radian of a screw, in metres.
     pub(super) pitch: f64,
     pub(super) drive: bool,
@@ -40,7 +40,7 @@ impl Part {
     pub(crate) fn new(
         id: &str,
         links: [usize; 2],
-        sides: [Pose; 2],
+        sides: [Motion; 2],
         joint_type: JointType,
     ) -> Part {
         Part {
@@ -61,14 +61,14 @@ impl Part {
     }
 
     /// The joint about or along another axis of its frame.
-    pub(crate) fn about(mut self, axis: V3) -> Part {
+    pub(crate) fn about(mut self, axis: Vector) -> Part {
         self.axis = axis;
-        self.second = across(axis);
+        self.second = perpendicular(axis);
         self
     }
 
     /// The direction of a freedom in the joint's own frame.
-    pub(crate) fn direction(&self, freedom: Freedom) -> V3 {
+    pub(crate) fn direction(&self, freedom: Freedom) -> Vector {
         match freedom {
             Freedom::Rz | Freedom::Tz | Freedom::Screw => self.axis,
             Freedom::Rx | Freedom::Tx => self.second,
@@ -83,34 +83,21 @@ pub(crate) fn free() -> JointType {
     JointType::Custom(vec![Tx, Ty, Tz, Rx, Ry, Rz])
 }
 
-/// The format of a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// Unified Robot Description Format.
-    Urdf,
-    /// MuJoCo's XML.
-    Mjcf,
-    /// Simulation Description Format.
-    Sdf,
-}
-
-impl Format {
-    /// The usual name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Format::Urdf => "URDF",
-            Format::Mjcf => "MJCF",
-            Format::Sdf => "SDF",
-        }
-    }
+/// Rate of one joint over that of another.
+#[derive(Debug, Clone)]
+pub(crate) struct Ratio {
+    /// Names of the joint that leads and the one that follows.
+    pub(super) joints: [String; 2],
+    /// Rate of the follower over that of the leader, in radians and metres.
+    pub(super) ratio: f64,
+    /// The element that says so.
+    pub(super) element: String,
 }
 
 /// A robot as read.
 #[derive(Debug)]
 pub(crate) struct Robot {
     pub(super) name: String,
-    pub(super) format: Format,
     /// Names of the links.
     pub(super) links: Vec<String>,
     pub(super) joints: Vec<Part>,
@@ -119,17 +106,16 @@ pub(crate) struct Robot {
     /// The link that is the world, where the format has one.
     pub(super) world: Option<usize>,
     /// Named frames: the link they are fixed to and their place on it.
-    pub(super) frames: BTreeMap<String, (usize, Pose)>,
+    pub(super) frames: BTreeMap<String, (usize, Motion)>,
     /// Places of links in the file, for those that nothing else places.
-    pub(super) places: Vec<Pose>,
+    pub(super) places: Vec<Motion>,
     pub(super) report: Report,
 }
 
 impl Robot {
-    pub(crate) fn new(name: &str, format: Format) -> Robot {
+    pub(crate) fn new(name: &str) -> Robot {
         Robot {
             name: name.to_owned(),
-            format,
             links: Vec::new(),
             joints: Vec::new(),
             couplings: Vec::new(),
@@ -141,16 +127,16 @@ impl Robot {
     }
 
     /// Adds a link; its frame gets its name.
-    pub(crate) fn link(&mut self, name: &str, place: Pose) -> usize {
+    pub(crate) fn link(&mut self, name: &str, place: Motion) -> usize {
         let l = self.links.len();
         self.links.push(name.to_owned());
         self.places.push(place);
-        self.frames.insert(name.to_owned(), (l, Pose::IDENTITY));
+        self.frames.insert(name.to_owned(), (l, Motion::IDENTITY));
         l
     }
 
     /// The link or frame of a name.
-    pub(crate) fn frame(&self, name: &str) -> Option<(usize, Pose)> {
+    pub(crate) fn frame(&self, name: &str) -> Option<(usize, Motion)> {
         self.frames.get(name).copied()
     }
 }

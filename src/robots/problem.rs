@@ -25,10 +25,8 @@ pub(crate) enum RobotProblem {
     TooDeep { limit: usize },
     #[error("more than {limit} {what}; remove what is not kinematics")]
     TooMany { what: &'static str, limit: usize },
-    #[error(
-        "the root element is <{found}>; <robot> (URDF), <mujoco> (MJCF) and <sdf> (SDF) can be read"
-    )]
-    Format { found: String },
+    #[error("the root element is <{found}>; {known} can be read")]
+    Format { found: String, known: String },
     #[error("{element} has no {what}; add it")]
     Missing { element: String, what: String },
     #[error("{what} of {element} is \"{found}\"; {want}")]
@@ -89,4 +87,33 @@ pub(crate) fn known<'a>(what: &str, names: impl Iterator<Item = &'a str>) -> Str
     let shown = all.iter().take(20).copied().collect::<Vec<_>>().join(", ");
     let more = if all.len() > 20 { ", ..." } else { "" };
     format!("{what}: {shown}{more}")
+}
+
+/// Why a mechanism cannot be written in a format.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// The format has no such joint.
+    #[error("joint \"{joint}\" of type {kind} cannot be said in {format}; {remedy}")]
+    Joint {
+        /// The joint.
+        joint: String,
+        /// Its type.
+        kind: String,
+        /// The format.
+        format: &'static str,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// No such format is written.
+    #[error("unknown format \"{word}\"; known: {known}")]
+    Unknown {
+        /// The word for it.
+        word: String,
+        /// The words known.
+        known: String,
+    },
+    /// The TOML writer failed.
+    #[error("the mechanism cannot be written as TOML: {0}; report this with the file")]
+    Toml(#[from] toml::ser::Error),
 }

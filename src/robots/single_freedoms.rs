@@ -1,16 +1,15 @@
 //! Joints in metres and double precision, taken apart into single freedoms.
 
+use crate::geom::vector::{Vector, across, cross, real, unit};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Joint, Mechanism};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-pub(crate) type V3 = [f64; 3];
-
 /// A joint's place: origin in metres, unit axes x, y, z.
 pub(crate) struct Place {
-    pub(super) point: V3,
-    pub(super) axes: [V3; 3],
+    pub(super) point: Vector,
+    pub(super) axes: [Vector; 3],
     /// Metres per radian.
     pub(super) pitch: f64,
 }
@@ -18,27 +17,16 @@ pub(crate) struct Place {
 /// What a single freedom does, about or along its axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Single {
-    Turn(V3),
-    Shift(V3),
-    Screw(V3, f64),
+    Turn(Vector),
+    Shift(Vector),
+    Screw(Vector, f64),
 }
 
 pub(crate) fn place(m: &Mechanism, j: &Joint) -> Place {
-    let real = |v: &[crate::geom::expr::Expr; 3]| [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()];
     let metres = m.length_unit.metres;
     let z = unit(real(&j.frame.axis));
-    let r = real(&j.frame.reference);
-    let along = dot(r, z);
-    let x = unit([
-        r[0] - along * z[0],
-        r[1] - along * z[1],
-        r[2] - along * z[2],
-    ]);
-    let y = [
-        z[1] * x[2] - z[2] * x[1],
-        z[2] * x[0] - z[0] * x[2],
-        z[0] * x[1] - z[1] * x[0],
-    ];
+    let x = unit(across(real(&j.frame.reference), z));
+    let y = cross(z, x);
     Place {
         point: real(&j.frame.point).map(|c| c * metres),
         axes: [x, y, z],
@@ -63,19 +51,6 @@ pub(crate) fn singles(j: &JointType, p: &Place) -> Vec<Single> {
         .collect()
 }
 
-fn dot(a: V3, b: V3) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-fn unit(v: V3) -> V3 {
-    let l = dot(v, v).sqrt();
-    if l > 0.0 {
-        v.map(|x| x / l)
-    } else {
-        [0.0, 0.0, 1.0]
-    }
-}
-
 /// A number without the rounding errors of scaling.
 pub(crate) fn number(x: f64) -> f64 {
     let r = (x * 1e12).round() / 1e12;
@@ -84,7 +59,7 @@ pub(crate) fn number(x: f64) -> f64 {
 }
 
 /// Three numbers with spaces between.
-pub(crate) fn numbers(v: V3) -> String {
+pub(crate) fn numbers(v: Vector) -> String {
     let mut out = String::new();
     for (i, x) in v.into_iter().enumerate() {
         let gap = if i == 0 { "" } else { " " };

@@ -1,7 +1,7 @@
 //! XML as a flat arena with the place of every element and attribute, bounded in size, depth and number.
 
 use crate::file::problem::ImportError;
-use crate::robots::pose::V3;
+use crate::geom::vector::Vector;
 use crate::robots::problem::RobotProblem;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
@@ -338,7 +338,7 @@ impl<'a> Element<'a> {
     }
 
     /// A vector attribute, or what is there without it.
-    pub(crate) fn vector(self, name: &str, default: V3) -> Result<V3, ImportError> {
+    pub(crate) fn vector(self, name: &str, default: Vector) -> Result<Vector, ImportError> {
         Ok(self.numbers::<3>(name)?.unwrap_or(default))
     }
 

@@ -94,17 +94,20 @@ fn free_is_loaded(m: &Mechanism) -> bool {
 /// Whether the file loads any state.
 #[must_use]
 pub fn is_loaded(m: &Mechanism) -> bool {
-    free_is_loaded(m) || (0..m.states.len()).any(|s| grip_of(m, s).is_some())
+    free_is_loaded(m) || m.state_ids().any(|s| grip_of(m, s).is_some())
 }
 
 /// The states that count where the ranking names none: those with loads, the free one also where it has a stroke to be
 /// conditioned over or nothing else is loaded.
 #[must_use]
 pub fn states_with_loads(m: &Mechanism) -> Vec<StateId> {
-    let gripped = (1..m.states.len()).filter(|&s| grip_of(m, s).is_some());
+    let gripped = m.state_ids().skip(1).filter(|&s| grip_of(m, s).is_some());
     let gripped: Vec<StateId> = gripped.collect();
     let free = gripped.is_empty() || free_is_loaded(m) || m.loads.stroke.is_some();
-    free.then_some(0).into_iter().chain(gripped).collect()
+    free.then_some(StateId::FREE)
+        .into_iter()
+        .chain(gripped)
+        .collect()
 }
 
 /// The cases of some states; of those with loads where none are named.
@@ -119,8 +122,8 @@ pub fn cases(m: &Mechanism, drives: &[Driven], states: &[StateId]) -> Result<Cas
     let default = states_with_loads(m);
     let states = if states.is_empty() { &default } else { states };
     for &state in states.iter().unique() {
-        if state == 0 && grip_of(m, 0).is_none() {
-            let followed = follow(m, 0, drives, m.loads.stroke)?;
+        if state == StateId::FREE && grip_of(m, StateId::FREE).is_none() {
+            let followed = follow(m, StateId::FREE, drives, m.loads.stroke)?;
             out.stopped = followed.stopped;
             out.free = followed.poses.len();
             let each = followed.poses.into_iter().map(|(drive, pose)| Case {
@@ -143,7 +146,11 @@ fn grip_cases(
     out: &mut Cases,
 ) -> Result<(), CaseError> {
     let name = || m.states[g.state].clone();
-    if !g.mechanism.joints_in(g.state).eq(m.joints_in(0)) {
+    if !g
+        .mechanism
+        .joints_in(g.state)
+        .eq(m.joints_in(StateId::FREE))
+    {
         return Err(CaseError::OtherJoints(name()));
     }
     if drives.len() != 1 {
@@ -161,7 +168,7 @@ fn grip_cases(
         };
         of_grip.held.push(row.diameter);
         let drive = g.fit(row)?.drive;
-        let followed = follow_to(m, 0, drives, &[drive])?;
+        let followed = follow_to(m, StateId::FREE, drives, &[drive])?;
         let Some((_, pose)) = followed.poses.into_iter().next() else {
             return Err(CaseError::OutOfReach(drive));
         };

@@ -1,5 +1,6 @@
 //! The scores of variants, fast.
 
+use crate::geom::vector::dot;
 use crate::model::mechanism::{LinkId, StateId};
 use crate::model::ranking::ClearanceSum;
 use crate::redundancy::analysis::{AnalysisError, Method, analyse};
@@ -13,7 +14,7 @@ use crate::search::best::Variant;
 use crate::search::request::Search;
 use crate::statics::reactions::drives::{Driven, driven};
 use crate::statics::reactions::follow::follow;
-use crate::statics::reactions::geometry::{Geometry, dot};
+use crate::statics::reactions::geometry::Geometry;
 use crate::statics::reactions::{Unsolved, no_couplings};
 use thiserror::Error;
 
@@ -78,11 +79,14 @@ impl<'s, 'm> Evaluator<'s, 'm> {
         states: &[StateId],
     ) -> Result<Evaluator<'s, 'm>, ScoreError> {
         let m = search.mechanism;
-        no_couplings(m, 0)?;
+        no_couplings(m, StateId::FREE)?;
         let types = JointTypes::of(m);
-        let start = follow(m, 0, &[], None)?;
+        let start = follow(m, StateId::FREE, &[], None)?;
         let drives = match start.poses.first() {
-            Some((_, pose)) => driven(m, &Geometry::new(m, 0, pose).map_err(Unsolved::from)?)?,
+            Some((_, pose)) => driven(
+                m,
+                &Geometry::new(m, StateId::FREE, pose).map_err(Unsolved::from)?,
+            )?,
             None => Vec::new(),
         };
         let cases = cases(m, &drives, states)?;
@@ -92,7 +96,7 @@ impl<'s, 'm> Evaluator<'s, 'm> {
             .iter()
             .map(|case| Table::new(search, &types, &outputs, &drives, case))
             .collect::<Result<_, _>>()?;
-        let states = analyse(m, &[0], Method::Modular)?;
+        let states = analyse(m, &[StateId::FREE], Method::Modular)?;
         let working = states
             .first()
             .map_or(0, |s| i64::try_from(s.working_mobility).unwrap_or(0));

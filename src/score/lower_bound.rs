@@ -6,10 +6,10 @@
 //! that follow the reactions (for peaks [Lawson 1961], for sums of sizes [Weiszfeld 1937]), and each step's dual gives a
 //! bound that holds whether or not the steps have converged.
 
+use crate::geom::vector::{dot, length};
 use crate::model::ranking::{ClearanceSum, Ranking, Term};
 use crate::score::evaluate::Evaluator;
 use crate::score::table::{Place, Table};
-use crate::statics::reactions::geometry::dot;
 use faer::Mat;
 
 /// Steps of each problem.
@@ -263,10 +263,6 @@ fn weighted_least(parts: &[Part], weights: &[f64]) -> Option<Vec<[f64; 3]>> {
     Some(out)
 }
 
-fn size(v: [f64; 3]) -> f64 {
-    dot(v, v).sqrt()
-}
-
 /// A bound below the greatest |vector| / limit: for z = weight · vector at the least squares, Σ z · vector is the same for
 /// all that is open, and at most Σ |z| limit · peak.
 fn least_peak(parts: &[Part]) -> f64 {
@@ -285,14 +281,14 @@ fn least_peak(parts: &[Part]) -> f64 {
         let (mut work, mut most) = (0.0, 0.0);
         for ((w, v), p) in weights.iter().zip(&at).zip(parts) {
             work += w * dot(*v, *v);
-            most += w * size(*v) * p.limit;
+            most += w * length(*v) * p.limit;
         }
         if most <= 0.0 {
             break;
         }
         best = f64::max(best, work / most);
         for ((s, v), p) in share.iter_mut().zip(&at).zip(parts) {
-            *s *= size(*v) / p.limit;
+            *s *= length(*v) / p.limit;
         }
         let whole: f64 = share.iter().sum();
         share.iter_mut().for_each(|s| *s /= whole);
@@ -308,21 +304,21 @@ fn least_sum(parts: &[Part]) -> f64 {
         let Some(at) = weighted_least(parts, &weights) else {
             break;
         };
-        let greatest = at.iter().map(|v| size(*v)).fold(0.0, f64::max);
+        let greatest = at.iter().map(|v| length(*v)).fold(0.0, f64::max);
         if greatest <= 0.0 {
             break;
         }
         let each = || weights.iter().zip(&at).zip(parts);
         let work: f64 = each().map(|((w, v), _)| w * dot(*v, *v)).sum();
         let scale = each()
-            .filter(|((w, v), _)| **w * size(**v) > 0.0)
-            .map(|((w, v), p)| p.limit / (w * size(*v)))
+            .filter(|((w, v), _)| **w * length(**v) > 0.0)
+            .map(|((w, v), p)| p.limit / (w * length(*v)))
             .fold(f64::INFINITY, f64::min);
         if scale.is_finite() {
             best = f64::max(best, scale * work);
         }
         for ((w, v), p) in weights.iter_mut().zip(&at).zip(parts) {
-            *w = p.limit / size(*v).max(1e-9 * greatest);
+            *w = p.limit / length(*v).max(1e-9 * greatest);
         }
     }
     best

@@ -1,6 +1,7 @@
 //! The order of a pool of variants, why it is what it is, and whether a variant outside of the pool could win.
 
-use crate::model::mechanism::Mechanism;
+use crate::format::number::brief;
+use crate::model::mechanism::{JointId, Mechanism};
 use crate::model::ranking::{Order, Ranking, Term};
 use crate::score::cases::Gripped;
 use crate::score::elimination::Scratch;
@@ -280,54 +281,38 @@ fn ordinal(n: usize) -> String {
     format!("{n}{end}")
 }
 
-fn three(x: f64) -> String {
-    if x == 0.0 {
-        return "0".to_owned();
-    }
-    if !(1e-3..1e6).contains(&x.abs()) {
-        return format!("{x:.1e}");
-    }
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0 to 6"
-    )]
-    let decimals = (2.0 - x.abs().log10().floor()).clamp(0.0, 6.0) as usize;
-    format!("{x:.decimals$}")
-}
-
 /// What a term came from and went to, in words.
 fn change(m: &Mechanism, term: Term, from: &Scores, to: &Scores) -> String {
-    let joint = |j: usize| m.joints.get(j).map_or("", |j| j.id.as_str());
+    let joint = |j: JointId| m.joints.get(j.index()).map_or("", |j| j.id.as_str());
     match term {
         Term::PeakForce => format!(
             "peak force {} N ({} of capacity, joint {}) instead of {} N ({}, joint {})",
-            three(to.force.value),
-            three(to.force.utilisation),
+            brief(to.force.value),
+            brief(to.force.utilisation),
             joint(to.force.joint),
-            three(from.force.value),
-            three(from.force.utilisation),
+            brief(from.force.value),
+            brief(from.force.utilisation),
             joint(from.force.joint)
         ),
         Term::PeakMoment => format!(
             "peak moment {} N·m ({} of capacity, joint {}) instead of {} N·m ({}, joint {})",
-            three(to.moment.value),
-            three(to.moment.utilisation),
+            brief(to.moment.value),
+            brief(to.moment.utilisation),
             joint(to.moment.joint),
-            three(from.moment.value),
-            three(from.moment.utilisation),
+            brief(from.moment.value),
+            brief(from.moment.utilisation),
             joint(from.moment.joint)
         ),
         Term::OutputError => format!(
             "output error {} mm instead of {} mm",
-            three(1e3 * to.output_error),
-            three(1e3 * from.output_error)
+            brief(1e3 * to.output_error),
+            brief(1e3 * from.output_error)
         ),
         _ => format!(
             "{} {} instead of {}",
             term.name(),
-            three(to.value(term)),
-            three(from.value(term))
+            brief(to.value(term)),
+            brief(from.value(term))
         ),
     }
 }

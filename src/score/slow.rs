@@ -1,8 +1,9 @@
 //! The scores of a variant the plain way: built as a mechanism and solved by singular values.
 
+use crate::geom::vector::length;
 use crate::model::joint_type::Freedom;
 use crate::model::loads::{ExternalForce, Loads};
-use crate::model::mechanism::JointId;
+use crate::model::mechanism::{JointId, StateId};
 use crate::score::bearing::Load;
 use crate::score::evaluate::Evaluator;
 use crate::score::joint_types::JointType;
@@ -25,10 +26,6 @@ fn borne(r: &JointReaction) -> ([f64; 3], [f64; 3]) {
     (f, m)
 }
 
-fn size(v: [f64; 3]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
 impl Evaluator<'_, '_> {
     /// The scores of a variant, by realizing it and solving its equilibrium by singular values, reactions of minimum norm
     /// where redundant constraints leave them open.
@@ -49,13 +46,14 @@ impl Evaluator<'_, '_> {
         let types = self.realized_types(&variant.choices);
         let mut worst: Option<Scores> = None;
         let positions: Vec<f64> = self.cases.list.iter().map(|c| c.drive).collect();
-        let followed = follow_to(&m, 0, &self.drives, &positions)?;
+        let followed = follow_to(&m, StateId::FREE, &self.drives, &positions)?;
         for case in &self.cases.list {
             let there = followed.poses.iter().find(|(at, _)| *at == case.drive);
             let Some((drive, pose)) = there else {
                 return Err(Unsolved::NoConvergence);
             };
-            let solve = |loads: &Loads| Reactions::at(&m, 0, loads, pose, *drive, &self.drives);
+            let solve =
+                |loads: &Loads| Reactions::at(&m, StateId::FREE, loads, pose, *drive, &self.drives);
             let solution = solve(&case.loads)?;
             let mut now = self.plain(variant);
             now.conditioning = 1.0 / solution.condition;
@@ -65,13 +63,13 @@ impl Evaluator<'_, '_> {
                 let (f, moment) = borne(r);
                 each(Load {
                     joint: *at,
-                    force: size(f),
-                    moment: size(moment),
+                    force: length(f),
+                    moment: length(moment),
                     capacity: (t.capacity_force, t.capacity_moment),
                 });
-                now.force.raise(size(f), t.capacity_force, *at);
+                now.force.raise(length(f), t.capacity_force, *at);
                 if let Some(capacity) = t.capacity_moment {
-                    now.moment.raise(size(moment), capacity, *at);
+                    now.moment.raise(length(moment), capacity, *at);
                 }
             }
             for &(link, point) in &self.outputs {
@@ -91,7 +89,7 @@ impl Evaluator<'_, '_> {
                         ..Loads::default()
                     };
                     for r in &solve(&loads)?.reactions {
-                        let f = size(borne(r).0);
+                        let f = length(borne(r).0);
                         error.joint(types[r.joint].1.clearance, f * f);
                     }
                     error.end_axis();
@@ -118,7 +116,7 @@ impl Evaluator<'_, '_> {
             }
         }
         let (mut here, mut inserted) = (Vec::new(), Vec::new());
-        for (j, (option, unloading)) in chosen.into_iter().enumerate() {
+        for (j, (option, unloading)) in m.joint_ids().zip(chosen) {
             let joint = &m.joints[j];
             let bears = |o: Option<&crate::model::mechanism::JointOption>| {
                 let nothing = JointType {

@@ -2,18 +2,18 @@
 
 use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
 use crate::geom::scalars::Reals;
+use crate::geom::vector::{across, cross};
 use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism};
+use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::score::cases::Case;
 use crate::score::joint_types::JointTypes;
-use crate::score::terms::{across, axis_of};
+use crate::score::terms::axis_of;
 use crate::search::request::Search;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::applied::link_loads;
-use crate::statics::reactions::drives::Driven;
-use crate::statics::reactions::geometry::{Geometry, Six, about, cross, power, wrench};
-use crate::statics::reactions::period;
+use crate::statics::reactions::drives::{Driven, period};
+use crate::statics::reactions::geometry::{Geometry, Six, about, power, wrench};
 
 /// What a choice puts at one joint.
 #[derive(Debug, Clone)]
@@ -68,7 +68,7 @@ impl Table {
         Case { drive, pose, loads }: &Case,
     ) -> Result<Table, Unsolved> {
         let m = search.mechanism;
-        let geometry = Geometry::new(m, 0, pose)?;
+        let geometry = Geometry::new(m, StateId::FREE, pose)?;
         let mut cases = vec![link_loads(
             m,
             loads,

@@ -4,7 +4,6 @@ use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
 use crate::model::ranking::{ClearanceSum, Term};
 use crate::score::cases::Cases;
-use crate::statics::reactions::geometry::dot;
 
 /// A joint that bears the greatest part of its capacity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,7 +20,7 @@ impl Peak {
     pub(super) const NONE: Peak = Peak {
         utilisation: 0.0,
         value: 0.0,
-        joint: 0,
+        joint: JointId::new(0),
     };
 
     /// Takes the greater of two, the first where they are alike.
@@ -106,7 +105,7 @@ impl Scores {
 /// its first joint.
 #[must_use]
 pub fn output_points(m: &Mechanism, cases: &Cases) -> Vec<(LinkId, [f64; 3])> {
-    let outputs = (0..m.links.len()).filter(|&l| m.links[l].role == Role::Output);
+    let outputs = m.link_ids().filter(|&l| m.links[l].role == Role::Output);
     let each = outputs.filter_map(|l| {
         let mut forces = cases.list.iter().flat_map(|c| &c.loads.forces);
         let force = forces.find(|f| f.link == l).map(|f| &f.point);
@@ -159,12 +158,6 @@ impl ErrorSum {
     pub(super) fn error(&self) -> f64 {
         self.square.sqrt()
     }
-}
-
-/// What is left of a vector without its part along a unit vector.
-pub(super) fn across(v: [f64; 3], along: [f64; 3]) -> [f64; 3] {
-    let part = dot(v, along);
-    [0, 1, 2].map(|i| v[i] - part * along[i])
 }
 
 /// The axis of the joint's frame that a freedom is along, and whether it is a shift.

@@ -1,7 +1,7 @@
 //! The twin of the diagram: look at every variant. Kept for checking and for the comparison of speed.
 
 use crate::closure::contour::contour_basis;
-use crate::closure::matrix::path_from_frame;
+use crate::closure::tree::path_from_frame;
 use crate::geom::exact::ExactField;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
@@ -43,12 +43,12 @@ impl Matrices {
         kept: &[LinkId],
     ) -> Matrices {
         let (f, d) = (exact.field(), space.dim);
-        let free = contour_basis(mechanism, 0);
-        let state: StateId = space.state.unwrap_or(0);
+        let free = contour_basis(mechanism, StateId::FREE);
+        let state: StateId = space.state.unwrap_or(StateId::FREE);
         let all = contour_basis(mechanism, state);
         let paths: Vec<Vec<(JointId, bool)>> = kept
             .iter()
-            .map(|&l| path_from_frame(mechanism, 0, l))
+            .map(|&l| path_from_frame(mechanism, StateId::FREE, l))
             .collect();
         let signs = |j: JointId| {
             let contours = free.iter().map(move |c| c.direction(j));
@@ -64,8 +64,11 @@ impl Matrices {
             states.as_ref().is_none_or(|of| of.contains(&s))
         };
         let all_couplings = 0..mechanism.couplings.len();
-        let coupled: Vec<usize> = all_couplings.clone().filter(|&q| present(q, 0)).collect();
-        let adds = |q: &usize| present(*q, state) && !present(*q, 0);
+        let coupled: Vec<usize> = all_couplings
+            .clone()
+            .filter(|&q| present(q, StateId::FREE))
+            .collect();
+        let adds = |q: &usize| present(*q, state) && !present(*q, StateId::FREE);
         let added_couplings: Vec<usize> = all_couplings.filter(adds).collect();
         let column = |j: JointId, signs: &[Option<bool>], twist: &[Residue]| {
             let mut blocks = signs.iter().map(|sign| {

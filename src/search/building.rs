@@ -2,7 +2,7 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::{JointId, LinkId};
+use crate::model::mechanism::{JointId, LinkId, StateId};
 use crate::search::diagram::{self, Collapse, Diagram, Limits, Progress, Stage, Stop};
 use crate::search::lookahead::lookahead;
 use crate::search::order::variable_order;
@@ -47,7 +47,7 @@ impl Search<'_> {
         let (free, added): (Vec<usize>, Vec<usize>) =
             (0..self.space.variables.len()).partition(|&v| !self.space.variables[v].external);
         let order = variable_order(self.mechanism, &self.space, &free, &[]);
-        let joints = |order: &[usize]| -> Vec<usize> {
+        let joints = |order: &[usize]| -> Vec<JointId> {
             order
                 .iter()
                 .flat_map(|&v| self.space.variables[v].joints.iter().copied())
@@ -85,7 +85,7 @@ impl Search<'_> {
         pinned.extend(&self.kept.0);
         let free_links: Vec<LinkId> = self
             .mechanism
-            .joints_in(0)
+            .joints_in(StateId::FREE)
             .flat_map(|j| self.mechanism.joints[j].links)
             .collect();
         let contacts = joints(&added)

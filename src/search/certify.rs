@@ -180,25 +180,25 @@ impl Search<'_> {
     }
 
     fn shape(&self, realized: &Mechanism) -> Shape {
-        let lock = || contour_basis(&self.locked(realized), 0);
+        let lock = || contour_basis(&self.locked(realized), StateId::FREE);
         let state = self.request.state.map(|(s, _)| s);
         Shape {
-            free: contour_basis(realized, 0),
+            free: contour_basis(realized, StateId::FREE),
             locked: self.request.keep_output.then(lock),
             state: state.map(|s| (s, contour_basis(realized, s))),
         }
     }
 
     fn opinion(&self, variant: &Variant, m: &Mechanism, shape: &Shape) -> Option<Opinion> {
-        let (free, f) = self.decompose(m, 0, &shape.free)?;
+        let (free, f) = self.decompose(m, StateId::FREE, &shape.free)?;
         let rows = |contours: &[Contour], state: StateId| {
             int(contours.len() * self.space.dim + m.couplings_in(state).count())
         };
-        let redundant = rows(&shape.free, 0) - int(free.rank);
+        let redundant = rows(&shape.free, StateId::FREE) - int(free.rank);
         let output = match &shape.locked {
             None => None,
             Some(contours) => {
-                let (locked, _) = self.decompose(&self.locked(m), 0, contours)?;
+                let (locked, _) = self.decompose(&self.locked(m), StateId::FREE, contours)?;
                 Some(locked.rank.saturating_sub(free.rank))
             }
         };

@@ -9,11 +9,12 @@
 //! idle motion that leaves the outputs at rest in the file's pose may move them in others; and the file's pose may be a
 //! singular one, where more seems to move, and to bind, than does.
 
-use crate::closure::matrix::path_from_frame;
+use crate::closure::tree::path_from_frame;
 use crate::geom::exact::ExactError;
 use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{JointId, Mechanism};
-use crate::motion::pose::Pose;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::motion::pose::{FLAT, Pose};
+use crate::rank::scaled::rank_of_values;
 use crate::rank::trace::motions;
 use crate::search::best::Variant;
 use crate::search::request::Search;
@@ -21,8 +22,6 @@ use faer::Mat;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
-/// Singular values of J below this fraction of the largest count as zero at a pose that Newton's method has closed.
-pub const FLAT: f64 = 1e-6;
 /// The largest coordinate of the first steps: radians, and fractions of the mechanism's size.
 const STEP: f64 = 0.2;
 /// How often a step that does not close is halved.
@@ -88,7 +87,7 @@ impl Search<'_> {
     /// # Complexity
     /// Some closings of O((6k)² f) a pose.
     pub fn stroke(&self, count: usize, seed: u64) -> Result<Stroke, ExactError> {
-        let pose = Pose::of_file(self.mechanism, 0)?;
+        let pose = Pose::of_file(self.mechanism, StateId::FREE)?;
         let span = motions(&pose);
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut poses = Vec::new();
@@ -131,7 +130,7 @@ impl Search<'_> {
             poses: 0,
             other: None,
         };
-        let Ok(pose) = Pose::of_file(m, 0) else {
+        let Ok(pose) = Pose::of_file(m, StateId::FREE) else {
             return out;
         };
         for (coordinates, output) in &stroke.poses {
@@ -159,7 +158,13 @@ impl Search<'_> {
             let screw = || match (freedom, of(Freedom::Screw)?.2) {
                 (Freedom::Rz, q) => Some(q),
                 (Freedom::Tz, q) => {
-                    let pitch = self.mechanism.joints.get(joint)?.frame.pitch.to_f64();
+                    let pitch = self
+                        .mechanism
+                        .joints
+                        .get(joint.index())?
+                        .frame
+                        .pitch
+                        .to_f64();
                     Some(q * pitch / pose.length)
                 }
                 _ => None,
@@ -195,24 +200,12 @@ impl Search<'_> {
             .kept
             .0
             .iter()
-            .map(|&l| path_from_frame(m, 0, l))
+            .map(|&l| path_from_frame(m, StateId::FREE, l))
             .collect();
-        let rows = pose.rows();
-        let stacked = Mat::from_fn(rows + 6 * paths.len(), f, |r, c| {
-            match r.checked_sub(rows) {
-                None => jacobian[(r, c)],
-                Some(r) => {
-                    let column = &pose.columns[c];
-                    let passed = paths[r / 6].iter().find(|(j, _)| *j == column.joint);
-                    let twist = column.twist[r % 6];
-                    passed.map_or(0.0, |&(_, forward)| if forward { twist } else { -twist })
-                }
-            }
-        });
         Some(Figures {
             mobility,
             redundant,
-            output: Some(int(self::rank(&stacked)?) - int(rank)),
+            output: Some(int(self::rank(&pose.jacobian_with(&paths))?) - int(rank)),
         })
     }
 }
@@ -223,6 +216,5 @@ fn rank(matrix: &Mat<f64>) -> Option<usize> {
         return Some(0);
     }
     let values = matrix.singular_values().ok()?;
-    let largest = values.iter().fold(0.0, |m: f64, &x| m.max(x));
-    Some(values.iter().filter(|&&x| x > FLAT * largest).count())
+    Some(rank_of_values(values, FLAT).rank)
 }

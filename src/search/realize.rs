@@ -1,7 +1,9 @@
 //! A variant as a mechanism of its own: joints replaced, unloading joints in series with links of their own.
 
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Joint, JointOption, Link, Mechanism, Role};
+use crate::model::mechanism::{
+    Joint, JointId, JointOption, Link, LinkId, Mechanism, Role, StateId,
+};
 use crate::search::request::Search;
 
 impl Search<'_> {
@@ -19,14 +21,17 @@ impl Search<'_> {
                 }
             }
         }
-        let stays = |l| old.joints_in(0).any(|j| old.joints[j].links.contains(&l));
+        let stays = |l| {
+            old.joints_in(StateId::FREE)
+                .any(|j| old.joints[j].links.contains(&l))
+        };
         let mut links = old.links.clone();
         let mut contours = old.contours.clone();
         let (mut joints, mut inserted) = (Vec::with_capacity(old.joints.len()), Vec::new());
         for (joint, &(option, unloading, external)) in old.joints.iter().zip(&chosen) {
             let mut here = replaced(joint, joint.options.get(option));
             if let Some(u) = unloading.and_then(|u| joint.unloading.get(u)) {
-                let pad = links.len();
+                let pad = LinkId::new(links.len());
                 let mut series = replaced(joint, Some(u));
                 series.id = format!("{} unloading", joint.id);
                 series.drive = false;
@@ -44,8 +49,9 @@ impl Search<'_> {
                     role: Role::Inner,
                     mass: None,
                 });
-                let at = old.joints.len() + inserted.len();
-                for contour in contours.iter_mut().filter(|c| c.contains(&joints.len())) {
+                let at = JointId::new(old.joints.len() + inserted.len());
+                let before = JointId::new(joints.len());
+                for contour in contours.iter_mut().filter(|c| c.contains(&before)) {
                     contour.push(at);
                 }
                 inserted.push(series);

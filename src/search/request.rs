@@ -168,16 +168,17 @@ impl<'m> Search<'m> {
             &costs,
         )?;
         let steps = Steps::new(&space);
-        let outputs =
-            (0..mechanism.links.len()).filter(|&l| mechanism.links[l].role == Role::Output);
+        let outputs = mechanism
+            .link_ids()
+            .filter(|&l| mechanism.links[l].role == Role::Output);
         let mut kept: Vec<LinkId> = outputs
             .chain(mechanism.search.hold.iter().copied())
             .collect();
         kept.sort_unstable();
         kept.dedup();
-        let present = joint_motion(&exact, mechanism, 0, &kept)?;
-        let rows =
-            space.dim * contour_basis(mechanism, 0).len() + mechanism.couplings_in(0).count();
+        let present = joint_motion(&exact, mechanism, StateId::FREE, &kept)?;
+        let rows = space.dim * contour_basis(mechanism, StateId::FREE).len()
+            + mechanism.couplings_in(StateId::FREE).count();
         let rows = i64::try_from(rows).unwrap_or(i64::MAX);
         Ok(Search {
             mechanism,
@@ -265,7 +266,7 @@ impl<'m> Search<'m> {
     #[must_use]
     pub fn mirrored(&self, choices: &[usize]) -> Vec<usize> {
         let mut out = choices.to_vec();
-        let of = |j: usize| self.space.variables.iter().position(|v| v.joints == [j]);
+        let of = |j: JointId| self.space.variables.iter().position(|v| v.joints == [j]);
         for &(a, b) in &self.mechanism.search.mirror {
             if let (Some(a), Some(b)) = (of(a), of(b)) {
                 (out[a], out[b]) = (choices[b], choices[a]);

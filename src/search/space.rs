@@ -64,7 +64,7 @@ impl Space {
         costs: &CostTable,
     ) -> Result<Space, ExactError> {
         let motion = MotionSpace::new(exact, &mechanism.mode)?;
-        let free: Vec<JointId> = mechanism.joints_in(0).collect();
+        let free: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
         let added = state
             .into_iter()
             .flat_map(|s| mechanism.joints_in(s))

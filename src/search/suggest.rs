@@ -74,10 +74,10 @@ pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestio
     let closure = Closure::new(exact, mechanism, state)?;
     let stresses = stress_basis(exact, &closure);
     let costs = CostTable::new(&mechanism.search.costs);
-    let free: Vec<JointId> = mechanism.joints_in(0).collect();
+    let free: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
     let joints: Vec<JointId> = mechanism
         .joints_in(state)
-        .filter(|j| state == 0 || !free.contains(j))
+        .filter(|j| state == StateId::FREE || !free.contains(j))
         .collect();
     let offered = |j: &JointId| {
         let joint = &mechanism.joints[*j];
@@ -154,8 +154,8 @@ fn changes(joint: &Joint, present: &JointOption, state: StateId, usual: bool) ->
             cost_milli: None,
         };
         return match (state, joint.drive, &joint.joint_type) {
-            (0, true, _) | (0, _, JointType::Fixed) => Vec::new(),
-            (0, ..) => {
+            (StateId::FREE, true, _) | (StateId::FREE, _, JointType::Fixed) => Vec::new(),
+            (StateId::FREE, ..) => {
                 let others = USUAL.iter().filter(|t| **t != present.joint_type);
                 others.map(|t| (Some(option(t)), None)).collect()
             }

@@ -38,22 +38,20 @@ pub struct Class {
     pub kind: Kind,
 }
 
-impl Class {
-    /// The class in Roman numerals, as the field writes it.
-    #[must_use]
-    pub fn roman(&self) -> String {
-        const ROMAN: [&str; 13] = [
-            "0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XII",
-        ];
-        ROMAN
-            .get(self.class)
-            .map_or_else(|| self.class.to_string(), |r| (*r).to_owned())
-    }
+/// A class in Roman numerals, as the field writes it.
+#[must_use]
+pub fn roman(class: usize) -> String {
+    const ROMAN: [&str; 13] = [
+        "0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XII",
+    ];
+    ROMAN
+        .get(class)
+        .map_or_else(|| class.to_string(), |r| (*r).to_owned())
 }
 
 impl fmt::Display for Class {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "class {}, order {}", self.roman(), self.order)?;
+        write!(f, "class {}, order {}", roman(self.class), self.order)?;
         match self.kind {
             Kind::Dyad(species) => {
                 const NAMES: [&str; 6] = ["RRR", "RRP", "RPR", "PRP", "RPP", "PPP"];

@@ -1,45 +1,29 @@
-//! A mechanism's statics over its cycle: structure, motion, loads, and reactions by every method.
+//! A planar mechanism's statics over its cycle: structure, motion, loads, and reactions by every method.
 
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::assur::{AssurError, Decomposition, alternatives, decompose};
-use crate::statics::contour_group::{ContourGroup, GroupPose, GroupReactions, recognise};
-use crate::statics::delta_point::{self, DeltaSteps};
-use crate::statics::group_equilibrium::{self, Worth};
-use crate::statics::kinetostatics::{Equilibrium, Load, PlanarLoads, by_groups, power, whole};
+use crate::statics::contour_group::letters::{ContourGroup, recognise};
+use crate::statics::contour_group::pose::GroupPose;
+use crate::statics::contour_group::solutions::GroupSolutions;
+use crate::statics::kinetostatics::{
+    Equilibrium, Load, PlanarLoads, Source, by_groups, power, whole,
+};
 use crate::statics::planar::{PairId, PairKind, PlanarError, PlanarMechanism};
 use crate::statics::planar_motion::{DeadPoint, Instant, Motion};
 use crate::statics::pose::Linkage;
-use crate::statics::projective;
 use thiserror::Error;
 
-/// Why there is no statics of a mechanism.
+/// Why there is no statics of a mechanism in its plane.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
-pub enum StaticsError {
+pub enum PlanarStaticsError {
     /// It is not planar.
     #[error(transparent)]
     Planar(#[from] PlanarError),
     /// Its drives do not make it determinate.
     #[error(transparent)]
     Assur(#[from] AssurError),
-}
-
-/// Reactions of a four-link group with a closed contour by three methods.
-#[derive(Debug, Clone)]
-pub struct GroupSolutions {
-    /// Index of the group in [`Decomposition::groups`].
-    pub group: usize,
-    /// Its points and loads.
-    pub pose: GroupPose,
-    /// By the δ-point method.
-    pub delta: GroupReactions,
-    /// What the δ-point method found on its way.
-    pub steps: DeltaSteps,
-    /// By its projective form.
-    pub projective: GroupReactions,
-    /// By the twelve equilibrium equations, with their worth.
-    pub equilibrium: Option<(GroupReactions, Worth)>,
 }
 
 /// Loads and reactions at one position of the drive.
@@ -87,6 +71,19 @@ impl Statics {
         let first = self.decomposition.drives.first();
         first.is_some_and(|&p| self.linkage.mechanism.pairs[p].kind == PairKind::Sliding)
     }
+
+    /// The first four-link group with a closed contour, in the pose in which forces from outside load it most.
+    #[must_use]
+    pub fn heaviest_contour_group(&self) -> Option<&GroupPose> {
+        let outside = |l: &&Load| l.source == Source::External;
+        let weight = |g: &GroupPose| -> f64 {
+            let forces = g.loads.iter().filter(outside).map(|l| l.force);
+            forces.map(|f| f[0].hypot(f[1])).sum()
+        };
+        let first = self.moments.iter().filter_map(|x| x.groups.first());
+        let poses = first.map(|g| &g.pose);
+        poses.max_by(|a, b| weight(a).total_cmp(&weight(b)))
+    }
 }
 
 /// Takes a state of a mechanism through a stroke of its first drive, or the pose of the file alone. Drive positions count
@@ -101,17 +98,8 @@ pub fn statics(
     mechanism: &Mechanism,
     state: StateId,
     stroke: Option<Stroke>,
-) -> Result<Statics, StaticsError> {
-    let positions: Vec<f64> = match stroke {
-        None => vec![0.0],
-        Some(s) => (0..=s.steps)
-            .map(|i| {
-                #[allow(clippy::cast_precision_loss, reason = "at most 1e5 steps")]
-                let part = i as f64 / s.steps as f64;
-                s.from + (s.to - s.from) * part
-            })
-            .collect(),
-    };
+) -> Result<Statics, PlanarStaticsError> {
+    let positions = stroke.map_or_else(|| vec![0.0], |s| s.positions());
     statics_at(mechanism, state, &positions)
 }
 
@@ -123,7 +111,7 @@ pub fn statics_at(
     mechanism: &Mechanism,
     state: StateId,
     positions: &[f64],
-) -> Result<Statics, StaticsError> {
+) -> Result<Statics, PlanarStaticsError> {
     let planar = PlanarMechanism::new(mechanism, state)?;
     let drives = planar.drives();
     let decomposition = decompose(&planar, &drives)?;
@@ -183,15 +171,7 @@ fn moment(
     let whole = whole(linkage, d, &instant, &loads);
     let groups = contour_groups.iter().map(|(group, letters)| {
         let pose = GroupPose::new(linkage, letters, &instant.pose, &loads);
-        let (delta, steps) = delta_point::solve(&pose);
-        GroupSolutions {
-            group: *group,
-            delta,
-            steps,
-            projective: projective::solve(&pose),
-            equilibrium: group_equilibrium::solve(&pose),
-            pose,
-        }
+        GroupSolutions::new(*group, pose)
     });
     let effort = |i: usize| {
         let pair = d.drives[i];

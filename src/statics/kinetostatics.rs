@@ -3,9 +3,8 @@
 //! D'Alembert: with the inertia forces added, each body is in equilibrium. Three equations a body, two unknowns a pair
 //! (force of a turning pair; normal force and moment of a sliding one) and one more a drive.
 
-use crate::geom::scalars::Reals;
-use crate::geom::scalars::Scalars;
-use crate::model::loads::Inertia;
+use crate::geom::scalars::{Reals, Scalars};
+use crate::model::loads::{Inertia, acts_at};
 use crate::model::mechanism::Mechanism;
 use crate::statics::assur::Decomposition;
 use crate::statics::dense::System;
@@ -71,23 +70,6 @@ pub struct PlanarForce {
     pub range: Option<[f64; 2]>,
     /// The range comes again after this much: a whole turn where the drive turns.
     pub period: Option<f64>,
-}
-
-/// Drive positions nearer than this to the end of a range are in it.
-const AT_END: f64 = 1e-9;
-
-impl PlanarForce {
-    /// Whether it acts when the first drive is at a position.
-    #[must_use]
-    pub fn acts_at(&self, drive: f64) -> bool {
-        let Some([from, to]) = self.range else {
-            return true;
-        };
-        match self.period.filter(|_| from.is_finite() && to.is_finite()) {
-            Some(period) => (drive - from + AT_END).rem_euclid(period) <= to - from + 2.0 * AT_END,
-            None => (from - AT_END..=to + AT_END).contains(&drive),
-        }
-    }
 }
 
 /// What a mechanism carries, in its plane.
@@ -198,7 +180,7 @@ impl PlanarLoads {
             }
         }
         for f in &self.forces {
-            if f.acts_at(now.drive) && f.body != linkage.mechanism.frame {
+            if acts_at(f.range, now.drive, f.period) && f.body != linkage.mechanism.frame {
                 out.push(Load {
                     body: f.body,
                     source: Source::External,

@@ -3,6 +3,7 @@
 use crate::closure::twist::FrameValues;
 use crate::geom::exact::ExactError;
 use crate::geom::scalars::{Reals, Scalars};
+use crate::geom::vector::{X, Y, Z, across, cross, dot, length, unit};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, StateId};
 use std::fmt;
@@ -72,30 +73,14 @@ pub enum PairKind {
     Rigid,
 }
 
-impl PairKind {
-    /// Constraints of the pair: 3 less its freedoms.
-    #[must_use]
-    pub fn constraints(self) -> usize {
-        match self {
-            PairKind::Turning | PairKind::Sliding => 2,
-            PairKind::Rigid => 3,
-        }
-    }
-
-    /// R, P or F, as structural formulas write it.
-    #[must_use]
-    pub fn letter(self) -> char {
-        match self {
-            PairKind::Turning => 'R',
-            PairKind::Sliding => 'P',
-            PairKind::Rigid => 'F',
-        }
-    }
-}
-
 impl fmt::Display for PairKind {
+    /// R, P or F, as structural formulas write it.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.letter())
+        f.write_str(match self {
+            PairKind::Turning => "R",
+            PairKind::Sliding => "P",
+            PairKind::Rigid => "F",
+        })
     }
 }
 
@@ -156,14 +141,8 @@ pub struct PlanarMechanism {
     pub unit: &'static str,
 }
 
-fn unit(v: [f64; 3]) -> [f64; 3] {
-    let n = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    v.map(|x| x / n)
-}
-
 fn is_parallel(a: [f64; 3], b: [f64; 3]) -> bool {
-    let c = Reals.cross(a, b);
-    Reals.dot(c, c).sqrt() <= PARALLEL
+    length(cross(a, b)) <= PARALLEL
 }
 
 impl PlanarMechanism {
@@ -182,21 +161,21 @@ impl PlanarMechanism {
             Mode::Planar { normal } => unit(Reals.eval3(normal)?),
             Mode::Spatial => spatial_normal(m, state)?,
         };
-        let x = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+        let x = [X, Y]
             .into_iter()
             .find(|g| !is_parallel(*g, normal))
-            .unwrap_or([1.0, 0.0, 0.0]);
-        let x = unit(Reals.scaled_sum(-Reals.dot(x, normal), normal, x));
+            .unwrap_or(X);
+        let x = unit(across(x, normal));
         let mut planar = PlanarMechanism {
             bodies: Vec::new(),
             pairs: Vec::new(),
             frame: 0,
-            axes: [x, Reals.cross(normal, x), normal],
+            axes: [x, cross(normal, x), normal],
             metres: m.length_unit.metres,
             unit: m.length_unit.symbol,
         };
         let mut body_of = vec![None; m.links.len()];
-        for (l, link) in m.links.iter().enumerate() {
+        for (l, link) in m.links_with_ids() {
             let joined = m.joints_in(state).any(|j| m.joints[j].links.contains(&l));
             if joined || l == m.frame() {
                 body_of[l] = Some(planar.bodies.len());
@@ -225,7 +204,7 @@ impl PlanarMechanism {
     /// The components of a vector of the file along x and y.
     #[must_use]
     pub fn across(&self, v: [f64; 3]) -> [f64; 2] {
-        [Reals.dot(self.axes[0], v), Reals.dot(self.axes[1], v)]
+        [dot(self.axes[0], v), dot(self.axes[1], v)]
     }
 
     /// The body that a link is, where it is joined to others in this state.
@@ -259,15 +238,15 @@ impl PlanarMechanism {
         let (mut turns, mut slides, mut outside) = (usize::from(ball), Vec::new(), false);
         for f in freedoms {
             let normal = |k: usize| is_parallel(axes[k], self.axes[2]);
-            let across = |k: usize| Reals.dot(axes[k], self.axes[2]).abs() <= PARALLEL;
+            let across = |k: usize| dot(axes[k], self.axes[2]).abs() <= PARALLEL;
             match f {
                 Freedom::Rx | Freedom::Ry | Freedom::Rz if ball => {}
                 Freedom::Rx if normal(0) => turns += 1,
                 Freedom::Ry if normal(1) => turns += 1,
                 Freedom::Rz if normal(2) => turns += 1,
-                Freedom::Tx if across(0) => slides.push(axes[0]),
-                Freedom::Ty if across(1) => slides.push(axes[1]),
-                Freedom::Tz if across(2) => slides.push(axes[2]),
+                Freedom::Tx if across(0) => slides.push(self.across(axes[0])),
+                Freedom::Ty if across(1) => slides.push(self.across(axes[1])),
+                Freedom::Tz if across(2) => slides.push(self.across(axes[2])),
                 _ => outside = true,
             }
         }
@@ -275,6 +254,7 @@ impl PlanarMechanism {
             return Err(PlanarError::NotPlanar { joint: name() });
         }
         let point = self.flat(values.point);
+        let along: Vec<[f64; 2]> = slides;
         let mut push = |bodies, kind, along, name| {
             self.pairs.push(Pair {
                 joint: j,
@@ -286,23 +266,19 @@ impl PlanarMechanism {
                 drive: joint.drive,
             });
         };
-        match (turns, slides.as_slice()) {
+        match (turns, along.as_slice()) {
             (0, []) => push(bodies, PairKind::Rigid, [0.0; 2], name()),
             (1, []) => push(bodies, PairKind::Turning, [0.0; 2], name()),
-            (0, [u]) => {
-                let u = [Reals.dot(self.axes[0], *u), Reals.dot(self.axes[1], *u)];
-                push(bodies, PairKind::Sliding, u, name());
-            }
+            (0, [u]) => push(bodies, PairKind::Sliding, *u, name()),
             (1, [_]) if joint.drive => return Err(PlanarError::DriveOfTwo { joint: name() }),
             (1, [u]) => {
-                let u = [Reals.dot(self.axes[0], *u), Reals.dot(self.axes[1], *u)];
                 let block = self.bodies.len();
                 let [a, b] = bodies;
                 push([a, block], PairKind::Turning, [0.0; 2], name());
                 push(
                     [block, b],
                     PairKind::Sliding,
-                    u,
+                    *u,
                     format!("{} slot", joint.id),
                 );
                 self.bodies.push(Body {
@@ -347,6 +323,6 @@ fn spatial_normal(m: &Mechanism, state: StateId) -> Result<[f64; 3], PlanarError
     let other = |u: [f64; 3]| slides.iter().find(|v| !is_parallel(u, **v)).copied();
     Ok(slides
         .first()
-        .and_then(|u| other(*u).map(|v| unit(Reals.cross(*u, v))))
-        .unwrap_or([0.0, 0.0, 1.0]))
+        .and_then(|u| other(*u).map(|v| unit(cross(*u, v))))
+        .unwrap_or(Z))
 }

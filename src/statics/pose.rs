@@ -3,6 +3,10 @@
 //! A body is placed by where its origin (the mean of its pairs' points) is and how far it has turned since the pose of
 //! the file: (x, y, θ). Velocities and accelerations are the derivatives of these three.
 
+use crate::geom::vector::turned;
+pub use crate::geom::vector::{
+    add_scaled as plus, cross_plane as cross, dot, norm as length, quarter, sub as minus,
+};
 use crate::statics::planar::{BodyId, Pair, PairId, PairKind, PlanarMechanism};
 
 /// (x `[m]`, y `[m]`, θ `[rad]`) of a body, or derivatives of it.
@@ -13,47 +17,6 @@ pub type Row = [[f64; 3]; 2];
 
 /// Where every body is.
 pub type Pose = Vec<Placement>;
-
-/// A quarter turn of a vector.
-#[must_use]
-pub fn quarter(v: [f64; 2]) -> [f64; 2] {
-    [-v[1], v[0]]
-}
-
-/// Scalar product.
-#[must_use]
-pub fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-/// Vector product: the moment of force `b` at arm `a`.
-#[must_use]
-pub fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
-}
-
-/// `a - b`.
-#[must_use]
-pub fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-/// `a + s·b`.
-#[must_use]
-pub fn plus(a: [f64; 2], s: f64, b: [f64; 2]) -> [f64; 2] {
-    [a[0] + s * b[0], a[1] + s * b[1]]
-}
-
-/// Length of a vector.
-#[must_use]
-pub fn length(v: [f64; 2]) -> f64 {
-    v[0].hypot(v[1])
-}
-
-fn turned(v: [f64; 2], angle: f64) -> [f64; 2] {
-    let (s, c) = angle.sin_cos();
-    [c * v[0] - s * v[1], s * v[0] + c * v[1]]
-}
 
 /// A planar mechanism with the origins of its bodies.
 #[derive(Debug, Clone)]

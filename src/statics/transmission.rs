@@ -53,7 +53,8 @@ pub fn rates(
     pose: &Pose,
     joints: &[JointId],
 ) -> Result<Rates, TransmissionError> {
-    let drives: Vec<JointId> = (0..mechanism.joints.len())
+    let drives: Vec<JointId> = mechanism
+        .joint_ids()
         .filter(|&j| mechanism.joints[j].drive)
         .collect();
     let [drive] = drives[..] else {

@@ -2,7 +2,7 @@
 
 use crate::accuracy::Verdict;
 use crate::accuracy::survey::{Case, Survey};
-use crate::accuracy::words::{duration, signed};
+use crate::format::number::{duration, signed};
 use crate::rank::method;
 use crate::view::layout::{fit, table};
 use std::cmp::Reverse;

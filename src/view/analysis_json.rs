@@ -1,6 +1,6 @@
 //! An analysis as JSON; the keys are a stable contract.
 
-use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::method::{Answer, MobilityMethod};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::stress::Verdict;
@@ -26,7 +26,7 @@ pub fn analysis(mechanism: &Mechanism, states: &[StateAnalysis], advice: &[Advic
 }
 
 fn state(mechanism: &Mechanism, s: &StateAnalysis) -> Value {
-    let joint = |j: usize| mechanism.joints[j].id.as_str();
+    let joint = |j: JointId| mechanism.joints[j].id.as_str();
     let per_contour = s.per_contour.iter().map(|c| {
         json!({
             "contour": c.contour.name(mechanism),

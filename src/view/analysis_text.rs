@@ -1,12 +1,13 @@
 //! An analysis for people: the verdict first, then where each figure comes from.
 
+use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::{Answer, MobilityMethod};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::stress::{SelfStress, Verdict};
 use crate::view::layout::{fit, table};
 use crate::view::suggestions::{self, Advice};
-use crate::view::words::{self, Shape, plural};
+use crate::view::words::{self, Shape};
 use itertools::Itertools;
 use std::fmt::Write;
 

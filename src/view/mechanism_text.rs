@@ -1,7 +1,9 @@
 //! What a mechanism file describes, in a few lines and without any analysis.
 
+use crate::format::number::{grouped, significant};
+use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, Mode, Role, StateId};
-use crate::view::words::{Shape, grouped, plural, significant};
+use crate::view::words::Shape;
 use itertools::Itertools;
 use num_bigint::BigUint;
 
@@ -75,12 +77,14 @@ fn states(m: &Mechanism) -> String {
         let k = usize::try_from(Shape::of(m, s).contours).unwrap_or(0);
         format!("{} with {}", m.states[s], plural(k, "contour"))
     };
-    let states = (0..m.states.len()).map(one).join(", ");
+    let states = m.state_ids().map(one).join(", ");
     format!("{}: {states}", plural(m.states.len(), "state"))
 }
 
 fn search(m: &Mechanism) -> String {
-    let options = m.joints_in(0).map(|j| m.joints[j].options.len());
+    let options = m
+        .joints_in(StateId::FREE)
+        .map(|j| m.joints[j].options.len());
     let options = options.collect_vec();
     let open = options.iter().copied().filter(|n| *n > 1).collect_vec();
     let places = m.joints.iter().filter(|j| !j.unloading.is_empty()).count();

@@ -1,11 +1,12 @@
 //! A ranking in words and as data.
 
-use crate::model::mechanism::Mechanism;
+use crate::format::number::{grouped, significant};
+use crate::format::phrase::plural;
+use crate::model::mechanism::{JointId, Mechanism};
 use crate::model::ranking::{ClearanceSum, Order, Term};
 use crate::score::cases::Gripped;
 use crate::score::ranking::{Ranked, RankedPool};
 use crate::score::terms::Scores;
-use crate::view::words::{grouped, plural, significant};
 use itertools::Itertools;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
@@ -166,7 +167,7 @@ pub fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
 /// All scores of a variant: forces in N, moments in N·m, the error in m.
 #[must_use]
 pub fn scores(m: &Mechanism, s: &Scores) -> Map<String, Value> {
-    let joint = |j: usize| m.joints.get(j).map(|j| j.id.as_str());
+    let joint = |j: JointId| m.joints.get(j.index()).map(|j| j.id.as_str());
     let all = json!({
         "peak-force": s.force.utilisation,
         "peak-force-newton": s.force.value,

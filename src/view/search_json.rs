@@ -92,7 +92,7 @@ pub fn header(found: &Found<'_>) -> Map<String, Value> {
     let by_cost = found
         .by_cost
         .iter()
-        .map(|(c, n)| (crate::view::words::cost(*c), json!(n.to_string())));
+        .map(|(c, n)| (crate::format::number::cost(*c), json!(n.to_string())));
     put("admissible_by_cost", Value::Object(by_cost.collect()));
     let sizes = |f: fn(&Diagram) -> usize| found.diagrams.map(|(d, a)| (f(d), f(a)));
     let largest = sizes(|d| d.largest_layer);
@@ -233,7 +233,7 @@ fn cost_number(milli: i64) -> Value {
         json!(milli / 1000)
     } else {
         json!(
-            crate::view::words::cost(milli)
+            crate::format::number::cost(milli)
                 .parse::<f64>()
                 .unwrap_or(0.0)
         )

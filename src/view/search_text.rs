@@ -1,5 +1,6 @@
 //! A search for people.
 
+use crate::format::number::{cost, grouped};
 use crate::search::best::Variant;
 use crate::search::certify::{Certified, NEARLY_SINGULAR, Second, Summary};
 use crate::search::primes::Verdict;
@@ -9,7 +10,6 @@ use crate::view::layout::{fit, table};
 use crate::view::next::{Step, file_name};
 use crate::view::ranking;
 use crate::view::search_json::{self, Found};
-use crate::view::words::{cost, grouped};
 use itertools::Itertools;
 use num_traits::Zero;
 use std::collections::BTreeSet;

@@ -1,9 +1,11 @@
 //! A stroke as JSON, as a table and as a chart.
 
 use crate::chart::{Axis, Chart, Scale, Series, Style};
+use crate::format::number::decimals;
+use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::along_stroke::{Change, StrokeFigures};
-use crate::view::words::{plural, table};
+use crate::view::layout::table;
 use itertools::Itertools;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -37,25 +39,10 @@ impl Shown<'_> {
     /// A position for people: degrees, or the file's length unit.
     fn place(&self, at: f64, digits: usize) -> String {
         if self.slides {
-            format!("{} {}", number(at, digits), self.unit())
+            format!("{} {}", decimals(at, digits), self.unit())
         } else {
-            format!("{}°", number(at.to_degrees(), digits))
+            format!("{}°", decimals(at.to_degrees(), digits))
         }
-    }
-}
-
-/// A number without trailing zeros.
-fn number(x: f64, digits: usize) -> String {
-    let text = format!("{x:.digits$}");
-    let text = if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        &text
-    };
-    if text == "-0" {
-        "0".to_owned()
-    } else {
-        text.to_owned()
     }
 }
 
@@ -150,8 +137,8 @@ pub fn text(s: &Shown<'_>, width: Option<u16>) -> String {
             format!(
                 "{}: ({}), {}°",
                 s.mechanism.links[o.link].id,
-                o.point.iter().map(|x| number(*x, 3)).join(", "),
-                number(o.turn.to_degrees(), 2)
+                o.point.iter().map(|x| decimals(*x, 3)).join(", "),
+                decimals(o.turn.to_degrees(), 2)
             )
         });
         vec![

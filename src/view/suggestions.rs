@@ -1,10 +1,11 @@
 //! Single changes in words and as data, and what to do after an analysis.
 
-use crate::model::mechanism::Mechanism;
+use crate::format::number::cost;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::search::suggest::{Suggestion, Suggestions, USUAL, USUAL_UNLOADING};
+use crate::view::layout::table;
 use crate::view::next::{Step, file_name};
-use crate::view::words::{cost, table};
 use itertools::Itertools;
 use serde_json::{Value, json};
 
@@ -76,7 +77,7 @@ pub fn text(m: &Mechanism, s: &StateAnalysis, advice: &Advice, width: Option<u16
     let (of, kind) = (concerned(s), kind(s));
     let source = match (found.usual, found.state) {
         (false, _) => "the file's options",
-        (true, 0) => "the usual options, as the file has none",
+        (true, StateId::FREE) => "the usual options, as the file has none",
         (true, _) => "ball pivots in series with the contacts, as the file has no unloading joints",
     };
     if found.list.is_empty() {
@@ -119,7 +120,7 @@ pub fn text(m: &Mechanism, s: &StateAnalysis, advice: &Advice, width: Option<u16
         0 => String::new(),
         n => format!("\n  and {n} more; --format json lists them"),
     };
-    let loose = if found.state > 0 {
+    let loose = if found.state != StateId::FREE {
         "\n  (the pad of an unloading joint hangs loose while nothing is held)"
     } else {
         ""
@@ -187,13 +188,13 @@ pub fn next(
         };
         let of = concerned(s);
         match (found.usual, found.state) {
-            (false, 0) => steps.push(Step::new(
+            (false, StateId::FREE) => steps.push(Step::new(
                 "search",
                 file,
                 &joined(""),
                 &format!("every redesign that removes all {of}, cheapest first"),
             )),
-            (true, 0) => {
+            (true, StateId::FREE) => {
                 let names = USUAL.iter().map(|t| format!("\"{}\"", t.name())).join(", ");
                 steps.push(Step {
                     command: format!("Write under [search]: options = [{names}]"),
@@ -207,7 +208,7 @@ pub fn next(
                     .list
                     .first()
                     .map_or(of, |x| of.saturating_sub(x.removes));
-                let state = if n == 1 {
+                let state = if n == StateId::new(1) {
                     String::new()
                 } else {
                     format!(" --state {}", crate::view::next::word(&s.state))

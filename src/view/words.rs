@@ -5,41 +5,7 @@ use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::redundancy::idle::Idle;
 use crate::redundancy::stress::JointWrench;
-pub use crate::view::layout::table;
 use itertools::Itertools;
-
-/// A whole number with thin groups of three: 13,841,287,201.
-#[must_use]
-pub fn grouped(number: &str) -> String {
-    let (sign, digits) = number.strip_prefix('-').map_or(("", number), |d| ("-", d));
-    let head = digits.len() % 3;
-    let groups = std::iter::once(&digits[..head])
-        .filter(|h| !h.is_empty())
-        .chain(
-            digits.as_bytes()[head..]
-                .chunks(3)
-                .map(|c| std::str::from_utf8(c).unwrap_or("")),
-        );
-    format!("{sign}{}", groups.collect_vec().join(","))
-}
-
-/// A cost in thousandths as a decimal: 11.5.
-#[must_use]
-pub fn cost(milli: i64) -> String {
-    let text = format!(
-        "{}{}.{:03}",
-        if milli < 0 { "-" } else { "" },
-        milli.abs() / 1000,
-        milli.abs() % 1000
-    );
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-/// "1 redundant constraint", "2 redundant constraints".
-#[must_use]
-pub fn plural(n: usize, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
-}
 
 /// Which components a wrench has: "moments about x and y, force along z".
 #[must_use]
@@ -108,26 +74,6 @@ pub fn idle(mechanism: &Mechanism, motion: &Idle) -> String {
             many.join(" and ")
         ),
         _ => format!("links {names} move together"),
-    }
-}
-
-/// A measured number to four significant digits: 12.35, 0.001235, 1.235e-7.
-#[must_use]
-pub fn significant(x: f64) -> String {
-    // What rounds to nothing beside everything else is nothing.
-    if x.abs() < 1e-9 {
-        return "0".to_owned();
-    }
-    if !(1e-4..1e7).contains(&x.abs()) {
-        return format!("{x:.3e}");
-    }
-    #[allow(clippy::cast_possible_truncation, reason = "between -4 and 7")]
-    let magnitude = x.abs().log10().floor() as i32;
-    let decimals = usize::try_from(3 - magnitude).unwrap_or(0);
-    let text = format!("{x:.decimals$}");
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
     }
 }
 

@@ -2,13 +2,14 @@
 
 use ozols::builtin;
 use ozols::file::text::mechanism_from_bytes;
+use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Method, analyse};
 use proptest::prelude::*;
 
 fn read(name: &str, bytes: &[u8]) {
     match mechanism_from_bytes(name, bytes) {
         Ok(m) if m.joints.len() < 20 => {
-            let _ = analyse(&m, &[0], Method::Auto { tolerance: None });
+            let _ = analyse(&m, &[StateId::FREE], Method::Auto { tolerance: None });
         }
         Ok(_) => {}
         Err(e) => {

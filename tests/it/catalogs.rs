@@ -2,6 +2,7 @@
 
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Elimination, Method, analyse};
 
 #[test]
@@ -30,7 +31,7 @@ fn every_built_in_mechanism_has_the_figures_it_states() {
             );
         }
         for method in [Method::Modular, Method::Numeric(Elimination::Svd, 1e-9)] {
-            let states: Vec<usize> = (0..m.states.len()).collect();
+            let states: Vec<StateId> = m.state_ids().collect();
             for s in analyse(&m, &states, method).unwrap() {
                 // σ = W + 6k - f holds identically, p = n + k - 1 for a connected mechanism.
                 assert_eq!(
@@ -106,7 +107,7 @@ fn friction_shared_by_the_jaws_is_told_from_harm() {
         ("gripper-10-redesign-unloaded", 2, 0),
     ] {
         let m = mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap();
-        let clamped = m.states.iter().position(|s| s == "clamped").unwrap();
+        let clamped = m.state("clamped").unwrap();
         let s = &analyse(&m, &[clamped], Method::Modular).unwrap()[0];
         let external: Vec<Verdict> = s
             .self_stresses

@@ -10,7 +10,7 @@ use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
 use ozols::geom::number_field::NumberField;
 use ozols::linalg::number_ring::{Element, NumberRing};
-use ozols::model::mechanism::Mechanism;
+use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::certificate::{
     Budget, Certificate, NoCertificate, certify, certify_matrix, matrix, number_field,
 };
@@ -27,8 +27,11 @@ fn built_in(name: &str) -> Mechanism {
 
 fn certified(name: &str) -> (MatrixOverRing, Certificate) {
     let m = built_in(name);
-    let field = number_field(&m, 0).unwrap();
-    (matrix(&field, &m, 0).unwrap(), certify(&m, 0).unwrap())
+    let field = number_field(&m, StateId::FREE).unwrap();
+    (
+        matrix(&field, &m, StateId::FREE).unwrap(),
+        certify(&m, StateId::FREE).unwrap(),
+    )
 }
 
 #[test]
@@ -36,7 +39,7 @@ fn every_built_in_mechanism_is_certified_in_every_state() {
     let mut without = Vec::new();
     for name in builtin::names() {
         let m = built_in(name);
-        for state in 0..m.states.len() {
+        for state in m.state_ids() {
             let rank = analyse(&m, &[state], Method::Modular).unwrap()[0].rank;
             let certificate = match certify(&m, state) {
                 Ok(certificate) => certificate,

@@ -2,6 +2,7 @@
 
 use crate::cli::{json, out, ozols};
 use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::primes::{Verdict, build_both, compare, compare_counts, primes};
 use ozols::search::request::{Request, Search};
@@ -101,7 +102,7 @@ fn singular_values_agree_on_the_best_of_every_built_in_mechanism() {
             let request = Request {
                 keep_output,
                 max_redundant,
-                state: clamped.then_some((1, 100)),
+                state: clamped.then_some((StateId::new(1), 100)),
                 ..Request::default()
             };
             let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();

@@ -8,7 +8,7 @@ use ozols::grip::clamping::{Row, Verdict};
 use ozols::grip::jaw_loads::Gripping;
 use ozols::model::grip::PartMass;
 use ozols::model::loads::Loads;
-use ozols::model::mechanism::Mechanism;
+use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::model::ranking::{ClearanceSum, Term};
 use ozols::motion::pose::Pose;
 use ozols::redundancy::analysis::exact_field;
@@ -31,7 +31,7 @@ fn built_in() -> Mechanism {
 }
 
 fn clamped(m: &Mechanism) -> Gripping {
-    Gripping::new(m, 1).unwrap().unwrap()
+    Gripping::new(m, StateId::new(1)).unwrap().unwrap()
 }
 
 fn real(v: &[Expr; 3]) -> [f64; 3] {
@@ -44,10 +44,18 @@ fn number(v: &Value) -> f64 {
 
 fn solve(g: &Gripping, row: &Row) -> Solution {
     let (fit, loads) = (g.fit(row).unwrap(), g.loads(row).unwrap());
-    let home = Pose::of_file(&g.mechanism, 1).unwrap();
-    let geometry = Geometry::new(&g.mechanism, 1, &home).unwrap();
+    let home = Pose::of_file(&g.mechanism, StateId::new(1)).unwrap();
+    let geometry = Geometry::new(&g.mechanism, StateId::new(1), &home).unwrap();
     let drives = driven(&g.mechanism, &geometry).unwrap();
-    Reactions::at(&g.mechanism, 1, &loads, &fit.pose, fit.drive, &drives).unwrap()
+    Reactions::at(
+        &g.mechanism,
+        StateId::new(1),
+        &loads,
+        &fit.pose,
+        fit.drive,
+        &drives,
+    )
+    .unwrap()
 }
 
 fn effort(list: &[JointReaction]) -> f64 {
@@ -108,12 +116,14 @@ fn the_contact_forces_do_the_work_of_the_drive_and_no_other() {
     let metres = m.length_unit.metres;
     for row in &g.study.rows {
         let (fit, loads) = (g.fit(row).unwrap(), g.loads(row).unwrap());
-        let home = Pose::of_file(&g.mechanism, 1).unwrap();
-        let geometry = Geometry::new(&g.mechanism, 1, &home).unwrap();
+        let home = Pose::of_file(&g.mechanism, StateId::new(1)).unwrap();
+        let geometry = Geometry::new(&g.mechanism, StateId::new(1), &home).unwrap();
         let drives = driven(&g.mechanism, &geometry).unwrap();
         let h = 1e-3;
         let steps = [-2.0, -1.0, 1.0, 2.0].map(|k| fit.drive + k * h);
-        let poses = follow_to(&g.mechanism, 1, &drives, &steps).unwrap().poses;
+        let poses = follow_to(&g.mechanism, StateId::new(1), &drives, &steps)
+            .unwrap()
+            .poses;
         assert_eq!(poses.len(), 4);
         let work = |pose: &Pose| -> f64 {
             let each = loads.forces.iter().map(|f| {
@@ -536,11 +546,16 @@ fn variants_are_scored_by_the_worst_part() {
         }
         assert!(greatest > 100.0, "{greatest}");
         // The free state has no loads.
-        let free = Evaluator::in_states(&s, ClearanceSum::Worst, &[0]).unwrap();
+        let free = Evaluator::in_states(&s, ClearanceSum::Worst, &[StateId::FREE]).unwrap();
         for v in pool(&s, 3) {
             assert_eq!(free.scores(&v, &mut scratch).unwrap().force.value, 0.0);
         }
-        let both = Evaluator::in_states(&s, ClearanceSum::Worst, &[1, 0, 1]).unwrap();
+        let both = Evaluator::in_states(
+            &s,
+            ClearanceSum::Worst,
+            &[StateId::new(1), StateId::FREE, StateId::new(1)],
+        )
+        .unwrap();
         assert_eq!((both.cases.list.len(), both.cases.free), (6, 1));
     }
 }

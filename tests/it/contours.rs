@@ -3,7 +3,7 @@
 use itertools::Itertools;
 use ozols::closure::contour::{closed_walk, contour_basis};
 use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{JointId, Mechanism};
+use ozols::model::mechanism::{JointId, Mechanism, StateId};
 use petgraph::algo::dijkstra;
 use petgraph::graph::{NodeIndex, UnGraph};
 use petgraph::visit::EdgeRef;
@@ -75,8 +75,8 @@ fn shortest_cycles(mechanism: &Mechanism, present: &[JointId]) -> Vec<Vec<JointI
         let [a, b] = mechanism.joints[j].links;
         let excess = (i as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 38;
         graph.add_edge(
-            NodeIndex::new(a),
-            NodeIndex::new(b),
+            NodeIndex::new(a.index()),
+            NodeIndex::new(b.index()),
             (j, UNIT + (i as u64 + 1) * (1 << 20) + (excess & 0xf_ffff)),
         );
     }
@@ -158,10 +158,10 @@ proptest! {
         let mut edges: Vec<(usize, usize)> = (1..links).map(|l| (tree[l - 1].index(l), l)).collect();
         edges.extend(more.iter().map(|(a, b)| (a.index(links), b.index(links))).filter(|(a, b)| a != b));
         let m = mechanism_from_str("graph.toml", &text(links, &edges)).unwrap();
-        let joints: Vec<JointId> = (0..edges.len()).collect();
+        let joints: Vec<JointId> = m.joint_ids().collect();
         let mut span: Vec<u32> = Vec::new();
         let independent = |cycle: &Vec<JointId>| {
-            let bits = cycle.iter().fold(0u32, |b, j| b | 1 << j);
+            let bits = cycle.iter().fold(0u32, |b, j| b | 1 << j.index());
             let left = span.iter().fold(bits, |c, b| c.min(c ^ b));
             if left != 0 {
                 span.push(left);
@@ -171,7 +171,7 @@ proptest! {
         };
         let twin = shortest_cycles(&m, &joints).into_iter().filter(independent);
         let twin: Vec<_> = twin.map(|c| closed_walk(&m, &c).unwrap()).collect();
-        prop_assert_eq!(contour_basis(&m, 0), twin);
+        prop_assert_eq!(contour_basis(&m, StateId::FREE), twin);
     }
 }
 
@@ -186,7 +186,7 @@ proptest! {
         let mut edges: Vec<(usize, usize)> = (1..links).map(|l| (tree[l - 1].index(l), l)).collect();
         edges.extend(more.iter().map(|(a, b)| (a.index(links), b.index(links))).filter(|(a, b)| a != b));
         let m = mechanism_from_str("graph.toml", &text(links, &edges)).unwrap();
-        let basis = contour_basis(&m, 0);
+        let basis = contour_basis(&m, StateId::FREE);
         prop_assert_eq!(basis.len(), edges.len() + 1 - links);
         prop_assert_eq!(basis.iter().map(|c| c.joints.len()).sum::<usize>(), least_total(links, &edges));
     }

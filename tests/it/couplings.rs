@@ -2,7 +2,7 @@
 
 use crate::cli::ozols;
 use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
+use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::method::{NoAnswer, by_name};
 use ozols::redundancy::analysis::{Method, StateAnalysis, analyse};
 
@@ -43,7 +43,9 @@ fn builtin(name: &str) -> Mechanism {
 }
 
 fn exact(m: &Mechanism) -> StateAnalysis {
-    analyse(m, &[0], Method::Modular).unwrap().remove(0)
+    analyse(m, &[StateId::FREE], Method::Modular)
+        .unwrap()
+        .remove(0)
 }
 
 fn problem(text: &str) -> String {
@@ -182,7 +184,7 @@ fn rack_and_pinion() {
         (1, 0, 1, 1)
     );
     assert!(s.finite.is_proven());
-    let pose = Pose::of_file(&m, 0).unwrap();
+    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let way = follow(&pose, 0, &[], [0.0, 7.0], 7);
     assert!(way.stop.is_none());
     let last = way.reached.last().unwrap().pose();
@@ -234,7 +236,7 @@ fn the_carrier_follows_the_sun() {
     use ozols::motion::follow::follow;
     use ozols::motion::pose::Pose;
     let m = builtin("planetary-gear");
-    let pose = Pose::of_file(&m, 0).unwrap();
+    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let way = follow(&pose, 0, &[], [0.0, 1.0], 4);
     let last = way.reached.last().unwrap().pose();
     let at = |id: &str| {
@@ -276,20 +278,30 @@ fn every_method_counts_the_rows() {
         for method in [
             "lu32", "lu", "qr32", "qr", "svd", "modular", "finite", "auto",
         ] {
-            let answer = by_name(method).unwrap().answer(&m, 0).unwrap();
+            let answer = by_name(method).unwrap().answer(&m, StateId::FREE).unwrap();
             assert_eq!(answer.mobility, w, "{name} by {method}");
         }
-        match by_name("rational").unwrap().answer(&m, 0) {
+        match by_name("rational").unwrap().answer(&m, StateId::FREE) {
             Ok(answer) => assert_eq!(answer.mobility, w),
             Err(e) => assert!(matches!(e, NoAnswer::DoesNotApply(_)) && name == "planetary-gear"),
         }
-        let e = by_name("generic").unwrap().answer(&m, 0).unwrap_err();
+        let e = by_name("generic")
+            .unwrap()
+            .answer(&m, StateId::FREE)
+            .unwrap_err();
         assert!(e.to_string().contains("no couplings of joints"));
     }
     // 6·4 - 25 - 1, 3·4 - 10 - 1, and 5 - 3 - 1 by contours.
     let m = builtin("geared-five-bar");
     for (method, w) in [("count", -2), ("count-planar", 1), ("loops", 1)] {
-        assert_eq!(by_name(method).unwrap().answer(&m, 0).unwrap().mobility, w);
+        assert_eq!(
+            by_name(method)
+                .unwrap()
+                .answer(&m, StateId::FREE)
+                .unwrap()
+                .mobility,
+            w
+        );
     }
 }
 
@@ -299,12 +311,13 @@ fn certificates_hold_the_coupling() {
     use ozols::rank::certificate::{certify, matrix, number_field};
     let text = ozols::builtin::text("geared-five-bar").unwrap();
     let m = mechanism(text);
-    let certificate = certify(&m, 0).unwrap();
+    let certificate = certify(&m, StateId::FREE).unwrap();
     assert_eq!(
         (certificate.rows, certificate.columns, certificate.rank),
         (7, 5, 4)
     );
-    let of = |m: &Mechanism| matrix(&number_field(m, 0).unwrap(), m, 0).unwrap();
+    let of =
+        |m: &Mechanism| matrix(&number_field(m, StateId::FREE).unwrap(), m, StateId::FREE).unwrap();
     assert_eq!(ozols::verify::check(&of(&m), &certificate), Ok(4));
     let other = mechanism(&text.replacen("ratio = \"-1/2\"", "ratio = \"-1/3\"", 1));
     assert!(ozols::verify::check(&of(&other), &certificate).is_err());
@@ -362,7 +375,7 @@ fn the_file_comes_back_from_export() {
         "type = \"cylindrical\"\naxis = [0, 0, 2]",
         &coupled("a", "b:tz", "\"sqrt(2)/3\""),
     ));
-    let again = mechanism(&ozols::robots::export::toml(&m).unwrap());
+    let again = mechanism(&ozols::robots::formats::write(&m, "toml").unwrap());
     assert_eq!(again.couplings.len(), 1);
     assert_eq!(again.couplings[0].ends, m.couplings[0].ends);
     assert_eq!(
@@ -375,21 +388,21 @@ fn the_file_comes_back_from_export() {
 /// joints cannot hold, are comments.
 #[test]
 fn exported_as_mimic_joints() {
-    use ozols::robots::export;
+    use ozols::robots::formats;
     let m = mechanism(&pair(SLIDE, TURN, &coupled("a", "b", "\"1/20\"")));
-    let urdf = export::urdf(&m).unwrap();
+    let urdf = formats::write(&m, "urdf").unwrap();
     // 1/20 rad a mm is 50 rad a m.
     assert!(
         urdf.contains("<mimic joint=\"a\" multiplier=\"50\" offset=\"0\"/>"),
         "{urdf}"
     );
-    let sdf = export::sdf(&m);
+    let sdf = formats::write(&m, "sdf").unwrap();
     assert!(
         sdf.contains("<sdf version=\"1.11\">") && sdf.contains("<multiplier>50</multiplier>"),
         "{sdf}"
     );
     let gear = builtin("planetary-gear");
-    let sdf = export::sdf(&gear);
+    let sdf = formats::write(&gear, "sdf").unwrap();
     assert_eq!(
         (
             sdf.matches("<mimic ").count(),
@@ -399,7 +412,7 @@ fn exported_as_mimic_joints() {
         "{sdf}"
     );
     assert!(!sdf.contains('\0'));
-    let urdf = export::urdf(&builtin("geared-gripper")).unwrap();
+    let urdf = formats::write(&builtin("geared-gripper"), "urdf").unwrap();
     assert!(
         urdf.contains("<mimic joint=\"0-1\" multiplier=\"-1\" offset=\"0\"/>"),
         "{urdf}"
@@ -430,14 +443,14 @@ fn equalities_of_mujoco() {
     let i = mjcf(
         r#"<joint joint1="b" joint2="a" polycoef="0.1 -0.25"/><joint joint1="c" joint2="a"/>"#,
     );
-    let m = mechanism(&i.toml);
+    let m = mechanism(&i.toml().unwrap());
     let ends = |q: usize| m.couplings[q].ends.map(|e| m.joints[e.joint].id.as_str());
     assert_eq!((ends(0), ends(1)), (["a", "b"], ["a", "c"]));
     assert_eq!([0, 1].map(|q| m.couplings[q].ratio.to_f64()), [-0.25, 1.0]);
     let kept = i.report.kept.unwrap();
     assert_eq!((kept.couplings, kept.mobility), (2, Some((3, 1))));
     // Rates are those of the joints, whatever the length of their axes.
-    let rows = ozols::closure::coupling::coefficients(&m, 0);
+    let rows = ozols::closure::coupling::coefficients(&m, StateId::FREE);
     assert!(
         rows.iter()
             .zip([0.25, -1.0])
@@ -465,7 +478,7 @@ fn equalities_of_mujoco() {
             "{}",
             i.report.text("x.xml")
         );
-        assert_eq!(exact(&mechanism(&i.toml)).mobility, 3);
+        assert_eq!(exact(&mechanism(&i.toml().unwrap())).mobility, 3);
     }
 }
 

@@ -4,7 +4,7 @@ use crate::cli::{out, ozols};
 use ozols::builtin;
 use ozols::draw::{Drawing, Rect, Subject, kinematic, marks, scheme};
 use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
+use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::redundancy::analysis::{Method, StateAnalysis, analyse, exact_field};
 use ozols::search::request::{Request, Search};
 use proptest::prelude::*;
@@ -155,7 +155,7 @@ fn outside(d: &Drawing) -> Vec<String> {
 }
 
 /// Whether each joint has its class, and each contour its tint.
-fn misread(d: &Drawing, m: &Mechanism, state: usize, analysis: &StateAnalysis) -> Vec<String> {
+fn misread(d: &Drawing, m: &Mechanism, state: StateId, analysis: &StateAnalysis) -> Vec<String> {
     let mut out = Vec::new();
     for (joint, symbol) in m.joints_in(state).zip(&d.symbols) {
         let within: Vec<&str> = d
@@ -213,9 +213,9 @@ fn every_built_in_is_drawn_right() {
     let mut drawn = 0;
     for name in builtin::names() {
         let m = built_in(name);
-        let states: Vec<usize> = (0..m.states.len()).collect();
+        let states: Vec<StateId> = m.state_ids().collect();
         let found = analyse(&m, &states, Method::Modular).unwrap();
-        for (state, analysis) in found.iter().enumerate() {
+        for (state, analysis) in m.state_ids().zip(&found) {
             let subject = Subject {
                 mechanism: &m,
                 state,
@@ -238,7 +238,7 @@ fn every_built_in_is_drawn_right() {
                     all.extend(misread(&d, &m, state, analysis));
                 }
                 for c in all {
-                    wrong.push(format!("{name} {state} {kind}: {c}"));
+                    wrong.push(format!("{name} {state:?} {kind}: {c}"));
                 }
             }
         }
@@ -250,14 +250,14 @@ fn every_built_in_is_drawn_right() {
 #[test]
 fn the_scheme_says_what_the_field_says() {
     let m = built_in("gripper-10");
-    let found = analyse(&m, &[0, 1], Method::Modular).unwrap();
-    let subject = |state: usize| Subject {
+    let found = analyse(&m, &[StateId::FREE, StateId::new(1)], Method::Modular).unwrap();
+    let subject = |state: StateId| Subject {
         mechanism: &m,
         state,
         analysis: Some(&found[state]),
         marks: None,
     };
-    let free = scheme(&subject(0));
+    let free = scheme(&subject(StateId::FREE));
     let says = |d: &Drawing, text: &str| d.labels.iter().any(|l| l.text == text);
     // [Pogrebnyak 2018]: shares 2, 3, 3, 3; twelve hinges of class V and the driving pair of class IV
     for row in [
@@ -279,7 +279,7 @@ fn the_scheme_says_what_the_field_says() {
     let large = free.symbols.iter().filter(|s| s.right - s.left > 25.0);
     assert_eq!(large.count(), 1);
     assert_eq!(count(&free, "a"), 0, "the clamped part is not there");
-    let clamped = scheme(&subject(1));
+    let clamped = scheme(&subject(StateId::new(1)));
     assert_eq!((count(&clamped, "VI"), count(&clamped, "a")), (2, 1));
     assert!(says(&clamped, "in state clamped only"));
     assert!(clamped.svg.contains("joint dash"));
@@ -289,7 +289,7 @@ fn the_scheme_says_what_the_field_says() {
 fn variants_are_marked() {
     let m = built_in("gripper-10");
     let request = Request {
-        state: Some((1, 2)),
+        state: Some((StateId::new(1), 2)),
         ..Request::default()
     };
     let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
@@ -308,7 +308,7 @@ fn variants_are_marked() {
     let changed: Vec<String> = marks.changed.iter().map(|(_, w)| w.clone()).collect();
     let subject = Subject {
         mechanism: &realized,
-        state: 1,
+        state: StateId::new(1),
         analysis: None,
         marks: Some(marks),
     };
@@ -367,7 +367,7 @@ fn a_plane_is_seen_face_on() {
         let m = tilted(across, up);
         let d = kinematic(&Subject {
             mechanism: &m,
-            state: 0,
+            state: StateId::FREE,
             analysis: None,
             marks: None,
         });
@@ -392,7 +392,7 @@ fn links_side_by_side_show_their_contour() {
     let m = built_in("door-two-hinges");
     let d = scheme(&Subject {
         mechanism: &m,
-        state: 0,
+        state: StateId::FREE,
         analysis: None,
         marks: None,
     });
@@ -416,7 +416,7 @@ fn the_same_bytes_each_time() {
         let m = built_in(name);
         let subject = Subject {
             mechanism: &m,
-            state: 0,
+            state: StateId::FREE,
             analysis: None,
             marks: None,
         };
@@ -607,9 +607,9 @@ proptest! {
 
     #[test]
     fn any_graph_is_drawn(m in any_mechanism()) {
-        let found = analyse(&m, &[0], Method::Modular).ok();
+        let found = analyse(&m, &[StateId::FREE], Method::Modular).ok();
         for analysis in [None, found.as_ref().and_then(|f| f.first())] {
-            let subject = Subject { mechanism: &m, state: 0, analysis, marks: None };
+            let subject = Subject { mechanism: &m, state: StateId::FREE, analysis, marks: None };
             for d in [scheme(&subject), kinematic(&subject)] {
                 prop_assert!(!d.svg.contains("NaN") && !d.svg.contains("inf "));
                 let wrong = collisions(&d);

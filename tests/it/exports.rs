@@ -3,9 +3,9 @@
 use crate::cli::{out, ozols};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mechanism, Mode};
+use ozols::model::mechanism::{Mechanism, Mode, StateId};
 use ozols::redundancy::analysis::{Elimination, Method, analyse};
-use ozols::robots::export;
+use ozols::robots::formats;
 use ozols::robots::{Options, import};
 use proptest::prelude::*;
 
@@ -23,12 +23,12 @@ fn none(_: &str) -> std::io::Result<Vec<u8>> {
 #[test]
 fn toml_and_json() {
     for m in all() {
-        let toml = export::toml(&m).unwrap();
-        let json = export::mechanism_file(&m).json().to_string();
+        let toml = formats::write(&m, "toml").unwrap();
+        let json = ozols::file::write::mechanism_file(&m).json().to_string();
         for (name, text) in [("x.toml", &toml), ("x.json", &json)] {
             let back = mechanism_from_str(name, text)
                 .unwrap_or_else(|e| panic!("{}: {e}\n{text}", m.name));
-            assert_eq!(export::toml(&back).unwrap(), toml, "{}", m.name);
+            assert_eq!(formats::write(&back, "toml").unwrap(), toml, "{}", m.name);
             let names = |m: &Mechanism| {
                 let all = m
                     .joints
@@ -38,7 +38,7 @@ fn toml_and_json() {
                     .collect::<Vec<_>>()
             };
             assert_eq!(names(&back), names(&m), "{}", m.name);
-            let states: Vec<usize> = (0..m.states.len()).collect();
+            let states: Vec<StateId> = m.state_ids().collect();
             let figures = |m: &Mechanism| {
                 let all = analyse(m, &states, Method::Modular).unwrap();
                 all.iter()
@@ -64,8 +64,8 @@ fn model(m: &Mechanism) -> String {
 }
 
 fn comes_back(m: &Mechanism) {
-    let toml = export::toml(m).unwrap();
-    let json = export::mechanism_file(m).json().to_string();
+    let toml = formats::write(m, "toml").unwrap();
+    let json = ozols::file::write::mechanism_file(m).json().to_string();
     for (name, text) in [("x.toml", &toml), ("x.json", &json)] {
         let back =
             mechanism_from_str(name, text).unwrap_or_else(|e| panic!("{}: {e}\n{text}", m.name));
@@ -180,14 +180,15 @@ fn sdf_there_and_back() {
         if matches!(m.mode, Mode::Planar { .. }) {
             continue;
         }
-        let text = export::sdf(&m);
+        let text = formats::write(&m, "sdf").unwrap();
         let i = import("x.sdf", text.as_bytes(), &none, &Options::default())
             .unwrap_or_else(|e| panic!("{}: {e}\n{text}", m.name));
-        let back = mechanism_from_str("x.toml", &i.toml).unwrap();
+        let back = mechanism_from_str("x.toml", &i.toml().unwrap()).unwrap();
         // A joint mimics one other: couplings beyond a tree, which are redundant where the mechanism moves, are comments.
         let unsaid = text.matches("<!-- coupled, ").count();
         let figures = |m: &Mechanism, unsaid: usize| {
-            let s = &analyse(m, &[0], Method::Numeric(Elimination::Svd, 1e-9)).unwrap()[0];
+            let s =
+                &analyse(m, &[StateId::FREE], Method::Numeric(Elimination::Svd, 1e-9)).unwrap()[0];
             (s.contours, s.mobility, s.redundant - unsaid)
         };
         assert_eq!(figures(&back, 0), figures(&m, unsaid), "{}\n{text}", m.name);
@@ -200,8 +201,8 @@ fn sdf_there_and_back() {
 #[test]
 fn urdf_trees() {
     for m in all() {
-        let s = &analyse(&m, &[0], Method::Modular).unwrap()[0];
-        let text = match export::urdf(&m) {
+        let s = &analyse(&m, &[StateId::FREE], Method::Modular).unwrap()[0];
+        let text = match formats::write(&m, "urdf") {
             Ok(t) => t,
             Err(e) => {
                 assert!(
@@ -220,8 +221,13 @@ fn urdf_trees() {
         );
         match import("x.urdf", text.as_bytes(), &none, &Options::default()) {
             Ok(i) => {
-                let back = mechanism_from_str("x.toml", &i.toml).unwrap();
-                let t = &analyse(&back, &[0], Method::Numeric(Elimination::Svd, 1e-9)).unwrap()[0];
+                let back = mechanism_from_str("x.toml", &i.toml().unwrap()).unwrap();
+                let t = &analyse(
+                    &back,
+                    &[StateId::FREE],
+                    Method::Numeric(Elimination::Svd, 1e-9),
+                )
+                .unwrap()[0];
                 assert_eq!((t.contours, t.redundant), (0, 0));
                 assert!(t.mobility <= s.freedoms);
             }
@@ -237,23 +243,34 @@ fn urdf_trees() {
 #[test]
 fn graphs() {
     for m in all() {
-        let dot = export::dot(&m);
+        let dot = formats::write(&m, "dot").unwrap();
         assert_eq!(dot.matches(" -- ").count(), m.joints.len(), "{dot}");
-        let xml = export::graphml(&m);
+        let xml = formats::write(&m, "graphml").unwrap();
         assert_eq!(xml.matches("<node ").count(), m.links.len());
         assert_eq!(xml.matches("<edge ").count(), m.joints.len());
     }
     let tricky = "name = \"a\\\"b<&>\"\n[[link]]\nid = \"<0>\"\nrole = \"frame\"\n[[link]]\nid = \"\\\"&--\\\\\"\nrole = \"output\"\n[[joint]]\nid = \"]]>-->\"\nlinks = [\"<0>\", \"\\\"&--\\\\\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\ndrive = true\n";
     let m = mechanism_from_str("t.toml", tricky).unwrap();
-    assert!(export::dot(&m).starts_with("graph \"a\\\"b<&>\" {"));
-    assert!(export::graphml(&m).contains("id=\"&lt;0&gt;\""));
+    assert!(
+        formats::write(&m, "dot")
+            .unwrap()
+            .starts_with("graph \"a\\\"b<&>\" {")
+    );
+    assert!(
+        formats::write(&m, "graphml")
+            .unwrap()
+            .contains("id=\"&lt;0&gt;\"")
+    );
     for (name, text) in [
-        ("t.urdf", export::urdf(&m).unwrap()),
-        ("t.sdf", export::sdf(&m)),
+        ("t.urdf", formats::write(&m, "urdf").unwrap()),
+        ("t.sdf", formats::write(&m, "sdf").unwrap()),
     ] {
         let i = import(name, text.as_bytes(), &none, &Options::default())
             .unwrap_or_else(|e| panic!("{e}\n{text}"));
-        assert!(mechanism_from_str("t.toml", &i.toml).is_ok(), "{text}");
+        assert!(
+            mechanism_from_str("t.toml", &i.toml().unwrap()).is_ok(),
+            "{text}"
+        );
     }
 }
 
@@ -280,7 +297,7 @@ fn the_workload_survives() {
         assert_eq!(statics(file), statics("parallel-shears"));
     }
     let shears = all().find(|m| m.name == "parallel-shears").unwrap();
-    let text = export::toml(&shears).unwrap();
+    let text = formats::write(&shears, "toml").unwrap();
     let back = mechanism_from_str("x.toml", &text).unwrap();
     assert_eq!(back.loads.stroke, shears.loads.stroke);
     assert_eq!(back.loads.drive_speeds, shears.loads.drive_speeds);

@@ -6,13 +6,13 @@ mod all;
 use ozols::builtin;
 use ozols::closure::matrix::Closure;
 use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
+use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::finite::{Finite, How, finite};
 use ozols::rank::{field_of, modular};
 
 fn judged(m: &Mechanism) -> (usize, Finite) {
-    let exact = field_of(m, 0, 0).unwrap();
-    let closure = Closure::new(&exact, m, 0).unwrap();
+    let exact = field_of(m, StateId::FREE, 0).unwrap();
+    let closure = Closure::new(&exact, m, StateId::FREE).unwrap();
     let rank = modular::rank(&exact, &closure);
     let found = finite(&exact, m, &closure, rank).unwrap();
     (closure.columns.len() - rank, found)
@@ -77,8 +77,8 @@ fn idle_spins_are_finite_motions() {
         let m = mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap();
         let (_, found) = judged(&m);
         let mut part = m.clone();
-        let exact = field_of(&m, 0, 0).unwrap();
-        let idle = ozols::rank::parts::lock_idle(&exact, &mut part, 0).unwrap();
+        let exact = field_of(&m, StateId::FREE, 0).unwrap();
+        let idle = ozols::rank::parts::lock_idle(&exact, &mut part, StateId::FREE).unwrap();
         assert!(found.mobility >= idle, "{name}: {found:?}, {idle} idle");
     }
 }

@@ -3,6 +3,7 @@
 use crate::cli::{json, out, ozols};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Method, analyse};
 use ozols::terms::Terms;
 use std::fs;
@@ -145,7 +146,7 @@ fn a_template_of_every_built_in_mechanism_gives_its_figures() {
         let new = ozols::file::template::commented(given, name, "mine").unwrap();
         let figures = |text: &str| {
             let m = mechanism_from_str("mine.toml", text).unwrap();
-            let states: Vec<usize> = (0..m.states.len()).collect();
+            let states: Vec<StateId> = m.state_ids().collect();
             let of = analyse(&m, &states, Method::Modular).unwrap();
             of.into_iter()
                 .map(|s| {

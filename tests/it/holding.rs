@@ -2,13 +2,19 @@
 
 use crate::common::near;
 use microlp::{ComparisonOp, OptimizationDirection, Problem};
-use ozols::grip::contact::{Gripper, Pose, Unholdable, cross};
-use ozols::grip::holding::{ContactForce, Coupling, Holding, Load, Outcome, Spatial, hold};
+use ozols::geom::vector::cross_plane as cross;
+use ozols::grip::contact::{Gripper, Pose, Unholdable};
+use ozols::grip::holding::{ContactForce, Holding, Load, Outcome, Spatial, hold};
 use ozols::grip::lever_arm::Lever;
+use ozols::model::grip::LeverDrive;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-const COUPLINGS: [Coupling; 3] = [Coupling::Coupled, Coupling::Equal, Coupling::Independent];
+const COUPLINGS: [LeverDrive; 3] = [
+    LeverDrive::Coupled,
+    LeverDrive::Equal,
+    LeverDrive::Independent,
+];
 
 fn lever(length: f64, prism: f64, mounting: f64) -> Lever {
     Lever::new(length, prism.to_radians(), mounting.to_radians()).unwrap()
@@ -27,7 +33,7 @@ fn pull(force: Spatial) -> Load {
     }
 }
 
-fn held(pose: &Pose, load: Load, friction: f64, coupling: Coupling) -> Holding {
+fn held(pose: &Pose, load: Load, friction: f64, coupling: LeverDrive) -> Holding {
     match hold(pose, &load, friction, coupling).unwrap() {
         Outcome::Held(h) => h,
         Outcome::Slips(s) => panic!("slips: {s:?}"),
@@ -95,7 +101,7 @@ fn polyhedral(
     pose: &Pose,
     load: &Load,
     friction: f64,
-    coupling: Coupling,
+    coupling: LeverDrive,
     facets: usize,
     outer: bool,
 ) -> Option<f64> {
@@ -110,7 +116,7 @@ fn polyhedral(
         lp.add_var(
             0.0,
             (
-                if coupling == Coupling::Independent {
+                if coupling == LeverDrive::Independent {
                     0.0
                 } else {
                     f64::NEG_INFINITY
@@ -159,17 +165,17 @@ fn polyhedral(
         lp.add_constraint(l.as_slice(), ComparisonOp::Eq, 0.0);
     });
     match coupling {
-        Coupling::Coupled => {
+        LeverDrive::Coupled => {
             lp.add_constraint(
                 [(t, 2.0), (moments[0], -1.0), (moments[1], -1.0)],
                 ComparisonOp::Ge,
                 0.0,
             );
         }
-        Coupling::Equal => moments.iter().for_each(|m| {
+        LeverDrive::Equal => moments.iter().for_each(|m| {
             lp.add_constraint([(t, 1.0), (*m, -1.0)], ComparisonOp::Eq, 0.0);
         }),
-        Coupling::Independent => moments.iter().for_each(|m| {
+        LeverDrive::Independent => moments.iter().for_each(|m| {
             lp.add_constraint([(t, 1.0), (*m, -1.0)], ComparisonOp::Ge, 0.0);
         }),
     }
@@ -273,13 +279,13 @@ fn statics_confirm_the_arms() {
             );
         }
         // Down: both contacts of the lower lever.
-        let h = held(&pose, pull([0.0, -10.0, 0.0]), 0.0, Coupling::Coupled);
+        let h = held(&pose, pull([0.0, -10.0, 0.0]), 0.0, LeverDrive::Coupled);
         let stated = 5.0 / half.sin() * (arms.l1 + arms.l2);
         near(h.moments[1], stated, 1e-7);
         near(h.moments[0], 0.0, 1e-7);
         near(h.drive, stated / 2.0, 1e-7);
         near(
-            held(&pose, pull([0.0, -10.0, 0.0]), 0.0, Coupling::Independent).drive,
+            held(&pose, pull([0.0, -10.0, 0.0]), 0.0, LeverDrive::Independent).drive,
             stated,
             1e-7,
         );
@@ -293,7 +299,7 @@ fn symmetric_axial_pull_has_the_textbook_moment() {
     // α near 180° and γ so that the lever is at right angles to the bisector: both arms near L.
     let l = lever(0.1, 179.9, 0.05);
     let pose = Gripper::nominal(l, 0.04).pose(0.04).unwrap();
-    let h = held(&pose, pull([0.0, 0.0, -20.0]), 0.4, Coupling::Equal);
+    let h = held(&pose, pull([0.0, 0.0, -20.0]), 0.4, LeverDrive::Equal);
     // Each lever presses with W/(2μ) in all at the arm L.
     near(h.drive, 20.0 / (2.0 * 0.4) * 0.1, 20.0 / 0.8 * 0.1 * 5e-3);
 }
@@ -336,7 +342,7 @@ fn slips_are_certificates() {
             [-3.0, 1.0, 1.0],
         ] {
             let Ok(pose) = g.pose(d) else { continue };
-            let Outcome::Slips(s) = hold(&pose, &pull(f), mu, Coupling::Coupled).unwrap() else {
+            let Outcome::Slips(s) = hold(&pose, &pull(f), mu, LeverDrive::Coupled).unwrap() else {
                 continue;
             };
             slips += 1;
@@ -367,10 +373,10 @@ fn slips_are_certificates() {
 #[test]
 fn bad_numbers_are_refused() {
     for mu in [-0.1, f64::NAN, f64::INFINITY, 11.0] {
-        assert!(hold(&pose(), &pull([1.0, 0.0, 0.0]), mu, Coupling::Equal).is_err());
+        assert!(hold(&pose(), &pull([1.0, 0.0, 0.0]), mu, LeverDrive::Equal).is_err());
     }
-    assert!(hold(&pose(), &pull([f64::NAN, 0.0, 0.0]), 0.3, Coupling::Equal).is_err());
-    let nothing = held(&pose(), pull([0.0; 3]), 0.0, Coupling::Equal);
+    assert!(hold(&pose(), &pull([f64::NAN, 0.0, 0.0]), 0.3, LeverDrive::Equal).is_err());
+    let nothing = held(&pose(), pull([0.0; 3]), 0.0, LeverDrive::Equal);
     assert_eq!(nothing.drive, 0.0);
 }
 
@@ -379,7 +385,7 @@ fn direction() -> impl Strategy<Value = Spatial> {
         .prop_filter("not zero", |v| v.iter().map(|x| x * x).sum::<f64>() > 0.01)
 }
 
-fn coupling() -> impl Strategy<Value = Coupling> {
+fn coupling() -> impl Strategy<Value = LeverDrive> {
     prop::sample::select(COUPLINGS.to_vec())
 }
 

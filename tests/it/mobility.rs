@@ -5,7 +5,7 @@ use faer::Mat;
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
-use ozols::model::mechanism::{Frame, Mechanism, Mode};
+use ozols::model::mechanism::{Frame, Mechanism, Mode, StateId};
 use ozols::motion::pose::Pose;
 use ozols::rank::auto::decide;
 use ozols::rank::finite::{How, finite, followed};
@@ -90,7 +90,7 @@ fn the_automatic_choice_is_right_on_every_built_in_mechanism_turned_and_measured
     for (n, name) in builtin::names().into_iter().enumerate() {
         let m = built_in(name);
         for e in &m.expected {
-            let state = m.states.iter().position(|s| *s == e.state).unwrap();
+            let state = m.state(&e.state).unwrap();
             let mut check = |what: String, m: &Mechanism| {
                 let s = &analyse(m, &[state], Method::Auto { tolerance: None }).unwrap()[0];
                 let is = (
@@ -155,13 +155,13 @@ fn what_is_proven_is_found_by_following_the_motion_too() {
     let mut proven = 0;
     for name in builtin::names() {
         let m = built_in(name);
-        let exact = field_of(&m, 0, 0).unwrap();
-        let closure = ozols::closure::matrix::Closure::new(&exact, &m, 0).unwrap();
+        let exact = field_of(&m, StateId::FREE, 0).unwrap();
+        let closure = ozols::closure::matrix::Closure::new(&exact, &m, StateId::FREE).unwrap();
         let rank = modular::rank(&exact, &closure);
         let found = finite(&exact, &m, &closure, rank).unwrap();
         if found.is_proven() && closure.columns.len() < 60 {
             proven += 1;
-            let by_motion = followed(&m, 0, closure.columns.len() - rank, 0.0).unwrap();
+            let by_motion = followed(&m, StateId::FREE, closure.columns.len() - rank, 0.0).unwrap();
             assert_eq!(by_motion.mobility, found.mobility, "{name}: {found:?}");
             assert!(matches!(by_motion.how, How::Traced { .. }), "{name}");
         }
@@ -176,9 +176,9 @@ fn groups_need_no_more_rows_than_dimensions() {
     let mut fewer = 0;
     for name in builtin::names() {
         let m = built_in(name);
-        let exact = field_of(&m, 0, 0).unwrap();
-        let closure = ozols::closure::matrix::Closure::new(&exact, &m, 0).unwrap();
-        let group = whole_group(&exact, &m, 0).unwrap();
+        let exact = field_of(&m, StateId::FREE, 0).unwrap();
+        let closure = ozols::closure::matrix::Closure::new(&exact, &m, StateId::FREE).unwrap();
+        let group = whole_group(&exact, &m, StateId::FREE).unwrap();
         if matches!(m.mode, Mode::Spatial) && group.dimension() < 6 {
             fewer += 1;
             let reduced = group.rows_of(&closure);
@@ -200,8 +200,12 @@ fn groups_need_no_more_rows_than_dimensions() {
         ("bennett", Kind::Other),
     ] {
         let m = built_in(name);
-        let exact = field_of(&m, 0, 0).unwrap();
-        assert_eq!(whole_group(&exact, &m, 0).unwrap().kind(), kind, "{name}");
+        let exact = field_of(&m, StateId::FREE, 0).unwrap();
+        assert_eq!(
+            whole_group(&exact, &m, StateId::FREE).unwrap().kind(),
+            kind,
+            "{name}"
+        );
     }
 }
 
@@ -209,7 +213,7 @@ fn groups_need_no_more_rows_than_dimensions() {
 #[test]
 fn the_jacobian_is_the_derivative_of_the_gaps() {
     for name in ["rsur", "hooke-double", "stewart-gough", "screw-jack", "h4"] {
-        let pose = Pose::of_file(&built_in(name), 0).unwrap();
+        let pose = Pose::of_file(&built_in(name), StateId::FREE).unwrap();
         let f = pose.columns.len();
         let zero = vec![0.0; f];
         let jacobian: Mat<f64> = pose.jacobian(&zero);
@@ -239,7 +243,7 @@ fn poses_reached_in_steps_are_closed_and_rigid() {
         "sarrus",
         "delta",
     ] {
-        let mut pose = Pose::of_file(&built_in(name), 0).unwrap();
+        let mut pose = Pose::of_file(&built_in(name), StateId::FREE).unwrap();
         let f = pose.columns.len();
         for _ in 0..20 {
             let span = trace::motions(&pose);
@@ -289,12 +293,12 @@ fn each_formula_has_its_known_failures() {
     ] {
         let answer = method::by_name(by)
             .unwrap()
-            .answer(&built_in(mechanism), 0)
+            .answer(&built_in(mechanism), StateId::FREE)
             .unwrap();
         assert_eq!(answer.mobility, says, "{mechanism} by {by}");
     }
     let planar = method::by_name("count-planar").unwrap();
-    assert!(planar.answer(&built_in("bennett"), 0).is_err());
+    assert!(planar.answer(&built_in("bennett"), StateId::FREE).is_err());
 }
 
 /// Rank of the generic rigidity matrix of bars with random end points, by elimination over a large prime: what the pebble
@@ -355,8 +359,8 @@ proptest! {
         let names: Vec<_> = builtin::names();
         let m = built_in(names[pick.index(names.len())]);
         prop_assume!(matches!(m.mode, Mode::Spatial) && m.name != "wren-platform");
-        let before = decide(&m, 0, None).unwrap();
-        let after = decide(&as_measured(&m, seed, 1e-13, 1.0), 0, None).unwrap();
+        let before = decide(&m, StateId::FREE, None).unwrap();
+        let after = decide(&as_measured(&m, seed, 1e-13, 1.0), StateId::FREE, None).unwrap();
         prop_assert_eq!(before.rank, after.rank);
         prop_assert_eq!(before.finite.mobility, after.finite.mobility);
     }

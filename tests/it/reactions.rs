@@ -5,7 +5,7 @@ use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
 use ozols::model::loads::{ExternalForce, MassProperties, Misalignment, Stiffness};
-use ozols::model::mechanism::{Mechanism, Role};
+use ozols::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use ozols::motion::pose::Pose;
 use ozols::redundancy::analysis::{Method, analyse};
 use ozols::statics::reactions::drives::driven;
@@ -35,7 +35,7 @@ fn with_masses(m: &mut Mechanism, seed: &[f64]) {
     let mut next = seed.iter().copied().cycle();
     let mut draw = || next.next().unwrap();
     m.loads.gravity = Some(vector([draw() * 9.0, -9.81 * draw(), 5.0 * draw() - 2.0]));
-    for l in 0..m.links.len() {
+    for l in m.link_ids() {
         let at = m.joints.iter().find(|j| j.links.contains(&l)).unwrap();
         let near = real(&at.frame.point).map(|x| x + draw() - 0.5);
         if !matches!(m.links[l].role, Role::Frame | Role::Object) {
@@ -46,7 +46,10 @@ fn with_masses(m: &mut Mechanism, seed: &[f64]) {
             });
         }
     }
-    let output = m.links.iter().position(|l| l.role == Role::Output).unwrap();
+    let output = m
+        .link_ids()
+        .find(|&l| m.links[l].role == Role::Output)
+        .unwrap();
     m.loads.forces.push(ExternalForce {
         link: output,
         point: vector([draw(), draw(), draw()]),
@@ -62,8 +65,8 @@ fn left_over(m: &Mechanism, list: &[JointReaction]) -> f64 {
     let about = [0.3, -0.2, 0.5];
     let planar = matches!(m.mode, ozols::model::mechanism::Mode::Planar { .. });
     let (mut worst, mut greatest) = (0.0f64, 1e-300f64);
-    let loaded = |l: usize| !matches!(m.links[l].role, Role::Frame | Role::Object);
-    for l in (0..m.links.len()).filter(|&l| loaded(l)) {
+    let loaded = |l: LinkId| !matches!(m.links[l].role, Role::Frame | Role::Object);
+    for l in m.link_ids().filter(|&l| loaded(l)) {
         let mut sum = [0.0; 6];
         let mut add = |sign: f64, p: [f64; 3], f: [f64; 3], moment: [f64; 3]| {
             let turn = cross([0, 1, 2].map(|i| p[i] - about[i]), f);
@@ -103,7 +106,7 @@ fn left_over(m: &Mechanism, list: &[JointReaction]) -> f64 {
 }
 
 fn solve(m: &Mechanism) -> Solution {
-    Reactions::solve(m, 0, &m.loads).unwrap()
+    Reactions::solve(m, StateId::FREE, &m.loads).unwrap()
 }
 
 /// Mechanisms of one drive that holds them.
@@ -124,7 +127,7 @@ fn every_link_is_in_equilibrium_and_joints_do_no_work() {
     for name in SOLVED {
         let mut m = built_in(name);
         with_masses(&mut m, &[0.3, 0.9, 0.1, 0.7, 0.45, 0.62, 0.21]);
-        let s = match Reactions::solve(&m, 0, &m.loads) {
+        let s = match Reactions::solve(&m, StateId::FREE, &m.loads) {
             Ok(s) => s,
             Err(e) => panic!("{name}: {e}"),
         };
@@ -166,7 +169,7 @@ fn self_stresses_are_in_equilibrium_and_as_many_as_the_redundant_constraints() {
     for name in SOLVED {
         let mut m = built_in(name);
         let s = solve(&m);
-        let by_rank = analyse(&m, &[0], Method::Modular).unwrap()[0].redundant;
+        let by_rank = analyse(&m, &[StateId::FREE], Method::Modular).unwrap()[0].redundant;
         assert_eq!(s.self_stresses.len(), by_rank, "{name}");
         m.loads = Default::default();
         for stress in &s.self_stresses {
@@ -176,9 +179,9 @@ fn self_stresses_are_in_equilibrium_and_as_many_as_the_redundant_constraints() {
 }
 
 /// Takes a mechanism along its drive by ±h and gives the work of its loads for a unit of drive [J/rad] or [J/m].
-fn work_by_differences(m: &Mechanism, effort_of: usize, h: f64) -> f64 {
-    let pose = Pose::of_file(m, 0).unwrap();
-    let drives = driven(m, &Geometry::new(m, 0, &pose).unwrap()).unwrap();
+fn work_by_differences(m: &Mechanism, effort_of: JointId, h: f64) -> f64 {
+    let pose = Pose::of_file(m, StateId::FREE).unwrap();
+    let drives = driven(m, &Geometry::new(m, StateId::FREE, &pose).unwrap()).unwrap();
     let (joint, freedom) = drives[0];
     assert_eq!(joint, effort_of);
     let column = pose
@@ -192,14 +195,14 @@ fn work_by_differences(m: &Mechanism, effort_of: usize, h: f64) -> f64 {
         q[column] = step;
         let q = pose.close(q, &[column]).unwrap();
         let moved = pose.moved(&q);
-        let shift = |link: usize, p: &[Expr; 3]| {
+        let shift = |link: LinkId, p: &[Expr; 3]| {
             let from = real(p);
             let at = [0, 1, 2].map(|i| (from[i] - pose.middle[i]) / pose.length);
             let to = moved.links[link].point(at);
             [0, 1, 2].map(|i| (to[i] - at[i]) * pose.length * metres)
         };
         let mut work = 0.0;
-        for (l, link) in m.links.iter().enumerate() {
+        for (l, link) in m.links_with_ids() {
             if let (Some(mass), Some(g)) = (&link.mass, &m.loads.gravity) {
                 work += mass.mass * dot(real(g), shift(l, &mass.centre));
             }
@@ -320,7 +323,7 @@ fn planar_mechanisms_agree_with_the_planar_solver() {
         }
         let s = solve(&m);
         assert_eq!(s.choice, Choice::Unique, "{name}");
-        let planar = ozols::statics::cycle::statics(&m, 0, None).unwrap();
+        let planar = ozols::statics::cycle::statics(&m, StateId::FREE, None).unwrap();
         let whole = planar.moments[0].whole.as_ref().unwrap();
         let greatest = s
             .reactions
@@ -357,7 +360,7 @@ fn loads_on_a_motion_that_nothing_holds_are_told_with_the_link() {
     // Ball joints at both ends of the rod 5 let it spin; a moment along it turns it.
     let mut m = built_in("gripper-10-redesign");
     with_masses(&mut m, &[0.3, 0.9, 0.1, 0.7, 0.45, 0.62, 0.21]);
-    match Reactions::solve(&m, 0, &m.loads) {
+    match Reactions::solve(&m, StateId::FREE, &m.loads) {
         Err(Unsolved::Moves { link, mobility }) => {
             assert!(["5", "9"].contains(&link.as_str()), "{link}");
             assert_eq!(mobility, 2);

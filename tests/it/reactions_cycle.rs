@@ -6,7 +6,7 @@ use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
 use ozols::model::joint_type::Freedom;
 use ozols::model::loads::{Inertia, MassProperties, Stroke};
-use ozols::model::mechanism::{Mechanism, Mode, Role};
+use ozols::model::mechanism::{Mechanism, Mode, Role, StateId};
 use ozols::motion::pose::Pose;
 use ozols::statics::cycle::statics;
 use ozols::statics::reactions::cycle::{Cycle, cycle};
@@ -26,7 +26,7 @@ fn real(v: &[Expr; 3]) -> [f64; 3] {
 fn moving(name: &str, speed: f64, inertia: impl Fn(f64) -> Inertia) -> Mechanism {
     let mut m = mechanism_from_str(name, builtin::text(name).unwrap()).unwrap();
     let mut draw = (1..).map(|i| (f64::from(i) * 0.618_034).fract());
-    for l in 0..m.links.len() {
+    for l in m.link_ids() {
         if matches!(m.links[l].role, Role::Frame | Role::Object) {
             continue;
         }
@@ -84,14 +84,14 @@ fn inertia_is_that_of_the_planar_solver() {
                 mass.centre[2] = Expr::from(0);
             }
         }
-        let c = cycle(&m, 0, Some(STROKE)).unwrap();
+        let c = cycle(&m, StateId::FREE, Some(STROKE)).unwrap();
         assert!(c.stopped.is_none(), "{name}");
-        let planar = statics(&m, 0, Some(STROKE)).unwrap();
+        let planar = statics(&m, StateId::FREE, Some(STROKE)).unwrap();
         assert!(planar.dead.is_none());
         assert_eq!(planar.moments.len(), c.positions.len());
         let mut still = m.clone();
         still.loads.drive_speeds.clear();
-        let at_rest = cycle(&still, 0, Some(STROKE)).unwrap();
+        let at_rest = cycle(&still, StateId::FREE, Some(STROKE)).unwrap();
         let mut differs = 0.0f64;
         for (((_, s), moment), (_, rest)) in solved(&c)
             .into_iter()
@@ -131,7 +131,7 @@ fn inertia_is_that_of_the_planar_solver() {
         assert!(differs > 1e-3, "{name}: {differs}");
         // Redundant in space, and the drive bears the same.
         m.mode = Mode::Spatial;
-        let spatial = cycle(&m, 0, Some(STROKE)).unwrap();
+        let spatial = cycle(&m, StateId::FREE, Some(STROKE)).unwrap();
         for ((_, s), (_, t)) in solved(&c).into_iter().zip(solved(&spatial)) {
             let (a, b) = (effort(&s.reactions), effort(&t.reactions));
             assert!((a - b).abs() < 1e-8 * a.abs().max(1.0), "{name}: {a} {b}");
@@ -143,12 +143,14 @@ fn inertia_is_that_of_the_planar_solver() {
 fn energies(m: &Mechanism, c: &Cycle, at: f64, speed: f64) -> f64 {
     let h = 2e-3;
     let steps = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| at + k * h);
-    let poses = follow_to(m, 0, &c.drives, &steps).unwrap().poses;
+    let poses = follow_to(m, StateId::FREE, &c.drives, &steps)
+        .unwrap()
+        .poses;
     assert_eq!(poses.len(), 5);
     let metres = m.length_unit.metres;
     let diff = |x: [f64; 5]| (8.0 * (x[3] - x[1]) - (x[4] - x[0])) / (12.0 * h) * speed;
     let mut energy = 0.0;
-    for (l, link) in m.links.iter().enumerate() {
+    for (l, link) in m.links_with_ids() {
         let Some(mass) = &link.mass else { continue };
         let file = real(&mass.centre);
         let place = |pose: &Pose| {
@@ -203,7 +205,7 @@ fn the_drive_feeds_the_energy_of_spatial_mechanisms() {
             to: 0.3,
             steps: 2,
         };
-        let c = cycle(&m, 0, Some(stroke)).unwrap();
+        let c = cycle(&m, StateId::FREE, Some(stroke)).unwrap();
         let slides = matches!(c.drives[0].1, Freedom::Tx | Freedom::Ty | Freedom::Tz);
         let unit = if slides { m.length_unit.metres } else { 1.0 };
         for (at, s) in solved(&c) {
@@ -233,7 +235,7 @@ fn inertia_is_quadratic_in_the_speed() {
         let mut m = moving("rsur", speed, |x| Inertia::Principal([x, 2.0 * x, 1.5 * x]));
         m.loads.gravity = None;
         effort(
-            &cycle(&m, 0, None).unwrap().positions[0]
+            &cycle(&m, StateId::FREE, None).unwrap().positions[0]
                 .1
                 .as_ref()
                 .unwrap()
@@ -248,7 +250,7 @@ fn inertia_is_quadratic_in_the_speed() {
 #[test]
 fn an_inertia_for_a_plane_is_refused_in_space() {
     let m = moving("rsur", 1.0, Inertia::Plane);
-    match cycle(&m, 0, None) {
+    match cycle(&m, StateId::FREE, None) {
         Err(e @ Unsolved::PlaneInertia { .. }) => {
             assert!(e.to_string().contains("3 about the axes"))
         }

@@ -87,7 +87,7 @@ fn read(name: &str, bytes: &[u8], side: Option<(&str, &[u8])>, bits: u8) {
     let none = |_: &str| Err(std::io::Error::other("no such file"));
     match import(name, bytes, &none, &options) {
         Ok(i) => {
-            mechanism_from_str("x.toml", &i.toml).unwrap();
+            mechanism_from_str("x.toml", &i.toml().unwrap()).unwrap();
             assert!(!i.report.text(name).is_empty());
         }
         Err(e) => {

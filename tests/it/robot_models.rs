@@ -23,7 +23,7 @@ fn mimic_joints_are_couplings() {
             .text("x.urdf")
             .contains("5 couplings of joints: W = 6 without, 1 with")
     );
-    assert!(i.toml.contains("# mimics finger_joint times 1"));
+    assert!(i.toml().unwrap().contains("# mimics finger_joint times 1"));
     assert_eq!(i.report.dropped["visual"].0, 11);
 }
 

@@ -9,7 +9,7 @@ mod stability;
 mod structure;
 
 use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
+use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::statics::planar::{PairId, PlanarMechanism};
 use std::fmt::Write;
 
@@ -90,7 +90,7 @@ pub(crate) fn mechanism(text: &str) -> Mechanism {
 }
 
 pub(crate) fn planar(joints: &[J]) -> PlanarMechanism {
-    PlanarMechanism::new(&mechanism(&file(joints, "")), 0).unwrap()
+    PlanarMechanism::new(&mechanism(&file(joints, "")), StateId::FREE).unwrap()
 }
 
 pub(crate) fn pair(m: &PlanarMechanism, name: &str) -> PairId {

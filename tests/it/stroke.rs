@@ -2,6 +2,7 @@
 
 use crate::cli::{json, out, ozols};
 use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Method, analyse};
 use serde_json::Value;
 use std::fs;
@@ -64,7 +65,7 @@ fn variants_that_are_right_in_the_pose_of_the_file_only_are_marked() {
                 m.joints[j].frame.point = [x, y, 0].map(|c: i64| c.into());
             }
         }
-        let found = &analyse(&m, &[0], Method::Modular).unwrap()[0];
+        let found = &analyse(&m, &[StateId::FREE], Method::Modular).unwrap()[0];
         assert_eq!(
             (found.mobility, found.redundant, found.working_mobility),
             (2, 0, working)

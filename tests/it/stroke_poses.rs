@@ -4,7 +4,7 @@ use crate::cli::{json, out, ozols};
 use crate::statics::{file, mechanism, r};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
+use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::motion::follow::{Followed, Why, follow, slides};
 use ozols::motion::pose::Pose;
 use ozols::rank::along_stroke::{StrokeFigures, StrokeRequest, stroke};
@@ -26,11 +26,11 @@ fn drives(m: &Mechanism, pose: &Pose) -> Vec<usize> {
 }
 
 fn figures(m: &Mechanism, range: [f64; 2], steps: usize) -> StrokeFigures {
-    let pose = Pose::of_file(m, 0).unwrap();
+    let pose = Pose::of_file(m, StateId::FREE).unwrap();
     let drives = drives(m, &pose);
     let request = StrokeRequest {
         mechanism: m,
-        state: 0,
+        state: StateId::FREE,
         drive: drives[0],
         held: &drives[1..],
         range,
@@ -41,7 +41,7 @@ fn figures(m: &Mechanism, range: [f64; 2], steps: usize) -> StrokeFigures {
 }
 
 fn followed(m: &Mechanism, range: [f64; 2], steps: usize) -> (Pose, Followed) {
-    let pose = Pose::of_file(m, 0).unwrap();
+    let pose = Pose::of_file(m, StateId::FREE).unwrap();
     let drives = drives(m, &pose);
     let found = follow(&pose, drives[0], &drives[1..], range, steps);
     (pose, found)
@@ -301,14 +301,14 @@ fn as_by_assur_groups() {
     let mut compared = 0;
     for name in builtin::names() {
         let m = built_in(name);
-        let Ok(planar) = PlanarMechanism::new(&m, 0) else {
+        let Ok(planar) = PlanarMechanism::new(&m, StateId::FREE) else {
             continue;
         };
         let pairs = planar.drives();
         let Ok(d) = decompose(&planar, &pairs) else {
             continue;
         };
-        let pose = Pose::of_file(&m, 0).unwrap();
+        let pose = Pose::of_file(&m, StateId::FREE).unwrap();
         let columns = drives(&m, &pose);
         if columns.len() != pairs.len()
             || pairs.is_empty()

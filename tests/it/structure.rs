@@ -11,7 +11,7 @@ use ozols::geom::exact::ExactField;
 use ozols::linalg::echelon;
 use ozols::linalg::modp::Residue;
 use ozols::model::joint_type::Freedom;
-use ozols::model::mechanism::Mechanism;
+use ozols::model::mechanism::{JointId, Mechanism, StateId};
 use ozols::rank::modular;
 use ozols::redundancy::analysis::exact_field;
 use ozols::redundancy::share::shares;
@@ -40,7 +40,7 @@ fn shares_by_definition(exact: &ExactField, closure: &Closure<Residue>) -> Vec<[
 
 fn check(mechanism: &Mechanism) {
     let exact = exact_field(mechanism, 0).unwrap();
-    for state in 0..mechanism.states.len() {
+    for state in mechanism.state_ids() {
         let closure = Closure::new(&exact, mechanism, state).unwrap();
         let what = format!("{} {}", mechanism.name, mechanism.states[state]);
         assert_eq!(
@@ -73,14 +73,14 @@ fn chains_and_grids() {
     for kind in [Kind::FourBars, Kind::Scissors] {
         let m = lattice::mechanism(kind, 70);
         let exact = exact_field(&m, 0).unwrap();
-        let closure = Closure::new(&exact, &m, 0).unwrap();
+        let closure = Closure::new(&exact, &m, StateId::FREE).unwrap();
         assert_eq!(closure.contours.len(), 70);
         assert_eq!(modular::rank(&exact, &closure), 3 * 70, "{kind:?}");
     }
 }
 
 /// Rows per contour, the joints of each contour, the twists of each joint.
-type Structure = (usize, Vec<Vec<(usize, bool)>>, Vec<Vec<Vec<i64>>>);
+type Structure = (usize, Vec<Vec<(JointId, bool)>>, Vec<Vec<Vec<i64>>>);
 
 /// Contours and columns at random, not those of any mechanism: each joint in some contours, with a few small twists.
 fn structured() -> impl Strategy<Value = Structure> {
@@ -96,7 +96,7 @@ fn structured() -> impl Strategy<Value = Structure> {
     )
         .prop_map(|(planar, k, joints)| {
             let mut contours = vec![Vec::new(); k];
-            for (j, (of, _)) in joints.iter().enumerate() {
+            for (j, (of, _)) in JointId::first(joints.len()).zip(&joints) {
                 for (i, forward) in of {
                     let i = i.index(k);
                     if contours[i].last().is_none_or(|&(last, _)| last != j) {
@@ -122,14 +122,14 @@ proptest! {
     ) {
         let exact = ExactField::for_expressions([], 0).unwrap();
         let column = |(joint, t): (usize, &Vec<i64>)| Column {
-            joint,
+            joint: JointId::new(joint),
             freedom: Freedom::Rz,
             twist: t[..dim].iter().map(|&x| exact.field().from_i64(x)).collect(),
         };
         let columns = twists.iter().enumerate().flat_map(|(j, ts)| ts.iter().map(move |t| (j, t)));
         let mut closure = Closure {
             extent: None,
-            state: 0,
+            state: StateId::FREE,
             dim,
             contours: contours.into_iter().map(|joints| Contour { joints, links: Vec::new() }).collect(),
             columns: columns.map(column).collect(),

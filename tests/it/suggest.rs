@@ -4,7 +4,7 @@ use crate::cli::{json, out, ozols};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::joint_type::JointType;
-use ozols::model::mechanism::{JointOption, Link, Mechanism, Role, StateId};
+use ozols::model::mechanism::{JointId, JointOption, Link, LinkId, Mechanism, Role, StateId};
 use ozols::redundancy::analysis::{Method, StateAnalysis, analyse};
 use ozols::search::suggest::{USUAL, USUAL_UNLOADING, single_changes};
 use ozols::view::analysis_text;
@@ -26,7 +26,7 @@ fn look(m: &Mechanism, state: StateId) -> StateAnalysis {
 /// The mechanism with one change made: the joint replaced, or a pad between it and its first link, or both.
 fn changed(
     m: &Mechanism,
-    j: usize,
+    j: JointId,
     to: Option<&JointOption>,
     pad: Option<&JointOption>,
 ) -> Mechanism {
@@ -37,7 +37,7 @@ fn changed(
         out.joints[j].frame = o.frame.clone();
     }
     if let Some(u) = pad {
-        let link = out.links.len();
+        let link = LinkId::new(out.links.len());
         out.links.push(Link {
             id: "pad".to_owned(),
             role: Role::Inner,
@@ -60,12 +60,12 @@ type Line = (String, Option<String>, Option<String>, usize);
 /// Every change that removes as much as it frees, the slow way.
 fn slowly(m: &Mechanism, state: StateId) -> Vec<Line> {
     let before = look(m, state);
-    let free: Vec<usize> = m.joints_in(0).collect();
-    let joints: Vec<usize> = m
+    let free: Vec<JointId> = m.joints_in(StateId::FREE).collect();
+    let joints: Vec<JointId> = m
         .joints_in(state)
-        .filter(|j| state == 0 || !free.contains(j))
+        .filter(|j| state == StateId::FREE || !free.contains(j))
         .collect();
-    let plain = |j: usize, t: &JointType| JointOption {
+    let plain = |j: JointId, t: &JointType| JointOption {
         name: t.name().to_owned(),
         joint_type: t.clone(),
         frame: m.joints[j].frame.clone(),
@@ -78,7 +78,7 @@ fn slowly(m: &Mechanism, state: StateId) -> Vec<Line> {
     for j in joints {
         let joint = &m.joints[j];
         let (mut options, mut pads) = (joint.options[1..].to_vec(), joint.unloading.clone());
-        if !offered && state > 0 {
+        if !offered && state != StateId::FREE {
             pads = vec![plain(j, &USUAL_UNLOADING)];
         } else if !offered && !joint.drive && joint.joint_type != JointType::Fixed {
             let own = joint.joint_type.freedoms();
@@ -152,9 +152,9 @@ fn single_changes_are_those_of_the_slow_way() {
         "tongs",
     ] {
         let m = built_in(name);
-        for state in 0..m.states.len() {
+        for state in m.state_ids() {
             let quick = quickly(&m, state);
-            assert_eq!(quick, slowly(&m, state), "{name}, state {state}");
+            assert_eq!(quick, slowly(&m, state), "{name}, state {state:?}");
             with += usize::from(!quick.is_empty());
             usual += usize::from(single_changes(&m, state).unwrap().usual);
         }
@@ -168,7 +168,7 @@ proptest! {
     #[test]
     fn single_changes_of_random_mechanisms(text in crate::twin::random()) {
         let m = read(&text);
-        for state in 0..m.states.len() {
+        for state in m.state_ids() {
             prop_assert_eq!(quickly(&m, state), slowly(&m, state));
         }
     }
@@ -225,7 +225,7 @@ fn where_no_single_change_helps_it_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("slots.toml");
     let m = built_in("four-bar");
-    let mut copy = ozols::robots::export::toml(&m)
+    let mut copy = ozols::robots::formats::write(&m, "toml")
         .unwrap()
         .parse::<toml_edit::DocumentMut>()
         .unwrap();
@@ -296,12 +296,12 @@ fn analyses_fit_the_terminal() {
         "bennett",
     ] {
         let m = built_in(name);
-        let states: Vec<usize> = (0..m.states.len()).collect();
+        let states: Vec<StateId> = m.state_ids().collect();
         let found = analyse(&m, &states, Method::Auto { tolerance: None }).unwrap();
         let advice: Vec<Advice> = found
             .iter()
-            .enumerate()
-            .map(|(s, a)| match concerned(a) {
+            .zip(m.state_ids())
+            .map(|(a, s)| match concerned(a) {
                 0 => Advice::Nothing,
                 _ => Advice::Changes(single_changes(&m, s).unwrap()),
             })

@@ -6,7 +6,7 @@ use num_traits::{One, Zero};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::coupling::CoupledFreedom;
 use ozols::model::joint_type::{Freedom, JointType};
-use ozols::model::mechanism::{Frame, JointId, LinkId, Mechanism, Mode, Role};
+use ozols::model::mechanism::{Frame, JointId, LinkId, Mechanism, Mode, Role, StateId};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
 use ozols::search::request::{Request, Search, Symmetry};
 use proptest::prelude::*;
@@ -149,8 +149,8 @@ fn figures(
     for ([a, b], columns) in joints {
         for c in 0..6 {
             let mut row = vec![Q::zero(); width];
-            row[b * 6 + c] += Q::one();
-            row[a * 6 + c] -= Q::one();
+            row[b.index() * 6 + c] += Q::one();
+            row[a.index() * 6 + c] -= Q::one();
             for (i, t) in columns.iter().enumerate() {
                 row[at + i] -= &t[c];
             }
@@ -167,14 +167,14 @@ fn figures(
     }
     let rest = |l: LinkId, c: usize| {
         let mut row = vec![Q::zero(); width];
-        row[l * 6 + c] = Q::one();
+        row[l.index() * 6 + c] = Q::one();
         row
     };
     rows.extend((0..6).map(|c| rest(frame, c)));
     // Links that no joint holds in this state rest too.
     let held = |l: LinkId| joints.iter().any(|(ends, _)| ends.contains(&l));
     rows.extend(
-        (0..links)
+        LinkId::first(links)
             .filter(|&l| l != frame && !held(l))
             .flat_map(|l| (0..6).map(move |c| (l, c)))
             .map(|(l, c)| rest(l, c)),
@@ -204,20 +204,21 @@ pub(crate) struct Twin {
 
 /// Looks at one variant: `choice[j]` is (option, unloading) of joint j.
 pub(crate) fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>)]) -> Twin {
-    let outputs: Vec<LinkId> = (0..m.links.len())
+    let outputs: Vec<LinkId> = m
+        .link_ids()
         .filter(|&l| m.links[l].role == Role::Output || m.search.hold.contains(&l))
         .collect();
     let rows = match m.mode {
         Mode::Spatial => 6,
         Mode::Planar { .. } => 3,
     };
-    let of = |state: usize| {
+    let of = |state: StateId| {
         // An unloading joint is a joint in series with an extra link at the end of the list.
         let mut links = m.links.len();
         let mut joints: Vec<([LinkId; 2], Vec<Vec<Q>>)> = Vec::new();
         // Where the columns of each joint's own option begin.
         let mut own = vec![None; m.joints.len()];
-        for (j, joint) in m.joints.iter().enumerate() {
+        for (j, joint) in m.joints_with_ids() {
             let present = m.joints_in(state).any(|x| x == j);
             let (option, unloading) = choice[j];
             let span = allowed_twists(
@@ -227,7 +228,7 @@ pub(crate) fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>
             );
             match unloading {
                 Some(u) => {
-                    let pad = links;
+                    let pad = LinkId::new(links);
                     links += 1;
                     let pad_joint = &joint.unloading[u];
                     let extra = allowed_twists(&m.mode, &pad_joint.frame, &pad_joint.joint_type);
@@ -262,14 +263,19 @@ pub(crate) fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>
                 Some([(a, -c.ratio.as_rational()? * x), (b, y)])
             })
             .collect();
-        let used: std::collections::BTreeSet<usize> = joints.iter().flat_map(|(l, _)| *l).collect();
+        let used: std::collections::BTreeSet<LinkId> =
+            joints.iter().flat_map(|(l, _)| *l).collect();
         let contours = joints.len() + 1 - used.len();
         let f = figures(links, m.frame(), &joints, &coupled, &outputs);
         let sigma = f.mobility + rows * contours + coupled.len() - f.freedoms;
         (f, sigma)
     };
-    let (free, internal) = of(0);
-    let external = if clamped { of(1).1 - internal } else { 0 };
+    let (free, internal) = of(StateId::FREE);
+    let external = if clamped {
+        of(StateId::new(1)).1 - internal
+    } else {
+        0
+    };
     let changes = choice
         .iter()
         .map(|(o, u)| u32::from(*o != 0) + u32::from(u.is_some()))
@@ -285,8 +291,8 @@ pub(crate) fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>
 
 pub(crate) fn variants(m: &Mechanism, clamped: bool) -> Vec<Vec<(usize, Option<usize>)>> {
     let mut out = vec![Vec::new()];
-    for (j, joint) in m.joints.iter().enumerate() {
-        let free = m.joints_in(0).any(|x: JointId| x == j);
+    for (j, joint) in m.joints_with_ids() {
+        let free = m.joints_in(StateId::FREE).any(|x: JointId| x == j);
         let choices: Vec<(usize, Option<usize>)> = if free || clamped {
             std::iter::once(None)
                 .chain((0..joint.unloading.len()).map(Some))
@@ -400,7 +406,7 @@ fn random_coupled() -> impl Strategy<Value = Option<String>> {
             .replace("axis = [0, 1, 0]", "axis = [0, 3, 0]");
         let m = mechanism_from_str("random.toml", &text).unwrap();
         let mut ends = Vec::new();
-        for (j, joint) in m.joints.iter().enumerate() {
+        for (j, joint) in m.joints_with_ids() {
             let ball = joint.joint_type == JointType::Spherical;
             for f in joint.joint_type.freedoms().iter().filter(|_| !ball) {
                 let [z, x, _] = axes(&joint.frame);
@@ -456,7 +462,7 @@ fn agrees(text: &str, allowed: u32, keep: bool) -> Result<(), TestCaseError> {
     prop_assume!(all.len() <= 64);
     let present = look(&m, clamped, &vec![(0, None); m.joints.len()]);
     // The analysis of the mechanism as it is.
-    let states: Vec<usize> = (0..m.states.len()).collect();
+    let states: Vec<StateId> = m.state_ids().collect();
     let found = analyse(&m, &states, Method::Modular).unwrap();
     prop_assert_eq!(found[0].redundant, present.internal as usize);
     prop_assert_eq!(found[0].mobility as i64, present.mobility);
@@ -470,7 +476,7 @@ fn agrees(text: &str, allowed: u32, keep: bool) -> Result<(), TestCaseError> {
     let external = if clamped { allowed * 2 } else { 0 };
     let request = Request {
         max_redundant: allowed,
-        state: clamped.then_some((1, external)),
+        state: clamped.then_some((StateId::new(1), external)),
         keep_output: keep,
         symmetry: Symmetry::All,
         ..Request::default()
@@ -529,7 +535,7 @@ proptest! {
     #[test]
     fn adding_freedoms_never_raises_redundancy_and_the_frame_does_not_matter(text in random(), move_by in -5i32..6) {
         let m = mechanism_from_str("random.toml", &text).unwrap();
-        let before = &analyse(&m, &[0], Method::Modular).unwrap()[0];
+        let before = &analyse(&m, &[StateId::FREE], Method::Modular).unwrap()[0];
         // Turn the whole about z by a right angle and shift it.
         let mut moved = m.clone();
         let shift = ozols::geom::expr::Expr::from(i64::from(move_by));
@@ -549,14 +555,14 @@ proptest! {
         for j in &mut moved.joints {
             j.links.reverse();
         }
-        let after = &analyse(&moved, &[0], Method::Modular).unwrap()[0];
+        let after = &analyse(&moved, &[StateId::FREE], Method::Modular).unwrap()[0];
         prop_assert_eq!((before.redundant, before.mobility), (after.redundant, after.mobility));
         prop_assert_eq!(before.working_mobility, after.working_mobility);
-        for j in 0..m.joints.len() {
+        for j in m.joint_ids() {
             for option in m.joints[j].options.clone() {
                 let mut freed = m.clone();
                 (freed.joints[j].joint_type, freed.joints[j].frame) = (option.joint_type, option.frame);
-                let s = &analyse(&freed, &[0], Method::Modular).unwrap()[0];
+                let s = &analyse(&freed, &[StateId::FREE], Method::Modular).unwrap()[0];
                 prop_assert!(s.redundant <= before.redundant);
             }
         }

@@ -1,6 +1,8 @@
 //! Mechanisms with their geometry changed.
 
 use crate::geom::expr::Expr;
+use crate::geom::extent::diagonal;
+use crate::geom::vector::real;
 use crate::model::mechanism::{Mechanism, Mode};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -38,11 +40,7 @@ pub fn resized(mechanism: &Mechanism, e: i32) -> Mechanism {
 /// Half the diagonal of the box round all joints; 0 where they are all in one place.
 #[must_use]
 pub fn size(mechanism: &Mechanism) -> f64 {
-    let half = (0..3).map(|i| {
-        let at = || mechanism.joints.iter().map(|j| j.frame.point[i].to_f64());
-        (at().fold(f64::MIN, f64::max) - at().fold(f64::MAX, f64::min)) / 2.0
-    });
-    half.map(|x: f64| x * x).sum::<f64>().sqrt()
+    diagonal(mechanism.joints.iter().map(|j| real(&j.frame.point))) / 2.0
 }
 
 /// Noise that is the same for the same seed on every machine.

@@ -3,21 +3,23 @@
 use super::change::power_of_ten;
 use super::sweep::bands;
 use super::{Effort, Picture, Progress, Study};
-use crate::accuracy::csv::Csv;
-use crate::accuracy::words::{list, scientific};
 use crate::accuracy::{Truth, Verdict};
 use crate::builtin;
 use crate::chart::{Axis, Bands, Chart, Kind, Scale, Series, Style};
 use crate::closure::matrix::Closure;
 use crate::file::problem::ImportError;
 use crate::file::text::mechanism_from_str;
+use crate::format::csv;
+use crate::format::number::scientific;
+use crate::format::phrase::list;
 use crate::geom::expr::Expr;
 use crate::geom::scalars::Reals;
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::{self, Answer, NoAnswer};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::{field_of, modular, scaled};
 use rayon::prelude::*;
+use serde::Serialize;
 
 /// A special mechanism and how it is spoiled.
 struct Special {
@@ -93,11 +95,25 @@ struct At {
     smallest: f64,
 }
 
+/// A line of the table: what one method said at one distance.
+#[derive(Serialize)]
+struct Row {
+    mechanism: &'static str,
+    distance: String,
+    method: &'static str,
+    answer: Option<i64>,
+    exact_instantaneous: i64,
+    exact_finite: i64,
+    special_instantaneous: i64,
+    special_finite: i64,
+    smallest_singular_value: String,
+}
+
 /// The true figures: the larger of the ranks over two primes, and no motion where not even an instantaneous one is left.
 fn truth(m: &Mechanism) -> (Truth, usize) {
     let rank = |nth| {
-        let exact = field_of(m, 0, nth).ok()?;
-        let closure = Closure::new(&exact, m, 0).ok()?;
+        let exact = field_of(m, StateId::FREE, nth).ok()?;
+        let closure = Closure::new(&exact, m, StateId::FREE).ok()?;
         Some((closure.columns.len(), modular::rank(&exact, &closure)))
     };
     let (f, rank) = (0..2)
@@ -108,7 +124,7 @@ fn truth(m: &Mechanism) -> (Truth, usize) {
     let finite = if free == 0 {
         Some(0)
     } else {
-        let answer = method::by_name("finite").map(|x| x.answer(m, 0));
+        let answer = method::by_name("finite").map(|x| x.answer(m, StateId::FREE));
         answer.and_then(Result::ok).map(|a| a.mobility)
     };
     let truth = Truth {
@@ -119,7 +135,7 @@ fn truth(m: &Mechanism) -> (Truth, usize) {
 }
 
 fn smallest(m: &Mechanism, rank: usize) -> f64 {
-    let values = Closure::new(&Reals, m, 0)
+    let values = Closure::new(&Reals, m, StateId::FREE)
         .ok()
         .and_then(|c| scaled::scaled(&c).singular_values().ok());
     let mut values = values.unwrap_or_default();
@@ -171,17 +187,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
             }
         }
     }
-    let mut csv = Csv::new(&[
-        "mechanism",
-        "distance",
-        "method",
-        "answer",
-        "exact_instantaneous",
-        "exact_finite",
-        "special_instantaneous",
-        "special_finite",
-        "smallest_singular_value",
-    ]);
+    let mut table = Vec::new();
     let mut pictures = Vec::new();
     let mut values = Vec::new();
     let mut met: Vec<Vec<Seen>> = vec![Vec::new(); method::ALL.len()];
@@ -193,7 +199,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
         // A method that is wrong about the special mechanism cannot tell another one from it.
         let knows: Vec<bool> = method::ALL
             .iter()
-            .map(|x| Verdict::keeps_promise(&x.answer(&mechanism, 0), at_zero))
+            .map(|x| Verdict::keeps_promise(&x.answer(&mechanism, StateId::FREE), at_zero))
             .collect();
         let found: Vec<At> = distances
             .par_iter()
@@ -203,26 +209,27 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
                 At {
                     distance: *distance,
                     truth,
-                    answers: method::ALL.iter().map(|x| x.answer(&m, 0)).collect(),
+                    answers: method::ALL
+                        .iter()
+                        .map(|x| x.answer(&m, StateId::FREE))
+                        .collect(),
                     smallest: smallest(&m, rank),
                 }
             })
             .collect();
         for at in &found {
             for (method, answer) in method::ALL.iter().zip(&at.answers) {
-                csv.row(&[
-                    special.name.to_owned(),
-                    format!("{:e}", at.distance),
-                    method.name().to_owned(),
-                    answer
-                        .as_ref()
-                        .map_or_else(|_| String::new(), |a| a.mobility.to_string()),
-                    at.truth.instantaneous.to_string(),
-                    at.truth.finite.to_string(),
-                    at_zero.instantaneous.to_string(),
-                    at_zero.finite.to_string(),
-                    format!("{:.3e}", at.smallest),
-                ]);
+                table.push(Row {
+                    mechanism: special.name,
+                    distance: format!("{:e}", at.distance),
+                    method: method.name(),
+                    answer: answer.as_ref().ok().map(|a| a.mobility),
+                    exact_instantaneous: at.truth.instantaneous,
+                    exact_finite: at.truth.finite,
+                    special_instantaneous: at_zero.instantaneous,
+                    special_finite: at_zero.finite,
+                    smallest_singular_value: format!("{:.3e}", at.smallest),
+                });
             }
         }
         let xs: Vec<f64> = found.iter().map(|a| a.distance).collect();
@@ -256,7 +263,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
         title: "Distance from special geometry".to_owned(),
         sentence: sentence(&met),
         pictures,
-        csv: csv.finish(),
+        csv: csv::records(table),
     })
 }
 

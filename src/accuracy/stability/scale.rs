@@ -6,7 +6,8 @@ use super::sweep::{Sweep, Tally};
 use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::Verdict;
 use crate::accuracy::survey::Case;
-use crate::accuracy::words::{list, scientific};
+use crate::format::number::scientific;
+use crate::format::phrase::list;
 use crate::rank::method::{self, MobilityMethod};
 use rayon::prelude::*;
 

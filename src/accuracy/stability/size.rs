@@ -2,16 +2,18 @@
 
 use super::sweep::{Tally, bands};
 use super::{Effort, Picture, Progress, Study};
-use crate::accuracy::csv::Csv;
 use crate::accuracy::lattice::{self, Kind as Shape};
 use crate::accuracy::survey::{median, time};
-use crate::accuracy::words::{duration, list};
 use crate::accuracy::{Truth, Verdict};
 use crate::chart::{Axis, Bands, Chart, Kind, Scale, Series, Style};
 use crate::closure::matrix::Closure;
-use crate::model::mechanism::Mechanism;
+use crate::format::csv;
+use crate::format::number::duration;
+use crate::format::phrase::list;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::{self, MobilityMethod};
 use crate::rank::{field_of, modular};
+use serde::Serialize;
 use std::time::{Duration, Instant};
 
 const SIZES: [usize; 10] = [1, 2, 3, 5, 10, 20, 35, 60, 100, 200];
@@ -28,6 +30,20 @@ struct Record {
     skipped: usize,
 }
 
+/// A line of the table: what one method said of one mechanism.
+#[derive(Serialize)]
+struct Row {
+    shape: String,
+    contours: usize,
+    links: usize,
+    joints: usize,
+    method: &'static str,
+    answer: String,
+    expected: i64,
+    verdict: &'static str,
+    seconds: String,
+}
+
 /// Known by construction for the planar chains, by ranks over two primes for the grid.
 fn truth(shape: Shape, m: &Mechanism) -> Truth {
     let one = Truth {
@@ -38,8 +54,8 @@ fn truth(shape: Shape, m: &Mechanism) -> Truth {
         return one;
     }
     let free = |nth| {
-        let exact = field_of(m, 0, nth).ok()?;
-        let closure = Closure::new(&exact, m, 0).ok()?;
+        let exact = field_of(m, StateId::FREE, nth).ok()?;
+        let closure = Closure::new(&exact, m, StateId::FREE).ok()?;
         i64::try_from(closure.columns.len() - modular::rank(&exact, &closure)).ok()
     };
     let free = (0..2).filter_map(free).min().unwrap_or(0);
@@ -59,10 +75,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
     };
     let limit = if effort.quick { QUICK_LIMIT } else { LIMIT };
     let mut records = vec![vec![Record::default(); sizes.len()]; method::ALL.len()];
-    let mut csv = Csv::new(&[
-        "shape", "contours", "links", "joints", "method", "answer", "expected", "verdict",
-        "seconds",
-    ]);
+    let mut rows = Vec::new();
     for (s, shape) in Shape::ALL.into_iter().enumerate() {
         let mut slow = vec![false; method::ALL.len()];
         for (n, &size) in sizes.iter().enumerate() {
@@ -82,19 +95,19 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
                     record.tally.add(s, Verdict::keeps_promise(&answer, truth));
                     record.times.push(seconds);
                 }
-                csv.row(&[
-                    format!("{shape:?}"),
-                    size.to_string(),
-                    m.links.len().to_string(),
-                    m.joints.len().to_string(),
-                    method.name().to_owned(),
-                    answer
+                rows.push(Row {
+                    shape: format!("{shape:?}"),
+                    contours: size,
+                    links: m.links.len(),
+                    joints: m.joints.len(),
+                    method: method.name(),
+                    answer: answer
                         .as_ref()
                         .map_or_else(ToString::to_string, |a| a.mobility.to_string()),
-                    truth.instantaneous.to_string(),
-                    verdict.word().to_owned(),
-                    format!("{seconds:.3e}"),
-                ]);
+                    expected: truth.instantaneous,
+                    verdict: verdict.word(),
+                    seconds: format!("{seconds:.3e}"),
+                });
             }
         }
     }
@@ -107,7 +120,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
             Picture::of_bands("stability-size", &picture(sizes, &records)),
         ],
         sentence,
-        csv: csv.finish(),
+        csv: csv::records(rows),
     }
 }
 
@@ -117,12 +130,12 @@ fn ask(
     m: &Mechanism,
 ) -> (Result<method::Answer, method::NoAnswer>, f64) {
     let begun = Instant::now();
-    let answer = method.answer(m, 0);
+    let answer = method.answer(m, StateId::FREE);
     let first = begun.elapsed().as_secs_f64();
     if first > 0.05 {
         return (answer, first);
     }
-    (answer, time(method, m, 0, 5))
+    (answer, time(method, m, StateId::FREE, 5))
 }
 
 fn points(sizes: &[usize], records: &[Record]) -> Vec<(f64, f64)> {

@@ -1,8 +1,8 @@
 //! Right answers of several methods over a range of one quantity.
 
-use crate::accuracy::csv::Csv;
-use crate::accuracy::words::list;
 use crate::chart::{Axis, Band, Bands, Chart, Kind, Scale, Series, Style};
+use crate::format::csv;
+use crate::format::phrase::list;
 
 /// Right answers of how many, and whose were not.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -207,24 +207,21 @@ impl Sweep {
     /// One line for each row and value.
     #[must_use]
     pub fn csv(&self) -> String {
-        let mut csv = Csv::new(&["method", self.column, "right", "of", "share", "missed"]);
-        for (name, tallies) in &self.rows {
-            for (x, t) in self.values.iter().zip(tallies) {
-                csv.row(&[
+        let rows = self.rows.iter().flat_map(|(name, tallies)| {
+            self.values.iter().zip(tallies).map(move |(x, t)| {
+                let missed: Vec<&str> = t.missed.iter().map(|&c| self.cases[c].as_str()).collect();
+                [
                     name.clone(),
                     format!("{x:e}"),
                     t.right.to_string(),
                     t.of.to_string(),
                     format!("{:.4}", t.share()),
-                    t.missed
-                        .iter()
-                        .map(|&c| self.cases[c].as_str())
-                        .collect::<Vec<_>>()
-                        .join("; "),
-                ]);
-            }
-        }
-        csv.finish()
+                    missed.join("; "),
+                ]
+            })
+        });
+        let heads = ["method", self.column, "right", "of", "share", "missed"];
+        csv::table(&heads, rows)
     }
 }
 

@@ -3,18 +3,18 @@
 use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
-use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 
 /// Every link must hang on the frame in each state it has joints in.
 pub(crate) fn connected(mechanism: &Mechanism, out: &mut Findings) {
     let at = |l: LinkId| {
         [
             Step::Key("link".to_owned()),
-            Step::Index(l),
+            Step::Index(l.index()),
             Step::Key("id".to_owned()),
         ]
     };
-    for (l, link) in mechanism.links.iter().enumerate() {
+    for (l, link) in mechanism.links_with_ids() {
         if !mechanism.joints.iter().any(|j| j.links.contains(&l)) {
             out.add(
                 &at(l),
@@ -24,7 +24,7 @@ pub(crate) fn connected(mechanism: &Mechanism, out: &mut Findings) {
             );
         }
     }
-    for (s, state) in mechanism.states.iter().enumerate() {
+    for (s, state) in mechanism.states_with_ids() {
         let mut reached = vec![mechanism.frame()];
         let mut next = 0;
         let joints: Vec<JointId> = mechanism.joints_in(s).collect();
@@ -40,15 +40,13 @@ pub(crate) fn connected(mechanism: &Mechanism, out: &mut Findings) {
             }
         }
         for (l, link) in mechanism
-            .links
-            .iter()
-            .enumerate()
+            .links_with_ids()
             .filter(|(l, _)| !reached.contains(l))
         {
             let here = joints
                 .iter()
                 .any(|&j| mechanism.joints[j].links.contains(&l));
-            if here || (s == 0 && link.role == Role::Output) {
+            if here || (s == StateId::FREE && link.role == Role::Output) {
                 out.add(
                     &at(l),
                     ProblemKind::Disconnected {

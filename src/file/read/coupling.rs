@@ -148,7 +148,7 @@ fn in_plane(mechanism: &Mechanism, joint: JointId, freedom: Freedom) -> bool {
 /// Takes options away that lack the coupled freedom, or have it about another axis. In a joint's own list that is a
 /// problem.
 fn offered(file: &MechanismFile, mechanism: &mut Mechanism, out: &mut Findings) {
-    for j in 0..mechanism.joints.len() {
+    for j in mechanism.joint_ids() {
         let coupled: Vec<Freedom> = mechanism
             .couplings
             .iter()
@@ -166,7 +166,7 @@ fn offered(file: &MechanismFile, mechanism: &mut Mechanism, out: &mut Findings) 
             .collect();
         for (option, _) in joint.options.iter().zip(&keeps).filter(|(_, k)| !**k) {
             if file.joint[j].options.is_some() {
-                let path = [Step::Key("joint".to_owned()), Step::Index(j)];
+                let path = [Step::Key("joint".to_owned()), Step::Index(j.index())];
                 let (joint, option) = (joint.id.clone(), option.name.clone());
                 let problem = ProblemKind::LosesCoupling { joint, option };
                 out.add(&key(&path, "options"), problem);

@@ -378,7 +378,8 @@ fn contacts(
         return None;
     };
     let found = [upper_far, upper_near, lower_far, lower_near];
-    let part = (0..m.links.len())
+    let part = m
+        .link_ids()
         .find(|&l| m.links[l].role == Role::Object && m.joints[upper_far].links.contains(&l));
     let at = key(&t.at, "contacts");
     for (i, &j) in found.iter().enumerate() {
@@ -414,8 +415,8 @@ fn contacts(
         }
     }
     let further =
-        |j: usize| part.is_some_and(|p| m.joints[j].links.contains(&p)) && !found.contains(&j);
-    if (0..m.joints.len()).any(further) || !found.iter().all_unique() {
+        |j: JointId| part.is_some_and(|p| m.joints[j].links.contains(&p)) && !found.contains(&j);
+    if m.joint_ids().any(further) || !found.iter().all_unique() {
         t.bad(
             &at,
             "list of contacts",

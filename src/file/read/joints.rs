@@ -12,7 +12,7 @@ use crate::file::read::resolve::{
 use crate::file::schema::{JointEntry, MechanismFile, Unloading, Words};
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{Frame, Joint, JointOption, Link};
+use crate::model::mechanism::{Frame, Joint, JointOption, Link, LinkId, StateId};
 use itertools::Itertools;
 
 /// Most states of a mechanism.
@@ -75,10 +75,10 @@ fn joint(
         &key(&at, "id"),
         out,
     );
-    let mut ends = [0; 2];
+    let mut ends = [LinkId::new(0); 2];
     for (e, id) in entry.links.iter().enumerate() {
         let path = index(&key(&at, "links"), e);
-        ends[e] = link_by_id(links, id, &path, out).unwrap_or(0);
+        ends[e] = link_by_id(links, id, &path, out).unwrap_or(ends[e]);
     }
     if entry.links[0] == entry.links[1] {
         let (joint, link) = (entry.id.clone(), entry.links[0].clone());
@@ -100,10 +100,12 @@ fn joint(
     let states_of = entry.state.as_ref().map(|w| {
         words(Some(w))
             .iter()
-            .filter_map(|w| states.iter().position(|s| s == w))
+            .filter_map(|w| states.iter().position(|s| s == w).map(StateId::new))
             .collect::<Vec<_>>()
     });
-    let in_free = states_of.as_ref().is_none_or(|s| s.contains(&0));
+    let in_free = states_of
+        .as_ref()
+        .is_none_or(|s| s.contains(&StateId::FREE));
     let changeable = in_free && !entry.drive && joint_type != JointType::Fixed;
     let options = options(file, entry, &present, changeable, &at, out);
     let unloading = unloading(file, entry, &frame, &at, out);

@@ -37,7 +37,7 @@ pub(crate) fn link_by_id(
     path: &[Step],
     out: &mut Findings,
 ) -> Option<LinkId> {
-    let found = links.iter().position(|l| l.id == *id);
+    let found = links.iter().position(|l| l.id == *id).map(LinkId::new);
     if found.is_none() {
         let mut known = links.iter().take(LISTED).map(|l| l.id.as_str());
         out.add(

@@ -6,7 +6,7 @@ use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::{cost, index, key};
 use crate::file::schema::MechanismFile;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term, TypeOverride};
 use itertools::Itertools;
 use schemars::JsonSchema;
@@ -199,13 +199,13 @@ pub(crate) fn ranking(
         }
     }
     let grip = mechanism.loads.grip.as_ref().and_then(|g| g.contacts);
-    let counts = |s: usize| {
+    let counts = |s: StateId| {
         let of_grip = grip.and_then(|c| mechanism.joints[c[0]].states.as_ref());
-        s == 0 || of_grip.is_some_and(|states| states.contains(&s))
+        s == StateId::FREE || of_grip.is_some_and(|states| states.contains(&s))
     };
     let mut states = Vec::new();
     for (i, word) in entry.states.iter().enumerate().take(MOST) {
-        let found = mechanism.states.iter().position(|s| s == word);
+        let found = mechanism.state(word);
         match found.filter(|&s| counts(s)) {
             Some(s) => states.push(s),
             None => out.add(
@@ -213,7 +213,8 @@ pub(crate) fn ranking(
                 ProblemKind::UnknownWord {
                     what: "state to rank in (free, or one with the contacts of [workload.grip])",
                     word: word.clone(),
-                    known: (0..mechanism.states.len())
+                    known: mechanism
+                        .state_ids()
                         .filter(|&s| counts(s))
                         .map(|s| mechanism.states[s].as_str())
                         .join(", "),

@@ -1,7 +1,7 @@
 //! Default classes.
 
 use crate::file::problem::ImportError;
-use crate::robots::pose::V3;
+use crate::geom::vector::Vector;
 use crate::robots::problem::{RobotProblem, known};
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
@@ -105,7 +105,7 @@ impl<'a> Lookup<'a> {
         }
     }
 
-    pub(crate) fn vector(&self, name: &str, default: V3) -> Result<V3, ImportError> {
+    pub(crate) fn vector(&self, name: &str, default: Vector) -> Result<Vector, ImportError> {
         Ok(self.numbers::<3>(name)?.unwrap_or(default))
     }
 }

@@ -1,11 +1,10 @@
 //! Equality constraints: the loops and couplings of MJCF.
 
 use crate::file::problem::ImportError;
+use crate::geom::rigid::Motion;
 use crate::model::joint_type::JointType;
-use crate::robots::coupling::Ratio;
 use crate::robots::mjcf::read::{Context, unsupported};
-use crate::robots::parts::{Part, Robot};
-use crate::robots::pose::Pose;
+use crate::robots::parts::{Part, Ratio, Robot};
 use crate::robots::problem::{RobotProblem, known};
 use crate::robots::urdf::read::same_link;
 use crate::robots::xml::Element;
@@ -52,7 +51,7 @@ pub(crate) fn read(
     Ok(())
 }
 
-type End = (usize, Pose);
+type End = (usize, Motion);
 
 fn ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Result<[End; 2], ImportError> {
     if e.attribute("site1").is_some() || e.attribute("site2").is_some() {
@@ -77,23 +76,23 @@ fn ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Result<[End; 2]
         })
     };
     let (one, two) = (body("body1")?, body("body2")?);
-    let as_drawn = |at: Pose| {
+    let as_drawn = |at: Motion| {
         robot.places[two]
             .inverse()
             .then(&robot.places[one].then(&at))
     };
     if e.name() == "connect" {
         e.required("anchor")?;
-        let at = Pose::shift(e.vector("anchor", [0.0; 3])?);
+        let at = Motion::shift(e.vector("anchor", [0.0; 3])?);
         return Ok([(one, at), (two, as_drawn(at))]);
     }
     // The place of body 2 in body 1; a zero quaternion stands for that of the model as drawn.
     match e.numbers::<7>("relpose")? {
         Some([x, y, z, quat @ ..]) if quat != [0.0; 4] => Ok([
-            (one, Pose::quaternion([x, y, z], quat)),
-            (two, Pose::IDENTITY),
+            (one, Motion::quaternion([x, y, z], quat)),
+            (two, Motion::IDENTITY),
         ]),
-        _ => Ok([(one, Pose::IDENTITY), (two, as_drawn(Pose::IDENTITY))]),
+        _ => Ok([(one, Motion::IDENTITY), (two, as_drawn(Motion::IDENTITY))]),
     }
 }
 

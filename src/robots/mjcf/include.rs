@@ -1,7 +1,7 @@
 //! Includes: the children of another file's root in place of an element.
 
 use crate::file::problem::ImportError;
-use crate::robots::Reader;
+use crate::robots::options::Reader;
 use crate::robots::problem::RobotProblem;
 use crate::robots::xml::{self, Document, Element, MAX_BYTES};
 
@@ -9,7 +9,7 @@ use crate::robots::xml::{self, Document, Element, MAX_BYTES};
 const LIMITS: (usize, usize) = (16, 1000);
 
 /// Puts the included files in place of all `<include>` elements below `root`.
-pub(in crate::robots) fn expand(
+pub(super) fn expand(
     document: &mut Document,
     root: usize,
     read: Reader<'_>,

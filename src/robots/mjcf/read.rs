@@ -1,12 +1,15 @@
 //! MJCF: bodies with joints in series, sites, equality constraints, default classes and includes.
 
 use crate::file::problem::ImportError;
+use crate::geom::rigid::{Motion, towards};
+use crate::geom::vector::{X, Y, Z, cross, dot, length, scale, sub};
 use crate::model::joint_type::JointType;
 use crate::robots::mjcf::defaults::Defaults;
-use crate::robots::parts::{Format, Part, Robot, free};
-use crate::robots::pose::{Pose, X, Y, Z, cross, dot, length, scale, sub, turn_z_to, unit};
+use crate::robots::mjcf::include;
+use crate::robots::options::{Options, Reader};
+use crate::robots::parts::{Part, Robot, free};
 use crate::robots::problem::RobotProblem;
-use crate::robots::xml::Element;
+use crate::robots::xml::{Document, Element};
 use std::collections::BTreeMap;
 
 /// What `<compiler>` sets.
@@ -23,33 +26,40 @@ pub(crate) struct Context<'a> {
     compiler: Compiler,
     pub(crate) defaults: Defaults<'a>,
     /// Sites by name: the link and the place on it.
-    pub(crate) sites: BTreeMap<String, (usize, Pose)>,
+    pub(crate) sites: BTreeMap<String, (usize, Motion)>,
 }
 
 /// Something still to be read: a body or frame, the link that holds it, the place there, and the class of its children.
 struct Waiting<'a> {
     element: Element<'a>,
     link: usize,
-    place: Pose,
+    place: Motion,
     class: Option<&'a str>,
 }
 
-/// Reads a `<mujoco>` whose includes are expanded.
-pub(crate) fn read(root: Element<'_>) -> Result<Robot, ImportError> {
+/// Reads a `<mujoco>` and the files it includes.
+pub(crate) fn read(
+    document: &mut Document,
+    root: usize,
+    inner: Reader<'_>,
+    _: &Options,
+) -> Result<Robot, ImportError> {
+    include::expand(document, root, inner)?;
+    let root = document.element(root);
     let name = root.attribute("model").unwrap_or("robot");
-    let mut robot = Robot::new(name, Format::Mjcf);
+    let mut robot = Robot::new(name);
     let mut context = Context {
         compiler: compiler(root)?,
         defaults: Defaults::read(root)?,
         sites: BTreeMap::new(),
     };
-    let world = robot.link("world", Pose::IDENTITY);
+    let world = robot.link("world", Motion::IDENTITY);
     robot.world = Some(world);
     for w in root.named("worldbody") {
         let start = Waiting {
             element: w,
             link: world,
-            place: Pose::IDENTITY,
+            place: Motion::IDENTITY,
             class: w.attribute("childclass"),
         };
         bodies(start, &mut context, &mut robot)?;
@@ -140,7 +150,7 @@ fn compiler(root: Element<'_>) -> Result<Compiler, ImportError> {
 
 impl Compiler {
     /// The place that `pos` and one of the five ways to give an orientation stand for.
-    fn place(&self, e: Element<'_>) -> Result<Pose, ImportError> {
+    fn place(&self, e: Element<'_>) -> Result<Motion, ImportError> {
         let at = e.vector("pos", [0.0; 3])?;
         let zero = |name: &str| {
             e.fail(
@@ -162,39 +172,39 @@ impl Compiler {
             let why = format!("it has two orientations, {}", given.join(" and "));
             return Err(unsupported(e, &why, "keep one"));
         }
-        let mut pose = Pose::shift(at);
+        let mut pose = Motion::shift(at);
         if let Some(q) = e.numbers::<4>("quat")? {
             if q.iter().all(|x| x.abs() < 1e-9) {
                 return Err(zero("quat"));
             }
-            pose = Pose::quaternion(at, q);
+            pose = Motion::quaternion(at, q);
         } else if let Some([x, y, z, angle]) = e.numbers::<4>("axisangle")? {
             if length([x, y, z]) < 1e-9 {
                 return Err(zero("axisangle"));
             }
-            pose = pose.then(&Pose::turn([x, y, z], angle * self.angle));
+            pose = pose.then(&Motion::turn([x, y, z], angle * self.angle));
         } else if let Some([a, b, c, d, f, g]) = e.numbers::<6>("xyaxes")? {
-            let x = unit([a, b, c]);
+            let x = towards([a, b, c]);
             let y = sub([d, f, g], scale(x, dot(x, [d, f, g])));
             if length([a, b, c]) < 1e-9 || length(y) < 1e-9 {
                 return Err(zero("xyaxes"));
             }
-            let (y, z) = (unit(y), cross(x, unit(y)));
-            pose.turn = [0, 1, 2].map(|i| [x[i], y[i], z[i]]);
+            let (y, z) = (towards(y), cross(x, towards(y)));
+            pose.rotation = [0, 1, 2].map(|i| [x[i], y[i], z[i]]);
         } else if let Some(z) = e.numbers::<3>("zaxis")? {
             if length(z) < 1e-9 {
                 return Err(zero("zaxis"));
             }
-            pose = pose.then(&turn_z_to(z));
+            pose = pose.then(&Motion::z_to(z));
         } else if let Some(angles) = e.numbers::<3>("euler")? {
-            let mut turn = Pose::IDENTITY;
+            let mut turn = Motion::IDENTITY;
             for (axis, angle) in self.eulerseq.chars().zip(angles) {
                 let about = match axis.to_ascii_lowercase() {
                     'x' => X,
                     'y' => Y,
                     _ => Z,
                 };
-                let step = Pose::turn(about, angle * self.angle);
+                let step = Motion::turn(about, angle * self.angle);
                 // Small letters turn with the frame, capitals about the fixed axes.
                 turn = if axis.is_lowercase() {
                     turn.then(&step)
@@ -227,7 +237,7 @@ fn bodies<'a>(
                 "body" => {
                     let place = w.place.then(&context.compiler.place(e)?);
                     let link = body(e, w.link, place, inner(0, place).class, context, robot)?;
-                    here.push(inner(link, Pose::IDENTITY));
+                    here.push(inner(link, Motion::IDENTITY));
                 }
                 "frame" => {
                     if e.named("joint")
@@ -298,7 +308,7 @@ fn site(
 fn body<'a>(
     e: Element<'a>,
     parent: usize,
-    place: Pose,
+    place: Motion,
     class: Option<&'a str>,
     context: &Context<'a>,
     robot: &mut Robot,
@@ -323,7 +333,7 @@ fn body<'a>(
         let part = Part::new(
             &name,
             [parent, link],
-            [place, Pose::IDENTITY],
+            [place, Motion::IDENTITY],
             JointType::Fixed,
         );
         robot.joints.push(part);
@@ -339,7 +349,7 @@ fn body<'a>(
         };
         let part = joint(*j, &name, [from, link], at, class, context, robot)?;
         robot.joints.push(part);
-        (from, at) = (link, Pose::IDENTITY);
+        (from, at) = (link, Motion::IDENTITY);
     }
     if joints.len() > 1 {
         let what = format!(
@@ -355,7 +365,7 @@ fn joint<'a>(
     e: Element<'a>,
     body: &str,
     links: [usize; 2],
-    place: Pose,
+    place: Motion,
     class: Option<&'a str>,
     context: &Context<'a>,
     robot: &mut Robot,
@@ -383,9 +393,9 @@ fn joint<'a>(
     };
     let pos = look.vector("pos", [0.0; 3])?;
     let at = if word == "free" {
-        Pose::IDENTITY
+        Motion::IDENTITY
     } else {
-        Pose::shift(pos)
+        Motion::shift(pos)
     };
     let mut part = Part::new(&id, links, [place.then(&at), at], joint_type);
     if matches!(word, "hinge" | "slide") {

@@ -1,10 +1,10 @@
 //! The joints and constraints of an SDF file.
 
 use crate::file::problem::ImportError;
+use crate::geom::rigid::{Motion, towards};
+use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
 use crate::model::joint_type::JointType;
-use crate::robots::coupling::Ratio;
-use crate::robots::parts::{Part, Robot, free};
-use crate::robots::pose::{Pose, V3, Z, cross, dot, length, sub, unit};
+use crate::robots::parts::{Part, Ratio, Robot, free};
 use crate::robots::problem::RobotProblem;
 use crate::robots::sdf::read::{end, unsupported};
 use crate::robots::sdf::scene::{Scene, absolute, located};
@@ -22,8 +22,8 @@ pub(crate) fn axis(
     tag: &str,
     scope: &str,
     scene: &Scene<'_>,
-    at: &Pose,
-) -> Result<V3, ImportError> {
+    at: &Motion,
+) -> Result<Vector, ImportError> {
     let Some(a) = e.child(tag) else {
         let what = format!("<{tag}>");
         return Err(e.fail(
@@ -83,8 +83,8 @@ pub(crate) fn joint(
         .placed
         .get(&name)
         .and_then(|p| p.world)
-        .unwrap_or(Pose::IDENTITY);
-    let local = |d: V3| world.inverse().direction(d);
+        .unwrap_or(Motion::IDENTITY);
+    let local = |d: Vector| world.inverse().direction(d);
     let joint_type = match word {
         "revolute" | "continuous" | "hinge" => JointType::Revolute,
         "prismatic" => JointType::Prismatic,
@@ -101,10 +101,10 @@ pub(crate) fn joint(
         .placed
         .get(&absolute(scope, parent_name))
         .is_some_and(|p| p.link.is_none());
-    let apart = is_frame && length(sub(parent_world.at, world.at)) > APART * size;
+    let apart = is_frame && length(sub(parent_world.translation, world.translation)) > APART * size;
     let on_parent = if apart && scene.assemble {
-        Pose {
-            at: parent_world.at,
+        Motion {
+            translation: parent_world.translation,
             ..world
         }
     } else {
@@ -131,7 +131,7 @@ pub(crate) fn joint(
     }
     part.limits = limits(e)?.filter(|_| ["revolute", "prismatic"].contains(&word));
     if apart {
-        let d = length(sub(parent_world.at, world.at));
+        let d = length(sub(parent_world.translation, world.translation));
         let done = if scene.assemble {
             "put together"
         } else {
@@ -222,10 +222,10 @@ pub(crate) fn screw_pitch(e: Element<'_>) -> Result<f64, ImportError> {
 pub(crate) fn two_axes(
     e: Element<'_>,
     mut part: Part,
-    [first, second]: [V3; 2],
+    [first, second]: [Vector; 2],
     robot: &mut Robot,
 ) -> Result<(), ImportError> {
-    let (a, b) = (unit(first), unit(second));
+    let (a, b) = (towards(first), towards(second));
     if length(cross(a, b)) < 1e-9 {
         return Err(unsupported(
             e,
@@ -238,18 +238,18 @@ pub(crate) fn two_axes(
         robot.joints.push(part);
         return Ok(());
     }
-    let between = robot.link(&format!("{}~1", part.id), Pose::IDENTITY);
+    let between = robot.link(&format!("{}~1", part.id), Motion::IDENTITY);
     let [parent, child] = part.links;
     let one = Part::new(
         &part.id,
         [parent, between],
-        [part.sides[0], Pose::IDENTITY],
+        [part.sides[0], Motion::IDENTITY],
         JointType::Revolute,
     );
     let two = Part::new(
         &format!("{}~2", part.id),
         [between, child],
-        [Pose::IDENTITY, part.sides[1]],
+        [Motion::IDENTITY, part.sides[1]],
         JointType::Revolute,
     );
     robot.report.approximate(
@@ -268,7 +268,7 @@ pub(crate) fn weld(
     scene: &Scene<'_>,
     robot: &mut Robot,
 ) -> Result<(), ImportError> {
-    let mut ends = [(0, Pose::IDENTITY); 2];
+    let mut ends = [(0, Motion::IDENTITY); 2];
     for (x, tag) in ends.iter_mut().zip(["parent", "child"]) {
         let (c, name) = end(e, tag)?;
         let (link, world) = located(c, &absolute(scope, name), scene)?;

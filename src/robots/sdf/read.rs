@@ -1,19 +1,27 @@
 //! SDF: models with links, frames and joints, places relative to each other, loops closed by joints as they stand.
 
 use crate::file::problem::ImportError;
+use crate::geom::rigid::Motion;
+use crate::geom::vector::{length, scale};
 use crate::model::joint_type::JointType;
-use crate::robots::parts::{Format, Part, Robot};
-use crate::robots::pose::{Pose, length, scale};
+use crate::robots::options::{Options, Reader};
+use crate::robots::parts::{Part, Robot};
 use crate::robots::problem::RobotProblem;
 use crate::robots::sdf::joints::{joint, weld};
 use crate::robots::sdf::scene::{Placed, Scene, absolute, insert, moves_with, resolve};
 use crate::robots::urdf::read::ball_constraint;
-use crate::robots::xml::Element;
+use crate::robots::xml::{Document, Element};
 
 /// Reads an `<sdf>`.
-pub(crate) fn read(root: Element<'_>, assemble: bool) -> Result<Robot, ImportError> {
+pub(crate) fn read(
+    document: &mut Document,
+    root: usize,
+    _: Reader<'_>,
+    options: &Options,
+) -> Result<Robot, ImportError> {
+    let (root, assemble) = (document.element(root), options.assemble);
     let mut models: Vec<(Element<'_>, bool)> = root.named("model").map(|m| (m, false)).collect();
-    let mut robot = Robot::new("robot", Format::Sdf);
+    let mut robot = Robot::new("robot");
     for w in root.named("world") {
         models.extend(w.named("model").map(|m| (m, false)));
         for e in w
@@ -45,7 +53,7 @@ pub(crate) fn read(root: Element<'_>, assemble: bool) -> Result<Robot, ImportErr
         .attribute("name")
         .unwrap_or("robot")
         .clone_into(&mut robot.name);
-    robot.world = Some(robot.link("world", Pose::IDENTITY));
+    robot.world = Some(robot.link("world", Motion::IDENTITY));
     let version = root
         .attribute("version")
         .and_then(|v| v.parse::<f64>().ok());
@@ -80,7 +88,7 @@ pub(crate) fn read(root: Element<'_>, assemble: bool) -> Result<Robot, ImportErr
     }
     for &link in &scene.fixed {
         let id = format!("static-{}", robot.links[link]);
-        let sides = [robot.places[link], Pose::IDENTITY];
+        let sides = [robot.places[link], Motion::IDENTITY];
         robot
             .joints
             .push(Part::new(&id, [0, link], sides, JointType::Fixed));
@@ -95,7 +103,7 @@ pub(crate) fn read(root: Element<'_>, assemble: bool) -> Result<Robot, ImportErr
     let size = scene
         .placed
         .values()
-        .map(|p| length(p.raw.at))
+        .map(|p| length(p.raw.translation))
         .fold(1e-3, f64::max);
     for (e, scope) in std::mem::take(&mut scene.joints) {
         joint(e, &scope, &scene, size, &mut robot)?;
@@ -130,20 +138,20 @@ fn include(e: Element<'_>) -> ImportError {
 }
 
 /// The pose child: numbers, what it is relative to, and in which unit.
-fn pose(e: Element<'_>) -> Result<(Pose, Option<&str>), ImportError> {
+fn pose(e: Element<'_>) -> Result<(Motion, Option<&str>), ImportError> {
     let Some(p) = e.child("pose") else {
-        return Ok((Pose::IDENTITY, None));
+        return Ok((Motion::IDENTITY, None));
     };
     let relative = p
         .attribute("relative_to")
         .or(p.attribute("frame"))
         .filter(|r| !r.is_empty());
     if p.text().is_empty() {
-        return Ok((Pose::IDENTITY, relative));
+        return Ok((Motion::IDENTITY, relative));
     }
     if p.attribute("rotation_format") == Some("quat_xyzw") {
         let [a, b, c, x, y, z, w] = p.text_numbers::<7>()?;
-        return Ok((Pose::quaternion([a, b, c], [w, x, y, z]), relative));
+        return Ok((Motion::quaternion([a, b, c], [w, x, y, z]), relative));
     }
     let [x, y, z, roll, pitch, yaw] = p.text_numbers::<6>()?;
     let degrees = p
@@ -157,7 +165,7 @@ fn pose(e: Element<'_>) -> Result<(Pose, Option<&str>), ImportError> {
             1.0
         },
     );
-    Ok((Pose::roll_pitch_yaw([x, y, z], turn), relative))
+    Ok((Motion::roll_pitch_yaw([x, y, z], turn), relative))
 }
 
 /// Takes in what a model holds; places are worked out afterwards.
@@ -201,7 +209,7 @@ fn model<'a>(
         insert(
             scene,
             alias,
-            placed(m, own.clone(), Pose::IDENTITY, own.clone(), None),
+            placed(m, own.clone(), Motion::IDENTITY, own.clone(), None),
         )?;
     }
     for e in m.children() {
@@ -212,7 +220,7 @@ fn model<'a>(
                 e.room("links", robot.links.len())?;
                 let name = named(e)?;
                 let (raw, relative) = pose(e)?;
-                let link = robot.link(&name, Pose::IDENTITY);
+                let link = robot.link(&name, Motion::IDENTITY);
                 let to = relative.map_or_else(|| own.clone(), |r| absolute(scope, r));
                 insert(scene, name.clone(), placed(e, to, raw, name, Some(link)))?;
                 for c in e.children().filter(|c| c.name() != "pose") {

@@ -1,7 +1,7 @@
 //! What has a place in an SDF file, and where that is.
 
 use crate::file::problem::ImportError;
-use crate::robots::pose::Pose;
+use crate::geom::rigid::Motion;
 use crate::robots::problem::{RobotProblem, known};
 use crate::robots::sdf::read::unsupported;
 use crate::robots::xml::Element;
@@ -13,11 +13,11 @@ pub(crate) struct Placed<'a> {
     /// The name of the thing its place is relative to.
     pub(super) relative_to: String,
     /// Place in that.
-    pub(super) raw: Pose,
+    pub(super) raw: Motion,
     /// What it moves with: itself for links, another name for frames, the child for joints.
     pub(super) attached_to: String,
     /// Its place in the world, once known.
-    pub(super) world: Option<Pose>,
+    pub(super) world: Option<Motion>,
     pub(super) link: Option<usize>,
 }
 
@@ -83,11 +83,13 @@ pub(crate) fn resolve(scene: &mut Scene<'_>) -> Result<(), ImportError> {
         let mut at = name;
         let mut base = loop {
             if at == "world" {
-                break Pose::IDENTITY;
+                break Motion::IDENTITY;
             }
             let from = path.last().map(|p| scene.placed[p].element);
             let Some(p) = scene.placed.get(&at) else {
-                let Some(e) = from else { break Pose::IDENTITY };
+                let Some(e) = from else {
+                    break Motion::IDENTITY;
+                };
                 return Err(unknown(e, &at, scene));
             };
             if let Some(w) = p.world {
@@ -116,15 +118,15 @@ pub(crate) fn resolve(scene: &mut Scene<'_>) -> Result<(), ImportError> {
 }
 
 /// The link that a name moves with, and the name's place in the world.
-pub(crate) fn moves_with(scene: &Scene<'_>, name: &str) -> Result<(usize, Pose), Option<String>> {
+pub(crate) fn moves_with(scene: &Scene<'_>, name: &str) -> Result<(usize, Motion), Option<String>> {
     if name == "world" {
-        return Ok((0, Pose::IDENTITY));
+        return Ok((0, Motion::IDENTITY));
     }
     let first = scene
         .placed
         .get(name)
         .ok_or_else(|| Some(name.to_owned()))?;
-    let world = first.world.unwrap_or(Pose::IDENTITY);
+    let world = first.world.unwrap_or(Motion::IDENTITY);
     let mut at = first;
     for _ in 0..=scene.placed.len() {
         if let Some(l) = at.link {
@@ -145,7 +147,7 @@ pub(crate) fn located(
     e: Element<'_>,
     name: &str,
     scene: &Scene<'_>,
-) -> Result<(usize, Pose), ImportError> {
+) -> Result<(usize, Motion), ImportError> {
     moves_with(scene, name).map_err(|missing| match missing {
         Some(n) => unknown(e, &n, scene),
         None => unsupported(

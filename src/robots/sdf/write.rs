@@ -1,7 +1,7 @@
 //! SDF: every joint of the free state as it stands, loops closed by joints.
 
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Mechanism, Mode, Role};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};
 use crate::robots::mimic::{Follows, mimics, settled, stand_in};
 use crate::robots::single_freedoms::{
     Names, Place, Single, comment, escape, number, numbers, place, singles,
@@ -11,9 +11,9 @@ use std::fmt::Write;
 /// The mechanism's free state as SDF 1.9. All links have the global axes; joints of several freedoms that SDF does not
 /// know become joints in series through links without mass.
 #[must_use]
-pub fn sdf(m: &Mechanism) -> String {
+pub(crate) fn sdf(m: &Mechanism) -> String {
     // Mimic joints are of 1.11.
-    let version = if m.couplings_in(0).next().is_some() {
+    let version = if m.couplings_in(StateId::FREE).next().is_some() {
         "1.11"
     } else {
         "1.9"
@@ -30,14 +30,14 @@ pub fn sdf(m: &Mechanism) -> String {
             "    <!-- a planar model: its figures count 3 constraints per contour, those of this file 6 -->"
         );
     }
-    let joints: Vec<usize> = m.joints_in(0).collect();
-    let written: Vec<bool> = (0..m.joints.len()).map(|j| joints.contains(&j)).collect();
+    let joints: Vec<JointId> = m.joints_in(StateId::FREE).collect();
+    let written: Vec<bool> = m.joint_ids().map(|j| joints.contains(&j)).collect();
     let (follows, unsaid) = mimics(m, &written);
     let mut ids = vec![String::new(); m.joints.len()];
     let mut names = Names::default();
     let world = names.fit("world");
     let mut links: Vec<Option<String>> = vec![None; m.links.len()];
-    for (l, link) in m.links.iter().enumerate() {
+    for (l, link) in m.links_with_ids() {
         if joints.iter().any(|&j| m.joints[j].links.contains(&l)) {
             links[l] = Some(if link.role == Role::Frame && link.id == world {
                 world.clone()
@@ -46,9 +46,9 @@ pub fn sdf(m: &Mechanism) -> String {
             });
         }
     }
-    let name = |l: usize| links[l].as_deref().unwrap_or("world");
+    let name = |l: LinkId| links[l].as_deref().unwrap_or("world");
     let mut body = String::new();
-    for (l, link) in m.links.iter().enumerate() {
+    for (l, link) in m.links_with_ids() {
         let Some(n) = links[l].as_deref().filter(|n| *n != world) else {
             continue;
         };

@@ -1,18 +1,25 @@
 //! URDF: a tree of links and joints, with mimic joints, transmissions and the loop extensions in use.
 
 use crate::file::problem::ImportError;
+use crate::geom::rigid::Motion;
+use crate::geom::vector::{Vector, X, length};
 use crate::model::joint_type::JointType;
-use crate::robots::coupling::Ratio;
-use crate::robots::parts::{Format, Part, Robot, free};
-use crate::robots::pose::{Pose, V3, X, length};
+use crate::robots::options::{Options, Reader};
+use crate::robots::parts::{Part, Ratio, Robot, free};
 use crate::robots::problem::{RobotProblem, known};
-use crate::robots::xml::Element;
+use crate::robots::xml::{Document, Element};
 
 const TYPES: &str = "revolute, continuous, prismatic, fixed, planar, floating";
 
 /// Reads a `<robot>`.
-pub(crate) fn read(root: Element<'_>) -> Result<Robot, ImportError> {
-    let mut robot = Robot::new(root.attribute("name").unwrap_or("robot"), Format::Urdf);
+pub(crate) fn read(
+    document: &mut Document,
+    root: usize,
+    _: Reader<'_>,
+    _: &Options,
+) -> Result<Robot, ImportError> {
+    let root = document.element(root);
+    let mut robot = Robot::new(root.attribute("name").unwrap_or("robot"));
     for link in root.named("link") {
         let name = link.required("name")?;
         link.room("links", robot.links.len())?;
@@ -24,7 +31,7 @@ pub(crate) fn read(root: Element<'_>) -> Result<Robot, ImportError> {
                 },
             ));
         }
-        robot.link(name, Pose::IDENTITY);
+        robot.link(name, Motion::IDENTITY);
         for c in link.children() {
             robot.report.drop(c.name(), None);
         }
@@ -55,17 +62,17 @@ pub(crate) fn read(root: Element<'_>) -> Result<Robot, ImportError> {
     Ok(robot)
 }
 
-fn origin(e: Element<'_>) -> Result<Pose, ImportError> {
+fn origin(e: Element<'_>) -> Result<Motion, ImportError> {
     let Some(o) = e.child("origin") else {
-        return Ok(Pose::IDENTITY);
+        return Ok(Motion::IDENTITY);
     };
     if let Some(q) = o.numbers::<4>("quat_xyzw")? {
-        return Ok(Pose::quaternion(
+        return Ok(Motion::quaternion(
             o.vector("xyz", [0.0; 3])?,
             [q[3], q[0], q[1], q[2]],
         ));
     }
-    Ok(Pose::roll_pitch_yaw(
+    Ok(Motion::roll_pitch_yaw(
         o.vector("xyz", [0.0; 3])?,
         o.vector("rpy", [0.0; 3])?,
     ))
@@ -95,7 +102,7 @@ fn unknown_link(e: Element<'_>, name: &str, robot: &Robot) -> RobotProblem {
     }
 }
 
-fn axis(e: Element<'_>) -> Result<V3, ImportError> {
+fn axis(e: Element<'_>) -> Result<Vector, ImportError> {
     let Some(a) = e.child("axis") else {
         return Ok(X);
     };
@@ -124,7 +131,7 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     if links[0] == links[1] {
         return Err(same_link(e));
     }
-    let sides = [origin(e)?, Pose::IDENTITY];
+    let sides = [origin(e)?, Motion::IDENTITY];
     let joint_type = match word {
         "revolute" | "continuous" => JointType::Revolute,
         "prismatic" => JointType::Prismatic,
@@ -195,10 +202,10 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     if links[0] == links[1] {
         return Err(same_link(e));
     }
-    let mut sides = [Pose::IDENTITY; 2];
+    let mut sides = [Motion::IDENTITY; 2];
     for (side, tag) in sides.iter_mut().zip(["link1", "link2"]) {
         if let Some(c) = e.child(tag) {
-            *side = Pose::roll_pitch_yaw(c.vector("xyz", [0.0; 3])?, c.vector("rpy", [0.0; 3])?);
+            *side = Motion::roll_pitch_yaw(c.vector("xyz", [0.0; 3])?, c.vector("rpy", [0.0; 3])?);
         }
     }
     let word = e.required("type")?;
@@ -224,7 +231,7 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
 
 /// Drake's ball constraint: a point of one body held to a point of another.
 pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
-    let (mut links, mut sides) = ([0; 2], [Pose::IDENTITY; 2]);
+    let (mut links, mut sides) = ([0; 2], [Motion::IDENTITY; 2]);
     for (i, (body, point)) in [("A", "p_AP"), ("B", "p_BQ")].into_iter().enumerate() {
         let part = |k: &str| {
             let tag = format!("drake:ball_constraint_{k}");
@@ -245,7 +252,7 @@ pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), I
             None => p.text_numbers()?,
         };
         links[i] = link;
-        sides[i] = frame.then(&Pose::shift(at));
+        sides[i] = frame.then(&Motion::shift(at));
     }
     if links[0] == links[1] {
         return Err(same_link(e));

@@ -1,9 +1,11 @@
 //! URDF: a spanning tree of the free state; the joints that close loops are comments.
 
+use crate::closure::tree::spanning_tree;
+use crate::geom::vector::sub;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, LinkId, Mechanism};
-use crate::robots::export::ExportError;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::robots::mimic::{mimics, settled, stand_in};
+use crate::robots::problem::ExportError;
 use crate::robots::single_freedoms::{
     Names, Single, comment, escape, number, numbers, place, singles,
 };
@@ -13,8 +15,8 @@ use std::fmt::Write;
 ///
 /// # Errors
 /// Where a joint screws: URDF has no such joint.
-pub fn urdf(m: &Mechanism) -> Result<String, ExportError> {
-    let joints: Vec<JointId> = m.joints_in(0).collect();
+pub(crate) fn urdf(m: &Mechanism) -> Result<String, ExportError> {
+    let joints: Vec<JointId> = m.joints_in(StateId::FREE).collect();
     let mut names = Names::default();
     let mut links: Vec<Option<(String, [f64; 3])>> = vec![None; m.links.len()];
     let mut head = String::new();
@@ -29,54 +31,43 @@ pub fn urdf(m: &Mechanism) -> Result<String, ExportError> {
         n
     };
     links[frame] = Some((link(frame, &mut head, &mut names), [0.0; 3]));
-    let (mut queue, mut next) = (vec![frame], 0);
     let mut joint_names = Names::default();
-    while let Some(&from) = queue.get(next) {
-        next += 1;
-        for &j in &joints {
-            let joint = &m.joints[j];
-            let Some(end) = joint.links.iter().position(|&l| l == from) else {
-                continue;
+    for step in spanning_tree(m, StateId::FREE) {
+        let (j, from, to) = (step.joint, step.from, step.link);
+        let joint = &m.joints[j];
+        used[j] = true;
+        let (parent, origin) = links[from].clone().unwrap_or_default();
+        let p = place(m, joint);
+        let at = sub(p.point, origin);
+        let id = joint_names.fit(&joint.id);
+        ids[j].clone_from(&id);
+        let child = link(to, &mut head, &mut names);
+        // The child moves the other way where the joint is passed backwards.
+        let sign = if step.forward { 1.0 } else { -1.0 };
+        let parts = kinds(m, j, sign)?;
+        single[j] = parts.len() == 1;
+        let (mut holder, mut origin) = (parent, at);
+        for (i, (kind, axis)) in parts.iter().enumerate() {
+            let last = i + 1 == parts.len();
+            let held = if last {
+                child.clone()
+            } else {
+                let between = names.fit(&format!("{id}~{}", i + 1));
+                let _ = writeln!(head, "  <link name=\"{}\"/>", escape(&between));
+                between
             };
-            let to = joint.links[1 - end];
-            if used[j] || links[to].is_some() {
-                continue;
-            }
-            used[j] = true;
-            queue.push(to);
-            let (parent, origin) = links[from].clone().unwrap_or_default();
-            let p = place(m, joint);
-            let at = [0, 1, 2].map(|i| p.point[i] - origin[i]);
-            let id = joint_names.fit(&joint.id);
-            ids[j].clone_from(&id);
-            let child = link(to, &mut head, &mut names);
-            // The child moves the other way where the joint is passed backwards.
-            let sign = if end == 0 { 1.0 } else { -1.0 };
-            let parts = kinds(m, j, sign)?;
-            single[j] = parts.len() == 1;
-            let (mut holder, mut origin) = (parent, at);
-            for (i, (kind, axis)) in parts.iter().enumerate() {
-                let last = i + 1 == parts.len();
-                let held = if last {
-                    child.clone()
-                } else {
-                    let between = names.fit(&format!("{id}~{}", i + 1));
-                    let _ = writeln!(head, "  <link name=\"{}\"/>", escape(&between));
-                    between
-                };
-                let part = if i == 0 {
-                    id.clone()
-                } else {
-                    joint_names.fit(&format!("{id}~{}", i + 1))
-                };
-                write_joint(&mut body, &part, kind, [&holder, &held], origin, *axis, j);
-                (holder, origin) = (held, [0.0; 3]);
-            }
-            if joint.drive {
-                let _ = writeln!(body, "  <!-- {} is driven -->", comment(&id));
-            }
-            links[to] = Some((child, p.point));
+            let part = if i == 0 {
+                id.clone()
+            } else {
+                joint_names.fit(&format!("{id}~{}", i + 1))
+            };
+            write_joint(&mut body, &part, kind, [&holder, &held], origin, *axis, j);
+            (holder, origin) = (held, [0.0; 3]);
         }
+        if joint.drive {
+            let _ = writeln!(body, "  <!-- {} is driven -->", comment(&id));
+        }
+        links[to] = Some((child, p.point));
     }
     for &j in joints.iter().filter(|&&j| !used[j]) {
         let (joint, p) = (&m.joints[j], place(m, &m.joints[j]));

@@ -1,8 +1,8 @@
 //! The loads of a mechanism as one wrench a link.
 
 use crate::geom::expr::Expr;
-use crate::model::loads::Loads;
-use crate::model::mechanism::Mechanism;
+use crate::model::loads::{ExternalForce, Loads, acts_at};
+use crate::model::mechanism::{LinkId, Mechanism};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::geometry::{Geometry, Six, wrench};
 
@@ -24,8 +24,8 @@ pub fn link_loads(
 ) -> Vec<Six> {
     let mut out = vec![[0.0; 6]; m.links.len()];
     let mut there = vec![false; m.links.len()];
-    geometry.tree.iter().for_each(|t| there[t.0] = true);
-    let mut add = |link: usize, w: Six| {
+    geometry.tree.iter().for_each(|s| there[s.link] = true);
+    let mut add = |link: LinkId, w: Six| {
         if there[link] {
             for (o, x) in out[link].iter_mut().zip(geometry.within(&w)) {
                 *o += x;
@@ -34,14 +34,15 @@ pub fn link_loads(
     };
     if let Some(g) = &loads.gravity {
         let g = real(g);
-        for (l, link) in m.links.iter().enumerate() {
+        for (l, link) in m.links_with_ids() {
             if let Some(mass) = &link.mass {
                 let at = geometry.place(pose, l, real(&mass.centre));
                 add(l, wrench(at, g.map(|x| x * mass.mass), [0.0; 3]));
             }
         }
     }
-    for f in loads.forces.iter().filter(|f| f.acts_at(drive, period)) {
+    let now = |f: &&ExternalForce| acts_at(f.range, drive, period);
+    for f in loads.forces.iter().filter(now) {
         let at = geometry.place(pose, f.link, real(&f.point));
         add(f.link, wrench(at, real(&f.force), [0.0; 3]));
     }

@@ -6,7 +6,9 @@ use crate::motion::pose::Pose;
 use crate::statics::reactions::drives::{Driven, driven};
 use crate::statics::reactions::follow::follow;
 use crate::statics::reactions::geometry::Geometry;
-use crate::statics::reactions::{Reactions, Solution, Unsolved};
+use crate::statics::reactions::solution::Solution;
+use crate::statics::reactions::solve::Reactions;
+use crate::statics::reactions::unsolved::Unsolved;
 
 /// Reactions by position of the first drive.
 #[derive(Debug, Clone)]

@@ -1,9 +1,9 @@
 //! Which freedom of a driven joint the drive holds.
 
 use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{JointId, Mechanism, Role};
-use crate::statics::reactions::Unsolved;
-use crate::statics::reactions::geometry::Geometry;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
+use crate::statics::reactions::geometry::{Geometry, TOLERANCE};
+use crate::statics::reactions::unsolved::Unsolved;
 use faer::Mat;
 
 /// A driven joint and the freedom its drive moves.
@@ -11,6 +11,19 @@ pub type Driven = (JointId, Freedom);
 
 /// Shares of the working motion closer than this are equal.
 const EQUAL: f64 = 1e-9;
+
+/// Whether a freedom is a shift, so that its drive's effort is a force.
+#[must_use]
+pub fn slides(freedom: Freedom) -> bool {
+    matches!(freedom, Freedom::Tx | Freedom::Ty | Freedom::Tz)
+}
+
+/// After how much of the first drive the ranges of forces come again: a turn, where it turns.
+#[must_use]
+pub fn period(drives: &[Driven]) -> Option<f64> {
+    let first = drives.first().filter(|(_, f)| !slides(*f));
+    first.map(|_| std::f64::consts::TAU)
+}
 
 /// The freedom of each driven joint that takes the greatest part in the motion of the outputs (of shifts and turns with
 /// equal parts, the shift): the slide of a slider that may also turn about its guide.
@@ -43,13 +56,12 @@ pub fn driven(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Driven>, Unsolve
             .map(|speeds| speeds[c] * speeds[c])
             .sum::<f64>()
     };
-    let slides = |c: usize| matches!(freedom(c), Freedom::Tx | Freedom::Ty | Freedom::Tz);
     let pick = |j: JointId| {
         let greatest = of(j).map(share).fold(0.0, f64::max);
         let equal = |c: &usize| share(*c) >= greatest * (1.0 - EQUAL);
         of(j)
             .filter(equal)
-            .find(|&c| slides(c))
+            .find(|&c| slides(freedom(c)))
             .or(of(j).find(equal))
     };
     Ok(drives
@@ -67,7 +79,8 @@ fn working_motions(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Vec<f64>>, 
         rows[c].get(r).copied().unwrap_or(0.0)
     });
     let null = null_space(&jacobian)?;
-    let outputs: Vec<usize> = (0..m.links.len())
+    let outputs: Vec<LinkId> = m
+        .link_ids()
         .filter(|&l| m.links[l].role == Role::Output)
         .collect();
     let twists: Vec<_> = null
@@ -107,7 +120,7 @@ fn null_space(a: &Mat<f64>) -> Result<Vec<Vec<f64>>, Unsolved> {
     let values = svd.S().column_vector();
     let greatest = if values.nrows() > 0 { values[0] } else { 0.0 };
     let rank = (0..values.nrows())
-        .filter(|&i| values[i] > crate::statics::reactions::TOLERANCE * greatest)
+        .filter(|&i| values[i] > TOLERANCE * greatest)
         .count();
     Ok((rank..a.ncols())
         .map(|i| (0..a.ncols()).map(|c| svd.V()[(c, i)]).collect())

@@ -4,8 +4,8 @@ use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::follow::{Follower, slides};
 use crate::motion::pose::Pose;
-use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::drives::Driven;
+use crate::statics::reactions::unsolved::Unsolved;
 
 /// Greatest change of the drive between two poses that are closed: radians, or fractions of the mechanism's size.
 const STEP: f64 = 0.05;
@@ -33,13 +33,7 @@ pub fn follow(
     drives: &[Driven],
     stroke: Option<Stroke>,
 ) -> Result<Followed, Unsolved> {
-    let wanted: Vec<f64> = match stroke {
-        None => vec![0.0],
-        #[allow(clippy::cast_precision_loss, reason = "at most 100000 steps")]
-        Some(s) => (0..=s.steps.max(1))
-            .map(|i| s.from + (s.to - s.from) * i as f64 / s.steps.max(1) as f64)
-            .collect(),
-    };
+    let wanted = stroke.map_or_else(|| vec![0.0], |s| s.positions());
     follow_to(m, state, drives, &wanted)
 }
 

@@ -5,42 +5,27 @@
 //! times the size.
 
 use crate::closure::contour::{Contour, contour_basis};
+use crate::closure::tree::{Step, spanning_tree};
 use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::geom::exact::ExactError;
+use crate::geom::rigid::halves;
 use crate::geom::scalars::Reals;
+use crate::geom::vector::{add_scaled, sub, unit};
+pub use crate::geom::vector::{cross, dot};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
-use std::collections::VecDeque;
+
+/// Singular values below this fraction of the greatest count as zero.
+pub const TOLERANCE: f64 = 1e-9;
 
 /// A twist or a wrench.
 pub type Six = [f64; 6];
-
-/// Vector product.
-#[must_use]
-pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-/// Scalar product.
-#[must_use]
-pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
 
 /// Power of a wrench on a twist.
 #[must_use]
 pub fn power(a: &Six, b: &Six) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-fn unit(a: [f64; 3]) -> [f64; 3] {
-    let size = dot(a, a).sqrt();
-    a.map(|x| x / size)
 }
 
 /// The wrench (m; f) of a force at a point, with a moment besides.
@@ -97,9 +82,8 @@ pub struct Geometry {
     pub axes: Vec<[[f64; 3]; 3]>,
     /// The contours.
     pub contours: Vec<Contour>,
-    /// The links but the frame, each with the joint that leads to it from the frame's side and whether that joint's second
-    /// link is the one reached; a link comes after the one it hangs on.
-    pub tree: Vec<(LinkId, LinkId, JointId, bool)>,
+    /// The links but the frame, each after the one it hangs on.
+    pub tree: Vec<Step>,
     /// Middle and half diagonal of the pose, in the file's unit.
     pose: ([f64; 3], f64),
 }
@@ -116,7 +100,7 @@ impl Geometry {
             vec![[0.0; 3]; m.joints.len()],
             vec![[[0.0; 3]; 3]; m.joints.len()],
         );
-        for (j, joint) in m.joints.iter().enumerate() {
+        for (j, joint) in m.joints_with_ids() {
             let frame = FrameValues::new(&Reals, &joint.frame)?;
             let carried = &pose.links[joint.links[0]];
             points[j] = moved(pose, joint.links[0], frame.point);
@@ -125,7 +109,7 @@ impl Geometry {
         #[allow(clippy::cast_precision_loss, reason = "a count of joints")]
         let count = joints.len().max(1) as f64;
         let mean = [0, 1, 2].map(|i| joints.iter().map(|&j| points[j][i]).sum::<f64>() / count);
-        let from_mean = |p: [f64; 3]| [0, 1, 2].map(|i| p[i] - mean[i]);
+        let from_mean = |p: [f64; 3]| sub(p, mean);
         let square: f64 = joints
             .iter()
             .map(|&j| dot(from_mean(points[j]), from_mean(points[j])))
@@ -140,12 +124,9 @@ impl Geometry {
         for &j in &joints {
             points[j] = from_mean(points[j]).map(|x| x / spread);
         }
-        let shift = [0, 1, 2].map(|i| mean[i] - pose.middle[i]);
+        let shift = sub(mean, pose.middle);
         let columns = pose.columns.iter().map(|c| {
-            let (w, v) = (
-                [c.twist[0], c.twist[1], c.twist[2]],
-                [c.twist[3], c.twist[4], c.twist[5]],
-            );
+            let (w, v) = halves(&c.twist);
             let twist = if w == [0.0; 3] {
                 c.twist
             } else {
@@ -181,7 +162,7 @@ impl Geometry {
             points,
             axes,
             contours: contour_basis(m, state),
-            tree: tree(m, &joints),
+            tree: spanning_tree(m, state),
             joints,
             pose: (mean, spread),
         })
@@ -192,7 +173,7 @@ impl Geometry {
     pub fn place(&self, pose: &Pose, link: LinkId, point: [f64; 3]) -> [f64; 3] {
         let (mean, spread) = self.pose;
         let p = moved(pose, link, point);
-        [0, 1, 2].map(|i| (p[i] - mean[i]) / spread)
+        sub(p, mean).map(|x| x / spread)
     }
 
     /// The part of a wrench that the model can carry: all of it, or what is in the plane.
@@ -216,7 +197,13 @@ impl Geometry {
     pub fn along_tree(&self, joints: usize, loads: &[Six]) -> Vec<Six> {
         let mut hanging = loads.to_vec();
         let mut out = vec![[0.0; 6]; joints];
-        for &(link, from, joint, forward) in self.tree.iter().rev() {
+        for &Step {
+            link,
+            from,
+            joint,
+            forward,
+        } in self.tree.iter().rev()
+        {
             let load = hanging[link];
             for i in 0..6 {
                 hanging[from][i] += load[i];
@@ -270,7 +257,13 @@ impl Geometry {
             }
         }
         let mut out = vec![[0.0; 6]; links];
-        for &(link, from, joint, forward) in &self.tree {
+        for &Step {
+            link,
+            from,
+            joint,
+            forward,
+        } in &self.tree
+        {
             let sign = if forward { 1.0 } else { -1.0 };
             out[link] = std::array::from_fn(|i| out[from][i] + sign * of_joint[joint][i]);
         }
@@ -280,27 +273,7 @@ impl Geometry {
 
 /// Where a point of a link is now, in the file's unit.
 fn moved(pose: &Pose, link: LinkId, point: [f64; 3]) -> [f64; 3] {
-    let from = [0, 1, 2].map(|i| (point[i] - pose.middle[i]) / pose.length);
+    let from = sub(point, pose.middle).map(|x| x / pose.length);
     let to = pose.links[link].point(from);
-    [0, 1, 2].map(|i| pose.middle[i] + pose.length * to[i])
-}
-
-fn tree(m: &Mechanism, joints: &[JointId]) -> Vec<(LinkId, LinkId, JointId, bool)> {
-    let mut out = Vec::new();
-    let mut reached = vec![false; m.links.len()];
-    let mut queue = VecDeque::from([m.frame()]);
-    reached[m.frame()] = true;
-    while let Some(at) = queue.pop_front() {
-        for &j in joints {
-            let [a, b] = m.joints[j].links;
-            for (from, to, forward) in [(a, b, true), (b, a, false)] {
-                if from == at && !reached[to] {
-                    reached[to] = true;
-                    out.push((to, at, j, forward));
-                    queue.push_back(to);
-                }
-            }
-        }
-    }
-    out
+    add_scaled(pose.middle, pose.length, to)
 }

@@ -5,12 +5,14 @@
 //! [Müller 2018, "Screw and Lie group theory in multibody kinematics", sec. 4]. Idle freedoms take the least speeds and rates
 //! that close. Then, by D'Alembert, a link carries -m a at its mass centre and -(I α + ω × I ω) besides.
 
+use crate::closure::tree::Step;
+use crate::geom::vector::{cross, dot};
 use crate::model::loads::{Inertia, Loads};
-use crate::model::mechanism::{LinkId, Mechanism};
+use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::drives::Driven;
-use crate::statics::reactions::geometry::{Column, Geometry, Six, cross, dot, power, wrench};
-use crate::statics::reactions::{TOLERANCE, Unsolved};
+use crate::statics::reactions::geometry::{Column, Geometry, Six, TOLERANCE, power, wrench};
+use crate::statics::reactions::unsolved::Unsolved;
 use faer::Mat;
 
 /// Contours may stay open by this fraction of the speeds (or rates) in them.
@@ -49,7 +51,7 @@ fn add(to: &mut Six, factor: f64, x: &Six) {
 }
 
 /// The columns of a joint in the order they are passed in, with their direction.
-fn walk(geometry: &Geometry, joint: usize, forward: bool) -> Vec<(usize, f64)> {
+fn walk(geometry: &Geometry, joint: JointId, forward: bool) -> Vec<(usize, f64)> {
     let own = (0..geometry.columns.len()).filter(|&c| geometry.columns[c].joint == joint);
     if forward {
         own.map(|c| (c, 1.0)).collect()
@@ -146,7 +148,13 @@ pub fn motion(
         velocity: vec![[0.0; 6]; m.links.len()],
         rate: vec![[0.0; 6]; m.links.len()],
     };
-    for &(link, from, joint, forward) in &geometry.tree {
+    for &Step {
+        link,
+        from,
+        joint,
+        forward,
+    } in &geometry.tree
+    {
         let (mut v, mut a) = (out.velocity[from], out.rate[from]);
         for (c, sign) in walk(geometry, joint, forward) {
             let t = &geometry.columns[c].twist;
@@ -206,7 +214,7 @@ pub fn inertia_loads(
         about.is_some_and(|w| size(cross(w, v)) > PARALLEL * size(w) * size(w).max(size(v)))
     };
     let flat = !moves.velocity.iter().any(|v| aside(turn(v)));
-    for &(l, ..) in &geometry.tree {
+    for l in geometry.tree.iter().map(|s| s.link) {
         let Some(mass) = &m.links[l].mass else {
             continue;
         };

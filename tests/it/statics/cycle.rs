@@ -1,13 +1,14 @@
 //! Positions, velocities and accelerations over a cycle.
 
 use super::{file, four_bar_file, mechanism, p, r, shears};
+use ozols::model::mechanism::StateId;
 use ozols::statics::assur::{Decomposition, decompose};
 use ozols::statics::planar::PlanarMechanism;
 use ozols::statics::planar_motion::{Instant, Motion};
 use ozols::statics::pose::Linkage;
 
 fn linkage(text: &str) -> (Linkage, Decomposition) {
-    let planar = PlanarMechanism::new(&mechanism(text), 0).unwrap();
+    let planar = PlanarMechanism::new(&mechanism(text), StateId::FREE).unwrap();
     let d = decompose(&planar, &planar.drives()).unwrap();
     (Linkage::new(planar), d)
 }

@@ -1,6 +1,7 @@
 //! All Assur groups of 2, 4 and 6 links, found among all ways to join that many links.
 
 use itertools::Itertools;
+use ozols::model::mechanism::{JointId, LinkId};
 use ozols::statics::assur::decompose;
 use ozols::statics::planar::{Body, Pair, PairKind, PlanarMechanism};
 use std::collections::{BTreeMap, BTreeSet};
@@ -8,11 +9,11 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Links 1 to n with these inner pairs, and so many pairs of each link to the frame.
 fn group(n: usize, inner: &[(usize, usize)], outer: &[usize]) -> PlanarMechanism {
     let body = |i: usize| Body {
-        link: Some(i),
+        link: Some(LinkId::new(i)),
         name: i.to_string(),
     };
     let pair = |(i, (a, b)): (usize, (usize, usize))| Pair {
-        joint: i,
+        joint: JointId::new(i),
         name: format!("{a}-{b}.{i}"),
         bodies: [a, b],
         kind: PairKind::Turning,

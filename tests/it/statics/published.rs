@@ -2,9 +2,10 @@
 
 use super::{mechanism, shears};
 use ozols::model::loads::Stroke;
-use ozols::statics::contour_group::GroupPose;
+use ozols::model::mechanism::StateId;
+use ozols::statics::contour_group::equilibrium;
+use ozols::statics::contour_group::pose::GroupPose;
 use ozols::statics::cycle::statics;
-use ozols::statics::group_equilibrium;
 use ozols::statics::pose::{cross, dot, length, minus, plus, quarter};
 
 fn unit(v: [f64; 2]) -> [f64; 2] {
@@ -32,11 +33,11 @@ fn each_equation_gives_its_component() {
         to: std::f64::consts::TAU,
         steps: 24,
     };
-    let s = statics(&mechanism(shears()), 0, Some(stroke)).unwrap();
+    let s = statics(&mechanism(shears()), StateId::FREE, Some(stroke)).unwrap();
     let mut tried = 0;
     for g in s.moments.iter().flat_map(|m| &m.groups) {
         let (p, steps) = (&g.pose, &g.steps);
-        let exact = group_equilibrium::exact(p).unwrap();
+        let exact = equilibrium::exact(p).unwrap();
         let greatest = [exact.d, exact.f, exact.k, exact.m, exact.l]
             .iter()
             .map(|v| length(*v))

@@ -3,14 +3,22 @@
 use super::{J, Mass, file_with, mechanism, p, r, shears};
 use itertools::Itertools;
 use ozols::model::loads::Stroke;
-use ozols::statics::contour_group::GroupReactions;
+use ozols::model::mechanism::StateId;
+use ozols::statics::contour_group::letters::ContourGroup;
+use ozols::statics::contour_group::pose::{GroupPose, GroupReactions};
 use ozols::statics::cycle::{Moment, Statics, statics};
 use ozols::statics::kinetostatics::{Equilibrium, Source};
-use ozols::statics::pose::{cross, minus};
+use ozols::statics::planar::{BodyId, PairId};
+use ozols::statics::pose::{Linkage, cross, dot, minus};
 use proptest::prelude::*;
 
 fn over(text: &str, from: f64, to: f64, steps: usize) -> Statics {
-    statics(&mechanism(text), 0, Some(Stroke { from, to, steps })).unwrap()
+    statics(
+        &mechanism(text),
+        StateId::FREE,
+        Some(Stroke { from, to, steps }),
+    )
+    .unwrap()
 }
 
 fn shears_cycle() -> Statics {
@@ -41,6 +49,32 @@ fn left_over(s: &Statics, m: &Moment, e: &Equilibrium) -> f64 {
     worst / greatest
 }
 
+/// The reactions of a group out of the equilibrium of all bodies.
+fn from_equilibrium(
+    linkage: &Linkage,
+    g: &ContourGroup,
+    pose: &GroupPose,
+    e: &Equilibrium,
+) -> Option<GroupReactions> {
+    let on = |pair: PairId, body: BodyId| {
+        let r = e.reactions.iter().find(|r| r.pair == pair)?;
+        Some(r.on(linkage, body, pose.d))
+    };
+    let force = |pair, body| on(pair, body).map(|[x, y, _]| [x, y]);
+    let [gx, gy, guide_moment] = on(g.guide, g.slider)?;
+    let guide = dot([gx, gy], pose.normal());
+    Some(GroupReactions {
+        d: force(g.d, g.ternary)?,
+        f: force(g.f, g.rods[0])?,
+        k: force(g.k, g.rods[1])?,
+        m: force(g.m, g.rods[0])?,
+        l: force(g.l, g.rods[1])?,
+        guide,
+        guide_moment,
+        arm: guide_moment / guide,
+    })
+}
+
 #[test]
 fn three_methods_agree_on_the_shears_to_nine_digits() {
     let s = shears_cycle();
@@ -54,9 +88,8 @@ fn three_methods_agree_on_the_shears_to_nine_digits() {
         cutting += usize::from(m.loads.iter().any(|l| l.source == Source::External));
         for (g, (_, letters)) in m.groups.iter().zip(&s.contour_groups) {
             let (lu, worth) = g.equilibrium.unwrap();
-            let exact = ozols::statics::group_equilibrium::exact(&g.pose).unwrap();
-            let out_of_whole =
-                GroupReactions::from_equilibrium(&s.linkage, letters, &g.pose, whole).unwrap();
+            let exact = ozols::statics::contour_group::equilibrium::exact(&g.pose).unwrap();
+            let out_of_whole = from_equilibrium(&s.linkage, letters, &g.pose, whole).unwrap();
             for (name, found) in [
                 ("δ", g.delta),
                 ("projective", g.projective),
@@ -315,7 +348,7 @@ proptest! {
 /// The publication's first figure: loads on rods only, none on the ternary link's own; and h = 0 without loads but at B.
 #[test]
 fn a_group_without_loads_bears_nothing() {
-    use ozols::statics::{delta_point, projective};
+    use ozols::statics::contour_group::{delta_point, projective};
     let s = over(shears(), 0.0, 0.0, 1);
     let mut g = s.moments[0].groups[0].pose.clone();
     g.loads.clear();

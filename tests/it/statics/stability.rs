@@ -2,10 +2,11 @@
 
 use super::{mechanism, shears};
 use ozols::model::loads::Stroke;
-use ozols::statics::contour_group::GroupPose;
+use ozols::model::mechanism::StateId;
+use ozols::statics::contour_group::pose::GroupPose;
+use ozols::statics::contour_group::stability::{Failure, Sample, at_distance, samples};
+use ozols::statics::contour_group::{delta_point, equilibrium, projective};
 use ozols::statics::cycle::statics;
-use ozols::statics::stability::{Failure, Sample, at_distance, samples};
-use ozols::statics::{delta_point, group_equilibrium, projective};
 
 fn base() -> GroupPose {
     let at = Stroke {
@@ -13,7 +14,10 @@ fn base() -> GroupPose {
         to: 3.1,
         steps: 1,
     };
-    statics(&mechanism(shears()), 0, Some(at)).unwrap().moments[0].groups[0]
+    statics(&mechanism(shears()), StateId::FREE, Some(at))
+        .unwrap()
+        .moments[0]
+        .groups[0]
         .pose
         .clone()
 }
@@ -49,7 +53,7 @@ fn parallel_rods_harm_only_the_published_form() {
     (g.f, g.m) = ([-0.5, 0.0], [-0.5, 1.0]);
     (g.k, g.l) = ([0.25, 0.0], [0.25, 1.5]);
     g.d = [0.125, -1.0];
-    let exact = group_equilibrium::exact(&g).unwrap();
+    let exact = equilibrium::exact(&g).unwrap();
     assert!(projective::solve(&g).distance(&exact, &g) < 1e-14);
     let (published, steps) = delta_point::solve(&g);
     assert!(!steps.delta.iter().all(|c| c.is_finite()));
@@ -65,7 +69,7 @@ fn dead_points_harm_every_method_alike() {
             assert!(s.forces.iter().all(|e| *e < bound), "{failure:?} {s:?}");
             assert!(s.condition > 0.1 / s.distance, "{s:?}");
         }
-        assert!(group_equilibrium::exact(&at_distance(&base(), failure, 1e-12).unwrap()).is_some());
+        assert!(equilibrium::exact(&at_distance(&base(), failure, 1e-12).unwrap()).is_some());
     }
 }
 
@@ -98,11 +102,11 @@ fn a_group_solved_by_hand() {
     (g.m, g.l) = ([-1.0, 3.0], [1.0, 3.0]);
     g.guide = [0.0, 1.0];
     g.push(3, [0.0, 4.0], [0.0, -8.0]);
-    let exact = group_equilibrium::exact(&g).unwrap();
+    let exact = equilibrium::exact(&g).unwrap();
     for r in [
         exact,
         projective::solve(&g),
-        group_equilibrium::solve(&g).unwrap().0,
+        equilibrium::solve(&g).unwrap().0,
     ] {
         let near = |v: [f64; 2], w: [f64; 2]| (v[0] - w[0]).abs() + (v[1] - w[1]).abs() < 1e-14;
         // D bears 8 up; each rod is pushed up by 4 at its foot, and down by 4 at its head; the guide bears nothing.

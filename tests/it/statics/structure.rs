@@ -2,6 +2,7 @@
 
 use super::{J, file, mechanism, p, pair, planar, r};
 use itertools::Itertools;
+use ozols::model::mechanism::StateId;
 use ozols::statics::assur::{AssurError, Decomposition, alternatives, decompose};
 use ozols::statics::assur_class::Kind;
 use ozols::statics::planar::{BodyId, PairKind, PlanarMechanism};
@@ -315,7 +316,7 @@ fn drives_that_do_not_fit_are_refused_with_names() {
     assert_eq!(bodies, "2");
     // A third rod on a parallelogram is redundant in the plane too.
     let text = ozols::builtin::text("parallelogram-3-rods-planar").unwrap();
-    let m = PlanarMechanism::new(&mechanism(text), 0).unwrap();
+    let m = PlanarMechanism::new(&mechanism(text), StateId::FREE).unwrap();
     assert!(matches!(
         decompose(&m, &m.drives()),
         Err(AssurError::Overconstrained { excess: 1, .. })
@@ -363,7 +364,7 @@ fn several_drives_and_drives_between_moving_bodies() {
 fn a_pin_in_a_slot_is_a_turning_and_a_sliding_pair() {
     let m = PlanarMechanism::new(
         &mechanism(ozols::builtin::text("lever-slot-gripper").unwrap()),
-        0,
+        StateId::FREE,
     )
     .unwrap();
     assert_eq!(m.bodies.iter().filter(|b| b.link.is_none()).count(), 2);
@@ -451,7 +452,7 @@ fn grown_mechanism(joints: &[J]) -> PlanarMechanism {
             format!("[[joint]]\nid = \"j{n} {part}")
         }
     });
-    PlanarMechanism::new(&mechanism(&renamed.collect::<String>()), 0).unwrap()
+    PlanarMechanism::new(&mechanism(&renamed.collect::<String>()), StateId::FREE).unwrap()
 }
 
 proptest! {

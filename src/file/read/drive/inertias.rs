@@ -8,7 +8,7 @@ use crate::geom::expr::Expr;
 use crate::model::drive::Payload;
 use crate::model::joint_type::JointType;
 use crate::model::loads::Inertia;
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 
 /// Inertia of a link about the axis it turns on the frame about.
 fn link_inertia(
@@ -26,7 +26,7 @@ fn link_inertia(
         return None;
     };
     let l = link_by_id(&m.links, id, &path, t.out)?;
-    let hinge = m.joints_in(0).map(|j| &m.joints[j]).find(|j| {
+    let hinge = m.joints_in(StateId::FREE).map(|j| &m.joints[j]).find(|j| {
         j.joint_type == JointType::Revolute && j.links.contains(&l) && j.links.contains(&m.frame())
     });
     let mass = m.links[l]

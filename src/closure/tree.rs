@@ -1,0 +1,152 @@
+//! Breadth-first spanning trees: of the links of a mechanism, and of any graph.
+
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use std::collections::VecDeque;
+
+/// A node reached from one reached before; links through a joint, where nothing else is said.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Step<N = LinkId, E = JointId> {
+    /// The node reached.
+    pub link: N,
+    /// The node it is reached from.
+    pub from: N,
+    /// The edge between the two.
+    pub joint: E,
+    /// Whether the node reached is the second end of the edge.
+    pub forward: bool,
+}
+
+/// The spanning tree of the links that a state's joints connect with the frame; every link after the one it hangs on.
+///
+/// # Complexity
+/// O(n + m) for n links, m joints.
+#[must_use]
+pub fn spanning_tree(mechanism: &Mechanism, state: StateId) -> Vec<Step> {
+    let joints: Vec<JointId> = mechanism.joints_in(state).collect();
+    let ends = joints
+        .iter()
+        .map(|&j| mechanism.joints[j].links.map(LinkId::index));
+    let (_, steps) = forest(
+        mechanism.links.len(),
+        ends,
+        |_| false,
+        [mechanism.frame().index()],
+    );
+    let named = |s: Step<usize, usize>| Step {
+        link: LinkId::new(s.link),
+        from: LinkId::new(s.from),
+        joint: joints[s.joint],
+        forward: s.forward,
+    };
+    steps.into_iter().map(named).collect()
+}
+
+/// Joints on a shortest path from the frame to a link, with the direction they are passed in; empty where there is none.
+///
+/// # Complexity
+/// O(n + m) for n links, m joints.
+#[must_use]
+pub fn path_from_frame(
+    mechanism: &Mechanism,
+    state: StateId,
+    link: LinkId,
+) -> Vec<(JointId, bool)> {
+    let (mut path, mut at) = (Vec::new(), link);
+    // Every step comes after the one that leads to where it starts.
+    for s in spanning_tree(mechanism, state).iter().rev() {
+        if s.link == at {
+            path.push((s.joint, s.forward));
+            at = s.from;
+        }
+    }
+    path.reverse();
+    path
+}
+
+/// Roots and steps of a spanning forest: a tree from each of the `starts` that no earlier one reaches. Edges marked `late`
+/// are taken only where no other edge leads on.
+///
+/// # Complexity
+/// O(n + m) for n nodes, m edges.
+pub fn forest(
+    nodes: usize,
+    edges: impl IntoIterator<Item = [usize; 2]>,
+    late: impl Fn(usize) -> bool,
+    starts: impl IntoIterator<Item = usize>,
+) -> (Vec<usize>, Vec<Step<usize, usize>>) {
+    let mut at: Vec<Vec<(usize, usize, bool)>> = vec![Vec::new(); nodes];
+    for (e, [a, b]) in edges.into_iter().enumerate() {
+        at[a].push((e, b, true));
+        at[b].push((e, a, false));
+    }
+    let (mut roots, mut steps) = (Vec::new(), Vec::new());
+    let mut reached = vec![false; nodes];
+    for start in starts {
+        if std::mem::replace(&mut reached[start], true) {
+            continue;
+        }
+        roots.push(start);
+        let (mut queue, mut waiting) = (VecDeque::from([start]), VecDeque::new());
+        loop {
+            let mut next = Vec::new();
+            if let Some(from) = queue.pop_front() {
+                for &(joint, link, forward) in &at[from] {
+                    let step = Step {
+                        link,
+                        from,
+                        joint,
+                        forward,
+                    };
+                    if late(joint) {
+                        waiting.push_back(step);
+                    } else {
+                        next.push(step);
+                    }
+                }
+            } else if let Some(step) = waiting.pop_front() {
+                next.push(step);
+            } else {
+                break;
+            }
+            for step in next {
+                if !std::mem::replace(&mut reached[step.link], true) {
+                    steps.push(step);
+                    queue.push_back(step.link);
+                }
+            }
+        }
+    }
+    (roots, steps)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_forest_spans(edges in prop::collection::vec([0..8usize, 0..8usize], 0..16), split in 0..16usize) {
+            let (roots, steps) = forest(8, edges.iter().copied(), |e| e >= split, 0..8);
+            // One step fewer than nodes in each tree, and trees as many as there are components.
+            prop_assert_eq!(roots.len() + steps.len(), 8);
+            let mut sets = petgraph::unionfind::UnionFind::<usize>::new(8);
+            let merged = edges.iter().filter(|[a, b]| sets.union(*a, *b)).count();
+            prop_assert_eq!(steps.len(), merged);
+            let mut reached = roots;
+            for s in &steps {
+                prop_assert!(reached.contains(&s.from) && !reached.contains(&s.link));
+                let ends = if s.forward { [s.from, s.link] } else { [s.link, s.from] };
+                prop_assert_eq!(edges[s.joint], ends);
+                reached.push(s.link);
+            }
+        }
+    }
+
+    #[test]
+    fn early_edges_come_first() {
+        // 0-1 late, 0-2 and 2-1 early: 1 is reached the long way.
+        let (_, steps) = forest(3, [[0, 1], [0, 2], [2, 1]], |e| e == 0, [0]);
+        assert_eq!(steps.iter().map(|s| s.joint).collect::<Vec<_>>(), [1, 2]);
+    }
+}

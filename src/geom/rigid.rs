@@ -1,0 +1,357 @@
+//! Rigid motions of space: where a body goes, or where a frame is in another.
+
+use crate::geom::vector::{Vector, X, Y, Z, across, add, cross, dot, length, scale};
+
+/// A twist (ω; v): angular velocity, then the velocity of the point at the origin.
+pub type Twist = [f64; 6];
+
+/// Angular velocity and velocity of a twist, or moment and force of a wrench.
+#[must_use]
+pub fn halves(t: &Twist) -> (Vector, Vector) {
+    ([t[0], t[1], t[2]], [t[3], t[4], t[5]])
+}
+
+/// A rotation and then a translation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// The rotation matrix, by rows.
+    pub rotation: [Vector; 3],
+    /// Where the origin goes.
+    pub translation: Vector,
+}
+
+impl Motion {
+    /// No motion.
+    pub const IDENTITY: Motion = Motion {
+        rotation: [X, Y, Z],
+        translation: [0.0; 3],
+    };
+
+    /// A shift without a turn.
+    #[must_use]
+    pub fn shift(translation: Vector) -> Motion {
+        Motion {
+            translation,
+            ..Motion::IDENTITY
+        }
+    }
+
+    /// The turn about an axis of any length through the origin `[rad]`; quarter turns are exact.
+    #[must_use]
+    pub fn turn(axis: Vector, angle: f64) -> Motion {
+        let exact = |x: f64| {
+            if (x - x.round()).abs() < 1e-15 {
+                x.round()
+            } else {
+                x
+            }
+        };
+        let (sine, cosine) = angle.sin_cos();
+        Motion {
+            rotation: rotation(towards(axis), exact(sine), exact(cosine)),
+            translation: [0.0; 3],
+        }
+    }
+
+    /// The turn by fixed-axis roll, pitch and yaw, as in URDF and SDF: Rz(yaw)·Ry(pitch)·Rx(roll), and a shift.
+    #[must_use]
+    pub fn roll_pitch_yaw(translation: Vector, angles: Vector) -> Motion {
+        let turns = [X, Y, Z].into_iter().zip(angles);
+        let turned = turns.fold(Motion::IDENTITY, |m, (axis, angle)| {
+            Motion::turn(axis, angle).then(&m)
+        });
+        Motion {
+            translation,
+            ..turned
+        }
+    }
+
+    /// The turn by a quaternion w, x, y, z of any length but zero, and a shift.
+    #[must_use]
+    pub fn quaternion(translation: Vector, q: [f64; 4]) -> Motion {
+        let n = dot(q, q);
+        let [w, x, y, z] = q;
+        let s = if n > 0.0 { 2.0 / n } else { 0.0 };
+        let rotation = [
+            [
+                1.0 - s * (y * y + z * z),
+                s * (x * y - w * z),
+                s * (x * z + w * y),
+            ],
+            [
+                s * (x * y + w * z),
+                1.0 - s * (x * x + z * z),
+                s * (y * z - w * x),
+            ],
+            [
+                s * (x * z - w * y),
+                s * (y * z + w * x),
+                1.0 - s * (x * x + y * y),
+            ],
+        ];
+        Motion {
+            rotation,
+            translation,
+        }
+    }
+
+    /// The least turn that takes z to an axis.
+    #[must_use]
+    pub fn z_to(axis: Vector) -> Motion {
+        let to = towards(axis);
+        let about = cross(Z, to);
+        if length(about) < 1e-12 {
+            return if dot(to, Z) > 0.0 {
+                Motion::IDENTITY
+            } else {
+                Motion::turn(X, std::f64::consts::PI)
+            };
+        }
+        Motion::turn(about, length(about).atan2(dot(Z, to)))
+    }
+
+    /// The exponential of a unit twist (unit angular velocity, or none) times `q`.
+    ///
+    /// # Sources
+    /// Lynch & Park, "Modern Robotics", 2017, proposition 3.25.
+    #[must_use]
+    pub fn exp(twist: &Twist, q: f64) -> Motion {
+        let (w, v) = halves(twist);
+        if w == [0.0; 3] {
+            return Motion::shift(scale(v, q));
+        }
+        let (sine, cosine) = q.sin_cos();
+        let rotation = rotation(w, sine, cosine);
+        // (I - R)(ω × v) + ω (ω·v) q
+        let u = cross(w, v);
+        let along = dot(w, v) * q;
+        Motion {
+            rotation,
+            translation: [0, 1, 2].map(|i| u[i] - dot(rotation[i], u) + w[i] * along),
+        }
+    }
+
+    /// The product self·inner: a place within the frame that this motion has carried along, or this motion after
+    /// another in fixed axes.
+    #[must_use]
+    pub fn then(&self, inner: &Motion) -> Motion {
+        let column = |j: usize| inner.rotation.map(|row| row[j]);
+        let columns = [column(0), column(1), column(2)];
+        Motion {
+            rotation: self.rotation.map(|row| columns.map(|c| dot(row, c))),
+            translation: self.point(inner.translation),
+        }
+    }
+
+    /// The motion back.
+    #[must_use]
+    pub fn inverse(&self) -> Motion {
+        let r = &self.rotation;
+        let back = Motion {
+            rotation: [0, 1, 2].map(|j| r.map(|row| row[j])),
+            translation: [0.0; 3],
+        };
+        Motion {
+            translation: scale(back.direction(self.translation), -1.0),
+            ..back
+        }
+    }
+
+    /// Where a point goes.
+    #[must_use]
+    pub fn point(&self, p: Vector) -> Vector {
+        add(self.direction(p), self.translation)
+    }
+
+    /// Where a direction goes.
+    #[must_use]
+    pub fn direction(&self, d: Vector) -> Vector {
+        self.rotation.map(|row| dot(row, d))
+    }
+
+    /// A twist carried along.
+    #[must_use]
+    pub fn twist(&self, t: &Twist) -> Twist {
+        let (w, v) = halves(t);
+        let w = self.direction(w);
+        let (v, m) = (self.direction(v), cross(self.translation, w));
+        [w[0], w[1], w[2], v[0] + m[0], v[1] + m[1], v[2] + m[2]]
+    }
+
+    /// The axis of the turn times its sine.
+    #[must_use]
+    pub fn sine(&self) -> Vector {
+        let r = &self.rotation;
+        let twice = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]];
+        twice.map(|x| x / 2.0)
+    }
+
+    /// The cosine of the turn.
+    #[must_use]
+    pub fn cosine(&self) -> f64 {
+        let r = &self.rotation;
+        (r[0][0] + r[1][1] + r[2][2] - 1.0) / 2.0
+    }
+
+    /// The angle of the turn `[rad]`, 0 to π.
+    #[must_use]
+    pub fn angle(&self) -> f64 {
+        length(self.sine()).atan2(self.cosine())
+    }
+
+    /// The rotation vector: the axis times the angle `[rad]`, at most π.
+    #[must_use]
+    pub fn rotation_vector(&self) -> Vector {
+        let axis = self.sine();
+        let s = length(axis);
+        if s > 1e-9 {
+            return scale(axis, self.angle() / s);
+        }
+        if self.cosine() > 0.0 {
+            return axis;
+        }
+        // Half a turn: the columns of R + 1 are parallel to the axis.
+        let column = |j: usize| {
+            let mut v = self.rotation.map(|row| row[j]);
+            v[j] += 1.0;
+            v
+        };
+        let longest = (0..3)
+            .map(column)
+            .max_by(|a, b| length(*a).total_cmp(&length(*b)))
+            .unwrap_or(Z);
+        scale(towards(longest), std::f64::consts::PI)
+    }
+}
+
+/// The unit vector, or z where there is none.
+#[must_use]
+pub fn towards(a: Vector) -> Vector {
+    let l = length(a);
+    if l > 0.0 && l.is_finite() {
+        scale(a, 1.0 / l)
+    } else {
+        Z
+    }
+}
+
+/// A direction across an axis: the first of x, y, z that is not parallel to it, made perpendicular.
+#[must_use]
+pub fn perpendicular(axis: Vector) -> Vector {
+    let z = towards(axis);
+    let first = [X, Y, Z]
+        .into_iter()
+        .find(|g| dot(*g, z).abs() < 0.9)
+        .unwrap_or(X);
+    towards(across(first, z))
+}
+
+/// The rotation about a unit vector (Rodrigues).
+fn rotation([x, y, z]: Vector, s: f64, c: f64) -> [Vector; 3] {
+    let t = 1.0 - c;
+    [
+        [t * x * x + c, t * x * y - s * z, t * x * z + s * y],
+        [t * x * y + s * z, t * y * y + c, t * y * z - s * x],
+        [t * x * z - s * y, t * y * z + s * x, t * z * z + c],
+    ]
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
+mod tests {
+    use super::*;
+    use crate::geom::vector::{sub, unit};
+    use proptest::prelude::*;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    fn vector() -> impl Strategy<Value = Vector> {
+        [-2.0..2.0, -2.0..2.0, -2.0..2.0]
+    }
+
+    fn motion() -> impl Strategy<Value = Motion> {
+        (vector(), [-1.0..1.0, -1.0..1.0, -1.0..1.0, 0.1..1.0f64])
+            .prop_map(|(at, q)| Motion::quaternion(at, q))
+    }
+
+    /// Largest difference of two motions.
+    fn apart(a: &Motion, b: &Motion) -> f64 {
+        let rows = a.rotation.iter().zip(b.rotation);
+        rows.map(|(a, b)| length(sub(*a, b)))
+            .fold(length(sub(a.translation, b.translation)), f64::max)
+    }
+
+    proptest! {
+        #[test]
+        fn products_are_associative(a in motion(), b in motion(), c in motion()) {
+            prop_assert!(apart(&a.then(&b).then(&c), &a.then(&b.then(&c))) < 1e-13);
+        }
+
+        #[test]
+        fn a_motion_and_its_inverse_cancel(a in motion()) {
+            prop_assert!(apart(&a.then(&a.inverse()), &Motion::IDENTITY) < 1e-13);
+            prop_assert!(apart(&a.inverse().then(&a), &Motion::IDENTITY) < 1e-13);
+        }
+
+        #[test]
+        fn lengths_angles_and_handedness_stay(a in motion(), u in vector(), v in vector()) {
+            let [x, y] = [u, v].map(|d| a.direction(d));
+            prop_assert!((dot(x, y) - dot(u, v)).abs() < 1e-13);
+            prop_assert!(length(sub(cross(x, y), a.direction(cross(u, v)))) < 1e-12);
+        }
+
+        #[test]
+        fn turns_about_one_axis_add_up(axis in vector(), at in vector(), a in -3.0..3.0, b in -3.0..3.0) {
+            prop_assume!(length(axis) > 0.1);
+            let (w, v) = (unit(axis), cross(at, unit(axis)));
+            let twist = [w[0], w[1], w[2], v[0] + 0.3 * w[0], v[1] + 0.3 * w[1], v[2] + 0.3 * w[2]];
+            let product = Motion::exp(&twist, a).then(&Motion::exp(&twist, b));
+            prop_assert!(apart(&product, &Motion::exp(&twist, a + b)) < 1e-12);
+        }
+
+        #[test]
+        fn a_carried_twist_generates_the_carried_motion(a in motion(), axis in vector(), v in vector(), q in -3.0..3.0) {
+            prop_assume!(length(axis) > 0.1);
+            let w = unit(axis);
+            let twist = [w[0], w[1], w[2], v[0], v[1], v[2]];
+            let carried = a.then(&Motion::exp(&twist, q)).then(&a.inverse());
+            prop_assert!(apart(&carried, &Motion::exp(&a.twist(&twist), q)) < 1e-12);
+        }
+
+        #[test]
+        fn the_rotation_vector_gives_the_turn_back(axis in vector(), angle in 0.001..3.14) {
+            prop_assume!(length(axis) > 0.1);
+            let turn = Motion::turn(axis, angle);
+            prop_assert!((turn.angle() - angle).abs() < 1e-12);
+            prop_assert!(length(sub(turn.rotation_vector(), scale(unit(axis), angle))) < 1e-10);
+        }
+
+        #[test]
+        fn z_goes_to_the_axis(axis in vector()) {
+            prop_assume!(length(axis) > 0.1);
+            prop_assert!(length(sub(Motion::z_to(axis).direction(Z), unit(axis))) < 1e-9);
+        }
+    }
+
+    #[test]
+    fn quarter_turns_are_exact() {
+        let p = Motion::roll_pitch_yaw([1.0, 2.0, 3.0], [FRAC_PI_2, 0.0, 0.0]);
+        assert_eq!(p.direction(Z), [0.0, -1.0, 0.0]);
+        assert_eq!(p.point([0.0, 0.1, 0.0]), [1.0, 2.0, 3.1]);
+    }
+
+    #[test]
+    fn roll_comes_first() {
+        let p = Motion::roll_pitch_yaw([0.0; 3], [FRAC_PI_2, 0.0, FRAC_PI_2]);
+        // y -> z by the roll; the yaw leaves it there.
+        assert_eq!(p.direction(Y), Z);
+        assert_eq!(p.direction(X), Y);
+    }
+
+    #[test]
+    fn half_a_turn_has_its_axis() {
+        for axis in [X, Y, unit([1.0, -2.0, 0.5])] {
+            let v = Motion::turn(axis, PI).rotation_vector();
+            assert!(length(cross(v, axis)) < 1e-9 && (length(v) - PI).abs() < 1e-9);
+        }
+    }
+}

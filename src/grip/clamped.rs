@@ -1,0 +1,103 @@
+//! Joint reactions of a mechanism that grips: the part cut free, and the contact forces of its hardest case on the jaws.
+
+use crate::geom::exact::ExactError;
+use crate::grip::clamping::{Row, Verdict};
+use crate::grip::gripping::effort;
+use crate::grip::jaw_loads::{Fit, Gripping, JawError};
+use crate::model::grip::Transmission;
+use crate::model::mechanism::Mechanism;
+use crate::motion::pose::Pose;
+use crate::statics::cycle::{PlanarStaticsError, Statics, statics_at};
+use crate::statics::reactions::drives::driven;
+use crate::statics::reactions::geometry::Geometry;
+use crate::statics::reactions::{Reactions, Solution, Unsolved};
+use crate::statics::solve::is_for_space;
+use crate::statics::transmission::rates;
+use thiserror::Error;
+
+/// Why a clamped mechanism has no reactions.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ClampedError {
+    /// Its levers do not fit the part.
+    #[error(transparent)]
+    Jaw(#[from] JawError),
+    /// In the plane.
+    #[error(transparent)]
+    Planar(#[from] PlanarStaticsError),
+    /// In space.
+    #[error(transparent)]
+    Spatial(#[from] Unsolved),
+    /// The geometry has no numbers.
+    #[error(transparent)]
+    Exact(#[from] ExactError),
+}
+
+/// Reactions by the equations that determine them.
+#[derive(Debug, Clone)]
+pub enum Found {
+    /// Those of the plane.
+    Planar(Box<Statics>),
+    /// Those of space.
+    Spatial(Solution),
+}
+
+/// A mechanism round a part.
+#[derive(Debug, Clone)]
+pub struct Clamped {
+    /// The mechanism with the part's forces among its loads.
+    pub mechanism: Mechanism,
+    /// Its pose.
+    pub fit: Fit,
+    /// Force `[N]`, or moment `[N·m]`, that the grip asks of one drive of both levers, and whether that drive slides.
+    pub effort: Option<(f64, bool)>,
+    /// The reactions.
+    pub found: Found,
+}
+
+/// What the grip asks of one drive of both levers in a pose, where the mechanism has one.
+fn asked(g: &Gripping, row: &Row, pose: &Pose) -> Option<(f64, bool)> {
+    let spec = g.mechanism.loads.grip.as_ref()?;
+    let (Transmission::Joints(joints), Verdict::Held(h)) =
+        (spec.transmission, &row.hardest.as_ref()?.verdict)
+    else {
+        return None;
+    };
+    let t = rates(&g.mechanism, pose, &joints).ok()?;
+    Some((effort(spec.load.as_ref()?.levers, h, &t)?, t.slides))
+}
+
+/// Reactions round the part of a row; `None` where it is not held. With one drive those of the plane where they determine
+/// the mechanism, unless all six components are asked for.
+///
+/// # Errors
+/// [`ClampedError`].
+pub fn clamped(g: &Gripping, row: &Row, spatial: bool) -> Result<Option<Clamped>, ClampedError> {
+    let fit = g.fit(row)?;
+    let Some(loads) = g.loads(row) else {
+        return Ok(None);
+    };
+    let mut m = g.mechanism.clone();
+    m.loads = loads;
+    let one_drive = m.joints.iter().filter(|j| j.drive).count() == 1;
+    let planar = match (!spatial && one_drive).then(|| statics_at(&m, g.state, &[fit.drive])) {
+        Some(Err(e)) if !is_for_space(&e) => return Err(e.into()),
+        Some(Ok(found)) => Some(found),
+        Some(Err(_)) | None => None,
+    };
+    let found = match planar {
+        Some(found) => Found::Planar(Box::new(found)),
+        None => {
+            let home = Pose::of_file(&m, g.state)?;
+            let drives = driven(&m, &Geometry::new(&m, g.state, &home)?)?;
+            let found = Reactions::at(&m, g.state, &m.loads, &fit.pose, fit.drive, &drives)?;
+            Found::Spatial(found)
+        }
+    };
+    Ok(Some(Clamped {
+        effort: asked(g, row, &fit.pose),
+        mechanism: m,
+        fit,
+        found,
+    }))
+}

@@ -1,0 +1,95 @@
+//! Closing the contours of a pose: damped Newton steps of least norm.
+
+use crate::motion::pose::Pose;
+use faer::Mat;
+use faer::linalg::solvers::SolveLstsq;
+
+/// Newton steps before a pose is given up.
+const STEPS: usize = 60;
+
+/// Why a pose could not be reached.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PoseError {
+    /// Newton's method found no closed pose.
+    #[error(
+        "the contours do not close: after {steps} steps a gap of {residual:.1e} of the mechanism's size is left"
+    )]
+    Open {
+        /// Steps taken.
+        steps: usize,
+        /// The gap.
+        residual: f64,
+    },
+}
+
+impl Pose {
+    /// The closed coordinates nearest (nearly) to `q`, by damped least-norm Newton steps; `hold` keeps some coordinates.
+    ///
+    /// # Errors
+    /// [`PoseError::Open`] where the gaps do not go below [`Pose::closed`].
+    ///
+    /// # Complexity
+    /// O((6k)²·f) a step.
+    pub fn close(&self, mut q: Vec<f64>, hold: &[usize]) -> Result<Vec<f64>, PoseError> {
+        let closed = self.closed();
+        // Errors of the coordinates must not be mended by running along the motion.
+        let floor = (1e3 * self.accuracy()).clamp(1e-11, 1e-2);
+        let (mut residual, mut before) = (f64::INFINITY, f64::INFINITY);
+        let mut best = (f64::INFINITY, q.clone());
+        for _ in 0..STEPS {
+            let gaps = self.gaps(&q);
+            residual = gaps.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if residual < best.0 {
+                best = (residual, q.clone());
+            }
+            // The last steps are for free: Newton's are quadratic, unless the pose is singular.
+            if residual < 1e-14 || !residual.is_finite() {
+                break;
+            }
+            // Measured contours never close quite: further steps would creep along the motion, to where they close better.
+            if self.accuracy() > 0.0 && residual < closed && residual > before / 2.0 {
+                break;
+            }
+            before = residual;
+            let mut jacobian = self.jacobian(&q);
+            for &c in hold {
+                jacobian.col_mut(c).fill(0.0);
+            }
+            let step = least_norm(&jacobian, &gaps, residual.clamp(floor, 1e-2));
+            let length = step.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if !length.is_finite() || (length < 1e-16 && residual < closed) {
+                break;
+            }
+            let shorten = (0.5 / length).min(1.0);
+            for (x, s) in q.iter_mut().zip(&step) {
+                *x -= shorten * s;
+            }
+        }
+        if best.0 < closed {
+            Ok(best.1)
+        } else {
+            Err(PoseError::Open {
+                steps: STEPS,
+                residual: residual.min(best.0),
+            })
+        }
+    }
+}
+
+/// The damped solution of J·x = gaps, min |J·x - gaps|² + λ|x|² by orthogonal factors, λ in proportion to the gap: where J is
+/// singular at the solution this still converges, and where it is regular the damping vanishes faster than the error
+/// [Yamashita & Fukushima 2001].
+fn least_norm(jacobian: &Mat<f64>, gaps: &[f64], damping: f64) -> Vec<f64> {
+    let (rows, columns) = jacobian.shape();
+    let stacked = Mat::from_fn(rows + columns, columns, |r, c| match r.checked_sub(rows) {
+        None => jacobian[(r, c)],
+        Some(i) if i == c => damping,
+        Some(_) => 0.0,
+    });
+    let right = Mat::from_fn(rows + columns, 1, |r, _| {
+        gaps.get(r).copied().unwrap_or(0.0)
+    });
+    let x = stacked.qr().solve_lstsq(&right);
+    (0..columns).map(|i| x[(i, 0)]).collect()
+}

@@ -1,0 +1,101 @@
+//! Robot descriptions as mechanisms.
+//!
+//! A description is read into links and joints with a place on either side; loops come from the file or from a file
+//! beside it ([`Options::loops`]). The joints are composed into one pose, loops that are open there are closed by
+//! changing joint values as little as possible, rigidly joined links become one, and the result is a mechanism and the
+//! entries of its file, with a [`Report`] of what was mapped, approximated and dropped.
+
+use crate::file::problem::ImportError;
+use crate::file::read::build;
+use crate::file::schema::MechanismFile;
+use crate::file::text::mechanism_from_str;
+use crate::file::write::{self, Comment};
+use crate::model::mechanism::Mechanism;
+use crate::robots::build::{apply_pose, close_loops, entries, held, root_link};
+use crate::robots::coupling;
+use crate::robots::formats::{Format, of_root, roots};
+use crate::robots::kinematics::spanning_tree;
+use crate::robots::loops;
+use crate::robots::options::{Options, Reader};
+use crate::robots::problem::{ExportError, RobotProblem};
+use crate::robots::warning::Report;
+use crate::robots::xml::{self, Document};
+
+/// A mechanism and how it came about.
+#[derive(Debug, Clone)]
+pub struct Imported {
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// The entries of its file.
+    pub file: MechanismFile,
+    /// The format read.
+    pub format: &'static Format,
+    /// What was mapped, approximated and dropped.
+    pub report: Report,
+    comments: Vec<Comment>,
+}
+
+impl Imported {
+    /// The mechanism file as TOML, with comments on what was merged and approximated.
+    ///
+    /// # Errors
+    /// Never, as far as is known.
+    pub fn toml(&self) -> Result<String, ExportError> {
+        Ok(write::toml(&self.file, &self.comments)?)
+    }
+}
+
+/// Imports a description. `read` gives the files it includes.
+///
+/// # Errors
+/// The first problem found, with its place.
+pub fn import(
+    name: &str,
+    bytes: &[u8],
+    read: Reader<'_>,
+    options: &Options,
+) -> Result<Imported, ImportError> {
+    let mut document = Document::default();
+    let root = document.read(name, xml::utf8(name, bytes)?)?;
+    let found = document.element(root).name().to_owned();
+    let Some((format, description)) = of_root(&found) else {
+        let known = roots();
+        let element = document.element(root);
+        return Err(element.fail(None, RobotProblem::Format { found, known }));
+    };
+    let mut robot = description(&mut document, root, read, options)?;
+    let fail = |p: RobotProblem| p.at(name, "", None);
+    if robot.links.is_empty() {
+        let element = document.element(root);
+        let what = "links".to_owned();
+        return Err(element.fail(
+            None,
+            RobotProblem::Missing {
+                element: element.label(),
+                what,
+            },
+        ));
+    }
+    if let Some((side, bytes)) = &options.loops {
+        loops::add(side, bytes, &mut robot)?;
+    }
+    apply_pose(&mut robot, options).map_err(fail)?;
+    let frame = root_link(&mut robot, options).map_err(fail)?;
+    let tree = spanning_tree(&robot, frame);
+    held(&robot, &tree).map_err(fail)?;
+    close_loops(&mut robot, &tree, options).map_err(fail)?;
+    let (file, comments) = entries(&mut robot, &tree, name, format.name, options).map_err(fail)?;
+    // Problems are shown in the text that would be written.
+    let mechanism = build(&file).or_else(|_| {
+        let text = write::toml(&file, &comments).unwrap_or_default();
+        mechanism_from_str("the imported mechanism", &text)
+    })?;
+    robot.report.kept = coupling::kept(&mechanism);
+    Ok(Imported {
+        mechanism,
+        file,
+        format,
+        report: robot.report,
+        comments,
+    })
+}

@@ -1,0 +1,193 @@
+//! The twelve equilibrium equations of the four-link group with a closed contour: by LU in double precision, and exactly.
+
+use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
+use crate::statics::dense::System;
+use crate::statics::pose::{length, minus};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+use std::ops::{Mul, Sub};
+
+/// The two links of each of D, F, K, M, L: the first bears the unknown, the second (if of the group) its opposite.
+const ENDS: [(usize, Option<usize>); 5] = [
+    (0, None),
+    (1, Some(0)),
+    (2, Some(0)),
+    (1, Some(3)),
+    (2, Some(3)),
+];
+
+/// What the twelve by twelve solution is worth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Worth {
+    /// Ratio of the greatest and smallest singular values, moments divided by the group's size.
+    pub condition: f64,
+    /// Greatest force left over in an equation, moments divided by the group's size, over the greatest load.
+    pub residual: f64,
+}
+
+/// The equations with moments about `origins`, in some number system: rows of 12 coefficients and the right side. The
+/// unknowns are the components at D, F, K, M, L, then the guide's reaction and its moment about D.
+fn equations<N>(g: &GroupPose, number: impl Fn(f64) -> N, origins: [[f64; 2]; 4]) -> Vec<Vec<N>>
+where
+    N: Clone + Sub<Output = N> + Mul<Output = N>,
+{
+    let zero = || number(0.0);
+    let mut rows = vec![vec![zero(); 13]; 12];
+    let minus = |a: &N, b: &N| a.clone() - b.clone();
+    let vector = |p: [f64; 2]| p.map(&number);
+    let arm = |p: [f64; 2], link: usize| {
+        let ([x, y], [u, v]) = (vector(p), vector(origins[link]));
+        [minus(&x, &u), minus(&y, &v)]
+    };
+    for (j, (point, (first, second))) in [g.d, g.f, g.k, g.m, g.l].into_iter().zip(ENDS).enumerate()
+    {
+        for (link, sign) in [(Some(first), 1.0), (second, -1.0)] {
+            let Some(link) = link else { continue };
+            let [x, y] = arm(point, link);
+            rows[3 * link][2 * j] = number(sign);
+            rows[3 * link + 1][2 * j + 1] = number(sign);
+            rows[3 * link + 2][2 * j] = number(-sign) * y;
+            rows[3 * link + 2][2 * j + 1] = number(sign) * x;
+        }
+    }
+    // The guide: a force at D along the normal, and a couple.
+    let [nx, ny] = vector(g.normal());
+    let [x, y] = arm(g.d, 3);
+    rows[9][10] = nx.clone();
+    rows[10][10] = ny.clone();
+    rows[11][10] = x * ny - y * nx;
+    rows[11][11] = number(1.0);
+    for load in &g.loads {
+        let [fx, fy] = vector(load.force);
+        let [x, y] = arm(load.point, load.body);
+        let row = 3 * load.body;
+        rows[row][12] = minus(&rows[row][12], &fx);
+        rows[row + 1][12] = minus(&rows[row + 1][12], &fy);
+        let turn = x * fy - y * fx;
+        rows[row + 2][12] = minus(&minus(&rows[row + 2][12], &turn), &number(load.moment));
+    }
+    rows
+}
+
+fn reactions(x: &[f64], arm: f64) -> GroupReactions {
+    let at = |j: usize| [x[2 * j], x[2 * j + 1]];
+    GroupReactions {
+        d: at(0),
+        f: at(1),
+        k: at(2),
+        m: at(3),
+        l: at(4),
+        guide: x[10],
+        guide_moment: x[11],
+        arm,
+    }
+}
+
+/// Reactions by LU with partial pivoting, with their worth; `None` where the equations are singular.
+#[must_use]
+pub fn solve(g: &GroupPose) -> Option<(GroupReactions, Worth)> {
+    let size = [g.f, g.k, g.m, g.l]
+        .map(|p| length(minus(p, g.d)))
+        .into_iter()
+        .fold(0.0, f64::max);
+    let mut rows = equations(g, |x| x, [g.d, g.m, g.l, g.m]);
+    for (r, row) in rows.iter_mut().enumerate() {
+        // The couple counts as a force at the group's size, and so do moments.
+        row[11] *= size;
+        if r % 3 == 2 {
+            row.iter_mut().for_each(|c| *c /= size);
+        }
+    }
+    let right: Vec<f64> = rows.iter_mut().filter_map(Vec::pop).collect();
+    let system = System::new(&rows);
+    let mut x = system.solve(&right)?;
+    let greatest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let residual = system.residual(&x, &right);
+    x[11] *= size;
+    let worth = Worth {
+        condition: system.condition(),
+        residual: if greatest > 0.0 {
+            residual / greatest
+        } else {
+            0.0
+        },
+    };
+    Some((reactions(&x, x[11] / x[10]), worth))
+}
+
+/// Reactions in rational arithmetic, every number of the pose taken as it stands, then rounded; `None` where the equations are
+/// singular or a number is not finite.
+///
+/// # Complexity
+/// O(12³) operations on whole numbers that grow to some thousand bits.
+#[must_use]
+pub fn exact(g: &GroupPose) -> Option<GroupReactions> {
+    let numbers = g
+        .loads
+        .iter()
+        .flat_map(|l| [l.point[0], l.point[1], l.force[0], l.force[1], l.moment]);
+    let points = [g.d, g.f, g.k, g.m, g.l, g.guide].into_iter().flatten();
+    if !numbers.chain(points).all(f64::is_finite) {
+        return None;
+    }
+    let number = |x: f64| BigRational::from_float(x).unwrap_or_else(BigRational::zero);
+    let rows = equations(g, number, [[0.0; 2]; 4]);
+    // Doubles are whole numbers over powers of two, so rows can be made whole; fraction-free Gauss-Jordan elimination
+    // (Bareiss) keeps them so, and leaves the determinant on the diagonal.
+    let mut rows: Vec<Vec<BigInt>> = rows.iter().map(|row| whole(row)).collect();
+    let mut last = BigInt::one();
+    for c in 0..12 {
+        let pivot = (c..12).filter(|&r| !rows[r][c].is_zero());
+        let best = pivot.min_by_key(|&r| rows[r][c].bits())?;
+        rows.swap(c, best);
+        let top = rows[c].clone();
+        for (r, row) in rows.iter_mut().enumerate().filter(|(r, _)| *r != c) {
+            let factor = row[c].clone();
+            // Columns already cleared are zero but for the diagonal, which is scaled along.
+            let first = if r < c { r } else { c };
+            for (x, t) in row.iter_mut().zip(&top).skip(first) {
+                *x = (&*x * &top[c] - &factor * t) / &last;
+            }
+        }
+        last = top[c].clone();
+    }
+    let over = |r: usize, by: &BigInt| BigRational::new(rows[r][12].clone(), by.clone());
+    let x: Vec<f64> = (0..12).map(|r| real(&over(r, &rows[r][r]))).collect();
+    let arm = if rows[10][12].is_zero() {
+        f64::INFINITY
+    } else {
+        real(&over(11, &rows[10][12]))
+    };
+    Some(reactions(&x, arm))
+}
+
+/// A row of dyadic rationals times the power of two that makes it whole.
+fn whole(row: &[BigRational]) -> Vec<BigInt> {
+    let denominator = row.iter().map(BigRational::denom).max();
+    let Some(common) = denominator else {
+        return Vec::new();
+    };
+    row.iter()
+        .map(|x| x.numer() * (common / x.denom()))
+        .collect()
+}
+
+/// The nearest double, or nearly so, of a rational of any length.
+fn real(x: &BigRational) -> f64 {
+    let bits = |n: &BigInt| i64::try_from(n.bits()).unwrap_or(i64::MAX);
+    if x.is_zero() {
+        return 0.0;
+    }
+    // Scale to 64 bits of quotient, so that neither part overflows a double.
+    let shift = 64 - (bits(x.numer()) - bits(x.denom()));
+    let scaled = if shift >= 0 {
+        (x.numer().abs() << shift) / x.denom()
+    } else {
+        x.numer().abs() / (x.denom() << (-shift))
+    };
+    let value = scaled.to_f64().unwrap_or(f64::NAN);
+    let sign = if x.is_negative() { -1.0 } else { 1.0 };
+    let exponent = i32::try_from(-shift).unwrap_or(0);
+    sign * value * 2f64.powi(exponent)
+}

@@ -1,0 +1,142 @@
+//! The group in one pose: points, guide and loads, and the reactions found there.
+
+use crate::statics::contour_group::letters::ContourGroup;
+use crate::statics::kinetostatics::{Load, Source};
+use crate::statics::planar::{BodyId, PairId};
+use crate::statics::pose::{Linkage, Pose, cross, dot, minus, quarter};
+
+/// A group in one pose: what the methods start from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GroupPose {
+    /// D `[m]`.
+    pub d: [f64; 2],
+    /// F `[m]`.
+    pub f: [f64; 2],
+    /// K `[m]`.
+    pub k: [f64; 2],
+    /// M `[m]`.
+    pub m: [f64; 2],
+    /// L `[m]`.
+    pub l: [f64; 2],
+    /// Unit direction of the guide; its reaction acts along a quarter turn of it.
+    pub guide: [f64; 2],
+    /// Loads on 4, 6, 7 and 10; `body` is their number 0 to 3.
+    pub loads: Vec<Load>,
+}
+
+impl GroupPose {
+    /// The group of a mechanism in a pose.
+    #[must_use]
+    pub fn new(linkage: &Linkage, g: &ContourGroup, pose: &Pose, loads: &[Load]) -> GroupPose {
+        let place = |p: PairId| linkage.place(pose, p);
+        let number = |b: BodyId| {
+            [g.ternary, g.rods[0], g.rods[1], g.slider]
+                .iter()
+                .position(|&x| x == b)
+        };
+        let own = loads.iter().filter_map(|l| {
+            Some(Load {
+                body: number(l.body)?,
+                ..*l
+            })
+        });
+        GroupPose {
+            d: place(g.d),
+            f: place(g.f),
+            k: place(g.k),
+            m: place(g.m),
+            l: place(g.l),
+            guide: linkage.along(pose, g.guide),
+            loads: own.collect(),
+        }
+    }
+
+    /// Direction that the guide's reaction is counted in.
+    #[must_use]
+    pub fn normal(&self) -> [f64; 2] {
+        quarter(self.guide)
+    }
+
+    /// Sum of the forces on a link `[N]`.
+    #[must_use]
+    pub fn force_on(&self, link: usize) -> [f64; 2] {
+        let own = self.loads.iter().filter(|l| l.body == link);
+        own.fold([0.0; 2], |s, l| [s[0] + l.force[0], s[1] + l.force[1]])
+    }
+
+    /// Moment of a link's loads about a point `[N·m]`.
+    #[must_use]
+    pub fn moment_on(&self, link: usize, about: [f64; 2]) -> f64 {
+        let own = self.loads.iter().filter(|l| l.body == link);
+        own.map(|l| l.moment_about(about)).sum()
+    }
+
+    /// Adds a force on a link.
+    pub fn push(&mut self, link: usize, point: [f64; 2], force: [f64; 2]) {
+        self.loads.push(Load {
+            body: link,
+            source: Source::External,
+            point,
+            force,
+            moment: 0.0,
+        });
+    }
+}
+
+/// Reactions of a group.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GroupReactions {
+    /// R34, on link 4 at D `[N]`.
+    pub d: [f64; 2],
+    /// R46, of link 4 on link 6 at F `[N]`.
+    pub f: [f64; 2],
+    /// R47, of link 4 on link 7 at K `[N]`.
+    pub k: [f64; 2],
+    /// Of link 10 on link 6 at M `[N]`.
+    pub m: [f64; 2],
+    /// Of link 10 on link 7 at L `[N]`.
+    pub l: [f64; 2],
+    /// R_0/10, of the guide on link 10 along [`GroupPose::normal`] `[N]`.
+    pub guide: f64,
+    /// Moment of the guide's reaction about D `[N·m]`.
+    pub guide_moment: f64,
+    /// Arm h of the guide's reaction about D `[m]`: its moment over it; not finite where it vanishes.
+    pub arm: f64,
+}
+
+impl GroupReactions {
+    /// The reactions at D, F, K, M, L, then of the guide as a vector.
+    #[must_use]
+    pub fn forces(&self, pose: &GroupPose) -> [[f64; 2]; 6] {
+        let guide = pose.normal().map(|c| c * self.guide);
+        [self.d, self.f, self.k, self.m, self.l, guide]
+    }
+
+    /// Greatest difference of any force from another solution's, over the greatest force of that.
+    #[must_use]
+    pub fn distance(&self, exact: &GroupReactions, pose: &GroupPose) -> f64 {
+        let (mine, theirs) = (self.forces(pose), exact.forces(pose));
+        let size = |v: [f64; 2]| v[0].hypot(v[1]);
+        let greatest = theirs.iter().map(|v| size(*v)).fold(0.0, f64::max);
+        let mut worst = 0.0;
+        for (a, b) in mine.iter().zip(&theirs) {
+            let away = size(minus(*a, *b));
+            if away.is_nan() {
+                return f64::INFINITY;
+            }
+            worst = f64::max(worst, away);
+        }
+        if greatest > 0.0 {
+            worst / greatest
+        } else {
+            worst
+        }
+    }
+
+    /// Where the guide's reaction acts: the distance along the guide from `point`; not finite where it vanishes.
+    #[must_use]
+    pub fn guide_offset(&self, pose: &GroupPose, point: [f64; 2]) -> f64 {
+        // A force N along the normal n at D + a has the moment a × n·N; along the guide u that is a·u N.
+        self.arm * cross(pose.guide, pose.normal()) - dot(minus(point, pose.d), pose.guide)
+    }
+}

@@ -1,0 +1,90 @@
+//! The group solved by all three methods, and how far they differ.
+
+use crate::statics::contour_group::delta_point::{self, DeltaSteps};
+use crate::statics::contour_group::equilibrium::{self, Worth};
+use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
+use crate::statics::contour_group::projective;
+use itertools::Itertools;
+
+/// A method for the four-link group with a closed contour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GroupMethod {
+    /// The δ-point method.
+    Delta,
+    /// Its projective form.
+    Projective,
+    /// The equilibrium equations.
+    Equilibrium,
+}
+
+impl GroupMethod {
+    /// All three, in the order of the documentation.
+    pub const ALL: [GroupMethod; 3] = [
+        GroupMethod::Delta,
+        GroupMethod::Projective,
+        GroupMethod::Equilibrium,
+    ];
+
+    /// The word for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            GroupMethod::Delta => "delta",
+            GroupMethod::Projective => "projective",
+            GroupMethod::Equilibrium => "equilibrium",
+        }
+    }
+}
+
+/// Reactions of a four-link group with a closed contour by three methods.
+#[derive(Debug, Clone)]
+pub struct GroupSolutions {
+    /// Index of the group in [`crate::statics::assur::Decomposition::groups`].
+    pub group: usize,
+    /// Its points and loads.
+    pub pose: GroupPose,
+    /// By the δ-point method.
+    pub delta: GroupReactions,
+    /// What the δ-point method found on its way.
+    pub steps: DeltaSteps,
+    /// By its projective form.
+    pub projective: GroupReactions,
+    /// By the twelve equilibrium equations, with their worth.
+    pub equilibrium: Option<(GroupReactions, Worth)>,
+}
+
+impl GroupSolutions {
+    /// Solves a group by every method.
+    #[must_use]
+    pub fn new(group: usize, pose: GroupPose) -> GroupSolutions {
+        let (delta, steps) = delta_point::solve(&pose);
+        GroupSolutions {
+            group,
+            delta,
+            steps,
+            projective: projective::solve(&pose),
+            equilibrium: equilibrium::solve(&pose),
+            pose,
+        }
+    }
+
+    /// The reactions by a method; none where its equations are singular.
+    #[must_use]
+    pub fn by(&self, method: GroupMethod) -> Option<GroupReactions> {
+        match method {
+            GroupMethod::Delta => Some(self.delta),
+            GroupMethod::Projective => Some(self.projective),
+            GroupMethod::Equilibrium => self.equilibrium.map(|(r, _)| r),
+        }
+    }
+
+    /// Greatest difference of any two methods' forces, over the greatest force; `None` with fewer than two.
+    #[must_use]
+    pub fn disagreement(&self, methods: &[GroupMethod]) -> Option<f64> {
+        let found = methods.iter().filter_map(|m| self.by(*m)).collect_vec();
+        let pairs = found.iter().tuple_combinations();
+        pairs
+            .map(|(a, b)| a.distance(b, &self.pose))
+            .max_by(f64::total_cmp)
+    }
+}

@@ -1,0 +1,192 @@
+//! How the three methods for the four-link group lose accuracy as its geometry nears each place where they fail.
+//!
+//! The reference is exact: the same doubles solved in rational arithmetic. Every distance is tried on several groups that
+//! differ by small random shifts of their points, and the median error is kept.
+
+use crate::statics::contour_group::equilibrium::{exact, solve};
+use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
+use crate::statics::contour_group::{delta_point, projective};
+use crate::statics::pose::{cross, length, minus, plus, quarter};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{RngCore, SeedableRng};
+use rayon::prelude::*;
+
+/// Groups tried at each distance in [`study`].
+pub const GROUPS: usize = 9;
+
+/// Where the δ-point method fails. `[Bychkov, Dvornikov & Zhukov 2018]`
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Failure {
+    /// Rods 6 and 7 are parallel: δ is at infinity. The distance is their angle `[rad]`.
+    ParallelRods,
+    /// D lies on the line through δ along the guide's normal: R34^n and R_0/10 are parallel, and the group moves. The
+    /// distance is the angle between Dδ and the normal `[rad]`.
+    AcrossGuide,
+    /// D is at δ. The distance is l_Dδ over what it was.
+    AtDelta,
+    /// The guide bears nothing: h is undefined. The distance is R_0/10 over what it was.
+    NoGuideReaction,
+}
+
+impl Failure {
+    /// All four.
+    pub const ALL: [Failure; 4] = [
+        Failure::ParallelRods,
+        Failure::AcrossGuide,
+        Failure::AtDelta,
+        Failure::NoGuideReaction,
+    ];
+
+    /// A word for files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Failure::ParallelRods => "parallel-rods",
+            Failure::AcrossGuide => "across-guide",
+            Failure::AtDelta => "at-delta",
+            Failure::NoGuideReaction => "no-guide-reaction",
+        }
+    }
+}
+
+/// A measure of each method: δ-point, projective, equilibrium.
+pub type ByMethod = [f64; 3];
+
+/// Errors at one distance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// The distance from the failure.
+    pub distance: f64,
+    /// Greatest error of a reaction over the greatest reaction.
+    pub forces: ByMethod,
+    /// Error of the arm h over the arm.
+    pub arm: ByMethod,
+    /// Condition of the equilibrium equations.
+    pub condition: f64,
+}
+
+fn turned(v: [f64; 2], angle: f64) -> [f64; 2] {
+    plus(v.map(|c| c * angle.cos()), angle.sin(), quarter(v))
+}
+
+fn delta(g: &GroupPose) -> [f64; 2] {
+    let (u, v) = (minus(g.f, g.m), minus(g.k, g.l));
+    plus(g.m, cross(minus(g.l, g.m), v) / cross(u, v), u)
+}
+
+/// A group at a distance from a failure; at distance 1 it is of the size of `base`. `None` where `base` has no exact solution.
+#[must_use]
+pub fn at_distance(base: &GroupPose, failure: Failure, distance: f64) -> Option<GroupPose> {
+    let mut g = base.clone();
+    let delta = delta(base);
+    match failure {
+        Failure::ParallelRods => {
+            let (rod6, rod7) = (minus(g.m, g.f), minus(g.l, g.k));
+            let sense = if cross(rod6, rod7) < 0.0 { -1.0 } else { 1.0 };
+            let scale = length(rod7) / length(rod6);
+            g.l = plus(g.k, scale, turned(rod6, sense * distance));
+        }
+        Failure::AcrossGuide => {
+            let from = minus(g.d, delta);
+            let along = plus(
+                g.normal().map(|c| c * distance.cos()),
+                distance.sin(),
+                g.guide,
+            );
+            g.d = plus(delta, length(from), along);
+        }
+        Failure::AtDelta => g.d = plus(delta, distance, minus(g.d, delta)),
+        Failure::NoGuideReaction => {
+            let off = exact(base)?.guide * (1.0 - distance);
+            g.push(3, g.m, g.normal().map(|c| c * off));
+        }
+    }
+    Some(g)
+}
+
+fn relative(found: f64, exact: f64) -> f64 {
+    let error = (found - exact).abs() / exact.abs();
+    if error.is_nan() { f64::INFINITY } else { error }
+}
+
+/// Errors of the three methods on one group; `None` where its equilibrium is singular.
+#[must_use]
+pub fn errors(g: &GroupPose, distance: f64) -> Option<Sample> {
+    let reference = exact(g)?;
+    let by_lu = solve(g);
+    let found: [Option<GroupReactions>; 3] = [
+        Some(delta_point::solve(g).0),
+        Some(projective::solve(g)),
+        by_lu.map(|x| x.0),
+    ];
+    let measure = |f: &dyn Fn(GroupReactions) -> f64| found.map(|r| r.map_or(f64::INFINITY, f));
+    Some(Sample {
+        distance,
+        forces: measure(&|r| r.distance(&reference, g)),
+        arm: measure(&|r| relative(r.arm, reference.arm)),
+        condition: by_lu.map_or(f64::INFINITY, |x| x.1.condition),
+    })
+}
+
+fn shifted(base: &GroupPose, rng: &mut ChaCha8Rng) -> GroupPose {
+    let size = length(minus(base.f, base.d));
+    let mut g = base.clone();
+    for p in [&mut g.d, &mut g.f, &mut g.k, &mut g.m, &mut g.l] {
+        for c in p {
+            #[allow(clippy::cast_precision_loss, reason = "31 bits")]
+            let unit = (rng.next_u32() >> 1) as f64 / f64::from(1u32 << 31) - 0.5;
+            *c += 1e-2 * size * unit;
+        }
+    }
+    g
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+/// Median errors at each distance over some groups near `base`.
+///
+/// # Complexity
+/// O(distances · groups) exact solutions.
+#[must_use]
+pub fn samples(
+    base: &GroupPose,
+    failure: Failure,
+    distances: &[f64],
+    groups: usize,
+    seed: u64,
+) -> Vec<Sample> {
+    let mut out = Vec::new();
+    for &distance in distances {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let all: Vec<Sample> = (0..groups)
+            .filter_map(|_| at_distance(&shifted(base, &mut rng), failure, distance))
+            .filter_map(|g| errors(&g, distance))
+            .collect();
+        let of = |f: &dyn Fn(&Sample) -> f64| median(all.iter().map(f).collect());
+        out.push(Sample {
+            distance,
+            forces: [0, 1, 2].map(|k| of(&|s| s.forces[k])),
+            arm: [0, 1, 2].map(|k| of(&|s| s.arm[k])),
+            condition: of(&|s| s.condition),
+        });
+    }
+    out
+}
+
+/// Median errors near every failure at distances 1 down to 1e-15, of [`GROUPS`] groups near `base` each.
+#[must_use]
+pub fn study(base: &GroupPose, seed: u64) -> Vec<(Failure, Vec<Sample>)> {
+    let distances = distances();
+    Failure::ALL
+        .par_iter()
+        .map(|&f| (f, samples(base, f, &distances, GROUPS, seed)))
+        .collect()
+}
+
+/// Distances 1 down to 1e-15, four a decade.
+fn distances() -> Vec<f64> {
+    (0..=60).map(|i| 10f64.powf(-f64::from(i) / 4.0)).collect()
+}

@@ -1,0 +1,150 @@
+//! What joints pass on, and what it is worth.
+
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::statics::reactions::drives::Driven;
+use crate::statics::reactions::geometry::{Geometry, Six, about, dot, power};
+
+/// What a joint passes from its first link to its second.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointReaction {
+    /// The joint.
+    pub joint: JointId,
+    /// Where it is now `[m]`, global axes.
+    pub point: [f64; 3],
+    /// Unit vectors x, y, z of its frame now.
+    pub axes: [[f64; 3]; 3],
+    /// The force in its own frame `[N]`.
+    pub force: [f64; 3],
+    /// The moment about its point in its own frame `[N·m]`.
+    pub moment: [f64; 3],
+    /// Force `[N]` or torque `[N·m]` of its drive, along the freedom it holds; part of force and moment.
+    pub effort: Option<(Freedom, f64)>,
+}
+
+impl JointReaction {
+    /// Magnitude of the force `[N]`.
+    #[must_use]
+    pub fn force_size(&self) -> f64 {
+        dot(self.force, self.force).sqrt()
+    }
+
+    /// Magnitude of the moment `[N·m]`.
+    #[must_use]
+    pub fn moment_size(&self) -> f64 {
+        dot(self.moment, self.moment).sqrt()
+    }
+
+    fn global(&self, own: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|i| (0..3).map(|k| own[k] * self.axes[k][i]).sum())
+    }
+
+    /// The force in global axes `[N]`.
+    #[must_use]
+    pub fn global_force(&self) -> [f64; 3] {
+        self.global(self.force)
+    }
+
+    /// The moment about the joint's point in global axes `[N·m]`.
+    #[must_use]
+    pub fn global_moment(&self) -> [f64; 3] {
+        self.global(self.moment)
+    }
+}
+
+/// A condition above this makes a mechanism nearly singular: figures good to few digits, reactions large.
+pub const NEARLY_SINGULAR: f64 = 1e4;
+
+/// Whether reactions are the only ones.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Choice {
+    /// They are: the mechanism is determinate.
+    Unique,
+    /// Those of minimum norm in a family.
+    MinimumNorm,
+}
+
+/// Reactions of a mechanism.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// By joint of the state, in file order.
+    pub reactions: Vec<JointReaction>,
+    /// Whether they are the only ones.
+    pub choice: Choice,
+    /// Reactions that load nothing from outside, one set for each redundant constraint (with drives held), greatest
+    /// force, or moment by size, 1 N.
+    pub self_stresses: Vec<Vec<JointReaction>>,
+    /// The reactions that fit the stated stiffness and misalignments, where stiffness is stated and it matters.
+    pub elastic: Option<Vec<JointReaction>>,
+    /// Freedoms left with the drives held; the loads do no work on them.
+    pub undriven: usize,
+    /// Ratio of the greatest and the smallest singular value kept.
+    pub condition: f64,
+    /// Greatest force, or moment by size, left over on a link, over the greatest load.
+    pub residual: f64,
+    /// The size that moments are divided by `[m]`.
+    pub size: f64,
+}
+
+impl Solution {
+    /// Whether small errors of the geometry change the reactions much.
+    #[must_use]
+    pub fn nearly_singular(&self) -> bool {
+        self.condition > NEARLY_SINGULAR
+    }
+}
+
+/// What is left over on the links, over the greatest load.
+pub(crate) fn residual(m: &Mechanism, geometry: &Geometry, wrenches: &[Six], loads: &[Six]) -> f64 {
+    let mut sums = loads.to_vec();
+    for &j in &geometry.joints {
+        let [a, b] = m.joints[j].links;
+        for i in 0..6 {
+            sums[a][i] -= wrenches[j][i];
+            sums[b][i] += wrenches[j][i];
+        }
+    }
+    sums[m.frame()] = [0.0; 6];
+    let greatest = |of: &[Six]| {
+        of.iter()
+            .flatten()
+            .fold(0.0, |a: f64, x: &f64| a.max(x.abs()))
+    };
+    match greatest(loads) {
+        0.0 => greatest(&sums),
+        load => greatest(&sums) / load,
+    }
+}
+
+/// Wrenches by joint as reactions in the joints' own frames, in SI.
+pub(crate) fn present(
+    m: &Mechanism,
+    geometry: &Geometry,
+    wrenches: &[Six],
+    drives: &[Driven],
+) -> Vec<JointReaction> {
+    let each = geometry.joints.iter().map(|&j| {
+        let w = about(&wrenches[j], geometry.points[j]);
+        let axes = geometry.axes[j];
+        let own = |v: [f64; 3]| axes.map(|a| dot(a, v));
+        let held = drives.iter().find(|(d, _)| *d == j && m.joints[j].drive);
+        let effort = held.and_then(|&(_, freedom)| {
+            let column = geometry
+                .columns
+                .iter()
+                .find(|c| c.joint == j && c.freedom == freedom)?;
+            let turns = column.twist[..3] != [0.0; 3];
+            let unit = if turns { geometry.size } else { 1.0 };
+            Some((freedom, power(&column.twist, &wrenches[j]) * unit))
+        });
+        JointReaction {
+            joint: j,
+            point: [0, 1, 2].map(|i| geometry.middle[i] + geometry.size * geometry.points[j][i]),
+            axes,
+            force: own([w[3], w[4], w[5]]),
+            moment: own([w[0], w[1], w[2]]).map(|x| x * geometry.size),
+            effort,
+        }
+    });
+    each.collect()
+}

@@ -1,0 +1,129 @@
+//! Reactions of a mechanism in one pose.
+
+use crate::model::loads::Loads;
+use crate::model::mechanism::{LinkId, Mechanism, StateId};
+use crate::motion::pose::Pose;
+use crate::statics::reactions::applied::link_loads;
+use crate::statics::reactions::drives::{Driven, driven, period};
+use crate::statics::reactions::equations::System;
+use crate::statics::reactions::family;
+use crate::statics::reactions::geometry::{Geometry, Six, power};
+use crate::statics::reactions::inertia::inertia_loads;
+use crate::statics::reactions::solution::{Choice, Solution, present, residual};
+use crate::statics::reactions::unsolved::{Unsolved, no_couplings};
+
+/// Work on undriven motions below this fraction of the loads is none.
+const NO_WORK: f64 = 1e-8;
+
+/// Solves for reactions.
+#[derive(Debug)]
+pub struct Reactions;
+
+impl Reactions {
+    /// Reactions at the pose of the file.
+    ///
+    /// # Errors
+    /// [`Unsolved`].
+    ///
+    /// # Complexity
+    /// O((6k)²·f) for k contours and f freedoms.
+    pub fn solve(m: &Mechanism, state: StateId, loads: &Loads) -> Result<Solution, Unsolved> {
+        let pose = Pose::of_file(m, state)?;
+        let geometry = Geometry::new(m, state, &pose)?;
+        let drives = driven(m, &geometry)?;
+        Self::at(m, state, loads, &pose, 0.0, &drives)
+    }
+
+    /// The same with inertia forces of drives that go at the stated speeds, at any pose.
+    ///
+    /// # Errors
+    /// [`Unsolved`].
+    pub fn moving(
+        m: &Mechanism,
+        state: StateId,
+        pose: &Pose,
+        drive: f64,
+        drives: &[Driven],
+    ) -> Result<Solution, Unsolved> {
+        no_couplings(m, state)?;
+        let geometry = Geometry::new(m, state, pose)?;
+        let mut of_links = link_loads(m, &m.loads, &geometry, pose, drive, period(drives));
+        let inertia = inertia_loads(m, &m.loads, &geometry, pose, drives)?;
+        for (all, own) in of_links.iter_mut().zip(&inertia) {
+            all.iter_mut().zip(own).for_each(|(a, b)| *a += b);
+        }
+        Self::bearing(m, &m.loads, &geometry, &of_links, drives)
+    }
+
+    /// Reactions at any pose, the first drive `drive` `[rad]` or file units away from the pose of the file, with the
+    /// freedoms the drives hold.
+    ///
+    /// # Errors
+    /// [`Unsolved`].
+    pub fn at(
+        m: &Mechanism,
+        state: StateId,
+        loads: &Loads,
+        pose: &Pose,
+        drive: f64,
+        drives: &[Driven],
+    ) -> Result<Solution, Unsolved> {
+        no_couplings(m, state)?;
+        let geometry = Geometry::new(m, state, pose)?;
+        let of_links = link_loads(m, loads, &geometry, pose, drive, period(drives));
+        Self::bearing(m, loads, &geometry, &of_links, drives)
+    }
+
+    /// Reactions to one wrench a link.
+    fn bearing(
+        m: &Mechanism,
+        loads: &Loads,
+        geometry: &Geometry,
+        loads_of_links: &[Six],
+        drives: &[Driven],
+    ) -> Result<Solution, Unsolved> {
+        let system = System::new(geometry, drives)?;
+        let particular = geometry.along_tree(m.joints.len(), loads_of_links);
+        let mut wrenches = particular.clone();
+        let left = system.solve(&mut wrenches);
+        let scale = particular
+            .iter()
+            .flatten()
+            .fold(0.0, |a: f64, x| a.max(x.abs()));
+        let work = left.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        if work > NO_WORK * scale {
+            let mut speeds = vec![0.0; geometry.columns.len()];
+            for (&c, x) in system.equations.iter().zip(&left) {
+                speeds[c] = *x;
+            }
+            let twists = geometry.link_twists(m.links.len(), &speeds);
+            // The loaded link that the motion carries along most, else the fastest.
+            let gain = |l: LinkId| -power(&twists[l], &loads_of_links[l]).abs();
+            let fastest = m.link_ids().min_by(|&a, &b| gain(a).total_cmp(&gain(b)));
+            return Err(Unsolved::Moves {
+                link: fastest.map_or_else(String::new, |l| m.links[l].id.clone()),
+                mobility: system.undriven(),
+            });
+        }
+        let stresses = system.self_stresses(m.joints.len());
+        let rigid = wrenches.clone();
+        family::least_norm(geometry, &mut wrenches, &stresses);
+        let elastic = family::elastic(m, geometry, loads, rigid, &stresses);
+        let residual = residual(m, geometry, &wrenches, loads_of_links);
+        let present = |w: &[Six]| present(m, geometry, w, drives);
+        Ok(Solution {
+            choice: if stresses.is_empty() {
+                Choice::Unique
+            } else {
+                Choice::MinimumNorm
+            },
+            reactions: present(&wrenches),
+            self_stresses: stresses.iter().map(|s| present(s)).collect(),
+            elastic: elastic.map(|w| present(&w)),
+            undriven: system.undriven(),
+            condition: system.condition(),
+            residual,
+            size: geometry.size,
+        })
+    }
+}

@@ -1,0 +1,65 @@
+//! Why there are no reactions.
+
+use crate::geom::exact::ExactError;
+use crate::model::mechanism::{Mechanism, StateId};
+use thiserror::Error;
+
+/// Why there are no reactions.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Unsolved {
+    /// The geometry has no numbers.
+    #[error(transparent)]
+    Exact(#[from] ExactError),
+    /// The singular values did not converge.
+    #[error("the singular values did not converge; check coordinates and loads for extreme values")]
+    NoConvergence,
+    /// Joints are coupled.
+    #[error(
+        "joints {coupling} are coupled, and what gears or belts pass from joint to joint is not part of the statics; take the \
+         coupling out and drive both joints, or rank by cost alone"
+    )]
+    Coupled {
+        /// The coupling.
+        coupling: String,
+    },
+    /// The drives cannot go at their speeds.
+    #[error(
+        "the drives cannot go at the stated speeds in this pose, a dead point; state another workload.drive_speed, or look at \
+         other poses with --stroke"
+    )]
+    Stuck,
+    /// An inertia about a plane's normal where there is no plane.
+    #[error(
+        "link {link} states one number for its inertia, which is about the normal of a plane, and the mechanism moves in \
+         space; give 3 about the axes or 6 of a tensor"
+    )]
+    PlaneInertia {
+        /// The link.
+        link: String,
+    },
+    /// Loads do work on a motion that no drive holds.
+    #[error(
+        "no equilibrium: link {link} would move under the loads, and no drive holds it ({mobility} undriven freedoms); \
+         mark a drive, take the load off, or give the joint less freedom"
+    )]
+    Moves {
+        /// The link that would move fastest.
+        link: String,
+        /// Freedoms left with the drives locked.
+        mobility: usize,
+    },
+}
+
+/// Refuses a mechanism with coupled joints, whose reactions are not those of the joints alone.
+///
+/// # Errors
+/// [`Unsolved::Coupled`] with the first coupling.
+pub fn no_couplings(m: &Mechanism, state: StateId) -> Result<(), Unsolved> {
+    match m.couplings_in(state).next() {
+        None => Ok(()),
+        Some(c) => Err(Unsolved::Coupled {
+            coupling: c.name(m),
+        }),
+    }
+}

@@ -1,0 +1,333 @@
+//! A torsional drive for people: the bar, whether it runs its programme, and why.
+
+use crate::drive::driving::DampingFrom;
+use crate::drive::programme::{Event, PATIENCE};
+use crate::drive::swing::End;
+use crate::drive::torsion::stored_energy;
+use crate::format::number::significant;
+use crate::format::phrase::plural;
+use crate::view::drive::{Design, Drive, Endurance, Remedies};
+use crate::view::layout::{fit, table};
+use std::fmt::Write;
+
+/// Rows of the programme shown before the rest is left out.
+const SHOWN: usize = 24;
+
+/// The report, fitted to a terminal of `width` columns where one is given.
+#[must_use]
+pub fn drive(d: &Drive<'_>, width: Option<u16>) -> String {
+    let mut out = String::new();
+    // Writing to a string cannot fail.
+    let _ = match &d.design {
+        Some(design) => designed(&mut out, d, design, width),
+        None => refused(&mut out, d, width),
+    };
+    fit(&out, width)
+}
+
+/// A length in the file's unit, with its symbol.
+fn length(d: &Drive<'_>, x: f64) -> String {
+    let unit = d.file.length_unit;
+    format!("{} {}", significant(x / unit.metres), unit.symbol)
+}
+
+fn degrees(x: f64) -> String {
+    format!("{}°", significant(x.to_degrees()))
+}
+
+fn refused(out: &mut String, d: &Drive<'_>, width: Option<u16>) -> std::fmt::Result {
+    writeln!(
+        out,
+        "{}: no torsion bar swings {} in {} s\n",
+        d.mechanism,
+        degrees(2.0 * d.half_swing),
+        significant(d.period / 2.0)
+    )?;
+    if let Some(t) = d.sizing.trials.last() {
+        match t.strong {
+            false => writeln!(
+                out,
+                "  (11) fails: the last bar tried, d = {} and l = {}, may be twisted by [φ] = {}, not more than φ0 = {}",
+                length(d, t.diameter),
+                length(d, t.length),
+                degrees(t.allowable_twist),
+                degrees(d.half_swing)
+            )?,
+            true => writeln!(
+                out,
+                "  no room: the bar that satisfies (11), d = {}, must be l = {} long; there are {}",
+                length(d, t.diameter),
+                length(d, t.length),
+                d.file
+                    .spec
+                    .max_length
+                    .map_or_else(String::new, |l| length(d, l))
+            )?,
+        }
+    }
+    if let Some(Remedies {
+        length_above,
+        allowable_stress_above,
+        period_above,
+        half_swing_below,
+        inertia_below,
+    }) = d.sizing.remedies
+    {
+        let lines = [
+            "  Any one of these is enough, bars of any diameter being had:".to_owned(),
+            format!("    a bar longer than {}", length(d, length_above)),
+            format!(
+                "    a material of [τ_s] above {} MPa",
+                significant(allowable_stress_above * 1e-6)
+            ),
+            format!("    a period above {} s", significant(period_above)),
+            format!("    a swing 2φ0 below {}", degrees(2.0 * half_swing_below)),
+            format!("    an inertia below {} kg·m²", significant(inertia_below)),
+        ];
+        writeln!(out, "{}", lines.join("\n"))?;
+    }
+    writeln!(out, "\n{}", trials(d, width))
+}
+
+fn trials(d: &Drive<'_>, width: Option<u16>) -> String {
+    let (metres, symbol) = (d.file.length_unit.metres, d.file.length_unit.symbol);
+    let rows = d.sizing.trials.iter().map(|t| {
+        let verdict = match (t.strong, t.fits) {
+            (true, true) => "holds",
+            (false, _) => "(11) fails",
+            (true, false) => "too long",
+        };
+        let mut row = [
+            t.length / metres,
+            t.diameter / metres,
+            t.allowable_twist.to_degrees(),
+            d.half_swing.to_degrees(),
+        ]
+        .map(significant)
+        .to_vec();
+        row.push(verdict.to_owned());
+        row
+    });
+    let (l, bar) = (format!("l, {symbol}"), format!("d, {symbol}"));
+    table(&[&l, &bar, "[φ], °", "φ0, °", ""], rows.collect(), width)
+}
+
+fn designed(
+    out: &mut String,
+    d: &Drive<'_>,
+    design: &Design,
+    width: Option<u16>,
+) -> std::fmt::Result {
+    let spec = &d.file.spec;
+    let wanted = plural(design.wanted, "swing");
+    let verdict = match d.complete {
+        true => format!("all {wanted} latched"),
+        false => format!("fails after {} of {wanted}", design.latched),
+    };
+    writeln!(
+        out,
+        "{}: torsion bar d = {}, l = {}; swings {} in {} s, {verdict}\n",
+        d.mechanism,
+        length(d, design.diameter),
+        length(d, design.length),
+        degrees(2.0 * d.half_swing),
+        significant(d.period / 2.0)
+    )?;
+    let last = d.found.and_then(|f| f.run.swings().last());
+    if let Some((disc, swing)) = last.filter(|_| !d.complete) {
+        let why = match swing.end {
+            End::Stuck => "is stuck: friction is stronger than the wound bar".to_owned(),
+            End::Missed { missing } => format!(
+                "stops {} short of its latch, which catches {}; feed more energy or lower friction",
+                degrees(missing),
+                degrees(spec.capture)
+            ),
+            End::Latched { .. } | End::Caught { .. } => String::new(),
+        };
+        writeln!(out, "  disc {} {why}\n", disc + 1)?;
+    }
+    let second = match d.inertias[1] == d.inertias[0] {
+        true => String::new(),
+        false => format!(" and {} kg·m²", significant(d.inertias[1])),
+    };
+    writeln!(
+        out,
+        "  I = {} kg·m²{second}, k = {} N·m/rad, wound by {} at {} MPa of {}: {} J",
+        significant(d.inertias[0]),
+        significant(design.stiffness),
+        degrees(d.half_swing),
+        significant(design.stress * 1e-6),
+        significant(spec.allowable_stress * 1e-6),
+        significant(stored_energy(design.stiffness, d.half_swing))
+    )?;
+    losses(out, d, design)?;
+    motions(out, d, design)?;
+    writeln!(out, "\n  Sizing, (10) and (11):\n\n{}", trials(d, width))?;
+    writeln!(out, "\n  Programme:\n\n{}", programme(d, width))
+}
+
+fn losses(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result {
+    let from = match design.damping.from {
+        DampingFrom::Stated => "as stated",
+        DampingFrom::MissingAngle => "viscous, from the missing angle",
+        DampingFrom::None => "none stated",
+    };
+    writeln!(
+        out,
+        "  damping ({from}): {} N·m·s/rad and {} N·m",
+        significant(design.damping.viscous),
+        significant(design.damping.coulomb)
+    )?;
+    if design.missing_angle > 0.0 {
+        writeln!(
+            out,
+            "  without the cam a swing ends Δφ = {} short: δ = {} a swing (6), E_fr = {} J (12)",
+            degrees(design.missing_angle),
+            significant(design.decrement),
+            significant(design.friction_energy)
+        )?;
+    }
+    match design.needed_feed {
+        Some(needed) if design.friction_energy > 0.0 => writeln!(
+            out,
+            "  to arrive at rest the cam must give {} J, {:+.2} % on (12), since the fed swing is longer and faster; {} J in this run",
+            significant(needed),
+            (needed / design.friction_energy - 1.0) * 100.0,
+            significant(design.feed)
+        )?,
+        Some(needed) => writeln!(
+            out,
+            "  to arrive at rest the cam must give {} J",
+            significant(needed)
+        )?,
+        None => writeln!(
+            out,
+            "  no work of the cam brings the disc to its latch: it stops before the push begins"
+        )?,
+    }
+    if d.complete {
+        match design.endurance {
+            Endurance::Going {
+                lasts: Some(_),
+                missing,
+            } => writeln!(
+                out,
+                "  in the long run every swing is latched, {} short",
+                degrees(missing)
+            )?,
+            Endurance::Going {
+                lasts: None,
+                missing,
+            } => writeln!(
+                out,
+                "  after {PATIENCE} more swings they still drift, {} short by then",
+                degrees(missing)
+            )?,
+            Endurance::Failing { after, .. } => writeln!(
+                out,
+                "  BUT NOT FOR LONG: swings fall ever shorter, and after {after} of them a latch is missed; the cam must give more"
+            )?,
+        }
+    }
+    if let Some(cam) = &design.cam {
+        let exact = cam.needed.as_ref().map_or_else(String::new, |s| {
+            format!("; {} N/m by the simulation", significant(s.rate))
+        });
+        writeln!(
+            out,
+            "  cam spring: c = {} N/m (14), which gives {} J (13){exact}",
+            significant(cam.spring.rate),
+            significant(cam.spring.energy)
+        )?;
+    }
+    Ok(())
+}
+
+fn motions(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result {
+    let same = d.inertias[0] == d.inertias[1];
+    for (i, m) in design
+        .motions
+        .iter()
+        .enumerate()
+        .take(if same { 1 } else { 2 })
+    {
+        let who = if same {
+            "either disc".to_owned()
+        } else {
+            format!("disc {}", i + 1)
+        };
+        writeln!(
+            out,
+            "  greatest motion of {who}: {} rad/s² at the ends, {} rad/s in the middle",
+            significant(m.angular_acceleration),
+            significant(m.angular_speed)
+        )?;
+        if let (Some(a), Some(p)) = (m.acceleration, d.file.spec.payload) {
+            let radius = significant(p.radius / d.file.length_unit.metres);
+            writeln!(
+                out,
+                "    at {radius} {} from the axis {} m/s²; a grip there must hold: ozols grip FILE --any-acceleration {:.3}",
+                d.file.length_unit.symbol,
+                significant(a),
+                a
+            )?;
+        }
+    }
+    Ok(())
+}
+
+fn programme(d: &Drive<'_>, width: Option<u16>) -> String {
+    let mut rows = Vec::new();
+    for s in d.found.iter().flat_map(|f| &f.run.steps) {
+        let mut row = vec![significant(s.start), significant(s.duration)];
+        match &s.event {
+            Event::Dwell => row.extend(["dwell", "", "", "", ""].map(str::to_owned)),
+            Event::Swing { disc, swing } => {
+                let ahead = (s.angles[*disc] - s.angles[1 - disc]).signum();
+                let to = s.angles[1 - disc] - ahead * swing.place;
+                let end = match swing.end {
+                    End::Latched { impact } => {
+                        format!("latched, {} J left over", significant(impact))
+                    }
+                    End::Caught { missing } => format!("caught {} short", degrees(missing)),
+                    End::Missed { missing } => format!("missed by {}", degrees(missing)),
+                    End::Stuck => "stuck".to_owned(),
+                };
+                let b = &swing.balance;
+                row.extend([
+                    format!(
+                        "disc {}: {} to {}",
+                        disc + 1,
+                        degrees(s.angles[*disc]),
+                        degrees(to)
+                    ),
+                    significant(b.fed),
+                    significant(b.coulomb + b.viscous),
+                    significant(b.stored),
+                    end,
+                ]);
+            }
+        }
+        rows.push(row);
+    }
+    let all = rows.len();
+    rows.truncate(SHOWN);
+    let head = [
+        "start, s",
+        "time, s",
+        "step",
+        "fed, J",
+        "lost, J",
+        "stored, J",
+        "end",
+    ];
+    let mut text = table(&head, rows, width);
+    if all > SHOWN {
+        let _ = write!(
+            text,
+            "\n  and {} more; --format json has them all",
+            plural(all - SHOWN, "step")
+        );
+    }
+    text
+}

@@ -1,0 +1,228 @@
+//! A gripper for people: whether it holds, with what drive, and why.
+
+use crate::format::number::significant;
+use crate::format::phrase::plural;
+use crate::model::grip::{LeverDrive, PartMass, Pivots, Toward};
+use crate::view::grip::{Contact, Diameter, Grip};
+use crate::view::layout::{fit, table};
+use std::fmt::Write;
+
+/// The report, fitted to a terminal of `width` columns where one is given.
+#[must_use]
+pub fn grip(g: &Grip<'_>, width: Option<u16>) -> String {
+    let mut out = String::new();
+    // Writing to a string cannot fail.
+    let _ = write(&mut out, g, width);
+    fit(&out, width)
+}
+
+/// A length in the file's unit.
+fn length(g: &Grip<'_>, x: f64) -> String {
+    significant(x / g.file.length_unit.metres)
+}
+
+fn range(g: &Grip<'_>, rows: &[&Diameter<'_>]) -> String {
+    let symbol = g.file.length_unit.symbol;
+    let d = |r: &Diameter| length(g, r.diameter);
+    match rows {
+        [] => "nothing".to_owned(),
+        [one] => format!("D = {} {symbol}", d(one)),
+        [first, .., last] => format!("D = {} to {} {symbol}", d(first), d(last)),
+    }
+}
+
+fn write(out: &mut String, g: &Grip<'_>, width: Option<u16>) -> std::fmt::Result {
+    let (name, symbol) = (g.mechanism, g.file.length_unit.symbol);
+    let (held, lost): (Vec<&Diameter>, Vec<&Diameter>) = g.diameters.iter().partition(|d| d.holds);
+    let verb = if g.file.spec.load.is_some() {
+        "holds"
+    } else {
+        "can hold (no load stated)"
+    };
+    match (held.is_empty(), lost.is_empty()) {
+        (true, _) => write!(out, "{name}: cannot hold {}", range(g, &lost))?,
+        (false, true) => write!(out, "{name}: {verb} {}", range(g, &held))?,
+        (false, false) => write!(
+            out,
+            "{name}: {verb} {} of {} diameters, not all",
+            held.len(),
+            g.diameters.len()
+        )?,
+    }
+    if let Some((d, load)) = g.hardest.as_ref().and_then(|d| Some((d, d.load.as_ref()?))) {
+        write!(out, "; hardest at {} {symbol}", length(g, d.diameter))?;
+        if let Some(moment) = load.drive_moment_per_lever {
+            let moment = significant(moment);
+            write!(out, ", {}: drive moment {moment} N·m per lever", load.case)?;
+        }
+        if let (Some(effort), Some(t)) = (load.drive_effort, d.transmission) {
+            write!(out, ", {}", effort_of_drive(effort, t.drive == "slides"))?;
+        }
+    }
+    writeln!(out, "\n")?;
+    for d in &lost {
+        for reason in d.reasons() {
+            let at = length(g, d.diameter);
+            writeln!(out, "  D = {at} {symbol} cannot be held: {reason}")?;
+        }
+    }
+    if !lost.is_empty() {
+        writeln!(out)?;
+    }
+    inputs(out, g)?;
+    writeln!(out, "\n{}", diameters(g, width))?;
+    let hardest = g.hardest.as_ref().and_then(|d| d.load.as_ref());
+    if let Some(forces) = hardest.and_then(|l| l.contacts.as_ref()) {
+        writeln!(
+            out,
+            "\n  The four contact forces in that case:\n\n{}",
+            contacts(forces, width)
+        )?;
+    }
+    writeln!(
+        out,
+        "\n  Findings of [Pavlenko & Godunko 2010], on the curves of its figures: {} of {} confirmed\n",
+        g.findings.iter().filter(|f| f.holds).count(),
+        g.findings.len()
+    )?;
+    let lines = g.findings.iter().map(|f| {
+        let so = if f.holds { "yes" } else { "NO" };
+        [f.claim, so, f.evidence].map(str::to_owned).to_vec()
+    });
+    let header = ["finding", "so", "evidence"];
+    writeln!(out, "{}", table(&header, lines.collect(), width))
+}
+
+/// What one drive of both levers takes: a force where it slides, a moment where it turns.
+pub(super) fn effort_of_drive(effort: f64, slides: bool) -> String {
+    match slides {
+        true => format!("drive force {} N", significant(effort)),
+        false => format!("drive moment {} N·m", significant(effort)),
+    }
+}
+
+fn inputs(out: &mut String, g: &Grip<'_>) -> std::fmt::Result {
+    let (spec, symbol) = (&g.file.spec, g.file.length_unit.symbol);
+    let pivots = match (spec.pivots, g.diameters.first()) {
+        (Pivots::Nominal, _) | (_, None) => "pivots set for each diameter".to_owned(),
+        (Pivots::Fixed(_) | Pivots::FixedForDiameter, Some(d)) => {
+            let sign = if d.levers_cross { -1.0 } else { 1.0 };
+            let nominal = g.lever.nominal_diameter(sign * d.pivot_distance);
+            let at = format!(
+                "pivots fixed at a = {} {symbol}",
+                length(g, d.pivot_distance)
+            );
+            match nominal > 0.0 {
+                true => format!("{at}, nominal for D = {} {symbol}", length(g, nominal)),
+                false => format!("{at}, nominal for no diameter"),
+            }
+        }
+    };
+    writeln!(
+        out,
+        "  levers: L = {} {symbol}, α = {}°, γ = {}°; {pivots}",
+        length(g, spec.lever_length),
+        significant(spec.prism_angle.to_degrees()),
+        significant(spec.mounting_angle.to_degrees()),
+    )?;
+    let Some(load) = &spec.load else {
+        return Ok(());
+    };
+    let mass = match load.mass {
+        PartMass::Constant(m) => format!("{} kg", significant(m)),
+        PartMass::Cylinder { density, length: l } => format!(
+            "a cylinder of {} kg/m³, {} {symbol} long",
+            significant(density),
+            length(g, l)
+        ),
+    };
+    let gravity = match load.gravity {
+        Toward::Any(g) => format!("gravity {} m/s² in any direction", significant(g)),
+        Toward::Fixed(g) => format!("gravity ({}) m/s²", g.map(significant).join(", ")),
+    };
+    let levers = match load.levers {
+        LeverDrive::Coupled => {
+            "both levers turned by one drive (the moment per lever is the mean of the two)"
+        }
+        LeverDrive::Equal => "the same moment on both levers",
+        LeverDrive::Independent => {
+            "a drive for each lever (the moment per lever is the greater of the two)"
+        }
+    };
+    writeln!(
+        out,
+        "  load: {mass}, {gravity}, {}, friction {}, safety factor {}",
+        plural(load.accelerations.len(), "acceleration"),
+        significant(load.friction),
+        significant(load.safety)
+    )?;
+    writeln!(out, "  drive: {levers}")?;
+    writeln!(
+        out,
+        "  friction cones are exact; a case of any direction is the worst of 26 directions, refined"
+    )
+}
+
+fn diameters(g: &Grip<'_>, width: Option<u16>) -> String {
+    let symbol = g.file.length_unit.symbol;
+    let mut head: Vec<String> = ["D", "l1", "l2"].map(|n| format!("{n}, {symbol}")).to_vec();
+    head.extend(["l1/l2".to_owned(), "turn, °".to_owned()]);
+    let load = g.file.spec.load.as_ref();
+    let one_drive =
+        g.transmission.is_some() && load.is_some_and(|l| l.levers != LeverDrive::Independent);
+    if load.is_some() {
+        head.extend(["mass, kg", "moment per lever, N·m", "both levers, N·m"].map(str::to_owned));
+        if one_drive {
+            head.push("drive, N".to_owned());
+        }
+        head.push("hardest case".to_owned());
+    } else {
+        head.push("held".to_owned());
+    }
+    let number = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), significant);
+    let line = |d: &Diameter| {
+        let mut cells = [d.diameter, d.arms.l1, d.arms.l2]
+            .map(|x| length(g, x))
+            .to_vec();
+        cells.push(significant(d.arms.l1 / d.arms.l2));
+        cells.push(number(d.turn.map(f64::to_degrees)));
+        if load.is_none() {
+            cells.push(if d.holds { "yes" } else { "no" }.to_owned());
+            return cells;
+        }
+        cells.push(significant(d.mass));
+        let hardest = d.load.as_ref();
+        cells.push(number(hardest.and_then(|l| l.drive_moment_per_lever)));
+        let both = hardest.and_then(|l| l.lever_moments);
+        cells.push(both.map_or_else(|| "-".to_owned(), |m| m.map(significant).join(", ")));
+        if one_drive {
+            cells.push(number(hardest.and_then(|l| l.drive_effort)));
+        }
+        cells.push(hardest.map_or("cannot be held", |l| l.case).to_owned());
+        cells
+    };
+    let head: Vec<&str> = head.iter().map(String::as_str).collect();
+    table(&head, g.diameters.iter().map(line).collect(), width)
+}
+
+fn contacts(all: &[Contact], width: Option<u16>) -> String {
+    let line = |c: &Contact| {
+        let friction = if c.normal > 0.0 {
+            c.along_face.hypot(c.along_part) / c.normal
+        } else {
+            0.0
+        };
+        let mut cells = vec![c.contact.to_owned()];
+        cells.extend([c.normal, c.along_face, c.along_part].map(significant));
+        cells.push(format!("{friction:.3}"));
+        cells
+    };
+    let head = [
+        "contact",
+        "normal, N",
+        "along the face, N",
+        "along the part, N",
+        "friction/normal",
+    ];
+    table(&head, all.iter().map(line).collect(), width)
+}

@@ -1,0 +1,179 @@
+//! Joint reactions of any mechanism, in a pose or over a stroke: one value from which text, JSON and CSV are made. Forces in
+//! N, moments in N·m about the joints' points, each first link on second, in the joint's own frame.
+
+pub mod stroke;
+pub mod text;
+
+use crate::format::csv::table;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::statics::reactions::drives::slides;
+use crate::statics::reactions::{Choice, JointReaction, Solution};
+use serde::Serialize;
+
+/// Reactions in one pose.
+#[derive(Debug, Serialize)]
+pub struct Reactions<'a> {
+    /// Name of the mechanism.
+    pub mechanism: &'a str,
+    /// Its state.
+    pub state: &'a str,
+    /// Whether these are the only reactions in equilibrium.
+    pub unique: bool,
+    /// `unique`, or `minimum-norm` of a family.
+    pub choice: &'static str,
+    /// What moments are divided by in that norm `[m]`.
+    pub size: f64,
+    /// Greatest singular value over the smallest kept.
+    pub condition: f64,
+    /// Whether small errors of the geometry change the reactions much.
+    pub nearly_singular: bool,
+    /// What is left over on a link, by the greatest load.
+    pub residual: f64,
+    /// Freedoms left with the drives held.
+    pub undriven: usize,
+    /// By joint of the state.
+    pub reactions: Vec<Joint<'a>>,
+    /// Those that load nothing from outside, one set for each redundant constraint.
+    pub self_stresses: Vec<Vec<Joint<'a>>>,
+    /// Those of elastic joints, where stiffness is stated and it matters.
+    pub elastic: Option<Vec<Joint<'a>>>,
+    /// The mechanism, for its loads.
+    #[serde(skip)]
+    pub of: &'a Mechanism,
+}
+
+/// What a joint passes on.
+#[derive(Debug, Serialize)]
+pub struct Joint<'a> {
+    /// The joint.
+    pub joint: &'a str,
+    /// Its type.
+    #[serde(rename = "type")]
+    pub kind: &'a str,
+    /// First and second link.
+    pub links: [&'a str; 2],
+    /// Where it is now, global axes `[m]`.
+    pub point: [f64; 3],
+    /// Unit vectors of its frame now.
+    pub axes: Axes,
+    /// `[N]`
+    pub force: [f64; 3],
+    /// `[N·m]`
+    pub moment: [f64; 3],
+    /// `[N]`
+    pub force_magnitude: f64,
+    /// `[N·m]`
+    pub moment_magnitude: f64,
+    /// In global axes `[N]`.
+    pub global_force: [f64; 3],
+    /// In global axes `[N·m]`.
+    pub global_moment: [f64; 3],
+    /// What its drive does, part of force and moment.
+    pub drive: Option<Effort>,
+}
+
+/// Unit vectors of a frame in global axes.
+#[derive(Debug, Serialize)]
+pub struct Axes {
+    /// x.
+    pub x: [f64; 3],
+    /// y.
+    pub y: [f64; 3],
+    /// z, the joint's axis.
+    pub z: [f64; 3],
+}
+
+/// What a drive does.
+#[derive(Debug, Serialize)]
+pub struct Effort {
+    /// The freedom it holds.
+    pub freedom: &'static str,
+    /// Force `[N]` or torque `[N·m]` along it.
+    pub effort: f64,
+    /// Whether that is a force.
+    #[serde(skip)]
+    pub slides: bool,
+}
+
+impl<'a> Joint<'a> {
+    fn new(m: &'a Mechanism, r: &JointReaction) -> Self {
+        let joint = &m.joints[r.joint];
+        let [x, y, z] = r.axes;
+        Joint {
+            joint: &joint.id,
+            kind: joint.joint_type.name(),
+            links: joint.links.map(|l| m.links[l].id.as_str()),
+            point: r.point,
+            axes: Axes { x, y, z },
+            force: r.force,
+            moment: r.moment,
+            force_magnitude: r.force_size(),
+            moment_magnitude: r.moment_size(),
+            global_force: r.global_force(),
+            global_moment: r.global_moment(),
+            drive: r.effort.map(|(freedom, effort)| Effort {
+                freedom: freedom.name(),
+                effort,
+                slides: slides(freedom),
+            }),
+        }
+    }
+}
+
+impl<'a> Reactions<'a> {
+    /// What was found of a state.
+    #[must_use]
+    pub fn new(m: &'a Mechanism, state: StateId, s: &Solution) -> Self {
+        let joints = |list: &Vec<JointReaction>| -> Vec<Joint<'a>> {
+            list.iter().map(|r| Joint::new(m, r)).collect()
+        };
+        Reactions {
+            mechanism: &m.name,
+            state: &m.states[state],
+            unique: s.choice == Choice::Unique,
+            choice: match s.choice {
+                Choice::Unique => "unique",
+                Choice::MinimumNorm => "minimum-norm",
+            },
+            size: s.size,
+            condition: s.condition,
+            nearly_singular: s.nearly_singular(),
+            residual: s.residual,
+            undriven: s.undriven,
+            reactions: joints(&s.reactions),
+            self_stresses: s.self_stresses.iter().map(joints).collect(),
+            elastic: s.elastic.as_ref().map(joints),
+            of: m,
+        }
+    }
+
+    /// One joint a line.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        table(&HEADS, self.rows())
+    }
+
+    fn rows(&self) -> impl Iterator<Item = Vec<String>> {
+        let lists = [
+            (self.choice, Some(&self.reactions)),
+            ("elastic", self.elastic.as_ref()),
+        ];
+        lists.into_iter().flat_map(|(kind, list)| {
+            list.into_iter().flatten().map(move |r| {
+                let mut row = [kind, r.joint, r.kind].map(str::to_owned).to_vec();
+                for (vector, size) in [(r.force, r.force_magnitude), (r.moment, r.moment_magnitude)]
+                {
+                    row.extend(vector.map(|x| x.to_string()));
+                    row.push(size.to_string());
+                }
+                let effort = r.drive.as_ref().map(|d| d.effort.to_string());
+                row.push(effort.unwrap_or_default());
+                row
+            })
+        })
+    }
+}
+
+const HEADS: [&str; 12] = [
+    "kind", "joint", "type", "Fx", "Fy", "Fz", "F", "Mx", "My", "Mz", "M", "effort",
+];

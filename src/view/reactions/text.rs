@@ -1,0 +1,159 @@
+//! Joint reactions in one pose for people.
+
+use crate::format::number::figure;
+use crate::format::phrase::plural;
+use crate::statics::reactions::NEARLY_SINGULAR;
+use crate::view::layout::{fit, table};
+use crate::view::prefix::prefix;
+use crate::view::reactions::{Joint, Reactions};
+use std::fmt::Write;
+
+/// Self-stresses told at most.
+const STRESSES: usize = 12;
+
+/// What a component is next to: below this fraction of the greatest it is rounding.
+pub(super) const NOTHING: f64 = 1e-12;
+
+fn joints(list: &[Joint<'_>], size: f64, width: Option<u16>) -> String {
+    let greatest = list
+        .iter()
+        .map(|r| r.force_magnitude.max(r.moment_magnitude / size))
+        .fold(0.0, f64::max);
+    let (unit, prefix) = prefix(greatest);
+    let show = |x: f64, least: f64| match x.abs() <= least {
+        true => "0".to_owned(),
+        false => figure(x / unit),
+    };
+    let rows = list.iter().map(|r| {
+        let (force, moment) = (NOTHING * greatest, NOTHING * greatest * size);
+        let mut row = [r.joint, r.kind].map(str::to_owned).to_vec();
+        row.extend(r.force.map(|x| show(x, force)));
+        row.push(show(r.force_magnitude, force));
+        row.extend(r.moment.map(|x| show(x, moment)));
+        row.push(show(r.moment_magnitude, moment));
+        row
+    });
+    let (n, nm) = (format!("|F|, {prefix}N"), format!("|M|, {prefix}N·m"));
+    let header = ["joint", "", "Fx", "Fy", "Fz", &n, "Mx", "My", "Mz", &nm];
+    table(&header, rows.collect(), width)
+}
+
+/// The report, fitted to a terminal of `width` columns where one is given; `pose` in words.
+#[must_use]
+pub fn reactions(s: &Reactions<'_>, pose: &str, width: Option<u16>) -> String {
+    let mut out = String::new();
+    // Writing to a string cannot fail.
+    let _ = write(&mut out, s, pose, width);
+    fit(&out, width)
+}
+
+fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) -> std::fmt::Result {
+    let (m, loads) = (s.of, &s.of.loads);
+    let open = s.self_stresses.len();
+    let stresses = if open == 1 {
+        "self-stress"
+    } else {
+        "self-stresses"
+    };
+    let what = match s.unique {
+        true => "the only ones in equilibrium".to_owned(),
+        false => format!(
+            "of minimum norm among a family with {open} {stresses}: Σ |F|² + |M|²/ℓ² least, ℓ = {} m",
+            figure(s.size)
+        ),
+    };
+    writeln!(
+        out,
+        "{}, state {}, {pose}: joint reactions, {what}",
+        s.mechanism, s.state
+    )?;
+    writeln!(
+        out,
+        "First link on second, in the joint's own frame (z its axis), moments about its point\n"
+    )?;
+    if loads.drive_speeds.iter().any(|s| *s != 0.0) {
+        writeln!(out, "Inertia forces of the stated drive speed included\n")?;
+    }
+    let no_mass = m.links.iter().all(|l| l.mass.is_none()) || loads.gravity.is_none();
+    if no_mass && loads.forces.is_empty() && loads.moments.is_empty() {
+        writeln!(
+            out,
+            "The file states no loads: give links a mass and centre and the [workload] gravity, or forces under [[workload.force]].\n"
+        )?;
+    }
+    writeln!(out, "{}\n", joints(&s.reactions, s.size, width))?;
+    for r in &s.reactions {
+        if let Some(d) = &r.drive {
+            let (what, unit) = if d.slides {
+                ("force", "N")
+            } else {
+                ("torque", "N·m")
+            };
+            writeln!(
+                out,
+                "Drive {} holds {}: {what} {} {unit}",
+                r.joint,
+                d.freedom,
+                figure(d.effort)
+            )?;
+        }
+    }
+    if s.undriven > 0 {
+        writeln!(
+            out,
+            "{} left with the drives held, on which the loads do no work",
+            plural(s.undriven, "freedom")
+        )?;
+    }
+    writeln!(
+        out,
+        "Equilibrium: condition {}, residual {:.0e} of the load",
+        figure(s.condition),
+        s.residual
+    )?;
+    if s.nearly_singular {
+        writeln!(
+            out,
+            "Warning: nearly singular (condition above {NEARLY_SINGULAR:.0e}): small errors of manufacture change these reactions much"
+        )?;
+    }
+    if open > 0 {
+        writeln!(
+            out,
+            "\nRedundant constraints leave these reactions open: any multiples of the {open} {stresses} may be added"
+        )?;
+        for (i, stress) in s.self_stresses.iter().take(STRESSES).enumerate() {
+            let loaded = stress
+                .iter()
+                .filter(|r| r.force_magnitude > 1e-9 || r.moment_magnitude > 1e-9 * s.size);
+            let names: Vec<&str> = loaded.map(|r| r.joint).collect();
+            writeln!(out, "  {}: {}", i + 1, names.join(", "))?;
+        }
+        if open > STRESSES {
+            writeln!(out, "  and {} more", open - STRESSES)?;
+        }
+    }
+    match &s.elastic {
+        Some(list) => {
+            let askew = match loads.misalignments.len() {
+                0 => "no misalignment".to_owned(),
+                n => plural(n, "misalignment"),
+            };
+            writeln!(
+                out,
+                "\nReactions of elastic joints of the stated stiffness, {askew}\n\n{}",
+                joints(list, s.size, width)
+            )?;
+        }
+        None if open > 0 => writeln!(
+            out,
+            "State [workload.stiffness.default] linear and angular, and [[workload.misalignment]], to see which of them arises."
+        )?,
+        None if !loads.misalignments.is_empty() => writeln!(
+            out,
+            "Misalignments cause no reactions here: the mechanism is determinate and assembles without strain."
+        )?,
+        None => {}
+    }
+    Ok(())
+}

@@ -1,0 +1,322 @@
+//! Statics for people: the groups, the reactions over the cycle, the greatest of each joint.
+
+use crate::format::number::figure;
+use crate::format::phrase::plural;
+use crate::statics::assur_class::roman;
+use crate::statics::cycle::Moment;
+use crate::statics::kinetostatics::Equilibrium;
+use crate::statics::planar::PairId;
+use crate::view::layout::{fit, table};
+use crate::view::prefix::prefix;
+use crate::view::statics::{Decomposed, Group, Statics, Structures, magnitudes};
+use itertools::Itertools;
+use std::fmt::Write;
+
+/// The groups as a table.
+fn groups(all: &[Group<'_>], width: Option<u16>) -> String {
+    let rows = all.iter().enumerate().map(|(i, g)| {
+        vec![
+            (i + 1).to_string(),
+            g.links.join(", "),
+            g.kind.clone(),
+            g.inner.join(", "),
+            g.outer.join(", "),
+            g.condition.map_or_else(String::new, figure),
+        ]
+    });
+    let header = [
+        "",
+        "links",
+        "group",
+        "inner joints",
+        "outer joints",
+        "condition",
+    ];
+    table(&header, rows.collect(), width)
+}
+
+/// Above this, a group counts as singular in the pose.
+const SINGULAR: f64 = 1e12;
+
+/// The structure under every drive.
+#[must_use]
+pub fn structures(s: &Structures<'_>, width: Option<u16>) -> String {
+    let group = |g: &Group| {
+        let inside = match g.locked.is_empty() {
+            true => "",
+            false => ", the drive inside",
+        };
+        let singular = match g.condition {
+            Some(c) if c > SINGULAR => ", singular in this pose",
+            _ => "",
+        };
+        format!("{} ({}{inside}{singular})", g.links.join(", "), g.kind)
+    };
+    let rows = s.drives.iter().map(|x| {
+        let [class, what] = match &x.found {
+            Decomposed::Groups { class, groups } => {
+                [roman(*class), groups.iter().map(group).join("; ")]
+            }
+            Decomposed::Not { error } => ["-".to_owned(), error.clone()],
+        };
+        vec![x.drive.to_owned(), class, what]
+    });
+    let header = [
+        "drive",
+        "class",
+        "Assur groups, in the order they are placed",
+    ];
+    let table = table(&header, rows.collect(), width);
+    let head = fit(
+        &format!(
+            "{}: structure under each drive, those at the frame first",
+            s.mechanism
+        ),
+        width,
+    );
+    format!("{head}\n\n{table}\n")
+}
+
+/// The report, fitted to a terminal of `width` columns where one is given.
+#[must_use]
+pub fn statics(s: &Statics<'_>, width: Option<u16>) -> String {
+    let mut out = String::new();
+    // Writing to a string cannot fail.
+    let _ = write_statics(&mut out, s, width);
+    fit(&out, width)
+}
+
+fn write_statics(out: &mut String, s: &Statics<'_>, width: Option<u16>) -> std::fmt::Result {
+    let drives = match s.drives.is_empty() {
+        true => "nothing".to_owned(),
+        false => s.drives.join(", "),
+    };
+    writeln!(
+        out,
+        "{}: {}{} driven by {drives}, class {}\n",
+        s.mechanism,
+        verdict(s),
+        plural(s.groups.len(), "Assur group"),
+        roman(s.class)
+    )?;
+    if !s.groups.is_empty() {
+        writeln!(out, "{}\n", groups(&s.groups, width))?;
+    }
+    if s.found.moments.iter().any(|x| !x.loads.is_empty()) {
+        for i in 0..s.found.contour_groups.len() {
+            group_table(out, s, i, width)?;
+        }
+    }
+    let loads = &s.found.loads;
+    if loads.forces.is_empty() && loads.masses.iter().all(Option::is_none) {
+        writeln!(
+            out,
+            "The file states no loads: give links a mass and centre, or forces under [[workload.force]]."
+        )?;
+    } else {
+        joints(out, s, width)?;
+        summary(out, s)?;
+    }
+    if let Some(dead) = &s.stopped {
+        let who = dead.group.map_or_else(
+            || "the drives".to_owned(),
+            |g| format!("group {}", s.groups[g].name()),
+        );
+        writeln!(
+            out,
+            "\nThe motion stops at {} {}: {who} is at a dead point (condition {}).",
+            figure(s.shown(dead.drive)),
+            s.unit(),
+            figure(dead.condition)
+        )?;
+    }
+    Ok(())
+}
+
+/// The greatest reaction of the cycle, for the first line; nothing without loads.
+fn verdict(s: &Statics<'_>) -> String {
+    let all = s.positions.iter().flat_map(|x| {
+        let found = x.reactions.iter();
+        found.map(|r| (r.force[0].hypot(r.force[1]), r.joint, x.drive))
+    });
+    let finite = all.filter(|(force, ..)| force.is_finite() && *force > 0.0);
+    match finite.max_by(|a, b| a.0.total_cmp(&b.0)) {
+        Some((force, joint, at)) => {
+            let (unit, prefix) = prefix(force);
+            format!(
+                "greatest reaction {} {prefix}N at {joint} ({} {}); ",
+                figure(force / unit),
+                figure(s.shown(at)),
+                s.unit()
+            )
+        }
+        None => String::new(),
+    }
+}
+
+fn group_table(
+    out: &mut String,
+    s: &Statics<'_>,
+    i: usize,
+    width: Option<u16>,
+) -> std::fmt::Result {
+    let (linkage, methods) = (&s.found.linkage, s.methods);
+    let Some(shown) = methods.last() else {
+        return Ok(());
+    };
+    let (index, letters) = &s.found.contour_groups[i];
+    let moments = s.found.moments.iter();
+    let solved = moments.filter_map(|x| Some((x, x.groups.get(i)?)));
+    let solved = solved
+        .filter_map(|(x, g)| Some((x, g, g.by(*shown)?)))
+        .collect_vec();
+    let all = solved.iter().flat_map(|(_, g, r)| magnitudes(r, &g.pose));
+    let greatest = all
+        .map(|(_, x)| x.abs())
+        .filter(|x| x.is_finite())
+        .fold(0.0, f64::max);
+    let (unit, prefix) = prefix(greatest);
+    let name = |p: PairId| linkage.mechanism.pairs[p].name.as_str();
+    let names = [
+        ("D", letters.d),
+        ("F", letters.f),
+        ("K", letters.k),
+        ("M", letters.m),
+        ("L", letters.l),
+    ];
+    writeln!(
+        out,
+        "Group {}: reactions in {prefix}N by the {} method; {}, guide = {}",
+        s.groups[*index].name(),
+        shown.name(),
+        names.map(|(l, p)| format!("{l} = {}", name(p))).join(", "),
+        name(letters.guide)
+    )?;
+    writeln!(
+        out,
+        "The guide's reaction has the arm h about D; it acts at y along the guide from {}.\n",
+        name(letters.guide)
+    )?;
+    let rows = solved.iter().map(|(x, g, r)| {
+        let mut row = vec![figure(s.shown(x.instant.drive))];
+        row.extend(magnitudes(r, &g.pose).map(|(_, v)| figure(v / unit)));
+        let guide = linkage.place(&x.instant.pose, letters.guide);
+        row.extend([figure(r.arm), figure(r.guide_offset(&g.pose, guide))]);
+        if methods.len() > 1 {
+            let differ = g.disagreement(methods);
+            row.push(differ.map_or_else(String::new, |e| format!("{e:.0e}")));
+        }
+        row
+    });
+    let mut header = vec![s.unit()];
+    header.extend(["D", "F", "K", "M", "L", "guide", "h, m", "y, m"]);
+    if methods.len() > 1 {
+        header.push("methods differ");
+    }
+    writeln!(out, "{}\n", table(&header, rows.collect(), width))
+}
+
+/// The greatest reaction of every joint.
+fn joints(out: &mut String, s: &Statics<'_>, width: Option<u16>) -> std::fmt::Result {
+    let m = &s.found.linkage.mechanism;
+    let peak = |p: PairId| {
+        let each = s.found.moments.iter().filter_map(|x| {
+            let r = x.whole.as_ref()?.reactions.iter().find(|r| r.pair == p)?;
+            Some((r.force[0].hypot(r.force[1]), r.moment, x.instant.drive))
+        });
+        let all = each.collect_vec();
+        let (force, _, at) = *all.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let moment = all.iter().map(|x| x.1.abs()).fold(0.0, f64::max);
+        Some((&m.pairs[p], force, at, moment))
+    };
+    let peaks = (0..m.pairs.len()).filter_map(peak).collect_vec();
+    if peaks.is_empty() {
+        return writeln!(
+            out,
+            "The equilibrium has no solution here: the mechanism is at a dead point."
+        );
+    }
+    let each = peaks.iter().map(|(_, force, _, moment)| force.max(*moment));
+    let (unit, prefix) = prefix(each.fold(0.0, f64::max));
+    let rows = peaks.iter().map(|&(pair, force, at, moment)| {
+        vec![
+            pair.name.clone(),
+            pair.kind.to_string(),
+            pair.bodies.map(|b| m.bodies[b].name.as_str()).join(", "),
+            figure(force / unit),
+            figure(s.shown(at)),
+            if moment > 0.0 {
+                figure(moment / unit)
+            } else {
+                String::new()
+            },
+        ]
+    });
+    let (force, moment) = (format!("force, {prefix}N"), format!("moment, {prefix}N·m"));
+    let at = format!("at, {}", s.unit());
+    let header = [
+        "joint",
+        "",
+        "links",
+        force.as_str(),
+        at.as_str(),
+        moment.as_str(),
+    ];
+    writeln!(
+        out,
+        "Greatest reaction of each joint (equilibrium of all links)\n"
+    )?;
+    writeln!(out, "{}\n", table(&header, rows.collect(), width))
+}
+
+fn summary(out: &mut String, s: &Statics<'_>) -> std::fmt::Result {
+    let (found, methods) = (s.found, s.methods);
+    let what = if found.drive_slides() { "N" } else { "N·m" };
+    for (&p, name) in found.decomposition.drives.iter().zip(&s.drives) {
+        let efforts = found.moments.iter().filter_map(|x| {
+            let r = x.whole.as_ref()?.reactions.iter().find(|r| r.pair == p)?;
+            Some((r.effort?, x.instant.drive))
+        });
+        let ends = efforts.minmax_by(|a, b| a.0.total_cmp(&b.0)).into_option();
+        let Some((low, high)) = ends else { continue };
+        let (unit, prefix) = prefix(low.0.abs().max(high.0.abs()));
+        let at = |(effort, drive): (f64, f64)| {
+            format!(
+                "{} {prefix}{what} at {} {}",
+                figure(effort / unit),
+                figure(s.shown(drive)),
+                s.unit()
+            )
+        };
+        writeln!(out, "Drive {name}: from {} to {}", at(low), at(high))?;
+    }
+    let greatest = |f: &dyn Fn(&Moment) -> f64| {
+        let each = found.moments.iter().map(f);
+        each.filter(|x| x.is_finite()).fold(0.0, f64::max)
+    };
+    let power = greatest(&|x| x.load_power.abs());
+    let balance = greatest(&|x| (x.load_power + x.drive_power).abs());
+    let of = |f: fn(&Equilibrium) -> f64| greatest(&move |x| x.whole.as_ref().map_or(f64::NAN, f));
+    writeln!(
+        out,
+        "Equilibrium: condition up to {}, residual up to {:.0e} of the load",
+        figure(of(|e| e.condition)),
+        of(|e| e.residual)
+    )?;
+    if power > 0.0 {
+        writeln!(
+            out,
+            "Power of drives, loads and inertia balances to {:.0e}",
+            balance / power
+        )?;
+    }
+    if methods.len() > 1 && !found.contour_groups.is_empty() {
+        let names = methods.iter().map(|x| x.name()).join(", ");
+        let all = found.moments.iter().flat_map(|x| &x.groups);
+        let worst = all
+            .filter_map(|g| g.disagreement(methods))
+            .fold(0.0, f64::max);
+        writeln!(out, "Methods {names} differ by {worst:.0e} at most")?;
+    }
+    Ok(())
+}
