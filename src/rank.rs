@@ -13,6 +13,7 @@ pub mod lu;
 pub mod measured;
 pub mod method;
 pub mod modular;
+mod monomials;
 pub mod numeric;
 pub mod parts;
 pub mod qr;

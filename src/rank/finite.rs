@@ -6,7 +6,6 @@ use super::trace::Traced;
 use super::{modular, parts, subgroup, trace};
 use crate::closure::matrix::Closure;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::linalg::echelon;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::pose::Pose;
@@ -299,7 +298,7 @@ fn without_motion(
         return Ok(Some(Finite::new(0, How::Rigid)));
     }
     // Couplings are linear in the joints' coordinates, so those that depend on others do so all along the motion.
-    let mut dimension = coupling_rank(exact, closure);
+    let mut dimension = subgroup::coupling_rank(exact, closure);
     for contour in &closure.contours {
         dimension += subgroup::group_dimension(exact, mechanism, contour)?;
     }
@@ -375,22 +374,6 @@ fn of_pursuit(found: Traced) -> Finite {
         }
     };
     Finite::new(from, how)
-}
-
-/// Rank of the rows of the couplings alone.
-fn coupling_rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
-    let rows: Vec<Vec<Residue>> = closure
-        .couplings
-        .iter()
-        .map(|coupling| {
-            let mut row = vec![0; closure.columns.len()];
-            for &(c, x) in &coupling.entries {
-                row[c] = x;
-            }
-            row
-        })
-        .collect();
-    echelon::rank(exact.field(), rows.iter().map(Vec::as_slice))
 }
 
 /// The finite mobility by following the motion alone; `instantaneous` where it is too large for that. `accuracy` is the

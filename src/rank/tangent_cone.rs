@@ -4,14 +4,69 @@
 //! second order: ω·q(x) = 0, quadratic forms in the weights of the motions [Connelly & Whiteley 1996; Müller 2016]. Their
 //! real zeros are found from many starts by damped Newton steps; a combination of the forms that is definite leaves none.
 
-use super::trace::{Flat, norm};
-use crate::motion::pose::Pose;
+use crate::motion::pose::{FLAT, Pose};
 use faer::{Mat, Side};
 
 /// Step of the differences that the forms are taken from.
 const DIFFERENCE: f64 = 1e-4;
 /// Values of a form, relative to the largest coefficient, that count as zero.
 const ZERO: f64 = 1e-6;
+
+/// Singular values in this range are too near to zero to be told from it.
+const UNCLEAR: std::ops::Range<f64> = 1e-9..1e-6;
+
+/// The flat directions of J at a pose.
+pub(super) struct Flat {
+    /// Instantaneous motions, orthonormal columns.
+    pub(super) kernel: Mat<f64>,
+    /// Self-stresses, orthonormal columns.
+    pub(super) stresses: Mat<f64>,
+    /// Whether all singular values are clearly zero or clearly not.
+    pub(super) clear: bool,
+}
+
+impl Flat {
+    /// With `motions` columns where their number is known.
+    pub(super) fn new(pose: &Pose, motions: Option<usize>) -> Flat {
+        let (f, rows) = (pose.columns.len(), pose.rows());
+        let none = Flat {
+            kernel: Mat::identity(f, f),
+            stresses: Mat::identity(rows, rows),
+            clear: true,
+        };
+        if rows == 0 || f == 0 {
+            return none;
+        }
+        let Ok(svd) = pose.jacobian(&vec![0.0; f]).svd() else {
+            return Flat {
+                kernel: Mat::zeros(f, 0),
+                clear: false,
+                ..none
+            };
+        };
+        let values = svd.S().column_vector();
+        let largest = if values.nrows() > 0 { values[0] } else { 0.0 };
+        let scale = largest.max(1.0);
+        let flat = FLAT.max(10.0 * pose.accuracy());
+        let rank = match motions {
+            Some(n) => f - n.min(f),
+            None => (0..values.nrows())
+                .filter(|&i| values[i] > flat * scale)
+                .count(),
+        };
+        Flat {
+            kernel: svd.V().subcols(rank, f - rank).to_owned(),
+            stresses: svd.U().subcols(rank, rows - rank).to_owned(),
+            clear: motions.is_some()
+                || pose.accuracy() > 0.0
+                || (0..values.nrows()).all(|i| !UNCLEAR.contains(&(values[i] / scale))),
+        }
+    }
+}
+
+pub(super) fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
 
 /// The quadratic forms.
 #[derive(Debug)]

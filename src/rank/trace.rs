@@ -9,15 +9,13 @@
 //!
 //! Numeric: nothing is proven, and the certainty says so. Random directions come from a fixed seed.
 
-use super::tangent_cone::{self, Quadrics};
-use crate::motion::pose::{FLAT, Pose};
+use super::tangent_cone::{self, Flat, Quadrics, norm};
+use crate::motion::pose::Pose;
 use faer::Mat;
 use faer::linalg::solvers::SolveLstsq;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
-/// Singular values in this range are too near to zero to be told from it.
-const UNCLEAR: std::ops::Range<f64> = 1e-9..1e-6;
 /// Lengths of trial steps at a pose that may be regular: radians, and fractions of the mechanism's size.
 const STEPS: [f64; 3] = [0.2, 0.08, 0.03];
 /// Spheres from which branches are followed.
@@ -75,55 +73,6 @@ pub fn motions(pose: &Pose) -> Mat<f64> {
     Flat::new(pose, None).kernel
 }
 
-/// The flat directions of J at a pose.
-pub(super) struct Flat {
-    /// Instantaneous motions, orthonormal columns.
-    pub(super) kernel: Mat<f64>,
-    /// Self-stresses, orthonormal columns.
-    pub(super) stresses: Mat<f64>,
-    /// Whether all singular values are clearly zero or clearly not.
-    clear: bool,
-}
-
-impl Flat {
-    /// With `motions` columns where their number is known.
-    fn new(pose: &Pose, motions: Option<usize>) -> Flat {
-        let (f, rows) = (pose.columns.len(), pose.rows());
-        let none = Flat {
-            kernel: Mat::identity(f, f),
-            stresses: Mat::identity(rows, rows),
-            clear: true,
-        };
-        if rows == 0 || f == 0 {
-            return none;
-        }
-        let Ok(svd) = pose.jacobian(&vec![0.0; f]).svd() else {
-            return Flat {
-                kernel: Mat::zeros(f, 0),
-                clear: false,
-                ..none
-            };
-        };
-        let values = svd.S().column_vector();
-        let largest = if values.nrows() > 0 { values[0] } else { 0.0 };
-        let scale = largest.max(1.0);
-        let flat = FLAT.max(10.0 * pose.accuracy());
-        let rank = match motions {
-            Some(n) => f - n.min(f),
-            None => (0..values.nrows())
-                .filter(|&i| values[i] > flat * scale)
-                .count(),
-        };
-        Flat {
-            kernel: svd.V().subcols(rank, f - rank).to_owned(),
-            stresses: svd.U().subcols(rank, rows - rank).to_owned(),
-            clear: motions.is_some()
-                || pose.accuracy() > 0.0
-                || (0..values.nrows()).all(|i| !UNCLEAR.contains(&(values[i] / scale))),
-        }
-    }
-}
-
 /// A combination of columns.
 fn along(span: &Mat<f64>, weights: &[f64]) -> Vec<f64> {
     let row = |r: usize| {
@@ -134,10 +83,6 @@ fn along(span: &Mat<f64>, weights: &[f64]) -> Vec<f64> {
             .sum()
     };
     (0..span.nrows()).map(row).collect()
-}
-
-pub(super) fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// Dimensions found and not excluded.

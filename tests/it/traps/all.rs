@@ -47,11 +47,6 @@ impl Sketch {
         self.joint("revolute", ends, [x, y, 0.0], [0.0, 0.0, 1.0])
     }
 
-    /// A bar hinged to two links, in a plane.
-    fn bar(&mut self, id: &str, [a, b]: [&str; 2], p: [f64; 2], q: [f64; 2]) -> &mut Self {
-        self.pin([a, id], p[0], p[1]).pin([id, b], q[0], q[1])
-    }
-
     fn done(&self, name: &str, truth: usize, source: &'static str) -> Trap {
         let mut text = format!("name = \"{name}\"\n");
         if self.planar {
