@@ -9,11 +9,10 @@ use ozols::model::ranking::ClearanceSum;
 use ozols::redundancy::analysis::exact_field;
 use ozols::score::elimination::Scratch;
 use ozols::score::evaluate::Evaluator;
-use ozols::search::best::Variant;
-use ozols::search::request::{Request, Search};
+use ozols::search::best::Assignment;
+use ozols::search::conditions::{Conditions, Search};
 use rayon::prelude::*;
 use std::hint::black_box;
-use std::ops::ControlFlow;
 
 /// Variants scored a round.
 const POOL: usize = 20_000;
@@ -23,20 +22,16 @@ fn gripper() -> Mechanism {
     mechanism_from_str("gripper-10-loaded.toml", text).expect("valid")
 }
 
-fn pool(search: &Search<'_>, n: usize) -> Vec<Variant> {
+fn pool(search: &Search, n: usize) -> Vec<Assignment> {
     let diagrams = search.build(&|| false, &mut |_| {});
-    let mut out = Vec::new();
-    search.cheapest(&diagrams, n, |v| {
-        out.push(v);
-        ControlFlow::Continue(())
-    });
+    let out: Vec<_> = search.cheapest(&diagrams, n).collect();
     out
 }
 
 fn scoring(c: &mut Criterion) {
     let m = gripper();
     let exact = exact_field(&m, 0).expect("exact");
-    let search = Search::new(exact, &m, Request::default()).expect("valid");
+    let search = Search::new(exact, &m, Conditions::default()).expect("valid");
     let variants = pool(&search, POOL);
     let evaluator = Evaluator::new(&search, ClearanceSum::Worst).expect("solved");
     let mut group = c.benchmark_group("scores of gripper-10 variants under its workload");

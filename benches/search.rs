@@ -17,10 +17,9 @@ use ozols::model::joint_type::{Freedom, JointType};
 use ozols::model::mechanism::{JointOption, Mechanism, StateId};
 use ozols::rank::{modular, numeric};
 use ozols::redundancy::analysis::exact_field;
-use ozols::search::request::{Request, Search};
+use ozols::search::conditions::{Conditions, Search};
 use std::fmt::Write;
 use std::hint::black_box;
-use std::ops::ControlFlow;
 use std::time::Duration;
 
 fn gripper() -> Mechanism {
@@ -42,8 +41,8 @@ fn with_options(names: &[&str], joints: usize) -> Mechanism {
     m
 }
 
-fn search(m: &Mechanism) -> Search<'_> {
-    Search::new(exact_field(m, 0).expect("exact"), m, Request::default()).expect("valid")
+fn search(m: &Mechanism) -> Search {
+    Search::new(exact_field(m, 0).expect("exact"), m, Conditions::default()).expect("valid")
 }
 
 /// Both counts and the `top` best; returns nodes and the largest layer.
@@ -54,9 +53,8 @@ fn whole(m: &Mechanism, top: usize) -> (usize, usize) {
         s.counts(&d.determinate, false),
         s.counts(&d.admissible, true),
     ));
-    s.cheapest(&d, top, |v| {
+    s.cheapest(&d, top).for_each(|v| {
         black_box(v);
-        ControlFlow::Continue(())
     });
     let largest = d.determinate.largest_layer.max(d.admissible.largest_layer);
     (d.determinate.nodes + d.admissible.nodes, largest)

@@ -1,18 +1,42 @@
-//! The catalogue of mechanisms built into the program.
+//! The catalogue of mechanisms built into the program: `catalogs/`, a folder for each family.
 
-use include_dir::{Dir, include_dir};
-use serde::Deserialize;
+use include_dir::{Dir, File, include_dir};
 
 static CATALOGS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/catalogs");
+
+/// The families in the order of `ozols list`, each by its folder and its name.
+const FAMILIES: [(&str, &str); 7] = [
+    ("grippers", "grippers"),
+    ("planar-linkages", "planar linkages"),
+    ("straight-line-linkages", "straight-line linkages"),
+    ("spatial-loops", "spatial loops"),
+    (
+        "parallel-robots-and-platforms",
+        "parallel robots and platforms",
+    ),
+    (
+        "shafts-slides-and-couplings",
+        "shafts, slides and couplings",
+    ),
+    (
+        "frameworks-plates-and-folds",
+        "frameworks, plates and folds",
+    ),
+];
+
+fn files() -> impl Iterator<Item = &'static File<'static>> {
+    CATALOGS.dirs().flat_map(Dir::files)
+}
+
+/// The name of the mechanism that a file holds.
+fn name_of(file: &'static File<'static>) -> Option<&'static str> {
+    file.path().file_name()?.to_str()?.strip_suffix(".toml")
+}
 
 /// Names of the built-in mechanisms, ascending.
 #[must_use]
 pub fn names() -> Vec<&'static str> {
-    let mut names: Vec<&str> = CATALOGS
-        .files()
-        .filter(|f| f.path().extension().is_some_and(|e| e == "toml"))
-        .filter_map(|f| f.path().file_stem()?.to_str())
-        .collect();
+    let mut names: Vec<&str> = files().filter_map(name_of).collect();
     names.sort_unstable();
     names
 }
@@ -20,61 +44,33 @@ pub fn names() -> Vec<&'static str> {
 /// The file of a built-in mechanism.
 #[must_use]
 pub fn text(name: &str) -> Option<&'static str> {
-    CATALOGS.get_file(format!("{name}.toml"))?.contents_utf8()
+    files().find(|f| name_of(f) == Some(name))?.contents_utf8()
 }
 
-/// Names of the built-in mechanisms by family, each in one; those that no family names are `other mechanisms`.
-///
-/// # Panics
-/// Never: a test reads the list of families.
+/// Names of the built-in mechanisms by family, ascending in each.
 #[must_use]
-pub fn families() -> Vec<(String, Vec<&'static str>)> {
-    let listed: Families =
-        toml::from_str(include_str!("builtin/families.toml")).expect("a test reads the file");
-    let mut left = names();
-    let mut families = Vec::new();
-    for family in listed.family {
-        let here = |n: &&str| family.members.iter().any(|m| m == n);
-        let (members, rest) = left.into_iter().partition(here);
-        families.push((family.name, members));
-        left = rest;
-    }
-    if !left.is_empty() {
-        families.push(("other mechanisms".to_owned(), left));
-    }
-    families
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Families {
-    family: Vec<Family>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Family {
-    name: String,
-    members: Vec<String>,
+pub fn families() -> Vec<(&'static str, Vec<&'static str>)> {
+    let members = |folder: &str| {
+        let dir = CATALOGS.get_dir(folder).into_iter();
+        let mut names: Vec<&str> = dir.flat_map(Dir::files).filter_map(name_of).collect();
+        names.sort_unstable();
+        names
+    };
+    FAMILIES
+        .map(|(folder, name)| (name, members(folder)))
+        .into()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Families, families, names};
+    use super::{families, names};
 
     #[test]
-    fn families_name_mechanisms_that_exist_each_once() {
-        let listed: Families = toml::from_str(include_str!("builtin/families.toml")).expect("TOML");
-        let mut members: Vec<&String> = listed.family.iter().flat_map(|f| &f.members).collect();
-        members.sort();
-        for pair in members.windows(2) {
-            assert_ne!(pair[0], pair[1]);
-        }
-        for m in members {
-            assert!(names().contains(&m.as_str()), "{m}");
-        }
-        let mut all: Vec<&str> = families().into_iter().flat_map(|f| f.1).collect();
-        all.sort_unstable();
-        assert_eq!(all, names());
+    fn every_mechanism_is_in_one_family_and_has_a_name_of_its_own() {
+        let mut of_families: Vec<&str> = families().into_iter().flat_map(|f| f.1).collect();
+        of_families.sort_unstable();
+        assert_eq!(of_families, names());
+        assert!(names().windows(2).all(|pair| pair[0] != pair[1]));
+        assert!(families().iter().all(|f| !f.1.is_empty()));
     }
 }

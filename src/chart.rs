@@ -14,10 +14,9 @@ mod drawn;
 mod frame;
 mod labels;
 mod line;
-pub(crate) mod look;
+mod look;
 mod matrix;
 mod page;
-pub(crate) mod xml;
 
 pub use page::page;
 

@@ -2,7 +2,6 @@
 
 mod accuracy;
 mod analyze;
-mod answer;
 mod args;
 mod charts;
 mod check;
@@ -22,9 +21,9 @@ mod near;
 mod new;
 mod output;
 mod progress;
-mod question;
-mod ranked;
+
 mod report;
+mod request;
 mod search;
 mod statics;
 mod stroke;

@@ -5,6 +5,8 @@
 //! name, they stand farther away on a leader.
 
 mod couplings;
+mod dice;
+mod graph;
 mod ground;
 mod initial_layout;
 mod kinematic;
@@ -13,75 +15,22 @@ mod layout;
 mod layout_penalty;
 pub mod marks;
 mod mirror;
-mod naming;
 #[cfg(feature = "png")]
 pub mod png;
 mod projection;
 mod scheme;
 mod shapes;
 mod sheet;
-pub mod swap;
+mod subject;
+mod swap;
 mod symbols;
 
-pub use kinematic::kinematic;
-pub use labels::Rect;
-pub use scheme::scheme;
-
-use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
-use crate::redundancy::analysis::StateAnalysis;
-use sheet::{Shape, Swatch};
-
-/// What is to be drawn.
-#[derive(Debug, Clone)]
-pub struct Subject<'a> {
-    /// The mechanism.
-    pub mechanism: &'a Mechanism,
-    /// The state it is drawn in.
-    pub state: StateId,
-    /// Its figures in that state, where they are known: contours are tinted by their share of the redundant constraints.
-    pub analysis: Option<&'a StateAnalysis>,
-    /// What a redesign changed, where the mechanism is one.
-    pub marks: Option<Marks>,
-}
-
-/// What a redesign changed.
-#[derive(Debug, Clone, Default)]
-pub struct Marks {
-    /// What the redesign is called, such as `variant 1`.
-    pub name: String,
-    /// Changed joints, with their classes and the words for it: `2-3: V → III spherical`.
-    pub changed: Vec<(JointId, String)>,
-    /// Joints from this one on are added.
-    pub joints: usize,
-    /// Links from this one on are added.
-    pub links: usize,
-    /// The mechanism with its present joints in place of the changed ones, to be seen from the same side.
-    pub before: Option<Mechanism>,
-}
-
-/// A text of a drawing and the room it takes at 0.6 of its size a character.
-#[derive(Debug, Clone)]
-pub struct Label {
-    /// The text.
-    pub text: String,
-    /// Its room.
-    pub rect: Rect,
-}
-
-/// A finished drawing.
-#[derive(Debug, Clone)]
-pub struct Drawing {
-    /// The picture.
-    pub svg: String,
-    /// Its width in pixels.
-    pub width: f64,
-    /// Its height in pixels.
-    pub height: f64,
-    /// Every text.
-    pub labels: Vec<Label>,
-    /// The room of the joints' symbols; a joint's class stands inside its own.
-    pub symbols: Vec<Rect>,
-}
+pub use crate::svg::plane::Rect;
+pub use kinematic::{kinematic, kinematic_with};
+pub use scheme::{scheme, scheme_with};
+pub use sheet::{Drawing, Label};
+pub use subject::{Marks, Subject};
+pub use swap::Swap;
 
 /// How large a picture of a drawing is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,109 +39,4 @@ pub enum Size {
     Scale(f64),
     /// Its width in pixels.
     Width(u32),
-}
-
-/// How a part of the drawing is marked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Mark {
-    None,
-    Changed,
-    New,
-}
-
-impl Mark {
-    /// The class of the style sheet that shows it, with a space before it.
-    fn class(self) -> &'static str {
-        match self {
-            Mark::None => "",
-            Mark::Changed => " changed",
-            Mark::New => " new",
-        }
-    }
-}
-
-impl Subject<'_> {
-    fn joint_mark(&self, joint: JointId) -> Mark {
-        match &self.marks {
-            Some(m) if joint.index() >= m.joints => Mark::New,
-            Some(m) if m.changed.iter().any(|(j, _)| *j == joint) => Mark::Changed,
-            _ => Mark::None,
-        }
-    }
-
-    fn link_mark(&self, link: LinkId) -> Mark {
-        match &self.marks {
-            Some(m) if link.index() >= m.links => Mark::New,
-            _ => Mark::None,
-        }
-    }
-
-    /// Whether a joint is there in this state and not in the free one.
-    fn only_here(&self, joint: JointId) -> bool {
-        self.mechanism.joints[joint]
-            .states
-            .as_ref()
-            .is_some_and(|s| !s.contains(&StateId::FREE))
-    }
-
-    fn title(&self) -> String {
-        let name = &self.mechanism.name;
-        match &self.marks {
-            Some(m) if !m.name.is_empty() => format!("{name}, {}", m.name),
-            _ => name.clone(),
-        }
-    }
-
-    /// What the drawing is, and the mechanism's figures.
-    fn subtitle(&self, what: &str) -> [String; 2] {
-        let state = &self.mechanism.states[self.state];
-        let what = if self.mechanism.states.len() > 1 {
-            format!("{what}, state {state}")
-        } else {
-            what.to_owned()
-        };
-        let figures = self.analysis.map_or(String::new(), |a| {
-            format!(
-                "n = {}, p = {}, k = {}, f = {}, W = {}, σ = {}",
-                a.links, a.joints, a.contours, a.freedoms, a.mobility, a.redundant
-            )
-        });
-        [what, figures]
-    }
-
-    /// The same as the beginning of a text.
-    fn summary(&self, what: &str) -> String {
-        let [what, figures] = self.subtitle(what);
-        if figures.is_empty() {
-            format!("{what}.")
-        } else {
-            format!("{what}: {figures}.")
-        }
-    }
-
-    /// Rows of the legend for what a redesign changed.
-    fn mark_rows(&self) -> Vec<(Swatch, String)> {
-        let Some(marks) = &self.marks else {
-            return Vec::new();
-        };
-        let m = self.mechanism;
-        let mut out = Vec::new();
-        for (j, words) in &marks.changed {
-            let class = m.joints[*j].joint_type.class().to_owned();
-            out.push((Swatch::Joint("joint changed", class), words.clone()));
-        }
-        for joint in m.joints.iter().skip(marks.joints) {
-            let class = joint.joint_type.class();
-            out.push((
-                Swatch::Joint("joint new", class.to_owned()),
-                format!("{}: added, {class} {}", joint.id, joint.joint_type),
-            ));
-        }
-        for link in m.links.iter().skip(marks.links) {
-            let bar = Shape::line("bone new".to_owned(), vec![[-9.0, 0.0], [9.0, 0.0]]);
-            let text = format!("link {}: added", link.id);
-            out.push((Swatch::Shapes(vec![bar]), text));
-        }
-        out
-    }
 }

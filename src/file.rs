@@ -9,4 +9,5 @@ pub mod read;
 pub mod schema;
 pub mod template;
 pub mod text;
+pub mod warning;
 pub mod write;

@@ -2,7 +2,8 @@
 //!
 //! Start with [`first_hour`]. Then one chapter for each system: [`structure`] (redundant constraints and the search for
 //! redesigns), [`grip`], [`kinetostatics`], [`drive`]; and one each for [`ranking`] under a workload, [`mobility`] where
-//! formulas and numbers fail, [`robots`] (import and export), and [`speed`].
+//! formulas and numbers fail, [`robots`] (import and export), and [`speed`]. For programs: [`rust`]. Who carries the program
+//! on reads [`architecture`] and [`adding`]; what changed is in the [`changelog`].
 //!
 //! Every block that begins with `$ ozols` is run by the tests (`tests/it/documents.rs`); `...` stands for lines left out.
 
@@ -32,3 +33,13 @@ pub mod robots {}
 
 #[doc = include_str!("guide/speed.md")]
 pub mod speed {}
+
+#[doc = include_str!("guide/rust.md")]
+pub mod rust {}
+#[doc = include_str!("guide/adding.md")]
+pub mod adding {}
+#[doc = include_str!("guide/architecture.md")]
+pub mod architecture {}
+
+#[doc = include_str!("guide/changelog.md")]
+pub mod changelog {}

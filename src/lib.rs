@@ -14,29 +14,26 @@
 //! # Example
 //!
 //! ```
-//! use ozols::file::text::mechanism_from_str;
-//! use ozols::model::mechanism::StateId;
-//! use ozols::redundancy::analysis::{Method, analyse, exact_field};
-//! use ozols::search::request::{Request, Search};
-//!
-//! let text = ozols::builtin::text("gripper-10").expect("it is built in");
-//! let gripper = mechanism_from_str("gripper-10.toml", text)?;
-//! let free = &analyse(&gripper, &[StateId::FREE], Method::Modular)?[0];
+//! let gripper = ozols::Mechanism::builtin("gripper-10")?;
+//! let free = &ozols::analyze(&gripper)?[0];
 //! assert_eq!((free.mobility, free.redundant), (1, 11)); // [Pogrebnyak 2018]
 //!
-//! let search = Search::new(exact_field(&gripper, 0)?, &gripper, Request::default())?;
-//! let diagrams = search.build(&|| false, &mut |_| {});
-//! let determinate = search.counts(&diagrams.determinate, false);
-//! assert_eq!(search.size().to_string(), "13841287201");
-//! assert_eq!(determinate.total.to_string(), "6340592477");
-//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! let outcome = ozols::search(&gripper, &ozols::Request::default())?;
+//! assert_eq!(outcome.determinate.to_string(), "6340592477");
+//! assert_eq!(outcome.admissible.to_string(), "25761436");
+//! for v in outcome.variants().take(3) {
+//!     println!("{v}");
+//! }
+//! # Ok::<(), ozols::Error>(())
 //! ```
+//!
+//! More in [Using ozols from Rust](guide::rust). What stands at the root is meant for others; the modules are the program's
+//! own rooms, public so that tests, benches and the curious may look, and their items may change from one version to the
+//! next.
 //!
 //! # Layers
 //!
-//! linalg -> geom, verify -> model -> closure -> motion -> rank, statics -> grip, drive -> redundancy, file -> search,
-//! robots -> score, draw, accuracy -> view -> page -> cli. Imports go one way; a test holds them to it. [`chart`] draws
-//! finished numbers and imports nothing, as [`terms`] says what words mean.
+//! mechanism -> search -> outcome -> view: [`guide::architecture`] says what each module holds and which may import which.
 //!
 //! # Sources
 //!
@@ -52,9 +49,17 @@
 //! - `[Klyuchkovskyi 1999]` S. M. Klyuchkovskyi, a universal module of transport and feeding mechanisms for robots and
 //!   cyclic automata, UDC 621.01, 1999.
 
+pub use api::{Error, Scheme, analyze, draw, export, search};
+pub use model::mechanism::Mechanism;
+pub use redundancy::analysis::StateAnalysis as Analysis;
+pub use score::outcome::{Outcome, Variant};
+pub use score::request::Request;
+
 pub mod accuracy;
+mod api;
 pub mod builtin;
 pub mod chart;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod closure;
 pub mod draw;
@@ -74,6 +79,7 @@ pub mod robots;
 pub mod score;
 pub mod search;
 pub mod statics;
+mod svg;
 pub mod terms;
 pub mod verify;
 pub mod view;

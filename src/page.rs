@@ -5,8 +5,8 @@
 //! of each joint, not as ten thousand drawings. Names come from files, so they enter as escaped text or JSON only.
 
 mod certainty;
-mod commands;
-mod embed;
+mod data;
+mod explorer;
 mod figures;
 mod states;
 mod symbols;
@@ -16,12 +16,12 @@ mod workload;
 
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{AnalysisError, StateAnalysis};
-use crate::search::certify::{Certified, Summary};
-use crate::view::search_json::Found;
-use embed::{fill, script_json, text};
-use serde_json::json;
-
-pub use commands::Commands;
+use crate::score::outcome::{Outcome, Variant};
+use crate::search::certify::Summary;
+use crate::view::analysis::Analysis;
+use data::Data;
+use maud::{Markup, PreEscaped, html};
+use symbols::Drawn;
 
 /// Everything a page tells.
 #[derive(Debug)]
@@ -40,17 +40,26 @@ pub struct Page<'a> {
 #[derive(Debug)]
 pub struct Redesigns<'a> {
     /// Counts and conditions.
-    pub found: &'a Found<'a>,
+    pub found: &'a Outcome,
     /// The variants of the page, in their order.
-    pub variants: Vec<Certified>,
+    pub variants: Vec<Variant<'a>>,
     /// What second opinions and other poses say of them.
     pub summary: Summary,
     /// Whether the giving was interrupted.
     pub interrupted: bool,
 }
 
-const TEMPLATE: &str = include_str!("page/page.html");
+/// How to get what a page shows from the command line: commands quoted for a shell.
+#[derive(Debug, Clone)]
+pub struct Commands {
+    /// What each gives, and the command.
+    pub rows: Vec<(String, String)>,
+    /// The same about one variant, with `{}` for its number; none where other commands cannot be asked the same.
+    pub variant: Vec<(String, String)>,
+}
+
 const STYLE: &str = include_str!("page/page.css");
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 /// The script by idea, in the order it is run.
 const SCRIPT: [&str; 7] = [
     include_str!("page/script/data.js"),
@@ -60,6 +69,14 @@ const SCRIPT: [&str; 7] = [
     include_str!("page/script/chosen.js"),
     include_str!("page/script/chart.js"),
     include_str!("page/script/main.js"),
+];
+/// The sections that the table of contents names: their marks and heads.
+const SECTIONS: [(&str, &str); 5] = [
+    ("verdict", "Verdict"),
+    ("redesigns", "Redesigns"),
+    ("mechanism", "The mechanism as it is"),
+    ("certainty", "How sure"),
+    ("commands", "How to get this"),
 ];
 
 /// Writes the page.
@@ -71,44 +88,78 @@ const SCRIPT: [&str; 7] = [
 /// Two drawings a state; for each variant a rank in each further state, and a scoring where the file states loads.
 pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
     let m = page.mechanism;
-    let drawn: Vec<symbols::Drawn> = m
-        .state_ids()
-        .map(|s| symbols::Drawn::new(page, s))
-        .collect();
-    let (store, swaps) = symbols::store(page, &drawn);
-    let found = match &page.redesigns {
-        Ok(r) if !r.variants.is_empty() => Some(variants::json(page, r)?),
+    let analysis = Analysis::new(m, page.states, &[]);
+    let drawn: Vec<Drawn<'_>> = m.state_ids().map(|s| Drawn::new(page, s)).collect();
+    let (store, swaps) = symbols::store(&drawn);
+    let search = match &page.redesigns {
+        Ok(r) if !r.variants.is_empty() => Some(variants::Found::new(page, r)?),
         _ => None,
     };
-    let data = json!({
-        "format": 1,
-        "mechanism": m.name,
-        "length_unit": m.length_unit.symbol,
-        "states": states::json(page),
-        "joints": variants::joints(m),
-        "search": found,
-        "swaps": swaps,
-        "variant_commands": page.commands.variant,
-    });
-    let sources: String = m
-        .sources
-        .iter()
-        .map(|s| format!("<li>{}</li>\n", text(s)))
-        .collect();
-    let parts = [
-        ("title", text(&m.name)),
-        ("description", text(&m.description)),
-        ("sources", sources),
-        ("facts", states::facts(page)),
-        ("style", STYLE.to_owned()),
-        ("verdict", verdict::html(page)),
-        ("states", states::html(page, &drawn)),
-        ("redesigns", variants::html(page)),
-        ("certainty", certainty::html(page)),
-        ("commands", page.commands.html()),
-        ("symbols", store),
-        ("data", script_json(&data)),
-        ("script", SCRIPT.concat()),
-    ];
-    Ok(fill(TEMPLATE, &parts))
+    let data = Data::new(page, &analysis, search, swaps).script();
+    let section = |n: usize, inside: Markup| {
+        let (mark, head) = SECTIONS[n];
+        html! {
+            section id=(mark) tabindex=[(mark == "redesigns").then_some("-1")] {
+                h2 { (head) }
+                (inside)
+            }
+        }
+    };
+    let markup = html! {
+        (PreEscaped("<!doctype html>\n"))
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                title { (m.name) ": redundant constraints and redesigns" }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                a.skip href="#redesigns" { "Skip to the redesigns" }
+                header {
+                    h1 { (m.name) }
+                    p.lead { (m.description) }
+                    p.meta { (states::facts(m, &analysis)) }
+                }
+                nav aria-label="Contents" {
+                    ul {
+                        @for (mark, head) in SECTIONS {
+                            li { a href={ "#" (mark) } { (head) } }
+                        }
+                    }
+                }
+                main {
+                    section id="verdict" aria-label="Verdict" { (verdict::html(page, &analysis)) }
+                    (section(1, explorer::html(page)))
+                    (section(2, states::html(&analysis, &drawn)))
+                    (section(3, certainty::html(page, &analysis)))
+                    (section(4, page.commands.html()))
+                    section id="sources" {
+                        h2 { "Sources" }
+                        ul { @for s in &m.sources { li { (s) } } }
+                    }
+                }
+                svg.store aria-hidden="true" width="0" height="0" { defs { (store) } }
+                script type="application/json" id="data" { (PreEscaped(data)) }
+                script { @for part in SCRIPT { (PreEscaped(part)) } }
+            }
+        }
+        "\n"
+    };
+    Ok(markup.into_string())
+}
+
+impl Commands {
+    fn html(&self) -> Markup {
+        html! {
+            dl.commands {
+                @for (what, command) in &self.rows {
+                    dt { (what) }
+                    dd { code { (command) } }
+                }
+            }
+        }
+    }
 }

@@ -2,6 +2,7 @@
 //! what an over-constrained assembly is stressed with.
 
 pub mod analysis;
+pub mod external;
 pub mod idle;
 pub mod measured;
 pub mod motion;

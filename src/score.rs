@@ -1,4 +1,6 @@
-//! Scores of variants under a workload, and the order they make.
+//! Scores of variants under a workload, the order they make, and the whole way from a [`request`] to its [`outcome`].
+//!
+//! # Scores
 //!
 //! The cost of a variant adds up joint by joint, so the diagram gives variants in its order. What the joints bear, how well
 //! conditioned the equations are and what clearances do to the outputs does not add up; it is computed variant by variant
@@ -20,7 +22,7 @@
 //! # Proof
 //!
 //! Variants come in order of cost and no more than a block of them is held, so a pool may be as large as the space. It ends
-//! early once cost and the [`floor`] of the other terms put all later ones behind. Conditioning has no bound but 0, nor has
+//! early once cost and the [`lower_bound`] of the other terms put all later ones behind. Conditioning has no bound but 0, nor has
 //! the peak moment where every joint may be exchanged for one that bears none.
 
 pub mod bearing;
@@ -29,8 +31,11 @@ pub mod elimination;
 pub mod evaluate;
 pub mod joint_types;
 pub mod lower_bound;
+pub mod outcome;
 pub mod pareto;
 pub mod ranking;
+pub mod request;
+pub mod run;
 pub mod slow;
 pub mod spectrum;
 pub mod table;

@@ -1,19 +1,21 @@
 //! Finished values as JSON and as text for people.
 
-pub mod accuracy_text;
-pub mod analysis_json;
-pub mod analysis_text;
+pub mod accuracy;
+pub mod analysis;
 pub mod drive;
 pub mod grip;
+pub mod idle;
 pub mod layout;
-pub mod mechanism_text;
+pub mod mechanism;
+pub mod mobility;
 pub mod next;
 mod prefix;
 pub mod ranking;
 pub mod reactions;
+pub mod search_csv;
+pub mod search_data;
 pub mod search_json;
 pub mod search_text;
 pub mod statics;
 pub mod stroke;
 pub mod suggestions;
-pub mod words;

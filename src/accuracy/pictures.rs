@@ -5,7 +5,8 @@ use super::survey::{Case, Reply, Standing, Survey};
 use crate::chart::{Axis, Cell, Chart, Kind, Matrix, Scale, Series, Style};
 use crate::format::number::{duration, signed};
 use crate::format::phrase::list;
-use crate::rank::method::{self, MobilityMethod};
+use crate::rank::method::MobilityMethod;
+use crate::rank::registry;
 
 /// The methods that no other one beats in both share and time, the fastest first.
 #[must_use]
@@ -36,7 +37,9 @@ fn percent(share: f64) -> String {
 /// Share of right answers against median time of an answer.
 #[must_use]
 pub fn share_time(survey: &Survey) -> Chart {
-    let standings: Vec<Standing> = (0..method::ALL.len()).map(|m| survey.standing(m)).collect();
+    let standings: Vec<Standing> = (0..registry::ALL.len())
+        .map(|m| survey.standing(m))
+        .collect();
     let front = pareto(&standings);
     let mut steps: Vec<(f64, f64)> = front
         .iter()
@@ -51,7 +54,7 @@ pub fn share_time(survey: &Survey) -> Chart {
         points: steps,
         style: Style::Steps,
     }];
-    series.extend(method::ALL.iter().zip(&standings).map(|(m, s)| Series {
+    series.extend(registry::ALL.iter().zip(&standings).map(|(m, s)| Series {
         name: m.name().to_owned(),
         points: vec![(s.seconds, 100.0 * s.share)],
         style: Style::Points,
@@ -76,7 +79,7 @@ pub fn share_time(survey: &Survey) -> Chart {
 
 fn share_sentence(survey: &Survey, standings: &[Standing], front: &[usize]) -> String {
     let cases = survey.cases.len();
-    let all: Vec<String> = method::ALL
+    let all: Vec<String> = registry::ALL
         .iter()
         .zip(standings)
         .filter(|(_, s)| s.right == cases)
@@ -90,7 +93,7 @@ fn share_sentence(survey: &Survey, standings: &[Standing], front: &[usize]) -> S
     let front: Vec<String> = front
         .iter()
         .map(|&m| {
-            let (name, s) = (method::ALL[m].name(), &standings[m]);
+            let (name, s) = (registry::ALL[m].name(), &standings[m]);
             format!("{name} ({}, {})", percent(s.share), duration(s.seconds))
         })
         .collect();
@@ -104,7 +107,7 @@ fn share_sentence(survey: &Survey, standings: &[Standing], front: &[usize]) -> S
 /// Mechanisms down, methods across: right, wrong by how much, or not applicable.
 #[must_use]
 pub fn matrix(survey: &Survey) -> Matrix {
-    let columns: Vec<String> = method::ALL.iter().map(|m| m.name().to_owned()).collect();
+    let columns: Vec<String> = registry::ALL.iter().map(|m| m.name().to_owned()).collect();
     let rows = survey.cases.iter().map(Case::name).collect();
     let cell = |case: &Case, (method, reply): (&&dyn MobilityMethod, &Reply)| {
         let (text, kind) = match reply.verdict {
@@ -123,7 +126,7 @@ pub fn matrix(survey: &Survey) -> Matrix {
     let cells = survey.cases.iter().zip(&survey.replies);
     let cells = cells
         .map(|(case, replies)| {
-            let pairs = method::ALL.iter().zip(replies);
+            let pairs = registry::ALL.iter().zip(replies);
             pairs.map(|pair| cell(case, pair)).collect()
         })
         .collect();
@@ -153,7 +156,7 @@ fn tooltip(case: &Case, method: &dyn MobilityMethod, reply: &Reply) -> String {
     match reply.verdict {
         Verdict::Right => format!("{says}, right"),
         Verdict::Pose(_) => format!("{says}; {is}: the method speaks of the pose alone"),
-        _ => format!("{says}; {is}: {}", method.guarantee()),
+        _ => format!("{says}; {is}: {}", method.about().guarantee),
     }
 }
 
@@ -175,6 +178,6 @@ fn matrix_sentence(survey: &Survey) -> String {
          answers are wrong, {pose} are right at the pose of the file but not for the motion, n/a is where a method does \
          not apply.",
         survey.cases.len(),
-        method::ALL.len(),
+        registry::ALL.len(),
     )
 }

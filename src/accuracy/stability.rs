@@ -3,7 +3,6 @@
 pub mod change;
 mod distance;
 mod noise;
-pub mod numeric;
 mod scale;
 mod size;
 pub mod sweep;

@@ -6,7 +6,8 @@ use crate::file::problem::ImportError;
 use crate::file::text::mechanism_from_str;
 use crate::format::csv;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::method::{self, Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
+use crate::rank::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
+use crate::rank::registry;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::hint::black_box;
@@ -97,7 +98,7 @@ pub struct Standing {
 pub struct Survey {
     /// The cases, by name.
     pub cases: Vec<Case>,
-    /// What each method of [`method::ALL`] said, case by case.
+    /// What each method of [`registry::ALL`] said, case by case.
     pub replies: Vec<Vec<Reply>>,
 }
 
@@ -139,7 +140,7 @@ impl Survey {
         let answers: Vec<Vec<Result<Answer, NoAnswer>>> = cases
             .par_iter()
             .map(|c| {
-                method::ALL
+                registry::ALL
                     .iter()
                     .map(|m| m.answer(&c.mechanism, c.state))
                     .collect()
@@ -153,7 +154,7 @@ impl Survey {
                 answer,
                 seconds: time(*method, &case.mechanism, case.state, repeat),
             };
-            replies.push(method::ALL.iter().zip(answers).map(reply).collect());
+            replies.push(registry::ALL.iter().zip(answers).map(reply).collect());
         }
         progress(cases.len(), cases.len());
         Ok(Survey { cases, replies })
@@ -207,23 +208,27 @@ impl Survey {
                     median_seconds: format!("{:.3e}", reply.seconds),
                 }
             };
-            method::ALL.iter().zip(replies).map(row).collect::<Vec<_>>()
+            registry::ALL
+                .iter()
+                .zip(replies)
+                .map(row)
+                .collect::<Vec<_>>()
         };
         csv::records(self.cases.iter().zip(&self.replies).flat_map(of_case))
     }
 
     /// One line for each method.
     pub(crate) fn methods_csv(&self) -> String {
-        csv::records(method::ALL.iter().enumerate().map(|(n, method)| {
+        csv::records(registry::ALL.iter().enumerate().map(|(n, method)| {
             let s = self.standing(n);
             #[allow(clippy::cast_precision_loss, reason = "counts are small")]
             let answered = s.right as f64 / s.applies.max(1) as f64;
             MethodRow {
                 method: method.name(),
-                title: method.title(),
-                guarantee: method.guarantee(),
-                complexity: method.complexity(),
-                source: method.source(),
+                title: method.about().title,
+                guarantee: method.about().guarantee,
+                complexity: method.about().complexity,
+                source: method.about().source,
                 cases: self.cases.len(),
                 applies_to: s.applies,
                 right: s.right,
@@ -280,15 +285,14 @@ fn quantity(q: Quantity) -> &'static str {
 
 fn certainty(c: &Certainty) -> String {
     match c {
-        Certainty::Counted => "counted".to_owned(),
-        Certainty::Exact => "exact".to_owned(),
-        Certainty::Traced => "traced".to_owned(),
         Certainty::Numeric {
             tolerance,
             kept,
             dropped,
+            ..
         } => format!(
             "numeric at {tolerance:.0e}: smallest kept {kept:.1e}, largest dropped {dropped:.1e}"
         ),
+        other => other.word().to_owned(),
     }
 }

@@ -3,6 +3,7 @@
 use super::Scale;
 use super::look::{self, TICK};
 use crate::format::number::minus;
+use crate::svg::text;
 
 /// The range of an axis with its ticks; places are fractions of the axis from its low end.
 #[derive(Clone, Debug)]
@@ -56,7 +57,7 @@ impl Label {
     /// Its width in pixels.
     pub(super) fn width(&self) -> f64 {
         let power = self.power.as_deref().unwrap_or_default();
-        look::width(&self.base, TICK) + look::width(power, look::RAISED)
+        text::width(&self.base, TICK) + text::width(power, look::RAISED)
     }
 }
 

@@ -2,11 +2,12 @@
 
 use super::axis::{Fit, Room, Ruler};
 use super::frame::{self, Head};
-use super::labels::Rect;
-use super::look::{self, PAD, TICK, WIDTH};
-use super::xml::Xml;
+use super::look::{PAD, TICK, WIDTH};
 use super::{Bands, Kind, Scale};
 use crate::format::number::tooltip;
+use crate::svg::plane::Rect;
+use crate::svg::text;
+use crate::svg::xml::Xml;
 
 /// The height of a row.
 const ROW: f64 = 28.0;
@@ -24,7 +25,7 @@ impl Bands {
     /// A band may end at infinity, or on a log axis at zero: it then reaches the edge. Bands differ in height as well as in
     /// colour: right ones are the highest, wrong ones low.
     pub fn svg(&self) -> String {
-        let names = self.rows.iter().map(|r| look::width(r.0.trim(), TICK));
+        let names = self.rows.iter().map(|r| text::width(r.0.trim(), TICK));
         let left = (PAD + names.fold(0.0, f64::max).min(250.0) + 12.0).max(48.0);
         let right = WIDTH - 36.0;
         let head = Head::new(&self.title, &self.subtitle, WIDTH);
@@ -44,10 +45,15 @@ impl Bands {
                 bar(&mut xml, kind, (x, x + 22.0), top - 20.0, "");
                 let text = xml.tag("text").set("class", "soft").num("x", x + 28.0);
                 text.num("y", top - 16.0).text(meaning);
-                x += 28.0 + look::width(meaning, TICK) + 18.0;
+                x += 28.0 + text::width(meaning, TICK) + 18.0;
             }
         }
-        let plot = Rect(left, top, right, bottom);
+        let plot = Rect {
+            left,
+            top,
+            right,
+            bottom,
+        };
         frame::across(&mut xml, &ruler, &self.x.label, &plot);
         for (n, (name, bands)) in self.rows.iter().enumerate() {
             let y = top + ROW * n as f64;
@@ -57,7 +63,7 @@ impl Bands {
                 .set("class", "name")
                 .set("text-anchor", "end");
             let text = text.num("x", left - 10.0).num("y", y + ROW / 2.0 + 4.0);
-            text.text_and_tip(&look::cut(name, TICK, 250.0), name.trim());
+            text.text_and_tip(&text::cut(name, TICK, 250.0), name.trim());
             for &(from, to, kind) in bands {
                 let Some((a, b)) = self.places(&ruler, from, to) else {
                     continue;

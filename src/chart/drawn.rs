@@ -1,11 +1,13 @@
 //! The series of a chart on paper: lines, marks, names.
 
 use super::frame;
-use super::labels::{self, Rect};
-use super::look::{self, COLOURS, PAD, TICK, WIDTH};
-use super::xml::{Xml, number};
+use super::labels;
+use super::look::{COLOURS, PAD, TICK, WIDTH};
 use super::{Series, Style};
 use crate::format::number::tooltip;
+use crate::svg::plane::Rect;
+use crate::svg::text;
+use crate::svg::xml::{Xml, number};
 
 /// The height between names in the margin.
 pub(super) const STEP: f64 = 18.0;
@@ -225,29 +227,34 @@ pub(super) fn beside_points(xml: &mut Xml, drawn: &[Drawn], plot: &Rect) {
     let points: Vec<_> = lone.iter().map(|l| l.0).collect();
     let names: Vec<_> = lone
         .iter()
-        .map(|l| look::cut(&l.1.series.name, TICK, plot.2 - plot.0 - 40.0))
+        .map(|l| text::cut(&l.1.series.name, TICK, plot.right - plot.left - 40.0))
         .collect();
-    let sizes: Vec<_> = names.iter().map(|n| (look::width(n, TICK), 15.0)).collect();
-    let room = Rect(plot.0 + 2.0, plot.1 - 8.0, plot.2 + 30.0, plot.3 - 2.0);
+    let sizes: Vec<_> = names.iter().map(|n| (text::width(n, TICK), 15.0)).collect();
+    let room = Rect {
+        left: plot.left + 2.0,
+        top: plot.top - 8.0,
+        right: plot.right + 30.0,
+        bottom: plot.bottom - 2.0,
+    };
     for ((rect, name), &(x, y)) in labels::beside(&points, &sizes, room)
         .iter()
         .zip(&names)
         .zip(&points)
     {
-        let near = (x.clamp(rect.0, rect.2), y.clamp(rect.1, rect.3));
-        if (near.0 - x).hypot(near.1 - y) > 16.0 {
-            frame::stroke(xml, "lead", (x, y), near);
+        let near = rect.nearest([x, y]);
+        if (near[0] - x).hypot(near[1] - y) > 16.0 {
+            frame::stroke(xml, "lead", (x, y), near.into());
         }
-        let (anchor, at) = match (rect.0 >= x, rect.2 <= x) {
-            (true, _) => ("start", rect.0),
-            (_, true) => ("end", rect.2),
-            _ => ("middle", f64::midpoint(rect.0, rect.2)),
+        let (anchor, at) = match (rect.left >= x, rect.right <= x) {
+            (true, _) => ("start", rect.left),
+            (_, true) => ("end", rect.right),
+            _ => ("middle", f64::midpoint(rect.left, rect.right)),
         };
         let text = xml
             .tag("text")
             .set("class", "name halo")
             .set("text-anchor", anchor);
-        text.num("x", at).num("y", rect.3 - 3.5).text(name);
+        text.num("x", at).num("y", rect.bottom - 3.5).text(name);
     }
 }
 
@@ -260,14 +267,14 @@ pub(super) fn margin(xml: &mut Xml, drawn: &[Drawn], plot: &Rect) {
     ends.sort_by(|a, b| a.0.1.total_cmp(&b.0.1));
     let wishes: Vec<_> = ends.iter().map(|(end, _)| end.1).collect();
     let half = STEP / 2.0;
-    let heights = labels::spread(&wishes, STEP, plot.1 + half, plot.3 - half);
+    let heights = labels::spread(&wishes, STEP, plot.top + half, plot.bottom - half);
     for ((end, d), y) in ends.iter().zip(heights) {
-        let from = plot.2 + LEAD;
-        if plot.2 - end.0 < 12.0 {
+        let from = plot.right + LEAD;
+        if plot.right - end.0 < 12.0 {
             frame::stroke(
                 xml,
                 "lead",
-                (end.0.max(plot.2) + 3.0, end.1),
+                (end.0.max(plot.right) + 3.0, end.1),
                 (from - 2.0, y),
             );
         }
@@ -279,7 +286,7 @@ pub(super) fn margin(xml: &mut Xml, drawn: &[Drawn], plot: &Rect) {
             mark(xml, d, middle, 4.0, "");
         }
         let at = from + SAMPLE + 8.0;
-        let name = look::cut(&d.series.name, TICK, WIDTH - PAD / 2.0 - at);
+        let name = text::cut(&d.series.name, TICK, WIDTH - PAD / 2.0 - at);
         xml.tag("text")
             .set("class", "name")
             .num("x", at)

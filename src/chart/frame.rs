@@ -1,8 +1,10 @@
 //! What every picture has: the root element, the title, axes across.
 
 use super::axis::{Label, Ruler};
-use super::look::{self, PAD, STYLE, TICK};
-use super::xml::Xml;
+use super::look::{PAD, STYLE, TICK};
+use crate::svg::plane::Rect;
+use crate::svg::text;
+use crate::svg::xml::Xml;
 
 /// The title and the sentence under it, broken into lines.
 #[derive(Debug)]
@@ -15,8 +17,8 @@ impl Head {
     /// The lines for a picture of this width.
     pub(super) fn new(title: &str, subtitle: &str, width: f64) -> Self {
         Head {
-            title: look::wrap(title, 16.5, width - 2.0 * PAD),
-            subtitle: look::wrap(subtitle, 12.0, width - 2.0 * PAD),
+            title: text::wrap(title, 16.5, width - 2.0 * PAD),
+            subtitle: text::wrap(subtitle, 12.0, width - 2.0 * PAD),
         }
     }
 
@@ -93,8 +95,13 @@ pub(super) fn tick(xml: &mut Xml, label: &Label, at: (f64, f64), anchor: &str, c
 }
 
 /// The axis across: lines over the plot from `top` to `bottom`, labels below, the name of the axis under them.
-pub(super) fn across(xml: &mut Xml, ruler: &Ruler, name: &str, plot: &super::labels::Rect) {
-    let &super::labels::Rect(left, top, right, bottom) = plot;
+pub(super) fn across(xml: &mut Xml, ruler: &Ruler, name: &str, plot: &Rect) {
+    let &Rect {
+        left,
+        top,
+        right,
+        bottom,
+    } = plot;
     for at in &ruler.fine {
         let x = left + at * (right - left);
         stroke(xml, "fine", (x, top), (x, bottom));
@@ -111,7 +118,7 @@ pub(super) fn across(xml: &mut Xml, ruler: &Ruler, name: &str, plot: &super::lab
         }
     }
     let room = right - left;
-    let name = look::cut(name, TICK, room.max(300.0));
+    let name = text::cut(name, TICK, room.max(300.0));
     let at = xml
         .tag("text")
         .set("class", "name")

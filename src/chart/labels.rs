@@ -1,26 +1,6 @@
 //! Where names go so that none touches another.
 
-/// A rectangle: left, top, right, bottom.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Rect(
-    pub(super) f64,
-    pub(super) f64,
-    pub(super) f64,
-    pub(super) f64,
-);
-
-impl Rect {
-    /// How much of it `other` covers.
-    fn overlap(self, other: Rect) -> f64 {
-        let across = self.2.min(other.2) - self.0.max(other.0);
-        let up = self.3.min(other.3) - self.1.max(other.1);
-        across.max(0.0) * up.max(0.0)
-    }
-
-    fn inside(self, room: Rect) -> bool {
-        self.0 >= room.0 && self.1 >= room.1 && self.2 <= room.2 && self.3 <= room.3
-    }
-}
+use crate::svg::plane::Rect;
 
 /// Heights at least `step` apart within `from..=to`, in the order of the wishes and as near to them as can be.
 ///
@@ -58,7 +38,7 @@ pub(super) fn spread(wishes: &[f64], step: f64, from: f64, to: f64) -> Vec<f64> 
 pub(super) fn beside(points: &[(f64, f64)], sizes: &[(f64, f64)], room: Rect) -> Vec<Rect> {
     let mut taken: Vec<Rect> = points
         .iter()
-        .map(|&(x, y)| Rect(x - 6.0, y - 6.0, x + 6.0, y + 6.0))
+        .map(|&(x, y)| Rect::around([x, y], 12.0, 12.0))
         .collect();
     let mut out = Vec::new();
     for (&(x, y), &(w, h)) in points.iter().zip(sizes) {
@@ -78,11 +58,16 @@ pub(super) fn beside(points: &[(f64, f64)], sizes: &[(f64, f64)], room: Rect) ->
                 (x - corner - w, y + corner),
             ];
             for (a, b) in near {
-                let rect = Rect(a, b, a + w, b + h);
-                if !rect.inside(room) {
+                let rect = Rect {
+                    left: a,
+                    top: b,
+                    right: a + w,
+                    bottom: b + h,
+                };
+                if !rect.within(&room) {
                     continue;
                 }
-                let covered = taken.iter().map(|t| rect.overlap(*t)).sum::<f64>();
+                let covered = taken.iter().map(|t| rect.overlap(t)).sum::<f64>();
                 if best.is_none_or(|(least, _)| covered < least) {
                     best = Some((covered, rect));
                 }
@@ -93,7 +78,12 @@ pub(super) fn beside(points: &[(f64, f64)], sizes: &[(f64, f64)], room: Rect) ->
         }
         // a name wider than the room starts at its left edge
         let rect = best.map_or(
-            Rect(room.0, y - h / 2.0, room.0 + w, y + h / 2.0),
+            Rect {
+                left: room.left,
+                top: y - h / 2.0,
+                right: room.left + w,
+                bottom: y + h / 2.0,
+            },
             |(_, r)| r,
         );
         taken.push(rect);
@@ -121,10 +111,14 @@ mod tests {
     #[test]
     fn names_of_points_in_one_place_do_not_cover_each_other() {
         let points = [(100.0, 100.0); 8];
-        let places = beside(&points, &[(60.0, 14.0); 8], Rect(0.0, 0.0, 300.0, 300.0));
+        let places = beside(
+            &points,
+            &[(60.0, 14.0); 8],
+            Rect::around([150.0; 2], 300.0, 300.0),
+        );
         for (n, a) in places.iter().enumerate() {
             assert!(
-                places[..n].iter().all(|b| a.overlap(*b) == 0.0),
+                places[..n].iter().all(|b| a.overlap(b) == 0.0),
                 "{places:?}"
             );
         }

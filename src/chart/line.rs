@@ -3,11 +3,12 @@
 use super::axis::{Fit, Room, Ruler};
 use super::drawn::{self, Drawn, LEAD, SAMPLE, STEP};
 use super::frame::{self, Head};
-use super::labels::Rect;
-use super::look::{self, COLOURS, PAD, TICK, WIDTH};
-use super::xml::Xml;
+use super::look::{COLOURS, PAD, TICK, WIDTH};
 use super::{Chart, Series, Style};
 use crate::format::csv;
+use crate::svg::plane::Rect;
+use crate::svg::text;
+use crate::svg::xml::Xml;
 
 impl Chart {
     /// The chart as a self-contained SVG element, for a file of its own or inside HTML.
@@ -31,7 +32,7 @@ impl Chart {
         let beside = shown.iter().filter(|(_, s)| !lone(s) && !s.name.is_empty());
         let longest = beside
             .clone()
-            .map(|(_, s)| look::width(&s.name, TICK))
+            .map(|(_, s)| text::width(&s.name, TICK))
             .fold(0.0, f64::max);
         let names = beside.count();
 
@@ -66,7 +67,7 @@ impl Chart {
             .join(", ");
         let note = match note.as_str() {
             "" => Vec::new(),
-            names => look::wrap(
+            names => text::wrap(
                 &format!("Nothing to show: {names}."),
                 11.0,
                 WIDTH - 2.0 * PAD,
@@ -76,8 +77,13 @@ impl Chart {
 
         let size = (WIDTH, foot + 16.0 * note.len() as f64);
         let mut xml = frame::begin(size, "oz oz-chart", &self.title, &self.about(seen), &head);
-        let plot = Rect(left, top, right, bottom);
-        let label = look::cut(&self.y.label, TICK, WIDTH - 2.0 * PAD);
+        let plot = Rect {
+            left,
+            top,
+            right,
+            bottom,
+        };
+        let label = text::cut(&self.y.label, TICK, WIDTH - 2.0 * PAD);
         let text = xml.tag("text").set("class", "name").num("x", PAD);
         text.num("y", top - 14.0).text(&label);
         up(&mut xml, &y, &plot);
@@ -153,7 +159,12 @@ impl Chart {
 
 /// The axis up: lines over the plot and labels before it.
 fn up(xml: &mut Xml, ruler: &Ruler, plot: &Rect) {
-    let &Rect(left, top, right, bottom) = plot;
+    let &Rect {
+        left,
+        top,
+        right,
+        bottom,
+    } = plot;
     let height = |at: f64| bottom - at * (bottom - top);
     for at in &ruler.fine {
         frame::stroke(xml, "fine", (left, height(*at)), (right, height(*at)));

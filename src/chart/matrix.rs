@@ -1,9 +1,10 @@
 //! Verdicts in rows and columns.
 
 use super::frame::{self, Head};
-use super::look::{self, PAD, WIDTH};
-use super::xml::{Xml, number};
+use super::look::{PAD, WIDTH};
 use super::{Cell, Kind, Matrix};
+use crate::svg::text;
+use crate::svg::xml::{Xml, number};
 
 /// The size of names.
 const SIZE: f64 = 12.0;
@@ -32,7 +33,7 @@ impl Matrix {
     /// Rows of too few cells end early; cells beyond the last column have a column without a head.
     pub fn svg(&self) -> String {
         let widest = |names: &[String], most: f64| {
-            let widths = names.iter().map(|n| look::width(n.trim(), SIZE));
+            let widths = names.iter().map(|n| text::width(n.trim(), SIZE));
             widths.fold(0.0, f64::max).min(most)
         };
         let columns = self
@@ -45,7 +46,7 @@ impl Matrix {
             .cells
             .iter()
             .flatten()
-            .map(|c| look::width(c.text.trim(), SMALL));
+            .map(|c| text::width(c.text.trim(), SMALL));
         let cell = (texts.fold(0.0, f64::max) + 12.0).clamp(34.0, 130.0);
         let before = widest(&self.rows, 300.0) + 12.0;
         let slant = widest(&self.columns, 190.0) * std::f64::consts::FRAC_1_SQRT_2;
@@ -77,7 +78,7 @@ impl Matrix {
                 .set("class", "name")
                 .set("text-anchor", "end");
             let at = at.num("x", left - 10.0).num("y", y + 15.0);
-            at.text_and_tip(&look::cut(name, SIZE, 300.0), name.trim());
+            at.text_and_tip(&text::cut(name, SIZE, 300.0), name.trim());
             for (n, c) in self.cells.get(row).into_iter().flatten().enumerate() {
                 let column = self.columns.get(n).map_or("", String::as_str);
                 one(
@@ -131,7 +132,7 @@ fn column(xml: &mut Xml, name: &str, (x, y): (f64, f64), turn: f64) {
         number(turn)
     );
     let text = xml.tag("text").set("class", "name").set("transform", &turn);
-    text.text_and_tip(&look::cut(name, SIZE, 190.0), name.trim());
+    text.text_and_tip(&text::cut(name, SIZE, 190.0), name.trim());
 }
 
 /// A cell: its colour with its text, or with a sign where it has none.
@@ -149,7 +150,7 @@ fn one(xml: &mut Xml, cell: &Cell, tip: &str, (x, y): (f64, f64), width: f64) {
         .num("rx", 3.0)
         .close();
     let middle = x + width / 2.0;
-    let text = look::cut(&cell.text, SMALL, width - 4.0);
+    let text = text::cut(&cell.text, SMALL, width - 4.0);
     if text.is_empty() {
         let shape = match cell.kind {
             Kind::Good => "m-4 0 l3 3 l5 -6",

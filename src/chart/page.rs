@@ -1,6 +1,6 @@
 //! One HTML page for several pictures.
 
-use super::xml::escape;
+use maud::{PreEscaped, html};
 
 const STYLE: &str = "
 :root{color-scheme:light dark;--ink:#1c2126;--soft:#59636e;--back:#fff;--rule:#e3e7eb;--link:#0b4a83}
@@ -12,7 +12,7 @@ html{-webkit-text-size-adjust:100%}
 body{margin:0 auto;padding:2rem 1.25rem 4rem;max-width:66rem;color:var(--ink);background:var(--back);
 font:1rem/1.5 system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif}
 h1{font-size:1.75rem;line-height:1.2;margin:0 0 1rem}
-h2{font-size:1.25rem;line-height:1.3;margin:0 0 .25rem}
+h2{position:absolute;width:1px;height:1px;margin:0;overflow:hidden;clip-path:inset(50%)}
 p{margin:0 0 1rem;max-width:42rem;color:var(--soft)}
 a{color:var(--link)}
 nav ul{margin:0;padding:0;list-style:none;columns:18rem;column-gap:2rem}
@@ -24,52 +24,51 @@ section{margin-top:2rem;padding-top:1.5rem;border-top:1px solid var(--rule);scro
 @page{margin:15mm}
 body{padding:0;max-width:none;font-size:10pt}
 nav{display:none}
-h2,p{break-after:avoid}
+p{break-after:avoid}
 .wide{overflow:visible;margin:0 -5mm}
 .wide svg,.wide svg.oz-matrix{max-width:100%}
 }
 ";
 
 /// One self-contained HTML page: under the title, each part with its heading, a sentence and an SVG, which stands as it is
-/// given.
+/// given. Pictures show their headings themselves, so those of the parts are for screen readers and the table of contents.
 ///
 /// It follows the reader's light or dark setting, prints on white, and on a narrow screen each picture scrolls by itself.
 /// From four parts on there is a table of contents.
 pub fn page(title: &str, parts: &[(String, String, String)]) -> String {
-    let mut out =
-        String::from("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
-    out += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>";
-    escape(&mut out, title);
-    out += "</title>\n<style>";
-    out += STYLE;
-    out += "</style>\n</head>\n<body>\n<main>\n<h1>";
-    escape(&mut out, title);
-    out += "</h1>\n";
-    if parts.len() > 3 {
-        out += "<nav aria-label=\"Contents\">\n<ul>\n";
-        for (n, (heading, ..)) in parts.iter().enumerate() {
-            out += &format!("<li><a href=\"#part-{}\">", n + 1);
-            escape(&mut out, heading);
-            out += "</a></li>\n";
+    let page = html! {
+        (PreEscaped("<!doctype html>\n"))
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                main {
+                    h1 { (title) }
+                    @if parts.len() > 3 {
+                        nav aria-label="Contents" {
+                            ul {
+                                @for (n, (heading, ..)) in parts.iter().enumerate() {
+                                    li { a href={ "#part-" (n + 1) } { (heading) } }
+                                }
+                            }
+                        }
+                    }
+                    @for (n, (heading, sentence, svg)) in parts.iter().enumerate() {
+                        section id={ "part-" (n + 1) } {
+                            h2 { (heading) }
+                            @if !sentence.is_empty() { p { (sentence) } }
+                            // Reached by keyboard, since it scrolls.
+                            div.wide tabindex="0" role="group" aria-label=(heading) { (PreEscaped(svg)) }
+                        }
+                    }
+                }
+            }
         }
-        out += "</ul>\n</nav>\n";
-    }
-    for (n, (heading, sentence, svg)) in parts.iter().enumerate() {
-        out += &format!("<section id=\"part-{}\">\n<h2>", n + 1);
-        escape(&mut out, heading);
-        out += "</h2>\n";
-        if !sentence.is_empty() {
-            out += "<p>";
-            escape(&mut out, sentence);
-            out += "</p>\n";
-        }
-        // reached by keyboard, since it scrolls
-        out += "<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"";
-        escape(&mut out, heading);
-        out += "\">\n";
-        out += svg;
-        out += "</div>\n</section>\n";
-    }
-    out += "</main>\n</body>\n</html>\n";
-    out
+        "\n"
+    };
+    page.into_string()
 }

@@ -1,14 +1,29 @@
 //! `ozols accuracy`.
 
-use super::args::{Accuracy, Args};
+use super::args::Args;
 use super::progress::Bar;
 use super::{Done, output};
 use crate::accuracy::folder;
 use crate::accuracy::stability::{self, Effort};
 use crate::accuracy::survey::Survey;
-use crate::view::accuracy_text;
+use crate::view::accuracy::summary;
 use crate::view::next::{self, Step};
 use anyhow::{Context, ensure};
+use clap::Args as ClapArgs;
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Accuracy {
+    /// Write charts and tables to this folder, index.html first among them; without it only the table is printed.
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Fewer repeats and coarser stability charts: some seconds instead of a minute or two.
+    #[arg(long)]
+    quick: bool,
+    /// Times each answer is timed; the median counts. 5 by default, 1 with --quick.
+    #[arg(long, value_name = "N")]
+    repeat: Option<usize>,
+}
 
 pub(super) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
     let repeat = a.repeat.unwrap_or(if a.quick { 1 } else { 5 });
@@ -40,7 +55,7 @@ pub(super) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
         let sentences = studies
             .iter()
             .map(|s| (s.title.as_str(), s.sentence.as_str()));
-        let text = accuracy_text::summary(&survey, sentences, output::width(None));
+        let text = summary(&survey, sentences, output::width(None));
         return output::to(None, |out| {
             writeln!(
                 out,
@@ -52,7 +67,7 @@ pub(super) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
     }
     bar.clear();
     output::to(None, |out| {
-        let text = accuracy_text::summary(&survey, [], output::width(None));
+        let text = summary(&survey, [], output::width(None));
         let charts = Step {
             command: "ozols accuracy -o accuracy".to_owned(),
             gives: "the same as charts, and where each method's numbers fail".to_owned(),

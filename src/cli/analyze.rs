@@ -1,19 +1,70 @@
 //! `ozols analyze`.
 
-use super::args::{Analyze, AnalyzeFormat, Args, RankMethod};
+use super::args::{AnalyzeFormat, Args, File};
 use super::{Done, load, output, stroke, verify};
 use crate::model::measured::looks_measured;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::method;
-use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::rank::scaled::Precision;
+use crate::rank::method::MobilityMethod;
+use crate::rank::registry;
 use crate::rank::snap::snap;
-use crate::redundancy::analysis::{Elimination, Method, StateAnalysis, analyse};
+use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::search::suggest::single_changes;
+use crate::view::analysis::Analysis;
 use crate::view::layout::fit;
+use crate::view::mobility::ByMethod;
+use crate::view::next;
 use crate::view::suggestions::{self, Advice};
-use crate::view::{analysis_json, analysis_text, next};
 use anyhow::{Context, bail};
+use clap::Args as ClapArgs;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use std::path::PathBuf;
+
+/// A rank method by its name, listed the surest first.
+fn rank_method() -> impl TypedValueParser<Value = &'static dyn MobilityMethod> {
+    let each = registry::ALL.into_iter().rev();
+    let values = each.map(|m| PossibleValue::new(m.name()).help(m.about().help));
+    PossibleValuesParser::new(values)
+        .try_map(|name| registry::by_name(&name).ok_or("there is no such method"))
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Analyze {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// A state named in the file, such as free or clamped, or all.
+    #[arg(long, default_value = "all")]
+    pub(super) state: String,
+    /// How the rank is found.
+    #[arg(long, value_parser = rank_method(), default_value = "auto")]
+    method: &'static dyn MobilityMethod,
+    /// Relative tolerance of the floating-point methods, and of snapping measured geometry; by default what suits the
+    /// method and the digits.
+    #[arg(long, visible_alias = "snap", value_name = "T")]
+    pub(super) tolerance: Option<f64>,
+    /// Model the mechanism in its plane (normal z) with 3 rows per contour, whatever the file says.
+    #[arg(long)]
+    pub(super) planar: bool,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    pub(super) format: AnalyzeFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+    /// Also write a proof of each state's rank to a JSON file, for `ozols verify`.
+    #[arg(long, value_name = "FILE")]
+    pub(super) certificate: Option<PathBuf>,
+    /// Also look at the poses over a range of the drive, in steps: 0:360deg:72. Counted from the pose of the file; radians
+    /// where no unit stands, the file's length unit for drives that slide. In the first state unless --state names one.
+    #[arg(long, value_name = "FROM:TO:STEPS", allow_hyphen_values = true)]
+    pub(super) stroke: Option<String>,
+    /// The joint that moves over the stroke, JOINT:FREEDOM where it has several; by default the file's first drive. The
+    /// file's other drives are held, unless this is none of them.
+    #[arg(long, value_name = "JOINT", requires = "stroke")]
+    pub(super) drive: Option<String>,
+    /// Write a chart of the conditioning over the stroke to a file.
+    #[arg(long, value_name = "FILE", requires = "stroke")]
+    pub(super) svg: Option<PathBuf>,
+}
 
 pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file.file)?;
@@ -36,57 +87,41 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
         bail!("--tolerance must be between 0 and 1");
     }
     let stroke = stroke::Asked::new(&mechanism, a)?;
-    let eliminate = |e: Elimination, usual: f64| Method::Numeric(e, a.tolerance.unwrap_or(usual));
-    let method = match a.method {
-        RankMethod::Auto => Method::Auto {
-            tolerance: a.tolerance,
-        },
-        RankMethod::Modular | RankMethod::Finite => Method::Modular,
-        RankMethod::Svd => eliminate(Elimination::Svd, DEFAULT_TOLERANCE),
-        RankMethod::Qr => eliminate(Elimination::Qr, f64::TOLERANCE),
-        RankMethod::Qr32 => eliminate(Elimination::Qr32, f32::TOLERANCE),
-        RankMethod::Lu => eliminate(Elimination::Lu, f64::TOLERANCE),
-        RankMethod::Lu32 => eliminate(Elimination::Lu32, f32::TOLERANCE),
-        RankMethod::Rational => return by(&mechanism, &states, "rational", a),
-        RankMethod::Count => return by(&mechanism, &states, "count", a),
-        RankMethod::CountPlanar => return by(&mechanism, &states, "count-planar", a),
-        RankMethod::Loops => return by(&mechanism, &states, "loops", a),
-        RankMethod::Generic => return by(&mechanism, &states, "generic", a),
+    let Some(method) = Method::of(a.method, a.tolerance) else {
+        return mobility_alone(&mechanism, &states, a);
     };
     let found = analyse(&mechanism, &states, method)?;
     if let Some(path) = &a.certificate {
         verify::write(path, &mechanism, &states)?;
     }
-    let stroke = stroke.map(|s| s.follow()).transpose()?;
+    let stroke = stroke.as_ref().map(stroke::Asked::follow).transpose()?;
     if let (Some(s), Some(path)) = (&stroke, &a.svg) {
-        s.chart(path)?;
+        output::to(Some(path), |out| {
+            write!(out, "{}", s.chart().svg())?;
+            Ok(Done::Found)
+        })?;
     }
     let (advice, snapped) = advise(&mechanism, &states, &found, a.tolerance)?;
-    let next = suggestions::next(&mechanism, &found, &advice, &a.file.file, snapped);
+    let analysis = Analysis {
+        stroke,
+        ..Analysis::new(&mechanism, &found, &advice)
+    };
+    let next = suggestions::next(&mechanism, &analysis.states, &a.file.file, snapped);
     let width = output::width(a.output.as_deref());
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            AnalyzeFormat::Json => {
-                let mut value = analysis_json::analysis(&mechanism, &found, &advice);
-                if let Some(s) = &stroke {
-                    value["stroke"] = s.json();
-                }
-                writeln!(out, "{value:#}")?;
-            }
+            AnalyzeFormat::Json => output::json(out, &analysis)?,
             AnalyzeFormat::Text => {
-                let text = analysis_text::analysis(&mechanism, &found, &advice, width);
-                write!(out, "{text}")?;
-                if let Some(s) = &stroke {
+                write!(out, "{}", analysis.text(width))?;
+                if let Some(s) = &analysis.stroke {
                     write!(out, "\n{}", fit(&s.text(width), width))?;
                 }
                 write!(out, "{}", next::text(&next, width))?;
             }
         }
         // A stroke that could not be finished is no success.
-        Ok(match stroke {
-            Some(s) if s.stopped() => Done::Nothing,
-            _ => Done::Found,
-        })
+        let stopped = analysis.stroke.is_some_and(|s| s.stop.is_some());
+        Ok(if stopped { Done::Nothing } else { Done::Found })
     })
 }
 
@@ -128,28 +163,25 @@ fn advise(
     Ok((advice, snapped.map(|(_, t)| t)))
 }
 
-/// A method that gives a mobility and nothing else.
-fn by(mechanism: &Mechanism, states: &[StateId], name: &str, a: &Analyze) -> anyhow::Result<Done> {
-    let method = method::by_name(name).with_context(|| format!("there is no method {name}"))?;
+/// By a method that gives a mobility and nothing else.
+fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> anyhow::Result<Done> {
+    let method = a.method;
     if a.stroke.is_some() {
-        bail!("--stroke needs the rank of J, which --method {name} does not give; use auto or svd");
+        bail!(
+            "--stroke needs the rank of J, which --method {} does not give; use auto or svd",
+            method.name()
+        );
     }
     let answers = states
         .iter()
         .map(|&s| Ok((s, method.answer(mechanism, s)?)))
         .collect::<anyhow::Result<Vec<_>>>()
-        .with_context(|| format!("{} by {}", mechanism.name, method.title()))?;
+        .with_context(|| format!("{} by {}", mechanism.name, method.about().title))?;
+    let found = ByMethod::new(mechanism, method, &answers);
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            AnalyzeFormat::Json => {
-                let value = analysis_json::by_method(mechanism, method, &answers);
-                writeln!(out, "{value:#}")?;
-            }
-            AnalyzeFormat::Text => write!(
-                out,
-                "{}",
-                analysis_text::by_method(mechanism, method, &answers)
-            )?,
+            AnalyzeFormat::Json => output::json(out, &found)?,
+            AnalyzeFormat::Text => write!(out, "{}", found.text())?,
         }
         Ok(Done::Found)
     })

@@ -1,17 +1,26 @@
 //! `ozols check`, `show` and `schema`.
 
-use super::args::{Args, File, Show};
+use super::args::{Args, File};
 use super::{Done, load, output};
 use crate::builtin;
-use crate::file::lint::{Checked, DoubtKind, Doubts, across, check};
+use crate::file::lint::{Checked, across, check};
 use crate::file::locate::Step;
 use crate::file::read::workload::tables_alone;
+use crate::file::warning::{WarningKind, Warnings};
 use crate::format::phrase::plural;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{Method, analyse};
-use crate::view::mechanism_text;
+use crate::view::mechanism::describe;
 use anyhow::{Context, bail};
+use clap::Args as ClapArgs;
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Show {
+    /// The name of a built-in mechanism.
+    #[arg(value_name = "NAME")]
+    name: String,
+}
 
 pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
     let (name, bytes) = load::named(&a.file)?;
@@ -29,22 +38,22 @@ pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
             Err(e) => return Err(e).with_context(|| format!("{name}: [workload.grip]")),
         }
     }
-    stale(&checked.mechanism, &mut checked.doubts);
+    stale(&checked.mechanism, &mut checked.warnings);
     let Checked {
         mechanism,
         tables,
-        doubts,
+        warnings,
     } = &checked;
-    if !doubts.doubts.is_empty() && !args.quiet {
-        output::coloured_note(&doubts.render(true));
+    if !warnings.warnings.is_empty() && !args.quiet {
+        output::coloured_note(&warnings.render(true));
     }
     output::to(None, |out| {
-        let verdict = match doubts.doubts.len() {
+        let verdict = match warnings.warnings.len() {
             0 => "valid".to_owned(),
             n => format!("valid, {}", plural(n, "warning")),
         };
         writeln!(out, "{}: {verdict}", mechanism.name)?;
-        for line in mechanism_text::describe(mechanism, across(mechanism)) {
+        for line in describe(mechanism, across(mechanism)) {
             writeln!(out, "  {line}")?;
         }
         for table in tables {
@@ -54,8 +63,8 @@ pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
     })
 }
 
-/// Doubts the figures that the file states where the analysis finds others.
-fn stale(m: &Mechanism, doubts: &mut Doubts) {
+/// Warns of the figures that the file states where the analysis finds others.
+fn stale(m: &Mechanism, warnings: &mut Warnings) {
     for (i, e) in m.expected.iter().enumerate() {
         let Some(s) = m.state(&e.state) else {
             continue;
@@ -104,9 +113,9 @@ fn stale(m: &Mechanism, doubts: &mut Doubts) {
                     Step::Key(key.to_owned()),
                 ];
                 let state = e.state.clone();
-                doubts.add(
+                warnings.add(
                     &path,
-                    DoubtKind::Stale {
+                    WarningKind::Stale {
                         key,
                         state,
                         stated,

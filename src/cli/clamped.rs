@@ -1,6 +1,6 @@
 //! `ozols statics` of a mechanism that grips: the part cut free, its contact forces on the jaws.
 
-use super::args::{Statics, StaticsFormat, StaticsMethod};
+use super::statics::{Statics, StaticsFormat, StaticsMethod};
 use super::{Done, output};
 use crate::format::number::significant;
 use crate::grip::clamped::{Found, clamped};

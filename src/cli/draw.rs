@@ -1,12 +1,52 @@
 //! `ozols draw`.
 
-use super::args::{Args, Draw, DrawKind};
+use super::args::{Args, File};
+use super::request::Which;
 use super::{Done, load, output, variant};
 use crate::draw::{self, Drawing, Size, Subject};
 use crate::model::mechanism::StateId;
 use crate::redundancy::analysis::{Method, analyse};
 use anyhow::{bail, ensure};
+use clap::{Args as ClapArgs, ValueEnum};
 use std::io::IsTerminal;
+use std::path::PathBuf;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum DrawKind {
+    /// Links as polygons, joints as circles with their class, contours tinted by their redundant constraints.
+    Scheme,
+    /// Links and the symbols of joints in place, from the coordinates.
+    Kinematic,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Draw {
+    #[command(flatten)]
+    file: File,
+    /// What is drawn.
+    #[arg(long, value_enum, default_value = "scheme")]
+    kind: DrawKind,
+    /// A state named in the file.
+    #[arg(long, default_value = "free")]
+    state: String,
+    /// Draw variant K of the list that `ozols search FILE` gives, with the same of the options below, its changes marked.
+    #[arg(long, value_name = "K")]
+    variant: Option<usize>,
+    /// PNG instead of SVG (where built with the feature `png`); a file named .png is one anyway.
+    #[arg(long)]
+    png: bool,
+    /// Pixels of a PNG for each of the drawing's; 2 by default.
+    #[arg(long, value_name = "X")]
+    scale: Option<f64>,
+    /// Width of a PNG in pixels.
+    #[arg(long, value_name = "PIXELS", conflicts_with = "scale")]
+    width: Option<u32>,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+    #[command(flatten, next_help_heading = "The list that --variant is of")]
+    which: Which,
+}
 
 pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     let wanted = picture(a)?;
@@ -21,12 +61,12 @@ pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     };
     let mut marks = None;
     if let Some(k) = a.variant {
-        let external = a.question.max_external.is_some() && state != StateId::FREE;
-        let named = external.then_some(a.state.as_str());
-        let (realized, changes) =
-            variant::kth(&mut mechanism, &a.question, named, k, |search, v| {
-                draw::marks::of_variant(search, v, &format!("variant {k}"))
-            })?;
+        let external = a.which.max_external.is_some() && state != StateId::FREE;
+        let request = a.which.request(external.then_some(a.state.as_str()))?;
+        let (realized, changes) = variant::kth(mechanism, request, k, |v| {
+            let search = &v.outcome().search;
+            draw::marks::of_variant(search, v.assignment(), &format!("variant {k}"))
+        })?;
         (mechanism, marks) = (realized, Some(changes));
     }
     let found = analyse(&mechanism, &[state], Method::Auto { tolerance: None })?;

@@ -1,12 +1,29 @@
 //! `ozols drive`.
 
-use super::args::{AnalyzeFormat, Args, Drive};
+use super::args::{AnalyzeFormat, Args, File};
 use super::{Done, charts, load, output};
 use crate::drive::driving::drive;
 use crate::file::read::workload::drive_from_bytes;
 use crate::view;
 use crate::view::drive::{charts::charts, text};
 use crate::view::next::{self, Step};
+use clap::Args as ClapArgs;
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Drive {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    pub(super) format: AnalyzeFormat,
+    /// Also write charts, each as SVG and CSV, into this folder.
+    #[arg(long, value_name = "DIR")]
+    pub(super) svg: Option<PathBuf>,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
 
 pub(super) fn run(_: &Args, a: &Drive) -> anyhow::Result<Done> {
     let (name, bytes) = load::named(&a.file.file)?;

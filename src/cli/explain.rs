@@ -1,12 +1,19 @@
 //! `ozols explain`.
 
-use super::args::Explain;
 use super::{Done, near, output};
 use crate::terms::{Term, Terms};
 use crate::view::layout::table;
 use anyhow::bail;
+use clap::Args as ClapArgs;
 use itertools::Itertools;
 use std::io::Write;
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Explain {
+    /// The term, such as sigma, σ, or redundant constraint; all terms where left out.
+    #[arg(value_name = "TERM")]
+    term: Vec<String>,
+}
 
 /// Columns of running text where the output is no terminal.
 const COLUMNS: u16 = 100;

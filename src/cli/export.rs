@@ -1,17 +1,46 @@
 //! `ozols export`.
 
-use super::args::{Args, Export};
+use super::args::{Args, File};
+use super::request::Which;
 use super::{Done, load, output, variant};
-use crate::robots::formats;
+use crate::api;
+use crate::robots::formats::{self, Format};
+use clap::Args as ClapArgs;
+use clap::builder::{PossibleValue, PossibleValuesParser};
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Export {
+    #[command(flatten)]
+    file: File,
+    /// The format.
+    #[arg(long, value_parser = written())]
+    to: String,
+    /// Write variant K of the list that `ozols search FILE` gives, with the same of the options below.
+    #[arg(long, value_name = "K")]
+    variant: Option<usize>,
+    /// The state meant by --max-external; the file's first besides free by default.
+    #[arg(long, value_name = "STATE", requires = "variant")]
+    state: Option<String>,
+    #[command(flatten)]
+    which: Which,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+fn written() -> PossibleValuesParser {
+    let value = |f: &'static Format| PossibleValue::new(f.word).help(f.about);
+    PossibleValuesParser::new(formats::written().map(value))
+}
 
 pub(super) fn run(_: &Args, a: &Export) -> anyhow::Result<Done> {
     let mut m = load::mechanism(&a.file.file)?;
     if let Some(k) = a.variant {
-        m = variant::kth(&mut m, &a.question, a.state.as_deref(), k, |search, v| {
-            variant::mechanism(search, v, k)
-        })?;
+        let request = a.which.request(a.state.as_deref())?;
+        m = variant::kth(m, request, k, |v| v.mechanism())?;
     }
-    let text = formats::write(&m, &a.to)?;
+    let text = api::export(&m, &a.to)?;
     output::to(a.output.as_deref(), |out| {
         write!(out, "{text}")?;
         Ok(Done::Found)

@@ -1,6 +1,6 @@
 //! `ozols grip`.
 
-use super::args::{AnalyzeFormat, Args, Grip};
+use super::args::{AnalyzeFormat, Args, File};
 use super::{Done, charts, load, output};
 use crate::file::read::workload::grip_from_bytes;
 use crate::grip::gripping::grip;
@@ -9,6 +9,39 @@ use crate::view;
 use crate::view::grip::{charts::charts, text};
 use crate::view::next::{self, Step};
 use anyhow::{bail, ensure};
+use clap::Args as ClapArgs;
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Grip {
+    #[command(flatten)]
+    pub(super) file: File,
+    /// A further acceleration of the gripper in m/s², in its axes (repeatable): 5,0,-2.
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    pub(super) acceleration: Vec<[f64; 3]>,
+    /// A further acceleration of the gripper in m/s², in any direction; `ozols drive` prints one.
+    #[arg(long, value_name = "A")]
+    pub(super) any_acceleration: Option<f64>,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    pub(super) format: AnalyzeFormat,
+    /// Also write charts, each as SVG and CSV, into this folder.
+    #[arg(long, value_name = "DIR")]
+    pub(super) svg: Option<PathBuf>,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
+
+fn vector(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|t| t.trim().parse::<f64>().ok().filter(|x| x.abs() <= 1e6))
+        .collect::<Option<_>>()
+        .unwrap_or_default();
+    <[f64; 3]>::try_from(numbers)
+        .map_err(|_| "give three numbers such as 5,0,-2, none beyond 1e6".to_owned())
+}
 
 pub(super) fn run(_: &Args, a: &Grip) -> anyhow::Result<Done> {
     let (name, bytes) = load::named(&a.file.file)?;

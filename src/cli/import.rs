@@ -1,15 +1,56 @@
 //! `ozols import`.
 
-use super::args::{Args, Import, ImportFormat};
-use super::{Done, load, output};
+use super::args::Args;
+use super::{Done, output};
+use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::robots::{self, Options};
 use crate::view::layout::fit;
 use crate::view::next::{self, Step};
-use anyhow::{Context, bail};
-use std::path::Path;
+use anyhow::{Context, ensure};
+use clap::{Args as ClapArgs, ValueEnum, ValueHint};
+use std::path::{Path, PathBuf};
 
-/// Largest robot description and file beside it, in bytes.
-const MAX_BYTES: u64 = 64 << 20;
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ImportFormat {
+    Toml,
+    Json,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Import {
+    /// A robot description: URDF, MJCF or SDF, by its root element.
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    file: String,
+    /// A file of loop closures (YAML, JSON or TOML): [[loop]] with a, b and type; robot.yaml of
+    /// example-parallel-robots; Drake's list of ball constraints.
+    #[arg(long, value_name = "SIDE")]
+    loops: Option<PathBuf>,
+    /// Value of a joint in radians or metres: elbow=0.3 (repeatable); several with commas for joints of several
+    /// freedoms. Loops that are open there are closed from there.
+    #[arg(long, value_name = "JOINT=VALUE", allow_hyphen_values = true)]
+    pose: Vec<String>,
+    /// Let a robot without a fixed link float: a joint of six freedoms to the world.
+    #[arg(long)]
+    floating: bool,
+    /// SDF drawn in parts: every joint puts the frame that is its parent onto its child.
+    #[arg(long)]
+    assemble: bool,
+    /// Take loops that are open in the given pose as they are.
+    #[arg(long)]
+    open: bool,
+    /// The fixed link; the root by default.
+    #[arg(long, value_name = "LINK")]
+    frame: Option<String>,
+    /// A link whose motion is the working motion (repeatable); the ends of chains by default.
+    #[arg(long, value_name = "LINK")]
+    working_link: Vec<String>,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "toml")]
+    format: ImportFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
 
 pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
     let mut options = Options {
@@ -24,7 +65,7 @@ pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
         options.pose.push(pose(p)?);
     }
     if let Some(path) = &a.loops {
-        let bytes = load::bytes(path, MAX_BYTES)?;
+        let bytes = api::bytes(path, MAX_DESCRIPTION_BYTES)?;
         options.loops = Some((path.display().to_string(), bytes));
     }
     let imported = description(Path::new(&a.file), &options)?;
@@ -66,26 +107,12 @@ fn pose(text: &str) -> anyhow::Result<(String, Vec<f64>)> {
     Ok((joint.to_owned(), values))
 }
 
-/// Imports a description; files it includes are read from its folder and nowhere else.
+/// Imports a description.
 pub(super) fn description(path: &Path, options: &Options) -> anyhow::Result<robots::Imported> {
-    let name = path.display().to_string();
-    if !path.is_file() {
-        bail!("{name} is not a file; give the path of a URDF, MJCF or SDF file");
-    }
-    let bytes = load::bytes(path, MAX_BYTES)?;
-    let folder = path
-        .parent()
-        .filter(|p| !p.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
-    let folder = std::fs::canonicalize(folder).with_context(|| format!("cannot read {name}"))?;
-    let read = |inner: &str| {
-        let inside = std::fs::canonicalize(folder.join(inner))?;
-        if !inside.starts_with(&folder) {
-            return Err(std::io::Error::other(
-                "it is outside the folder of the file",
-            ));
-        }
-        load::bytes_of(&inside, MAX_BYTES)
-    };
-    Ok(robots::import(&name, &bytes, &read, options)?)
+    ensure!(
+        path.is_file(),
+        "{} is not a file; give the path of a URDF, MJCF or SDF file",
+        path.display()
+    );
+    Ok(api::description(path, options)?)
 }

@@ -1,12 +1,19 @@
 //! `ozols list`.
 
-use super::args::List;
-use super::{Done, load, near, output};
+use super::{Done, near, output};
 use crate::builtin;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::analysis::{Method, analyse};
 use crate::view::layout::table;
 use anyhow::Context;
+use clap::Args as ClapArgs;
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct List {
+    /// Only those with every one of these words in name, family or description.
+    #[arg(value_name = "WORD")]
+    words: Vec<String>,
+}
 
 /// The narrowest column that a description is worth.
 const NARROWEST: usize = 16;
@@ -15,9 +22,9 @@ pub(super) fn run(a: &List) -> anyhow::Result<Done> {
     let wanted: Vec<String> = a.words.iter().map(|w| w.to_lowercase()).collect();
     let (mut rows, mut notes) = (Vec::new(), Vec::new());
     for (family, names) in builtin::families() {
-        let mut heading = Some(family.clone());
+        let mut heading = Some(family);
         for name in names {
-            let m = load::mechanism_built_in(name)?;
+            let m = Mechanism::builtin(name)?;
             let about = format!("{name} {family} {}", m.description).to_lowercase();
             if !wanted.iter().all(|w| about.contains(w)) {
                 continue;

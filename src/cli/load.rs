@@ -1,12 +1,13 @@
 //! FILE arguments: paths, standard input, and built-in names.
 
 use super::near;
+use crate::api;
 use crate::builtin;
 use crate::file::text::{MAX_BYTES, mechanism_from_bytes};
 use crate::geom::expr::Expr;
 use crate::model::mechanism::{Mechanism, Mode};
 use crate::robots;
-use anyhow::{Context, bail};
+use anyhow::bail;
 use std::io::Read;
 
 /// Reads the mechanism that an argument names. A file wins over a built-in mechanism of the same name.
@@ -18,21 +19,16 @@ pub(super) fn mechanism(file: &str) -> anyhow::Result<Mechanism> {
     Ok(mechanism_from_bytes(&name, &bytes)?)
 }
 
-/// Reads a built-in mechanism, whatever files lie about.
-pub(super) fn mechanism_built_in(name: &str) -> anyhow::Result<Mechanism> {
-    let Some(text) = builtin::text(name) else {
-        bail!(no_built_in(name))
-    };
-    Ok(mechanism_from_bytes(
-        &format!("{name}.toml"),
-        text.as_bytes(),
-    )?)
-}
-
 /// The name for messages and the bytes of the file that an argument names.
 pub(super) fn named(file: &str) -> anyhow::Result<(String, Vec<u8>)> {
     if file == "-" {
-        return Ok(("standard input".to_owned(), read(std::io::stdin().lock())?));
+        let mut bytes = Vec::new();
+        // One byte more than allowed, so that the reader can say that there are too many.
+        std::io::stdin()
+            .lock()
+            .take(MAX_BYTES as u64 + 1)
+            .read_to_end(&mut bytes)?;
+        return Ok(("standard input".to_owned(), bytes));
     }
     if let Some(imported) = imported(file)? {
         let text = imported.toml()?;
@@ -40,9 +36,7 @@ pub(super) fn named(file: &str) -> anyhow::Result<(String, Vec<u8>)> {
     }
     let path = std::path::Path::new(file);
     if path.is_file() {
-        let open = std::fs::File::open(path).with_context(|| format!("cannot read {file}"))?;
-        let bytes = read(open).with_context(|| format!("cannot read {file}"))?;
-        return Ok((file.to_owned(), bytes));
+        return Ok((file.to_owned(), api::bytes(path, MAX_BYTES)?));
     }
     let Some(text) = builtin::text(file) else {
         bail!(unknown(file))
@@ -83,25 +77,4 @@ pub(super) fn unknown(file: &str) -> String {
 pub(super) fn no_built_in(name: &str) -> String {
     let hint = near::hint(name, builtin::names());
     format!("{name} is not a built-in mechanism{hint} (`ozols list` shows them)")
-}
-
-/// The bytes of a file, one more than `limit` at most.
-pub(super) fn bytes(path: &std::path::Path, limit: u64) -> anyhow::Result<Vec<u8>> {
-    bytes_of(path, limit).with_context(|| format!("cannot read {}", path.display()))
-}
-
-/// The same without the file's name in the error.
-pub(super) fn bytes_of(path: &std::path::Path, limit: u64) -> std::io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    std::fs::File::open(path)?
-        .take(limit + 1)
-        .read_to_end(&mut bytes)?;
-    Ok(bytes)
-}
-
-fn read(from: impl Read) -> std::io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    // One byte more than allowed, so that the reader can say that there are too many.
-    from.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
 }

@@ -1,10 +1,19 @@
 //! `ozols man`.
 
-use super::args::{Args, Man};
+use super::args::Args;
 use super::{Done, output};
 use anyhow::Context;
+use clap::Args as ClapArgs;
 use clap::{Command, CommandFactory};
 use clap_mangen::roff::{Roff, roman};
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Man {
+    /// Write a page for the program and one for each command into this folder.
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
 
 /// An apostrophe that no formatter turns into a quotation mark.
 const APOSTROPHE: &str = ".ie \\n(.g .ds Aq \\(aq\n.el .ds Aq '\n";

@@ -1,10 +1,25 @@
 //! `ozols new`.
 
-use super::args::{Args, New};
+use super::args::Args;
 use super::{Done, load, output};
 use crate::builtin;
 use crate::file::template;
 use anyhow::{Context, bail};
+use clap::{Args as ClapArgs, ValueHint};
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct New {
+    /// The file to write; its ending is .toml, and the mechanism is named after it.
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    file: PathBuf,
+    /// The built-in mechanism to start from.
+    #[arg(long, value_name = "NAME", default_value = "four-bar")]
+    from: String,
+    /// Replace a file that is there.
+    #[arg(long)]
+    force: bool,
+}
 
 pub(super) fn run(args: &Args, a: &New) -> anyhow::Result<Done> {
     let shown = a.file.display();

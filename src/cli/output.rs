@@ -1,5 +1,6 @@
 //! Data to standard output or, whole or not at all, to a file; complaints to standard error.
 
+use crate::api;
 use crate::file::problem::ImportError;
 use anyhow::Context;
 use std::io::{BufWriter, IsTerminal, Write};
@@ -87,7 +88,11 @@ pub(super) fn note(text: &str) {
 /// Says what went wrong, in colour where standard error is a terminal that wants it (NO_COLOR, CLICOLOR_FORCE), as the
 /// parser of the arguments does.
 pub(super) fn complain(e: &anyhow::Error) {
-    let text = match e.downcast_ref::<ImportError>() {
+    let file = match e.downcast_ref::<api::Error>() {
+        Some(api::Error::File(problems)) => Some(problems),
+        _ => e.downcast_ref::<ImportError>(),
+    };
+    let text = match file {
         Some(import) => import.render(true),
         None => {
             let style = anstyle::AnsiColor::Red.on_default().bold();

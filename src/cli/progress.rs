@@ -1,9 +1,93 @@
-//! A progress bar for runs that take longer than a second, on a terminal only.
+//! What is shown of a run that takes longer than a second, on a terminal only, and its end by Ctrl-C.
 
+use super::output;
+use crate::model::mechanism::Mechanism;
+use crate::score::outcome::Outcome;
+use crate::score::request::{LooksMeasured, Request};
+use crate::score::run::{self, Event, RunError, ShouldCancel, Tell};
+use crate::search::conditions::Conditions;
 use crate::search::diagram::Progress;
+use anyhow::Context;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
+
+/// Says what a search noticed.
+pub(super) fn note(text: String) {
+    output::note(&format!("{text}\n"));
+}
+
+/// Watches a search: shows how far it has come, and ends it at Ctrl-C.
+pub(super) struct Watch {
+    stop: Arc<AtomicBool>,
+    bar: Bar,
+}
+
+impl Watch {
+    /// A watch that hears Ctrl-C.
+    pub(super) fn new(quiet: bool) -> anyhow::Result<Watch> {
+        let watch = Watch {
+            bar: Bar::new(quiet),
+            ..Watch::idle()
+        };
+        let flag = watch.stop.clone();
+        // A second Ctrl-C ends the program at once.
+        ctrlc::set_handler(move || {
+            if flag.swap(true, Ordering::SeqCst) {
+                std::process::exit(130);
+            }
+        })
+        .context("cannot watch for Ctrl-C")?;
+        Ok(watch)
+    }
+
+    /// One that shows nothing and leaves Ctrl-C alone.
+    pub(super) fn idle() -> Watch {
+        Watch {
+            stop: Arc::default(),
+            bar: Bar::new(true),
+        }
+    }
+
+    /// Whether Ctrl-C was pressed.
+    pub(super) fn cancelled(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Searches a mechanism.
+    pub(super) fn run(
+        &mut self,
+        mechanism: Mechanism,
+        request: &Request,
+    ) -> Result<Outcome, RunError> {
+        self.over(|cancel, tell| run::run(mechanism, request, cancel, tell))
+    }
+
+    /// Searches one that is prepared.
+    pub(super) fn answer(
+        &mut self,
+        mechanism: Arc<Mechanism>,
+        conditions: (Conditions, Option<LooksMeasured>),
+        request: &Request,
+    ) -> Result<Outcome, RunError> {
+        self.over(|cancel, tell| run::answer(mechanism, conditions, request, cancel, tell))
+    }
+
+    fn over<T>(&mut self, search: impl FnOnce(ShouldCancel<'_>, Tell<'_>) -> T) -> T {
+        let Watch { stop, bar } = self;
+        search(&|| stop.load(Ordering::Relaxed), &mut |event| match event {
+            Event::Note(text) => note(text),
+            Event::Building(p) => bar.show(p),
+            Event::Built => {
+                bar.clear();
+                // What was found so far is still given; another Ctrl-C stops the giving.
+                stop.store(false, Ordering::SeqCst);
+            }
+        })
+    }
+}
 
 /// Shows how far a run has come.
 pub(super) struct Bar {
@@ -22,7 +106,7 @@ impl Bar {
     }
 
     /// Shows how far a diagram has come: layer, nodes, and an estimate.
-    pub(super) fn show(&mut self, p: Progress) {
+    fn show(&mut self, p: Progress) {
         if !self.wanted || self.begun.elapsed() < Duration::from_secs(1) {
             return;
         }

@@ -1,16 +1,33 @@
 //! `ozols report`.
 
-use super::args::{Args, Report};
-use super::question::{ask, flags, ready, state};
-use super::search::{Wanted, answered};
+use super::args::{Args, File};
+use super::progress::{Watch, note};
+use super::request::Checked;
 use super::{Done, load, output};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::page::{Commands, Page, Redesigns, html};
 use crate::redundancy::analysis::{Method, analyse};
-use crate::search::certify::Summary;
-use crate::view::next::{file_name, word};
+use crate::score::request::{List, Request};
+use crate::view::next::{file_name, flags, word};
 use anyhow::ensure;
+use clap::Args as ClapArgs;
 use itertools::Itertools;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Report {
+    #[command(flatten)]
+    file: File,
+    /// How many of the best variants the page holds, 10000 at most.
+    #[arg(long, value_name = "K", default_value_t = 200)]
+    top: usize,
+    #[command(flatten)]
+    checked: Checked,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
 
 /// A page with more variants than this is of no use to anybody.
 const MOST: usize = 10_000;
@@ -20,20 +37,21 @@ pub(super) fn run(args: &Args, a: &Report) -> anyhow::Result<Done> {
         (1..=MOST).contains(&a.top),
         "--top must be from 1 to {MOST} in a report; `ozols search` gives longer lists"
     );
-    let (question, named) = (&a.asked.question, a.asked.state.as_deref());
-    let mut mechanism = load::mechanism(&a.file.file)?;
-    ready(&mut mechanism, question)?;
+    let request = Request {
+        list: List::Top(a.top),
+        ..a.checked.request(args.seed)?
+    };
+    let mechanism = Arc::new(request.prepare(load::mechanism(&a.file.file)?, &mut note)?);
     // An unknown state is a mistake; geometry that cannot be searched is not.
-    state(&mechanism, question, named)?;
+    request.state(&mechanism)?;
     let states: Vec<StateId> = mechanism.state_ids().collect();
     let states = analyse(&mechanism, &states, Method::Auto { tolerance: None })?;
-    let commands = commands(&mechanism, a);
     let write = |redesigns: Result<Redesigns<'_>, String>| -> anyhow::Result<Done> {
         let page = html(&Page {
             mechanism: &mechanism,
             states: &states,
             redesigns,
-            commands: commands.clone(),
+            commands: commands(&mechanism, a, &request),
         })?;
         output::to(a.output.as_deref(), |out| {
             out.write_all(page.as_bytes())?;
@@ -41,50 +59,32 @@ pub(super) fn run(args: &Args, a: &Report) -> anyhow::Result<Done> {
         })
     };
     // What is known of the mechanism as it is stands, even where its coordinates do not allow a search.
-    let (request, measured) = match ask(&mechanism, question, named) {
-        Ok(asked) => asked,
-        Err(why) => return write(Err(format!("{why:#}."))),
+    let conditions = match request.conditions(&mechanism, &mut note) {
+        Ok(conditions) => conditions,
+        Err(why) => return write(Err(format!("{why}."))),
     };
-    let wanted = Wanted {
-        top: a.top,
-        all: false,
-        sample: None,
-        count: false,
-        by_cost: false,
-    };
-    answered(
-        args,
-        (&mechanism, measured),
-        request,
-        &a.asked,
-        &wanted,
-        |found, give| {
-            let (mut variants, mut summary) = (Vec::new(), Summary::default());
-            let given = give(&mut |_, v| {
-                summary.add(&v);
-                variants.push(v);
-                Ok(())
-            })?;
-            summary.dropped = given.dropped;
-            write(Ok(Redesigns {
-                found,
-                variants,
-                summary,
-                interrupted: given.interrupted,
-            }))
-        },
-    )
+    let mut watch = Watch::new(args.quiet)?;
+    let outcome = watch.answer(mechanism.clone(), conditions, &request)?;
+    let cancelled = || watch.cancelled();
+    let mut given = outcome.variants_unless(&cancelled);
+    let variants = given.by_ref().collect();
+    write(Ok(Redesigns {
+        found: &outcome,
+        variants,
+        summary: given.summary(),
+        interrupted: given.interrupted(),
+    }))
 }
 
 /// The commands that give what the page shows.
-fn commands(mechanism: &Mechanism, a: &Report) -> Commands {
+fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
     let file = word(&a.file.file);
-    let list = flags(mechanism, &a.asked);
+    let list = flags(mechanism, request);
     let mut more = vec![list.clone()];
-    if a.asked.poses > 0 {
-        more.push(format!("--poses {}", a.asked.poses));
+    if request.poses > 0 {
+        more.push(format!("--poses {}", request.poses));
     }
-    if a.asked.generic_only {
+    if request.generic_only {
         more.push("--generic-only".to_owned());
     }
     more.push(format!("--top {}", a.top));
@@ -119,7 +119,7 @@ fn commands(mechanism: &Mechanism, a: &Report) -> Commands {
             ),
         ],
         // `draw` and `export` count the lucky variants, too.
-        variant: if a.asked.generic_only {
+        variant: if request.generic_only {
             Vec::new()
         } else {
             vec![

@@ -1,8 +1,8 @@
 //! `ozols statics`.
 
-use super::args::{Args, Statics, StaticsFormat, StaticsMethod};
+use super::args::Args;
 use super::{Done, charts, clamped, load, output};
-use crate::file::read::loads::{MAX_STEPS, position};
+use crate::file::read::motion::{MAX_STEPS, position};
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -18,7 +18,71 @@ use crate::view::reactions::stroke::Stroke as StrokeView;
 use crate::view::reactions::{Reactions, text::reactions};
 use crate::view::statics::{Structures, charts as drawn, csv::csv, text};
 use anyhow::{Context, bail};
-use std::path::Path;
+use clap::{Args as ClapArgs, ValueEnum, ValueHint};
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum StaticsMethod {
+    /// The δ-point method, for four-link groups with a closed contour.
+    Delta,
+    /// Its projective form.
+    Projective,
+    /// The equilibrium equations of every link, for any group.
+    Equilibrium,
+    /// All three, and how far they differ.
+    All,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum StaticsFormat {
+    Text,
+    Json,
+    /// One joint a line.
+    Csv,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Statics {
+    /// A path, `-`, or the name of a built-in mechanism; parallel-shears with --stability unless named.
+    #[arg(value_name = "FILE", required_unless_present = "stability", value_hint = ValueHint::FilePath)]
+    pub(super) file: Option<String>,
+    /// How the reactions of four-link groups with a closed contour are found.
+    #[arg(long, value_enum, default_value = "all")]
+    pub(super) method: StaticsMethod,
+    /// Range of the first drive and number of steps, such as 0:360deg:72; the file's stroke by default. Radians where no
+    /// unit stands, the file's length unit for drives that slide.
+    #[arg(long, value_name = "FROM:TO:STEPS", allow_hyphen_values = true)]
+    pub(super) stroke: Option<String>,
+    /// A state named in the file.
+    #[arg(long, default_value = "free")]
+    pub(super) state: String,
+    /// In a state that [workload.grip] loads: the part whose contact forces load the jaws, in the file's unit; the hardest
+    /// to hold by default.
+    #[arg(long, value_name = "D")]
+    pub(super) diameter: Option<f64>,
+    /// Model the mechanism in its plane (normal z), whatever the file says.
+    #[arg(long)]
+    pub(super) planar: bool,
+    /// All six components of each joint's reaction, redundant constraints and all; by default where a mechanism is not
+    /// planar or not determinate in its plane.
+    #[arg(long, conflicts_with_all = ["planar", "groups", "stability", "svg"])]
+    pub(super) spatial: bool,
+    /// Only the Assur groups, under each possible drive.
+    #[arg(long, conflicts_with_all = ["stability", "svg", "stroke"])]
+    pub(super) groups: bool,
+    /// Compare the methods with exact arithmetic near each of their failures; charts and tables go to the folder of -o.
+    #[arg(long, requires = "output", conflicts_with = "svg")]
+    pub(super) stability: bool,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    pub(super) format: StaticsFormat,
+    /// Write charts of the cycle to this folder, too.
+    #[arg(long, value_name = "DIR")]
+    pub(super) svg: Option<PathBuf>,
+    /// Write to a file instead of standard output; a folder with --stability.
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
 
 pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
     let mut m = load::mechanism(a.file.as_deref().unwrap_or("parallel-shears"))?;

@@ -1,18 +1,17 @@
 //! The stroke of `ozols analyze`.
 
-use super::args::Analyze;
-use super::{Done, output, statics};
+use super::analyze::Analyze;
+use super::statics;
 use crate::model::joint_type::Freedom;
-use crate::model::loads::Stroke;
+use crate::model::loads;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::follow::{Follower, slides};
 use crate::motion::pose::{FLAT, Pose};
-use crate::rank::along_stroke::{StrokeFigures, StrokeRequest, stroke};
+use crate::rank::along_stroke::{StrokeRequest, stroke};
 use crate::rank::auto::{Geometry, decide};
-use crate::view::stroke::{Shown, chart, json, text};
+use crate::view::stroke::Stroke;
 use anyhow::{Context, bail};
 use itertools::Itertools;
-use std::path::Path;
 
 /// Most steps: every pose on the way is kept.
 const MOST: usize = 10_000;
@@ -23,18 +22,10 @@ pub(super) struct Asked<'a> {
     mechanism: &'a Mechanism,
     state: StateId,
     tolerance: Option<f64>,
-    range: Stroke,
+    range: loads::Stroke,
     pose: Pose,
     drive: usize,
     held: Vec<usize>,
-}
-
-/// A stroke that was followed.
-#[derive(Debug)]
-pub(super) struct Followed<'a> {
-    asked: Asked<'a>,
-    drive: String,
-    figures: StrokeFigures,
 }
 
 /// The columns that can be a drive, with their names: those of balls cannot, which have no axes of their own.
@@ -89,7 +80,7 @@ impl<'a> Asked<'a> {
     }
 
     /// Goes there.
-    pub(super) fn follow(self) -> anyhow::Result<Followed<'a>> {
+    pub(super) fn follow(&self) -> anyhow::Result<Stroke<'a>> {
         let decision = decide(self.mechanism, self.state, self.tolerance)?;
         let measured = !matches!(decision.geometry, Geometry::Exact);
         let (mut pose, mut tolerance) = (self.pose.clone(), self.tolerance);
@@ -114,48 +105,15 @@ impl<'a> Asked<'a> {
             .into_iter()
             .find(|(c, _)| *c == self.drive)
             .map_or_else(String::new, |(_, n)| n);
-        Ok(Followed {
-            asked: self,
+        let drive = (drive, slides(&self.pose, self.drive));
+        let range = request.range;
+        Ok(Stroke::new(
+            self.mechanism,
+            self.state,
             drive,
-            figures,
-        })
-    }
-}
-
-impl Followed<'_> {
-    fn shown(&self) -> Shown<'_> {
-        Shown {
-            mechanism: self.asked.mechanism,
-            state: self.asked.state,
-            drive: &self.drive,
-            slides: slides(&self.asked.pose, self.asked.drive),
-            range: [self.asked.range.from, self.asked.range.to],
-            figures: &self.figures,
-        }
-    }
-
-    /// As JSON.
-    pub(super) fn json(&self) -> serde_json::Value {
-        json(&self.shown())
-    }
-
-    /// For people.
-    pub(super) fn text(&self, width: Option<u16>) -> String {
-        text(&self.shown(), width)
-    }
-
-    /// Writes the chart.
-    pub(super) fn chart(&self, path: &Path) -> anyhow::Result<()> {
-        output::to(Some(path), |out| {
-            write!(out, "{}", chart(&self.shown()).svg())?;
-            Ok(Done::Found)
-        })?;
-        Ok(())
-    }
-
-    /// Whether it ended early.
-    pub(super) fn stopped(&self) -> bool {
-        self.figures.stop.is_some()
+            range,
+            &figures,
+        ))
     }
 }
 

@@ -1,14 +1,28 @@
 //! `ozols verify`, and the certificates that `ozols analyze` writes for it.
 
-use super::args::{Args, Verify};
+use super::args::{Args, File};
 use super::{Done, load, output};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::certificate::{certify, matrix, number_field};
 use crate::verify::certificate::{CertificateFile, FORMAT, Without};
 use crate::verify::check;
 use anyhow::{Context, bail};
+use clap::Args as ClapArgs;
 use std::io::Write;
 use std::path::Path;
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Verify {
+    #[command(flatten)]
+    file: File,
+    /// The certificates, as written by `ozols analyze FILE --certificate CERTIFICATES`.
+    #[arg(value_name = "CERTIFICATES")]
+    certificates: PathBuf,
+    /// The certificates were made with `analyze --planar`.
+    #[arg(long)]
+    planar: bool,
+}
 
 /// Writes a certificate for each state that has one.
 pub(super) fn write(path: &Path, m: &Mechanism, states: &[StateId]) -> anyhow::Result<()> {

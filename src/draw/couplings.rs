@@ -1,9 +1,9 @@
 //! Couplings in a drawing: a thin dashed line from joint to joint, a row of the legend, and words.
 
-use super::Subject;
-use super::layout::{Point, add};
 use super::sheet::{Sheet, Swatch};
+use super::subject::Subject;
 use crate::model::mechanism::JointId;
+use crate::svg::plane::{Point, add};
 use std::fmt::Write as _;
 
 /// The class of the style sheet that the lines have.

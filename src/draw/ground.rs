@@ -1,10 +1,9 @@
 //! What a kinematic scheme adds to the coordinates: the ground, and room between joints of one point.
 
-use super::labels::Rect;
-use super::layout::{Point, add, dot, mean, norm, scale, sub, unit};
 use super::projection::{self, View, bounds};
-use super::sheet::{Sheet, polyline};
+use super::sheet::Sheet;
 use crate::model::mechanism::LinkId;
+use crate::svg::plane::{Point, Rect, add, dot, mean, norm, polyline, scale, sub, unit};
 use std::f64::consts::TAU;
 
 /// Joints of one point are drawn so far from it.

@@ -1,17 +1,19 @@
 //! The kinematic scheme: links and the symbols of joints where the coordinates have them.
 
+mod axes;
+mod naming;
+mod symbol;
+use self::symbol::Symbol;
 use super::ground::{Ground, grounds, part};
-use super::labels::{self, Rect, Wish};
-use super::layout::{Point, add, mean, norm, scale, sub, unit};
 use super::projection::{self, View, bounds};
-use super::scheme::roominess;
-use super::sheet::{Anchor, Caption, PAD, Shape, Sheet, Swatch, plan, polyline};
+use super::sheet::{Anchor, Caption, Drawing, Sheet, Swatch, plan};
+use super::subject::{Mark, Subject, roominess};
 use super::swap::{self, Swap};
 use super::symbols::{self, Pose, hull};
-use super::{Drawing, Mark, Subject};
 use crate::format::number::decimals;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Frame, JointId, LinkId, Role};
+use crate::model::mechanism::{JointId, LinkId, Role};
+use crate::svg::plane::{Point, Rect, add, mean, polyline, scale, sub, unit};
 use std::fmt::Write as _;
 
 /// The room for the joints.
@@ -25,8 +27,10 @@ pub fn kinematic(subject: &Subject<'_>) -> Drawing {
     Kinematic::new(subject).draw()
 }
 
-/// Draws it, with room for the symbols of other joints in place of some, and those symbols.
-pub(super) fn with_swaps(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Vec<String>) {
+/// The kinematic scheme with room for the symbols of other joints in place of some, and for each swap the SVG elements
+/// that stand in the group of its joint (`data-joint`) instead of those there, marked as changed.
+#[must_use]
+pub fn kinematic_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Vec<String>) {
     let mut drawn = Kinematic::new(subject);
     let mut out = Vec::new();
     for swap in swaps {
@@ -53,86 +57,25 @@ pub(super) fn with_swaps(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing,
 }
 
 /// A joint on paper.
-pub(super) struct Spot {
-    pub(super) joint: JointId,
-    pub(super) at: Point,
-    pub(super) symbol: Symbol,
+struct Spot {
+    joint: JointId,
+    at: Point,
+    symbol: Symbol,
     /// The room of the symbol, the ring of a drive included.
-    pub(super) rect: Rect,
-}
-
-/// The symbol of a joint round the origin.
-pub(super) struct Symbol {
-    of: JointType,
-    pose: Pose,
-    shapes: Vec<Shape>,
-    room: Rect,
-    /// The radius of a drive's ring.
-    ring: Option<f64>,
-}
-
-impl Symbol {
-    fn new(
-        subject: &Subject<'_>,
-        joint: JointId,
-        of: &JointType,
-        frame: &Frame,
-        view: &View,
-    ) -> Symbol {
-        let pose = Pose::new(&projection::turned(frame), view);
-        let shapes = symbols::symbol(of, &pose, "");
-        let own = symbols::extent(&shapes);
-        let reach = (own.right - own.left).max(own.bottom - own.top) / 2.0 + 3.0;
-        let drive = subject.mechanism.joints[joint].drive;
-        let ring = drive.then_some(reach.min(14.0));
-        let room = match ring {
-            Some(r) => own.with(&Rect::around([0.0; 2], 2.0 * r + 1.4, 2.0 * r + 1.4)),
-            None => own,
-        };
-        Symbol {
-            of: of.clone(),
-            pose,
-            shapes,
-            room,
-            ring,
-        }
-    }
-
-    fn marked(mut self, mark: Mark) -> Symbol {
-        self.shapes = symbols::symbol(&self.of, &self.pose, mark.class());
-        self
-    }
-
-    /// How far it reaches from its middle.
-    fn reach(&self) -> f64 {
-        let r = &self.room;
-        [-r.left, -r.top, r.right, r.bottom]
-            .into_iter()
-            .fold(0.0, f64::max)
-    }
-
-    fn draw(&self, sheet: &mut Sheet, subject: &Subject<'_>, joint: JointId, mark: Mark) {
-        if let Some(r) = self.ring {
-            sheet.circle(&format!("line{}", mark.class()), [0.0; 2], r);
-        }
-        sheet.shapes(&self.shapes, [0.0; 2]);
-        if subject.only_here(joint) {
-            sheet.circle("fine dash", [0.0; 2], self.ring.unwrap_or(10.0) + 2.5);
-        }
-    }
+    rect: Rect,
 }
 
 /// A scheme under way.
-pub(super) struct Kinematic<'a> {
-    pub(super) subject: &'a Subject<'a>,
-    pub(super) spots: Vec<Spot>,
-    pub(super) links: Vec<(LinkId, Vec<usize>)>,
-    pub(super) grounds: Vec<Ground>,
-    pub(super) view: View,
+struct Kinematic<'a> {
+    subject: &'a Subject<'a>,
+    spots: Vec<Spot>,
+    links: Vec<(LinkId, Vec<usize>)>,
+    grounds: Vec<Ground>,
+    view: View,
     /// Pixels in a unit of length.
-    pub(super) scale: f64,
+    scale: f64,
     /// Whether some joints stand beside their points.
-    pub(super) moved: bool,
+    moved: bool,
 }
 
 impl<'a> Kinematic<'a> {
@@ -190,7 +133,7 @@ impl<'a> Kinematic<'a> {
     }
 
     /// The outline of a link: a bar, or the polygon round its joints.
-    pub(super) fn outline(&self, of: &[usize]) -> Vec<Point> {
+    fn outline(&self, of: &[usize]) -> Vec<Point> {
         let points: Vec<Point> = of.iter().map(|&i| self.spots[i].at).collect();
         if points.len() > 2 {
             hull(points)
@@ -200,7 +143,7 @@ impl<'a> Kinematic<'a> {
     }
 
     /// The end of a link with one joint.
-    pub(super) fn loose(&self, of: &[usize]) -> Option<Point> {
+    fn loose(&self, of: &[usize]) -> Option<Point> {
         let &[only] = of else { return None };
         let at = self.spots[only].at;
         let others = self
@@ -217,7 +160,7 @@ impl<'a> Kinematic<'a> {
         Some(add(at, scale(unit(away), 48.0)))
     }
 
-    pub(super) fn is_frame(&self, link: LinkId) -> bool {
+    fn is_frame(&self, link: LinkId) -> bool {
         self.subject.mechanism.links[link].role == Role::Frame
     }
 
@@ -319,83 +262,6 @@ impl<'a> Kinematic<'a> {
         }
     }
 
-    /// The directions of the coordinates.
-    fn draw_axes(&self, sheet: &mut Sheet, y: f64) {
-        let origin = [PAD + 44.0, y + 8.0];
-        let mut taken = vec![Rect::around(origin, 9.0, 9.0)];
-        let mut wishes = Vec::new();
-        for axis in 0..3 {
-            let mut unit = [0.0; 3];
-            unit[axis] = 1.0;
-            let tip = scale(self.view.flat(unit), 30.0);
-            let length = norm(tip);
-            if length < 4.0 {
-                sheet.circle("joint", origin, 4.5);
-                if projection::dot(unit, self.view.toward) > 0.0 {
-                    sheet.circle("ink", origin, 1.6);
-                } else {
-                    let d = 3.0;
-                    sheet.line("line", add(origin, [-d, -d]), add(origin, [d, d]));
-                    sheet.line("line", add(origin, [-d, d]), add(origin, [d, -d]));
-                }
-            } else {
-                let end = add(origin, tip);
-                sheet.line("line", origin, end);
-                let back = scale(tip, -6.5 / length);
-                let side = [-back[1] * 0.42, back[0] * 0.42];
-                let corners = [end, add(add(end, back), side), sub(add(end, back), side)];
-                sheet.path("ink", &polyline(&corners, true));
-                taken.push(Rect::around(
-                    add(origin, scale(tip, 0.5)),
-                    tip[0].abs() + 3.0,
-                    tip[1].abs() + 3.0,
-                ));
-            }
-            wishes.push((axis, add(origin, tip), length));
-        }
-        let wishes: Vec<Wish> = wishes
-            .into_iter()
-            .map(|(_, anchor, length)| Wish {
-                width: 0.6 * 12.0,
-                height: 12.0,
-                anchor,
-                clear: if length < 4.0 { 5.0 } else { 1.0 },
-                first: Vec::new(),
-            })
-            .collect();
-        for (place, name) in labels::place(&wishes, &mut taken, &[])
-            .iter()
-            .zip(["x", "y", "z"])
-        {
-            sheet.text("axis", 12.0, place.rect.middle(), Anchor::Middle, name);
-        }
-    }
-
-    /// A bar of a round length.
-    fn draw_scale(&self, sheet: &mut Sheet, y: f64) {
-        let longest = 150.0 / self.scale;
-        let (Some(length), unit) = (
-            round_below(longest),
-            self.subject.mechanism.length_unit.symbol,
-        ) else {
-            return;
-        };
-        if self.spots.len() < 2 {
-            return;
-        }
-        let x = PAD + 130.0;
-        let end = x + length * self.scale;
-        for [a, b] in [
-            [[x, y], [end, y]],
-            [[x, y - 4.0], [x, y + 4.0]],
-            [[end, y - 4.0], [end, y + 4.0]],
-        ] {
-            sheet.line("line", a, b);
-        }
-        let text = format!("{length} {unit}");
-        sheet.text("legend", 12.0, [x, y + 16.0], Anchor::Start, &text);
-    }
-
     fn legend(&self) -> Vec<(Swatch, String)> {
         let m = self.subject.mechanism;
         let mut types: Vec<&JointType> = Vec::new();
@@ -466,18 +332,4 @@ impl<'a> Kinematic<'a> {
         }
         out + &self.subject.coupling_words()
     }
-}
-
-/// The largest of 1, 2 and 5 times a power of ten that is not above.
-fn round_below(x: f64) -> Option<f64> {
-    if !(x.is_finite() && x > 1e-200) {
-        return None;
-    }
-    let power = 10f64.powi(x.log10().floor() as i32);
-    let step = [5.0, 2.0, 1.0].into_iter().find(|s| s * power <= x)?;
-    // through text, so that 0.2 is 0.2
-    let text = format!("{:e}", step * power);
-    let (mantissa, exponent) = text.split_once('e')?;
-    let mantissa: f64 = mantissa.parse().ok()?;
-    format!("{}e{exponent}", mantissa.round()).parse().ok()
 }

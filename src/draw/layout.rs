@@ -7,26 +7,11 @@
 //! # Sources
 //! Gansner, Koren & North, "Graph drawing by stress majorization", GD 2004. Tutte, "How to draw a graph", 1963.
 
+use super::graph::{Graph, Net, net};
 use super::initial_layout::{self, Start};
 use super::layout_penalty::Crowding;
 use super::mirror::Mirror;
-pub(super) use crate::geom::vector::{add, cross_plane as cross, dot, norm, scale, sub};
-
-/// A point of the picture; y goes down.
-pub(super) type Point = [f64; 2];
-
-/// Links as lists of joints, and the contours that should be empty.
-#[derive(Debug)]
-pub(super) struct Graph {
-    /// The joints of each link.
-    pub(super) links: Vec<Vec<usize>>,
-    /// How many joints there are.
-    pub(super) joints: usize,
-    /// The link that is the frame.
-    pub(super) frame: Option<usize>,
-    /// The joints of each contour, in order.
-    pub(super) contours: Vec<Vec<usize>>,
-}
+use crate::svg::plane::{Point, add, dot, mean, norm, scale, sub, unit};
 
 /// A finished layout; the unit of length is about the length of a bar.
 #[derive(Debug, Clone)]
@@ -35,53 +20,6 @@ pub(super) struct Layout {
     pub(super) joints: Vec<Point>,
     /// The middle of each link; the free end of a link with one joint.
     pub(super) hubs: Vec<Point>,
-}
-
-/// The nodes of the graph that is relaxed: the joints, then a hub for each link that is not a plain bar.
-#[derive(Debug)]
-pub(super) struct Net {
-    pub(super) hub: Vec<Option<usize>>,
-    pub(super) edges: Vec<Vec<(usize, f64)>>,
-}
-
-/// Links with more joints or a shared pair of joints need a hub of their own.
-pub(super) fn net(graph: &Graph) -> Net {
-    let mut edges = vec![Vec::new(); graph.joints];
-    let mut hub = Vec::new();
-    for (l, joints) in graph.links.iter().enumerate() {
-        let twin = joints.len() == 2
-            && graph
-                .links
-                .iter()
-                .enumerate()
-                .any(|(m, other)| m != l && joints.iter().all(|j| other.contains(j)));
-        if joints.len() == 2 && !twin {
-            let (a, b) = (joints[0], joints[1]);
-            edges[a].push((b, 1.15));
-            edges[b].push((a, 1.15));
-            hub.push(None);
-            continue;
-        }
-        let h = edges.len();
-        edges.push(Vec::new());
-        let radius = radius(joints.len());
-        for &j in joints {
-            edges[h].push((j, radius));
-            edges[j].push((h, radius));
-        }
-        hub.push(Some(h));
-    }
-    Net { hub, edges }
-}
-
-/// The distance of a link's joints from its middle.
-pub(super) fn radius(joints: usize) -> f64 {
-    match joints {
-        0 | 1 => 0.75,
-        2 => 0.8,
-        3 => 0.62,
-        m => 0.46 / (std::f64::consts::PI / m as f64).sin(),
-    }
 }
 
 /// A layout to choose from.
@@ -291,90 +229,4 @@ fn relax(at: &mut [Point], far: &[Vec<f64>], rounds: usize) {
 fn centre(at: &mut [Point]) {
     let middle = mean(at.iter().copied());
     at.iter_mut().for_each(|p| *p = sub(*p, middle));
-}
-
-/// The mean of some points; the origin if there are none.
-pub(super) fn mean(points: impl Iterator<Item = Point>) -> Point {
-    let (mut sum, mut n) = ([0.0, 0.0], 0.0f64);
-    for p in points {
-        sum = add(sum, p);
-        n += 1.0;
-    }
-    scale(sum, 1.0 / n.max(1.0))
-}
-
-/// The direction of a vector; across where it has none.
-pub(super) fn unit(a: Point) -> Point {
-    let length = norm(a);
-    if length > 1e-12 {
-        scale(a, 1.0 / length)
-    } else {
-        [1.0, 0.0]
-    }
-}
-
-/// The distance of a point from a segment.
-pub(super) fn to_segment(p: Point, a: Point, b: Point) -> f64 {
-    let along = sub(b, a);
-    let length = dot(along, along);
-    let t = if length > 1e-18 {
-        (dot(sub(p, a), along) / length).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    norm(sub(p, add(a, scale(along, t))))
-}
-
-/// Whether two segments cross, ends not counted.
-pub(super) fn segments_cross(a: Point, b: Point, c: Point, d: Point) -> bool {
-    let side = |p, q, r| cross(sub(q, p), sub(r, p));
-    side(a, b, c) * side(a, b, d) < -1e-15 && side(c, d, a) * side(c, d, b) < -1e-15
-}
-
-/// The area of a polygon.
-pub(super) fn area(polygon: &[Point]) -> f64 {
-    let n = polygon.len();
-    let twice: f64 = (0..n)
-        .map(|i| cross(polygon[i], polygon[(i + 1) % n]))
-        .sum();
-    twice.abs() / 2.0
-}
-
-/// Whether a point is inside a polygon (even-odd).
-pub(super) fn inside(p: Point, polygon: &[Point]) -> bool {
-    let mut odd = false;
-    for (i, &a) in polygon.iter().enumerate() {
-        let b = polygon[(i + 1) % polygon.len()];
-        if (a[1] > p[1]) != (b[1] > p[1])
-            && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
-        {
-            odd = !odd;
-        }
-    }
-    odd
-}
-
-/// The joints of a link in order round their middle.
-pub(super) fn ring(of: &[usize], joints: &[Point]) -> Vec<usize> {
-    let centre = mean(of.iter().map(|&j| joints[j]));
-    let mut ring = of.to_vec();
-    // in a row: there, and straight back
-    let far = |from: Point| {
-        let far = of.iter().map(|&j| sub(joints[j], from));
-        far.max_by(|a, b| norm(*a).total_cmp(&norm(*b)))
-            .unwrap_or([0.0; 2])
-    };
-    let along = unit(far(centre));
-    let off = of
-        .iter()
-        .map(|&j| cross(along, sub(joints[j], centre)).abs());
-    if off.fold(0.0, f64::max) <= 0.02 * norm(far(centre)) {
-        ring.sort_by(|&a, &b| dot(along, joints[a]).total_cmp(&dot(along, joints[b])));
-    } else if ring.len() > 2 {
-        ring.sort_by(|&a, &b| {
-            let angle = |j: usize| (joints[j][1] - centre[1]).atan2(joints[j][0] - centre[0]);
-            angle(a).total_cmp(&angle(b))
-        });
-    }
-    ring
 }

@@ -1,11 +1,11 @@
 //! How bad a layout is, and small moves that make it better.
 
-use crate::draw::initial_layout::Dice;
-use crate::draw::layout::{
-    Graph, Point, add, area, cross, inside, mean, norm, radius, ring, segments_cross, sub,
-    to_segment,
-};
+use super::dice::Dice;
+use super::graph::{Graph, radius, ring};
 use crate::draw::mirror::Mirror;
+use crate::svg::plane::{
+    Point, add, area, cross, inside, mean, norm, segments_cross, sub, to_segment,
+};
 
 /// Joints nearer than this are too near.
 const JOINTS: f64 = 0.62;

@@ -1,15 +1,15 @@
 //! What a variant of a search changed.
 
-use super::Marks;
+use super::subject::Marks;
 use crate::model::mechanism::{JointId, Mechanism};
-use crate::search::best::Variant;
-use crate::search::request::Search;
+use crate::search::best::Assignment;
+use crate::search::conditions::Search;
 use crate::search::space::choice_name;
 
 /// The mechanism that a variant is, with its changes marked for drawing.
 #[must_use]
-pub fn of_variant(search: &Search<'_>, variant: &Variant, name: &str) -> (Mechanism, Marks) {
-    let old = search.mechanism;
+pub fn of_variant(search: &Search, variant: &Assignment, name: &str) -> (Mechanism, Marks) {
+    let old = &search.mechanism;
     let realized = search.realize(&variant.choices);
     let mut changed: Vec<(JointId, String)> = Vec::new();
     for (v, &choice) in search.space.variables.iter().zip(&variant.choices) {

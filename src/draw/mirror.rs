@@ -1,6 +1,7 @@
 //! Mirror symmetry of a mechanism as drawn, kept by its scheme.
 
-use super::layout::{Graph, Net, Point, mean, norm, sub};
+use super::graph::{Graph, Net};
+use crate::svg::plane::{Point, mean, norm, sub};
 
 /// The image of each node under a reflection of y, and whether it is its own.
 #[derive(Debug, Clone)]

@@ -1,12 +1,11 @@
 //! Where joints are shown and from which side.
 
-use super::labels::Rect;
-use super::layout::{Point, norm as norm2, segments_cross, sub as sub2, to_segment};
 use crate::geom::expr::Expr;
 use crate::geom::extent::diagonal;
 pub(super) use crate::geom::vector::{Vector, add, cross, dot, length as norm, scale, sub};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, JointId, LinkId, Mechanism};
+use crate::svg::plane::{Point, Rect, norm as norm2, segments_cross, sub as sub2, to_segment};
 
 /// A side to look from.
 #[derive(Debug, Clone, Copy)]

@@ -1,17 +1,20 @@
 //! The structural scheme: links as polygons, joints as circles with their class, contours tinted by what is redundant.
 
-use super::labels::{Place, Rect};
-use super::layout::{
-    Graph, Layout, Point, add, area, inside, layout, mean, norm, ring, scale, sub, to_segment,
-};
+mod naming;
+
+use super::graph::{Graph, ring};
+use super::labels::Place;
+use super::layout::{Layout, layout};
 use super::shapes::{HALF, hatch, hatch_with, outline, rounded};
-use super::sheet::{Anchor, Caption, SMALL, Sheet, Swatch, plan, polyline};
+use super::sheet::{Anchor, Caption, Drawing, SMALL, Sheet, Swatch, plan};
+use super::subject::{Mark, Subject, roominess};
 use super::swap::{self, Swap};
-use super::{Drawing, Mark, Subject};
-use crate::chart::look::width;
 use crate::closure::contour::{Contour, contour_basis};
 use crate::geom::expr::Expr;
-use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
+use crate::model::mechanism::{JointId, LinkId, Role};
+use crate::svg::plane::{
+    Point, Rect, add, area, inside, mean, norm, polyline, scale, sub, to_segment,
+};
 use std::fmt::Write as _;
 
 /// Pixels of a bar.
@@ -25,11 +28,11 @@ const DRIVE: f64 = 15.5;
 type Share = Option<(usize, (usize, usize))>;
 
 /// What is drawn, by place in the drawing rather than in the mechanism.
-pub(super) struct Parts {
-    pub(super) joints: Vec<JointId>,
-    pub(super) links: Vec<LinkId>,
-    pub(super) contours: Vec<(Contour, Share)>,
-    pub(super) graph: Graph,
+struct Parts {
+    joints: Vec<JointId>,
+    links: Vec<LinkId>,
+    contours: Vec<(Contour, Share)>,
+    graph: Graph,
 }
 
 /// Draws the structural scheme.
@@ -44,17 +47,10 @@ pub fn scheme(subject: &Subject<'_>) -> Drawing {
     Scheme::new(subject, parts, at).draw()
 }
 
-/// How much larger than usual a drawing is, for long names to have room.
-pub(super) fn roominess(m: &Mechanism, joints: &[JointId]) -> f64 {
-    let wide = joints
-        .iter()
-        .map(|&j| width(&m.joints[j].id, SMALL).min(150.0));
-    let usual = wide.sum::<f64>() / joints.len().max(1) as f64;
-    1.0 + 0.5 * ((usual - 40.0) / 60.0).clamp(0.0, 1.0)
-}
-
-/// Draws it, and the symbols of other joints that may stand in place of some.
-pub(super) fn with_swaps(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Vec<String>) {
+/// The structural scheme, and for each swap the SVG elements that stand in the group of its joint (`data-joint`) instead
+/// of those there, marked as changed.
+#[must_use]
+pub fn scheme_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Vec<String>) {
     let symbol = |s: &Swap<'_>| {
         let mut piece = Sheet::piece();
         let class = s.option.joint_type.class();
@@ -131,11 +127,11 @@ fn hints(subject: &Subject<'_>, parts: &Parts) -> Vec<Vec<Point>> {
 }
 
 /// A scheme under way.
-pub(super) struct Scheme<'a> {
-    pub(super) subject: &'a Subject<'a>,
-    pub(super) parts: Parts,
-    pub(super) at: Layout,
-    pub(super) rings: Vec<Vec<usize>>,
+struct Scheme<'a> {
+    subject: &'a Subject<'a>,
+    parts: Parts,
+    at: Layout,
+    rings: Vec<Vec<usize>>,
 }
 
 impl<'a> Scheme<'a> {
@@ -155,7 +151,7 @@ impl<'a> Scheme<'a> {
     }
 
     /// The corners of a link: its joints, and its hub where it is loose or bowed.
-    pub(super) fn corners(&self, l: usize) -> Vec<Point> {
+    fn corners(&self, l: usize) -> Vec<Point> {
         let ring = &self.rings[l];
         let mut out: Vec<Point> = ring.iter().map(|&j| self.at.joints[j]).collect();
         match out.len() {
@@ -175,7 +171,7 @@ impl<'a> Scheme<'a> {
     }
 
     /// What a contour goes round: its joints, and the bends of bars between them.
-    pub(super) fn round(&self, c: usize) -> Vec<Point> {
+    fn round(&self, c: usize) -> Vec<Point> {
         let of = &self.parts.graph.contours[c];
         let mut used = Vec::new();
         let mut out = Vec::new();
@@ -195,7 +191,7 @@ impl<'a> Scheme<'a> {
         out
     }
 
-    pub(super) fn radius(&self, i: usize) -> f64 {
+    fn radius(&self, i: usize) -> f64 {
         if self.subject.mechanism.joints[self.parts.joints[i]].drive {
             DRIVE
         } else {
@@ -417,13 +413,7 @@ impl<'a> Scheme<'a> {
 }
 
 /// The symbol of a joint of some class, round the origin.
-pub(super) fn draw_symbol(
-    sheet: &mut Sheet,
-    subject: &Subject<'_>,
-    joint: JointId,
-    class: &str,
-    mark: Mark,
-) {
+fn draw_symbol(sheet: &mut Sheet, subject: &Subject<'_>, joint: JointId, class: &str, mark: Mark) {
     let dash = if subject.only_here(joint) {
         " dash"
     } else {

@@ -1,8 +1,7 @@
 //! Polygons and bars with round corners, their hatching, and points within them.
 
-use super::labels::Rect;
-use super::layout::{Point, add, cross, dot, inside, scale, sub, unit};
-use crate::chart::xml::number;
+use crate::svg::plane::{Point, Rect, add, cross, dot, inside, scale, sub, unit};
+use crate::svg::xml::number;
 use std::fmt::Write as _;
 
 /// Half the width of a bar.

@@ -1,11 +1,8 @@
 //! The sheet a drawing is on: title, style, legend, and a record of every label and symbol.
 
-use super::labels::Rect;
-use super::layout::{Point, add};
-use super::{Drawing, Label};
-use crate::chart::look::{cut, width};
-use crate::chart::xml::{Xml, number};
-use std::fmt::Write as _;
+use crate::svg::plane::{Point, Rect, add, polyline};
+use crate::svg::text::{cut, width};
+use crate::svg::xml::{Xml, number};
 
 /// The space around everything.
 pub(super) const PAD: f64 = 20.0;
@@ -83,6 +80,30 @@ const STYLE: &str = "
 .ozd .link-back{fill:#232a31}
 }
 ";
+
+/// A text of a drawing and the room it takes at 0.6 of its size a character.
+#[derive(Debug, Clone)]
+pub struct Label {
+    /// The text.
+    pub text: String,
+    /// Its room.
+    pub rect: Rect,
+}
+
+/// A finished drawing.
+#[derive(Debug, Clone)]
+pub struct Drawing {
+    /// The picture.
+    pub svg: String,
+    /// Its width in pixels.
+    pub width: f64,
+    /// Its height in pixels.
+    pub height: f64,
+    /// Every text.
+    pub labels: Vec<Label>,
+    /// The room of the joints' symbols; a joint's class stands inside its own.
+    pub symbols: Vec<Rect>,
+}
 
 /// What stands in front of a legend's text.
 #[derive(Debug, Clone)]
@@ -413,18 +434,4 @@ pub(super) enum Anchor {
     Start,
     /// Its middle.
     Middle,
-}
-
-/// The path through some points.
-pub(super) fn polyline(points: &[Point], closed: bool) -> String {
-    let mut d = String::new();
-    for (i, p) in points.iter().enumerate() {
-        let c = if i == 0 { 'M' } else { 'L' };
-        // writing to a string does not fail
-        let _ = write!(d, "{c}{} {}", number(p[0]), number(p[1]));
-    }
-    if closed {
-        d.push('Z');
-    }
-    d
 }

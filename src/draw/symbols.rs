@@ -1,10 +1,9 @@
 //! The symbols of joints, turned as the joints are.
 
-use super::labels::Rect;
-use super::layout::{Point, add, cross, norm, scale, sub};
 use super::projection::{Place, Vector, View, dot};
 use super::sheet::Shape;
 use crate::model::joint_type::JointType;
+use crate::svg::plane::{Point, Rect, add, cross, norm, scale, sub, unit};
 use std::f64::consts::{PI, TAU};
 
 /// A joint's frame on paper.
@@ -280,7 +279,7 @@ impl Symbol {
             spiral.collect()
         } else {
             let along = self.pose.axes[2];
-            let side = super::layout::unit([-along[1], along[0]]);
+            let side = unit([-along[1], along[0]]);
             let wave = (0..=32).map(|i| {
                 let t = f64::from(i) / 16.0 - 1.0;
                 add(

@@ -1,13 +1,14 @@
 //! What is doubtful in a file that can be used: likely slips, and what has no effect.
 
 use crate::closure::contour::{Contour, contour_basis};
-use crate::file::locate::{Document, Step};
-use crate::file::problem::{ImportError, render};
+use crate::file::locate::Step;
+use crate::file::problem::ImportError;
 use crate::file::read::build;
 use crate::file::read::resolve::{index, key};
 use crate::file::read::workload::workload_tables;
 use crate::file::schema::{MechanismFile, OptionEntry, Unloading};
-use crate::file::text::{is_json, read, text_of};
+use crate::file::text::{read, text_of};
+use crate::file::warning::{WarningKind, Warnings};
 use crate::format::number::significant;
 use crate::geom::expr::Expr;
 use crate::geom::extent::diagonal;
@@ -16,10 +17,7 @@ use crate::model::joint_type::JointType;
 use crate::model::measured::looks_measured;
 use crate::model::mechanism::{Joint, JointId, Mechanism, Role, StateId};
 use crate::model::ranking::Term;
-use annotate_snippets::Level;
 use itertools::Itertools;
-use std::ops::Range;
-use thiserror::Error;
 
 /// Metres across, without a stated unit, beyond which the unit was probably forgotten.
 const FORGOTTEN_UNIT: f64 = 10.0;
@@ -30,153 +28,6 @@ const SAME_PLACE: f64 = 1e-6;
 /// Names shown of a list.
 const SHOWN: usize = 8;
 
-/// What is doubtful.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[non_exhaustive]
-#[allow(
-    missing_docs,
-    reason = "the wording of each variant says what its fields are"
-)]
-pub enum DoubtKind {
-    #[error("the name is empty; give one, since every answer begins with it")]
-    NoName,
-    #[error(
-        "the joints are {across} m across, as lengths are metres where no unit stands; add length_unit = \"mm\" if they are millimetres"
-    )]
-    ForgottenUnit { across: String },
-    #[error("the joints are {across} m across; see whether length_unit = \"{unit}\" is meant")]
-    OddSize { across: String, unit: &'static str },
-    #[error(
-        "joints \"{first}\" and \"{second}\" are {apart} {unit} apart in a mechanism {across} {unit} across; give both the same point if they are meant to meet"
-    )]
-    NearlyOnePlace {
-        first: String,
-        second: String,
-        apart: String,
-        across: String,
-        unit: &'static str,
-    },
-    #[error(
-        "coordinates look measured or rounded: {what}; write exact ones in quotes, such as \"sqrt(3)/2\" or \"cos(36deg)\", where they are known (--snap T sets the tolerance else)"
-    )]
-    Measured { what: String },
-    #[error(
-        "no contour is closed in any state; nothing can be redundant without one: add the joints that close it"
-    )]
-    NoContour,
-    #[error(
-        "no contour passes through {joints}; freedoms there add to the mobility, and no constraint there is redundant: add the joint that closes one if it is missing"
-    )]
-    OpenChain { joints: String },
-    #[error(
-        "object \"{link}\" has a single joint in state {state}; add the other contact that clamps it"
-    )]
-    Dangling { link: String, state: String },
-    #[error(
-        "object \"{link}\" is there in the free state; give its joints a state, such as state = \"clamped\""
-    )]
-    ObjectAlwaysThere { link: String },
-    #[error(
-        "joint \"{joint}\" is fixed in every state; make one link of \"{first}\" and \"{second}\", or give it a state"
-    )]
-    AlwaysFixed {
-        joint: String,
-        first: String,
-        second: String,
-    },
-    #[error("joints \"{first}\" and \"{second}\" are the same joint twice; remove one")]
-    Twin { first: String, second: String },
-    #[error(
-        "this contour follows from the others of its state, and is passed over; remove it or name another"
-    )]
-    DependentContour,
-    #[error(
-        "no joint can take the option \"{option}\", as it does not allow their present motion; remove it"
-    )]
-    UselessOption { option: String },
-    #[error(
-        "no joint allows an unloading joint, so this list has no effect; write unloading = true at a joint"
-    )]
-    UnloadingNowhere,
-    #[error(
-        "joint \"{joint}\" allows unloading joints, but [search] lists none; add unloading = [\"spherical\"] there"
-    )]
-    UnloadingOfNothing { joint: String },
-    #[error(
-        "joint \"{joint}\" forbids \"{option}\", which is no option of it; remove it, or mend the word"
-    )]
-    ForbidsNothing { joint: String, option: String },
-    #[error("no joint is a drive, so {what} has nothing to move; mark one: drive = true")]
-    NoDrive { what: &'static str },
-    #[error("no link has a mass, so gravity has no effect; add mass and centre to the links")]
-    GravityAlone,
-    #[error(
-        "masses have no effect without gravity or drive_speed; add gravity = [0, 0, -9.81] to [workload]"
-    )]
-    MassAlone,
-    #[error(
-        "the ranking asks for {term}, but nothing loads the mechanism; add forces, moments, or masses with gravity"
-    )]
-    RankingUnloaded { term: &'static str },
-    #[error(
-        "the file says {key} = {stated} in state {state}, and the analysis finds {found}; mend the figure, or delete [[expected]] where the mechanism is no longer the published one"
-    )]
-    Stale {
-        key: &'static str,
-        state: String,
-        stated: i64,
-        found: i64,
-    },
-}
-
-/// A doubt and where it stands.
-#[derive(Debug, Clone)]
-pub struct Doubt {
-    /// What is doubtful.
-    pub kind: DoubtKind,
-    /// Bytes of the text it concerns, where known.
-    pub span: Option<Range<usize>>,
-}
-
-/// The doubts about a file.
-#[derive(Debug, Clone)]
-pub struct Doubts {
-    /// Name of the file.
-    pub file: String,
-    /// Its text.
-    pub text: String,
-    /// The doubts, in order of the file where known.
-    pub doubts: Vec<Doubt>,
-}
-
-impl Doubts {
-    /// Adds a doubt about the item at a path of the file.
-    pub fn add(&mut self, path: &[Step], kind: DoubtKind) {
-        let document = Document::new(&self.text, is_json(&self.file));
-        let span = document.and_then(|d| d.span(path));
-        let at = |d: &Doubt| d.span.as_ref().map_or(0, |s| s.start);
-        self.doubts.push(Doubt { kind, span });
-        self.doubts.sort_by_key(at);
-    }
-
-    /// The doubts with the lines they stand on, for a terminal.
-    #[must_use]
-    pub fn render(&self, colour: bool) -> String {
-        let one = |d: &Doubt| {
-            let message = d.kind.to_string();
-            let span = d.span.clone();
-            render(
-                Level::WARNING,
-                colour,
-                (&self.file, &self.text),
-                span,
-                &message,
-            )
-        };
-        self.doubts.iter().map(one).join("\n")
-    }
-}
-
 /// A file that can be used, and what is doubtful in it.
 #[derive(Debug, Clone)]
 pub struct Checked {
@@ -184,8 +35,8 @@ pub struct Checked {
     pub mechanism: Mechanism,
     /// Which of `grip` and `drive` the workload has.
     pub tables: Vec<&'static str>,
-    /// The doubts.
-    pub doubts: Doubts,
+    /// The warnings.
+    pub warnings: Warnings,
 }
 
 /// Reads a mechanism and says what is doubtful in its file; names that end in `.json` are JSON, all others TOML.
@@ -199,23 +50,23 @@ pub fn check(name: &str, bytes: &[u8]) -> Result<Checked, ImportError> {
     let text = text_of(name, bytes)?;
     read(name, text, |file| {
         let mechanism = build(file)?;
-        let mut doubts = Doubts {
+        let mut warnings = Warnings {
             file: name.to_owned(),
             text: text.to_owned(),
-            doubts: Vec::new(),
+            warnings: Vec::new(),
         };
         for (path, kind) in find(file, &mechanism) {
-            doubts.add(&path, kind);
+            warnings.add(&path, kind);
         }
         Ok(Checked {
             mechanism,
             tables: workload_tables(file),
-            doubts,
+            warnings,
         })
     })
 }
 
-type Found = Vec<(Vec<Step>, DoubtKind)>;
+type Found = Vec<(Vec<Step>, WarningKind)>;
 
 fn root(k: &str) -> Vec<Step> {
     vec![Step::Key(k.to_owned())]
@@ -224,7 +75,7 @@ fn root(k: &str) -> Vec<Step> {
 fn find(file: &MechanismFile, m: &Mechanism) -> Found {
     let mut out = Found::new();
     if m.name.trim().is_empty() {
-        out.push((root("name"), DoubtKind::NoName));
+        out.push((root("name"), WarningKind::NoName));
     }
     lengths(file, m, &mut out);
     contours(m, &mut out);
@@ -253,14 +104,14 @@ fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
     let metres = across * m.length_unit.metres;
     if file.length_unit.is_none() && metres > FORGOTTEN_UNIT {
         let across = significant(metres);
-        out.push((root("name"), DoubtKind::ForgottenUnit { across }));
+        out.push((root("name"), WarningKind::ForgottenUnit { across }));
     } else if across > 0.0 && !(SIZES.0..=SIZES.1).contains(&metres) {
         let (across, unit) = (significant(metres), m.length_unit.symbol);
-        out.push((root("length_unit"), DoubtKind::OddSize { across, unit }));
+        out.push((root("length_unit"), WarningKind::OddSize { across, unit }));
     }
     if let Some(measured) = looks_measured(m) {
         let what = measured.to_string();
-        out.push((root("joint"), DoubtKind::Measured { what }));
+        out.push((root("joint"), WarningKind::Measured { what }));
         return;
     }
     let pairs = m.joint_ids().tuple_combinations();
@@ -276,7 +127,7 @@ fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
     });
     for (a, b) in near {
         let apart = distance(place(&m.joints[a]), place(&m.joints[b]));
-        let kind = DoubtKind::NearlyOnePlace {
+        let kind = WarningKind::NearlyOnePlace {
             first: m.joints[a].id.clone(),
             second: m.joints[b].id.clone(),
             apart: significant(apart),
@@ -302,7 +153,7 @@ fn contours(m: &Mechanism, out: &mut Found) {
         })
         .collect();
     if !walked.contains(&true) {
-        out.push((root("joint"), DoubtKind::NoContour));
+        out.push((root("joint"), WarningKind::NoContour));
     } else {
         let open: Vec<JointId> = m.joint_ids().filter(|&j| !walked[j]).collect();
         if let Some(&first) = open.first() {
@@ -314,7 +165,7 @@ fn contours(m: &Mechanism, out: &mut Found) {
             let joints = format!("{}{more}", names.format(", "));
             out.push((
                 index(&root("joint"), first.index()),
-                DoubtKind::OpenChain { joints },
+                WarningKind::OpenChain { joints },
             ));
         }
     }
@@ -324,7 +175,7 @@ fn contours(m: &Mechanism, out: &mut Found) {
     for (i, contour) in named.iter().enumerate() {
         if named[..i].contains(contour) || !bases.iter().flatten().contains(contour) {
             let at = key(&index(&root("contour"), i), "joints");
-            out.push((at, DoubtKind::DependentContour));
+            out.push((at, WarningKind::DependentContour));
         }
     }
 }
@@ -341,18 +192,18 @@ fn structure(m: &Mechanism, out: &mut Found) {
         };
         if here(StateId::FREE) > 0 {
             let link = link.id.clone();
-            out.push((at, DoubtKind::ObjectAlwaysThere { link }));
+            out.push((at, WarningKind::ObjectAlwaysThere { link }));
             continue;
         }
         if let Some(s) = m.state_ids().find(|&s| here(s) == 1) {
             let (link, state) = (link.id.clone(), m.states[s].clone());
-            out.push((at, DoubtKind::Dangling { link, state }));
+            out.push((at, WarningKind::Dangling { link, state }));
         }
     }
     for (i, j) in m.joints_with_ids() {
         let at = index(&root("joint"), i.index());
         if j.joint_type == JointType::Fixed && j.states.is_none() {
-            let kind = DoubtKind::AlwaysFixed {
+            let kind = WarningKind::AlwaysFixed {
                 joint: j.id.clone(),
                 first: m.links[j.links[0]].id.clone(),
                 second: m.links[j.links[1]].id.clone(),
@@ -362,7 +213,7 @@ fn structure(m: &Mechanism, out: &mut Found) {
         let twin = m.joints[..i.index()].iter().find(|o| twins(o, j));
         if let Some(o) = twin {
             let (first, second) = (o.id.clone(), j.id.clone());
-            out.push((key(&at, "links"), DoubtKind::Twin { first, second }));
+            out.push((key(&at, "links"), WarningKind::Twin { first, second }));
         }
     }
 }
@@ -397,7 +248,7 @@ fn search(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
         if changeable && !taken {
             let option = name.to_owned();
             let path = index(&key(&at, "options"), i);
-            out.push((path, DoubtKind::UselessOption { option }));
+            out.push((path, WarningKind::UselessOption { option }));
         }
     }
     let asks =
@@ -410,10 +261,10 @@ fn search(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
         if let Some(j) = wants {
             let joint = file.joint[j].id.clone();
             let path = key(&index(&root("joint"), j), "unloading");
-            out.push((path, DoubtKind::UnloadingOfNothing { joint }));
+            out.push((path, WarningKind::UnloadingOfNothing { joint }));
         }
     } else if !file.joint.iter().any(|j| asks(&j.unloading)) {
-        out.push((key(&at, "unloading"), DoubtKind::UnloadingNowhere));
+        out.push((key(&at, "unloading"), WarningKind::UnloadingNowhere));
     }
     for (i, j) in file.joint.iter().enumerate() {
         let list = j.options.as_ref().unwrap_or(&file.search.options);
@@ -421,7 +272,7 @@ fn search(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
             if !list.iter().any(|o| option_name(o) == Some(word)) {
                 let (joint, option) = (j.id.clone(), word.clone());
                 let path = index(&key(&index(&root("joint"), i), "forbid"), n);
-                out.push((path, DoubtKind::ForbidsNothing { joint, option }));
+                out.push((path, WarningKind::ForbidsNothing { joint, option }));
             }
         }
     }
@@ -436,7 +287,7 @@ fn workload(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
             (file.workload.drive_speed.is_some(), "drive_speed"),
         ];
         if let Some((_, what)) = what.into_iter().find(|w| w.0) {
-            out.push((key(&at, what), DoubtKind::NoDrive { what }));
+            out.push((key(&at, what), WarningKind::NoDrive { what }));
         }
     }
     let heavy = m
@@ -445,11 +296,11 @@ fn workload(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
         .position(|l| l.mass.as_ref().is_some_and(|p| p.mass > 0.0));
     let moved = loads.drive_speeds.iter().any(|v| *v != 0.0);
     match (heavy, &loads.gravity) {
-        (None, Some(_)) => out.push((key(&at, "gravity"), DoubtKind::GravityAlone)),
+        (None, Some(_)) => out.push((key(&at, "gravity"), WarningKind::GravityAlone)),
         // A disc of a torsional drive takes its inertia from its link.
         (Some(l), None) if !moved && file.workload.drive.is_none() => {
             let path = key(&index(&root("link"), l), "mass");
-            out.push((path, DoubtKind::MassAlone));
+            out.push((path, WarningKind::MassAlone));
         }
         _ => {}
     }
@@ -466,7 +317,7 @@ fn workload(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
     if let Some(term) = asked.filter(|_| !loaded) {
         out.push((
             key(&root("ranking"), "terms"),
-            DoubtKind::RankingUnloaded { term },
+            WarningKind::RankingUnloaded { term },
         ));
     }
 }

@@ -8,9 +8,11 @@ mod expected;
 pub mod grip;
 pub mod joint_loads;
 mod joints;
+pub mod limits;
 mod links;
 pub mod loads;
 mod mode;
+pub mod motion;
 mod names;
 mod options;
 pub(crate) mod quantity;
@@ -36,12 +38,10 @@ use connected::connected;
 use contours::contours;
 use expected::expected;
 use joints::{joints, states};
+use limits::LIMITS;
 use links::links;
 use mode::mode;
 use search::search;
-
-/// Most links, joints (and as many contours), and options of one joint in a file.
-pub const LIMITS: (usize, usize, usize) = (2000, 4000, 64);
 
 /// Builds a mechanism.
 ///

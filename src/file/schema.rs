@@ -1,10 +1,22 @@
 //! The mechanism file: one schema for TOML and JSON.
 
-use crate::file::read::loads::{InertiaEntry, WorkloadEntry};
-use crate::file::read::ranking::{JointTypeEntry, RankingEntry};
+mod drive;
+mod grip;
+mod number;
+mod ranking;
+mod workload;
+
+pub use drive::DriveEntry;
+pub use grip::{DiameterSteps, Diameters, Gravity, GripEntry};
+pub use number::{Coordinate, Quantities, Quantity};
+pub use ranking::{JointTypeEntry, LimitEntry, RankingEntry, TermEntry};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+pub use workload::{
+    ForceEntry, InertiaEntry, MisalignmentEntry, MomentEntry, StiffnessEntry, StrokeEntry,
+    WorkloadEntry,
+};
 
 /// A mechanism: links, joints, and what a search may change.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
@@ -54,21 +66,6 @@ pub struct MechanismFile {
     /// Known figures, which `ozols check` compares with those of the analysis.
     #[serde(default)]
     pub expected: Vec<ExpectedEntry>,
-}
-
-/// A number, or an exact expression in quotes: "sqrt(3)/2", "cos(36deg)", "tan(pi/8)", "1/3".
-#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
-#[serde(
-    untagged,
-    expecting = "expected a number, or an expression in quotes such as \"sqrt(3)/2\""
-)]
-pub enum Coordinate {
-    /// A whole number.
-    Integer(i64),
-    /// A decimal, taken exactly as written.
-    Decimal(f64),
-    /// An expression.
-    Expression(String),
 }
 
 /// A rigid body.

@@ -5,13 +5,10 @@ mod grip;
 mod quantity;
 mod ranking;
 
-use crate::file::read::joint_loads::{MisalignmentEntry, MomentEntry, StiffnessEntry};
-use crate::file::read::loads::{
-    ForceEntry, InertiaEntry, Quantities, Quantity, StrokeEntry, WorkloadEntry,
-};
 use crate::file::schema::{
-    ContourEntry, Coordinate, CouplingEntry, ExpectedEntry, JointEntry, LinkEntry, MechanismFile,
-    OptionEntry, OptionTable, SearchEntry, Unloading, Words,
+    ContourEntry, Coordinate, CouplingEntry, ExpectedEntry, ForceEntry, InertiaEntry, JointEntry,
+    LinkEntry, MechanismFile, MisalignmentEntry, MomentEntry, OptionEntry, OptionTable, Quantities,
+    Quantity, SearchEntry, StiffnessEntry, StrokeEntry, Unloading, Words, WorkloadEntry,
 };
 use crate::geom::expr::Expr;
 use crate::model::coupling::Coupling;

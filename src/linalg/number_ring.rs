@@ -2,109 +2,21 @@
 //!
 //! Relation i is a monic polynomial in x_i whose coefficients are integral combinations of the monomials in the
 //! generators before it. The monomials with every exponent below the degree of its relation are a basis over Q, and
-//! products of integral combinations are integral: multiplication is done on integers, over common denominators. Basis elements are numbered with x_1 running
-//! fastest: the ring of the first few generators is then a prefix, and an element is kept as its coordinates without
-//! trailing zeros. Rational numbers have one coordinate at most.
+//! products of integral combinations are integral: multiplication is done on integers, over common denominators. Basis
+//! elements are numbered with x_1 running fastest: the ring of the first few generators is then a prefix, and an element
+//! is kept as its coordinates without trailing zeros. Rational numbers have one coordinate at most.
 //!
 //! # Sources
 //! Cohen, "A Course in Computational Algebraic Number Theory", ch. 4 (elements as polynomials).
 
+mod element;
+
 use num_bigint::BigInt;
-use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use crate::linalg::modp::{Field, Residue};
-
-/// An element of a [`NumberRing`], as its coordinates without trailing zeros; the default is 0. Equal elements have equal
-/// coordinates.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Hash)]
-pub struct Element(Vec<BigRational>);
-
-impl Element {
-    /// The element with the given coordinates. O(length).
-    #[must_use]
-    pub fn new(mut coordinates: Vec<BigRational>) -> Element {
-        while coordinates.last().is_some_and(Zero::is_zero) {
-            coordinates.pop();
-        }
-        Element(coordinates)
-    }
-
-    /// A rational number. O(1).
-    #[must_use]
-    pub fn rational(value: BigRational) -> Element {
-        Element::new(vec![value])
-    }
-
-    /// A whole number. O(1).
-    #[must_use]
-    pub fn integer(value: i64) -> Element {
-        Element::rational(BigRational::from_integer(BigInt::from(value)))
-    }
-
-    /// The coordinates, without trailing zeros. O(1).
-    #[must_use]
-    pub fn coordinates(&self) -> &[BigRational] {
-        &self.0
-    }
-
-    /// Whether this is 0. O(1).
-    #[must_use]
-    pub fn is_zero(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    /// The rational this is, if it is one. O(1).
-    #[must_use]
-    pub fn as_rational(&self) -> Option<BigRational> {
-        match self.0.as_slice() {
-            [] => Some(BigRational::zero()),
-            [q] => Some(q.clone()),
-            _ => None,
-        }
-    }
-
-    /// The image under a homomorphism, from [`NumberRing::monomials`]; `None` where the prime divides a denominator, or
-    /// the monomials are too few. O(length).
-    #[must_use]
-    pub fn image(&self, field: Field, monomials: &[Residue]) -> Option<Residue> {
-        if self.0.len() > monomials.len() {
-            return None;
-        }
-        self.0
-            .iter()
-            .zip(monomials)
-            .filter(|(q, _)| !q.is_zero())
-            .try_fold(field.zero(), |sum, (q, &m)| {
-                Some(field.add(sum, field.mul(field.from_rational(q)?, m)))
-            })
-    }
-
-    fn scaled(&self, by: &BigRational) -> Element {
-        if by.is_zero() {
-            return Element::default();
-        }
-        if by.is_one() {
-            return self.clone();
-        }
-        let times = |q: &BigRational| {
-            if q.is_zero() {
-                BigRational::zero()
-            } else {
-                q * by
-            }
-        };
-        Element(self.0.iter().map(times).collect())
-    }
-
-    /// Integers and their common denominator.
-    fn over_common_denominator(&self) -> (Vec<BigInt>, BigInt) {
-        let below = self.0.iter().fold(BigInt::one(), |m, q| m.lcm(q.denom()));
-        let above = |q: &BigRational| q.numer() * (&below / q.denom());
-        (self.0.iter().map(above).collect(), below)
-    }
-}
+pub use element::Element;
 
 /// One generator: its relation `x^n + c[n-1] x^(n-1) + ... + c[0] = 0`.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! Couplings: joints that move in a fixed ratio, as gears, belts, racks and mimic joints make them.
 
 use crate::geom::expr::Expr;
+use crate::model::id::JointId;
 use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{JointId, Mechanism};
 
 /// One of the two freedoms that a coupling ties together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,18 +30,5 @@ impl Coupling {
     #[must_use]
     pub fn end_at(&self, joint: JointId) -> Option<usize> {
         self.ends.iter().position(|e| e.joint == joint)
-    }
-
-    /// Its name for people: the two joints, each with its freedom where it has several.
-    #[must_use]
-    pub fn name(&self, mechanism: &Mechanism) -> String {
-        let [a, b] = self.ends.map(|e| {
-            let joint = &mechanism.joints[e.joint];
-            match joint.joint_type.freedoms() {
-                [_] => joint.id.clone(),
-                _ => format!("{}:{}", joint.id, e.freedom.name()),
-            }
-        });
-        format!("{a} ~ {b}")
     }
 }

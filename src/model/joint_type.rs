@@ -112,25 +112,44 @@ impl JointType {
         JointType::Fixed,
     ];
 
+    /// The one list of what is known of each type: its word, its freedoms in the joint's frame, and its default cost.
+    fn known(&self) -> (&'static str, &[Freedom], i64) {
+        use Freedom::{Rx, Ry, Rz, Screw, Tx, Ty, Tz};
+        match self {
+            JointType::Revolute => ("revolute", &[Rz], 1000),
+            JointType::Prismatic => ("prismatic", &[Tz], 2000),
+            JointType::Helical => ("helical", &[Screw], 3000),
+            JointType::Cylindrical => ("cylindrical", &[Rz, Tz], 1500),
+            JointType::Universal => ("universal", &[Rz, Rx], 2500),
+            JointType::Slotted => ("slotted", &[Rz, Tx], 1500),
+            JointType::Spherical => ("spherical", &[Rx, Ry, Rz], 2000),
+            JointType::Planar => ("planar", &[Rz, Tx, Ty], 2500),
+            JointType::CylindricalUniversal => ("cylindrical-universal", &[Rz, Rx, Tz], 3500),
+            JointType::SphereInCylinder => ("sphere-in-cylinder", &[Rx, Ry, Rz, Tz], 2500),
+            JointType::CylinderOnPlane => ("cylinder-on-plane", &[Rz, Rx, Tx, Ty], 2000),
+            JointType::SphereOnPlane => ("sphere-on-plane", &[Rx, Ry, Rz, Tx, Ty], 1500),
+            JointType::Fixed => ("fixed", &[], 500),
+            // As a revolute joint, and more for each freedom beyond the first.
+            JointType::Custom(list) => {
+                let more = i64::try_from(list.len()).unwrap_or(0) - 1;
+                ("custom", list, 1000 + JointType::CUSTOM_FREEDOM * more)
+            }
+        }
+    }
+
+    /// Default cost of each freedom of a custom joint beyond the first, in thousandths of a revolute joint's.
+    pub const CUSTOM_FREEDOM: i64 = 750;
+
     /// The word used for this type in files.
     #[must_use]
     pub fn name(&self) -> &'static str {
-        match self {
-            JointType::Revolute => "revolute",
-            JointType::Prismatic => "prismatic",
-            JointType::Helical => "helical",
-            JointType::Cylindrical => "cylindrical",
-            JointType::Universal => "universal",
-            JointType::Slotted => "slotted",
-            JointType::Spherical => "spherical",
-            JointType::Planar => "planar",
-            JointType::CylindricalUniversal => "cylindrical-universal",
-            JointType::SphereInCylinder => "sphere-in-cylinder",
-            JointType::CylinderOnPlane => "cylinder-on-plane",
-            JointType::SphereOnPlane => "sphere-on-plane",
-            JointType::Fixed => "fixed",
-            JointType::Custom(_) => "custom",
-        }
+        self.known().0
+    }
+
+    /// The default cost in thousandths of a revolute joint's: an order of magnitude for machined parts.
+    #[must_use]
+    pub fn default_cost_milli(&self) -> i64 {
+        self.known().2
     }
 
     /// The named type a word stands for, if any (`custom` needs its freedoms and is not found here).
@@ -142,23 +161,7 @@ impl JointType {
     /// The freedoms of the type, in the joint's frame.
     #[must_use]
     pub fn freedoms(&self) -> &[Freedom] {
-        use Freedom::{Rx, Ry, Rz, Screw, Tx, Ty, Tz};
-        match self {
-            JointType::Revolute => &[Rz],
-            JointType::Prismatic => &[Tz],
-            JointType::Helical => &[Screw],
-            JointType::Cylindrical => &[Rz, Tz],
-            JointType::Universal => &[Rz, Rx],
-            JointType::Slotted => &[Rz, Tx],
-            JointType::Spherical => &[Rx, Ry, Rz],
-            JointType::Planar => &[Rz, Tx, Ty],
-            JointType::CylindricalUniversal => &[Rz, Rx, Tz],
-            JointType::SphereInCylinder => &[Rx, Ry, Rz, Tz],
-            JointType::CylinderOnPlane => &[Rz, Rx, Tx, Ty],
-            JointType::SphereOnPlane => &[Rx, Ry, Rz, Tx, Ty],
-            JointType::Fixed => &[],
-            JointType::Custom(list) => list,
-        }
+        self.known().1
     }
 
     /// The class of the joint, its number of constraints (6 - freedoms), in Roman numerals as the field writes it.

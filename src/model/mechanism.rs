@@ -5,6 +5,7 @@ use crate::model::coupling::Coupling;
 use crate::model::joint_type::JointType;
 use crate::model::loads::{Loads, MassProperties};
 use crate::model::ranking::{Ranking, TypeOverride};
+use std::sync::Arc;
 
 pub use crate::model::id::{JointId, LinkId, StateId};
 
@@ -178,6 +179,12 @@ pub struct Mechanism {
     pub expected: Vec<Expected>,
 }
 
+impl From<&Mechanism> for Arc<Mechanism> {
+    fn from(mechanism: &Mechanism) -> Self {
+        Arc::new(mechanism.clone())
+    }
+}
+
 impl Mechanism {
     /// The ids of the links, in file order.
     pub fn link_ids(
@@ -269,5 +276,20 @@ impl Mechanism {
     #[must_use]
     pub fn joint(&self, id: &str) -> Option<JointId> {
         self.joint_ids().find(|&j| self.joints[j].id == id)
+    }
+}
+
+impl Coupling {
+    /// Its name for people: the two joints, each with its freedom where it has several.
+    #[must_use]
+    pub fn name(&self, mechanism: &Mechanism) -> String {
+        let [a, b] = self.ends.map(|e| {
+            let joint = &mechanism.joints[e.joint];
+            match joint.joint_type.freedoms() {
+                [_] => joint.id.clone(),
+                _ => format!("{}:{}", joint.id, e.freedom.name()),
+            }
+        });
+        format!("{a} ~ {b}")
     }
 }

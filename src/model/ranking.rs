@@ -1,6 +1,6 @@
 //! How a file wants variants ranked, and what it says of joint types.
 
-use crate::model::mechanism::StateId;
+use crate::model::id::StateId;
 
 /// What variants are scored by. Smaller is better, but for conditioning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

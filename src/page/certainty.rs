@@ -1,70 +1,61 @@
 //! How sure the figures of a page are: the same words as those of `analyze` and `search`.
 
-use super::embed::text;
 use super::{Page, Redesigns};
-use crate::search::primes::Verdict;
+use crate::search::primes::{PrimeCheck, Verdict};
+use crate::view::analysis::{Analysis, LeftOut, State};
 use crate::view::search_text;
-use itertools::Itertools;
+use maud::{Markup, html};
 
-pub(super) fn html(page: &Page<'_>) -> String {
-    let mut out = String::from("<dl class=\"facts\">\n");
-    let several = page.states.len() > 1;
-    for s in page.states {
-        let head = if several {
-            format!("State {}", s.state)
-        } else {
-            "The mechanism".to_owned()
-        };
-        let mut lines = vec![s.certainty.describe()];
-        lines.extend(s.choice.iter().map(|c| format!("method: {c}")));
-        lines.push(format!(
-            "finite mobility {}: {}",
-            s.finite.figure(),
-            s.finite.describe()
-        ));
-        lines.extend(s.snapped.iter().map(|m| format!("snapped: {m}")));
-        if let Some(rank) = s.as_written {
-            lines.push(format!(
-                "as written, every digit at its word: mobility {}, σ = {}",
-                s.freedoms - rank,
-                s.rows - rank
-            ));
+pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
+    let head = |s: &State<'_>| match analysis.states.len() {
+        1 => "The mechanism".to_owned(),
+        _ => format!("State {}", s.state),
+    };
+    html! {
+        dl.facts {
+            @for s in &analysis.states { (row(&head(s), &state(s))) }
+            @if let Ok(r) = &page.redesigns { (row("The search", &search(r))) }
         }
-        for (j, n) in &s.left_out {
-            let joint = &page.mechanism.joints[*j].id;
-            lines.push(format!("left out in the plane: {n} of joint {joint}"));
-        }
-        out += &row(&head, &lines);
     }
-    if let Ok(r) = &page.redesigns {
-        out += &row("The search", &search(r));
-    }
-    out + "</dl>\n"
 }
 
-fn row(head: &str, lines: &[String]) -> String {
-    let lines = lines.iter().map(|l| text(l)).join("<br>\n");
-    format!("<dt>{}</dt><dd>{lines}</dd>\n", text(head))
+fn row(head: &str, lines: &[String]) -> Markup {
+    html! {
+        dt { (head) }
+        dd {
+            @for (i, line) in lines.iter().enumerate() {
+                @if i > 0 { br; "\n" }
+                (line)
+            }
+        }
+    }
+}
+
+fn state(s: &State<'_>) -> Vec<String> {
+    let mut lines = vec![s.certainty.clone()];
+    lines.extend(s.method_lines());
+    lines.push(s.finite());
+    lines.extend(s.left_out.iter().map(LeftOut::words));
+    lines
 }
 
 fn search(r: &Redesigns<'_>) -> Vec<String> {
     let found = r.found;
     let mut lines = Vec::new();
     match found.check {
-        Some(([p, q], Verdict::Agree)) => {
-            lines.push(format!("Checked: modulo {p} and {q} the same"));
-        }
-        Some((_, Verdict::Interrupted)) => {
-            lines.push("Not checked by a second prime: interrupted".to_owned());
-        }
+        Some(PrimeCheck {
+            primes: [p, q],
+            verdict: Verdict::Agree,
+        }) => lines.push(format!("Checked: modulo {p} and {q} the same")),
+        Some(_) => lines.push("Not checked by a second prime: interrupted".to_owned()),
         None => lines.push("One prime, without a second opinion".to_owned()),
     }
-    if found.stop == "exhausted" {
+    if found.is_exact() {
         lines.push("Every variant was counted; none was left out".to_owned());
     } else {
         lines.push(format!(
             "Stopped early ({}): counts are lower bounds, variants are valid but may not be the cheapest",
-            found.stop
+            found.stop.word()
         ));
     }
     if let Some((why, verdicts)) = &found.measured {

@@ -7,7 +7,7 @@ use crate::rank::modular;
 use crate::redundancy::idle::idle_motions;
 use crate::redundancy::motion::motions;
 use crate::redundancy::share::shares;
-use crate::view::words::idle_list;
+use crate::view::idle;
 
 /// W and σ of a state of a mechanism.
 pub(super) fn figures(
@@ -28,8 +28,8 @@ pub(super) fn idle(exact: &ExactField, m: &Mechanism) -> Result<String, ExactErr
         .link_ids()
         .filter(|&l| m.links[l].role == Role::Output)
         .collect();
-    let idle = idle_motions(exact, m, &closure, &kernel, &outputs);
-    Ok(idle_list(m, &idle).join("; "))
+    let found = idle_motions(exact, m, &closure, &kernel, &outputs);
+    Ok(idle::told_once(found.iter().map(|i| idle::words(m, i))).join("; "))
 }
 
 /// σ of each of its contours in the free state.

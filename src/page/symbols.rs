@@ -1,10 +1,10 @@
 //! The drawings of each state, and every symbol that a variant may put into them.
 
 use super::Page;
-use crate::draw::swap::{Swap, kinematic_with, scheme_with};
-use crate::draw::{Drawing, Subject};
+use crate::draw::{Drawing, Subject, Swap, kinematic_with, scheme_with};
 use crate::model::mechanism::{JointId, StateId};
-use serde_json::{Value, json};
+use maud::{Markup, PreEscaped, html};
+use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// The drawings of a state, with the symbols of [`places`] in that order.
@@ -20,7 +20,7 @@ fn places<'a>(page: &'a Page<'_>, state: StateId) -> Vec<(usize, usize, Swap<'a>
     let Ok(r) = &page.redesigns else {
         return Vec::new();
     };
-    let search = r.found.search;
+    let search = &r.found.search;
     let there: Vec<JointId> = page.mechanism.joints_in(state).collect();
     let mut out = Vec::new();
     for (v, variable) in search.space.variables.iter().enumerate() {
@@ -63,28 +63,35 @@ impl<'a> Drawn<'a> {
     }
 }
 
-/// The symbols as groups of an SVG that is not shown, each once, and where they belong: by state and kind of drawing,
-/// rows of variable, choice, joint and number of the symbol.
-pub(super) fn store(page: &Page<'_>, drawn: &[Drawn<'_>]) -> (String, Value) {
+/// Where the symbols of a state belong: by kind of drawing, rows of variable, choice, joint and number of the symbol.
+#[derive(Serialize)]
+pub(super) struct Swaps {
+    scheme: Vec<[usize; 4]>,
+    kinematic: Vec<[usize; 4]>,
+}
+
+/// The symbols as groups of an SVG that is not shown, each once, and where they belong, state by state.
+pub(super) fn store(drawn: &[Drawn<'_>]) -> (Markup, Vec<Swaps>) {
     let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
-    let mut store = String::new();
+    let mut store: Vec<&str> = Vec::new();
     let mut states = Vec::new();
     for d in drawn {
-        let mut kinds = Vec::new();
-        for symbols in &d.symbols {
-            let mut rows = Vec::new();
-            for ((v, c, swap), symbol) in d.places.iter().zip(symbols) {
-                let next = numbers.len();
+        let [scheme, kinematic] = d.symbols.each_ref().map(|symbols| {
+            let rows = d.places.iter().zip(symbols).map(|((v, c, swap), symbol)| {
                 let number = *numbers.entry(symbol).or_insert_with(|| {
-                    store += &format!("<g data-symbol=\"{next}\">\n{symbol}</g>\n");
-                    next
+                    store.push(symbol);
+                    store.len() - 1
                 });
-                rows.push(json!([v, c, swap.joint, number]));
-            }
-            kinds.push(rows);
-        }
-        states.push(json!({"scheme": kinds[0], "kinematic": kinds[1]}));
+                [*v, *c, swap.joint.index(), number]
+            });
+            rows.collect()
+        });
+        states.push(Swaps { scheme, kinematic });
     }
-    debug_assert_eq!(states.len(), page.mechanism.states.len());
-    (store, json!(states))
+    let store = html! {
+        @for (number, symbol) in store.iter().enumerate() {
+            g data-symbol=(number) { (PreEscaped(symbol)) }
+        }
+    };
+    (store, states)
 }

@@ -1,26 +1,65 @@
-//! The variants as columns for the script, and the frame of their part of the page.
+//! The variants as columns for the script.
 
-use super::embed::{measured, text};
-use super::{Page, Redesigns, figures, workload};
+use super::data::Number;
+use super::workload::{Workload, workload};
+use super::{Page, Redesigns, figures};
 use crate::model::mechanism::Mechanism;
-use crate::redundancy::analysis::{AnalysisError, exact_field};
-use crate::search::certify::{CHECKED, Certified};
-use crate::search::space::choice_name;
+use crate::redundancy::analysis::AnalysisError;
+use crate::score::outcome::Variant;
+use crate::search::certify::CHECKED;
+use crate::search::space::{Variable, choice_name};
 use crate::view::search_text;
 use rayon::prelude::*;
-use serde_json::{Value, json};
+use serde::Serialize;
 
-/// The joints, in file order.
-pub(super) fn joints(m: &Mechanism) -> Value {
-    let one = |j: &crate::model::mechanism::Joint| {
-        json!({
-            "id": j.id,
-            "links": j.links.map(|l| m.links[l].id.as_str()),
-            "type": j.joint_type.name(),
-            "class": j.joint_type.class(),
-        })
-    };
-    m.joints.iter().map(one).collect()
+/// Everything the script knows of the search: counts, what can be chosen, and a column for each figure of the variants.
+#[derive(Serialize)]
+pub(super) struct Found {
+    space: String,
+    determinate: String,
+    admissible: String,
+    max_redundant: u32,
+    state: Option<usize>,
+    variables: Vec<Choices>,
+    /// Pairs of a variable and its choice, where that is not the present one.
+    choices: Vec<Vec<usize>>,
+    cost: Vec<Number>,
+    changes: Vec<u32>,
+    mobility: Vec<i64>,
+    redundant: Vec<u32>,
+    external: Option<Vec<Option<u32>>>,
+    idle: Option<Vec<Option<i64>>>,
+    /// Idle motions repeat: each text once, and its number by variant.
+    idle_words: Vec<String>,
+    idle_word: Vec<usize>,
+    /// The states but the free one.
+    states: Vec<InState>,
+    contours: Vec<Option<Vec<usize>>>,
+    conditioning: Vec<Option<Number>>,
+    agree: Vec<Option<bool>>,
+    lucky: Vec<Option<bool>>,
+    notes: Vec<Option<String>>,
+    workload: Option<Workload>,
+}
+
+/// What can be put at a variable.
+#[derive(Serialize)]
+struct Choices {
+    joints: Vec<usize>,
+    choices: Vec<Choice>,
+}
+
+#[derive(Serialize)]
+struct Choice {
+    names: Vec<String>,
+    class: Option<&'static str>,
+    unloading: bool,
+}
+
+#[derive(Serialize)]
+struct InState {
+    mobility: Vec<usize>,
+    redundant: Vec<usize>,
 }
 
 /// What takes a computation of its own.
@@ -31,125 +70,114 @@ struct Further {
 }
 
 fn further(r: &Redesigns<'_>) -> Result<Vec<Further>, AnalysisError> {
-    let search = r.found.search;
-    let exact = exact_field(search.mechanism, 0)?;
-    let one = |(i, c): (usize, &Certified)| -> Result<Further, AnalysisError> {
-        let m = search.realize(&c.variant.choices);
+    let search = &r.found.search;
+    let exact = search.field();
+    let one = |(i, c): (usize, &Variant<'_>)| -> Result<Further, AnalysisError> {
+        let m = search.realize(&c.assignment().choices);
         let states = m
             .state_ids()
             .skip(1)
-            .map(|s| figures::figures(&exact, &m, s));
+            .map(|s| figures::figures(exact, &m, s));
         Ok(Further {
             states: states.collect::<Result<_, _>>()?,
             idle: if i < CHECKED {
-                figures::idle(&exact, &m)?
+                figures::idle(exact, &m)?
             } else {
                 String::new()
             },
-            contours: (c.variant.key.internal() > 0)
-                .then(|| figures::redundant_by_contour(&exact, &m))
+            contours: (c.redundant() > 0)
+                .then(|| figures::redundant_by_contour(exact, &m))
                 .transpose()?,
         })
     };
     r.variants.par_iter().enumerate().map(one).collect()
 }
 
-/// Everything the script knows of the search.
-pub(super) fn json(page: &Page<'_>, r: &Redesigns<'_>) -> Result<Value, AnalysisError> {
-    let search = r.found.search;
-    let m = search.mechanism;
-    let further = further(r)?;
-    let variables = search.space.variables.iter().map(|v| {
-        let choices = v.choices.iter().map(|c| {
-            let names = v.joints.iter().map(|&j| choice_name(m, j, c));
-            let class = v
-                .joints
-                .first()
-                .and_then(|&j| m.joints[j].options.get(c.option));
-            json!({
-                "names": names.collect::<Vec<_>>(),
-                "class": class.map(|o| o.joint_type.class()),
-                "unloading": c.unloading.is_some(),
-            })
+impl Found {
+    pub(super) fn new(page: &Page<'_>, r: &Redesigns<'_>) -> Result<Found, AnalysisError> {
+        let search = &r.found.search;
+        let further = further(r)?;
+        let working = page.states.first().map(|s| s.working_mobility);
+        let working = working.and_then(|w| i64::try_from(w).ok());
+        let mut idle_words = vec![String::new()];
+        let mut idle_word = Vec::new();
+        for f in &further {
+            let known = idle_words.iter().position(|w| *w == f.idle);
+            idle_word.push(known.unwrap_or_else(|| {
+                idle_words.push(f.idle.clone());
+                idle_words.len() - 1
+            }));
+        }
+        let states = (1..search.mechanism.states.len()).map(|s| {
+            let of = further.iter().map(|f| f.states[s - 1]);
+            let (mobility, redundant) = of.unzip();
+            InState {
+                mobility,
+                redundant,
+            }
         });
-        json!({"joints": v.joints, "choices": choices.collect::<Vec<_>>()})
-    });
-    let column =
-        |of: &dyn Fn(&Certified) -> Value| -> Vec<Value> { r.variants.iter().map(of).collect() };
-    let working = page.states.first().map(|s| s.working_mobility);
-    let working = working.and_then(|w| i64::try_from(w).ok());
-    // Idle motions repeat: each text once, and its number by variant.
-    let mut words: Vec<&str> = vec![""];
-    let idle: Vec<usize> = further
-        .iter()
-        .map(|f| {
-            words.iter().position(|w| *w == f.idle).unwrap_or_else(|| {
-                words.push(&f.idle);
-                words.len() - 1
-            })
+        let conditions = &search.conditions;
+        Ok(Found {
+            space: search.size().to_string(),
+            determinate: r.found.determinate.total.to_string(),
+            admissible: r.found.admissible.total.to_string(),
+            max_redundant: conditions.max_redundant,
+            state: conditions.state.map(|(s, _)| s.index()),
+            variables: search
+                .space
+                .variables
+                .iter()
+                .map(|v| Choices::new(&search.mechanism, v))
+                .collect(),
+            choices: column(r, |c| {
+                let choices = c.assignment().choices.iter().enumerate();
+                let changed = choices.filter(|(_, c)| **c != 0);
+                changed.flat_map(|(v, &c)| [v, c]).collect()
+            }),
+            cost: column(r, |c| Number::cost(c.cost_milli())),
+            changes: column(r, |c| c.change_count()),
+            mobility: column(r, |c| c.mobility()),
+            redundant: column(r, |c| c.redundant()),
+            external: conditions
+                .state
+                .map(|_| column(r, |c| c.external_redundant())),
+            idle: conditions
+                .keep_output
+                .then(|| column(r, |c| working.map(|w| c.mobility() - w))),
+            idle_words,
+            idle_word,
+            states: states.collect(),
+            contours: further.iter().map(|f| f.contours.clone()).collect(),
+            conditioning: column(r, |c| {
+                let opinion = c.second().opinion();
+                opinion.map(|o| Number::measured(o.conditioning))
+            }),
+            agree: column(r, |c| c.second().opinion().map(|o| o.agree)),
+            lucky: column(r, |c| c.over_stroke().and_then(|s| s.lucky())),
+            notes: column(r, search_text::note),
+            workload: workload(r),
         })
-        .collect();
-    let states: Vec<Value> = (1..m.states.len())
-        .map(|s| {
-            let of = |i: usize| {
-                further
-                    .iter()
-                    .map(|f| f.states[s - 1])
-                    .map(move |p| [p.0, p.1][i])
-            };
-            json!({"mobility": of(0).collect::<Vec<_>>(), "redundant": of(1).collect::<Vec<_>>()})
-        })
-        .collect();
-    Ok(json!({
-        "space": search.size().to_string(),
-        "determinate": r.found.determinate.total.to_string(),
-        "admissible": r.found.admissible.total.to_string(),
-        "max_redundant": search.request.max_redundant,
-        "state": search.request.state.map(|(s, _)| s),
-        "variables": variables.collect::<Vec<_>>(),
-        "choices": column(&|c| {
-            let changed = c.variant.choices.iter().enumerate().filter(|(_, c)| **c != 0);
-            changed.flat_map(|(v, &c)| [v, c]).collect()
-        }),
-        "cost": column(&|c| measured_cost(search.steps.milli(c.variant.key.cost()))),
-        "changes": column(&|c| json!(c.variant.key.changes())),
-        "mobility": column(&|c| json!(search.mobility(c.variant.key))),
-        "redundant": column(&|c| json!(c.variant.key.internal())),
-        "external": search.request.state.map(|_| column(&|c| json!(c.variant.key.external()))),
-        "idle": search.request.keep_output.then(|| column(&|c| {
-            json!(working.map(|w| search.mobility(c.variant.key) - w))
-        })),
-        "idle_words": words,
-        "idle_word": idle,
-        "states": states,
-        "contours": further.iter().map(|f| f.contours.clone()).collect::<Vec<_>>(),
-        "conditioning": column(&|c| c.second.opinion().map_or(Value::Null, |o| measured(o.conditioning))),
-        "agree": column(&|c| json!(c.second.opinion().map(|o| o.agree))),
-        "lucky": column(&|c| json!(c.stroke.and_then(|s| s.lucky()))),
-        "notes": r.variants.iter().enumerate()
-            .map(|(i, c)| search_text::note(c, i + 1)).collect::<Vec<_>>(),
-        "workload": workload::json(r),
-    }))
-}
-
-#[allow(clippy::cast_precision_loss, reason = "costs are small")]
-fn measured_cost(milli: i64) -> Value {
-    if milli % 1000 == 0 {
-        json!(milli / 1000)
-    } else {
-        json!(milli as f64 / 1000.0)
     }
 }
 
-const FRAME: &str = include_str!("variants.html");
+fn column<T>(r: &Redesigns<'_>, of: impl Fn(&Variant<'_>) -> T) -> Vec<T> {
+    r.variants.iter().map(of).collect()
+}
 
-/// The frame that the script fills, or why there is nothing to fill it with.
-pub(super) fn html(page: &Page<'_>) -> String {
-    match &page.redesigns {
-        Err(why) => format!("<p>Redesigns were not searched: {}</p>\n", text(why)),
-        Ok(r) if r.variants.is_empty() => {
-            "<p>There is no variant to show; the verdict at the top says why.</p>\n".to_owned()
+impl Choices {
+    fn new(m: &Mechanism, v: &Variable) -> Choices {
+        let choices = v.choices.iter().map(|c| {
+            let first = v.joints.first();
+            let option = first.and_then(|&j| m.joints[j].options.get(c.option));
+            Choice {
+                names: v.joints.iter().map(|&j| choice_name(m, j, c)).collect(),
+                class: option.map(|o| o.joint_type.class()),
+                unloading: c.unloading.is_some(),
+            }
+        });
+        Choices {
+            joints: v.joints.iter().map(|j| j.index()).collect(),
+            choices: choices.collect(),
         }
-        Ok(_) => FRAME.to_owned(),
     }
 }

@@ -1,53 +1,48 @@
 //! The verdict in words.
 
-use super::embed::text;
 use super::{Page, Redesigns};
 use crate::format::number::{cost, grouped};
-use crate::format::phrase::plural;
+use crate::format::phrase::{list, plural};
 use crate::model::mechanism::{Mechanism, Role};
-use crate::redundancy::analysis::StateAnalysis;
-use crate::redundancy::stress::Verdict;
-use crate::view::words;
+use crate::score::outcome::Variant;
+use crate::search::best::Assignment;
+use crate::view::analysis::{Analysis, State};
 use itertools::Itertools;
+use maud::{Markup, html};
 use num_traits::{One, Zero};
 
 /// Idle motions told at most.
 const TOLD: usize = 4;
 
-pub(super) fn html(page: &Page<'_>) -> String {
-    let mut out = String::new();
-    let several = page.states.len() > 1;
-    for (i, s) in page.states.iter().enumerate() {
-        let label = if several {
-            format!("<p class=\"label\">State {}</p>\n", text(&s.state))
-        } else {
-            String::new()
-        };
-        let good = s.redundant == 0;
-        let mut sentences = state(page.mechanism, s);
-        if i == 0 {
-            sentences.push(redesigns(page, s));
+pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
+    let several = analysis.states.len() > 1;
+    html! {
+        @for (i, s) in analysis.states.iter().enumerate() {
+            div class={ "verdict " (if s.redundant == 0 { "good" } else { "bad" }) } {
+                @if several { p.label { "State " (s.state) } }
+                p.head { (head(s)) }
+                p {
+                    (state(s).join(" "))
+                    @if i == 0 { " " (redesigns(page, s)) }
+                }
+            }
         }
-        out += &format!(
-            "<div class=\"verdict {}\">\n{label}<p class=\"head\">{}</p>\n<p>{}</p>\n</div>\n",
-            if good { "good" } else { "bad" },
-            text(&head(s)),
-            sentences.iter().map(|t| text(t)).join(" ")
-        );
     }
-    out
 }
 
 /// The answer in a few words.
-pub(super) fn head(s: &StateAnalysis) -> String {
-    match s.redundant {
-        0 => "Statically determinate".to_owned(),
-        n => plural(n, "redundant constraint"),
-    }
+pub(super) fn head(s: &State<'_>) -> String {
+    capitalised(&s.verdict())
+}
+
+fn capitalised(text: &str) -> String {
+    let mut rest = text.chars();
+    let first = rest.next().map(|c| c.to_ascii_uppercase());
+    first.into_iter().chain(rest).collect()
 }
 
 /// What that means, in sentences.
-fn state(m: &Mechanism, s: &StateAnalysis) -> Vec<String> {
+fn state(s: &State<'_>) -> Vec<String> {
     let mut out = Vec::new();
     out.push(
         if s.redundant == 0 {
@@ -58,12 +53,12 @@ fn state(m: &Mechanism, s: &StateAnalysis) -> Vec<String> {
         }
         .to_owned(),
     );
-    if let Some(e) = s.external.filter(|e| e.redundant > 0) {
-        let of = |v: Verdict| {
+    if let Some(e) = s.external.as_ref().filter(|e| e.redundant > 0) {
+        let of = |v: &str| {
             let external = s.self_stresses.iter().filter(|t| t.external);
             external.filter(|t| t.verdict == v).count()
         };
-        let (harmless, harmful) = (of(Verdict::Harmless), of(Verdict::Harmful));
+        let (harmless, harmful) = (of("harmless"), of("harmful"));
         let split = if harmless + harmful == 0 {
             String::new()
         } else {
@@ -76,7 +71,7 @@ fn state(m: &Mechanism, s: &StateAnalysis) -> Vec<String> {
         ));
     }
     out.push(moves(s));
-    let idle = words::idle_list(m, &s.idle);
+    let idle = s.idle_motions();
     let more = idle.len().saturating_sub(TOLD);
     if !idle.is_empty() {
         let list = idle.iter().take(TOLD).join("; ");
@@ -90,17 +85,15 @@ fn state(m: &Mechanism, s: &StateAnalysis) -> Vec<String> {
     out
 }
 
-fn moves(s: &StateAnalysis) -> String {
+fn moves(s: &State<'_>) -> String {
     let ways = |n: usize| plural(n, "way");
-    if s.finite.at_most() > s.finite.mobility {
+    if let Some(most) = s.finite_mobility_at_most {
         return format!(
-            "W = {} in this pose; how much of that is really there is undecided: between {} and {}.",
-            s.mobility,
-            s.finite.mobility,
-            s.finite.at_most()
+            "W = {} in this pose; how much of that is really there is undecided: between {} and {most}.",
+            s.mobility, s.finite_mobility
         );
     }
-    match (s.mobility, s.finite.mobility) {
+    match (s.mobility, s.finite_mobility) {
         (0, _) => "Nothing moves in this state.".to_owned(),
         (w, f) if w == f && s.local_mobility == 0 => format!("It moves in {} (W = {w}).", ways(w)),
         (w, f) if w == f => format!(
@@ -119,7 +112,7 @@ fn moves(s: &StateAnalysis) -> String {
 }
 
 /// What the search says, in one or two sentences.
-fn redesigns(page: &Page<'_>, s: &StateAnalysis) -> String {
+fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
     let r = match &page.redesigns {
         Ok(r) => r,
         Err(why) => return format!("Redesigns were not searched: {why}"),
@@ -131,13 +124,9 @@ fn redesigns(page: &Page<'_>, s: &StateAnalysis) -> String {
         return "No joint has a choice, so there is nothing to search: list options under [search] in the file."
             .to_owned();
     }
-    let least = if found.stop == "exhausted" {
-        ""
-    } else {
-        "at least "
-    };
+    let least = if found.is_exact() { "" } else { "at least " };
     let (all, good) = (big(&size), &found.admissible.total);
-    let request = &found.search.request;
+    let request = &found.search.conditions;
     let one = good.is_one();
     let goal = match (request.max_redundant, one) {
         (0, _) if s.redundant == 0 => (if one { "is" } else { "are" }).to_owned() + " determinate",
@@ -158,11 +147,9 @@ fn redesigns(page: &Page<'_>, s: &StateAnalysis) -> String {
             )
         };
     }
-    let mut out = format!("{least}{} of {all} variants {goal}{conditions}", big(good));
-    if let Some(first) = out.get(..1) {
-        out = first.to_uppercase() + &out[1..];
-    }
-    if s.redundant == 0 && r.variants.iter().any(|c| c.variant.key.changes() == 0) {
+    let out = format!("{least}{} of {all} variants {goal}{conditions}", big(good));
+    let out = capitalised(&out);
+    if s.redundant == 0 && r.variants.iter().any(|c| c.change_count() == 0) {
         return format!("Nothing needs changing. {out}.");
     }
     out + &best(r) + "."
@@ -172,13 +159,13 @@ fn redesigns(page: &Page<'_>, s: &StateAnalysis) -> String {
 fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
     let s = if one { "s" } else { "" };
     let have = if one { "has" } else { "have" };
-    let request = &r.found.search.request;
+    let request = &r.found.search.conditions;
     let outputs = m.links.iter().filter(|l| l.role == Role::Output);
     let outputs = outputs.map(|l| l.id.as_str()).collect_vec();
-    let motion = match outputs.as_slice() {
-        [] => format!("keep{s} the motion"),
-        [one] => format!("keep{s} the motion of link {one}"),
-        [head @ .., last] => format!("keep{s} the motion of links {} and {last}", head.join(", ")),
+    let motion = match outputs.len() {
+        0 => format!("keep{s} the motion"),
+        1 => format!("keep{s} the motion of link {}", outputs[0]),
+        _ => format!("keep{s} the motion of links {}", list(&outputs)),
     };
     let all = [
         request.keep_output.then_some(motion),
@@ -203,8 +190,8 @@ fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
 
 /// What the best is like.
 fn best(r: &Redesigns<'_>) -> String {
-    let search = r.found.search;
-    let like = |v: &crate::search::best::Variant| match v.key.changes() {
+    let search = &r.found.search;
+    let like = |v: &Assignment| match v.key.changes() {
         0 => "changes nothing".to_owned(),
         n => format!(
             "changes {} at cost {}",
@@ -212,7 +199,7 @@ fn best(r: &Redesigns<'_>) -> String {
             cost(search.steps.milli(v.key.cost()))
         ),
     };
-    let cheapest = r.variants.iter().map(|c| &c.variant);
+    let cheapest = r.variants.iter().map(Variant::assignment);
     match (&r.found.ranking, r.variants.first()) {
         (Some(p), Some(first)) => {
             let cheapest = p.cheapest.as_ref().map_or(String::new(), |c| {
@@ -220,7 +207,7 @@ fn best(r: &Redesigns<'_>) -> String {
             });
             format!(
                 "; the best under the loads {}{cheapest}",
-                like(&first.variant)
+                like(first.assignment())
             )
         }
         (Some(_), None) => "; none of those scored is in equilibrium within the limits".to_owned(),

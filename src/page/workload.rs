@@ -1,16 +1,56 @@
 //! What the joints of each variant bear, and its scores, where the file states loads.
 
 use super::Redesigns;
-use super::embed::measured;
+use super::data::Number;
 use crate::model::ranking::Term;
 use crate::score::bearing::Bearing;
 use crate::score::cases::is_loaded;
 use crate::score::elimination::Scratch;
 use crate::score::evaluate::Evaluator;
+use crate::score::ranking::{Ranked, RankedPool};
 use crate::score::terms::Scores;
+use crate::view::ranking::{head, notes};
 use rayon::prelude::*;
-use serde_json::{Value, json};
-use std::collections::BTreeMap;
+use serde::Serialize;
+
+/// Columns of the variants; `None` in them where the loads of a variant have no equilibrium.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub(super) enum Workload {
+    Failed { failed: String },
+    Scored(Box<Columns>),
+}
+
+type Column<T> = Vec<Option<T>>;
+
+#[derive(Serialize)]
+pub(super) struct Columns {
+    poses: usize,
+    stopped: Option<f64>,
+    peak_force: Column<Number>,
+    peak_moment: Column<Number>,
+    conditioning: Column<Number>,
+    output_error_mm: Column<Number>,
+    minimum_norm: Column<bool>,
+    /// By joint, as the three after it.
+    force: Column<Column<Number>>,
+    moment: Column<Column<Number>>,
+    force_share: Column<Column<Number>>,
+    moment_share: Column<Column<Number>>,
+    ranked: Option<Order>,
+}
+
+/// The ranking; `None` where a variant is not in its list.
+#[derive(Serialize)]
+struct Order {
+    head: String,
+    notes: Vec<String>,
+    terms: Vec<&'static str>,
+    by_cost: Column<usize>,
+    total: Column<Number>,
+    front: Column<usize>,
+    reason: Column<String>,
+}
 
 /// What one variant scores; `None` where its loads have no equilibrium.
 type Scored = Option<(Scores, Vec<Option<Bearing>>)>;
@@ -20,83 +60,91 @@ const NOTHING: f64 = 1e-9;
 /// A moment of the greatest force on an arm as short as this, in metres, is too.
 const ARM: f64 = 1e-12;
 
-/// Scores and bearings of the variants for the script; null where the file states no loads and asks for no ranking.
-pub(super) fn json(r: &Redesigns<'_>) -> Value {
-    let search = r.found.search;
-    let m = search.mechanism;
+/// Scores and bearings of the variants for the script; none where the file states no loads and asks for no ranking.
+pub(super) fn workload(r: &Redesigns<'_>) -> Option<Workload> {
+    let search = &r.found.search;
+    let m = &*search.mechanism;
     let ranking = r.found.ranking.as_ref();
     if !is_loaded(m) && ranking.is_none() {
-        return Value::Null;
+        return None;
     }
     let clearance = ranking.map_or_else(Default::default, |p| p.ranking.clearance);
     let states = ranking.map_or(&[][..], |p| &p.ranking.states);
     let evaluator = match Evaluator::in_states(search, clearance, states) {
         Ok(e) => e,
-        Err(why) => return json!({"failed": why.to_string()}),
+        Err(why) => {
+            return Some(Workload::Failed {
+                failed: why.to_string(),
+            });
+        }
     };
     let scored: Vec<Scored> = r
         .variants
         .par_iter()
         .map_init(Scratch::default, |scratch, v| {
-            evaluator.bearings(&v.variant, scratch).ok()
+            evaluator.bearings(v.assignment(), scratch).ok()
         })
         .collect();
-    let column = |of: &dyn Fn(&Scores) -> Value| -> Vec<Value> {
-        let one = |s: &Scored| s.as_ref().map_or(Value::Null, |(s, _)| of(s));
-        scored.iter().map(one).collect()
+    let term = |t: Term| column(&scored, |s| Number::measured(s.value(t)));
+    Some(Workload::Scored(Box::new(Columns {
+        poses: evaluator.cases.list.len(),
+        stopped: evaluator.cases.stopped,
+        peak_force: term(Term::PeakForce),
+        peak_moment: term(Term::PeakMoment),
+        conditioning: term(Term::Conditioning),
+        output_error_mm: column(&scored, |s| Number::measured(1e3 * s.output_error)),
+        minimum_norm: column(&scored, |s| s.minimum_norm),
+        force: joints(&scored, |b| Some(b.force), 0.0),
+        moment: joints(&scored, |b| Some(b.moment), ARM),
+        force_share: joints(&scored, |b| Some(b.force_share), 0.0),
+        moment_share: joints(&scored, |b| b.moment_share, 0.0),
+        ranked: ranking.map(|p| Order::new(r, p)),
+    })))
+}
+
+fn column<T>(scored: &[Scored], of: impl Fn(&Scores) -> T) -> Column<T> {
+    let one = |s: &Scored| s.as_ref().map(|(s, _)| of(s));
+    scored.iter().map(one).collect()
+}
+
+/// A figure of every joint; what is below `beside` of the greatest force is rounding.
+fn joints(
+    scored: &[Scored],
+    of: fn(&Bearing) -> Option<f64>,
+    beside: f64,
+) -> Column<Column<Number>> {
+    let one = |list: &Vec<Option<Bearing>>| {
+        let values = list.iter().map(|b| b.as_ref().and_then(of));
+        let greatest = values.clone().flatten().fold(0.0, f64::max);
+        let forces = list.iter().flatten().map(|b| b.force);
+        let least = (NOTHING * greatest).max(beside * forces.fold(0.0, f64::max));
+        let clean = |x: f64| Number::measured(if x < least { 0.0 } else { x });
+        values.map(|x| x.map(clean)).collect()
     };
-    let term = |t: Term| column(&|s| measured(s.value(t)));
-    let joints = |of: fn(&Bearing) -> Option<f64>, beside: f64| -> Vec<Value> {
-        let one = |s: &Scored| match s {
-            None => Value::Null,
-            Some((_, list)) => {
-                let values = list.iter().map(|b| b.as_ref().and_then(of));
-                let greatest = values.clone().flatten().fold(0.0, f64::max);
-                let forces = list.iter().flatten().map(|b| b.force);
-                let least = (NOTHING * greatest).max(beside * forces.fold(0.0, f64::max));
-                let clean = |x: f64| if x < least { 0.0 } else { x };
-                values
-                    .map(|x| x.map_or(Value::Null, |x| measured(clean(x))))
-                    .collect()
-            }
-        };
-        scored.iter().map(one).collect()
-    };
-    // The order of a ranked list is its own; places are looked up by choices.
-    let places: BTreeMap<&[usize], usize> = ranking.map_or_else(BTreeMap::new, |p| {
-        let list = p.list.iter().enumerate();
-        list.map(|(i, r)| (r.variant.choices.as_slice(), i))
-            .collect()
-    });
-    let ranked = ranking.map(|p| {
-        let of = |v: &crate::search::certify::Certified| {
-            let place = *places.get(v.variant.choices.as_slice())?;
-            Some((place, &p.list[place]))
-        };
-        let all: Vec<_> = r.variants.iter().map(of).collect();
-        json!({
-            "head": crate::view::ranking::head(p),
-            "notes": crate::view::ranking::notes(m, p).lines().map(str::trim)
-                .filter(|l| !l.is_empty() && !l.starts_with("rank ")).collect::<Vec<_>>(),
-            "terms": p.ranking.terms.iter().map(|(t, _)| t.name()).collect::<Vec<_>>(),
-            "by_cost": all.iter().map(|x| x.map(|(_, r)| r.by_cost)).collect::<Vec<_>>(),
-            "total": all.iter().map(|x| x.and_then(|(_, r)| r.total).map(measured)).collect::<Vec<_>>(),
-            "front": all.iter().map(|x| x.and_then(|(_, r)| r.front)).collect::<Vec<_>>(),
-            "reason": all.iter().map(|x| x.and_then(|(i, _)| p.reason(m, i + 1))).collect::<Vec<_>>(),
-        })
-    });
-    json!({
-        "poses": evaluator.cases.list.len(),
-        "stopped": evaluator.cases.stopped,
-        "peak_force": term(Term::PeakForce),
-        "peak_moment": term(Term::PeakMoment),
-        "conditioning": term(Term::Conditioning),
-        "output_error_mm": column(&|s| measured(1e3 * s.output_error)),
-        "minimum_norm": column(&|s| json!(s.minimum_norm)),
-        "force": joints(|b| Some(b.force), 0.0),
-        "moment": joints(|b| Some(b.moment), ARM),
-        "force_share": joints(|b| Some(b.force_share), 0.0),
-        "moment_share": joints(|b| b.moment_share, 0.0),
-        "ranked": ranked,
-    })
+    let all = scored.iter();
+    all.map(|s| s.as_ref().map(|(_, list)| one(list))).collect()
+}
+
+impl Order {
+    fn new(r: &Redesigns<'_>, p: &RankedPool) -> Order {
+        let m = &r.found.search.mechanism;
+        let all: Column<&Ranked> = r.variants.iter().map(|v| v.ranked()).collect();
+        let notes = notes(m, p);
+        let notes = notes.lines().map(str::trim);
+        Order {
+            head: head(p),
+            notes: notes
+                .filter(|l| !l.is_empty() && !l.starts_with("rank "))
+                .map(str::to_owned)
+                .collect(),
+            terms: p.ranking.terms.iter().map(|(t, _)| t.name()).collect(),
+            by_cost: all.iter().map(|x| x.map(|r| r.by_cost)).collect(),
+            total: all
+                .iter()
+                .map(|x| x.and_then(|r| r.total).map(Number::measured))
+                .collect(),
+            front: all.iter().map(|x| x.and_then(|r| r.front)).collect(),
+            reason: r.variants.iter().map(|v| v.reason()).collect(),
+        }
+    }
 }

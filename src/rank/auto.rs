@@ -1,15 +1,15 @@
 //! The automatic choice: the cheapest method that is certain for this mechanism, and one line that says what was chosen,
 //! why, and what was left out.
 
+use super::field::field_of;
 use super::finite::{Finite, How, finite, finite_within, followed};
 use super::measured::Verdicts;
-use super::method::{Answer, Certainty as Sure, MobilityMethod, NoAnswer, Quantity};
-use super::numeric::NumericRank;
-use super::qr::Qr;
-use super::scaled::scaled;
+use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
+use super::modular;
+use super::numeric::{Elimination, NumericRank, qr_diagonal};
+use super::scaled::{rank_of_values, scaled};
 use super::snap::snap;
 use super::subgroup::whole_group;
-use super::{field_of, modular};
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::model::measured::{Measured, looks_measured};
@@ -99,7 +99,7 @@ pub fn decide(
     let numeric = verdicts.numeric;
     // What rounding and noise leave of a zero says how well poses can close.
     let accuracy = (10.0 * numeric.dropped).clamp(1e-16, tolerance);
-    let second = Qr::<f64>::with_tolerance(tolerance).rank_of(&scaled(&real));
+    let second = rank_of_values(qr_diagonal::<f64>(&scaled(&real)), tolerance);
     let doubt = if second.rank == numeric.rank {
         String::new()
     } else {
@@ -180,20 +180,16 @@ pub fn decide(
 pub struct Auto;
 
 impl MobilityMethod for Auto {
-    fn name(&self) -> &'static str {
-        "auto"
-    }
-    fn title(&self) -> &'static str {
-        "automatic choice"
-    }
-    fn guarantee(&self) -> &'static str {
-        "as the method it chooses, which it names; finite mobility"
-    }
-    fn complexity(&self) -> &'static str {
-        "one modular rank, and singular values only where coordinates are measured"
-    }
-    fn source(&self) -> &'static str {
-        "this program"
+    fn about(&self) -> &'static About {
+        &About {
+            name: "auto",
+            title: "automatic choice",
+            help: "The cheapest that is certain: exact where the geometry is, singular values where it was measured",
+            guarantee: "as the method it chooses, which it names; finite mobility",
+            complexity: "one modular rank, and singular values only where coordinates are measured",
+            source: "this program",
+            rank: RankOfJ::Chosen,
+        }
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         let decision = decide(mechanism, state, None)?;
@@ -207,13 +203,9 @@ impl MobilityMethod for Auto {
             mobility: i64::try_from(decision.finite.mobility).unwrap_or(i64::MAX),
             quantity: Quantity::Finite,
             certainty: match numeric {
-                Some(n) => Sure::Numeric {
-                    tolerance: decision.tolerance,
-                    kept: n.kept,
-                    dropped: n.dropped,
-                },
-                None if decision.finite.is_proven() => Sure::Exact,
-                None => Sure::Traced,
+                Some(n) => Elimination::Svd.certainty(n, decision.tolerance),
+                None if decision.finite.is_proven() => Certainty::Exact,
+                None => Certainty::Traced,
             },
         })
     }

@@ -16,10 +16,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use thiserror::Error;
-
-pub use super::kernel::Budget;
+use super::field::{coordinates, normal};
 use super::kernel::Kernel;
+pub use super::kernel::{Budget, NoCertificate};
 use crate::closure::coupling::coefficients;
 use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactError;
@@ -29,42 +28,6 @@ pub use crate::verify::certificate::Certificate;
 use crate::verify::certificate::{FieldClaim, Witness};
 use crate::verify::matrix::MatrixOverRing;
 use crate::verify::{self, Flaw};
-
-/// Why there is no certificate. The rank modulo primes is not in doubt for that.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum NoCertificate {
-    /// The coordinates have no number field to compute in.
-    #[error(transparent)]
-    Field(#[from] NumberFieldError),
-    /// The matrix has no entries in the field.
-    #[error(transparent)]
-    Exact(#[from] ExactError),
-    /// The kernel is larger than the budget allows.
-    #[error("the kernel has {coordinates} coordinates, over the budget")]
-    TooLarge {
-        /// f · (f - r) · degree.
-        coordinates: usize,
-    },
-    /// It would take longer than the budget allows.
-    #[error("it takes some {operations} operations, over the budget")]
-    TooMuchWork {
-        /// Operations done and to be done.
-        operations: u64,
-    },
-    /// The numbers in the kernel are longer than the budget allows.
-    #[error("the numbers in the kernel are not settled after {primes} primes")]
-    TooManyPrimes {
-        /// Primes used.
-        primes: usize,
-    },
-    /// Not enough primes split the field.
-    #[error("no prime was found that splits the number field, or shows that it is one")]
-    NoPrimes,
-    /// The certificate that was made has a flaw: a bug.
-    #[error("the certificate did not stand up: {0}; report this with the file")]
-    Rejected(Flaw),
-}
 
 /// The number field of the joints present in a state.
 ///
@@ -80,8 +43,8 @@ pub fn number_field(
     let couplings = coefficients(mechanism, state);
     NumberField::for_expressions(
         frames
-            .flat_map(super::coordinates)
-            .chain(super::normal(mechanism))
+            .flat_map(coordinates)
+            .chain(normal(mechanism))
             .chain(&couplings),
     )
 }

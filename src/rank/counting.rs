@@ -1,6 +1,7 @@
 //! Counting formulas: links, joints and freedoms, no geometry.
 
-use super::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
+use super::field::field_of;
+use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 use super::subgroup::{Kind, whole_group};
 use crate::model::mechanism::{Mechanism, StateId};
 
@@ -38,20 +39,16 @@ fn counted(mobility: i64) -> Answer {
 }
 
 impl MobilityMethod for Spatial {
-    fn name(&self) -> &'static str {
-        "count"
-    }
-    fn title(&self) -> &'static str {
-        "spatial counting"
-    }
-    fn guarantee(&self) -> &'static str {
-        "right where no constraint is redundant (σ = 0); otherwise too small by σ"
-    }
-    fn complexity(&self) -> &'static str {
-        "O(n + p)"
-    }
-    fn source(&self) -> &'static str {
-        "Chebychev 1869, Grübler 1917, Kutzbach 1929; Malyshev 1923"
+    fn about(&self) -> &'static About {
+        &About {
+            name: "count",
+            title: "spatial counting",
+            help: "Counting formula in space, 6(n-1) less the constraints",
+            guarantee: "right where no constraint is redundant (σ = 0); otherwise too small by σ",
+            complexity: "O(n + p)",
+            source: "Chebychev 1869, Grübler 1917, Kutzbach 1929; Malyshev 1923",
+            rank: RankOfJ::NotFound,
+        }
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         if matches!(mechanism.mode, crate::model::mechanism::Mode::Planar { .. }) {
@@ -62,23 +59,19 @@ impl MobilityMethod for Spatial {
 }
 
 impl MobilityMethod for Planar {
-    fn name(&self) -> &'static str {
-        "count-planar"
-    }
-    fn title(&self) -> &'static str {
-        "planar counting"
-    }
-    fn guarantee(&self) -> &'static str {
-        "right where every joint moves in one plane and no constraint in it is redundant"
-    }
-    fn complexity(&self) -> &'static str {
-        "O(n + p)"
-    }
-    fn source(&self) -> &'static str {
-        "Chebychev 1869, Grübler 1883"
+    fn about(&self) -> &'static About {
+        &About {
+            name: "count-planar",
+            title: "planar counting",
+            help: "Counting formula in the plane, 3(n-1) less the constraints",
+            guarantee: "right where every joint moves in one plane and no constraint in it is redundant",
+            complexity: "O(n + p)",
+            source: "Chebychev 1869, Grübler 1883",
+            rank: RankOfJ::NotFound,
+        }
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
-        let exact = super::field_of(mechanism, state, 0)?;
+        let exact = field_of(mechanism, state, 0)?;
         match whole_group(&exact, mechanism, state)?.kind() {
             Kind::Planar | Kind::Rotation => Ok(counted(count(mechanism, state, 3))),
             _ => Err(NoAnswer::DoesNotApply("not every joint moves in one plane")),

@@ -1,7 +1,8 @@
 //! Finite (full-cycle) mobility: the dimension of the motion that is really there, beside the instantaneous f - rank J.
 
+use super::field::field_of;
 use super::higher_order::HigherOrder;
-use super::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
+use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 use super::trace::Traced;
 use super::{modular, parts, subgroup, trace};
 use crate::closure::matrix::Closure;
@@ -400,23 +401,19 @@ pub fn followed(
 pub struct Exact;
 
 impl MobilityMethod for Exact {
-    fn name(&self) -> &'static str {
-        "finite"
-    }
-    fn title(&self) -> &'static str {
-        "finite mobility, exact geometry"
-    }
-    fn guarantee(&self) -> &'static str {
-        "proven where groups or higher order decide; else followed numerically, or undecided"
-    }
-    fn complexity(&self) -> &'static str {
-        "one modular rank; else some ten to some hundred closings of O((6k)² f)"
-    }
-    fn source(&self) -> &'static str {
-        "Hervé 1978 (groups); Connelly & Whiteley 1996, Müller 2016 (second and higher order); Bates et al. 2009, Wampler, Hauenstein & Sommese 2011 (local dimension)"
+    fn about(&self) -> &'static About {
+        &About {
+            name: "finite",
+            title: "finite mobility, exact geometry",
+            help: "Exact rank, and the mobility that is really there",
+            guarantee: "proven where groups or higher order decide; else followed numerically, or undecided",
+            complexity: "one modular rank; else some ten to some hundred closings of O((6k)² f)",
+            source: "Hervé 1978 (groups); Connelly & Whiteley 1996, Müller 2016 (second and higher order); Bates et al. 2009, Wampler, Hauenstein & Sommese 2011 (local dimension)",
+            rank: RankOfJ::Exact,
+        }
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
-        let exact = super::field_of(mechanism, state, 0)?;
+        let exact = field_of(mechanism, state, 0)?;
         let closure = Closure::new(&exact, mechanism, state)?;
         let rank = super::modular::rank(&exact, &closure);
         let found = finite(&exact, mechanism, &closure, rank)?;

@@ -4,7 +4,7 @@
 //! (D, D)-sparse, D = 6 in space and 3 in the plane [Tay 1984; Tay & Whiteley 1984 for hinges; Katoh & Tanigawa 2011],
 //! which the pebble game decides [Lee & Streinu 2008].
 
-use super::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
+use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 use crate::model::mechanism::{LinkId, Mechanism, Mode, StateId};
 
 /// W = D(n - 1) - the rank of the bars in general position.
@@ -84,20 +84,16 @@ pub fn generic_rank(bodies: usize, bars: &[(usize, usize)], dim: usize) -> usize
 }
 
 impl MobilityMethod for Generic {
-    fn name(&self) -> &'static str {
-        "generic"
-    }
-    fn title(&self) -> &'static str {
-        "generic rank (pebble game)"
-    }
-    fn guarantee(&self) -> &'static str {
-        "right for joints in general position; special geometry (parallel, concurrent, symmetric) is not seen"
-    }
-    fn complexity(&self) -> &'static str {
-        "O(D² n · bars)"
-    }
-    fn source(&self) -> &'static str {
-        "Tay 1984; Lee & Streinu 2008"
+    fn about(&self) -> &'static About {
+        &About {
+            name: "generic",
+            title: "generic rank (pebble game)",
+            help: "The same structure in general position, by a pebble game",
+            guarantee: "right for joints in general position; special geometry (parallel, concurrent, symmetric) is not seen",
+            complexity: "O(D² n · bars)",
+            source: "Tay 1984; Lee & Streinu 2008",
+            rank: RankOfJ::NotFound,
+        }
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         if mechanism.couplings_in(state).next().is_some() {

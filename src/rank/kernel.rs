@@ -11,13 +11,15 @@
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;
+use thiserror::Error;
 
-use super::certificate::NoCertificate;
 use super::reconstruct::{Modulus, Settled, Unknown, inverse_of};
-use crate::geom::number_field::{NumberField, Splitting};
+use crate::geom::exact::ExactError;
+use crate::geom::number_field::{NumberField, NumberFieldError, Splitting};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::linalg::number_ring::Element;
+use crate::verify::Flaw;
 use crate::verify::certificate::{KernelVector, Minor};
 use crate::verify::matrix::MatrixOverRing;
 
@@ -26,6 +28,42 @@ const MAX_BAD_PRIMES: usize = 64;
 
 /// Numbers in a row that may be too long yet before no more are looked at.
 const MAX_FAILURES: usize = 8;
+
+/// Why there is no certificate. The rank modulo primes is not in doubt for that.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum NoCertificate {
+    /// The coordinates have no number field to compute in.
+    #[error(transparent)]
+    Field(#[from] NumberFieldError),
+    /// The matrix has no entries in the field.
+    #[error(transparent)]
+    Exact(#[from] ExactError),
+    /// The kernel is larger than the budget allows.
+    #[error("the kernel has {coordinates} coordinates, over the budget")]
+    TooLarge {
+        /// f · (f - r) · degree.
+        coordinates: usize,
+    },
+    /// It would take longer than the budget allows.
+    #[error("it takes some {operations} operations, over the budget")]
+    TooMuchWork {
+        /// Operations done and to be done.
+        operations: u64,
+    },
+    /// The numbers in the kernel are longer than the budget allows.
+    #[error("the numbers in the kernel are not settled after {primes} primes")]
+    TooManyPrimes {
+        /// Primes used.
+        primes: usize,
+    },
+    /// Not enough primes split the field.
+    #[error("no prime was found that splits the number field, or shows that it is one")]
+    NoPrimes,
+    /// The certificate that was made has a flaw: a bug.
+    #[error("the certificate did not stand up: {0}; report this with the file")]
+    Rejected(Flaw),
+}
 
 /// How much a certificate may cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

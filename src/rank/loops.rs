@@ -1,6 +1,7 @@
 //! Sum over independent contours of the dimension of each one's twist space.
 
-use super::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
+use super::field::field_of;
+use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 use crate::closure::matrix::Closure;
 use crate::linalg::echelon;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -10,23 +11,19 @@ use crate::model::mechanism::{Mechanism, StateId};
 pub struct Loops;
 
 impl MobilityMethod for Loops {
-    fn name(&self) -> &'static str {
-        "loops"
-    }
-    fn title(&self) -> &'static str {
-        "sum of contour ranks"
-    }
-    fn guarantee(&self) -> &'static str {
-        "right where contours do not share redundant constraints; too small otherwise, and then dependent on the cycle basis [Gogu 2005]"
-    }
-    fn complexity(&self) -> &'static str {
-        "O(f) eliminations of six rows"
-    }
-    fn source(&self) -> &'static str {
-        "Voinea & Atanasiu 1959; Gogu 2005"
+    fn about(&self) -> &'static About {
+        &About {
+            name: "loops",
+            title: "sum of contour ranks",
+            help: "Freedoms less the sum of the contours' own ranks",
+            guarantee: "right where contours do not share redundant constraints; too small otherwise, and then dependent on the cycle basis [Gogu 2005]",
+            complexity: "O(f) eliminations of six rows",
+            source: "Voinea & Atanasiu 1959; Gogu 2005",
+            rank: RankOfJ::NotFound,
+        }
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
-        let exact = super::field_of(mechanism, state, 0)?;
+        let exact = field_of(mechanism, state, 0)?;
         let closure = Closure::new(&exact, mechanism, state)?;
         let mut mobility = i64::try_from(closure.columns.len()).unwrap_or(i64::MAX);
         for k in 0..closure.contours.len() {

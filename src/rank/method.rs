@@ -1,8 +1,8 @@
-//! The methods behind one trait: every way of saying how far a mechanism moves, with what each knows about its answer.
+//! What every way of saying how far a mechanism moves has in common; [`super::registry`] lists them.
 
-use super::{auto, counting, finite, generic, loops, lu, modular, numeric, qr, rational};
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::{Mechanism, StateId};
+use std::fmt::Debug;
 use thiserror::Error;
 
 /// What an answer is about.
@@ -17,23 +17,77 @@ pub enum Quantity {
 }
 
 /// How sure an answer is.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Certainty {
     /// Counted; nothing is said about the geometry.
     Counted,
     /// Follows from exact arithmetic, up to primes that divide a minor (below 10^-17 for one prime near 2^61).
     Exact,
-    /// Floating point: what was kept and dropped, relative to the largest.
+    /// Proven: pivots that do not vanish and a kernel in characteristic 0, confirmed by [`crate::verify`], beside the
+    /// ranks over two prime fields.
+    Proven {
+        /// The primes.
+        primes: [u64; 2],
+    },
+    /// Rank over two prime fields, on exact geometry. A rank modulo a prime never exceeds the true rank, and falls short
+    /// only where the prime divides a nonzero minor; two primes near 2^61 agree on a wrong rank with probability
+    /// below 10^-30.
+    Modular {
+        /// The primes.
+        primes: [u64; 2],
+    },
+    /// Floating point.
     Numeric {
-        /// Relative tolerance.
+        /// What the rank is read off, such as `f64 singular values`.
+        values: &'static str,
+        /// Values below this fraction of the largest count as zero.
         tolerance: f64,
-        /// The smallest value kept.
+        /// The smallest kept value, relative to the largest.
         kept: f64,
-        /// The largest value dropped.
+        /// The largest dropped value, relative to the largest.
         dropped: f64,
     },
     /// Followed by Newton's method.
     Traced,
+}
+
+impl Certainty {
+    /// One line for people.
+    #[must_use]
+    pub fn describe(&self) -> String {
+        match self {
+            Certainty::Counted => "counted, whatever the geometry".to_owned(),
+            Certainty::Exact => "exact arithmetic".to_owned(),
+            Certainty::Proven { primes: [p, q] } => format!(
+                "exact geometry; rank proven by a checked certificate (--certificate), and modulo {p} and {q}"
+            ),
+            Certainty::Modular { primes: [p, q] } => {
+                format!("exact geometry; ranks modulo {p} and {q} agree")
+            }
+            Certainty::Numeric {
+                values,
+                tolerance,
+                kept,
+                dropped,
+            } => format!(
+                "{values}, tolerance {tolerance:.0e}: smallest kept {kept:.1e}, largest dropped {dropped:.1e}"
+            ),
+            Certainty::Traced => "followed numerically".to_owned(),
+        }
+    }
+
+    /// One word for programs.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Certainty::Counted => "counted",
+            Certainty::Exact => "exact",
+            Certainty::Proven { .. } => "proven",
+            Certainty::Modular { .. } => "modular",
+            Certainty::Numeric { .. } => "numeric",
+            Certainty::Traced => "traced",
+        }
+    }
 }
 
 /// An answer.
@@ -62,44 +116,49 @@ pub enum NoAnswer {
     Failed(String),
 }
 
-/// A way to the mobility of a mechanism.
-pub trait MobilityMethod: Sync {
+/// What a whole analysis, with shares and self-stresses, takes from a method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RankOfJ {
+    /// Exact or to within a tolerance, as suits the coordinates.
+    Chosen,
+    /// Over prime fields.
+    Exact,
+    /// In floating point.
+    Numeric,
+    /// Nothing: the method gives a mobility alone.
+    NotFound,
+}
+
+/// What is said of a method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct About {
     /// One word, as on the command line.
-    fn name(&self) -> &'static str;
+    pub name: &'static str,
     /// What it does, in a few words.
-    fn title(&self) -> &'static str;
+    pub title: &'static str,
+    /// What it does, in a sentence of the help.
+    pub help: &'static str,
     /// When its answer is right.
-    fn guarantee(&self) -> &'static str;
+    pub guarantee: &'static str,
     /// Its cost for n links, p joints, k contours, f freedoms.
-    fn complexity(&self) -> &'static str;
+    pub complexity: &'static str,
     /// Where it comes from.
-    fn source(&self) -> &'static str;
+    pub source: &'static str,
+    /// Whether a whole analysis can rest on it.
+    pub rank: RankOfJ,
+}
+
+/// A way to the mobility of a mechanism.
+pub trait MobilityMethod: Debug + Sync {
+    /// What is said of it.
+    fn about(&self) -> &'static About;
+    /// One word, as on the command line.
+    fn name(&self) -> &'static str {
+        self.about().name
+    }
     /// The answer for a state.
     ///
     /// # Errors
     /// Where the method does not apply or fails.
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer>;
-}
-
-/// Every method, the cheapest kind first.
-pub const ALL: [&dyn MobilityMethod; 13] = [
-    &counting::Spatial,
-    &counting::Planar,
-    &loops::Loops,
-    &generic::Generic,
-    &lu::Lu::<f32>::DEFAULT,
-    &lu::Lu::<f64>::DEFAULT,
-    &qr::Qr::<f32>::DEFAULT,
-    &qr::Qr::<f64>::DEFAULT,
-    &numeric::Svd::DEFAULT,
-    &modular::Modular,
-    &rational::Rational,
-    &finite::Exact,
-    &auto::Auto,
-];
-
-/// The method of a name.
-#[must_use]
-pub fn by_name(name: &str) -> Option<&'static dyn MobilityMethod> {
-    ALL.into_iter().find(|m| m.name() == name)
 }

@@ -1,15 +1,20 @@
-//! Rank from singular values in double precision, on J scaled so that units do not matter.
+//! Rank in floating point: from pivots or QR factors of J as it stands, or from singular values of J scaled so that units
+//! do not matter.
 
-use super::method::{Answer, MobilityMethod, NoAnswer};
+use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 pub use super::scaled::NumericRank;
-use super::scaled::{answer, rank_of_values, scaled};
+use super::scaled::{as_it_stands, rank_of_values, scaled};
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
+use faer::traits::ComplexField;
+use faer::{Mat, MatRef};
 use thiserror::Error;
 
-/// Singular values below this fraction of the largest count as zero unless the caller says otherwise.
+/// Values below this fraction of the largest count as zero in double precision unless the caller says otherwise.
 pub const DEFAULT_TOLERANCE: f64 = 1e-9;
+/// The same in single precision.
+const SINGLE_TOLERANCE: f64 = 1e-4;
 
 /// Why no singular values could be had.
 #[derive(Debug, Error)]
@@ -22,21 +27,99 @@ pub enum NumericError {
     NoConvergence,
 }
 
-/// Singular values of the scaled J, with the gap.
-#[derive(Debug, Clone, Copy)]
-pub struct Svd {
-    /// Singular values below this fraction of the largest count as zero.
-    pub tolerance: f64,
+/// A floating-point elimination.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Elimination {
+    /// LU with full pivoting, f32.
+    Lu32,
+    /// LU with full pivoting, f64.
+    Lu,
+    /// Column-pivoted QR, f32.
+    Qr32,
+    /// Column-pivoted QR, f64.
+    Qr,
+    /// Singular values of the scaled J, f64.
+    Svd,
 }
 
-impl Svd {
-    /// With [`DEFAULT_TOLERANCE`].
-    pub const DEFAULT: Svd = Svd {
-        tolerance: DEFAULT_TOLERANCE,
-    };
+impl Elimination {
+    /// All of them.
+    pub const ALL: [Elimination; 5] = [
+        Elimination::Lu32,
+        Elimination::Lu,
+        Elimination::Qr32,
+        Elimination::Qr,
+        Elimination::Svd,
+    ];
+
+    /// The elimination that a method is, if it is one.
+    #[must_use]
+    pub fn of(method: &dyn MobilityMethod) -> Option<Elimination> {
+        let mut all = Elimination::ALL.into_iter();
+        all.find(|e| e.about() == method.about())
+    }
+
+    /// The relative tolerance that suits its format.
+    #[must_use]
+    pub fn default_tolerance(self) -> f64 {
+        match self {
+            Elimination::Lu32 | Elimination::Qr32 => SINGLE_TOLERANCE,
+            Elimination::Lu | Elimination::Qr | Elimination::Svd => DEFAULT_TOLERANCE,
+        }
+    }
+
+    /// The rank of J, with values below this fraction of the largest taken for zero.
+    ///
+    /// # Errors
+    /// Where the singular values fail.
+    ///
+    /// # Complexity
+    /// O(6k · f · min(6k, f)).
+    pub fn rank(self, closure: &Closure<f64>, tolerance: f64) -> Result<NumericRank, NumericError> {
+        let values = match self {
+            Elimination::Lu32 => pivots::<f32>(&as_it_stands(closure)),
+            Elimination::Lu => pivots::<f64>(&as_it_stands(closure)),
+            Elimination::Qr32 => qr_diagonal::<f32>(&as_it_stands(closure)),
+            Elimination::Qr => qr_diagonal::<f64>(&as_it_stands(closure)),
+            Elimination::Svd => singular_values(&scaled(closure))?,
+        };
+        Ok(rank_of_values(values, tolerance))
+    }
+
+    /// The mobilities at several tolerances, none where the arithmetic fails. A rank holds for every tolerance between the
+    /// largest value dropped and the smallest kept, so that few decompositions serve many tolerances.
+    #[must_use]
+    pub fn mobilities(self, closure: &Closure<f64>, tolerances: &[f64]) -> Vec<Option<i64>> {
+        let mut last: Option<NumericRank> = None;
+        let of = |&t: &f64| {
+            if last.is_none_or(|l| t < l.dropped || t >= l.kept) {
+                last = self.rank(closure, t).ok();
+            }
+            let free = closure.columns.len().checked_sub(last?.rank)?;
+            i64::try_from(free).ok()
+        };
+        tolerances.iter().map(of).collect()
+    }
+
+    /// How sure a rank found at a tolerance is.
+    #[must_use]
+    pub fn certainty(self, rank: NumericRank, tolerance: f64) -> Certainty {
+        Certainty::Numeric {
+            values: match self {
+                Elimination::Lu32 => "f32 pivots",
+                Elimination::Lu => "f64 pivots",
+                Elimination::Qr32 => "f32 column-pivoted QR",
+                Elimination::Qr => "f64 column-pivoted QR",
+                Elimination::Svd => "f64 singular values",
+            },
+            tolerance,
+            kept: rank.kept,
+            dropped: rank.dropped,
+        }
+    }
 }
 
-/// Rank of J with the default tolerance, see [`rank_with_tolerance`].
+/// Rank of J by singular values with the default tolerance, see [`Elimination::rank`].
 ///
 /// # Errors
 /// Where the decomposition fails.
@@ -49,16 +132,16 @@ pub fn rank(closure: &Closure<f64>) -> Result<NumericRank, NumericError> {
 ///
 /// # Errors
 /// Where the decomposition fails.
-///
-/// # Complexity
-/// O(6k · f · min(6k, f)).
 pub fn rank_with_tolerance(
     closure: &Closure<f64>,
     tolerance: f64,
 ) -> Result<NumericRank, NumericError> {
-    let matrix = scaled(closure);
+    Elimination::Svd.rank(closure, tolerance)
+}
+
+fn singular_values(matrix: &Mat<f64>) -> Result<Vec<f64>, NumericError> {
     if matrix.nrows() == 0 || matrix.ncols() == 0 {
-        return Ok(rank_of_values(Vec::new(), tolerance));
+        return Ok(Vec::new());
     }
     let values = matrix
         .singular_values()
@@ -66,29 +149,136 @@ pub fn rank_with_tolerance(
     if values.iter().any(|v| !v.is_finite()) {
         return Err(NumericError::NoConvergence);
     }
-    Ok(rank_of_values(values, tolerance))
+    Ok(values)
 }
 
-impl MobilityMethod for Svd {
-    fn name(&self) -> &'static str {
-        "svd"
+/// The diagonal of U of LU factors with full pivoting.
+fn pivots<T: Format>(matrix: &Mat<f64>) -> Vec<f64> {
+    if matrix.nrows() == 0 || matrix.ncols() == 0 {
+        return Vec::new();
     }
-    fn title(&self) -> &'static str {
-        "f64 singular values"
+    diagonal(rounded::<T>(matrix).full_piv_lu().U())
+}
+
+/// The diagonal of R of QR factors with column pivoting.
+pub(super) fn qr_diagonal<T: Format>(matrix: &Mat<f64>) -> Vec<f64> {
+    if matrix.nrows() == 0 || matrix.ncols() == 0 {
+        return Vec::new();
     }
-    fn guarantee(&self) -> &'static str {
-        "right at this pose where the gap in the singular values holds the tolerance"
+    diagonal(rounded::<T>(matrix).col_piv_qr().R())
+}
+
+/// A floating-point format to eliminate in.
+pub(super) trait Format: ComplexField + Copy {
+    /// The nearest number.
+    fn nearest(x: f64) -> Self;
+    /// As f64.
+    fn wide(self) -> f64;
+}
+
+impl Format for f32 {
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "single precision is the point"
+    )]
+    fn nearest(x: f64) -> f32 {
+        x as f32
     }
-    fn complexity(&self) -> &'static str {
-        "O(6k f min(6k, f)), some 10 times LU"
+    fn wide(self) -> f64 {
+        f64::from(self)
     }
-    fn source(&self) -> &'static str {
-        "Golub & Van Loan, Matrix Computations, 2013, 5.5.8"
+}
+
+impl Format for f64 {
+    fn nearest(x: f64) -> f64 {
+        x
+    }
+    fn wide(self) -> f64 {
+        self
+    }
+}
+
+fn rounded<T: Format>(matrix: &Mat<f64>) -> Mat<T> {
+    Mat::from_fn(matrix.nrows(), matrix.ncols(), |r, c| {
+        T::nearest(matrix[(r, c)])
+    })
+}
+
+/// Absolute values on the diagonal of a triangular factor.
+fn diagonal<T: Format>(factor: MatRef<'_, T>) -> Vec<f64> {
+    (0..factor.nrows().min(factor.ncols()))
+        .map(|i| factor[(i, i)].wide().abs())
+        .collect()
+}
+
+const CUBIC: &str = "O(6k f min(6k, f))";
+const BY_PIVOTS: &str =
+    "right at this pose where the pivots stay clear of the tolerance, for coordinates near 1";
+const BY_DIAGONAL: &str = "right at this pose where the diagonal entries of R stay clear of the tolerance, for coordinates near 1";
+const OF_LU: &str = "Higham, Accuracy and Stability of Numerical Algorithms, 2002, ch. 9";
+const OF_QR: &str = "Golub & Van Loan, Matrix Computations, 2013, 5.4.2";
+
+impl MobilityMethod for Elimination {
+    fn about(&self) -> &'static About {
+        match self {
+            Elimination::Lu32 => &About {
+                name: "lu32",
+                title: "f32 LU, full pivoting",
+                help: "LU with full pivoting in single precision",
+                guarantee: BY_PIVOTS,
+                complexity: CUBIC,
+                source: OF_LU,
+                rank: RankOfJ::Numeric,
+            },
+            Elimination::Lu => &About {
+                name: "lu",
+                title: "f64 LU, full pivoting",
+                help: "LU with full pivoting in double precision",
+                guarantee: BY_PIVOTS,
+                complexity: CUBIC,
+                source: OF_LU,
+                rank: RankOfJ::Numeric,
+            },
+            Elimination::Qr32 => &About {
+                name: "qr32",
+                title: "f32 QR, column pivoting",
+                help: "Column-pivoted QR in single precision",
+                guarantee: BY_DIAGONAL,
+                complexity: CUBIC,
+                source: OF_QR,
+                rank: RankOfJ::Numeric,
+            },
+            Elimination::Qr => &About {
+                name: "qr",
+                title: "f64 QR, column pivoting",
+                help: "Column-pivoted QR in double precision",
+                guarantee: BY_DIAGONAL,
+                complexity: CUBIC,
+                source: OF_QR,
+                rank: RankOfJ::Numeric,
+            },
+            Elimination::Svd => &About {
+                name: "svd",
+                title: "f64 singular values",
+                help: "Singular values in double precision, with the gap",
+                guarantee: "right at this pose where the gap in the singular values holds the tolerance",
+                complexity: "O(6k f min(6k, f)), some 10 times LU",
+                source: "Golub & Van Loan, Matrix Computations, 2013, 5.5.8",
+                rank: RankOfJ::Numeric,
+            },
+        }
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         let closure = Closure::new(&Reals, mechanism, state)?;
-        let rank = rank_with_tolerance(&closure, self.tolerance)
+        let tolerance = self.default_tolerance();
+        let rank = self
+            .rank(&closure, tolerance)
             .map_err(|e| NoAnswer::Failed(e.to_string()))?;
-        Ok(answer(&closure, rank, self.tolerance))
+        let int = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
+        Ok(Answer {
+            mobility: int(closure.columns.len()) - int(rank.rank),
+            quantity: Quantity::Instantaneous,
+            certainty: self.certainty(rank, tolerance),
+        })
     }
 }

@@ -5,7 +5,7 @@ use num_traits::Zero;
 use std::collections::BTreeMap;
 
 use super::certificate::{matrix, number_field};
-use super::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
+use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::verify::matrix::MatrixOverRing;
 
@@ -53,20 +53,16 @@ pub fn rank(matrix: &MatrixOverRing) -> Option<usize> {
 pub struct Rational;
 
 impl MobilityMethod for Rational {
-    fn name(&self) -> &'static str {
-        "rational"
-    }
-    fn title(&self) -> &'static str {
-        "exact rational elimination"
-    }
-    fn guarantee(&self) -> &'static str {
-        "exact at this pose; rational coordinates only"
-    }
-    fn complexity(&self) -> &'static str {
-        "O(rank · 6k · f) operations on growing fractions"
-    }
-    fn source(&self) -> &'static str {
-        "Gauss; von zur Gathen & Gerhard, Modern Computer Algebra, 2013, ch. 5"
+    fn about(&self) -> &'static About {
+        &About {
+            name: "rational",
+            title: "exact rational elimination",
+            help: "Exact elimination in fractions (rational coordinates only)",
+            guarantee: "exact at this pose; rational coordinates only",
+            complexity: "O(rank · 6k · f) operations on growing fractions",
+            source: "Gauss; von zur Gathen & Gerhard, Modern Computer Algebra, 2013, ch. 5",
+            rank: RankOfJ::NotFound,
+        }
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         let field = number_field(mechanism, state)

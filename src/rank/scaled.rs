@@ -1,10 +1,8 @@
 //! J as floating-point numbers, as it stands or scaled so that the unit of length and the length of axes do not matter.
 
-use super::method::{Answer, Certainty, Quantity};
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
-use faer::traits::ComplexField;
-use faer::{Mat, MatRef};
+use faer::Mat;
 
 /// J as it stands: 6k × f, lengths in the file's unit, about the global origin.
 #[must_use]
@@ -148,72 +146,5 @@ pub fn rank_of_values(mut values: Vec<f64>, tolerance: f64) -> NumericRank {
         rank,
         kept: rank.checked_sub(1).and_then(relative).unwrap_or(1.0),
         dropped: relative(rank).filter(|_| largest > 0.0).unwrap_or(0.0),
-    }
-}
-
-/// A floating-point format to eliminate in.
-pub trait Precision: ComplexField + Copy + Sync + std::fmt::Debug {
-    /// Its name.
-    const NAME: &'static str;
-    /// The relative tolerance that suits it.
-    const TOLERANCE: f64;
-    /// The nearest number.
-    fn nearest(x: f64) -> Self;
-    /// As f64.
-    fn wide(self) -> f64;
-}
-
-impl Precision for f32 {
-    const NAME: &'static str = "f32";
-    const TOLERANCE: f64 = 1e-4;
-    #[allow(
-        clippy::cast_possible_truncation,
-        reason = "single precision is the point"
-    )]
-    fn nearest(x: f64) -> f32 {
-        x as f32
-    }
-    fn wide(self) -> f64 {
-        f64::from(self)
-    }
-}
-
-impl Precision for f64 {
-    const NAME: &'static str = "f64";
-    const TOLERANCE: f64 = 1e-9;
-    fn nearest(x: f64) -> f64 {
-        x
-    }
-    fn wide(self) -> f64 {
-        self
-    }
-}
-
-/// A matrix in a format.
-#[must_use]
-pub fn in_format<T: Precision>(matrix: &Mat<f64>) -> Mat<T> {
-    Mat::from_fn(matrix.nrows(), matrix.ncols(), |r, c| {
-        T::nearest(matrix[(r, c)])
-    })
-}
-
-/// Absolute values on the diagonal of a triangular factor.
-pub(super) fn diagonal<T: Precision>(factor: MatRef<'_, T>) -> Vec<f64> {
-    (0..factor.nrows().min(factor.ncols()))
-        .map(|i| factor[(i, i)].wide().abs())
-        .collect()
-}
-
-/// The answer that a numeric rank gives.
-pub(super) fn answer(closure: &Closure<f64>, rank: NumericRank, tolerance: f64) -> Answer {
-    let int = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
-    Answer {
-        mobility: int(closure.columns.len()) - int(rank.rank),
-        quantity: Quantity::Instantaneous,
-        certainty: Certainty::Numeric {
-            tolerance,
-            kept: rank.kept,
-            dropped: rank.dropped,
-        },
     }
 }

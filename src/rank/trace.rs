@@ -11,10 +11,10 @@
 
 use super::tangent_cone::{self, Flat, Quadrics, norm};
 use crate::motion::pose::Pose;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use faer::Mat;
 use faer::linalg::solvers::SolveLstsq;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 /// Lengths of trial steps at a pose that may be regular: radians, and fractions of the mechanism's size.
 const STEPS: [f64; 3] = [0.2, 0.08, 0.03];

@@ -1,21 +1,22 @@
 //! The structure of a mechanism in each of its states.
 
-use crate::closure::coupling::{coefficient, length_ratio};
 use crate::closure::matrix::Closure;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::geom::expr::Expr;
 use crate::geom::scalars::Reals;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism, Role, StateId};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::rank::auto::{self, Geometry};
 use crate::rank::certificate::{self, Budget};
+pub use crate::rank::field::exact_field;
+use crate::rank::field::field_of;
 use crate::rank::finite::{Finite, finite, followed};
-use crate::rank::lu::Lu;
-use crate::rank::method::NoAnswer;
-use crate::rank::numeric::{self, NumericError, NumericRank};
-use crate::rank::qr::Qr;
-use crate::rank::{self, Certainty, modular};
+use crate::rank::method::{Certainty, MobilityMethod, NoAnswer, RankOfJ};
+use crate::rank::modular;
+pub use crate::rank::numeric::Elimination;
+use crate::rank::numeric::{NumericError, NumericRank};
+pub use crate::redundancy::external::External;
+use crate::redundancy::external::{external, freedoms_of, int, present_links};
 use crate::redundancy::idle::{Idle, idle_motions};
 use crate::redundancy::measured::Measured;
 use crate::redundancy::motion::{Speeds, motions, twist};
@@ -23,43 +24,6 @@ pub use crate::redundancy::share::{ContourShare, CouplingShare};
 use crate::redundancy::share::{coupling_shares, shares};
 use crate::redundancy::stress::{SelfStress, self_stresses};
 use thiserror::Error;
-
-/// A floating-point elimination.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Elimination {
-    /// Singular values, f64.
-    Svd,
-    /// Column-pivoted QR, f64.
-    Qr,
-    /// Column-pivoted QR, f32.
-    Qr32,
-    /// LU with full pivoting, f64.
-    Lu,
-    /// LU with full pivoting, f32.
-    Lu32,
-}
-
-impl Elimination {
-    fn name(self) -> &'static str {
-        match self {
-            Elimination::Svd => "svd",
-            Elimination::Qr => "qr",
-            Elimination::Qr32 => "qr32",
-            Elimination::Lu => "lu",
-            Elimination::Lu32 => "lu32",
-        }
-    }
-
-    fn rank(self, closure: &Closure<f64>, tolerance: f64) -> Result<NumericRank, NumericError> {
-        Ok(match self {
-            Elimination::Svd => numeric::rank_with_tolerance(closure, tolerance)?,
-            Elimination::Qr => Qr::<f64>::with_tolerance(tolerance).rank(closure),
-            Elimination::Qr32 => Qr::<f32>::with_tolerance(tolerance).rank(closure),
-            Elimination::Lu => Lu::<f64>::with_tolerance(tolerance).rank(closure),
-            Elimination::Lu32 => Lu::<f32>::with_tolerance(tolerance).rank(closure),
-        })
-    }
-}
 
 /// How the rank is found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,6 +37,24 @@ pub enum Method {
     Modular,
     /// In floating point, with a relative tolerance.
     Numeric(Elimination, f64),
+}
+
+impl Method {
+    /// The way to the rank that a method from the list of all names, with a tolerance other than what suits it; `None` for
+    /// one that gives a mobility alone.
+    #[must_use]
+    pub fn of(method: &dyn MobilityMethod, tolerance: Option<f64>) -> Option<Method> {
+        match method.about().rank {
+            RankOfJ::Chosen => Some(Method::Auto { tolerance }),
+            RankOfJ::Exact => Some(Method::Modular),
+            RankOfJ::Numeric => {
+                let elimination = Elimination::of(method)?;
+                let tolerance = tolerance.unwrap_or(elimination.default_tolerance());
+                Some(Method::Numeric(elimination, tolerance))
+            }
+            RankOfJ::NotFound => None,
+        }
+    }
 }
 
 /// Why an analysis failed.
@@ -102,23 +84,6 @@ pub enum AnalysisError {
         /// Their ranks.
         ranks: [usize; 2],
     },
-}
-
-/// The external constraints of a state, counted and by rank.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct External {
-    /// Σα: constraints of the joints that the state adds, and their couplings.
-    pub constraints: i64,
-    /// W_a: mobility with the object absent.
-    pub actual_mobility: i64,
-    /// W_r: mobility of the mechanism's own joints with the object present.
-    pub working_mobility: i64,
-    /// w_a: mobilities the added bodies lost.
-    pub lost_mobility: i64,
-    /// σ_a by the external formula, Σα - (W_a - W_r) - w_a.
-    pub redundant: i64,
-    /// σ of the state less σ of the free state, by ranks.
-    pub by_rank: i64,
 }
 
 /// The structure of one state.
@@ -162,6 +127,8 @@ pub struct StateAnalysis {
     pub self_stresses: Vec<SelfStress>,
     /// Joints with freedoms that planar mode leaves out.
     pub left_out: Vec<(JointId, usize)>,
+    /// The name of the method that the rank is by.
+    pub method: &'static str,
     /// How sure the rank is.
     pub certainty: Certainty,
     /// What the automatic choice was, why, and what was left out.
@@ -170,37 +137,6 @@ pub struct StateAnalysis {
     pub snapped: Vec<String>,
     /// The rank with every digit taken at its word, where that differs.
     pub as_written: Option<usize>,
-}
-
-/// The exact field of a mechanism: all its coordinates, in the `nth` suitable prime.
-///
-/// # Errors
-/// Where no prime suits, see [`ExactField`].
-pub fn exact_field(mechanism: &Mechanism, nth: usize) -> Result<ExactField, ExactError> {
-    let frames = mechanism.joints.iter().flat_map(|j| {
-        std::iter::once(&j.frame)
-            .chain(j.options.iter().map(|o| &o.frame))
-            .chain(j.unloading.iter().map(|o| &o.frame))
-    });
-    let couplings = coupling_expressions(mechanism);
-    let of_frames = frames.flat_map(rank::coordinates);
-    let others = rank::normal(mechanism).iter().chain(&couplings);
-    ExactField::for_expressions(of_frames.chain(others), nth)
-}
-
-/// What the rows of couplings need values of: their entries, for the present joints and for every option of them.
-fn coupling_expressions(mechanism: &Mechanism) -> Vec<Expr> {
-    let mut out = Vec::new();
-    for coupling in &mechanism.couplings {
-        out.push(coefficient(mechanism, coupling));
-        for end in coupling.ends {
-            let joint = &mechanism.joints[end.joint];
-            let present = (&joint.frame, end.freedom);
-            let length = |o: &JointOption| length_ratio((&o.frame, end.freedom), present);
-            out.extend(joint.options.iter().map(length));
-        }
-    }
-    out
 }
 
 /// Analyses the given states.
@@ -220,35 +156,10 @@ pub fn analyse(
             Method::Numeric(elimination, tolerance) => {
                 let real = Closure::new(&Reals, mechanism, s)?;
                 let rank = elimination.rank(&real, tolerance)?;
-                let whole = exactly(mechanism, s, None)?;
-                let certainty = numeric_certainty(elimination.name(), rank, tolerance);
-                if rank.rank == whole.rank {
-                    let finite = whole.finite.by_numeric_rank();
-                    Ok(StateAnalysis {
-                        certainty,
-                        finite,
-                        ..whole
-                    })
-                } else {
-                    let finite = followed(mechanism, s, whole.freedoms - rank.rank, tolerance)?;
-                    let found = numerically(mechanism, s, whole, rank.rank, certainty, tolerance)?;
-                    Ok(StateAnalysis {
-                        finite: finite.by_numeric_rank(),
-                        ..found
-                    })
-                }
+                numerically(mechanism, s, elimination, rank, tolerance, None)
             }
         })
         .collect()
-}
-
-fn numeric_certainty(method: &'static str, rank: NumericRank, tolerance: f64) -> Certainty {
-    Certainty::Numeric {
-        method,
-        tolerance,
-        kept: rank.kept,
-        dropped: rank.dropped,
-    }
 }
 
 /// By the automatic choice.
@@ -270,18 +181,11 @@ fn chosen(
             ..
         } => (exactly(snapped, state, known)?, moved.clone()),
         Geometry::Measured(_) => {
-            let whole = exactly(mechanism, state, known)?;
-            let certainty = decision.numeric.map_or(whole.certainty, |n| {
-                numeric_certainty("svd", n, decision.tolerance)
-            });
-            let found = numerically(
-                mechanism,
-                state,
-                whole,
-                decision.rank,
-                certainty,
-                decision.tolerance,
-            )?;
+            let (by, tolerance) = (Elimination::Svd, decision.tolerance);
+            let found = match decision.numeric {
+                Some(rank) => numerically(mechanism, state, by, rank, tolerance, known)?,
+                None => exactly(mechanism, state, known)?,
+            };
             (found, Vec::new())
         }
     };
@@ -293,15 +197,30 @@ fn chosen(
     })
 }
 
-/// The same state with its figures from floating point: `rank` by the method asked for, all else from singular values.
+/// By a floating-point rank; where it differs from the exact one, all else comes from singular values.
 fn numerically(
     mechanism: &Mechanism,
     state: StateId,
-    whole: StateAnalysis,
-    rank: usize,
-    certainty: Certainty,
+    by: Elimination,
+    rank: NumericRank,
     tolerance: f64,
+    known: Option<Finite>,
 ) -> Result<StateAnalysis, AnalysisError> {
+    let whole = StateAnalysis {
+        method: by.name(),
+        certainty: by.certainty(rank, tolerance),
+        ..exactly(mechanism, state, known)?
+    };
+    let rank = rank.rank;
+    let finite = match known {
+        Some(known) => known,
+        None if rank == whole.rank => whole.finite.by_numeric_rank(),
+        None => followed(mechanism, state, whole.freedoms - rank, tolerance)?.by_numeric_rank(),
+    };
+    let whole = StateAnalysis { finite, ..whole };
+    if rank == whole.rank {
+        return Ok(whole);
+    }
     let measured = Measured::new(mechanism, state, tolerance)?;
     let working_mobility = measured.span_of_links(&outputs(mechanism));
     let external = match whole.external {
@@ -336,7 +255,6 @@ fn numerically(
         external,
         idle: Vec::new(),
         self_stresses: Vec::new(),
-        certainty,
         ..whole
     })
 }
@@ -374,8 +292,8 @@ fn exactly(
     known: Option<Finite>,
 ) -> Result<StateAnalysis, AnalysisError> {
     let fields = [
-        rank::field_of(mechanism, state, 0)?,
-        rank::field_of(mechanism, state, 1)?,
+        field_of(mechanism, state, 0)?,
+        field_of(mechanism, state, 1)?,
     ];
     let exact = &fields[0];
     let closure = Closure::new(exact, mechanism, state)?;
@@ -439,29 +357,12 @@ fn exactly(
         idle,
         self_stresses: self_stresses(exact, mechanism, &closure)?,
         left_out: closure.left_out.clone(),
+        method: modular::Modular.name(),
         certainty,
         choice: None,
         snapped: Vec::new(),
         as_written: None,
     })
-}
-
-fn int(x: usize) -> i64 {
-    i64::try_from(x).unwrap_or(i64::MAX)
-}
-
-fn freedoms_of(closure: &Closure<Residue>, joint: JointId) -> usize {
-    closure.columns.iter().filter(|c| c.joint == joint).count()
-}
-
-fn present_links(mechanism: &Mechanism, joints: &[JointId]) -> Vec<LinkId> {
-    let mut links: Vec<LinkId> = joints
-        .iter()
-        .flat_map(|&j| mechanism.joints[j].links)
-        .collect();
-    links.sort_unstable();
-    links.dedup();
-    links
 }
 
 /// Dimension of the joint motion of some links over a basis of motions.
@@ -482,43 +383,4 @@ fn span_of_links(
         span.insert(&all);
     }
     span.rank()
-}
-
-fn external(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-    kernel: &[Speeds],
-) -> Result<External, ExactError> {
-    let free = Closure::new(exact, mechanism, StateId::FREE)?;
-    let free_rank = modular::rank(exact, &free);
-    let rank = modular::rank(exact, closure);
-    let own: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
-    let all: Vec<JointId> = mechanism.joints_in(closure.state).collect();
-    let added = || all.iter().filter(|j| !own.contains(j));
-    let of_joints: i64 = added()
-        .map(|&j| int(closure.dim) - int(freedoms_of(closure, j)))
-        .sum();
-    let constraints = of_joints + int(closure.couplings.len()) - int(free.couplings.len());
-    let bodies = present_links(mechanism, &all).len() - present_links(mechanism, &own).len();
-    // The mechanism's own part of each motion.
-    let mut span = Echelon::new(exact.field());
-    for speeds in kernel {
-        let part: Vec<Residue> = speeds
-            .iter()
-            .zip(&closure.columns)
-            .map(|(&s, c)| if own.contains(&c.joint) { s } else { 0 })
-            .collect();
-        span.insert(&part);
-    }
-    let (actual, working) = (int(free.columns.len() - free_rank), int(span.rank()));
-    let lost = int(closure.dim * bodies) - (int(kernel.len()) - working);
-    Ok(External {
-        constraints,
-        actual_mobility: actual,
-        working_mobility: working,
-        lost_mobility: lost,
-        redundant: constraints - (actual - working) - lost,
-        by_rank: int(closure.rows() - rank) - int(free.rows() - free_rank),
-    })
 }

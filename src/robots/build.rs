@@ -1,7 +1,7 @@
 //! From a robot as read to a mechanism file: pose, frame, loops, bodies, outputs.
 
 use crate::closure::tree::forest;
-use crate::file::read::LIMITS;
+use crate::file::read::limits::LIMITS;
 use crate::file::schema::MechanismFile;
 use crate::file::write::Comment;
 use crate::geom::rigid::Motion;

@@ -4,7 +4,7 @@ use crate::model::mechanism::JointId;
 use crate::score::elimination::Scratch;
 use crate::score::evaluate::Evaluator;
 use crate::score::terms::Scores;
-use crate::search::best::Variant;
+use crate::search::best::Assignment;
 use crate::statics::reactions::Unsolved;
 
 /// What a joint bears in one pose, without what its drive does.
@@ -45,7 +45,7 @@ impl Bearing {
     }
 }
 
-impl Evaluator<'_, '_> {
+impl Evaluator<'_> {
     /// The scores of a variant and, for each joint of the mechanism in file order, the most it bears; an unloading joint
     /// counts as the one it is in series with. `None` stands for joints that are not there in the free state.
     ///
@@ -56,7 +56,7 @@ impl Evaluator<'_, '_> {
     /// That of [`Evaluator::scores`].
     pub fn bearings(
         &self,
-        variant: &Variant,
+        variant: &Assignment,
         scratch: &mut Scratch,
     ) -> Result<(Scores, Vec<Option<Bearing>>), Unsolved> {
         let mut out: Vec<Option<Bearing>> = vec![None; self.search.mechanism.joints.len()];

@@ -10,8 +10,8 @@ use crate::score::elimination::{Ended, Scratch};
 use crate::score::joint_types::JointTypes;
 use crate::score::table::Table;
 use crate::score::terms::{ErrorSum, Peak, Scores, output_points};
-use crate::search::best::Variant;
-use crate::search::request::Search;
+use crate::search::best::Assignment;
+use crate::search::conditions::Search;
 use crate::statics::reactions::drives::{Driven, driven};
 use crate::statics::reactions::follow::follow;
 use crate::statics::reactions::geometry::Geometry;
@@ -38,9 +38,9 @@ pub enum ScoreError {
 
 /// Scores the variants of one search.
 #[derive(Debug)]
-pub struct Evaluator<'s, 'm> {
+pub struct Evaluator<'s> {
     /// The search.
-    pub search: &'s Search<'m>,
+    pub search: &'s Search,
     /// What joints bear.
     pub types: JointTypes,
     /// How clearances add up.
@@ -54,7 +54,7 @@ pub struct Evaluator<'s, 'm> {
     working: i64,
 }
 
-impl<'s, 'm> Evaluator<'s, 'm> {
+impl<'s> Evaluator<'s> {
     /// Makes everything ready that does not depend on the variant, for the states with loads.
     ///
     /// # Errors
@@ -62,10 +62,7 @@ impl<'s, 'm> Evaluator<'s, 'm> {
     ///
     /// # Complexity
     /// O(poses · options · loads), and the poses of the stroke.
-    pub fn new(
-        search: &'s Search<'m>,
-        clearance: ClearanceSum,
-    ) -> Result<Evaluator<'s, 'm>, ScoreError> {
+    pub fn new(search: &'s Search, clearance: ClearanceSum) -> Result<Evaluator<'s>, ScoreError> {
         Evaluator::in_states(search, clearance, &[])
     }
 
@@ -74,11 +71,11 @@ impl<'s, 'm> Evaluator<'s, 'm> {
     /// # Errors
     /// As [`Evaluator::new`], and where a grip loads nothing.
     pub fn in_states(
-        search: &'s Search<'m>,
+        search: &'s Search,
         clearance: ClearanceSum,
         states: &[StateId],
-    ) -> Result<Evaluator<'s, 'm>, ScoreError> {
-        let m = search.mechanism;
+    ) -> Result<Evaluator<'s>, ScoreError> {
+        let m = &*search.mechanism;
         no_couplings(m, StateId::FREE)?;
         let types = JointTypes::of(m);
         let start = follow(m, StateId::FREE, &[], None)?;
@@ -120,7 +117,7 @@ impl<'s, 'm> Evaluator<'s, 'm> {
     ///
     /// # Complexity
     /// O((6k)²·f) for each pose, for k contours and f freedoms.
-    pub fn scores(&self, variant: &Variant, scratch: &mut Scratch) -> Result<Scores, Unsolved> {
+    pub fn scores(&self, variant: &Assignment, scratch: &mut Scratch) -> Result<Scores, Unsolved> {
         self.scores_and_loads(variant, scratch, &mut |_| {})
     }
 
@@ -128,7 +125,7 @@ impl<'s, 'm> Evaluator<'s, 'm> {
     /// told all over again by the slow one.
     pub(super) fn scores_and_loads(
         &self,
-        variant: &Variant,
+        variant: &Assignment,
         scratch: &mut Scratch,
         each: &mut dyn FnMut(Load),
     ) -> Result<Scores, Unsolved> {
@@ -150,7 +147,7 @@ impl<'s, 'm> Evaluator<'s, 'm> {
     }
 
     /// What needs no equations.
-    pub(super) fn plain(&self, variant: &Variant) -> Scores {
+    pub(super) fn plain(&self, variant: &Assignment) -> Scores {
         Scores {
             force: Peak::NONE,
             moment: Peak::NONE,
@@ -166,7 +163,7 @@ impl<'s, 'm> Evaluator<'s, 'm> {
     fn at(
         &self,
         table: &Table,
-        variant: &Variant,
+        variant: &Assignment,
         scratch: &mut Scratch,
         each: &mut dyn FnMut(Load),
     ) -> Result<Option<Scores>, Unsolved> {

@@ -10,8 +10,6 @@ const TEXT: &str = include_str!("joint_types.toml");
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JointType {
-    /// Its cost in revolute joints.
-    pub cost: f64,
     /// Force `[N]`.
     pub capacity_force: f64,
     /// Moment `[N·m]`; `None` where it bears none and need not.
@@ -73,7 +71,6 @@ impl JointTypes {
     #[must_use]
     pub fn option(&self, option: &JointOption) -> JointType {
         let bears_nothing = JointType {
-            cost: 0.0,
             capacity_force: 1.0,
             capacity_moment: None,
             clearance: 0.0,

@@ -62,7 +62,7 @@ struct Common {
     open: Vec<Vec<f64>>,
 }
 
-impl Evaluator<'_, '_> {
+impl Evaluator<'_> {
     /// Lower bounds for every variant of the search; 0 where none is known.
     ///
     /// # Complexity

@@ -8,7 +8,7 @@ use crate::score::elimination::Scratch;
 use crate::score::evaluate::Evaluator;
 use crate::score::pareto::fronts;
 use crate::score::terms::Scores;
-use crate::search::best::Variant;
+use crate::search::best::Assignment;
 use crate::statics::reactions::Unsolved;
 use rayon::prelude::*;
 use std::cmp::Ordering;
@@ -21,7 +21,7 @@ const BLOCK: usize = 4096;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranked {
     /// The variant.
-    pub variant: Variant,
+    pub variant: Assignment,
     /// Its place by cost, from 1.
     pub by_cost: usize,
     /// Its scores.
@@ -124,7 +124,7 @@ fn settled(
 }
 
 /// Scores a pool in parallel, in its order: the same for any number of threads.
-fn score_all(evaluator: &Evaluator<'_, '_>, pool: &[Variant]) -> Vec<Result<Scores, Unsolved>> {
+fn score_all(evaluator: &Evaluator<'_>, pool: &[Assignment]) -> Vec<Result<Scores, Unsolved>> {
     pool.par_iter()
         .map_init(Scratch::default, |scratch, v| evaluator.scores(v, scratch))
         .collect()
@@ -133,25 +133,20 @@ fn score_all(evaluator: &Evaluator<'_, '_>, pool: &[Variant]) -> Vec<Result<Scor
 /// Ranks variants given one by one in order of cost, and keeps the best: no more of them are held than a block, and in
 /// Pareto's order all.
 #[derive(Debug)]
-pub struct Ranker<'e, 's, 'm> {
-    evaluator: &'e Evaluator<'s, 'm>,
+pub struct Ranker<'e, 's> {
+    evaluator: &'e Evaluator<'s>,
     /// Least weighted sum of the terms but cost.
     floor: f64,
     top: usize,
-    block: Vec<Variant>,
+    block: Vec<Assignment>,
     kept: Vec<Ranked>,
     out: RankedPool,
 }
 
-impl<'e, 's, 'm> Ranker<'e, 's, 'm> {
+impl<'e, 's, 'm> Ranker<'e, 's> {
     /// For a pool of at most `limit` variants, of which the best `top` are wanted.
     #[must_use]
-    pub fn new(
-        evaluator: &'e Evaluator<'s, 'm>,
-        ranking: &Ranking,
-        limit: usize,
-        top: usize,
-    ) -> Self {
+    pub fn new(evaluator: &'e Evaluator<'s>, ranking: &Ranking, limit: usize, top: usize) -> Self {
         let floor = match ranking.order {
             Order::Weighted => evaluator.floor().weighted(ranking),
             Order::Lexicographic | Order::Pareto => 0.0,
@@ -181,7 +176,7 @@ impl<'e, 's, 'm> Ranker<'e, 's, 'm> {
     }
 
     /// Takes the next variant; breaks once no later one can be among the best, or the pool is full.
-    pub fn take(&mut self, variant: Variant) -> ControlFlow<()> {
+    pub fn take(&mut self, variant: Assignment) -> ControlFlow<()> {
         if self.out.proven || self.out.scored + self.block.len() >= self.out.pool {
             return ControlFlow::Break(());
         }
@@ -318,13 +313,6 @@ fn change(m: &Mechanism, term: Term, from: &Scores, to: &Scores) -> String {
 }
 
 impl RankedPool {
-    /// The place of a variant in the list, from 1, with what is known of it.
-    #[must_use]
-    pub fn of(&self, variant: &Variant) -> Option<(usize, &Ranked)> {
-        let place = self.list.iter().position(|r| r.variant == *variant)?;
-        Some((place + 1, &self.list[place]))
-    }
-
     /// Why a variant is not where its cost would put it: the term that speaks most for it against the cheapest; `None`
     /// where its place is that by cost.
     #[must_use]

@@ -8,7 +8,7 @@ use crate::score::bearing::Load;
 use crate::score::evaluate::Evaluator;
 use crate::score::joint_types::JointType;
 use crate::score::terms::{ErrorSum, Scores, axis_of};
-use crate::search::best::Variant;
+use crate::search::best::Assignment;
 use crate::statics::reactions::follow::follow_to;
 use crate::statics::reactions::{Choice, JointReaction, Reactions, Unsolved};
 
@@ -26,20 +26,20 @@ fn borne(r: &JointReaction) -> ([f64; 3], [f64; 3]) {
     (f, m)
 }
 
-impl Evaluator<'_, '_> {
+impl Evaluator<'_> {
     /// The scores of a variant, by realizing it and solving its equilibrium by singular values, reactions of minimum norm
     /// where redundant constraints leave them open.
     ///
     /// # Errors
     /// [`Unsolved`].
-    pub fn slowly(&self, variant: &Variant) -> Result<Scores, Unsolved> {
+    pub fn slowly(&self, variant: &Assignment) -> Result<Scores, Unsolved> {
         self.slowly_with(variant, &mut |_| {})
     }
 
     /// The same, and `each` is told what every joint bears in every pose.
     pub(super) fn slowly_with(
         &self,
-        variant: &Variant,
+        variant: &Assignment,
         each: &mut dyn FnMut(Load),
     ) -> Result<Scores, Unsolved> {
         let m = self.search.realize(&variant.choices);
@@ -106,7 +106,7 @@ impl Evaluator<'_, '_> {
 
     /// By joint of the realized variant: the joint of the mechanism it stands for, and what it bears.
     fn realized_types(&self, choices: &[usize]) -> Vec<(JointId, JointType)> {
-        let m = self.search.mechanism;
+        let m = &self.search.mechanism;
         let mut chosen = vec![(0, None); m.joints.len()];
         for (variable, &choice) in self.search.space.variables.iter().zip(choices) {
             if let Some(c) = variable.choices.get(choice) {
@@ -120,7 +120,6 @@ impl Evaluator<'_, '_> {
             let joint = &m.joints[j];
             let bears = |o: Option<&crate::model::mechanism::JointOption>| {
                 let nothing = JointType {
-                    cost: 0.0,
                     capacity_force: 1.0,
                     capacity_moment: None,
                     clearance: 0.0,

@@ -9,7 +9,7 @@ use crate::motion::pose::Pose;
 use crate::score::cases::Case;
 use crate::score::joint_types::JointTypes;
 use crate::score::terms::axis_of;
-use crate::search::request::Search;
+use crate::search::conditions::Search;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::applied::link_loads;
 use crate::statics::reactions::drives::{Driven, period};
@@ -61,13 +61,13 @@ pub(super) struct Table {
 
 impl Table {
     pub(super) fn new(
-        search: &Search<'_>,
+        search: &Search,
         types: &JointTypes,
         outputs: &[(LinkId, [f64; 3])],
         drives: &[Driven],
         Case { drive, pose, loads }: &Case,
     ) -> Result<Table, Unsolved> {
-        let m = search.mechanism;
+        let m = &*search.mechanism;
         let geometry = Geometry::new(m, StateId::FREE, pose)?;
         let mut cases = vec![link_loads(
             m,

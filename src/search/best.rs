@@ -5,38 +5,119 @@
 
 use crate::search::diagram::{DEAD, Diagram};
 use crate::search::tally::{Count, Key, Steps, Tally};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigUint;
 use num_traits::Zero;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
-use std::ops::ControlFlow;
 
 /// A variant found on a diagram.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Variant {
+pub struct Assignment {
     /// For each variable of the space, the choice.
     pub choices: Vec<usize>,
     /// Its properties.
     pub key: Key,
 }
 
-/// Gives `visit` the variants whose key passes `wanted`, cheapest first, then in the order of `rank`, then by choices
-/// in diagram order, until `visit` breaks or `top` have been given.
+/// The variants whose key passes a test, cheapest first, then in an order of keys, then by choices in diagram order.
 ///
 /// # Complexity
 /// Some passes over the part of the diagram that variants of that cost use, then O(variables · choices) table look-ups
-/// a variant; memory is the tables, whatever `top` is.
-pub fn cheapest<C: Count, R: Ord>(
+/// a variant; memory is the tables, however many are asked for.
+#[derive(Debug)]
+pub struct Cheapest<'d, C> {
+    diagram: &'d Diagram,
+    steps: &'d Steps,
+    tally: Tally<C>,
+    /// Keys to come.
+    keys: std::vec::IntoIter<Key>,
+    /// The key whose variants are being given.
+    key: Key,
+    /// The way down the diagram: by layer the node, what is left of the key there, and the choice to try next.
+    path: Vec<(usize, Key, usize)>,
+    choices: Vec<usize>,
+    /// How many may still be given.
+    left: usize,
+}
+
+impl<'d, C: Count> Cheapest<'d, C> {
+    /// The first `top` variants whose key passes `wanted`; those of equal cost in the order of `rank`.
+    pub fn new<R: Ord>(
+        diagram: &'d Diagram,
+        steps: &'d Steps,
+        top: usize,
+        wanted: impl Fn(Key) -> bool,
+        rank: impl Fn(Key) -> R,
+    ) -> Self {
+        let (tally, mut keys) = enough(diagram, steps, top, wanted);
+        keys.sort_by_key(|&k| (k.cost(), rank(k), k));
+        Cheapest {
+            diagram,
+            steps,
+            tally,
+            keys: keys.into_iter(),
+            key: Key::default(),
+            path: Vec::new(),
+            choices: vec![0; steps.keys.len()],
+            left: top,
+        }
+    }
+}
+
+impl<C: Count> Iterator for Cheapest<'_, C> {
+    type Item = Assignment;
+
+    fn next(&mut self) -> Option<Assignment> {
+        if self.left == 0 {
+            return None;
+        }
+        loop {
+            let depth = self.path.len();
+            let Some((node, rest, choice)) = self.path.last_mut() else {
+                self.key = self.keys.next()?;
+                self.path.push((0, self.key, 0));
+                continue;
+            };
+            let Some(here) = self.diagram.layers.get(depth - 1) else {
+                self.path.pop();
+                self.left -= 1;
+                return Some(Assignment {
+                    choices: self.choices.clone(),
+                    key: self.key,
+                });
+            };
+            if *choice == here.choices {
+                self.path.pop();
+                continue;
+            }
+            let (tried, to) = (*choice, here.edges[*node * here.choices + *choice]);
+            *choice += 1;
+            let step = self.steps.keys[here.variable][tried];
+            let Some(rest) = rest.0.checked_sub(step.0).map(Key) else {
+                continue;
+            };
+            let leads = |to: u32| {
+                let table = &self.tally.tables[depth][to as usize];
+                table.binary_search_by_key(&rest, |(k, _)| *k).is_ok()
+            };
+            if to != DEAD && leads(to) {
+                self.choices[here.variable] = tried;
+                self.path.push((to as usize, rest, 0));
+            }
+        }
+    }
+}
+
+/// A tally of the cheapest variants, `top` of them at least where there are so many, with their keys.
+fn enough<C: Count>(
     diagram: &Diagram,
     steps: &Steps,
     top: usize,
     wanted: impl Fn(Key) -> bool,
-    rank: impl Fn(Key) -> R,
-    mut visit: impl FnMut(Variant) -> ControlFlow<()>,
-) {
+) -> (Tally<C>, Vec<Key>) {
     let least = least_costs(diagram, &steps.keys);
     let Some(floor) = least.completion[0][0] else {
-        return;
+        return (Tally::new(diagram, &steps.keys, None), Vec::new());
     };
     let ceiling = steps
         .keys
@@ -47,7 +128,7 @@ pub fn cheapest<C: Count, R: Ord>(
         .unwrap_or(0)
         * steps.keys.len() as u64;
     let mut slack = 0;
-    let (tally, mut keys) = loop {
+    loop {
         let limit = floor.saturating_add(slack).min(ceiling);
         let bound: Vec<Vec<u64>> = least
             .prefix
@@ -72,78 +153,10 @@ pub fn cheapest<C: Count, R: Ord>(
             .map(|(_, c)| c.big())
             .sum();
         if count >= BigUint::from(top) || limit >= ceiling {
-            break (tally, found);
+            return (tally, found);
         }
         slack = if slack == 0 { 1 } else { slack * 2 };
-    };
-    keys.sort_by_key(|&k| (k.cost(), rank(k), k));
-    let mut left = top;
-    let mut choices = vec![0; steps.keys.len()];
-    for key in keys {
-        let mut give = |choices: &[usize]| {
-            if left == 0 {
-                return ControlFlow::Break(());
-            }
-            left -= 1;
-            visit(Variant {
-                choices: choices.to_vec(),
-                key,
-            })
-        };
-        if descend(diagram, steps, &tally, 0, 0, key, &mut choices, &mut give).is_break() {
-            return;
-        }
     }
-}
-
-#[allow(
-    clippy::too_many_arguments,
-    reason = "a recursive walk with its fixed surroundings"
-)]
-fn descend<C: Count>(
-    diagram: &Diagram,
-    steps: &Steps,
-    tally: &Tally<C>,
-    layer: usize,
-    node: usize,
-    key: Key,
-    choices: &mut Vec<usize>,
-    give: &mut impl FnMut(&[usize]) -> ControlFlow<()>,
-) -> ControlFlow<()> {
-    let Some(here) = diagram.layers.get(layer) else {
-        return give(choices);
-    };
-    for (choice, &to) in here.edges[node * here.choices..(node + 1) * here.choices]
-        .iter()
-        .enumerate()
-    {
-        let Some(rest) = key
-            .0
-            .checked_sub(steps.keys[here.variable][choice].0)
-            .map(Key)
-        else {
-            continue;
-        };
-        if to == DEAD
-            || tally.tables[layer + 1][to as usize]
-                .binary_search_by_key(&rest, |(k, _)| *k)
-                .is_err()
-        {
-            continue;
-        }
-        choices[here.variable] = choice;
-        descend(
-            diagram,
-            steps,
-            tally,
-            layer + 1,
-            to as usize,
-            rest,
-            choices,
-            give,
-        )?;
-    }
-    ControlFlow::Continue(())
 }
 
 /// Least costs of ways to and from each node; `None` where there is none.
@@ -211,7 +224,7 @@ pub fn sample<C: Count>(
     count: usize,
     seed: u64,
     wanted: impl Fn(Key) -> bool,
-) -> Vec<Variant> {
+) -> Vec<Assignment> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let totals: Vec<(Key, BigUint)> = tally
         .totals()
@@ -260,7 +273,7 @@ pub fn sample<C: Count>(
         }
         let (internal, external) = diagram.terminals[node];
         whole += Key::new(0, 0, 0, internal, external).0;
-        Variant {
+        Assignment {
             choices,
             key: Key(whole),
         }

@@ -3,11 +3,11 @@
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, StateId};
+use crate::search::conditions::Search;
 use crate::search::diagram::{self, Collapse, Diagram, Limits, Progress, Stage, Stop};
 use crate::search::lookahead::lookahead;
 use crate::search::order::variable_order;
 use crate::search::plan::plan;
-use crate::search::request::Search;
 
 /// Diagrams of one search.
 #[derive(Debug)]
@@ -24,15 +24,11 @@ impl Diagrams {
     /// The less complete of the two reasons for stopping.
     #[must_use]
     pub fn stop(&self) -> Stop {
-        if self.determinate.stop == Stop::Exhausted {
-            self.admissible.stop
-        } else {
-            self.determinate.stop
-        }
+        self.determinate.stop.or(self.admissible.stop)
     }
 }
 
-impl Search<'_> {
+impl Search {
     /// Builds both diagrams.
     pub fn build(
         &self,
@@ -40,13 +36,13 @@ impl Search<'_> {
         progress: &mut (dyn FnMut(Progress) + Send),
     ) -> Diagrams {
         let limits = |external| Limits {
-            internal: self.request.max_redundant,
+            internal: self.conditions.max_redundant,
             external,
-            nodes: self.request.nodes,
+            nodes: self.conditions.nodes,
         };
         let (free, added): (Vec<usize>, Vec<usize>) =
             (0..self.space.variables.len()).partition(|&v| !self.space.variables[v].external);
-        let order = variable_order(self.mechanism, &self.space, &free, &[]);
+        let order = variable_order(&self.mechanism, &self.space, &free, &[]);
         let joints = |order: &[usize]| -> Vec<JointId> {
             order
                 .iter()
@@ -63,7 +59,7 @@ impl Search<'_> {
         let mut stages = diagram::stages(
             &self.space,
             &order,
-            &plan(self.mechanism, &joints(&order), &[], &[]),
+            &plan(&self.mechanism, &joints(&order), &[], &[]),
         );
         stages.extend(idle);
         let determinate = diagram::build(
@@ -74,7 +70,7 @@ impl Search<'_> {
             cancelled,
             progress,
         );
-        if !self.request.keep_output && added.is_empty() {
+        if !self.conditions.keep_output && added.is_empty() {
             return Diagrams {
                 admissible: determinate.clone(),
                 determinate,
@@ -95,19 +91,19 @@ impl Search<'_> {
         pinned.sort_unstable();
         pinned.dedup();
         let mut order = variable_order(
-            self.mechanism,
+            &self.mechanism,
             &self.space,
             &free,
             &[self.mechanism.frame()],
         );
-        let first = plan(self.mechanism, &joints(&order), &pinned, &[]);
+        let first = plan(&self.mechanism, &joints(&order), &pinned, &[]);
         let mut stages = diagram::stages(&self.space, &order, &first);
         let live = first
             .steps
             .last()
             .map(|s| s.live.clone())
             .unwrap_or_default();
-        if self.request.keep_output {
+        if self.conditions.keep_output {
             self.look_ahead(&mut stages);
         }
         let start: Vec<Vec<LinkId>> = match live.first() {
@@ -118,9 +114,9 @@ impl Search<'_> {
             ],
             None => Vec::new(),
         };
-        let second = plan(self.mechanism, &joints(&added), &[], &start);
+        let second = plan(&self.mechanism, &joints(&added), &[], &start);
         stages.extend(diagram::stages(&self.space, &added, &second));
-        let external = self.request.state.map_or(u32::MAX, |(_, e)| e);
+        let external = self.conditions.state.map_or(u32::MAX, |(_, e)| e);
         let admissible = diagram::build(
             &self.exact,
             &self.space,
@@ -159,7 +155,7 @@ impl Search<'_> {
             let last = last.clone();
             let test = lookahead(
                 &self.exact,
-                self.mechanism,
+                &self.mechanism,
                 self.space.dim,
                 (&last.live, &last.pending),
                 &left,

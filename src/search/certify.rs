@@ -8,9 +8,9 @@ use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::numeric::{self, NumericRank};
-use crate::search::best::Variant;
+use crate::search::best::Assignment;
+use crate::search::conditions::Search;
 use crate::search::over_stroke::{OverStroke, Stroke};
-use crate::search::request::Search;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -44,7 +44,7 @@ pub struct Opinion {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Certified {
     /// The variant.
-    pub variant: Variant,
+    pub variant: Assignment,
     /// What its singular values say.
     pub second: Second,
     /// What other poses say, where that was asked.
@@ -54,7 +54,7 @@ pub struct Certified {
 impl Certified {
     /// A variant that nothing more is known of.
     #[must_use]
-    pub fn unasked(variant: Variant) -> Self {
+    pub fn unasked(variant: Assignment) -> Self {
         Certified {
             variant,
             second: Second::Unasked,
@@ -134,7 +134,7 @@ struct Shape {
     state: Option<(StateId, Vec<Contour>)>,
 }
 
-impl Search<'_> {
+impl Search {
     /// Analyses some variants by singular values, and in the poses of a stroke where one is given, in parallel.
     ///
     /// # Complexity
@@ -142,7 +142,7 @@ impl Search<'_> {
     #[must_use]
     pub fn certify(
         &self,
-        variants: Vec<Variant>,
+        variants: Vec<Assignment>,
         opinions: bool,
         stroke: Option<&Stroke>,
     ) -> Vec<Certified> {
@@ -152,7 +152,7 @@ impl Search<'_> {
                 .entry(self.inserted(&v.choices))
                 .or_insert_with(|| self.shape(&self.realize(&v.choices)));
         }
-        let one = |variant: Variant| {
+        let one = |variant: Assignment| {
             let m = self.realize(&variant.choices);
             let second = if opinions {
                 let shape = shapes.get(&self.inserted(&variant.choices));
@@ -181,15 +181,15 @@ impl Search<'_> {
 
     fn shape(&self, realized: &Mechanism) -> Shape {
         let lock = || contour_basis(&self.locked(realized), StateId::FREE);
-        let state = self.request.state.map(|(s, _)| s);
+        let state = self.conditions.state.map(|(s, _)| s);
         Shape {
             free: contour_basis(realized, StateId::FREE),
-            locked: self.request.keep_output.then(lock),
+            locked: self.conditions.keep_output.then(lock),
             state: state.map(|s| (s, contour_basis(realized, s))),
         }
     }
 
-    fn opinion(&self, variant: &Variant, m: &Mechanism, shape: &Shape) -> Option<Opinion> {
+    fn opinion(&self, variant: &Assignment, m: &Mechanism, shape: &Shape) -> Option<Opinion> {
         let (free, f) = self.decompose(m, StateId::FREE, &shape.free)?;
         let rows = |contours: &[Contour], state: StateId| {
             int(contours.len() * self.space.dim + m.couplings_in(state).count())
@@ -237,7 +237,7 @@ impl Search<'_> {
         contours: &[Contour],
     ) -> Option<(NumericRank, usize)> {
         let closure = Closure::with_contours(&Reals, m, state, contours.to_vec()).ok()?;
-        let rank = numeric::rank_with_tolerance(&closure, self.request.tolerance).ok()?;
+        let rank = numeric::rank_with_tolerance(&closure, self.conditions.tolerance).ok()?;
         Some((rank, closure.columns.len()))
     }
 }

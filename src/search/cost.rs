@@ -3,38 +3,20 @@
 //! cost(variant) = Σ over changed joints (cost of the new type - cost of the present type + change)
 //!               + Σ over unloading joints (cost of their type + link + change)
 //!
-//! The default table is a plain order of magnitude for machined parts, relative to a revolute joint; a file replaces
-//! any entry under `[search.costs]`, and an option may state a cost of its own.
+//! Joint types have default costs ([`JointType::default_cost_milli`]); a file replaces any of them under `[search.costs]`,
+//! and an option may state a cost of its own.
 
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{CostSpec, JointOption};
 
-/// Default costs in thousandths of a revolute joint's.
-pub const DEFAULTS: [(&str, i64); 13] = [
-    ("revolute", 1000),
-    ("prismatic", 2000),
-    ("helical", 3000),
-    ("cylindrical", 1500),
-    ("universal", 2500),
-    ("slotted", 1500),
-    ("spherical", 2000),
-    ("planar", 2500),
-    ("cylindrical-universal", 3500),
-    ("sphere-in-cylinder", 2500),
-    ("cylinder-on-plane", 2000),
-    ("sphere-on-plane", 1500),
-    ("fixed", 500),
-];
 /// Default cost of changing a joint at all, in thousandths.
 pub const CHANGE: i64 = 1000;
 /// Default cost of the extra link of an unloading joint, in thousandths.
 pub const LINK: i64 = 1000;
-/// A custom joint costs a revolute joint plus this for each freedom beyond the first, in thousandths.
-pub const CUSTOM_FREEDOM: i64 = 750;
-
 /// The costs in force for one mechanism, in thousandths.
 #[derive(Debug, Clone)]
 pub struct CostTable {
+    /// What the file says of types and options.
     by_type: Vec<(String, i64)>,
     /// Cost of changing a joint at all.
     pub change: i64,
@@ -46,10 +28,8 @@ impl CostTable {
     /// The defaults with what the file replaces.
     #[must_use]
     pub fn new(spec: &CostSpec) -> Self {
-        let mut by_type = spec.by_type_milli.clone();
-        by_type.extend(DEFAULTS.iter().map(|(n, c)| ((*n).to_owned(), *c)));
         CostTable {
-            by_type,
+            by_type: spec.by_type_milli.clone(),
             change: spec.change_milli.unwrap_or(CHANGE),
             link: spec.link_milli.unwrap_or(LINK),
         }
@@ -73,20 +53,21 @@ impl CostTable {
     #[must_use]
     pub fn option(&self, option: &JointOption) -> i64 {
         let named = |n: &str| {
-            self.by_type
-                .iter()
-                .find(|(name, _)| name == n)
-                .map(|(_, c)| *c)
+            let stated = self.by_type.iter().find(|(name, _)| name == n);
+            let default = || JointType::from_name(n).map(|t| t.default_cost_milli());
+            stated.map(|(_, c)| *c).or_else(default)
         };
+        let of_type = |t: &JointType| named(t.name()).unwrap_or(t.default_cost_milli());
         option
             .cost_milli
             .or_else(|| named(&option.name))
             .unwrap_or_else(|| match &option.joint_type {
-                JointType::Custom(list) => {
-                    let more = i64::try_from(list.len()).unwrap_or(0) - 1;
-                    named("revolute").unwrap_or(1000) + CUSTOM_FREEDOM * more
+                // A revolute joint, at the file's price, and the freedoms beyond its one.
+                custom @ JointType::Custom(_) => {
+                    let revolute = &JointType::Revolute;
+                    of_type(revolute) + custom.default_cost_milli() - revolute.default_cost_milli()
                 }
-                other => named(other.name()).unwrap_or(1000),
+                other => of_type(other),
             })
     }
 }

@@ -1,13 +1,14 @@
 //! How many variants there are of each kind.
 
-use crate::search::diagram::Diagram;
-use crate::search::request::{Request, Search, SearchError, Symmetry};
+use crate::search::conditions::{Conditions, Search, SearchError, Symmetry};
+use crate::search::diagram::{Diagram, Stop};
 use crate::search::tally::{Count, Key, Kinds, Tally};
 use num_bigint::BigUint;
 use num_traits::Zero;
 use std::collections::BTreeMap;
+use std::fmt;
 
-/// Exact counts of some variants, by their properties.
+/// Exact counts of some variants, by their properties; shown as the total.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Counts {
     /// All of them.
@@ -22,6 +23,12 @@ pub struct Counts {
     pub by_redundant: BTreeMap<u32, BigUint>,
     /// By freedoms f.
     pub by_freedoms: BTreeMap<u32, BigUint>,
+}
+
+impl fmt::Display for Counts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.total.fmt(f)
+    }
 }
 
 impl Counts {
@@ -57,7 +64,7 @@ impl Counts {
     }
 }
 
-impl Search<'_> {
+impl Search {
     /// Counts the variants of a diagram; `filter` applies the conditions on mobility and changes too.
     #[must_use]
     pub fn counts(&self, diagram: &Diagram, filter: bool) -> Counts {
@@ -92,10 +99,10 @@ impl Search<'_> {
     /// Counts by cost in thousandths of the variants of a diagram that meet every condition.
     #[must_use]
     pub fn counts_by_cost(&self, diagram: &Diagram) -> BTreeMap<i64, BigUint> {
-        fn with<C: Count>(s: &Search<'_>, diagram: &Diagram) -> BTreeMap<i64, BigUint> {
+        fn with<C: Count>(s: &Search, diagram: &Diagram) -> BTreeMap<i64, BigUint> {
             let kinds = Kinds {
-                freedoms: s.request.max_mobility.is_some(),
-                changes: s.request.max_changes.is_some(),
+                freedoms: s.conditions.max_mobility.is_some(),
+                changes: s.conditions.max_changes.is_some(),
                 cost: true,
             };
             let tally: Tally<C> = Tally::new(diagram, &s.steps.only(kinds), None);
@@ -113,7 +120,7 @@ impl Search<'_> {
         }
     }
 
-    /// Counts of orbits from counts of all variants, by a search for the symmetric ones.
+    /// Counts of orbits from counts of all variants, by a search for the symmetric ones, and why that search ended.
     ///
     /// # Errors
     /// As [`Search::new`].
@@ -121,19 +128,17 @@ impl Search<'_> {
         &self,
         all: (Counts, Counts),
         cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Result<(Counts, Counts), SearchError> {
-        let request = Request {
+    ) -> Result<((Counts, Counts), Stop), SearchError> {
+        let conditions = Conditions {
             symmetry: Symmetry::SymmetricOnly,
-            ..self.request.clone()
+            ..self.conditions.clone()
         };
-        let symmetric = Search::new(self.exact.clone(), self.mechanism, request)?;
+        let symmetric = Search::new(self.exact.clone(), self.mechanism.clone(), conditions)?;
         let diagrams = symmetric.build(cancelled, &mut |_| {});
         let determinate = all
             .0
             .orbits(&symmetric.counts(&diagrams.determinate, false));
-        Ok((
-            determinate,
-            all.1.orbits(&symmetric.counts(&diagrams.admissible, true)),
-        ))
+        let admissible = all.1.orbits(&symmetric.counts(&diagrams.admissible, true));
+        Ok(((determinate, admissible), diagrams.stop()))
     }
 }

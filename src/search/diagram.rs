@@ -65,6 +65,12 @@ pub enum Stop {
 }
 
 impl Stop {
+    /// The first of two reasons that is one.
+    #[must_use]
+    pub fn or(self, other: Stop) -> Stop {
+        if self == Stop::Exhausted { other } else { self }
+    }
+
     /// The word for programs.
     #[must_use]
     pub fn word(self) -> &'static str {

@@ -16,11 +16,11 @@ use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::scaled::rank_of_values;
 use crate::rank::trace::motions;
-use crate::search::best::Variant;
-use crate::search::request::Search;
+use crate::search::best::Assignment;
+use crate::search::conditions::Search;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use faer::Mat;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 /// The largest coordinate of the first steps: radians, and fractions of the mechanism's size.
 const STEP: f64 = 0.2;
@@ -77,7 +77,7 @@ impl OverStroke {
     }
 }
 
-impl Search<'_> {
+impl Search {
     /// Reaches `count` generic poses along the present motion of the free state, both ways from the file's pose, as far
     /// as it has one.
     ///
@@ -87,7 +87,7 @@ impl Search<'_> {
     /// # Complexity
     /// Some closings of O((6k)² f) a pose.
     pub fn stroke(&self, count: usize, seed: u64) -> Result<Stroke, ExactError> {
-        let pose = Pose::of_file(self.mechanism, StateId::FREE)?;
+        let pose = Pose::of_file(&self.mechanism, StateId::FREE)?;
         let span = motions(&pose);
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut poses = Vec::new();
@@ -113,7 +113,7 @@ impl Search<'_> {
             if let Some(q) = reached {
                 let columns = pose.columns.iter().zip(&q);
                 let coordinates = columns.map(|(c, &x)| (c.joint, c.freedom, x)).collect();
-                let figures = self.figures_at(self.mechanism, &pose.moved(&q));
+                let figures = self.figures_at(&self.mechanism, &pose.moved(&q));
                 poses.push((coordinates, figures.and_then(|f| f.output)));
             }
         }
@@ -125,7 +125,7 @@ impl Search<'_> {
 
     /// Looks at a variant, realized as `m`, in the poses of a stroke.
     #[must_use]
-    pub fn over(&self, stroke: &Stroke, variant: &Variant, m: &Mechanism) -> OverStroke {
+    pub fn over(&self, stroke: &Stroke, variant: &Assignment, m: &Mechanism) -> OverStroke {
         let mut out = OverStroke {
             poses: 0,
             other: None,
@@ -189,7 +189,7 @@ impl Search<'_> {
         let int = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
         let mobility = int(f) - int(rank);
         let redundant = int(pose.constraints(self.space.dim)) - int(rank);
-        if !self.request.keep_output {
+        if !self.conditions.keep_output {
             return Some(Figures {
                 mobility,
                 redundant,

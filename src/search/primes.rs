@@ -6,14 +6,13 @@
 //! and every sample drawn from them is equal too.
 
 use crate::search::building::Diagrams;
+use crate::search::conditions::Search;
 use crate::search::counts::Counts;
 use crate::search::diagram::{Diagram, Progress, Stop};
-use crate::search::request::Search;
 use itertools::Itertools;
 use num_bigint::BigUint;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
-use std::ops::ControlFlow;
 use thiserror::Error;
 
 /// Differences told in a message at most.
@@ -26,6 +25,23 @@ pub enum Verdict {
     Agree,
     /// The search was interrupted, and where depends on the clock: there is nothing to compare.
     Interrupted,
+}
+
+/// A search checked by a second prime.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PrimeCheck {
+    /// Both primes.
+    pub primes: [u64; 2],
+    /// What the second says.
+    pub verdict: Verdict,
+}
+
+impl PrimeCheck {
+    /// Whether the primes agree: neither yes nor no where the search was interrupted.
+    #[must_use]
+    pub fn agree(&self) -> Option<bool> {
+        (self.verdict == Verdict::Agree).then_some(true)
+    }
 }
 
 /// Two primes that give different answers.
@@ -49,7 +65,7 @@ pub struct Disagreement {
 
 /// Builds the diagrams of a search and of its twin over another prime, in parallel.
 pub fn build_both(
-    searches: [&Search<'_>; 2],
+    searches: [&Search; 2],
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> (Diagrams, Diagrams) {
@@ -68,7 +84,7 @@ pub fn build_both(
 /// # Complexity
 /// O(edges) where the diagrams are equal, which they always were; counting both where they are not.
 pub fn compare(
-    searches: [&Search<'_>; 2],
+    searches: [&Search; 2],
     diagrams: [&Diagrams; 2],
     top: usize,
 ) -> Result<Verdict, Box<Disagreement>> {
@@ -89,12 +105,8 @@ pub fn compare(
         )
     };
     let best = |i: usize| {
-        let mut out = Vec::new();
-        searches[i].cheapest(diagrams[i], top, |v| {
-            out.push((v.choices, v.key));
-            ControlFlow::Continue(())
-        });
-        out
+        let list = searches[i].cheapest(diagrams[i], top);
+        list.collect_vec()
     };
     compare_counts(searches, [&count(0), &count(1)])?;
     let (one, two) = (best(0), best(1));
@@ -116,7 +128,7 @@ pub fn compare(
 /// # Errors
 /// Where they differ, with both.
 pub fn compare_counts(
-    searches: [&Search<'_>; 2],
+    searches: [&Search; 2],
     counts: [&(Counts, Counts); 2],
 ) -> Result<Verdict, Box<Disagreement>> {
     let [a, b] = counts;
@@ -140,7 +152,7 @@ pub fn compare_counts(
 
 /// The primes of two searches.
 #[must_use]
-pub fn primes(searches: [&Search<'_>; 2]) -> [u64; 2] {
+pub fn primes(searches: [&Search; 2]) -> [u64; 2] {
     searches.map(|s| s.exact.field().modulus())
 }
 

@@ -4,14 +4,14 @@ use crate::model::joint_type::JointType;
 use crate::model::mechanism::{
     Joint, JointId, JointOption, Link, LinkId, Mechanism, Role, StateId,
 };
-use crate::search::request::Search;
+use crate::search::conditions::Search;
 
-impl Search<'_> {
+impl Search {
     /// The mechanism that a variant is. Joints keep their places in the list; unloading joints and their links come
     /// after all others. An unloading joint of a contact is there in every state, as its link is.
     #[must_use]
     pub fn realize(&self, choices: &[usize]) -> Mechanism {
-        let old = self.mechanism;
+        let old = &self.mechanism;
         let mut chosen: Vec<(usize, Option<usize>, bool)> =
             vec![(0, None, false); old.joints.len()];
         for (variable, &choice) in self.space.variables.iter().zip(choices) {

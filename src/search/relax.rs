@@ -1,10 +1,8 @@
 //! Where a question has no answer: which of its conditions, eased alone, would leave some variants.
 
-use crate::geom::exact::ExactField;
-use crate::model::mechanism::Mechanism;
+use crate::search::conditions::{Conditions, Search, SearchError};
 use crate::search::counts::Counts;
 use crate::search::diagram::Stop;
-use crate::search::request::{Request, Search, SearchError};
 use num_bigint::BigUint;
 use num_traits::Zero;
 
@@ -26,85 +24,86 @@ pub enum Relaxation {
 /// Nodes of a diagram at most: easing should cost no more than the question did.
 const NODES: usize = 20_000;
 
-/// The conditions that, eased alone, leave some variants, with how many; a condition whose search would take too many
-/// nodes is passed over.
-///
-/// # Errors
-/// As [`Search::new`].
-///
-/// # Complexity
-/// One search for each condition, and for redundancies one for each bit of the least that is enough, or two.
-pub fn relaxations(
-    mechanism: &Mechanism,
-    exact: &ExactField,
-    request: &Request,
-    cancelled: &(dyn Fn() -> bool + Sync),
-) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
-    let counted = |change: &dyn Fn(&mut Request)| -> Result<Option<Counts>, SearchError> {
-        let mut request = request.clone();
-        request.nodes = request.nodes.min(NODES);
-        change(&mut request);
-        let search = Search::new(exact.clone(), mechanism, request)?;
-        let diagrams = search.build(cancelled, &mut |_| {});
-        let whole = diagrams.stop() == Stop::Exhausted;
-        let counts = whole.then(|| search.counts(&diagrams.admissible, true));
-        Ok(counts.filter(|c| !c.total.is_zero()))
-    };
-    let mut out = Vec::new();
-    // No variant has more redundant constraints than rows.
-    let rows = u32::try_from(6 * mechanism.joints.len()).unwrap_or(u32::MAX);
-    // Diagrams grow with what is allowed, so a little more is tried first: twice as much more each time.
-    let further = |allowed: u32| {
-        let more = std::iter::successors(Some(1u32), |m| m.checked_mul(2));
-        let bounds = more.map(move |m| allowed.saturating_add(m));
-        bounds.take_while(move |b| *b < 2 * rows)
-    };
-    for bound in further(request.max_redundant) {
-        if let Some(c) = counted(&|r| r.max_redundant = bound)? {
-            let least = c.by_redundant.iter().next();
-            out.extend(least.map(|(least, n)| (Relaxation::Redundant(*least), n.clone())));
-            break;
-        }
-    }
-    if let Some((state, allowed)) = request.state
-        && allowed < rows
-    {
-        let with = |most: u32| counted(&|r: &mut Request| r.state = Some((state, most)));
-        let mut few = allowed;
-        for bound in further(allowed) {
-            let Some(mut found) = with(bound)? else {
-                few = bound;
-                continue;
-            };
-            // The least that is enough lies between.
-            let mut enough = bound;
-            while enough - few > 1 {
-                let middle = few + (enough - few) / 2;
-                match with(middle)? {
-                    Some(c) => (enough, found) = (middle, c),
-                    None => few = middle,
-                }
+impl Search {
+    /// The conditions that, eased alone, leave some variants, with how many; a condition whose search would take too many
+    /// nodes is passed over.
+    ///
+    /// # Errors
+    /// As [`Search::new`].
+    ///
+    /// # Complexity
+    /// One search for each condition, and for redundancies one for each bit of the least that is enough, or two.
+    pub fn relaxations(
+        &self,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
+        let conditions = &self.conditions;
+        let counted = |change: &dyn Fn(&mut Conditions)| -> Result<Option<Counts>, SearchError> {
+            let mut eased = conditions.clone();
+            eased.nodes = eased.nodes.min(NODES);
+            change(&mut eased);
+            let search = Search::new(self.exact.clone(), self.mechanism.clone(), eased)?;
+            let diagrams = search.build(cancelled, &mut |_| {});
+            let whole = diagrams.stop() == Stop::Exhausted;
+            let counts = whole.then(|| search.counts(&diagrams.admissible, true));
+            Ok(counts.filter(|c| !c.total.is_zero()))
+        };
+        let mut out = Vec::new();
+        // No variant has more redundant constraints than rows.
+        let rows = u32::try_from(6 * self.mechanism.joints.len()).unwrap_or(u32::MAX);
+        // Diagrams grow with what is allowed, so a little more is tried first: twice as much more each time.
+        let further = |allowed: u32| {
+            let more = std::iter::successors(Some(1u32), |m| m.checked_mul(2));
+            let bounds = more.map(move |m| allowed.saturating_add(m));
+            bounds.take_while(move |b| *b < 2 * rows)
+        };
+        for bound in further(conditions.max_redundant) {
+            if let Some(c) = counted(&|r| r.max_redundant = bound)? {
+                let least = c.by_redundant.iter().next();
+                out.extend(least.map(|(least, n)| (Relaxation::Redundant(*least), n.clone())));
+                break;
             }
-            out.push((Relaxation::External(enough), found.total));
-            break;
         }
+        if let Some((state, allowed)) = conditions.state
+            && allowed < rows
+        {
+            let with = |most: u32| counted(&|r: &mut Conditions| r.state = Some((state, most)));
+            let mut few = allowed;
+            for bound in further(allowed) {
+                let Some(mut found) = with(bound)? else {
+                    few = bound;
+                    continue;
+                };
+                // The least that is enough lies between.
+                let mut enough = bound;
+                while enough - few > 1 {
+                    let middle = few + (enough - few) / 2;
+                    match with(middle)? {
+                        Some(c) => (enough, found) = (middle, c),
+                        None => few = middle,
+                    }
+                }
+                out.push((Relaxation::External(enough), found.total));
+                break;
+            }
+        }
+        if conditions.max_mobility.is_some()
+            && let Some(c) = counted(&|r| r.max_mobility = None)?
+            && let Some((least, n)) = c.by_mobility.iter().next()
+        {
+            out.push((Relaxation::Mobility(*least), n.clone()));
+        }
+        if conditions.max_changes.is_some()
+            && let Some(c) = counted(&|r| r.max_changes = None)?
+            && let Some((least, n)) = c.by_changes.iter().next()
+        {
+            out.push((Relaxation::Changes(*least), n.clone()));
+        }
+        if conditions.keep_output
+            && let Some(c) = counted(&|r| r.keep_output = false)?
+        {
+            out.push((Relaxation::OutputChange, c.total));
+        }
+        Ok(out)
     }
-    if request.max_mobility.is_some()
-        && let Some(c) = counted(&|r| r.max_mobility = None)?
-        && let Some((least, n)) = c.by_mobility.iter().next()
-    {
-        out.push((Relaxation::Mobility(*least), n.clone()));
-    }
-    if request.max_changes.is_some()
-        && let Some(c) = counted(&|r| r.max_changes = None)?
-        && let Some((least, n)) = c.by_changes.iter().next()
-    {
-        out.push((Relaxation::Changes(*least), n.clone()));
-    }
-    if request.keep_output
-        && let Some(c) = counted(&|r| r.keep_output = false)?
-    {
-        out.push((Relaxation::OutputChange, c.total));
-    }
-    Ok(out)
 }

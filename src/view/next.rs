@@ -1,5 +1,8 @@
 //! What to do next: commands, with what each is for.
 
+use crate::model::mechanism::Mechanism;
+use crate::score::request::{JointOptions, POOL, Request};
+use crate::search::conditions::Symmetry;
 use crate::view::layout::fit;
 use itertools::Itertools;
 
@@ -43,6 +46,59 @@ pub fn text(steps: &[Step], width: Option<u16>) -> String {
         )
     });
     format!("\n  Next:\n{}", lines.collect_vec().concat())
+}
+
+/// The flags that make a search's list what it is, as they are typed: those of `search`, `draw` and `export` are the same.
+#[must_use]
+pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
+    let joints = |rule: &JointOptions| match rule.names.as_slice() {
+        [] => rule.joint.clone(),
+        names => format!("{}={}", rule.joint, names.join(",")),
+    };
+    let some = |n: u32| (n > 0).then(|| n.to_string());
+    let list = |names: Vec<String>| (!names.is_empty()).then(|| names.join(","));
+    let (state, external) = match r.state(mechanism) {
+        Ok(Some((s, external))) => (
+            r.state.as_ref().map(|_| mechanism.states[s].clone()),
+            Some(external.to_string()),
+        ),
+        _ => (None, None),
+    };
+    let rank = r.rank.iter().map(|(term, weight)| match weight {
+        1.0 => term.name().to_owned(),
+        weight => format!("{}={weight}", term.name()),
+    });
+    let pool = (r.pool != POOL).then(|| r.pool.to_string());
+    let valued = [
+        ("max-redundant", some(r.max_redundant)),
+        ("max-external", external),
+        ("state", state),
+        ("max-mobility", r.max_mobility.map(|w| w.to_string())),
+        ("max-changes", r.max_changes.map(|c| c.to_string())),
+        ("rank", list(rank.collect())),
+        ("pool", pool),
+    ]
+    .into_iter()
+    .chain(r.hold.iter().map(|l| ("hold", Some(l.clone()))))
+    .chain([("options", list(r.options.clone()))])
+    .chain(r.allow.iter().map(|j| ("allow", Some(joints(j)))))
+    .chain(r.forbid.iter().map(|j| ("forbid", Some(joints(j)))));
+    let switches = [
+        ("allow-output-change", r.allow_output_change),
+        ("symmetric", r.symmetry == Symmetry::SymmetricOnly),
+        ("one-per-orbit", r.symmetry == Symmetry::OnePerOrbit),
+        ("as-written", r.as_written),
+    ];
+    valued
+        .filter_map(|(flag, value)| Some(format!("--{flag} {}", word(&value?))))
+        .chain(
+            switches
+                .iter()
+                .filter(|(_, on)| *on)
+                .map(|(flag, _)| format!("--{flag}")),
+        )
+        .chain(r.snap.map(|t| format!("--snap {t}")))
+        .join(" ")
 }
 
 /// A word as a shell takes it; standard input cannot be read again, so it is FILE.

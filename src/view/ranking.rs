@@ -6,9 +6,8 @@ use crate::model::mechanism::{JointId, Mechanism};
 use crate::model::ranking::{ClearanceSum, Order, Term};
 use crate::score::cases::Gripped;
 use crate::score::ranking::{Ranked, RankedPool};
-use crate::score::terms::Scores;
 use itertools::Itertools;
-use serde_json::{Map, Value, json};
+use serde::Serialize;
 use std::fmt::Write;
 
 /// Reasons told at most.
@@ -164,63 +163,129 @@ pub fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
     out
 }
 
-/// All scores of a variant: forces in N, moments in N·m, the error in m.
-#[must_use]
-pub fn scores(m: &Mechanism, s: &Scores) -> Map<String, Value> {
-    let joint = |j: JointId| m.joints.get(j.index()).map(|j| j.id.as_str());
-    let all = json!({
-        "peak-force": s.force.utilisation,
-        "peak-force-newton": s.force.value,
-        "peak-force-joint": joint(s.force.joint),
-        "peak-moment": s.moment.utilisation,
-        "peak-moment-newton-metre": s.moment.value,
-        "peak-moment-joint": joint(s.moment.joint),
-        "conditioning": s.conditioning,
-        "output-error": s.output_error,
-        "changes": s.changes,
-        "cost": s.value(Term::Cost),
-        "idle": s.idle,
-        "minimum-norm": s.minimum_norm,
-    });
-    match all {
-        Value::Object(map) => map,
-        _ => Map::new(),
+/// The ranking as data.
+#[derive(Debug, Serialize)]
+pub struct RankingData<'a> {
+    order: &'static str,
+    terms: Vec<TermData>,
+    limits: Vec<LimitData>,
+    clearance: &'static str,
+    pool: usize,
+    scored: usize,
+    poses: usize,
+    grip: Vec<GripData<'a>>,
+    no_equilibrium: usize,
+    beyond_limits: usize,
+    minimum_norm: usize,
+    proven: bool,
+    proof: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct TermData {
+    term: &'static str,
+    weight: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct LimitData {
+    term: &'static str,
+    min: Option<f64>,
+    max: Option<f64>,
+}
+
+#[derive(Debug, Serialize)]
+struct GripData<'a> {
+    state: &'a str,
+    held: &'a [f64],
+    not_held: &'a [f64],
+}
+
+impl<'a> RankingData<'a> {
+    /// Of a ranked pool.
+    #[must_use]
+    pub fn new(m: &'a Mechanism, p: &'a RankedPool) -> Self {
+        let terms = p.ranking.terms.iter().map(|(t, weight)| TermData {
+            term: t.name(),
+            weight: *weight,
+        });
+        let limits = p.ranking.limits.iter().map(|l| LimitData {
+            term: l.term.name(),
+            min: l.min,
+            max: l.max,
+        });
+        let grip = p.gripped.iter().map(|g| GripData {
+            state: &m.states[g.state],
+            held: &g.held,
+            not_held: &g.lost,
+        });
+        RankingData {
+            order: p.ranking.order.name(),
+            terms: terms.collect(),
+            limits: limits.collect(),
+            clearance: match p.ranking.clearance {
+                ClearanceSum::Worst => "worst",
+                ClearanceSum::Rms => "rms",
+            },
+            pool: p.pool,
+            scored: p.scored,
+            poses: p.poses,
+            grip: grip.collect(),
+            no_equilibrium: p.unheld,
+            beyond_limits: p.limited,
+            minimum_norm: p.open,
+            proven: p.proven,
+            proof: p.proof,
+        }
     }
 }
 
-/// A ranked variant's own: scores, place by cost, sum, front and reason.
-#[must_use]
-pub fn variant(m: &Mechanism, p: &RankedPool, r: &Ranked, position: usize) -> Map<String, Value> {
-    let mut out = scores(m, &r.scores);
-    out.insert("by_cost".to_owned(), json!(r.by_cost));
-    out.insert("total".to_owned(), json!(r.total));
-    out.insert("front".to_owned(), json!(r.front));
-    out.insert("reason".to_owned(), json!(p.reason(m, position)));
-    out
+/// A ranked variant's own: scores (forces in N, moments in N·m, the error in m), place by cost, sum, front and reason.
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct RankedData<'a> {
+    peak_force: f64,
+    peak_force_newton: f64,
+    peak_force_joint: Option<&'a str>,
+    peak_moment: f64,
+    peak_moment_newton_metre: f64,
+    peak_moment_joint: Option<&'a str>,
+    conditioning: f64,
+    output_error: f64,
+    changes: u32,
+    cost: f64,
+    idle: i64,
+    minimum_norm: bool,
+    #[serde(rename = "by_cost")]
+    by_cost: usize,
+    total: Option<f64>,
+    front: Option<usize>,
+    reason: Option<String>,
 }
 
-/// The ranking as data.
-#[must_use]
-pub fn json(m: &Mechanism, p: &RankedPool) -> Value {
-    json!({
-        "order": p.ranking.order.name(),
-        "terms": p.ranking.terms.iter()
-            .map(|(t, w)| json!({"term": t.name(), "weight": w})).collect::<Vec<_>>(),
-        "limits": p.ranking.limits.iter()
-            .map(|l| json!({"term": l.term.name(), "min": l.min, "max": l.max})).collect::<Vec<_>>(),
-        "clearance": match p.ranking.clearance {
-            ClearanceSum::Worst => "worst",
-            ClearanceSum::Rms => "rms",
-        },
-        "pool": p.pool,
-        "scored": p.scored,
-        "poses": p.poses,
-        "grip": p.gripped.iter()
-            .map(|g| json!({"state": m.states[g.state], "held": g.held, "not_held": g.lost})).collect::<Vec<_>>(),
-        "no_equilibrium": p.unheld,
-        "beyond_limits": p.limited,
-        "minimum_norm": p.open,
-        "proven": p.proven,
-        "proof": p.proof,
-    })
+impl<'a> RankedData<'a> {
+    /// Of a ranked variant, with the reason of its place.
+    #[must_use]
+    pub fn new(m: &'a Mechanism, r: &Ranked, reason: Option<String>) -> Self {
+        let joint = |j: JointId| m.joints.get(j.index()).map(|j| j.id.as_str());
+        let s = &r.scores;
+        RankedData {
+            peak_force: s.force.utilisation,
+            peak_force_newton: s.force.value,
+            peak_force_joint: joint(s.force.joint),
+            peak_moment: s.moment.utilisation,
+            peak_moment_newton_metre: s.moment.value,
+            peak_moment_joint: joint(s.moment.joint),
+            conditioning: s.conditioning,
+            output_error: s.output_error,
+            changes: s.changes,
+            cost: s.value(Term::Cost),
+            idle: s.idle,
+            minimum_norm: s.minimum_norm,
+            by_cost: r.by_cost,
+            total: r.total,
+            front: r.front,
+            reason,
+        }
+    }
 }

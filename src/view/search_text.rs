@@ -1,51 +1,100 @@
 //! A search for people.
 
 use crate::format::number::{cost, grouped};
-use crate::search::best::Variant;
-use crate::search::certify::{Certified, NEARLY_SINGULAR, Second, Summary};
+use crate::score::outcome::{Outcome, Variant, Variants, in_words};
+use crate::score::request::List;
+use crate::search::certify::{NEARLY_SINGULAR, Opinion, Second, Summary};
 use crate::search::primes::Verdict;
 use crate::search::relax::Relaxation;
-use crate::search::request::Search;
 use crate::view::layout::{fit, table};
-use crate::view::next::{Step, file_name};
+use crate::view::next::{self, Step, file_name};
 use crate::view::ranking;
-use crate::view::search_json::{self, Found};
+use crate::view::search_data::condition;
 use itertools::Itertools;
+use num_bigint::BigUint;
 use num_traits::Zero;
-use std::collections::BTreeSet;
-use std::fmt::Write;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::io;
+
+/// Variants a table holds at most.
+const BLOCK: usize = 1000;
+
+/// Writes an outcome with its variants as they come, and what to do next; `eased` is told where there is none. `file` is
+/// the argument that named the mechanism.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write(
+    out: &mut dyn io::Write,
+    outcome: &Outcome,
+    mut given: Variants<'_>,
+    eased: &[(Relaxation, BigUint)],
+    file: &str,
+    width: Option<u16>,
+) -> io::Result<()> {
+    write!(out, "{}", counts(outcome, width))?;
+    let sample = matches!(outcome.request.list, List::Sample(_));
+    let what = match &outcome.ranking {
+        Some(p) => ranking::head(p),
+        None if sample => "drawn at random".to_owned(),
+        None => "cheapest first".to_owned(),
+    };
+    let mut footnotes = Vec::new();
+    // A table is laid out as a whole, so a long list is given as several.
+    loop {
+        let block = given.by_ref().take(BLOCK).collect_vec();
+        let Some(first) = block.first() else { break };
+        if first.position() == 1 {
+            write!(out, "{}", fit(&format!("\n  {what}:\n"), width))?;
+        }
+        writeln!(out, "{}", variants(outcome, &block, width))?;
+        footnotes.extend(block.iter().filter_map(note));
+    }
+    let summary = given.summary();
+    write!(out, "{}", notes(&summary, &footnotes, width))?;
+    if let Some(p) = &outcome.ranking {
+        let notes = ranking::notes(&outcome.search.mechanism, p);
+        write!(out, "{}", fit(&notes, width))?;
+    }
+    if given.interrupted() {
+        writeln!(out, "\n  interrupted after {} variants", summary.given)?;
+    }
+    // Numbers of a sample, or of a list with some left out, mean nothing to other commands.
+    let steps = match outcome.request.generic_only {
+        true => Vec::new(),
+        false => next(outcome, if sample { 0 } else { summary.given }, eased, file),
+    };
+    write!(out, "{}", next::text(&steps, width))
+}
 
 /// The verdict, how it was checked, and the counts by mobility.
 #[must_use]
-pub fn counts(found: &Found<'_>, width: Option<u16>) -> String {
+fn counts(outcome: &Outcome, width: Option<u16>) -> String {
     let mut out = String::new();
-    let big = |n: &num_bigint::BigUint| grouped(&n.to_string());
-    let (least, request) = (
-        if found.stop == "exhausted" {
-            ""
-        } else {
-            "at least "
-        },
-        &found.search.request,
+    let big = |n: &BigUint| grouped(&n.to_string());
+    let (least, conditions) = (
+        if outcome.is_exact() { "" } else { "at least " },
+        &outcome.search.conditions,
     );
-    let condition = if request.max_redundant == 0 {
+    let condition = if conditions.max_redundant == 0 {
         "σ = 0".to_owned()
     } else {
-        format!("σ ≤ {}", request.max_redundant)
+        format!("σ ≤ {}", conditions.max_redundant)
     };
-    let (mechanism, size) = (&found.search.mechanism.name, found.search.size());
+    let (mechanism, size) = (&outcome.search.mechanism.name, outcome.search.size());
     let more = [
-        request
+        conditions
             .keep_output
             .then_some("keep the output motion".to_owned()),
-        request.max_mobility.map(|w| format!("have W ≤ {w}")),
-        request
+        conditions.max_mobility.map(|w| format!("have W ≤ {w}")),
+        conditions
             .max_changes
             .map(|c| format!("change at most {c} joints")),
-        request.state.map(|(s, e)| {
+        conditions.state.map(|(s, e)| {
             format!(
                 "have external σ ≤ {e} in state {}",
-                found.search.mechanism.states[s]
+                outcome.search.mechanism.states[s]
             )
         }),
     ];
@@ -57,14 +106,14 @@ pub fn counts(found: &Found<'_>, width: Option<u16>) -> String {
             format!("{} and {last}", head.collect_vec().join(", "))
         }
     };
-    let good = if found.admissible.total.is_zero() && least.is_empty() {
+    let good = if outcome.admissible.total.is_zero() && least.is_empty() {
         "none".to_owned()
     } else {
-        format!("{least}{}", big(&found.admissible.total))
+        format!("{least}{}", big(&outcome.admissible.total))
     };
     // Writing to a string cannot fail.
     let _ = writeln!(out, "{mechanism}: {good} of {} variants {all}", big(&size));
-    if size == num_bigint::BigUint::from(1u8) {
+    if size == BigUint::from(1u8) {
         let _ = writeln!(
             out,
             "  no joint has a choice: list some under [search], such as options = [\"revolute\", \"spherical\"]"
@@ -74,41 +123,40 @@ pub fn counts(found: &Found<'_>, width: Option<u16>) -> String {
         let _ = writeln!(
             out,
             "  {least}{} with {condition}, whatever else they do",
-            big(&found.determinate.total)
+            big(&outcome.determinate.total)
         );
     }
-    if let Some(([p, q], verdict)) = found.check {
-        let _ = match verdict {
+    if let Some(check) = outcome.check {
+        let [p, q] = check.primes;
+        let _ = match check.verdict {
             Verdict::Agree => writeln!(out, "  Checked: modulo {p} and {q} the same"),
             Verdict::Interrupted => writeln!(out, "  Not checked by a second prime: interrupted"),
         };
     }
-    if found.stop != "exhausted" {
+    if !outcome.is_exact() {
         let _ = writeln!(
             out,
             "  Stopped early ({}): counts are lower bounds, variants are valid but may not be the cheapest",
-            found.stop
+            outcome.stop.word()
         );
     }
-    let mobilities: BTreeSet<i64> = found
+    let mobilities: BTreeSet<i64> = outcome
         .determinate
         .by_mobility
         .keys()
-        .chain(found.admissible.by_mobility.keys())
+        .chain(outcome.admissible.by_mobility.keys())
         .copied()
         .collect();
     // Mobilities that no admissible variant has are of no use to a designer.
     let shown = mobilities.iter().filter(|w| {
-        found.admissible.total.is_zero() || found.admissible.by_mobility.contains_key(w)
+        outcome.admissible.total.is_zero() || outcome.admissible.by_mobility.contains_key(w)
     });
     let rows = shown.map(|w| {
-        let of = |m: &std::collections::BTreeMap<i64, num_bigint::BigUint>| {
-            m.get(w).map_or("0".into(), big)
-        };
+        let of = |m: &BTreeMap<i64, BigUint>| m.get(w).map_or("0".into(), big);
         vec![
             w.to_string(),
-            of(&found.determinate.by_mobility),
-            of(&found.admissible.by_mobility),
+            of(&outcome.determinate.by_mobility),
+            of(&outcome.admissible.by_mobility),
         ]
     });
     if !mobilities.is_empty() {
@@ -121,33 +169,30 @@ pub fn counts(found: &Found<'_>, width: Option<u16>) -> String {
     fit(&out, width)
 }
 
-/// Some variants, numbered on from `first`.
-#[must_use]
-pub fn variants(found: &Found<'_>, best: &[Certified], first: usize, width: Option<u16>) -> String {
-    let search = found.search;
-    let ranking = found.ranking.as_ref();
-    let checked = best.iter().any(|v| v.second != Second::Unasked);
-    let rows = best.iter().enumerate().map(|(i, certified)| {
-        let v = &certified.variant;
-        let sigma = match search.request.state {
-            Some(_) => format!("{} + {}", v.key.internal(), v.key.external()),
-            None => v.key.internal().to_string(),
+/// Some variants as a table.
+fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u16>) -> String {
+    let ranking = outcome.ranking.as_ref();
+    let checked = best.iter().any(|v| *v.second() != Second::Unasked);
+    let rows = best.iter().map(|v| {
+        let sigma = match v.external_redundant() {
+            Some(external) => format!("{} + {external}", v.redundant()),
+            None => v.redundant().to_string(),
         };
         let mut row = vec![
-            format!("{}{}", i + first, mark(certified)),
-            cost(search.steps.milli(v.key.cost())),
-            search.mobility(v.key).to_string(),
+            format!("{}{}", v.position(), mark(v)),
+            cost(v.cost_milli()),
+            v.mobility().to_string(),
             sigma,
         ];
         if checked {
-            let of = |o: &crate::search::certify::Opinion| format!("{:.1e}", o.conditioning);
-            row.push(certified.second.opinion().map_or(String::new(), of));
+            let of = |o: &Opinion| format!("{:.1e}", o.conditioning);
+            row.push(v.second().opinion().map_or(String::new(), of));
         }
         if let Some(p) = ranking {
-            let cells = p.of(v).map(|(_, r)| ranking::cells(p, r));
+            let cells = v.ranked().map(|r| ranking::cells(p, r));
             row.extend(cells.unwrap_or_default());
         }
-        row.push(changes(search, v));
+        row.push(in_words(&outcome.search, &v.changes()));
         row
     });
     let mut head = vec!["", "cost", "W", "σ"];
@@ -157,31 +202,12 @@ pub fn variants(found: &Found<'_>, best: &[Certified], first: usize, width: Opti
     table(&head, rows.collect(), width)
 }
 
-/// The changes of a variant in words: "3-0, 7-0 -> spherical; 5-1 -> cylindrical".
-#[must_use]
-pub fn changes(search: &Search<'_>, variant: &Variant) -> String {
-    let mut changed: Vec<(String, Vec<String>)> = Vec::new();
-    for (joint, _, to) in search_json::changes(search, variant) {
-        match changed.iter_mut().find(|(t, _)| *t == to) {
-            Some((_, joints)) => joints.push(joint),
-            None => changed.push((to, vec![joint])),
-        }
-    }
-    if changed.is_empty() {
-        return "none: the mechanism as it is".to_owned();
-    }
-    changed
-        .iter()
-        .map(|(to, joints)| format!("{} -> {to}", joints.join(", ")))
-        .join("; ")
-}
-
 /// The mark of a variant that a footnote tells about.
-fn mark(certified: &Certified) -> &'static str {
-    match &certified.second {
+fn mark(v: &Variant<'_>) -> &'static str {
+    match v.second() {
         Second::Failed => " ?",
         Second::Given(o) if !o.agree => " *",
-        _ if certified.lucky() => " !",
+        _ if v.lucky() => " !",
         Second::Unasked => "",
         Second::Given(o) if o.conditioning < NEARLY_SINGULAR => " ~",
         Second::Given(_) => "",
@@ -190,8 +216,9 @@ fn mark(certified: &Certified) -> &'static str {
 
 /// The footnote of a marked variant.
 #[must_use]
-pub fn note(certified: &Certified, position: usize) -> Option<String> {
-    if let Some((f, present)) = certified.stroke.and_then(|s| s.other) {
+pub fn note(v: &Variant<'_>) -> Option<String> {
+    let position = v.position();
+    if let Some((f, present)) = v.over_stroke().and_then(|s| s.other) {
         let output = match (f.output, present) {
             (Some(o), Some(p)) if o != p => {
                 format!(", and outputs that move in {o} ways instead of {p}")
@@ -203,7 +230,7 @@ pub fn note(certified: &Certified, position: usize) -> Option<String> {
             f.mobility, f.redundant
         ));
     }
-    match &certified.second {
+    match v.second() {
         Second::Unasked => None,
         Second::Failed => Some(format!(
             "? {position}: the singular values did not converge"
@@ -261,21 +288,15 @@ pub fn notes(summary: &Summary, notes: &[String], width: Option<u16>) -> String 
     fit(&out, width)
 }
 
-/// What to do after a search: look at the first variant given, or ease a condition. `file` and `flags` are the search's
-/// own, so that the commands are about the same list.
-#[must_use]
-pub fn next(
-    found: &Found<'_>,
-    given: usize,
-    eased: &[(Relaxation, num_bigint::BigUint)],
-    file: &str,
-    flags: &str,
-) -> Vec<Step> {
+/// What to do after a search: look at the first variant given, or ease a condition. `file` is the search's own, as
+/// are the flags, so that the commands are about the same list.
+fn next(outcome: &Outcome, given: usize, eased: &[(Relaxation, BigUint)], file: &str) -> Vec<Step> {
+    let flags = &next::flags(&outcome.search.mechanism, &outcome.request);
     let joined = |more: &str| format!("{flags} {more}").trim().to_owned();
-    let name = &found.search.mechanism.name;
+    let mechanism = &outcome.search.mechanism.name;
     if given > 0 {
-        let svg = file_name(&format!("{name}-variant-1"), "svg");
-        let toml = file_name(&format!("{name}-variant-1"), "toml");
+        let svg = file_name(&format!("{mechanism}-variant-1"), "svg");
+        let toml = file_name(&format!("{mechanism}-variant-1"), "toml");
         return vec![
             Step::new(
                 "draw",
@@ -291,7 +312,7 @@ pub fn next(
             ),
         ];
     }
-    if !found.admissible.total.is_zero() {
+    if !outcome.admissible.total.is_zero() {
         return vec![Step::new(
             "search",
             file,
@@ -300,13 +321,9 @@ pub fn next(
         )];
     }
     let steps = eased.iter().map(|(how, n)| {
-        let flag = match how {
-            Relaxation::Redundant(n) => format!("--max-redundant {n}"),
-            Relaxation::External(n) => format!("--max-external {n}"),
-            Relaxation::Mobility(n) => format!("--max-mobility {n}"),
-            Relaxation::Changes(n) => format!("--max-changes {n}"),
-            Relaxation::OutputChange => "--allow-output-change".to_owned(),
-        };
+        let (condition, to) = condition(*how);
+        let name = format!("--{condition}");
+        let flag = to.map_or_else(|| name.clone(), |n| format!("{name} {n}"));
         let n = grouped(&n.to_string());
         let least = if *how == Relaxation::OutputChange {
             format!("{n} variants, whose outputs move in other ways than now")
@@ -314,7 +331,7 @@ pub fn next(
             format!("{n} variants; no smaller number leaves any")
         };
         // The flag replaces the one that was given.
-        let kept = without(flags, flag.split(' ').next().unwrap_or(""));
+        let kept = without(flags, &name);
         Step::new("search", file, format!("{kept} {flag}").trim(), &least)
     });
     let options = Step {

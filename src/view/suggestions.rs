@@ -3,11 +3,12 @@
 use crate::format::number::cost;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::analysis::StateAnalysis;
-use crate::search::suggest::{Suggestion, Suggestions, USUAL, USUAL_UNLOADING};
+use crate::search::suggest::{self, Suggestion, USUAL, USUAL_UNLOADING};
+use crate::view::analysis::State;
 use crate::view::layout::table;
-use crate::view::next::{Step, file_name};
+use crate::view::next::{Step, file_name, word};
 use itertools::Itertools;
-use serde_json::{Value, json};
+use serde::{Serialize, Serializer};
 
 /// Rows of a table at most.
 const ROWS: usize = 5;
@@ -22,7 +23,7 @@ pub enum Advice {
     /// There is nothing to remove, or nothing the state adds.
     Nothing,
     /// These changes.
-    Changes(Suggestions),
+    Changes(suggest::Suggestions),
     /// None can be told, and why.
     Silent(&'static str),
 }
@@ -36,158 +37,218 @@ pub fn concerned(s: &StateAnalysis) -> usize {
     }
 }
 
-fn kind(s: &StateAnalysis) -> &'static str {
-    if s.external.is_some() {
-        " external"
-    } else {
-        ""
+/// What single changes would do in a state.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub enum Suggestions<'a> {
+    /// There is nothing to remove.
+    Nothing,
+    /// None can be told.
+    Silent {
+        /// Why.
+        reason: &'static str,
+        /// No changes.
+        changes: [(); 0],
+    },
+    /// What was found.
+    Found(Found<'a>),
+}
+
+/// The single changes found.
+#[derive(Debug, Serialize)]
+pub struct Found<'a> {
+    /// How many redundant constraints they are about.
+    pub of: usize,
+    /// Whether these are those that the state adds.
+    pub external: bool,
+    /// "usual" where the file offered nothing here, else "file".
+    pub options: &'static str,
+    /// Number of changes tried.
+    pub tried: usize,
+    /// Number of changes that remove something.
+    pub found: usize,
+    /// Those that remove most first, then the cheaper, then in file order; the first of them as data.
+    #[serde(serialize_with = "first_entries")]
+    pub changes: Vec<Change<'a>>,
+    /// The state, 0 for the free one.
+    #[serde(skip)]
+    state: StateId,
+}
+
+/// One change.
+#[derive(Debug, Serialize)]
+pub struct Change<'a> {
+    /// The joint.
+    pub joint: &'a str,
+    /// What it is.
+    pub from: &'a str,
+    /// What it becomes, where it does not stay.
+    pub to: Option<&'a str>,
+    /// The unloading joint put in series with it, where one is.
+    pub unloading: Option<&'a str>,
+    /// Redundant constraints that go.
+    pub removes: usize,
+    /// Those that are left.
+    pub remaining: usize,
+    /// Its cost.
+    pub cost: f64,
+    /// All that in words.
+    pub text: String,
+    #[serde(skip)]
+    cost_milli: i64,
+}
+
+fn first_entries<S: Serializer>(changes: &[Change<'_>], to: S) -> Result<S::Ok, S::Error> {
+    changes[..changes.len().min(ENTRIES)].serialize(to)
+}
+
+impl<'a> Suggestions<'a> {
+    /// The advice on a state of a mechanism.
+    #[must_use]
+    pub fn new(m: &'a Mechanism, s: &StateAnalysis, advice: &'a Advice) -> Suggestions<'a> {
+        let found = match advice {
+            Advice::Nothing => return Suggestions::Nothing,
+            Advice::Silent(reason) => {
+                return Suggestions::Silent {
+                    reason,
+                    changes: [],
+                };
+            }
+            Advice::Changes(found) => found,
+        };
+        let (of, external) = (concerned(s), s.external.is_some());
+        Suggestions::Found(Found {
+            of,
+            external,
+            options: if found.usual { "usual" } else { "file" },
+            tried: found.tried,
+            found: found.list.len(),
+            changes: found
+                .list
+                .iter()
+                .map(|x| Change::new(m, x, of, external))
+                .collect(),
+            state: found.state,
+        })
+    }
+
+    /// The best as a table, or that there are none.
+    #[must_use]
+    pub fn text(&self, width: Option<u16>) -> String {
+        match self {
+            Suggestions::Nothing => String::new(),
+            Suggestions::Silent { reason, .. } => {
+                format!("\n  No single changes are suggested: {reason}\n")
+            }
+            Suggestions::Found(found) => found.text(width),
+        }
     }
 }
 
-/// A change in words: "revolute -> spherical", "an unloading joint in series: spherical (a ball pivot)".
-fn change(m: &Mechanism, s: &Suggestion) -> String {
-    let joint = &m.joints[s.joint];
-    let present = joint
-        .options
-        .first()
-        .map_or(joint.joint_type.name(), |o| o.name.as_str());
-    let replaced = s.to.as_ref().map(|o| format!("{present} -> {}", o.name));
-    let inserted = s.unloading.as_ref().map(|u| {
-        let pivot = if u.name == "spherical" {
-            " (a ball pivot)"
+impl<'a> Change<'a> {
+    fn new(m: &'a Mechanism, s: &'a Suggestion, of: usize, external: bool) -> Change<'a> {
+        let joint = &m.joints[s.joint];
+        let present = joint.options.first();
+        let mut change = Change {
+            joint: &joint.id,
+            from: present.map_or(joint.joint_type.name(), |o| &o.name),
+            to: s.to.as_ref().map(|o| o.name.as_str()),
+            unloading: s.unloading.as_ref().map(|o| o.name.as_str()),
+            removes: s.removes,
+            remaining: of.saturating_sub(s.removes),
+            cost: cost(s.cost_milli).parse().unwrap_or(0.0),
+            text: String::new(),
+            cost_milli: s.cost_milli,
+        };
+        let (removes, kind) = (s.removes, kind(external));
+        let what = change.words();
+        change.text = format!("{}: {what} removes {removes} of {of}{kind}", joint.id);
+        change
+    }
+
+    /// "revolute -> spherical", "unloading joint in series: spherical (a ball pivot)".
+    fn words(&self) -> String {
+        let replaced = self.to.map(|to| format!("{} -> {to}", self.from));
+        let inserted = self.unloading.map(|u| {
+            let pivot = if u == "spherical" {
+                " (a ball pivot)"
+            } else {
+                ""
+            };
+            format!("unloading joint in series: {u}{pivot}")
+        });
+        replaced.into_iter().chain(inserted).join(" + ")
+    }
+}
+
+fn kind(external: bool) -> &'static str {
+    if external { " external" } else { "" }
+}
+
+impl Found<'_> {
+    fn text(&self, width: Option<u16>) -> String {
+        let source = match (self.options, self.state) {
+            ("file", _) => "the file's options",
+            (_, StateId::FREE) => "the usual options, as the file has none",
+            _ => "ball pivots in series with the contacts, as the file has no unloading joints",
+        };
+        let tried = self.tried;
+        if self.changes.is_empty() {
+            return format!(
+                "\n  No single change of {tried} tried ({source}) removes a redundant constraint and leaves all motions as they are\n"
+            );
+        }
+        // The list is sorted, and so are the groups by their firsts.
+        let mut groups: Vec<((String, usize, i64), Vec<&str>)> = Vec::new();
+        for x in &self.changes {
+            let key = (x.words(), x.removes, x.cost_milli);
+            match groups.iter_mut().find(|(k, _)| *k == key) {
+                Some((_, joints)) => joints.push(x.joint),
+                None => groups.push((key, vec![x.joint])),
+            }
+        }
+        let rest = match groups.len().saturating_sub(ROWS) {
+            0 => String::new(),
+            n => format!("\n  and {n} more; --format json lists them"),
+        };
+        let rows = groups.into_iter().take(ROWS);
+        let rows = rows.map(|((what, removes, milli), joints)| {
+            let more = match joints.len().saturating_sub(JOINTS) {
+                0 => String::new(),
+                n => format!(" and {n} more"),
+            };
+            vec![
+                format!("{}{more}", joints.iter().take(JOINTS).join(", ")),
+                what,
+                format!("{removes} of {}{}", self.of, kind(self.external)),
+                cost(milli),
+            ]
+        });
+        let at = if self.found == 1 { "at" } else { "at (one of)" };
+        let body = table(&[at, "change", "removes", "cost"], rows.collect(), width);
+        let loose = if self.state != StateId::FREE {
+            "\n  (the pad of an unloading joint hangs loose while nothing is held)"
         } else {
             ""
         };
-        format!("unloading joint in series: {}{pivot}", u.name)
-    });
-    replaced.into_iter().chain(inserted).join(" + ")
-}
-
-/// A change with what it removes and costs, and the joints at which it does.
-type Row<'a> = ((String, usize, i64), Vec<&'a str>);
-
-/// The best single changes as a table, or that there are none.
-#[must_use]
-pub fn text(m: &Mechanism, s: &StateAnalysis, advice: &Advice, width: Option<u16>) -> String {
-    let found = match advice {
-        Advice::Nothing => return String::new(),
-        Advice::Silent(why) => return format!("\n  No single changes are suggested: {why}\n"),
-        Advice::Changes(found) => found,
-    };
-    let (of, kind) = (concerned(s), kind(s));
-    let source = match (found.usual, found.state) {
-        (false, _) => "the file's options",
-        (true, StateId::FREE) => "the usual options, as the file has none",
-        (true, _) => "ball pivots in series with the contacts, as the file has no unloading joints",
-    };
-    if found.list.is_empty() {
-        return format!(
-            "\n  No single change of {} tried ({source}) removes a redundant constraint and leaves all motions as they are\n",
-            found.tried
-        );
+        format!(
+            "\n  Single changes that remove redundant constraints and leave all motions as they are\n  (of {tried} tried: {source}):\n\n{body}{rest}{loose}\n"
+        )
     }
-    // The list is sorted, and so are the groups by their firsts.
-    let mut groups: Vec<Row<'_>> = Vec::new();
-    for x in &found.list {
-        let key = (change(m, x), x.removes, x.cost_milli);
-        let joint = m.joints[x.joint].id.as_str();
-        match groups.iter_mut().find(|(k, _)| *k == key) {
-            Some((_, joints)) => joints.push(joint),
-            None => groups.push((key, vec![joint])),
-        }
-    }
-    let more = groups.len().saturating_sub(ROWS);
-    let rows = groups.into_iter().take(ROWS);
-    let rows = rows.map(|((what, removes, milli), joints)| {
-        let more = match joints.len().saturating_sub(JOINTS) {
-            0 => String::new(),
-            n => format!(" and {n} more"),
-        };
-        vec![
-            format!("{}{more}", joints.iter().take(JOINTS).join(", ")),
-            what,
-            format!("{removes} of {of}{kind}"),
-            cost(milli),
-        ]
-    });
-    let head = if found.list.len() == 1 {
-        "at"
-    } else {
-        "at (one of)"
-    };
-    let body = table(&[head, "change", "removes", "cost"], rows.collect(), width);
-    let rest = match more {
-        0 => String::new(),
-        n => format!("\n  and {n} more; --format json lists them"),
-    };
-    let loose = if found.state != StateId::FREE {
-        "\n  (the pad of an unloading joint hangs loose while nothing is held)"
-    } else {
-        ""
-    };
-    format!(
-        "\n  Single changes that remove redundant constraints and leave all motions as they are\n  (of {} tried: {source}):\n\n{body}{rest}{loose}\n",
-        found.tried
-    )
-}
-
-/// The same as data.
-#[must_use]
-pub fn data(m: &Mechanism, s: &StateAnalysis, advice: &Advice) -> Value {
-    let found = match advice {
-        Advice::Nothing => return Value::Null,
-        Advice::Silent(why) => return json!({"reason": why, "changes": []}),
-        Advice::Changes(found) => found,
-    };
-    let of = concerned(s);
-    let one = |x: &Suggestion| {
-        let joint = &m.joints[x.joint];
-        let text = format!(
-            "{}: {} removes {} of {of}{}",
-            joint.id,
-            change(m, x),
-            x.removes,
-            kind(s)
-        );
-        json!({
-            "joint": joint.id,
-            "from": joint.options.first().map_or(joint.joint_type.name(), |o| o.name.as_str()),
-            "to": x.to.as_ref().map(|o| &o.name),
-            "unloading": x.unloading.as_ref().map(|o| &o.name),
-            "removes": x.removes,
-            "remaining": of.saturating_sub(x.removes),
-            "cost": cost(x.cost_milli).parse::<f64>().unwrap_or(0.0),
-            "text": text,
-        })
-    };
-    json!({
-        "of": of,
-        "external": s.external.is_some(),
-        "options": if found.usual { "usual" } else { "file" },
-        "tried": found.tried,
-        "found": found.list.len(),
-        "changes": found.list.iter().take(ENTRIES).map(one).collect::<Vec<_>>(),
-    })
 }
 
 /// What to do after an analysis of `file`; `snap` is the tolerance its coordinates were snapped by, where they were.
 #[must_use]
-pub fn next(
-    m: &Mechanism,
-    states: &[StateAnalysis],
-    advice: &[Advice],
-    file: &str,
-    snap: Option<f64>,
-) -> Vec<Step> {
+pub fn next(m: &Mechanism, states: &[State<'_>], file: &str, snap: Option<f64>) -> Vec<Step> {
     let snap = snap.map_or(String::new(), |t| format!("--snap {t:e}"));
     let joined = |more: &str| format!("{more} {snap}").trim().to_owned();
     let mut steps = Vec::new();
-    for (s, advice) in states.iter().zip(advice) {
-        let Advice::Changes(found) = advice else {
+    for s in states {
+        let Some(Suggestions::Found(found)) = &s.suggestions else {
             continue;
         };
-        let of = concerned(s);
-        match (found.usual, found.state) {
+        let of = found.of;
+        match (found.options == "usual", found.state) {
             (false, StateId::FREE) => steps.push(Step::new(
                 "search",
                 file,
@@ -204,14 +265,11 @@ pub fn next(
                 });
             }
             (false, n) => {
-                let left = found
-                    .list
-                    .first()
-                    .map_or(of, |x| of.saturating_sub(x.removes));
+                let left = found.changes.first().map_or(of, |x| x.remaining);
                 let state = if n == StateId::new(1) {
                     String::new()
                 } else {
-                    format!(" --state {}", crate::view::next::word(&s.state))
+                    format!(" --state {}", word(s.state))
                 };
                 steps.push(Step::new(
                     "search",
@@ -220,7 +278,7 @@ pub fn next(
                     &format!("redesigns that leave at most {left} of the {of} external, too"),
                 ));
             }
-            (true, _) if !found.list.is_empty() => steps.push(Step {
+            (true, _) if !found.changes.is_empty() => steps.push(Step {
                 command: format!(
                     "Write at a contact of state {}: unloading = [\"{}\"]",
                     s.state,

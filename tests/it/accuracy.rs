@@ -2,13 +2,13 @@
 
 use ozols::accuracy::Verdict;
 use ozols::accuracy::survey::{Reply, Survey, cases};
-use ozols::rank::method;
+use ozols::rank::registry;
 use std::sync::LazyLock;
 
 static SURVEY: LazyLock<Survey> = LazyLock::new(|| Survey::new(1, &mut |_, _| {}).unwrap());
 
 fn index(name: &str) -> usize {
-    method::ALL.iter().position(|m| m.name() == name).unwrap()
+    registry::ALL.iter().position(|m| m.name() == name).unwrap()
 }
 
 fn reply(case: &str, method: &str) -> &'static Reply {
@@ -176,7 +176,7 @@ fn without_a_folder_there_is_a_verdict_a_table_and_the_next_step() {
         .success();
     let text = String::from_utf8(out.get_output().stdout.clone()).unwrap();
     let lines: Vec<&str> = text.lines().collect();
-    let table = 2 + method::ALL.len();
+    let table = 2 + registry::ALL.len();
     assert_eq!(lines.len(), 2 + table + 4, "{text}");
     assert!(lines[0].contains("cases of known mobility: the automatic choice is right on"));
     assert!(lines[2].trim_start().starts_with("method"), "{text}");

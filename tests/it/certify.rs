@@ -1,14 +1,13 @@
 //! The checks of the search: a second prime, and singular values.
 
-use crate::cli::{json, out, ozols};
+use crate::common::{json, out, ozols};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::exact_field;
+use ozols::search::conditions::{Conditions, Search};
 use ozols::search::primes::{Verdict, build_both, compare, compare_counts, primes};
-use ozols::search::request::{Request, Search};
 use serde_json::Value;
 use std::fs;
-use std::ops::ControlFlow;
 
 /// The four-bar with one axis tilted out of parallel by a number that the first prime divides: modulo that prime it is
 /// parallel.
@@ -30,11 +29,11 @@ fn shaky() -> String {
 
 fn both(text: &str) -> Result<(Verdict, [u64; 2]), String> {
     let m = mechanism_from_str("it.toml", text).unwrap();
-    let over = |nth| Search::new(exact_field(&m, nth).unwrap(), &m, Request::default()).unwrap();
+    let over = |nth| Search::new(exact_field(&m, nth).unwrap(), &m, Conditions::default()).unwrap();
     let (first, second) = (over(0), over(1));
     let searches = [&first, &second];
     let (a, b) = build_both(searches, &|| false, &mut |_| {});
-    let counts = |s: &Search<'_>, d: &ozols::search::building::Diagrams| {
+    let counts = |s: &Search, d: &ozols::search::building::Diagrams| {
         (
             s.counts(&d.determinate, false),
             s.counts(&d.admissible, true),
@@ -99,11 +98,11 @@ fn singular_values_agree_on_the_best_of_every_built_in_mechanism() {
         let m = mechanism_from_str("it.toml", ozols::builtin::text(name).unwrap()).unwrap();
         let clamped = m.states.len() > 1;
         for (keep_output, max_redundant) in [(true, 0), (false, 100)] {
-            let request = Request {
+            let request = Conditions {
                 keep_output,
                 max_redundant,
                 state: clamped.then_some((StateId::new(1), 100)),
-                ..Request::default()
+                ..Conditions::default()
             };
             let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
             if max_redundant > 0 && search.size() > 1500u32.into() {
@@ -111,10 +110,7 @@ fn singular_values_agree_on_the_best_of_every_built_in_mechanism() {
             }
             let diagrams = search.build(&|| false, &mut |_| {});
             let mut list = search.sample(&diagrams, 10, 1);
-            search.cheapest(&diagrams, 10, |v| {
-                list.push(v);
-                ControlFlow::Continue(())
-            });
+            list.extend(search.cheapest(&diagrams, 10));
             for c in search.certify(list, true, None) {
                 let o = *c.second.opinion().unwrap();
                 assert!(o.agree, "{name}: {c:?}");
@@ -282,7 +278,7 @@ fn singular_values_see_a_tilted_plane_as_the_exact_ranks_do() {
     let normal = "plane_normal = [\"1/7\", \"-1/7\", \"-1/7\"]";
     text = text.replace("plane_normal = [0, 0, 1]", normal);
     let m = mechanism_from_str("it.toml", &text).unwrap();
-    let search = Search::new(exact_field(&m, 0).unwrap(), &m, Request::default()).unwrap();
+    let search = Search::new(exact_field(&m, 0).unwrap(), &m, Conditions::default()).unwrap();
     let diagrams = search.build(&|| false, &mut |_| {});
     let list = search.sample(&diagrams, 20, 1);
     assert!(!list.is_empty());

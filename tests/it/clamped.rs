@@ -1,6 +1,9 @@
 //! The grip's contact forces as loads of the mechanism: statics of the clamped state, and ranking under them.
 
-use crate::cli::{json, out, ozols};
+mod ranked;
+mod refused;
+
+use crate::common::{json, out};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
@@ -9,18 +12,13 @@ use ozols::grip::jaw_loads::Gripping;
 use ozols::model::grip::PartMass;
 use ozols::model::loads::Loads;
 use ozols::model::mechanism::{Mechanism, StateId};
-use ozols::model::ranking::{ClearanceSum, Term};
 use ozols::motion::pose::Pose;
-use ozols::redundancy::analysis::exact_field;
-use ozols::score::elimination::Scratch;
-use ozols::score::evaluate::Evaluator;
-use ozols::search::request::{Request, Search};
+
 use ozols::statics::reactions::drives::driven;
 use ozols::statics::reactions::follow::follow_to;
 use ozols::statics::reactions::geometry::{Geometry, cross, dot};
 use ozols::statics::reactions::{JointReaction, Reactions, Solution};
 use serde_json::Value;
-use std::ops::ControlFlow;
 
 fn text() -> &'static str {
     builtin::text("lever-gripper").unwrap()
@@ -276,208 +274,6 @@ fn links_feel_the_case() {
     assert!((gain + 2.0 * pull[0]).abs() < 1e-9, "{gain} {pull:?}");
 }
 
-/// Writes a file, runs commands on it, and gives exit code, output and errors.
-fn run(text: &str, args: &[&str]) -> (Option<i32>, String, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("gripper.toml");
-    std::fs::write(&path, text).unwrap();
-    let args: Vec<&str> = args
-        .iter()
-        .map(|a| {
-            if *a == "FILE" {
-                path.to_str().unwrap()
-            } else {
-                a
-            }
-        })
-        .collect();
-    let o = ozols(&args).output().unwrap();
-    let said = |b: Vec<u8>| String::from_utf8(b).unwrap();
-    (o.status.code(), said(o.stdout), said(o.stderr))
-}
-
-const STATICS: [&str; 4] = ["statics", "FILE", "--state", "clamped"];
-
-/// Files as users write them: what is wrong is refused at its line by every command, what cannot be held is said.
-#[test]
-fn impossible_grips_are_refused_or_told() {
-    let with = |from: &str, to: &str| {
-        assert!(text().contains(from), "{from}");
-        text().replacen(from, to, 1)
-    };
-    // Wrong in itself: exit code 2 from all, with the line and what to give.
-    for (from, to, line, part) in [
-        (
-            "density = 7850",
-            "density = -7850",
-            "density",
-            "a number above 0",
-        ),
-        (
-            "density = 7850\npart_length = 120",
-            "mass = -1",
-            "mass = -1",
-            "a number above 0",
-        ),
-        (
-            "id = \"3\"",
-            "id = \"3\"\nmass = -2\ncentre = [0, 0, 0]",
-            "mass = -2",
-            "a number from 0",
-        ),
-        (
-            "prism_angle = 120",
-            "prism_angle = 180",
-            "prism_angle",
-            "at 180 the faces form no V",
-        ),
-        (
-            "prism_angle = 120",
-            "prism_angle = \"pi\"",
-            "prism_angle",
-            "at 180 the faces form no V",
-        ),
-        (
-            "friction = 0.2",
-            "friction = -0.2",
-            "friction",
-            "a coefficient from 0 to 10",
-        ),
-        ("friction = 0.2", "", "density", "needs friction"),
-        (
-            "diameter = 40",
-            "diameter = -40",
-            "diameter = -40",
-            "a number above 0",
-        ),
-        (
-            "lever_joints = [\"0-1\", \"0-2\"]\n",
-            "",
-            "contacts",
-            "contacts needs lever_joints",
-        ),
-        (
-            "contacts = [\"1-a far\"",
-            "contacts = [\"1-a fat\"",
-            "contacts",
-            "unknown joint \"1-a fat\"",
-        ),
-        (
-            "contacts = [\"1-a far\", \"1-a near\"",
-            "contacts = [\"2-a far\", \"1-a near\"",
-            "contacts",
-            "turns in the first of lever_joints",
-        ),
-        (
-            "friction = 0.2",
-            "friction = 0.2\nlevers = \"independent\"",
-            "contacts",
-            "one drive for both",
-        ),
-        (
-            "friction = 0.2",
-            "friction = 0.2\npivots = \"nominal\"",
-            "contacts",
-            "pivots = \"fixed\"",
-        ),
-    ] {
-        let text = with(from, to);
-        let number = text.lines().position(|l| l.contains(line)).unwrap() + 1;
-        for args in [&["grip", "FILE"][..], &STATICS, &["check", "FILE"]] {
-            let (code, said, errors) = run(&text, args);
-            assert_eq!(
-                (code, said.as_str()),
-                (Some(2), ""),
-                "{to} {args:?}: {errors}"
-            );
-            assert!(errors.contains(part), "{to} {args:?}: {errors}");
-            assert!(errors.contains("gripper.toml:"), "{errors}");
-            if line != "contacts" && line != "density" {
-                assert!(
-                    errors.contains(&format!("gripper.toml:{number}:")),
-                    "{to}: {errors}"
-                );
-            }
-        }
-    }
-    // Cannot be held: a valid file, exit code 1 with the reason.
-    for (from, to, part) in [
-        (
-            "friction = 0.2",
-            "friction = 0",
-            "slides along its axis (z); faces without friction cannot stop that",
-        ),
-        (
-            "diameters = { from = 30, to = 50, count = 5 }",
-            "diameters = [90, 100]",
-            "larger than the jaws",
-        ),
-    ] {
-        let text = with(from, to);
-        for args in [&["grip", "FILE"][..], &STATICS] {
-            let (code, said, errors) = run(&text, args);
-            assert_eq!((code, errors.as_str()), (Some(1), ""), "{to} {args:?}");
-            assert!(said.contains(part) && said.contains("cannot"), "{said}");
-        }
-        assert_eq!(run(&text, &["check", "FILE"]).0, Some(0));
-        let (code, said, _) = run(
-            &text,
-            &["statics", "FILE", "--state", "clamped", "--format", "json"],
-        );
-        assert_eq!(code, Some(1));
-        let said: Value = serde_json::from_str(&said).unwrap();
-        assert_eq!(said["held"], false);
-        // Nothing to rank by.
-        let (code, _, errors) = run(&text, &["search", "FILE", "--top", "1"]);
-        assert_eq!(code, Some(2));
-        assert!(errors.contains("holds none of its parts"), "{errors}");
-    }
-    // Friction 0 with a pull across the part alone can be held.
-    let across = with("friction = 0.2", "friction = 0")
-        .replace("any_acceleration = 5\n", "gravity = [-9.81, 0, 0]\n");
-    assert_eq!(run(&across, &["grip", "FILE"]).0, Some(0));
-    assert_eq!(run(&across, &STATICS).0, Some(0));
-    // One of two: what is held is answered, what is not is said.
-    let some = with(
-        "diameters = { from = 30, to = 50, count = 5 }",
-        "diameters = [40, 90]",
-    );
-    assert_eq!(run(&some, &["grip", "FILE"]).0, Some(1));
-    let (code, said, _) = run(&some, &STATICS);
-    assert_eq!(code, Some(0));
-    assert!(
-        said.contains("D = 90 mm cannot be held: larger than the jaws"),
-        "{said}"
-    );
-    let (code, _, _) = run(
-        &some,
-        &["statics", "FILE", "--state", "clamped", "--diameter", "90"],
-    );
-    assert_eq!(code, Some(1));
-    // Figures that are not those of the joints.
-    let off = with("lever_length = 100", "lever_length = 99");
-    for args in [&STATICS[..], &["check", "FILE"], &["grip", "FILE"]] {
-        let (code, said, errors) = run(&off, args);
-        assert_eq!((code, said.as_str()), (Some(2), ""), "{errors}");
-        assert!(
-            errors.contains("make the joints' points and the figures agree"),
-            "{errors}"
-        );
-    }
-    for flag in [
-        &["--stroke", "0:1:2"][..],
-        &["--diameter", "33"],
-        &["--method", "delta"],
-        &["--svg", "x"],
-    ] {
-        let args: Vec<&str> = STATICS.iter().chain(flag).copied().collect();
-        assert_eq!(run(text(), &args).0, Some(2), "{flag:?}");
-    }
-    let (code, _, errors) = run(text(), &["statics", "FILE", "--diameter", "40"]);
-    assert_eq!(code, Some(2));
-    assert!(errors.contains("no grip loads state free"), "{errors}");
-}
-
 #[test]
 fn statics_say_which_loads_came_from_the_grip() {
     let said = out(&["statics", "lever-gripper", "--state", "clamped"]);
@@ -505,100 +301,6 @@ fn statics_say_which_loads_came_from_the_grip() {
     assert!(
         csv.starts_with("kind,joint,type") && !csv.contains("1-a far"),
         "{csv}"
-    );
-}
-
-fn pool(s: &Search<'_>, n: usize) -> Vec<ozols::search::best::Variant> {
-    let d = s.build(&|| false, &mut |_| {});
-    let mut out = Vec::new();
-    s.cheapest(&d, n, |v| {
-        out.push(v);
-        ControlFlow::Continue(())
-    });
-    out
-}
-
-/// The slow twin builds each variant as a mechanism, follows it to every part and takes singular values.
-#[test]
-fn variants_are_scored_by_the_worst_part() {
-    let m = built_in();
-    for redundant in [0, 1] {
-        let request = Request {
-            max_redundant: redundant,
-            ..Request::default()
-        };
-        let s = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
-        let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
-        assert_eq!((e.cases.list.len(), e.cases.free), (5, 0));
-        let mut scratch = Scratch::default();
-        let mut greatest = 0.0f64;
-        for v in pool(&s, 40) {
-            let (fast, slow) = (e.scores(&v, &mut scratch), e.slowly(&v));
-            let (Ok(fast), Ok(slow)) = (fast, slow) else {
-                continue;
-            };
-            greatest = greatest.max(fast.force.value);
-            for t in Term::ALL {
-                let (a, b) = (fast.value(t), slow.value(t));
-                let near = (a - b).abs() <= 1e-7 * a.abs().max(b.abs()).max(1e-12);
-                assert!(near, "{}: {fast:?} {slow:?}", t.name());
-            }
-        }
-        assert!(greatest > 100.0, "{greatest}");
-        // The free state has no loads.
-        let free = Evaluator::in_states(&s, ClearanceSum::Worst, &[StateId::FREE]).unwrap();
-        for v in pool(&s, 3) {
-            assert_eq!(free.scores(&v, &mut scratch).unwrap().force.value, 0.0);
-        }
-        let both = Evaluator::in_states(
-            &s,
-            ClearanceSum::Worst,
-            &[StateId::new(1), StateId::FREE, StateId::new(1)],
-        )
-        .unwrap();
-        assert_eq!((both.cases.list.len(), both.cases.free), (6, 1));
-    }
-}
-
-#[test]
-fn the_ranking_states_its_states() {
-    let v = json(&["search", "lever-gripper", "--format", "json"]);
-    assert_eq!(v["ranking"]["grip"][0]["state"], "clamped");
-    assert_eq!(v["ranking"]["grip"][0]["held"].as_array().unwrap().len(), 5);
-    assert!(v["variants"][0]["scores"]["by_cost"].as_u64().unwrap() > 1);
-    let said = out(&["search", "lever-gripper"]);
-    assert!(
-        said.contains("Loads of state clamped from the grip: contact forces of the worst case of 5 parts, D = 30 to 50 mm"),
-        "{said}"
-    );
-    let with = |states: &str| {
-        text().replace(
-            "order = \"weighted\"",
-            &format!("order = \"weighted\"\nstates = {states}"),
-        )
-    };
-    let (code, said, _) = run(&with("[\"free\"]"), &["search", "FILE", "--format", "json"]);
-    assert_eq!(code, Some(0));
-    let said: Value = serde_json::from_str(&said).unwrap();
-    assert_eq!(said["ranking"]["grip"].as_array().unwrap().len(), 0);
-    assert_eq!(said["variants"][0]["scores"]["peak-force"], 0.0);
-    let (code, _, errors) = run(&with("[\"clampt\"]"), &["search", "FILE"]);
-    assert_eq!(code, Some(2));
-    assert!(
-        errors.contains("clampt") && errors.contains("known: free, clamped"),
-        "{errors}"
-    );
-    // Not a state of the grip.
-    let loaded = builtin::text("gripper-10-loaded").unwrap();
-    let loaded = loaded.replace(
-        "order = \"weighted\"",
-        "order = \"weighted\"\nstates = [\"clamped\"]",
-    );
-    let (code, _, errors) = run(&loaded, &["check", "FILE"]);
-    assert_eq!(code, Some(2));
-    assert!(
-        errors.contains("with the contacts of [workload.grip]"),
-        "{errors}"
     );
 }
 

@@ -1,7 +1,43 @@
-//! What several tests need: closeness, a text with one thing changed, the program on a file of one's own.
+//! What several tests need: the program and what it says, closeness, a text with one thing changed.
 
-use crate::cli::ozols;
+use assert_cmd::Command;
+use serde_json::Value;
 use std::fs;
+use std::process::Output;
+
+pub(crate) fn ozols(args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ozols"));
+    command.args(args);
+    command
+}
+
+pub(crate) fn run(args: &[&str]) -> Output {
+    ozols(args).output().unwrap()
+}
+
+pub(crate) fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Standard output of a run that succeeds and says nothing else.
+pub(crate) fn out(args: &[&str]) -> String {
+    let o = run(args);
+    assert_eq!(
+        (o.status.code(), text(&o.stderr).as_str()),
+        (Some(0), ""),
+        "{args:?}"
+    );
+    text(&o.stdout)
+}
+
+pub(crate) fn json(args: &[&str]) -> Value {
+    serde_json::from_str(&out(args)).unwrap()
+}
+
+/// A count, written as a string.
+pub(crate) fn count(v: &Value) -> u64 {
+    v.as_str().unwrap().parse().unwrap()
+}
 
 pub(crate) fn near(found: f64, stated: f64, tolerance: f64) {
     assert!(
@@ -20,14 +56,13 @@ pub(crate) fn changed(text: &str, from: &str, to: &str) -> String {
 pub(crate) fn run_on(
     command: &str,
     name: &str,
-    text: &str,
+    content: &str,
     more: &[&str],
 ) -> (Option<i32>, String, String) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
-    fs::write(&path, text).unwrap();
+    fs::write(&path, content).unwrap();
     let args = [&[command, path.to_str().unwrap()], more].concat();
-    let o = ozols(&args).output().unwrap();
-    let text = |b: Vec<u8>| String::from_utf8(b).unwrap();
-    (o.status.code(), text(o.stdout), text(o.stderr))
+    let o = run(&args);
+    (o.status.code(), text(&o.stdout), text(&o.stderr))
 }

@@ -1,7 +1,7 @@
 //! `ozols drive` as its users meet it.
 
-use crate::cli::{json, out, ozols};
 use crate::common::{changed, near, run_on};
+use crate::common::{json, out, ozols};
 use serde_json::Value;
 use std::fs;
 

@@ -1,6 +1,6 @@
 //! Exports read back as the same mechanism.
 
-use crate::cli::{out, ozols};
+use crate::common::{out, ozols};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, Mode, StateId};

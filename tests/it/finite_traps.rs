@@ -7,8 +7,9 @@ use ozols::builtin;
 use ozols::closure::matrix::Closure;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::rank::field::field_of;
 use ozols::rank::finite::{Finite, How, finite};
-use ozols::rank::{field_of, modular};
+use ozols::rank::modular;
 
 fn judged(m: &Mechanism) -> (usize, Finite) {
     let exact = field_of(m, StateId::FREE, 0).unwrap();

@@ -2,8 +2,8 @@
 
 mod published;
 
-use crate::cli::{json, out};
 use crate::common::{changed, near, run_on};
+use crate::common::{json, out};
 use ozols::grip::contact::Gripper;
 use ozols::grip::lever_arm::{Lever, LeverError};
 use proptest::prelude::*;

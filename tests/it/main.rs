@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, missing_docs, reason = "tests")]
 
 mod accuracy;
-mod bytes;
+mod adding;
 mod catalogs;
 mod certificates;
 mod certify;
@@ -18,9 +18,11 @@ mod drive_command;
 mod exports;
 mod finite_traps;
 mod first_hour;
+mod fuzz;
 mod grip;
 mod holding;
 mod layering;
+mod library;
 mod mobility;
 mod png;
 mod programmes;
@@ -29,7 +31,6 @@ mod ranking;
 mod reactions;
 mod reactions_cycle;
 mod report_page;
-mod robot_bytes;
 mod robot_mjcf;
 mod robot_models;
 mod robot_sdf;

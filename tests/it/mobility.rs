@@ -1,6 +1,8 @@
 //! Mobility methods: the automatic choice on every built-in mechanism, turned, scaled and measured; finite mobility by proof
 //! against finite mobility by following the motion; poses against finite differences.
 
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use faer::Mat;
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
@@ -8,12 +10,11 @@ use ozols::geom::expr::Expr;
 use ozols::model::mechanism::{Frame, Mechanism, Mode, StateId};
 use ozols::motion::pose::Pose;
 use ozols::rank::auto::decide;
+use ozols::rank::field::field_of;
 use ozols::rank::finite::{How, finite, followed};
-use ozols::rank::{field_of, generic, method, modular, trace};
+use ozols::rank::{generic, modular, registry, trace};
 use ozols::redundancy::analysis::{Method, analyse};
 use proptest::prelude::*;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 fn built_in(name: &str) -> Mechanism {
     mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap()
@@ -291,13 +292,13 @@ fn each_formula_has_its_known_failures() {
         ("collinear-truss", "finite", 0),
         ("collinear-truss", "auto", 0),
     ] {
-        let answer = method::by_name(by)
+        let answer = registry::by_name(by)
             .unwrap()
             .answer(&built_in(mechanism), StateId::FREE)
             .unwrap();
         assert_eq!(answer.mobility, says, "{mechanism} by {by}");
     }
-    let planar = method::by_name("count-planar").unwrap();
+    let planar = registry::by_name("count-planar").unwrap();
     assert!(planar.answer(&built_in("bennett"), StateId::FREE).is_err());
 }
 

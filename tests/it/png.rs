@@ -1,6 +1,6 @@
 //! Drawings as PNG. Most of it needs the feature `png`: `cargo test --features png --test integration png`.
 
-use crate::cli::ozols;
+use crate::common::ozols;
 
 fn refused(args: &[&str], what: &str) {
     let done = ozols(args).output().unwrap();
@@ -31,7 +31,7 @@ fn a_build_without_png_says_so() {
 #[cfg(feature = "png")]
 mod with_png {
     use super::refused;
-    use crate::cli::ozols;
+    use crate::common::ozols;
     use ozols::draw::png::png;
     use ozols::draw::{Drawing, Rect, Size, Subject, kinematic, scheme};
     use ozols::file::text::mechanism_from_str;

@@ -1,13 +1,14 @@
 //! Joint reactions of any mechanism: equilibrium, virtual work, frames, linearity, energy, self-stresses.
 
-use crate::cli::{json, out, ozols};
+mod command;
+mod family;
+
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
-use ozols::model::loads::{ExternalForce, MassProperties, Misalignment, Stiffness};
+use ozols::model::loads::{ExternalForce, MassProperties};
 use ozols::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use ozols::motion::pose::Pose;
-use ozols::redundancy::analysis::{Method, analyse};
 use ozols::statics::reactions::drives::driven;
 use ozols::statics::reactions::geometry::{Geometry, cross, dot};
 use ozols::statics::reactions::{Choice, JointReaction, Reactions, Solution, Unsolved};
@@ -160,20 +161,6 @@ fn every_link_is_in_equilibrium_and_joints_do_no_work() {
                     joint.id
                 );
             }
-        }
-    }
-}
-
-#[test]
-fn self_stresses_are_in_equilibrium_and_as_many_as_the_redundant_constraints() {
-    for name in SOLVED {
-        let mut m = built_in(name);
-        let s = solve(&m);
-        let by_rank = analyse(&m, &[StateId::FREE], Method::Modular).unwrap()[0].redundant;
-        assert_eq!(s.self_stresses.len(), by_rank, "{name}");
-        m.loads = Default::default();
-        for stress in &s.self_stresses {
-            assert!(left_over(&m, stress) < 1e-9, "{name}");
         }
     }
 }
@@ -376,162 +363,4 @@ fn loads_on_a_motion_that_nothing_holds_are_told_with_the_link() {
     assert_eq!(s.undriven, 2);
     assert_eq!(s.self_stresses.len(), 1);
     assert!(left_over(&m, &s.reactions) < 1e-10);
-}
-
-/// A bar between two walls, both ends fixed: a turn of one end by θ bends it against the two joints' angular stiffness in
-/// series with what their linear stiffness gives way at the arm's length. By hand: the ends at distance L take a moment
-/// each and forces ±F; least energy under M1 + M2 = F L gives the stiffness.
-#[test]
-fn a_misaligned_joint_strains_as_by_hand() {
-    let text = r#"
-name = "bar"
-[[link]]
-id = "0"
-role = "frame"
-[[link]]
-id = "1"
-role = "output"
-[[joint]]
-id = "a"
-links = ["0", "1"]
-type = "fixed"
-point = [0, 0, 0]
-[[joint]]
-id = "b"
-links = ["0", "1"]
-type = "fixed"
-point = [2, 0, 0]
-[workload.stiffness.default]
-linear = 1000
-angular = 300
-[[workload.misalignment]]
-joint = "b"
-angle = 0.01
-axis = "z"
-"#;
-    let m = mechanism_from_str("bar.toml", text).unwrap();
-    let s = solve(&m);
-    assert_eq!(s.self_stresses.len(), 6);
-    let elastic = s.elastic.as_ref().unwrap();
-    assert!(left_over(&m, elastic) < 1e-12);
-    // Round the contour: M about b = m, force F along y at b; at a the opposite, moment -(m + F L).
-    // Energy ½(m² + (m + F L)²)/ka + ½·2F²/kl - m θ: its gradient vanishes.
-    let (ka, kl, l, theta) = (300.0, 1000.0, 2.0, 0.01);
-    // (2m + F L)/ka = θ, L(m + F L)/ka + 2F/kl = 0
-    let det = (2.0 / ka) * (l * l / ka + 2.0 / kl) - (l / ka) * (l / ka);
-    let (moment, force) = (
-        theta * (l * l / ka + 2.0 / kl) / det,
-        -theta * (l / ka) / det,
-    );
-    let b = &elastic[1];
-    assert!(
-        (b.global_moment()[2] - moment).abs() < 1e-9 * moment,
-        "{b:?} {moment}"
-    );
-    assert!(
-        (b.global_force()[1] - force).abs() < 1e-9 * moment,
-        "{b:?} {force}"
-    );
-    // Without strain, nothing.
-    assert!(s.reactions.iter().all(|r| r.force_size() < 1e-12));
-}
-
-#[test]
-fn stiffness_decides_among_the_family_and_equilibrium_stays() {
-    let mut m = built_in("gripper-10-loaded");
-    let soft = Stiffness {
-        linear: 1e7,
-        angular: 1e3,
-    };
-    m.loads.stiffness = vec![("default".into(), soft)];
-    let s = solve(&m);
-    let straight = s.elastic.clone().unwrap();
-    assert!(left_over(&m, &straight) < 1e-9);
-    m.loads.misalignments.push(Misalignment {
-        joint: m.joint("2-3").unwrap(),
-        turn: [0.001, 0.0, 0.0],
-    });
-    let askew = solve(&m).elastic.unwrap();
-    assert!(left_over(&m, &askew) < 1e-9);
-    let moment = |l: &[JointReaction]| l.iter().map(JointReaction::moment_size).fold(0.0, f64::max);
-    assert!(moment(&askew) > 1.01 * moment(&straight));
-    // A hinge turned about its own axis strains nothing.
-    m.loads.misalignments[0].turn = [0.0, 0.0, 0.001];
-    let free = solve(&m).elastic.unwrap();
-    for (x, y) in free.iter().zip(&straight) {
-        assert!((x.force_size() - y.force_size()).abs() < 1e-6);
-    }
-}
-
-#[test]
-fn the_command_gives_six_components_a_joint() {
-    let v = json(&[
-        "statics",
-        "gripper-10-loaded",
-        "--spatial",
-        "--format",
-        "json",
-    ]);
-    assert_eq!(v["choice"], "minimum-norm");
-    assert_eq!(v["self_stresses"].as_array().unwrap().len(), 11);
-    assert_eq!(v["reactions"].as_array().unwrap().len(), 13);
-    assert!(v["residual"].as_f64().unwrap() < 1e-12);
-    assert_eq!(v["reactions"][0]["drive"]["freedom"], "tz");
-    let text = out(&["statics", "gripper-10-loaded", "--spatial"]);
-    assert!(
-        text.contains("minimum norm") && text.contains("11 self-stresses"),
-        "{text}"
-    );
-    assert!(text.contains("Drive 0-1 holds tz"), "{text}");
-    let csv = out(&[
-        "statics",
-        "slider-crank-determinate",
-        "--spatial",
-        "--format",
-        "csv",
-    ]);
-    assert!(csv.starts_with("kind,joint,type,Fx"), "{csv}");
-    // Spatial and redundant mechanisms come here by themselves.
-    assert!(out(&["statics", "bennett"]).contains("states no loads"));
-    assert!(out(&["statics", "parallelogram-3-rods"]).contains("self-stress"));
-}
-
-#[test]
-fn bad_workloads_are_refused_with_line_item_and_remedy() {
-    let good = builtin::text("gripper-10-loaded").unwrap();
-    for (more, parts) in [
-        (
-            "[workload.stiffness.default]\nlinear = 0\nangular = 1\n",
-            &["stiffness 0", "above 0"][..],
-        ),
-        (
-            "[workload.stiffness.ball]\nlinear = 1\nangular = 1\n",
-            &["unknown joint type \"ball\"", "spherical"],
-        ),
-        (
-            "[[workload.misalignment]]\njoint = \"9-9\"\nangle = 0.1\naxis = \"x\"\n",
-            &["unknown joint \"9-9\""],
-        ),
-        (
-            "[[workload.misalignment]]\njoint = \"2-3\"\nangle = 0.1\naxis = \"w\"\n",
-            &["unknown axis \"w\"", "x, y, z"],
-        ),
-        (
-            "[[workload.moment]]\nlink = \"x\"\nmoment = [0, 0, 1]\n",
-            &["unknown link \"x\""],
-        ),
-    ] {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("bad.toml");
-        std::fs::write(&path, format!("{good}\n{more}")).unwrap();
-        let o = ozols(&["statics", path.to_str().unwrap()])
-            .output()
-            .unwrap();
-        let said = String::from_utf8(o.stderr).unwrap();
-        assert_eq!(o.status.code(), Some(2), "{said}");
-        assert!(said.contains("bad.toml:"), "{said}");
-        for p in parts {
-            assert!(said.contains(p), "no {p:?} in: {said}");
-        }
-    }
 }

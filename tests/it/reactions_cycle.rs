@@ -1,6 +1,6 @@
 //! Reactions over a stroke with inertia forces: against the planar solver, and against differences of energy.
 
-use crate::cli::{json, out, ozols};
+use crate::common::{json, out, ozols};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;

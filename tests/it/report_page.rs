@@ -1,6 +1,6 @@
 //! The report page: its data are those of `ozols search`, its symbols those of `ozols draw`, its bytes always the same.
 
-use crate::cli::{json, out, ozols};
+use crate::common::{json, out, ozols};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;

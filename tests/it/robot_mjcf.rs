@@ -1,6 +1,6 @@
 //! MJCF: orientations, defaults, joints in series, equalities, includes.
 
-use crate::cli::ozols;
+use crate::common::ozols;
 use crate::robots::{figures, none, refused};
 use ozols::robots::{Options, import};
 

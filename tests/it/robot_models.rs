@@ -1,6 +1,6 @@
 //! Real models against the figures of other engines, and loop closures from files beside them.
 
-use crate::cli::ozols;
+use crate::common::ozols;
 use crate::robots::{ARM, figures, folder, model, none, refused};
 use ozols::robots::{Options, import};
 

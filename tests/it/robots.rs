@@ -1,6 +1,6 @@
 //! Robot descriptions: real models against the figures of other engines, and what is refused.
 
-use crate::cli::ozols;
+use crate::common::ozols;
 use ozols::file::text::mechanism_from_str;
 use ozols::file::write::mechanism_file;
 use ozols::model::mechanism::StateId;

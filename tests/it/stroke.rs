@@ -1,6 +1,6 @@
 //! Variants in other poses of the present motion.
 
-use crate::cli::{json, out, ozols};
+use crate::common::{json, out, ozols};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Method, analyse};

@@ -1,6 +1,6 @@
 //! Poses over a stroke: against closed forms, against the planar motion by Assur groups, and as the command shows them.
 
-use crate::cli::{json, out, ozols};
+use crate::common::{json, out, ozols};
 use crate::statics::{file, mechanism, r};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;

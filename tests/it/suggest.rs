@@ -1,13 +1,13 @@
 //! Single changes, against building each and analysing it.
 
-use crate::cli::{json, out, ozols};
+use crate::common::{json, out, ozols};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::joint_type::JointType;
 use ozols::model::mechanism::{JointId, JointOption, Link, LinkId, Mechanism, Role, StateId};
 use ozols::redundancy::analysis::{Method, StateAnalysis, analyse};
 use ozols::search::suggest::{USUAL, USUAL_UNLOADING, single_changes};
-use ozols::view::analysis_text;
+use ozols::view::analysis::Analysis;
 use ozols::view::suggestions::{Advice, concerned};
 use proptest::prelude::*;
 
@@ -306,9 +306,10 @@ fn analyses_fit_the_terminal() {
                 _ => Advice::Changes(single_changes(&m, s).unwrap()),
             })
             .collect();
-        let whole = analysis_text::analysis(&m, &found, &advice, None);
+        let analysis = Analysis::new(&m, &found, &advice);
+        let whole = analysis.text(None);
         for width in [60, 80, 100] {
-            let text = analysis_text::analysis(&m, &found, &advice, Some(width));
+            let text = analysis.text(Some(width));
             for line in text.lines() {
                 let long = console::measure_text_width(line);
                 assert!(long <= usize::from(width), "{name} at {width}: {line:?}");

@@ -1,130 +1,19 @@
 //! The search against a slow twin in rational arithmetic that shares no code with it, on random mechanisms.
 
-use num_bigint::BigInt;
-use num_rational::BigRational;
+mod random;
+mod rational;
+
+pub(crate) use self::random::random;
+use self::random::random_coupled;
+use self::rational::{Q, allowed_twists, length, reduce};
 use num_traits::{One, Zero};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::coupling::CoupledFreedom;
-use ozols::model::joint_type::{Freedom, JointType};
 use ozols::model::mechanism::{Frame, JointId, LinkId, Mechanism, Mode, Role, StateId};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
-use ozols::search::request::{Request, Search, Symmetry};
+use ozols::search::conditions::{Conditions, Search, Symmetry};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
-
-type Q = BigRational;
-
-fn cross(a: &[Q], b: &[Q]) -> Vec<Q> {
-    let m = |i: usize, j: usize| &a[i] * &b[j] - &a[j] * &b[i];
-    vec![m(1, 2), m(2, 0), m(0, 1)]
-}
-
-fn dot(a: &[Q], b: &[Q]) -> Q {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-/// Axes z, x, y of a frame, from the conventions of the design: z the axis, x the reference made perpendicular, y = z × x.
-fn axes(frame: &Frame) -> [Vec<Q>; 3] {
-    let value = |v: &[ozols::geom::expr::Expr; 3]| {
-        v.iter()
-            .map(|e| e.as_rational().unwrap())
-            .collect::<Vec<Q>>()
-    };
-    let (z, r) = (value(&frame.axis), value(&frame.reference));
-    let (zz, zr) = (dot(&z, &z), dot(&z, &r));
-    let x: Vec<Q> = (0..3).map(|i| &r[i] * &zz - &z[i] * &zr).collect();
-    let y = cross(&z, &x);
-    [z, x, y]
-}
-
-/// The length of the axis of a freedom, which must be rational.
-fn length(frame: &Frame, freedom: Freedom) -> Q {
-    let [z, x, y] = axes(frame);
-    let along = match freedom {
-        Freedom::Rz | Freedom::Tz | Freedom::Screw => z,
-        Freedom::Rx | Freedom::Tx => x,
-        Freedom::Ry | Freedom::Ty => y,
-    };
-    let square = dot(&along, &along);
-    let root = Q::new(square.numer().sqrt(), square.denom().sqrt());
-    assert_eq!(&root * &root, square, "an axis of irrational length");
-    root
-}
-
-/// Twists of a joint.
-fn twists(frame: &Frame, kind: &JointType) -> Vec<Vec<Q>> {
-    let value = |v: &[ozols::geom::expr::Expr; 3]| {
-        v.iter()
-            .map(|e| e.as_rational().unwrap())
-            .collect::<Vec<Q>>()
-    };
-    let p = value(&frame.point);
-    let [z, x, y] = axes(frame);
-    let turn = |u: &Vec<Q>| [u.clone(), cross(&p, u)].concat();
-    let slide = |u: &Vec<Q>| [vec![Q::zero(); 3], u.clone()].concat();
-    let one = |f: &Freedom| match f {
-        Freedom::Rx => turn(&x),
-        Freedom::Ry => turn(&y),
-        Freedom::Rz => turn(&z),
-        Freedom::Tx => slide(&x),
-        Freedom::Ty => slide(&y),
-        Freedom::Tz => slide(&z),
-        Freedom::Screw => {
-            let pitch = frame.pitch.as_rational().unwrap();
-            let turned = turn(&z);
-            let slid = slide(&z.iter().map(|c| c * &pitch).collect());
-            turned.iter().zip(&slid).map(|(a, b)| a + b).collect()
-        }
-    };
-    kind.freedoms().iter().map(one).collect()
-}
-
-/// Those of a joint's twists that stay in the plane of a planar mechanism; all in space. A ball turns about the normal.
-fn allowed_twists(mode: &Mode, frame: &Frame, kind: &JointType) -> Vec<Vec<Q>> {
-    let all = twists(frame, kind);
-    let Mode::Planar { normal } = mode else {
-        return all;
-    };
-    let n: Vec<Q> = normal.iter().map(|e| e.as_rational().unwrap()).collect();
-    if *kind == JointType::Spherical {
-        let p: Vec<Q> = frame
-            .point
-            .iter()
-            .map(|e| e.as_rational().unwrap())
-            .collect();
-        return vec![[n.clone(), cross(&p, &n)].concat()];
-    }
-    all.into_iter()
-        .filter(|t| cross(&t[..3], &n).iter().all(Zero::is_zero) && dot(&t[3..], &n).is_zero())
-        .collect()
-}
-
-/// Reduced row echelon form of rows, with its pivots.
-fn reduce(mut rows: Vec<Vec<Q>>) -> (Vec<Vec<Q>>, Vec<usize>) {
-    let (width, mut pivots) = (rows.first().map_or(0, Vec::len), Vec::new());
-    for c in 0..width {
-        let r = pivots.len();
-        let Some(i) = (r..rows.len()).find(|&i| !rows[i][c].is_zero()) else {
-            continue;
-        };
-        rows.swap(r, i);
-        let inverse = Q::one() / &rows[r][c];
-        rows[r].iter_mut().for_each(|x| *x *= &inverse);
-        for j in (0..rows.len()).filter(|&j| j != r) {
-            let a = rows[j][c].clone();
-            if !a.is_zero() {
-                let pivot = rows[r].clone();
-                rows[j]
-                    .iter_mut()
-                    .zip(&pivot)
-                    .for_each(|(x, y)| *x -= &a * y);
-            }
-        }
-        pivots.push(c);
-    }
-    (rows, pivots)
-}
 
 /// Joint motion written out with a twist for every link: unknowns are link twists and joint speeds; each joint demands
 /// t_b - t_a = Σ speeds · twists, and the frame rests; `coupled` are sums of two speeds with factors that must vanish. No
@@ -309,137 +198,8 @@ pub(crate) fn variants(m: &Mechanism, clamped: bool) -> Vec<Vec<(usize, Option<u
     out
 }
 
-const TYPES: [&str; 6] = [
-    "revolute",
-    "prismatic",
-    "cylindrical",
-    "universal",
-    "spherical",
-    "slotted",
-];
-const AXES: [[i32; 3]; 6] = [
-    [0, 0, 1],
-    [0, 0, 1],
-    [0, 0, 1],
-    [1, 0, 0],
-    [0, 1, 0],
-    [1, 2, -1],
-];
-
-/// A random mechanism file with a few contours, sometimes with a clamped object.
-pub(crate) fn random() -> impl Strategy<Value = String> {
-    let joint = (
-        0usize..6,
-        prop::array::uniform3(-3i32..4),
-        0usize..6,
-        0usize..4,
-    );
-    (
-        3usize..6,
-        prop::collection::vec((any::<prop::sample::Index>(), joint.clone()), 6),
-        prop::collection::vec((any::<prop::sample::Index>(), any::<prop::sample::Index>(), joint), 1..4),
-        any::<bool>(),
-    )
-        .prop_map(|(links, tree, more, clamped)| {
-            let mut out = String::from("name = \"random\"\n");
-            for l in 0..links {
-                let role = if l == 0 { "role = \"frame\"" } else if l == links - 1 || l == 1 && links > 3 { "role = \"output\"" } else { "" };
-                out += &format!("[[link]]\nid = \"{l}\"\n{role}\n");
-            }
-            let mut edges: Vec<_> = (1..links).map(|l| (tree[l - 1].0.index(l), l, tree[l - 1].1)).collect();
-            edges.extend(
-                more.iter().map(|(a, b, j)| (a.index(links), b.index(links), *j)).filter(|(a, b, _)| a != b),
-            );
-            for (i, (a, b, (kind, point, axis, changes))) in edges.iter().enumerate() {
-                let options = match (TYPES[*kind], changes) {
-                    ("revolute", 1) => "options = [\"revolute\", \"cylindrical\"]",
-                    ("revolute", 2) => "options = [\"universal\", \"spherical\"]",
-                    ("prismatic", 1) => "options = [\"cylindrical\"]",
-                    ("universal", 1) => "options = [\"spherical\"]\nunloading = [\"revolute\"]",
-                    _ => "",
-                };
-                out += &format!(
-                    "[[joint]]\nid = \"j{i}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"{}\"\npoint = {point:?}\naxis = {:?}\n{options}\n",
-                    TYPES[*kind], AXES[*axis]
-                );
-            }
-            if clamped {
-                out += "[[link]]\nid = \"part\"\nrole = \"object\"\n";
-                for (i, l) in [0, links - 1].iter().enumerate() {
-                    let unloading = if i == 0 { "" } else { "unloading = [\"spherical\"]" };
-                    // Contacts with freedoms of their own, which are not the free state's.
-                    let kind = if links % 2 == 1 && i == 1 {
-                        "type = \"revolute\"\naxis = [1, 0, 0]\noptions = [\"spherical\"]"
-                    } else {
-                        "type = \"fixed\""
-                    };
-                    out += &format!(
-                        "[[joint]]\nid = \"c{i}\"\nlinks = [\"{l}\", \"part\"]\n{kind}\npoint = [4, {i}, 1]\nstate = \"clamped\"\n{unloading}\n"
-                    );
-                }
-            }
-            out
-        })
-}
-
-/// A random mechanism with up to three couplings, of contacts too; `None` where no two joints can be coupled.
-fn random_coupled() -> impl Strategy<Value = Option<String>> {
-    let coupling = (
-        any::<prop::sample::Index>(),
-        any::<prop::sample::Index>(),
-        prop::sample::select(vec!["-1", "2", "-3", "\"1/2\""]),
-    );
-    (random(), prop::collection::vec(coupling, 1..4)).prop_map(|(text, wanted)| {
-        // Balls cannot be coupled; axes of several lengths that are all rational.
-        let text = text
-            .replace(
-                "[\"universal\", \"spherical\"]",
-                "[\"universal\", \"cylindrical\"]",
-            )
-            .replace(
-                "\noptions = [\"spherical\"]\nunloading",
-                "\noptions = [\"cylindrical-universal\"]\nunloading",
-            )
-            .replace("\noptions = [\"spherical\"]", "\noptions = [\"universal\"]")
-            .replace("type = \"fixed\"", "type = \"revolute\"\naxis = [0, 2, 0]")
-            .replace("axis = [1, 2, -1]", "axis = [1, 2, -2]")
-            .replace("axis = [0, 1, 0]", "axis = [0, 3, 0]");
-        let m = mechanism_from_str("random.toml", &text).unwrap();
-        let mut ends = Vec::new();
-        for (j, joint) in m.joints_with_ids() {
-            let ball = joint.joint_type == JointType::Spherical;
-            for f in joint.joint_type.freedoms().iter().filter(|_| !ball) {
-                let [z, x, _] = axes(&joint.frame);
-                let rational = |v: &[Q]| {
-                    let square = dot(v, v);
-                    let root = Q::new(square.numer().sqrt(), square.denom().sqrt());
-                    &root * &root == square
-                };
-                if matches!(f, Freedom::Rz | Freedom::Tz) && rational(&z) || rational(&x) {
-                    ends.push((j, f.name()));
-                }
-            }
-        }
-        let (mut out, mut pairs) = (text, Vec::new());
-        for (a, b, ratio) in wanted {
-            if ends.is_empty() {
-                break;
-            }
-            let (a, b) = (ends[a.index(ends.len())], ends[b.index(ends.len())]);
-            if a.0 == b.0 || m.joints[a.0].states != m.joints[b.0].states || pairs.contains(&[a, b])
-            {
-                continue;
-            }
-            pairs.extend([[a, b], [b, a]]);
-            let [x, y] = [a, b].map(|(j, f)| format!("{}:{f}", m.joints[j].id));
-            out += &format!("[[coupling]]\njoints = [\"{x}\", \"{y}\"]\nratio = {ratio}\n");
-        }
-        (!pairs.is_empty()).then_some(out)
-    })
-}
-
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 64, max_shrink_iters: 200, ..ProptestConfig::default() })]
+    #![proptest_config(crate::fuzz::runs(64))]
     #[test]
     fn the_search_agrees_with_its_twins_on_coupled_joints(
         text in random_coupled(), allowed in 0u32..3, keep in any::<bool>(),
@@ -474,12 +234,12 @@ fn agrees(text: &str, allowed: u32, keep: bool) -> Result<(), TestCaseError> {
     }
     // Every variant.
     let external = if clamped { allowed * 2 } else { 0 };
-    let request = Request {
+    let request = Conditions {
         max_redundant: allowed,
         state: clamped.then_some((StateId::new(1), external)),
         keep_output: keep,
         symmetry: Symmetry::All,
-        ..Request::default()
+        ..Conditions::default()
     };
     let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
     let diagrams = search.build(&|| false, &mut |_| {});
@@ -507,22 +267,14 @@ fn agrees(text: &str, allowed: u32, keep: bool) -> Result<(), TestCaseError> {
     );
     prop_assert_eq!((determinate, admissible.clone()), search.brute());
     // The k best: all of them, each once, cheapest first; a shorter list is a prefix of a longer one.
-    let mut list = Vec::new();
-    search.cheapest(&diagrams, usize::MAX / 4, |v| {
-        list.push(v);
-        ControlFlow::Continue(())
-    });
+    let list: Vec<_> = search.cheapest(&diagrams, usize::MAX / 4).collect();
     prop_assert_eq!(admissible.total, list.len().into());
     let mut distinct: Vec<_> = list.iter().map(|v| v.choices.clone()).collect();
     distinct.sort();
     distinct.dedup();
     prop_assert_eq!(distinct.len(), list.len());
     prop_assert!(list.windows(2).all(|w| w[0].key.cost() <= w[1].key.cost()));
-    let mut three = Vec::new();
-    search.cheapest(&diagrams, 3, |v| {
-        three.push(v);
-        ControlFlow::Continue(())
-    });
+    let three: Vec<_> = search.cheapest(&diagrams, 3).collect();
     prop_assert_eq!(&three[..], &list[..list.len().min(3)]);
     for v in search.sample(&diagrams, 5, 7) {
         prop_assert!(list.contains(&v));
@@ -531,7 +283,7 @@ fn agrees(text: &str, allowed: u32, keep: bool) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, max_shrink_iters: 200, ..ProptestConfig::default() })]
+    #![proptest_config(crate::fuzz::runs(48))]
     #[test]
     fn adding_freedoms_never_raises_redundancy_and_the_frame_does_not_matter(text in random(), move_by in -5i32..6) {
         let m = mechanism_from_str("random.toml", &text).unwrap();
@@ -567,15 +319,4 @@ proptest! {
             }
         }
     }
-}
-
-#[test]
-fn the_rational_elimination_is_right_on_a_known_matrix() {
-    let q = |n: i64| Q::from_integer(BigInt::from(n));
-    let (_, pivots) = reduce(vec![
-        vec![q(1), q(2), q(3)],
-        vec![q(2), q(4), q(7)],
-        vec![q(3), q(6), q(10)],
-    ]);
-    assert_eq!(pivots, vec![0, 2]);
 }

@@ -1,6 +1,6 @@
 //! Variants of a search's list as mechanisms of their own, and what to do where there are none.
 
-use crate::cli::{count, json, out, ozols};
+use crate::common::{count, json, out, ozols};
 use serde_json::Value;
 
 /// Flags of a question and places in its list.

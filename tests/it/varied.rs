@@ -6,12 +6,11 @@ use num_bigint::BigUint;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
 use ozols::redundancy::analysis::exact_field;
+use ozols::search::conditions::{Conditions, Search, Symmetry};
 use ozols::search::counts::Counts;
 use ozols::search::primes::{Verdict, build_both, compare};
-use ozols::search::request::{Request, Search, Symmetry};
 use proptest::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::ControlFlow;
 
 /// Joint types with the options that contain them.
 const KINDS: [(&str, &str); 9] = [
@@ -154,7 +153,7 @@ fn tally<'a>(list: impl Iterator<Item = &'a Twin>) -> BTreeMap<(i64, u32), BigUi
 /// Counts of a search over two primes, which must agree, and what its list says.
 fn searched(
     m: &Mechanism,
-    request: &Request,
+    request: &Conditions,
 ) -> Result<(Counts, Counts, Vec<Choice>), TestCaseError> {
     let over = |nth| Search::new(exact_field(m, nth).unwrap(), m, request.clone()).unwrap();
     let (search, twin) = (over(0), over(1));
@@ -163,11 +162,7 @@ fn searched(
     prop_assert_eq!(verdict.unwrap(), Verdict::Agree);
     let determinate = search.counts(&diagrams.determinate, false);
     let admissible = search.counts(&diagrams.admissible, true);
-    let mut list = Vec::new();
-    search.cheapest(&diagrams, usize::MAX / 4, |v| {
-        list.push(v);
-        ControlFlow::Continue(())
-    });
+    let list: Vec<_> = search.cheapest(&diagrams, usize::MAX / 4).collect();
     let mut choices = Vec::new();
     for v in &list {
         let mut of_joints = vec![(0, None); m.joints.len()];
@@ -199,12 +194,12 @@ proptest! {
         let all = variants(&m, false);
         prop_assume!(all.len() <= 48);
         let present = look(&m, false, &vec![(0, None); m.joints.len()]);
-        let request = Request {
+        let request = Conditions {
             max_redundant: allowed,
             keep_output: keep,
             max_mobility: most,
             max_changes: changes,
-            ..Request::default()
+            ..Conditions::default()
         };
         let (determinate, admissible, list) = searched(&m, &request)?;
         let seen: Vec<Twin> = all.iter().map(|c| look(&m, false, c)).collect();
@@ -248,10 +243,10 @@ proptest! {
         let good = |t: &Twin| t.internal <= allowed;
         let better =
             |t: &Twin| good(t) && t.motion == present.motion && most.is_none_or(|w| t.mobility <= w);
-        let request = Request { max_redundant: allowed, max_mobility: most, ..Request::default() };
+        let request = Conditions { max_redundant: allowed, max_mobility: most, ..Conditions::default() };
         // Those that are their own image.
         let own = |c: &Choice| image(c) == *c;
-        let symmetric = Request { symmetry: Symmetry::SymmetricOnly, ..request.clone() };
+        let symmetric = Conditions { symmetry: Symmetry::SymmetricOnly, ..request.clone() };
         let (determinate, admissible, list) = searched(&m, &symmetric)?;
         let of = |test: &dyn Fn(&Twin) -> bool, which: &dyn Fn(&Choice) -> bool| {
             tally(seen.iter().filter(|(c, t)| which(c) && test(t)).map(|(_, t)| t))
@@ -260,10 +255,10 @@ proptest! {
         prop_assert_eq!(&admissible.by_mobility_and_changes, &of(&better, &own));
         prop_assert!(list.iter().all(own));
         // One of each pair.
-        let orbit = Request { symmetry: Symmetry::OnePerOrbit, ..request };
+        let orbit = Conditions { symmetry: Symmetry::OnePerOrbit, ..request };
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, orbit.clone()).unwrap();
         let (determinate, admissible, list) = searched(&m, &orbit)?;
-        let (determinate, admissible) = search.orbits((determinate, admissible), &|| false).unwrap();
+        let ((determinate, admissible), _) = search.orbits((determinate, admissible), &|| false).unwrap();
         let first = |c: &Choice| *c <= image(c);
         prop_assert_eq!(&determinate.by_mobility_and_changes, &of(&good, &first));
         prop_assert_eq!(&admissible.by_mobility_and_changes, &of(&better, &first));

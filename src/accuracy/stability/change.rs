@@ -4,10 +4,10 @@ use crate::geom::expr::Expr;
 use crate::geom::extent::diagonal;
 use crate::geom::vector::real;
 use crate::model::mechanism::{Mechanism, Mode};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 /// 10^e, exactly.
 #[must_use]

@@ -15,9 +15,10 @@ use crate::format::phrase::list;
 use crate::geom::expr::Expr;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::method::{self, Answer, NoAnswer};
+use crate::rank::field::field_of;
+use crate::rank::method::{Answer, NoAnswer};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::rank::{field_of, modular, scaled};
+use crate::rank::{modular, registry, scaled};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -124,7 +125,7 @@ fn truth(m: &Mechanism) -> (Truth, usize) {
     let finite = if free == 0 {
         Some(0)
     } else {
-        let answer = method::by_name("finite").map(|x| x.answer(m, StateId::FREE));
+        let answer = registry::by_name("finite").map(|x| x.answer(m, StateId::FREE));
         answer.and_then(Result::ok).map(|a| a.mobility)
     };
     let truth = Truth {
@@ -190,14 +191,14 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
     let mut table = Vec::new();
     let mut pictures = Vec::new();
     let mut values = Vec::new();
-    let mut met: Vec<Vec<Seen>> = vec![Vec::new(); method::ALL.len()];
+    let mut met: Vec<Vec<Seen>> = vec![Vec::new(); registry::ALL.len()];
     for (n, special) in SPECIALS.iter().enumerate() {
         progress("distance from special geometry", n, SPECIALS.len());
         let text = builtin::text(special.name).unwrap_or_default();
         let mechanism = mechanism_from_str(&format!("{}.toml", special.name), text)?;
         let (at_zero, _) = truth(&mechanism);
         // A method that is wrong about the special mechanism cannot tell another one from it.
-        let knows: Vec<bool> = method::ALL
+        let knows: Vec<bool> = registry::ALL
             .iter()
             .map(|x| Verdict::keeps_promise(&x.answer(&mechanism, StateId::FREE), at_zero))
             .collect();
@@ -209,7 +210,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
                 At {
                     distance: *distance,
                     truth,
-                    answers: method::ALL
+                    answers: registry::ALL
                         .iter()
                         .map(|x| x.answer(&m, StateId::FREE))
                         .collect(),
@@ -218,7 +219,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
             })
             .collect();
         for at in &found {
-            for (method, answer) in method::ALL.iter().zip(&at.answers) {
+            for (method, answer) in registry::ALL.iter().zip(&at.answers) {
                 table.push(Row {
                     mechanism: special.name,
                     distance: format!("{:e}", at.distance),
@@ -234,7 +235,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
         }
         let xs: Vec<f64> = found.iter().map(|a| a.distance).collect();
         let mut rows = Vec::new();
-        for (m, method) in method::ALL.iter().enumerate() {
+        for (m, method) in registry::ALL.iter().enumerate() {
             let kinds = found.iter().map(|a| kind(&a.answers[m], a.truth, at_zero));
             let kinds: Vec<Kind> = kinds.collect();
             let pairs: Vec<(f64, Kind)> = xs.iter().copied().zip(kinds.iter().copied()).collect();
@@ -331,7 +332,7 @@ fn chart(mut series: Vec<Series>) -> Chart {
 
 fn sentence(met: &[Vec<Seen>]) -> String {
     let (mut always, mut from, mut blind) = (Vec::new(), Vec::new(), Vec::new());
-    for (method, seen) in method::ALL.iter().zip(met) {
+    for (method, seen) in registry::ALL.iter().zip(met) {
         let name = method.name().to_owned();
         let places = || {
             seen.iter().filter_map(|s| match s {

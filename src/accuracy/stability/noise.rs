@@ -1,7 +1,6 @@
 //! Noise in the coordinates, 1e-15 to 1e-3 of the mechanism's size, judged by the mechanism without noise.
 
 use super::change::{Noise, shaken};
-use super::numeric::Numeric;
 use super::sweep::{Sweep, Tally};
 use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::Verdict;
@@ -10,15 +9,17 @@ use crate::closure::matrix::Closure;
 use crate::format::number::scientific;
 use crate::format::phrase::list;
 use crate::geom::scalars::Reals;
-use crate::rank::method;
+use crate::rank::method::MobilityMethod;
+use crate::rank::numeric::Elimination;
+use crate::rank::registry;
 use rayon::prelude::*;
 
 /// What is asked: the floating-point methods at these tolerances,
-const ASKED: [(Numeric, &[f64]); 4] = [
-    (Numeric::Lu32, &[1e-4]),
-    (Numeric::Lu, &[1e-9, 1e-6]),
-    (Numeric::Qr, &[1e-9, 1e-6]),
-    (Numeric::Svd, &[1e-12, 1e-9, 1e-6, 1e-3]),
+const ASKED: [(Elimination, &[f64]); 4] = [
+    (Elimination::Lu32, &[1e-4]),
+    (Elimination::Lu, &[1e-9, 1e-6]),
+    (Elimination::Qr, &[1e-9, 1e-6]),
+    (Elimination::Svd, &[1e-12, 1e-9, 1e-6, 1e-3]),
 ];
 /// and these methods as they are, for the first seed only, since following a motion takes its time.
 const WHOLE: [&str; 2] = ["modular", "auto"];
@@ -48,7 +49,7 @@ fn ask(case: &Case, level: f64, noise: &mut Noise, whole: bool) -> Vec<bool> {
         }
     }
     for name in WHOLE.iter().filter(|_| whole) {
-        let answer = method::by_name(name).map(|x| x.answer(&m, case.state));
+        let answer = registry::by_name(name).map(|x| x.answer(&m, case.state));
         out.push(answer.is_some_and(|a| Verdict::keeps_promise(&a, case.truth)));
     }
     out
@@ -121,7 +122,7 @@ fn sentence(sweep: &Sweep) -> String {
         ))
     };
     let svd = ASKED[3].1.iter();
-    let svd = svd.map(|t| format!("{} at {}", Numeric::Svd.name(), scientific(*t)));
+    let svd = svd.map(|t| format!("{} at {}", Elimination::Svd.name(), scientific(*t)));
     let told: Vec<String> = svd
         .chain(["auto".to_owned()])
         .filter_map(|name| part(&name))

@@ -1,25 +1,26 @@
 //! Mechanisms in other units: every length times 10^-6 to 10^6.
 
 use super::change::resized;
-use super::numeric::Numeric;
 use super::sweep::{Sweep, Tally};
 use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::Verdict;
 use crate::accuracy::survey::Case;
 use crate::format::number::scientific;
 use crate::format::phrase::list;
-use crate::rank::method::{self, MobilityMethod};
+use crate::rank::method::MobilityMethod;
+use crate::rank::numeric::Elimination;
+use crate::rank::registry;
 use rayon::prelude::*;
 
 /// Runs the study.
 pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let step = if effort.quick { 3 } else { 1 };
     let exponents: Vec<i32> = (-6..=6).step_by(step).collect();
-    let names = Numeric::ALL.map(Numeric::name);
+    let names = Elimination::ALL.map(|e| e.name());
     let methods: Vec<&dyn MobilityMethod> = names
         .into_iter()
         .chain(["modular", "auto"])
-        .filter_map(method::by_name)
+        .filter_map(registry::by_name)
         .collect();
     let mut rows: Vec<(String, Vec<Tally>)> = methods
         .iter()

@@ -11,8 +11,9 @@ use crate::format::csv;
 use crate::format::number::duration;
 use crate::format::phrase::list;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::method::{self, MobilityMethod};
-use crate::rank::{field_of, modular};
+use crate::rank::field::field_of;
+use crate::rank::method::{Answer, MobilityMethod, NoAnswer};
+use crate::rank::{modular, registry};
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
@@ -74,15 +75,15 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
         &SIZES[..]
     };
     let limit = if effort.quick { QUICK_LIMIT } else { LIMIT };
-    let mut records = vec![vec![Record::default(); sizes.len()]; method::ALL.len()];
+    let mut records = vec![vec![Record::default(); sizes.len()]; registry::ALL.len()];
     let mut rows = Vec::new();
     for (s, shape) in Shape::ALL.into_iter().enumerate() {
-        let mut slow = vec![false; method::ALL.len()];
+        let mut slow = vec![false; registry::ALL.len()];
         for (n, &size) in sizes.iter().enumerate() {
             progress("size", s * sizes.len() + n, Shape::ALL.len() * sizes.len());
             let m = lattice::mechanism(shape, size);
             let truth = truth(shape, &m);
-            for (i, method) in method::ALL.iter().enumerate() {
+            for (i, method) in registry::ALL.iter().enumerate() {
                 let record = &mut records[i][n];
                 if slow[i] {
                     record.skipped += 1;
@@ -125,10 +126,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
 }
 
 /// The answer and its time; short times are the median of several.
-fn ask(
-    method: &dyn MobilityMethod,
-    m: &Mechanism,
-) -> (Result<method::Answer, method::NoAnswer>, f64) {
+fn ask(method: &dyn MobilityMethod, m: &Mechanism) -> (Result<Answer, NoAnswer>, f64) {
     let begun = Instant::now();
     let answer = method.answer(m, StateId::FREE);
     let first = begun.elapsed().as_secs_f64();
@@ -163,7 +161,7 @@ fn chart(sizes: &[usize], records: &[Vec<Record>]) -> Chart {
             label: "time of an answer, s".to_owned(),
             scale: Scale::Log,
         },
-        series: method::ALL
+        series: registry::ALL
             .iter()
             .zip(records)
             .map(|(m, r)| Series {
@@ -196,7 +194,7 @@ fn picture(sizes: &[usize], records: &[Vec<Record>]) -> Bands {
             label: "independent contours".to_owned(),
             scale: Scale::Log,
         },
-        rows: method::ALL
+        rows: registry::ALL
             .iter()
             .zip(records)
             .map(|(m, r)| (m.name().to_owned(), bands(&xs, r.iter().map(kind))))
@@ -216,7 +214,7 @@ fn sentence(sizes: &[usize], records: &[Vec<Record>], limit: Duration) -> String
     let mut always = Vec::new();
     let mut late = Vec::new();
     let mut times = Vec::new();
-    for (method, r) in method::ALL.iter().zip(records) {
+    for (method, r) in registry::ALL.iter().zip(records) {
         let name = method.name();
         if r.iter().all(|r| kind(r) == Kind::Good) {
             always.push(name.to_owned());

@@ -1,7 +1,6 @@
 //! The tolerance of the floating-point methods, 1e-15 to 1e-3, with and without noise; the default follows from it.
 
 use super::change::{Noise, shaken};
-use super::numeric::Numeric;
 use super::sweep::{Sweep, Tally};
 use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::survey::Case;
@@ -9,13 +8,14 @@ use crate::closure::matrix::Closure;
 use crate::format::number::scientific;
 use crate::format::phrase::list;
 use crate::geom::scalars::Reals;
-use crate::rank::numeric::DEFAULT_TOLERANCE;
+use crate::rank::method::MobilityMethod;
+use crate::rank::numeric::{DEFAULT_TOLERANCE, Elimination};
 use rayon::prelude::*;
 
 /// Levels of noise; 0 is the catalogue as it stands.
 const LEVELS: [f64; 4] = [0.0, 1e-12, 1e-9, 1e-6];
 
-fn name(method: Numeric, level: f64) -> String {
+fn name(method: Elimination, level: f64) -> String {
     if level == 0.0 {
         method.name().to_owned()
     } else {
@@ -38,7 +38,7 @@ fn tally(cases: &[Case], effort: Effort, level: f64, tolerances: &[f64]) -> Vec<
                 Closure::new(&Reals, &m, case.state)
             };
             let truth = Some(case.truth.instantaneous);
-            Numeric::ALL
+            Elimination::ALL
                 .iter()
                 .map(|method| match &closure {
                     Ok(c) => {
@@ -50,7 +50,7 @@ fn tally(cases: &[Case], effort: Effort, level: f64, tolerances: &[f64]) -> Vec<
                 .collect()
         })
         .collect();
-    let mut tallies = vec![vec![Tally::default(); tolerances.len()]; Numeric::ALL.len()];
+    let mut tallies = vec![vec![Tally::default(); tolerances.len()]; Elimination::ALL.len()];
     for (at, one) in right.iter().enumerate() {
         for (row, found) in tallies.iter_mut().zip(one) {
             for (t, ok) in row.iter_mut().zip(found) {
@@ -75,7 +75,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         found.push(tally(cases, effort, level, &tolerances));
     }
     let mut rows = Vec::new();
-    for (m, method) in Numeric::ALL.into_iter().enumerate() {
+    for (m, method) in Elimination::ALL.into_iter().enumerate() {
         for (n, &level) in LEVELS.iter().enumerate() {
             rows.push((name(method, level), found[n][m].clone()));
         }
@@ -95,8 +95,8 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
             ..all.clone()
         }
     };
-    let methods = part(Numeric::ALL.map(|m| name(m, 0.0)).to_vec());
-    let levels = part(LEVELS.map(|l| name(Numeric::Svd, l)).to_vec());
+    let methods = part(Elimination::ALL.map(|m| name(m, 0.0)).to_vec());
+    let levels = part(LEVELS.map(|l| name(Elimination::Svd, l)).to_vec());
     let sentence = sentence(&all);
     Study {
         name: "stability-tolerance",
@@ -147,14 +147,14 @@ fn sentence(sweep: &Sweep) -> String {
             0.0 => "without noise".to_owned(),
             l => format!("with noise {}", scientific(l)),
         };
-        let (words, middle) = best(sweep, &name(Numeric::Svd, level))?;
+        let (words, middle) = best(sweep, &name(Elimination::Svd, level))?;
         Some(format!("{noise} {words} (middle {})", scientific(middle)))
     });
-    let others = Numeric::ALL
+    let others = Elimination::ALL
         .into_iter()
-        .filter(|m| *m != Numeric::Svd)
+        .filter(|m| *m != Elimination::Svd)
         .filter_map(|m| Some(format!("{} {}", m.name(), best(sweep, m.name())?.0)));
-    let default = best(sweep, Numeric::Svd.name()).map_or_else(String::new, |(_, middle)| {
+    let default = best(sweep, Elimination::Svd.name()).map_or_else(String::new, |(_, middle)| {
         format!(
             " Recommended default tolerance: {}, the middle without noise; the present default is {}.",
             scientific(middle),

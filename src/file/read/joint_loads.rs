@@ -3,48 +3,14 @@
 use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
-use crate::file::read::loads::{MAX_FORCES, Quantity, WorkloadEntry, position, quantity};
+use crate::file::read::motion::{MAX_FORCES, position, quantity};
 use crate::file::read::names::{joint_by_id, link_by_id};
 use crate::file::read::resolve::{index, key, vector};
-use crate::file::schema::Coordinate;
+use crate::file::schema::WorkloadEntry;
 use crate::model::joint_type::JointType;
 use crate::model::loads::{ExternalMoment, Misalignment, Stiffness};
 use crate::model::mechanism::Mechanism;
 use itertools::Itertools;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-/// A moment of fixed direction on a link.
-#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MomentEntry {
-    /// The link it acts on.
-    pub link: String,
-    /// The moment in N·m.
-    pub moment: [Coordinate; 3],
-}
-
-/// Stiffness of a joint where it does not move.
-#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct StiffnessEntry {
-    /// In N/m.
-    pub linear: f64,
-    /// In N·m/rad.
-    pub angular: f64,
-}
-
-/// A joint whose second link is turned against its first where nothing strains it.
-#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MisalignmentEntry {
-    /// The joint.
-    pub joint: String,
-    /// Small turn: radians or "0.1deg".
-    pub angle: Quantity,
-    /// About x, y or z of the joint's own frame.
-    pub axis: String,
-}
 
 /// Moments from outside.
 pub(crate) fn moments(

@@ -3,7 +3,7 @@
 use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
-use crate::file::read::LIMITS;
+use crate::file::read::limits::LIMITS;
 use crate::file::read::names::{check_id, link_by_id};
 use crate::file::read::options::options;
 use crate::file::read::resolve::{

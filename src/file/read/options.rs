@@ -3,7 +3,7 @@
 use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
-use crate::file::read::LIMITS;
+use crate::file::read::limits::LIMITS;
 use crate::file::read::resolve::{contains, index, key, option};
 use crate::file::schema::{JointEntry, MechanismFile, OptionEntry};
 use crate::model::mechanism::JointOption;

@@ -1,7 +1,7 @@
 //! The `[workload.drive]` table.
 
-use crate::file::read::drive::{DriveEntry, regular};
-use crate::file::schema::Coordinate;
+use crate::file::read::drive::regular;
+use crate::file::schema::{Coordinate, DriveEntry};
 use crate::file::write::quantity::{angle, number};
 use crate::model::drive::{DriveSpec, Step};
 

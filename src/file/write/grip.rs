@@ -1,7 +1,6 @@
 //! The `[workload.grip]` table.
 
-use crate::file::read::grip::{Diameters, Gravity, GripEntry};
-use crate::file::schema::Coordinate;
+use crate::file::schema::{Coordinate, Diameters, Gravity, GripEntry};
 use crate::file::write::quantity::{angle, number, numbers};
 use crate::model::grip::{GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
 use crate::model::mechanism::Mechanism;

@@ -1,6 +1,6 @@
 //! The `[ranking]` and `[joint_types]` tables.
 
-use crate::file::read::ranking::{JointTypeEntry, LimitEntry, RankingEntry, TermEntry};
+use crate::file::schema::{JointTypeEntry, LimitEntry, RankingEntry, TermEntry};
 use crate::model::mechanism::Mechanism;
 use crate::model::ranking::{ClearanceSum, Ranking};
 use std::collections::BTreeMap;

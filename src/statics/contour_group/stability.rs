@@ -7,8 +7,8 @@ use crate::statics::contour_group::equilibrium::{exact, solve};
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::contour_group::{delta_point, projective};
 use crate::statics::pose::{cross, length, minus, plus, quarter};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
 
 /// Groups tried at each distance in [`study`].

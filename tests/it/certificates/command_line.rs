@@ -1,6 +1,6 @@
 //! `ozols analyze --certificate` and `ozols verify`.
 
-use crate::cli::{out, ozols};
+use crate::common::{out, ozols};
 
 fn code_and_words(args: &[&str]) -> (Option<i32>, String, String) {
     let o = ozols(args).output().unwrap();

@@ -1,7 +1,7 @@
 //! `ozols statics` as its users meet it.
 
 use super::{file_with, r};
-use crate::cli::{json, out, ozols};
+use crate::common::{json, out, ozols};
 use std::fs;
 
 fn refused(text: &str, line_with: &str, parts: &[&str]) {

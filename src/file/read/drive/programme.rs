@@ -1,9 +1,12 @@
 //! Swings and dwells in order.
 
-use crate::file::read::drive::{DriveEntry, MOST};
 use crate::file::read::quantity::{Bound, Table, word};
 use crate::file::read::resolve::{index, key};
+use crate::file::schema::DriveEntry;
 use crate::model::drive::Step;
+
+/// Most steps of a programme.
+pub(super) const MOST: usize = 10_000;
 
 /// So many swings, of both discs in turn or of the second alone, with a dwell after each where one is given.
 #[must_use]

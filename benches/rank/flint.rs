@@ -1,0 +1,148 @@
+//! The rank modulo a prime next to FLINT, through python-flint.
+
+use super::{Case, Timed, best, micro};
+use ozols::linalg::echelon;
+use ozols::linalg::modp::{Field, Residue};
+use ozols::rank::modular;
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::process::{Command, Stdio};
+
+/// Ranks by python-flint in a child process: (best seconds, rank) of each matrix, or why there are none.
+fn flint(matrices: &[(u64, Vec<Vec<u64>>)]) -> Result<Vec<(f64, usize)>, String> {
+    const SCRIPT: &str = "
+import sys, time
+import flint
+for line in sys.stdin:
+    p, r, c, *x = map(int, line.split())
+    m = flint.nmod_mat(r, c, x, p)
+    best = 1e9
+    for _ in range(100):
+        t = time.perf_counter()
+        for _ in range(50):
+            m.rank()
+        best = min(best, (time.perf_counter() - t) / 50)
+    print(best, m.rank())
+";
+    let python = std::env::var("OZOLS_PYTHON").unwrap_or_else(|_| "python3".into());
+    let mut text = String::new();
+    for (p, rows) in matrices {
+        let _ = write!(
+            text,
+            "{p} {} {}",
+            rows.len(),
+            rows.first().map_or(0, Vec::len)
+        );
+        for x in rows.iter().flatten() {
+            let _ = write!(text, " {x}");
+        }
+        text.push('\n');
+    }
+    let mut child = Command::new(&python)
+        .args(["-c", SCRIPT])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .map_err(|e| format!("{python}: {e}"))?;
+    // The pipe may close early where flint is missing; the exit status tells.
+    let _ = child
+        .stdin
+        .take()
+        .map(|mut pipe| pipe.write_all(text.as_bytes()));
+    let out = child.wait_with_output().map_err(|e| e.to_string())?;
+    if !out.status.success() {
+        return Err(format!("{python} has no module flint"));
+    }
+    let parse = |line: &str| {
+        let (t, rank) = line.split_once(' ')?;
+        Some((t.parse().ok()?, rank.parse().ok()?))
+    };
+    let lines = String::from_utf8_lossy(&out.stdout).into_owned();
+    lines
+        .lines()
+        .map(|l| parse(l).ok_or(format!("{python} said {l:?}")))
+        .collect()
+}
+
+/// Numbers below `p`, always the same.
+fn random(p: u64, rows: usize, columns: usize) -> Vec<Vec<u64>> {
+    let mut state = 0x9e37_79b9_7f4a_7c15u64;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        state % p
+    };
+    (0..rows)
+        .map(|_| (0..columns).map(|_| next()).collect())
+        .collect()
+}
+
+pub(super) fn against_flint() {
+    println!(
+        "\n== against FLINT's nmod_mat_rank: best times of one run, construction excluded on both sides =="
+    );
+    const MERSENNE_61: u64 = (1 << 61) - 1;
+    const MERSENNE_31: u64 = (1 << 31) - 1;
+    let case = Case::gripper();
+    let (field, big) = (case.exact.field(), Field::new(MERSENNE_61));
+    let small = |x: &i128| x.rem_euclid(i128::from(MERSENNE_31)) as u64;
+    let image = |c: &Vec<i128>| c.iter().map(small).collect();
+    let plain = |c: &Vec<Residue>| c.iter().map(|&x| field.to_u64(x)).collect();
+    let matrices = [
+        (MERSENNE_61, random(MERSENNE_61, 24, 30)),
+        (field.modulus(), case.dense.iter().map(plain).collect()),
+        (MERSENNE_31, case.whole.iter().map(image).collect()),
+    ];
+    let to_field = |x: &u64| big.mul(big.from_i64(*x as i64), big.one());
+    let dense: Vec<Vec<Residue>> = matrices[0]
+        .1
+        .iter()
+        .map(|r| r.iter().map(to_field).collect())
+        .collect();
+    let by_contour = || Box::new(|| modular::rank(&case.exact, &case.closure));
+    // Each stands against FLINT's of the same place.
+    let mut ours: Vec<Timed<'_>> = vec![
+        (
+            "24 x 30 dense, 2^61 - 1: elimination",
+            Box::new(|| echelon::rank(big, dense.iter().map(Vec::as_slice))),
+        ),
+        (
+            "gripper 24 x 14, same prime: contour by contour",
+            by_contour(),
+        ),
+        (
+            "gripper 24 x 14, FLINT's 2^31 - 1: contour by contour",
+            by_contour(),
+        ),
+    ];
+    let before = flint(&matrices);
+    let mine = best(&mut ours, 300);
+    match (before, flint(&matrices)) {
+        (Ok(a), Ok(b)) => {
+            for (i, ((name, _), (t, rank))) in ours.iter().zip(mine).enumerate() {
+                let theirs = a[i].0.min(b[i].0);
+                let same = if rank == a[i].1 {
+                    "same rank"
+                } else {
+                    "RANKS DIFFER"
+                };
+                println!(
+                    "  {name:<58} {:>10}  FLINT {:>10}  ratio {:>5.1}  {same}",
+                    micro(t),
+                    micro(theirs),
+                    theirs / t
+                );
+            }
+        }
+        (Err(e), _) | (_, Err(e)) => {
+            println!(
+                "  skipped: {e}; pip install python-flint, and name its python in OZOLS_PYTHON"
+            );
+            for ((name, _), (t, _)) in ours.iter().zip(mine) {
+                println!("  {name:<58} {:>10}", micro(t));
+            }
+        }
+    }
+}

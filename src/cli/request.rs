@@ -1,0 +1,173 @@
+//! What is asked of a search, in arguments: the same for every command that searches.
+
+use crate::model::ranking::Term;
+use crate::score::request::{self, JointOptions, POOL, Request};
+use crate::search::conditions::Symmetry;
+use anyhow::{Context, bail};
+use clap::{Args as ClapArgs, ValueEnum};
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Check {
+    /// One prime, no second opinion.
+    None,
+    /// The whole search over two primes, which must agree.
+    Prime,
+    /// That, and each variant given, up to 1000, analysed again by singular values.
+    Full,
+}
+
+/// All that the list of variants depends on, but for the state.
+#[derive(Debug, ClapArgs)]
+#[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
+#[command(next_help_heading = "Which variants")]
+pub(super) struct Which {
+    /// Redundant constraints allowed within the mechanism.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    max_redundant: u32,
+    /// Redundant constraints allowed from the clamped object; takes the joints of `--state` (and their unloading
+    /// places) into the search.
+    #[arg(long, value_name = "N")]
+    pub(super) max_external: Option<u32>,
+    /// Largest mobility W allowed.
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    max_mobility: Option<i64>,
+    /// Most changes allowed.
+    #[arg(long, value_name = "N")]
+    max_changes: Option<u32>,
+    /// Rank under the workload by these terms, in place of the file's [ranking] terms: peak-force=1,cost=0.5. Terms:
+    /// peak-force, peak-moment, conditioning, output-error, changes, cost, idle; weight 1 where none stands.
+    #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',')]
+    rank: Vec<String>,
+    /// How many of the cheapest variants a ranking scores.
+    #[arg(long, value_name = "K", default_value_t = POOL)]
+    pool: usize,
+    /// Also give variants whose outputs move in other ways than now.
+    #[arg(long)]
+    allow_output_change: bool,
+    /// Another link that must not gain a motion (repeatable).
+    #[arg(long, value_name = "LINK")]
+    hold: Vec<String>,
+    /// Use these of the file's options everywhere, by name: revolute,spherical.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    options: Vec<String>,
+    /// Options allowed at a joint: 2-3=revolute,spherical (repeatable). The present joint always is.
+    #[arg(long, value_name = "JOINT=NAMES")]
+    allow: Vec<String>,
+    /// Options forbidden at a joint: 2-3=spherical; all changes with 2-3 alone (repeatable).
+    #[arg(long, value_name = "JOINT[=NAMES]")]
+    forbid: Vec<String>,
+    /// Only variants that are their own mirror image.
+    #[arg(long)]
+    symmetric: bool,
+    /// Of a variant and its mirror image, only one.
+    #[arg(long, conflicts_with = "symmetric")]
+    one_per_orbit: bool,
+    /// Search a file whose coordinates look measured exactly as it is written, though rounding errors in it change the
+    /// figures.
+    #[arg(long)]
+    as_written: bool,
+    /// Make axes exactly parallel, square, coaxial or concurrent that are so to within T (radians, and fractions of the
+    /// largest coordinate), for files whose coordinates were measured or rounded; lists what was moved.
+    #[arg(long, value_name = "T")]
+    snap: Option<f64>,
+    /// Node budget of each diagram, about 1 KB of memory a node (twice that with a check).
+    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
+    nodes: usize,
+}
+
+/// Which variants, the state meant, and how they are checked.
+#[derive(Debug, ClapArgs)]
+pub(super) struct Checked {
+    #[command(flatten)]
+    which: Which,
+    /// The state meant by --max-external; the file's first besides free by default.
+    #[arg(long, value_name = "STATE")]
+    state: Option<String>,
+    /// Look at each variant given, up to 1000, in N further poses of the present motion, and mark those whose W, σ or
+    /// output motion is not right there.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(super) poses: usize,
+    /// Leave out the variants that further poses (3 unless --poses says otherwise) show to be lucky.
+    #[arg(long)]
+    pub(super) generic_only: bool,
+    /// How the search is checked.
+    #[arg(long, value_enum, default_value = "full")]
+    check: Check,
+}
+
+impl Which {
+    /// The request, about a state where one is named.
+    pub(super) fn request(&self, state: Option<&str>) -> anyhow::Result<Request> {
+        let joint_options = |rule: &String| match rule.split_once('=') {
+            Some((joint, names)) => JointOptions {
+                joint: joint.to_owned(),
+                names: names.split(',').map(str::to_owned).collect(),
+            },
+            None => JointOptions {
+                joint: rule.clone(),
+                names: Vec::new(),
+            },
+        };
+        Ok(Request {
+            max_redundant: self.max_redundant,
+            max_external: self.max_external,
+            state: state.map(str::to_owned),
+            max_mobility: self.max_mobility,
+            max_changes: self.max_changes,
+            allow_output_change: self.allow_output_change,
+            hold: self.hold.clone(),
+            options: self.options.clone(),
+            allow: self.allow.iter().map(joint_options).collect(),
+            forbid: self.forbid.iter().map(joint_options).collect(),
+            symmetry: match (self.symmetric, self.one_per_orbit) {
+                (true, _) => Symmetry::SymmetricOnly,
+                (_, true) => Symmetry::OnePerOrbit,
+                _ => Symmetry::All,
+            },
+            as_written: self.as_written,
+            snap: self.snap,
+            nodes: self.nodes,
+            rank: self
+                .rank
+                .iter()
+                .map(|w| term(w))
+                .collect::<Result<_, _>>()?,
+            pool: self.pool,
+            ..Request::default()
+        })
+    }
+}
+
+/// A term with its weight.
+fn term(word: &str) -> anyhow::Result<(Term, f64)> {
+    let (name, weight) = match word.split_once('=') {
+        Some((name, weight)) => (name, weight.parse::<f64>().ok()),
+        None => (word, Some(1.0)),
+    };
+    let Some(term) = Term::from_name(name) else {
+        let known = Term::ALL.map(Term::name).join(", ");
+        bail!("--rank: unknown term \"{name}\"; known: {known}");
+    };
+    let weight = weight.filter(|w| (0.0..=1e12).contains(w));
+    let weight = weight.with_context(|| {
+        format!("--rank {word}: give a weight from 0 to 1e12, such as {name}=1")
+    })?;
+    Ok((term, weight))
+}
+
+impl Checked {
+    /// The request, with the seed of its samples and poses.
+    pub(super) fn request(&self, seed: u64) -> anyhow::Result<Request> {
+        Ok(Request {
+            check: match self.check {
+                Check::None => request::Check::None,
+                Check::Prime => request::Check::Prime,
+                Check::Full => request::Check::Full,
+            },
+            poses: self.poses,
+            generic_only: self.generic_only,
+            seed,
+            ..self.which.request(self.state.as_deref())?
+        })
+    }
+}

@@ -1,0 +1,100 @@
+//! The directions of the coordinates and the scale, below the drawing.
+
+use super::Kinematic;
+use crate::draw::labels::{self, Wish};
+use crate::draw::projection;
+use crate::draw::sheet::{Anchor, PAD, Sheet};
+use crate::svg::plane::{Rect, add, norm, polyline, scale, sub};
+
+impl Kinematic<'_> {
+    /// The directions of the coordinates.
+    pub(super) fn draw_axes(&self, sheet: &mut Sheet, y: f64) {
+        let origin = [PAD + 44.0, y + 8.0];
+        let mut taken = vec![Rect::around(origin, 9.0, 9.0)];
+        let mut wishes = Vec::new();
+        for axis in 0..3 {
+            let mut unit = [0.0; 3];
+            unit[axis] = 1.0;
+            let tip = scale(self.view.flat(unit), 30.0);
+            let length = norm(tip);
+            if length < 4.0 {
+                sheet.circle("joint", origin, 4.5);
+                if projection::dot(unit, self.view.toward) > 0.0 {
+                    sheet.circle("ink", origin, 1.6);
+                } else {
+                    let d = 3.0;
+                    sheet.line("line", add(origin, [-d, -d]), add(origin, [d, d]));
+                    sheet.line("line", add(origin, [-d, d]), add(origin, [d, -d]));
+                }
+            } else {
+                let end = add(origin, tip);
+                sheet.line("line", origin, end);
+                let back = scale(tip, -6.5 / length);
+                let side = [-back[1] * 0.42, back[0] * 0.42];
+                let corners = [end, add(add(end, back), side), sub(add(end, back), side)];
+                sheet.path("ink", &polyline(&corners, true));
+                taken.push(Rect::around(
+                    add(origin, scale(tip, 0.5)),
+                    tip[0].abs() + 3.0,
+                    tip[1].abs() + 3.0,
+                ));
+            }
+            wishes.push((axis, add(origin, tip), length));
+        }
+        let wishes: Vec<Wish> = wishes
+            .into_iter()
+            .map(|(_, anchor, length)| Wish {
+                width: 0.6 * 12.0,
+                height: 12.0,
+                anchor,
+                clear: if length < 4.0 { 5.0 } else { 1.0 },
+                first: Vec::new(),
+            })
+            .collect();
+        for (place, name) in labels::place(&wishes, &mut taken, &[])
+            .iter()
+            .zip(["x", "y", "z"])
+        {
+            sheet.text("axis", 12.0, place.rect.middle(), Anchor::Middle, name);
+        }
+    }
+
+    /// A bar of a round length.
+    pub(super) fn draw_scale(&self, sheet: &mut Sheet, y: f64) {
+        let longest = 150.0 / self.scale;
+        let (Some(length), unit) = (
+            round_below(longest),
+            self.subject.mechanism.length_unit.symbol,
+        ) else {
+            return;
+        };
+        if self.spots.len() < 2 {
+            return;
+        }
+        let x = PAD + 130.0;
+        let end = x + length * self.scale;
+        for [a, b] in [
+            [[x, y], [end, y]],
+            [[x, y - 4.0], [x, y + 4.0]],
+            [[end, y - 4.0], [end, y + 4.0]],
+        ] {
+            sheet.line("line", a, b);
+        }
+        let text = format!("{length} {unit}");
+        sheet.text("legend", 12.0, [x, y + 16.0], Anchor::Start, &text);
+    }
+}
+
+/// The largest of 1, 2 and 5 times a power of ten that is not above.
+fn round_below(x: f64) -> Option<f64> {
+    if !(x.is_finite() && x > 1e-200) {
+        return None;
+    }
+    let power = 10f64.powi(x.log10().floor() as i32);
+    let step = [5.0, 2.0, 1.0].into_iter().find(|s| s * power <= x)?;
+    // through text, so that 0.2 is 0.2
+    let text = format!("{:e}", step * power);
+    let (mantissa, exponent) = text.split_once('e')?;
+    let mantissa: f64 = mantissa.parse().ok()?;
+    format!("{}e{exponent}", mantissa.round()).parse().ok()
+}

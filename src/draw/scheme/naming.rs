@@ -1,0 +1,191 @@
+//! Where the names of joints and links and the numbers of contours go.
+
+use super::Scheme;
+use crate::draw::labels::{Line, Place, Wish, place};
+use crate::draw::shapes::{HALF, grid, outline};
+use crate::draw::sheet::SMALL;
+use crate::model::mechanism::Role;
+use crate::svg::plane::{Point, Rect, add, area, inside, mean, norm, scale, sub, to_segment, unit};
+use crate::svg::text::{cut, width};
+
+impl Scheme<'_> {
+    /// Where the ids of joints and links and the numbers of contours go, in this order.
+    pub(super) fn place_labels(&self) -> Vec<(Place, String)> {
+        let m = self.subject.mechanism;
+        let mut taken: Vec<Rect> = (0..self.parts.joints.len())
+            .map(|i| {
+                Rect::around(
+                    self.at.joints[i],
+                    2.0 * self.radius(i),
+                    2.0 * self.radius(i),
+                )
+            })
+            .collect();
+        let mut lines = Vec::new();
+        for l in 0..self.rings.len() {
+            let corners = self.corners(l);
+            let frame = m.links[self.parts.links[l]].role == Role::Frame;
+            let weight = if frame || corners.len() < 3 { 2.5 } else { 0.6 };
+            for &corner in &corners {
+                lines.push(Line {
+                    ends: (self.at.hubs[l], corner),
+                    weight,
+                });
+            }
+            for (a, b) in outline(&corners) {
+                let along = unit(sub(b, a));
+                let off = scale([-along[1], along[0]], HALF);
+                for side in [off, scale(off, -1.0)] {
+                    // the inner one is no line where the link is a polygon
+                    let middle = add(scale(add(a, b), 0.5), side);
+                    if corners.len() < 3 || !inside(middle, &corners) {
+                        lines.push(Line {
+                            ends: (add(a, side), add(b, side)),
+                            weight: 2.0,
+                        });
+                    }
+                }
+            }
+        }
+        let mut wishes = Vec::new();
+        let mut texts = Vec::new();
+        for (l, &link) in self.parts.links.iter().enumerate() {
+            let text = cut(&m.links[link].id, 12.0, 150.0);
+            wishes.push(Wish {
+                width: width(&text, 12.0),
+                height: 13.0,
+                anchor: self.at.hubs[l],
+                clear: HALF,
+                first: self.inside_link(l),
+            });
+            texts.push(text);
+        }
+        // ids stay off links, numbers of contours off nothing but labels
+        let places = place(&wishes, &mut taken, &[]);
+        let mut out: Vec<(Place, String)> = places.into_iter().zip(texts.drain(..)).collect();
+        wishes.clear();
+        for (c, _) in self.parts.contours.iter().enumerate() {
+            let text = format!("{}", c + 1);
+            let middles = self.inside_contour(c);
+            wishes.push(Wish {
+                width: width(&text, SMALL) + 8.0,
+                height: 16.0,
+                anchor: middles.first().map_or([0.0, 0.0], |f| f.0),
+                clear: 0.0,
+                first: middles,
+            });
+            texts.push(text);
+        }
+        let badges = place(&wishes, &mut taken, &lines);
+        let badges: Vec<(Place, String)> = badges.into_iter().zip(texts.drain(..)).collect();
+        wishes.clear();
+        for (i, &joint) in self.parts.joints.iter().enumerate() {
+            let text = cut(&m.joints[joint].id, SMALL, 150.0);
+            wishes.push(Wish {
+                width: width(&text, SMALL),
+                height: 12.0,
+                anchor: self.at.joints[i],
+                clear: self.radius(i),
+                first: Vec::new(),
+            });
+            texts.push(text);
+        }
+        let ids = place(&wishes, &mut taken, &lines);
+        let mut all: Vec<(Place, String)> = ids.into_iter().zip(texts).collect();
+        all.append(&mut out);
+        all.extend(badges);
+        all
+    }
+
+    /// Middles for the id within a link, the best first.
+    fn inside_link(&self, l: usize) -> Vec<(Point, f64)> {
+        let corners = self.corners(l);
+        if corners.len() > 2 && self.rings[l].len() > 2 {
+            let grid = grid(&corners, 9);
+            let mut out: Vec<(Point, f64)> = grid
+                .into_iter()
+                .map(|p| (p, 0.3 + 0.004 * norm(sub(p, self.at.hubs[l]))))
+                .collect();
+            out.insert(
+                0,
+                (
+                    self.at.hubs[l],
+                    if inside(self.at.hubs[l], &corners) {
+                        0.0
+                    } else {
+                        2.0
+                    },
+                ),
+            );
+            return out;
+        }
+        let mut out = Vec::new();
+        for (a, b) in outline(&corners) {
+            for (step, t) in [0.5, 0.44, 0.56, 0.38, 0.62, 0.32, 0.68].iter().enumerate() {
+                let p = add(a, scale(sub(b, a), *t));
+                out.push((p, 0.05 * step as f64));
+            }
+        }
+        if corners.len() > 2 {
+            out.insert(0, (corners[1], 0.0));
+        }
+        if self.rings[l].len() == 1 {
+            out.insert(0, (self.at.hubs[l], 0.0));
+        }
+        out
+    }
+
+    /// Middles for the number within a contour, the best first.
+    fn inside_contour(&self, c: usize) -> Vec<(Point, f64)> {
+        let of = &self.parts.graph.contours[c];
+        let polygon = self.round(c);
+        let covers: Vec<Vec<Point>> = (0..self.parts.contours.len())
+            .filter(|&other| other != c)
+            .map(|other| self.round(other))
+            .filter(|other| area(other) < area(&polygon))
+            .chain((0..self.rings.len()).map(|l| self.corners(l)))
+            .collect();
+        let mut near: Vec<(Point, f64)> = grid(&polygon, 15)
+            .into_iter()
+            .map(|p| {
+                let edges = (0..self.rings.len()).flat_map(|l| outline(&self.corners(l)));
+                let d = edges
+                    .map(|(a, b)| to_segment(p, a, b))
+                    .fold(f64::INFINITY, f64::min);
+                (p, d)
+            })
+            .collect();
+        // nearest to what is the contour's own
+        let before = &self.parts.graph.contours[..c];
+        let own: Vec<Point> = of
+            .iter()
+            .filter(|j| !before.iter().any(|b| b.contains(j)))
+            .map(|&j| self.at.joints[j])
+            .collect();
+        let own = mean(
+            if own.is_empty() {
+                polygon.iter()
+            } else {
+                own.iter()
+            }
+            .copied(),
+        );
+        near.sort_by(|a, b| b.1.total_cmp(&a.1));
+        near.retain(|(_, d)| *d > 14.0);
+        let mut out: Vec<(Point, f64)> = near
+            .iter()
+            .map(|&(p, d)| {
+                // on its own tint, if any of that can be seen
+                let hidden = covers.iter().any(|c| inside(p, c));
+                let hidden = if hidden { 6.0 } else { 0.0 };
+                let crowded = 0.02 * (40.0 - d).max(0.0);
+                (p, hidden + crowded + 0.012 * norm(sub(p, own)))
+            })
+            .collect();
+        out.sort_by(|a, b| a.1.total_cmp(&b.1));
+        if out.is_empty() {
+            out.push((mean(polygon.iter().copied()), 3.0));
+        }
+        out
+    }
+}

@@ -1,0 +1,4 @@
+//! How large a file may be.
+
+/// Most links, joints (and as many contours), and options of one joint in a file.
+pub const LIMITS: (usize, usize, usize) = (2000, 4000, 64);

@@ -1,0 +1,42 @@
+//! Numbers as files write them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A number, or an exact expression in quotes: "sqrt(3)/2", "cos(36deg)", "tan(pi/8)", "1/3".
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(
+    untagged,
+    expecting = "expected a number, or an expression in quotes such as \"sqrt(3)/2\""
+)]
+pub enum Coordinate {
+    /// A whole number.
+    Integer(i64),
+    /// A decimal, taken exactly as written.
+    Decimal(f64),
+    /// An expression.
+    Expression(String),
+}
+
+/// A number, or a number with a unit in quotes: "360deg", "60rpm".
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(
+    untagged,
+    expecting = "expected a number, or a number with its unit in quotes such as \"360deg\""
+)]
+pub enum Quantity {
+    /// In SI, lengths in the file's unit.
+    Number(f64),
+    /// With a unit.
+    Text(String),
+}
+
+/// One quantity or several.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(untagged, expecting = "expected a number or a list of numbers")]
+pub enum Quantities {
+    /// One.
+    One(Quantity),
+    /// Several.
+    Many(Vec<Quantity>),
+}

@@ -1,0 +1,156 @@
+//! Warnings about a file that can be used, with the lines they stand on.
+
+use crate::file::locate::{Document, Step};
+use crate::file::problem::render;
+use crate::file::text::is_json;
+use annotate_snippets::Level;
+use itertools::Itertools;
+use std::ops::Range;
+use thiserror::Error;
+
+/// What is doubtful.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+#[allow(
+    missing_docs,
+    reason = "the wording of each variant says what its fields are"
+)]
+pub enum WarningKind {
+    #[error("the name is empty; give one, since every answer begins with it")]
+    NoName,
+    #[error(
+        "the joints are {across} m across, as lengths are metres where no unit stands; add length_unit = \"mm\" if they are millimetres"
+    )]
+    ForgottenUnit { across: String },
+    #[error("the joints are {across} m across; see whether length_unit = \"{unit}\" is meant")]
+    OddSize { across: String, unit: &'static str },
+    #[error(
+        "joints \"{first}\" and \"{second}\" are {apart} {unit} apart in a mechanism {across} {unit} across; give both the same point if they are meant to meet"
+    )]
+    NearlyOnePlace {
+        first: String,
+        second: String,
+        apart: String,
+        across: String,
+        unit: &'static str,
+    },
+    #[error(
+        "coordinates look measured or rounded: {what}; write exact ones in quotes, such as \"sqrt(3)/2\" or \"cos(36deg)\", where they are known (--snap T sets the tolerance else)"
+    )]
+    Measured { what: String },
+    #[error(
+        "no contour is closed in any state; nothing can be redundant without one: add the joints that close it"
+    )]
+    NoContour,
+    #[error(
+        "no contour passes through {joints}; freedoms there add to the mobility, and no constraint there is redundant: add the joint that closes one if it is missing"
+    )]
+    OpenChain { joints: String },
+    #[error(
+        "object \"{link}\" has a single joint in state {state}; add the other contact that clamps it"
+    )]
+    Dangling { link: String, state: String },
+    #[error(
+        "object \"{link}\" is there in the free state; give its joints a state, such as state = \"clamped\""
+    )]
+    ObjectAlwaysThere { link: String },
+    #[error(
+        "joint \"{joint}\" is fixed in every state; make one link of \"{first}\" and \"{second}\", or give it a state"
+    )]
+    AlwaysFixed {
+        joint: String,
+        first: String,
+        second: String,
+    },
+    #[error("joints \"{first}\" and \"{second}\" are the same joint twice; remove one")]
+    Twin { first: String, second: String },
+    #[error(
+        "this contour follows from the others of its state, and is passed over; remove it or name another"
+    )]
+    DependentContour,
+    #[error(
+        "no joint can take the option \"{option}\", as it does not allow their present motion; remove it"
+    )]
+    UselessOption { option: String },
+    #[error(
+        "no joint allows an unloading joint, so this list has no effect; write unloading = true at a joint"
+    )]
+    UnloadingNowhere,
+    #[error(
+        "joint \"{joint}\" allows unloading joints, but [search] lists none; add unloading = [\"spherical\"] there"
+    )]
+    UnloadingOfNothing { joint: String },
+    #[error(
+        "joint \"{joint}\" forbids \"{option}\", which is no option of it; remove it, or mend the word"
+    )]
+    ForbidsNothing { joint: String, option: String },
+    #[error("no joint is a drive, so {what} has nothing to move; mark one: drive = true")]
+    NoDrive { what: &'static str },
+    #[error("no link has a mass, so gravity has no effect; add mass and centre to the links")]
+    GravityAlone,
+    #[error(
+        "masses have no effect without gravity or drive_speed; add gravity = [0, 0, -9.81] to [workload]"
+    )]
+    MassAlone,
+    #[error(
+        "the ranking asks for {term}, but nothing loads the mechanism; add forces, moments, or masses with gravity"
+    )]
+    RankingUnloaded { term: &'static str },
+    #[error(
+        "the file says {key} = {stated} in state {state}, and the analysis finds {found}; mend the figure, or delete [[expected]] where the mechanism is no longer the published one"
+    )]
+    Stale {
+        key: &'static str,
+        state: String,
+        stated: i64,
+        found: i64,
+    },
+}
+
+/// A warning and where it stands.
+#[derive(Debug, Clone)]
+pub struct Warning {
+    /// What is doubtful.
+    pub kind: WarningKind,
+    /// Bytes of the text it concerns, where known.
+    pub span: Option<Range<usize>>,
+}
+
+/// The warnings about a file.
+#[derive(Debug, Clone)]
+pub struct Warnings {
+    /// Name of the file.
+    pub file: String,
+    /// Its text.
+    pub text: String,
+    /// They, in order of the file where known.
+    pub warnings: Vec<Warning>,
+}
+
+impl Warnings {
+    /// Adds a warning about the item at a path of the file.
+    pub fn add(&mut self, path: &[Step], kind: WarningKind) {
+        let document = Document::new(&self.text, is_json(&self.file));
+        let span = document.and_then(|d| d.span(path));
+        let at = |d: &Warning| d.span.as_ref().map_or(0, |s| s.start);
+        self.warnings.push(Warning { kind, span });
+        self.warnings.sort_by_key(at);
+    }
+
+    /// The warnings with the lines they stand on, for a terminal.
+    #[must_use]
+    pub fn render(&self, colour: bool) -> String {
+        let one = |d: &Warning| {
+            let message = d.kind.to_string();
+            let span = d.span.clone();
+            render(
+                Level::WARNING,
+                colour,
+                (&self.file, &self.text),
+                span,
+                &message,
+            )
+        };
+        self.warnings.iter().map(one).join("\n")
+    }
+}

@@ -1,0 +1,97 @@
+//! Elements of number rings: coordinates in the basis of monomials.
+
+use crate::linalg::modp::{Field, Residue};
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+/// An element of a ring, as its coordinates without trailing zeros; the default is 0. Equal elements have equal
+/// coordinates.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Hash)]
+pub struct Element(pub(super) Vec<BigRational>);
+
+impl Element {
+    /// The element with the given coordinates. O(length).
+    #[must_use]
+    pub fn new(mut coordinates: Vec<BigRational>) -> Element {
+        while coordinates.last().is_some_and(Zero::is_zero) {
+            coordinates.pop();
+        }
+        Element(coordinates)
+    }
+
+    /// A rational number. O(1).
+    #[must_use]
+    pub fn rational(value: BigRational) -> Element {
+        Element::new(vec![value])
+    }
+
+    /// A whole number. O(1).
+    #[must_use]
+    pub fn integer(value: i64) -> Element {
+        Element::rational(BigRational::from_integer(BigInt::from(value)))
+    }
+
+    /// The coordinates, without trailing zeros. O(1).
+    #[must_use]
+    pub fn coordinates(&self) -> &[BigRational] {
+        &self.0
+    }
+
+    /// Whether this is 0. O(1).
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The rational this is, if it is one. O(1).
+    #[must_use]
+    pub fn as_rational(&self) -> Option<BigRational> {
+        match self.0.as_slice() {
+            [] => Some(BigRational::zero()),
+            [q] => Some(q.clone()),
+            _ => None,
+        }
+    }
+
+    /// The image under a homomorphism, from the images of the ring's monomials; `None` where the prime divides a denominator, or
+    /// the monomials are too few. O(length).
+    #[must_use]
+    pub fn image(&self, field: Field, monomials: &[Residue]) -> Option<Residue> {
+        if self.0.len() > monomials.len() {
+            return None;
+        }
+        self.0
+            .iter()
+            .zip(monomials)
+            .filter(|(q, _)| !q.is_zero())
+            .try_fold(field.zero(), |sum, (q, &m)| {
+                Some(field.add(sum, field.mul(field.from_rational(q)?, m)))
+            })
+    }
+
+    pub(super) fn scaled(&self, by: &BigRational) -> Element {
+        if by.is_zero() {
+            return Element::default();
+        }
+        if by.is_one() {
+            return self.clone();
+        }
+        let times = |q: &BigRational| {
+            if q.is_zero() {
+                BigRational::zero()
+            } else {
+                q * by
+            }
+        };
+        Element(self.0.iter().map(times).collect())
+    }
+
+    /// Integers and their common denominator.
+    pub(super) fn over_common_denominator(&self) -> (Vec<BigInt>, BigInt) {
+        let below = self.0.iter().fold(BigInt::one(), |m, q| m.lcm(q.denom()));
+        let above = |q: &BigRational| q.numer() * (&below / q.denom());
+        (self.0.iter().map(above).collect(), below)
+    }
+}

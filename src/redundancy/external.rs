@@ -1,0 +1,84 @@
+//! The external constraints: what a clamped object, or any other state, adds to the free mechanism.
+
+use crate::closure::matrix::Closure;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::Residue;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::rank::modular;
+use crate::redundancy::motion::Speeds;
+
+/// The external constraints of a state, counted and by rank.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct External {
+    /// Σα: constraints of the joints that the state adds, and their couplings.
+    pub constraints: i64,
+    /// W_a: mobility with the object absent.
+    pub actual_mobility: i64,
+    /// W_r: mobility of the mechanism's own joints with the object present.
+    pub working_mobility: i64,
+    /// w_a: mobilities the added bodies lost.
+    pub lost_mobility: i64,
+    /// σ_a by the external formula, Σα - (W_a - W_r) - w_a.
+    pub redundant: i64,
+    /// σ of the state less σ of the free state, by ranks.
+    pub by_rank: i64,
+}
+
+/// What the state of `closure` adds; `kernel` is a basis of its motions.
+pub(super) fn external(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+    kernel: &[Speeds],
+) -> Result<External, ExactError> {
+    let free = Closure::new(exact, mechanism, StateId::FREE)?;
+    let free_rank = modular::rank(exact, &free);
+    let rank = modular::rank(exact, closure);
+    let own: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
+    let all: Vec<JointId> = mechanism.joints_in(closure.state).collect();
+    let added = || all.iter().filter(|j| !own.contains(j));
+    let of_joints: i64 = added()
+        .map(|&j| int(closure.dim) - int(freedoms_of(closure, j)))
+        .sum();
+    let constraints = of_joints + int(closure.couplings.len()) - int(free.couplings.len());
+    let bodies = present_links(mechanism, &all).len() - present_links(mechanism, &own).len();
+    // The mechanism's own part of each motion.
+    let mut span = Echelon::new(exact.field());
+    for speeds in kernel {
+        let part: Vec<Residue> = speeds
+            .iter()
+            .zip(&closure.columns)
+            .map(|(&s, c)| if own.contains(&c.joint) { s } else { 0 })
+            .collect();
+        span.insert(&part);
+    }
+    let (actual, working) = (int(free.columns.len() - free_rank), int(span.rank()));
+    let lost = int(closure.dim * bodies) - (int(kernel.len()) - working);
+    Ok(External {
+        constraints,
+        actual_mobility: actual,
+        working_mobility: working,
+        lost_mobility: lost,
+        redundant: constraints - (actual - working) - lost,
+        by_rank: int(closure.rows() - rank) - int(free.rows() - free_rank),
+    })
+}
+
+pub(super) fn int(x: usize) -> i64 {
+    i64::try_from(x).unwrap_or(i64::MAX)
+}
+
+pub(super) fn freedoms_of(closure: &Closure<Residue>, joint: JointId) -> usize {
+    closure.columns.iter().filter(|c| c.joint == joint).count()
+}
+
+pub(super) fn present_links(mechanism: &Mechanism, joints: &[JointId]) -> Vec<LinkId> {
+    let mut links: Vec<LinkId> = joints
+        .iter()
+        .flat_map(|&j| mechanism.joints[j].links)
+        .collect();
+    links.sort_unstable();
+    links.dedup();
+    links
+}

@@ -1,0 +1,462 @@
+//! What a search found: counts, how they were checked, and the variants one by one.
+
+use crate::closure::matrix::Closure;
+use crate::geom::exact::ExactError;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::redundancy::share::{ContourShare, shares};
+use crate::score::ranking::{Ranked, RankedPool};
+use crate::score::request::{Check, List, LooksMeasured, Request};
+use crate::score::terms::Scores;
+use crate::search::best::Assignment;
+use crate::search::building::Diagrams;
+use crate::search::certify::{CHECKED, Certified, Second, Summary};
+use crate::search::conditions::{Search, SearchError, Symmetry};
+use crate::search::counts::Counts;
+use crate::search::diagram::Stop;
+use crate::search::over_stroke::{OverStroke, Stroke};
+use crate::search::primes::PrimeCheck;
+use crate::search::relax::Relaxation;
+use crate::search::space::choice_name;
+use itertools::Itertools;
+use num_bigint::BigUint;
+use num_traits::{One, Zero};
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// What a search found.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct Outcome {
+    /// The search: the mechanism as it was searched, the conditions, the space.
+    pub search: Search,
+    /// What was asked.
+    pub request: Request,
+    /// Counts by the redundancy condition of the free state.
+    pub determinate: Counts,
+    /// Counts by every condition.
+    pub admissible: Counts,
+    /// The diagrams; `None` for brute force.
+    pub diagrams: Option<Diagrams>,
+    /// Why the search ended.
+    pub stop: Stop,
+    /// What a second prime says; `None` where none was asked.
+    pub check: Option<PrimeCheck>,
+    /// Why the geometry looks measured, with the verdicts on the mechanism as it is; `None` where it looks exact.
+    pub measured: Option<LooksMeasured>,
+    /// Other poses of the present motion; `None` where none were asked for.
+    pub stroke: Option<Stroke>,
+    /// The ranking under a workload; `None` where the order is that of cost.
+    pub ranking: Option<RankedPool>,
+}
+
+impl Outcome {
+    /// An outcome of (determinate, admissible) counts alone.
+    pub(super) fn of_counts(
+        search: Search,
+        request: Request,
+        (determinate, admissible): (Counts, Counts),
+        measured: Option<LooksMeasured>,
+    ) -> Outcome {
+        Outcome {
+            search,
+            request,
+            determinate,
+            admissible,
+            diagrams: None,
+            stop: Stop::Exhausted,
+            check: None,
+            measured,
+            stroke: None,
+            ranking: None,
+        }
+    }
+
+    /// Whether everything was looked at, so that counts are exact and the list is the best there is.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        self.stop == Stop::Exhausted
+    }
+
+    /// Counts of the admissible variants by cost in thousandths; none of orbits, and none by brute force.
+    ///
+    /// # Complexity
+    /// One more tally of the diagram.
+    #[must_use]
+    pub fn admissible_by_cost(&self) -> BTreeMap<i64, BigUint> {
+        match &self.diagrams {
+            Some(d) if self.request.symmetry != Symmetry::OnePerOrbit => {
+                self.search.counts_by_cost(&d.admissible)
+            }
+            _ => BTreeMap::new(),
+        }
+    }
+
+    /// What easing one condition would leave, where nothing was found.
+    ///
+    /// # Errors
+    /// Where the geometry has no exact image.
+    ///
+    /// # Complexity
+    /// A search for each condition and each step of easing it, none of more than some thousand nodes.
+    pub fn relaxations(&self) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
+        if !self.admissible.total.is_zero() || self.search.size().is_one() {
+            return Ok(Vec::new());
+        }
+        self.search.relaxations(&|| false)
+    }
+
+    /// The variants asked for, one by one: the best in order, all, or a sample. No more than a thousand are held at a time,
+    /// and second opinions are had in parallel.
+    #[must_use]
+    pub fn variants(&self) -> Variants<'_> {
+        self.variants_unless(&|| false)
+    }
+
+    /// The same until `cancelled`.
+    #[must_use]
+    pub fn variants_unless<'o>(&'o self, cancelled: &'o dyn Fn() -> bool) -> Variants<'o> {
+        let request = &self.request;
+        let wanted = match request.list {
+            List::Top(k) => k,
+            List::All | List::Sample(_) => usize::MAX / 4,
+            List::Nothing => 0,
+        };
+        let unranked = |v: Assignment| (v, None);
+        let source: Box<dyn Iterator<Item = (Assignment, Option<usize>)>> =
+            match (&self.diagrams, &self.ranking, request.list) {
+                (None, ..) | (.., List::Nothing) => Box::new(std::iter::empty()),
+                (Some(d), _, List::Sample(n)) => {
+                    let drawn = self.search.sample(d, n, request.seed);
+                    Box::new(drawn.into_iter().map(unranked))
+                }
+                (_, Some(ranked), _) => {
+                    let list = ranked.list.iter().enumerate();
+                    Box::new(list.map(|(place, r)| (r.variant.clone(), Some(place))))
+                }
+                (Some(d), None, _) => {
+                    // Lucky variants make room for others.
+                    let enough = if request.generic_only && wanted > 0 {
+                        wanted.saturating_mul(100).max(CHECKED)
+                    } else {
+                        wanted
+                    };
+                    Box::new(self.search.cheapest(d, enough).map(unranked))
+                }
+            };
+        Variants {
+            outcome: self,
+            cancelled,
+            source,
+            opinions: request.check == Check::Full,
+            stroke: self.stroke.as_ref(),
+            ready: Vec::new().into_iter(),
+            room: wanted,
+            summary: Summary::default(),
+            interrupted: false,
+        }
+    }
+}
+
+/// The variants of an outcome, one by one.
+pub struct Variants<'o> {
+    outcome: &'o Outcome,
+    cancelled: &'o dyn Fn() -> bool,
+    /// Variants, with their places in the ranking where there is one.
+    source: Box<dyn Iterator<Item = (Assignment, Option<usize>)> + 'o>,
+    /// Whether second opinions are wanted of those to come.
+    opinions: bool,
+    /// The poses that those to come are looked at in.
+    stroke: Option<&'o Stroke>,
+    /// Looked at, and not given yet.
+    ready: std::vec::IntoIter<(Certified, Option<usize>)>,
+    /// How many more may be given.
+    room: usize,
+    summary: Summary,
+    interrupted: bool,
+}
+
+impl fmt::Debug for Variants<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Variants")
+            .field("summary", &self.summary)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Variants<'_> {
+    /// What second opinions and other poses say of those given so far.
+    #[must_use]
+    pub fn summary(&self) -> Summary {
+        self.summary
+    }
+
+    /// Whether the giving was cancelled.
+    #[must_use]
+    pub fn interrupted(&self) -> bool {
+        self.interrupted
+    }
+
+    /// The next with its opinions: variants are gathered first, so that they are analysed in parallel.
+    fn certified(&mut self) -> Option<(Certified, Option<usize>)> {
+        if let Some(next) = self.ready.next() {
+            return Some(next);
+        }
+        if !self.opinions && self.stroke.is_none() {
+            let (variant, place) = self.source.next()?;
+            return Some((Certified::unasked(variant), place));
+        }
+        let generic = self.outcome.request.generic_only;
+        let size = if generic {
+            self.room.clamp(16, CHECKED)
+        } else {
+            CHECKED
+        };
+        let (block, places): (Vec<_>, Vec<_>) = self.source.by_ref().take(size).unzip();
+        let search = &self.outcome.search;
+        let certified = search.certify(block, self.opinions, self.stroke);
+        self.ready = certified.into_iter().zip(places).collect_vec().into_iter();
+        // Nothing is left out unseen, so a list of generic variants is looked at to its end.
+        if !generic {
+            (self.opinions, self.stroke) = (false, None);
+        }
+        self.ready.next()
+    }
+}
+
+impl<'o> Iterator for Variants<'o> {
+    type Item = Variant<'o>;
+
+    fn next(&mut self) -> Option<Variant<'o>> {
+        while self.room > 0 {
+            if (self.cancelled)() {
+                self.interrupted = true;
+                return None;
+            }
+            let (certified, place) = self.certified()?;
+            if self.outcome.request.generic_only && certified.lucky() {
+                self.summary.dropped += 1;
+                continue;
+            }
+            self.room -= 1;
+            self.summary.add(&certified);
+            return Some(Variant {
+                outcome: self.outcome,
+                position: self.summary.given,
+                certified,
+                place,
+            });
+        }
+        None
+    }
+}
+
+/// A joint that a variant changes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Change {
+    /// The joint.
+    pub joint: JointId,
+    /// The present option, by name.
+    pub from: String,
+    /// What is put there.
+    pub to: String,
+}
+
+/// A variant of a mechanism.
+#[derive(Debug, Clone)]
+pub struct Variant<'o> {
+    outcome: &'o Outcome,
+    position: usize,
+    certified: Certified,
+    /// Place in the ranking, from 0.
+    place: Option<usize>,
+}
+
+impl<'o> Variant<'o> {
+    /// The outcome it is of.
+    #[must_use]
+    pub fn outcome(&self) -> &'o Outcome {
+        self.outcome
+    }
+
+    /// Its place in the list, from 1.
+    #[must_use]
+    pub fn position(&self) -> usize {
+        self.position
+    }
+
+    /// What it chooses: an option for each variable of the space, and its properties as the diagram counts them.
+    #[must_use]
+    pub fn assignment(&self) -> &Assignment {
+        &self.certified.variant
+    }
+
+    /// Its cost above the present mechanism's, in thousandths.
+    #[must_use]
+    pub fn cost_milli(&self) -> i64 {
+        self.outcome
+            .search
+            .steps
+            .milli(self.assignment().key.cost())
+    }
+
+    /// Its cost above the present mechanism's.
+    #[must_use]
+    #[allow(clippy::cast_precision_loss, reason = "costs are small")]
+    pub fn cost(&self) -> f64 {
+        self.cost_milli() as f64 / 1000.0
+    }
+
+    /// Mobility W in the free state.
+    #[must_use]
+    pub fn mobility(&self) -> i64 {
+        self.outcome.search.mobility(self.assignment().key)
+    }
+
+    /// Redundant constraints σ in the free state.
+    #[must_use]
+    pub fn redundant(&self) -> u32 {
+        self.assignment().key.internal()
+    }
+
+    /// Redundant constraints that the searched state adds; `None` where none was searched.
+    #[must_use]
+    pub fn external_redundant(&self) -> Option<u32> {
+        let searched = self.outcome.search.conditions.state;
+        searched.map(|_| self.assignment().key.external())
+    }
+
+    /// Number of changed joints and inserted unloading joints.
+    #[must_use]
+    pub fn change_count(&self) -> u32 {
+        self.assignment().key.changes()
+    }
+
+    /// The joints it changes, in file order.
+    #[must_use]
+    pub fn changes(&self) -> Vec<Change> {
+        changes(&self.outcome.search, self.assignment())
+    }
+
+    /// What singular values say of it.
+    #[must_use]
+    pub fn second(&self) -> &Second {
+        &self.certified.second
+    }
+
+    /// What other poses say of it, where that was asked.
+    #[must_use]
+    pub fn over_stroke(&self) -> Option<&OverStroke> {
+        self.certified.stroke.as_ref()
+    }
+
+    /// Whether other poses were looked at and give other figures.
+    #[must_use]
+    pub fn lucky(&self) -> bool {
+        self.certified.lucky()
+    }
+
+    /// What the ranking knows of it, where there is one.
+    #[must_use]
+    pub fn ranked(&self) -> Option<&'o Ranked> {
+        self.outcome.ranking.as_ref()?.list.get(self.place?)
+    }
+
+    /// Its scores under the workload, where it was ranked.
+    #[must_use]
+    pub fn scores(&self) -> Option<&'o Scores> {
+        self.ranked().map(|r| &r.scores)
+    }
+
+    /// Why its place in the ranking is not that by cost.
+    #[must_use]
+    pub fn reason(&self) -> Option<String> {
+        let pool = self.outcome.ranking.as_ref()?;
+        pool.reason(&self.outcome.search.mechanism, self.place? + 1)
+    }
+
+    /// The variant as a mechanism of its own, named for its place in the list.
+    #[must_use]
+    pub fn mechanism(&self) -> Mechanism {
+        let mut out = self.outcome.search.realize(&self.assignment().choices);
+        out.description = format!(
+            "Variant {} of {}: {}",
+            self.position,
+            out.name,
+            in_words(&self.outcome.search, &self.changes())
+        );
+        out.name = format!("{}-variant-{}", out.name, self.position);
+        // Options are gone, and their names with them.
+        out.joint_types
+            .retain(|t| t.name == "custom" || JointType::from_name(&t.name).is_some());
+        out
+    }
+
+    /// σ of each of its contours in the free state when they are added in this order, with the range over all orders.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field of the search.
+    ///
+    /// # Complexity
+    /// Some eliminations of J for each call.
+    pub fn redundant_by_contour(&self) -> Result<Vec<ContourShare>, ExactError> {
+        let search = &self.outcome.search;
+        let realized = search.realize(&self.assignment().choices);
+        let closure = Closure::new(search.field(), &realized, StateId::FREE)?;
+        Ok(shares(search.field(), &closure))
+    }
+}
+
+/// A line such as `1. cost 11, W = 1, σ = 0: 1-2, 1-5 -> spherical; 2-4 -> cylindrical`.
+impl fmt::Display for Variant<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (w, sigma) = (self.mobility(), self.redundant());
+        write!(
+            f,
+            "{}. cost {}, W = {w}, σ = {sigma}",
+            self.position,
+            self.cost()
+        )?;
+        if let Some(e) = self.external_redundant() {
+            write!(f, " + {e}")?;
+        }
+        let changes = in_words(&self.outcome.search, &self.changes());
+        write!(f, ": {changes}")
+    }
+}
+
+/// The joints that a choice of options changes, in file order.
+#[must_use]
+pub fn changes(search: &Search, assignment: &Assignment) -> Vec<Change> {
+    let mut out = Vec::new();
+    let variables = search.space.variables.iter().zip(&assignment.choices);
+    for (v, &choice) in variables.filter(|(_, c)| **c != 0) {
+        out.extend(v.joints.iter().map(|&joint| Change {
+            joint,
+            from: choice_name(&search.mechanism, joint, &v.choices[0]),
+            to: choice_name(&search.mechanism, joint, &v.choices[choice]),
+        }));
+    }
+    out.sort_by_key(|c| c.joint);
+    out
+}
+
+/// Changes in words: "3-0, 7-0 -> spherical; 5-1 -> cylindrical".
+#[must_use]
+pub fn in_words(search: &Search, changes: &[Change]) -> String {
+    let mut alike: Vec<(&str, Vec<&str>)> = Vec::new();
+    for c in changes {
+        let joint = search.mechanism.joints[c.joint].id.as_str();
+        match alike.iter_mut().find(|(to, _)| *to == c.to) {
+            Some((_, joints)) => joints.push(joint),
+            None => alike.push((&c.to, vec![joint])),
+        }
+    }
+    if alike.is_empty() {
+        return "none: the mechanism as it is".to_owned();
+    }
+    alike
+        .iter()
+        .map(|(to, joints)| format!("{} -> {to}", joints.join(", ")))
+        .join("; ")
+}

@@ -1,0 +1,240 @@
+//! From a mechanism and a request to the outcome: conditions, diagrams, the twin over a second prime, counts, orbits,
+//! poses and the ranking.
+
+use crate::geom::exact::ExactError;
+use crate::model::mechanism::Mechanism;
+use crate::redundancy::analysis::exact_field;
+use crate::score::evaluate::{Evaluator, ScoreError};
+use crate::score::outcome::Outcome;
+use crate::score::ranking::{RankedPool, Ranker};
+use crate::score::request::{Check, List, LooksMeasured, Method, Request, RequestError};
+use crate::search::building::Diagrams;
+use crate::search::conditions::{Conditions, Search, SearchError, Symmetry};
+use crate::search::counts::Counts;
+use crate::search::diagram::{Progress, Stop};
+use crate::search::primes::{self, Disagreement, PrimeCheck};
+use num_bigint::BigUint;
+use std::sync::Arc;
+use thiserror::Error;
+
+/// Poses looked at where only generic variants are wanted and the number of poses is not given.
+const POSES: usize = 3;
+/// Brute force looks at no more variants than this.
+const BRUTE_LIMIT: u64 = 1 << 32;
+/// How many of the best both primes must agree on where no number of them is asked for.
+const COMPARED: usize = 10;
+
+/// What happens on the way, for whoever shows it.
+#[derive(Debug)]
+pub enum Event {
+    /// What was moved, or is doubtful, in a sentence.
+    Note(String),
+    /// How far the diagrams have come.
+    Building(Progress),
+    /// The diagrams are there. Cancelling up to here cuts them short; from here on it is about what follows.
+    Built,
+}
+
+/// Hears what happens on the way.
+pub type Tell<'a> = &'a mut (dyn FnMut(Event) + Send);
+/// Says whether to end early.
+pub type ShouldCancel<'a> = &'a (dyn Fn() -> bool + Sync);
+
+/// Why a search has no outcome.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// The request does not suit the mechanism.
+    #[error(transparent)]
+    Request(#[from] RequestError),
+    /// The geometry has no image in a prime field.
+    #[error(transparent)]
+    Exact(#[from] ExactError),
+    /// The search could not be made.
+    #[error(transparent)]
+    Search(#[from] SearchError),
+    /// Two primes give different answers.
+    #[error(transparent)]
+    Disagreement(#[from] Box<Disagreement>),
+    /// The variants cannot be ranked.
+    #[error("cannot score variants of {mechanism}: {why}")]
+    Score {
+        /// Name of the mechanism.
+        mechanism: String,
+        /// Why not.
+        why: ScoreError,
+    },
+    /// Too many variants to look at each.
+    #[error("{0} variants are too many for brute force; use --method diagram, or fewer --options")]
+    TooMany(BigUint),
+}
+
+/// Searches a mechanism.
+///
+/// # Errors
+/// Where the request does not suit the mechanism, measured coordinates change the figures, two primes disagree, or a
+/// ranking asks for loads that are not there.
+///
+/// # Guarantee
+/// Counts are exact where [`Outcome::stop`] is [`Stop::Exhausted`], and lower bounds otherwise. A rank modulo a prime is a
+/// lower bound of the true one; with [`Check::Prime`] or [`Check::Full`] two primes near 2^61 agree on every node.
+pub fn run(
+    mechanism: Mechanism,
+    request: &Request,
+    should_cancel: ShouldCancel<'_>,
+    tell: Tell<'_>,
+) -> Result<Outcome, RunError> {
+    let note = &mut |text| tell(Event::Note(text));
+    let mechanism = request.prepare(mechanism, note)?;
+    let conditions = request.conditions(&mechanism, note)?;
+    answer(
+        Arc::new(mechanism),
+        conditions,
+        request,
+        should_cancel,
+        tell,
+    )
+}
+
+/// Searches a mechanism that [`Request::prepare`] gave, under what [`Request::conditions`] gave.
+///
+/// # Errors
+/// As [`run`].
+pub fn answer(
+    mechanism: Arc<Mechanism>,
+    (conditions, measured): (Conditions, Option<LooksMeasured>),
+    request: &Request,
+    should_cancel: ShouldCancel<'_>,
+    tell: Tell<'_>,
+) -> Result<Outcome, RunError> {
+    let over = |nth: usize| -> Result<Search, RunError> {
+        let field = exact_field(&mechanism, nth)?;
+        Ok(Search::new(field, mechanism.clone(), conditions.clone())?)
+    };
+    if request.method == Method::Brute {
+        let search = over(0)?;
+        if search.size() > BRUTE_LIMIT.into() {
+            return Err(RunError::TooMany(search.size()));
+        }
+        let counts = search.brute();
+        return Ok(Outcome::of_counts(
+            search,
+            request.clone(),
+            counts,
+            measured,
+        ));
+    }
+    let (search, twin) = match request.check {
+        Check::None => (over(0)?, None),
+        Check::Prime | Check::Full => {
+            let (search, twin) = rayon::join(|| over(0), || over(1));
+            (search?, Some(twin?))
+        }
+    };
+    let progress = &mut |p| tell(Event::Building(p));
+    let (diagrams, check) = match &twin {
+        None => (search.build(should_cancel, progress), None),
+        Some(twin) => {
+            let both = [&search, twin];
+            let (first, second) = primes::build_both(both, should_cancel, progress);
+            let compared = match request.list {
+                List::Top(k) => k,
+                List::All | List::Sample(_) | List::Nothing => COMPARED,
+            };
+            let verdict = primes::compare(both, [&first, &second], compared)?;
+            let primes = primes::primes(both);
+            (first, Some(PrimeCheck { primes, verdict }))
+        }
+    };
+    tell(Event::Built);
+    let mut stop = diagrams.stop();
+    let mut counts = (
+        search.counts(&diagrams.determinate, false),
+        search.counts(&diagrams.admissible, true),
+    );
+    if request.symmetry == Symmetry::OnePerOrbit {
+        (counts, stop) = orbits((&search, twin.as_ref()), counts, stop, should_cancel)?;
+    }
+    let poses = match request.poses {
+        0 if request.generic_only => POSES,
+        n => n,
+    };
+    let stroke = (poses > 0)
+        .then(|| search.stroke(poses, request.seed))
+        .transpose()?;
+    if stroke.as_ref().is_some_and(|s| s.reached() == 0) {
+        tell(Event::Note(format!(
+            "warning: no other pose of {} could be reached: it has no motion to follow from this one",
+            search.mechanism.name
+        )));
+    }
+    let ranking = ranked(&search, &diagrams, request)?;
+    Ok(Outcome {
+        diagrams: Some(diagrams),
+        stop,
+        check,
+        stroke,
+        ranking,
+        ..Outcome::of_counts(search, request.clone(), counts, measured)
+    })
+}
+
+/// Counts of orbits over one prime or two, which must agree, and why the search ended with that for the symmetric variants.
+fn orbits(
+    (search, twin): (&Search, Option<&Search>),
+    all: (Counts, Counts),
+    stop: Stop,
+    should_cancel: ShouldCancel<'_>,
+) -> Result<((Counts, Counts), Stop), RunError> {
+    let of = |s: &Search| s.orbits(all.clone(), should_cancel);
+    let (first, second) = rayon::join(|| of(search), || twin.map(of).transpose());
+    let (first, second) = (first?, second?);
+    let stop = stop.or(first.1);
+    if let (Some(twin), Some(second)) = (twin, &second)
+        && stop.or(second.1) != Stop::Interrupted
+    {
+        primes::compare_counts([search, twin], [&first.0, &second.0])?;
+    }
+    Ok((first.0, stop))
+}
+
+/// Scores the cheapest variants and puts the best in order, where that was asked for.
+fn ranked(
+    search: &Search,
+    diagrams: &Diagrams,
+    request: &Request,
+) -> Result<Option<RankedPool>, RunError> {
+    let List::Top(top) = request.list else {
+        return Ok(None);
+    };
+    let Some(ranking) = request.ranking(&search.mechanism)? else {
+        return Ok(None);
+    };
+    // Further poses may drop some of the best, so that others must stand by.
+    let standing = if request.generic_only {
+        request.pool
+    } else {
+        top
+    };
+    let evaluator =
+        Evaluator::in_states(search, ranking.clearance, &ranking.states).map_err(|why| {
+            RunError::Score {
+                mechanism: search.mechanism.name.clone(),
+                why,
+            }
+        })?;
+    let mut ranker = Ranker::new(&evaluator, &ranking, request.pool, standing);
+    let mut given = 0;
+    for v in search.cheapest(diagrams, request.pool + 1) {
+        given += 1;
+        if ranker.take(v).is_break() {
+            break;
+        }
+    }
+    let exhausted = diagrams.stop() == Stop::Exhausted;
+    let mut out = ranker.finish(exhausted && given <= request.pool);
+    if !exhausted {
+        (out.proven, out.proof) = (false, "the search stopped early");
+    }
+    Ok(Some(out))
+}

@@ -1,0 +1,353 @@
+//! An analysis as what is told of it, as JSON, as text and on the page; the keys of JSON are a stable contract.
+
+mod text;
+
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::redundancy::analysis::StateAnalysis;
+use crate::redundancy::share::{ContourShare, CouplingShare};
+use crate::redundancy::stress::{JointWrench, Verdict};
+use crate::view::idle;
+use crate::view::stroke::Stroke;
+use crate::view::suggestions::{Advice, Suggestions};
+use serde::Serialize;
+
+/// The analysis of a mechanism.
+#[derive(Debug, Serialize)]
+pub struct Analysis<'a> {
+    /// The mechanism's name.
+    pub mechanism: &'a str,
+    /// Symbol of the file's unit of length.
+    pub length_unit: &'static str,
+    /// Its states.
+    pub states: Vec<State<'a>>,
+    /// The figures over a stroke, where one was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stroke: Option<Stroke<'a>>,
+}
+
+/// One state; see [`StateAnalysis`] for what the figures are.
+#[derive(Debug, Serialize)]
+#[allow(missing_docs, reason = "named as in StateAnalysis")]
+pub struct State<'a> {
+    pub state: &'a str,
+    pub links: usize,
+    pub joints: usize,
+    pub contours: usize,
+    pub freedoms: usize,
+    #[serde(skip)]
+    pub rows: usize,
+    pub rank: usize,
+    pub mobility: usize,
+    pub finite_mobility: usize,
+    /// The most it can be, where that is undecided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub finite_mobility_at_most: Option<usize>,
+    pub finite_mobility_known_by: &'static str,
+    pub finite_mobility_proven: bool,
+    /// How the finite mobility is known, in a sentence.
+    #[serde(skip)]
+    pub finite_certainty: String,
+    pub working_mobility: usize,
+    pub local_mobility: usize,
+    pub redundant: usize,
+    pub formula_mobility: i64,
+    pub per_contour: Vec<Contour<'a>>,
+    pub external: Option<External>,
+    pub idle: Vec<Idle<'a>>,
+    pub self_stresses: Vec<SelfStress<'a>>,
+    pub left_out: Vec<LeftOut<'a>>,
+    pub method: &'static str,
+    pub certainty: String,
+    pub certainty_kind: &'static str,
+    pub choice: Option<&'a str>,
+    pub snapped: &'a [String],
+    pub as_written: Option<AsWritten>,
+    /// Where there are couplings only: other mechanisms keep their keys.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub per_coupling: Vec<Coupling<'a>>,
+    /// What single changes would do, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub suggestions: Option<Suggestions<'a>>,
+}
+
+/// The redundant constraints of a contour.
+#[derive(Debug, Serialize)]
+pub struct Contour<'a> {
+    /// Its links.
+    pub contour: String,
+    /// Its joints.
+    pub joints: Vec<&'a str>,
+    /// σ in the order reported.
+    pub redundant: usize,
+    /// The least σ over all orders.
+    pub least: usize,
+    /// The greatest.
+    pub greatest: usize,
+}
+
+/// The redundant constraint that a coupling is, or not.
+#[derive(Debug, Serialize)]
+pub struct Coupling<'a> {
+    /// Names of its two freedoms.
+    pub coupling: &'a str,
+    /// σ after all that comes before it.
+    pub redundant: usize,
+    /// The least over all orders: alone it never is redundant.
+    pub least: usize,
+    /// The greatest.
+    pub greatest: usize,
+}
+
+/// What a state adds to the free one; see [`crate::redundancy::analysis::External`].
+#[derive(Debug, Serialize)]
+#[allow(missing_docs, reason = "named as there")]
+pub struct External {
+    pub constraints: i64,
+    pub actual_mobility: i64,
+    pub working_mobility: i64,
+    pub lost_mobility: i64,
+    pub redundant: i64,
+    pub redundant_by_rank: i64,
+    pub agree: bool,
+}
+
+/// A motion that leaves every output at rest.
+#[derive(Debug, Serialize)]
+pub struct Idle<'a> {
+    /// The links that move.
+    pub links: Vec<&'a str>,
+    /// Joints whose points it leaves at rest.
+    pub through: Vec<&'a str>,
+    /// All that in words.
+    pub text: String,
+}
+
+/// Loads that parts out of true cause by themselves.
+#[derive(Debug, Serialize)]
+pub struct SelfStress<'a> {
+    /// The contours that pass it round.
+    pub contours: Vec<String>,
+    /// Whether it exists in this state only.
+    pub external: bool,
+    /// "harmless" or "harmful".
+    pub verdict: &'static str,
+    /// What the joints carry.
+    pub joints: Vec<Wrench<'a>>,
+    /// The couplings that pass it on, in mechanisms that have any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub couplings: Option<Vec<&'a str>>,
+    /// The joint that feels it least, of the contacts where they do, and as what.
+    #[serde(skip)]
+    pub felt: Option<(&'a str, String)>,
+    /// The place in the order reported of the contour it ends in.
+    #[serde(skip)]
+    pub ends_in: Option<usize>,
+}
+
+/// Components of a wrench along the global axes.
+#[derive(Debug, Serialize)]
+pub struct Wrench<'a> {
+    /// The joint.
+    pub joint: &'a str,
+    /// Axes of its moments.
+    pub moments: Vec<&'static str>,
+    /// Axes of its forces.
+    pub forces: Vec<&'static str>,
+}
+
+/// What planar mode leaves out.
+#[derive(Debug, Serialize)]
+pub struct LeftOut<'a> {
+    /// The joint.
+    pub joint: &'a str,
+    /// How many of its freedoms.
+    pub freedoms: usize,
+}
+
+/// The figures with every digit taken at its word.
+#[derive(Debug, Serialize)]
+pub struct AsWritten {
+    /// Rank of J.
+    pub rank: usize,
+    /// W.
+    pub mobility: usize,
+    /// σ.
+    pub redundant: usize,
+}
+
+impl<'a> Analysis<'a> {
+    /// What `found` says of a mechanism, with `advice` for each of its states, or none.
+    #[must_use]
+    pub fn new(
+        mechanism: &'a Mechanism,
+        found: &'a [StateAnalysis],
+        advice: &'a [Advice],
+    ) -> Analysis<'a> {
+        let states = found.iter().enumerate().map(|(i, s)| State {
+            suggestions: advice
+                .get(i)
+                .map(|advice| Suggestions::new(mechanism, s, advice)),
+            ..State::new(mechanism, s)
+        });
+        Analysis {
+            mechanism: &mechanism.name,
+            length_unit: mechanism.length_unit.symbol,
+            states: states.collect(),
+            stroke: None,
+        }
+    }
+}
+
+impl<'a> State<'a> {
+    fn new(mechanism: &'a Mechanism, s: &'a StateAnalysis) -> State<'a> {
+        let joint = |j: JointId| mechanism.joints[j].id.as_str();
+        State {
+            state: &s.state,
+            links: s.links,
+            joints: s.joints,
+            contours: s.contours,
+            freedoms: s.freedoms,
+            rows: s.rows,
+            rank: s.rank,
+            mobility: s.mobility,
+            finite_mobility: s.finite.mobility,
+            finite_mobility_at_most: Some(s.finite.at_most())
+                .filter(|&most| most > s.finite.mobility),
+            finite_mobility_known_by: s.finite.word(),
+            finite_mobility_proven: s.finite.is_proven(),
+            finite_certainty: s.finite.describe(),
+            working_mobility: s.working_mobility,
+            local_mobility: s.local_mobility,
+            redundant: s.redundant,
+            formula_mobility: s.formula_mobility,
+            per_contour: s
+                .per_contour
+                .iter()
+                .map(|c| Contour::new(mechanism, c))
+                .collect(),
+            external: s.external.map(|e| External {
+                constraints: e.constraints,
+                actual_mobility: e.actual_mobility,
+                working_mobility: e.working_mobility,
+                lost_mobility: e.lost_mobility,
+                redundant: e.redundant,
+                redundant_by_rank: e.by_rank,
+                agree: e.redundant == e.by_rank,
+            }),
+            idle: s
+                .idle
+                .iter()
+                .map(|i| Idle {
+                    links: i
+                        .links
+                        .iter()
+                        .map(|&l| mechanism.links[l].id.as_str())
+                        .collect(),
+                    through: i.through.iter().map(|&j| joint(j)).collect(),
+                    text: idle::words(mechanism, i),
+                })
+                .collect(),
+            self_stresses: s
+                .self_stresses
+                .iter()
+                .map(|t| SelfStress::new(mechanism, s, t))
+                .collect(),
+            left_out: s
+                .left_out
+                .iter()
+                .map(|&(j, freedoms)| LeftOut {
+                    joint: joint(j),
+                    freedoms,
+                })
+                .collect(),
+            method: s.method,
+            certainty: s.certainty.describe(),
+            certainty_kind: s.certainty.word(),
+            choice: s.choice.as_deref(),
+            snapped: &s.snapped,
+            as_written: s.as_written.map(|rank| AsWritten {
+                rank,
+                mobility: s.freedoms - rank,
+                redundant: s.rows - rank,
+            }),
+            per_coupling: s.per_coupling.iter().map(Coupling::new).collect(),
+            suggestions: None,
+        }
+    }
+}
+
+impl<'a> Contour<'a> {
+    fn new(mechanism: &'a Mechanism, c: &ContourShare) -> Contour<'a> {
+        let joints = c.contour.joints.iter();
+        Contour {
+            contour: c.contour.name(mechanism),
+            joints: joints
+                .map(|(j, _)| mechanism.joints[*j].id.as_str())
+                .collect(),
+            redundant: c.redundant,
+            least: c.range.0,
+            greatest: c.range.1,
+        }
+    }
+}
+
+impl<'a> Coupling<'a> {
+    fn new(c: &'a CouplingShare) -> Coupling<'a> {
+        Coupling {
+            coupling: &c.name,
+            redundant: c.redundant,
+            least: 0,
+            greatest: c.most,
+        }
+    }
+}
+
+impl<'a> SelfStress<'a> {
+    fn new(
+        mechanism: &'a Mechanism,
+        s: &'a StateAnalysis,
+        t: &'a crate::redundancy::stress::SelfStress,
+    ) -> SelfStress<'a> {
+        // At the contacts, where there are any, since that is where external redundancy is felt.
+        let felt = t
+            .joints
+            .iter()
+            .filter(|w| !t.external || mechanism.joints[w.joint].states.is_some())
+            .map(|w| Wrench::new(mechanism, w))
+            .min_by_key(|w| w.moments.len() + w.forces.len());
+        let contours = t.contours.iter();
+        let couplings = t.couplings.iter();
+        SelfStress {
+            contours: contours
+                .map(|&c| s.per_contour[c].contour.name(mechanism))
+                .collect(),
+            external: t.external,
+            verdict: match t.verdict {
+                Verdict::Harmless => "harmless",
+                Verdict::Harmful => "harmful",
+            },
+            joints: t.joints.iter().map(|w| Wrench::new(mechanism, w)).collect(),
+            couplings: (!s.per_coupling.is_empty()).then(|| {
+                couplings
+                    .map(|&q| s.per_coupling[q].name.as_str())
+                    .collect()
+            }),
+            felt: felt.map(|w| (w.joint, w.words())),
+            ends_in: t.contours.last().copied(),
+        }
+    }
+}
+
+impl<'a> Wrench<'a> {
+    fn new(mechanism: &'a Mechanism, w: &JointWrench) -> Wrench<'a> {
+        let axes = |flags: [bool; 3]| {
+            let named = ["x", "y", "z"].into_iter().zip(flags);
+            named.filter(|(_, there)| *there).map(|(a, _)| a).collect()
+        };
+        Wrench {
+            joint: &mechanism.joints[w.joint].id,
+            moments: axes(w.moments),
+            forces: axes(w.forces),
+        }
+    }
+}

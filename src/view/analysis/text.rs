@@ -1,0 +1,246 @@
+//! An analysis for people: the verdict first, then where each figure comes from.
+
+use super::{Analysis, AsWritten, Contour, Coupling, External, LeftOut, SelfStress, State, Wrench};
+use crate::format::phrase::{list, plural};
+use crate::view::idle;
+use crate::view::layout::{fit, table};
+use itertools::Itertools;
+use std::fmt::Write;
+
+impl Analysis<'_> {
+    /// The whole analysis but for its stroke, fitted to a terminal of `width` columns where one is given.
+    #[must_use]
+    pub fn text(&self, width: Option<u16>) -> String {
+        let states = self.states.iter().map(|s| {
+            let mut out = String::new();
+            // Writing to a string cannot fail.
+            let _ = s.write(&mut out, self.mechanism, width);
+            if let Some(suggestions) = &s.suggestions {
+                out += &suggestions.text(width);
+            }
+            out
+        });
+        fit(&states.collect_vec().join("\n"), width)
+    }
+}
+
+impl State<'_> {
+    fn write(&self, out: &mut String, mechanism: &str, width: Option<u16>) -> std::fmt::Result {
+        let (rows, f) = (self.rows, self.freedoms);
+        writeln!(
+            out,
+            "{mechanism}, state {}: {}, mobility {}\n",
+            self.state,
+            self.verdict(),
+            self.mobility
+        )?;
+        let couplings = match self.per_coupling.len() {
+            0 => String::new(),
+            c => format!(", c = {}", plural(c, "coupling")),
+        };
+        writeln!(
+            out,
+            "  n = {} links, p = {} joints, k = {} contours, f = {f} freedoms{couplings}\n  \
+             rank of the {rows} x {f} closure matrix: {}\n  \
+             W = f - rank = {} (in this pose): working {}, local {}\n  \
+             {}\n  \
+             σ = {rows} - rank = {}  (= W + {rows} - f)",
+            self.links,
+            self.joints,
+            self.contours,
+            self.rank,
+            self.mobility,
+            self.working_mobility,
+            self.local_mobility,
+            self.finite(),
+            self.redundant
+        )?;
+        if self.counting_is_wrong() {
+            writeln!(
+                out,
+                "  counting alone (Malyshev's formula) says {}, wrong by the redundant constraints",
+                self.formula_mobility
+            )?;
+        }
+        for motion in self.idle_motions() {
+            writeln!(out, "  idle: {motion}")?;
+        }
+        for line in self.left_out.iter().map(LeftOut::words) {
+            writeln!(out, "  {line}")?;
+        }
+        writeln!(out, "  {}", self.certainty)?;
+        for line in self.method_lines() {
+            writeln!(out, "  {line}")?;
+        }
+        let shares = self.per_contour.iter().map(Contour::row);
+        let shares = shares
+            .chain(self.per_coupling.iter().map(Coupling::row))
+            .collect_vec();
+        if !shares.is_empty() {
+            let head = ["contour", "joints", "σ in this order", "σ over all orders"];
+            writeln!(out, "\n{}", table(&head, shares, width))?;
+        }
+        if let Some(e) = &self.external {
+            let disagree = if e.agree { "" } else { "  -- THESE DISAGREE" };
+            writeln!(
+                out,
+                "\n  External: σ = {} = {}; by rank {}{disagree}",
+                e.formula(),
+                e.redundant,
+                e.redundant_by_rank
+            )?;
+        }
+        if !self.self_stresses.is_empty() {
+            let head = ["self-stress in contour", "carried at", "as", ""];
+            let rows = self.self_stresses.iter().map(SelfStress::row).collect();
+            writeln!(
+                out,
+                "\n{}\n  harmful: loads joints when parts are out of true; harmless: friction shared by the contacts",
+                table(&head, rows, width)
+            )?;
+        }
+        Ok(())
+    }
+
+    /// The answer in a few words.
+    #[must_use]
+    pub fn verdict(&self) -> String {
+        match self.redundant {
+            0 => "statically determinate".to_owned(),
+            n => plural(n, "redundant constraint"),
+        }
+    }
+
+    /// The finite mobility and how it is known.
+    #[must_use]
+    pub fn finite(&self) -> String {
+        let most = self.finite_mobility_at_most;
+        format!(
+            "finite mobility {}{}: {}",
+            self.finite_mobility,
+            most.map_or(String::new(), |most| format!(" to {most}")),
+            self.finite_certainty
+        )
+    }
+
+    /// Whether Malyshev's formula gives another mobility than the rank.
+    #[must_use]
+    pub fn counting_is_wrong(&self) -> bool {
+        i64::try_from(self.mobility) != Ok(self.formula_mobility)
+    }
+
+    /// Idle motions in words, those that read alike told once.
+    #[must_use]
+    pub fn idle_motions(&self) -> Vec<String> {
+        idle::told_once(self.idle.iter().map(|i| i.text.clone()))
+    }
+
+    /// Which method was chosen and why, and what it did to the coordinates.
+    pub fn method_lines(&self) -> impl Iterator<Item = String> {
+        let choice = self.choice.iter().map(|c| format!("method: {c}"));
+        let snapped = self.snapped.iter().map(|moved| format!("snapped: {moved}"));
+        let written = self.as_written.iter().map(AsWritten::words);
+        choice.chain(snapped).chain(written)
+    }
+}
+
+impl LeftOut<'_> {
+    /// "left out in the plane: 1 freedom of joint 3-0".
+    #[must_use]
+    pub fn words(&self) -> String {
+        format!(
+            "left out in the plane: {} of joint {}",
+            plural(self.freedoms, "freedom"),
+            self.joint
+        )
+    }
+}
+
+impl AsWritten {
+    fn words(&self) -> String {
+        format!(
+            "as written, every digit at its word: mobility {}, σ = {}",
+            self.mobility, self.redundant
+        )
+    }
+}
+
+/// "2" or "0 to 2".
+fn range(least: usize, greatest: usize) -> String {
+    if least == greatest {
+        least.to_string()
+    } else {
+        format!("{least} to {greatest}")
+    }
+}
+
+impl Contour<'_> {
+    /// σ over all orders.
+    #[must_use]
+    pub fn range(&self) -> String {
+        range(self.least, self.greatest)
+    }
+
+    fn row(&self) -> Vec<String> {
+        vec![
+            self.contour.clone(),
+            self.joints.join(", "),
+            self.redundant.to_string(),
+            self.range(),
+        ]
+    }
+}
+
+impl Coupling<'_> {
+    fn row(&self) -> Vec<String> {
+        vec![
+            "coupling".to_owned(),
+            self.coupling.to_owned(),
+            self.redundant.to_string(),
+            range(self.least, self.greatest),
+        ]
+    }
+}
+
+impl External {
+    /// Where its σ comes from: "12 constraints - (1 - 0) - 0 lost mobilities".
+    #[must_use]
+    pub fn formula(&self) -> String {
+        format!(
+            "{} constraints - ({} - {}) - {} lost mobilities",
+            self.constraints, self.actual_mobility, self.working_mobility, self.lost_mobility
+        )
+    }
+}
+
+impl SelfStress<'_> {
+    fn row(&self) -> Vec<String> {
+        let contours = self.contours.iter().map(String::as_str);
+        let (joint, what) = self.felt.clone().unwrap_or_default();
+        vec![
+            contours
+                .chain(self.couplings.iter().flatten().copied())
+                .join(" + "),
+            joint.to_owned(),
+            what,
+            self.verdict.to_owned(),
+        ]
+    }
+}
+
+impl Wrench<'_> {
+    /// Which components it has: "moments about x and y, force along z".
+    #[must_use]
+    pub fn words(&self) -> String {
+        let part = |what: &str, axes: &[&str]| {
+            let (noun, along) = what.split_once(' ')?;
+            let s = if axes.len() == 1 { "" } else { "s" };
+            (!axes.is_empty()).then(|| format!("{noun}{s} {along} {}", list(axes)))
+        };
+        let parts = [
+            part("moment about", &self.moments),
+            part("force along", &self.forces),
+        ];
+        parts.into_iter().flatten().join(", ")
+    }
+}

@@ -1,0 +1,107 @@
+//! The variants of a search as CSV, one a line, a column for each joint that has a choice.
+
+use crate::format::number::cost;
+use crate::model::mechanism::JointId;
+use crate::score::outcome::{Outcome, Variants};
+use crate::search::conditions::Search;
+use crate::search::over_stroke::OverStroke;
+use crate::search::space::choice_name;
+use std::io::{self, Write};
+
+/// Columns before the joints.
+const FIGURES: [&str; 6] = [
+    "position",
+    "cost",
+    "mobility",
+    "redundant",
+    "external_redundant",
+    "changes",
+];
+/// Columns after them.
+const OPINIONS: [&str; 3] = ["conditioning", "agree", "lucky"];
+/// Columns of a ranking.
+const SCORES: [&str; 8] = [
+    "by_cost",
+    "peak_force",
+    "peak_moment",
+    "singular_ratio",
+    "output_error",
+    "idle",
+    "total",
+    "front",
+];
+
+/// Writes the variants as they come.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> io::Result<()> {
+    let mut out = csv::Writer::from_writer(out);
+    let search = &outcome.search;
+    let joints = columns(search);
+    let mut row: Vec<String> = FIGURES.map(str::to_owned).to_vec();
+    row.extend(
+        joints
+            .iter()
+            .map(|&(_, j)| search.mechanism.joints[j].id.clone()),
+    );
+    row.extend(OPINIONS.map(str::to_owned));
+    if outcome.ranking.is_some() {
+        row.extend(SCORES.map(str::to_owned));
+    }
+    out.write_record(&row)?;
+    for v in variants {
+        row.clear();
+        row.extend([
+            v.position().to_string(),
+            cost(v.cost_milli()),
+            v.mobility().to_string(),
+            v.redundant().to_string(),
+            told(v.external_redundant()),
+            v.change_count().to_string(),
+        ]);
+        let choices = &v.assignment().choices;
+        row.extend(joints.iter().map(|&(variable, j)| {
+            let choice = &search.space.variables[variable].choices[choices[variable]];
+            choice_name(&search.mechanism, j, choice)
+        }));
+        let opinion = v.second().opinion();
+        row.extend([
+            told(opinion.map(|o| format!("{:e}", o.conditioning))),
+            told(opinion.map(|o| o.agree)),
+            told(v.over_stroke().and_then(OverStroke::lucky)),
+        ]);
+        if outcome.ranking.is_some() {
+            row.extend(match v.ranked() {
+                Some(r) => [
+                    r.by_cost.to_string(),
+                    r.scores.force.utilisation.to_string(),
+                    r.scores.moment.utilisation.to_string(),
+                    r.scores.conditioning.to_string(),
+                    r.scores.output_error.to_string(),
+                    r.scores.idle.to_string(),
+                    told(r.total),
+                    told(r.front),
+                ],
+                None => Default::default(),
+            });
+        }
+        out.write_record(&row)?;
+    }
+    out.flush()
+}
+
+fn told<T: ToString>(value: Option<T>) -> String {
+    value.map_or_else(String::new, |x| x.to_string())
+}
+
+/// The joints that have a choice, in file order: (variable, joint).
+fn columns(search: &Search) -> Vec<(usize, JointId)> {
+    let variables = search.space.variables.iter().enumerate();
+    let choosing = variables.filter(|(_, v)| v.choices.len() > 1);
+    let mut out: Vec<_> = choosing
+        .flat_map(|(v, variable)| variable.joints.iter().map(move |&j| (v, j)))
+        .collect();
+    out.sort_by_key(|&(_, j)| j);
+    out
+}

@@ -1,0 +1,69 @@
+//! The page "How to add": its files exist, and its lists are the only ones.
+
+use ozols::rank::registry;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const PAGE: &str = include_str!("../../src/guide/adding.md");
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn sources(folder: &Path, out: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            sources(&path, out);
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            out.push(path);
+        }
+    }
+}
+
+#[test]
+fn the_files_and_names_of_the_page_exist() {
+    let quoted: Vec<&str> = PAGE.split('`').skip(1).step_by(2).collect();
+    let files: Vec<&&str> = quoted.iter().filter(|q| q.contains('/')).collect();
+    assert!(files.len() > 8);
+    for file in &files {
+        assert!(root().join(file).exists(), "{file}");
+    }
+    let mut all = Vec::new();
+    sources(&root().join("src"), &mut all);
+    let code: String = all.iter().map(|f| fs::read_to_string(f).unwrap()).collect();
+    for name in quoted.iter().filter(|q| !q.contains(['/', ' ', '-'])) {
+        let last = name.rsplit("::").next().unwrap();
+        assert!(code.contains(last), "{name}");
+    }
+}
+
+/// Files outside `homes` in which a word stands in quotes, tests aside.
+fn elsewhere(word: &str, homes: &[&str]) -> Vec<String> {
+    let mut all = Vec::new();
+    sources(&root().join("src"), &mut all);
+    all.iter()
+        .map(|f| {
+            let name = f.strip_prefix(root()).unwrap().to_str().unwrap().to_owned();
+            (name, fs::read_to_string(f).unwrap())
+        })
+        .filter(|(name, text)| {
+            let code = text.split("#[cfg(test)]").next().unwrap();
+            !homes.iter().any(|h| name.starts_with(h)) && code.contains(&format!("\"{word}\""))
+        })
+        .map(|(name, _)| name)
+        .collect()
+}
+
+#[test]
+fn the_words_of_rank_methods_stand_in_their_own_files() {
+    // The studies of accuracy ask some methods by name.
+    let homes = ["src/rank/", "src/accuracy/", "src/view/accuracy_text.rs"];
+    for method in registry::ALL {
+        let name = method.name();
+        // These are words of other tables, too.
+        if !["count", "finite", "auto", "modular", "svd", "generic"].contains(&name) {
+            assert_eq!(elsewhere(name, &homes), [""; 0], "{name}");
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Grips that cannot be: refused, or told.
+
+use super::text;
+use crate::common::ozols;
+use serde_json::Value;
+
+/// Writes a file, runs commands on it, and gives exit code, output and errors.
+pub(super) fn run(text: &str, args: &[&str]) -> (Option<i32>, String, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("gripper.toml");
+    std::fs::write(&path, text).unwrap();
+    let args: Vec<&str> = args
+        .iter()
+        .map(|a| {
+            if *a == "FILE" {
+                path.to_str().unwrap()
+            } else {
+                a
+            }
+        })
+        .collect();
+    let o = ozols(&args).output().unwrap();
+    let said = |b: Vec<u8>| String::from_utf8(b).unwrap();
+    (o.status.code(), said(o.stdout), said(o.stderr))
+}
+
+const STATICS: [&str; 4] = ["statics", "FILE", "--state", "clamped"];
+
+/// Files as users write them: what is wrong is refused at its line by every command, what cannot be held is said.
+#[test]
+fn impossible_grips_are_refused_or_told() {
+    let with = |from: &str, to: &str| {
+        assert!(text().contains(from), "{from}");
+        text().replacen(from, to, 1)
+    };
+    // Wrong in itself: exit code 2 from all, with the line and what to give.
+    for (from, to, line, part) in [
+        (
+            "density = 7850",
+            "density = -7850",
+            "density",
+            "a number above 0",
+        ),
+        (
+            "density = 7850\npart_length = 120",
+            "mass = -1",
+            "mass = -1",
+            "a number above 0",
+        ),
+        (
+            "id = \"3\"",
+            "id = \"3\"\nmass = -2\ncentre = [0, 0, 0]",
+            "mass = -2",
+            "a number from 0",
+        ),
+        (
+            "prism_angle = 120",
+            "prism_angle = 180",
+            "prism_angle",
+            "at 180 the faces form no V",
+        ),
+        (
+            "prism_angle = 120",
+            "prism_angle = \"pi\"",
+            "prism_angle",
+            "at 180 the faces form no V",
+        ),
+        (
+            "friction = 0.2",
+            "friction = -0.2",
+            "friction",
+            "a coefficient from 0 to 10",
+        ),
+        ("friction = 0.2", "", "density", "needs friction"),
+        (
+            "diameter = 40",
+            "diameter = -40",
+            "diameter = -40",
+            "a number above 0",
+        ),
+        (
+            "lever_joints = [\"0-1\", \"0-2\"]\n",
+            "",
+            "contacts",
+            "contacts needs lever_joints",
+        ),
+        (
+            "contacts = [\"1-a far\"",
+            "contacts = [\"1-a fat\"",
+            "contacts",
+            "unknown joint \"1-a fat\"",
+        ),
+        (
+            "contacts = [\"1-a far\", \"1-a near\"",
+            "contacts = [\"2-a far\", \"1-a near\"",
+            "contacts",
+            "turns in the first of lever_joints",
+        ),
+        (
+            "friction = 0.2",
+            "friction = 0.2\nlevers = \"independent\"",
+            "contacts",
+            "one drive for both",
+        ),
+        (
+            "friction = 0.2",
+            "friction = 0.2\npivots = \"nominal\"",
+            "contacts",
+            "pivots = \"fixed\"",
+        ),
+    ] {
+        let text = with(from, to);
+        let number = text.lines().position(|l| l.contains(line)).unwrap() + 1;
+        for args in [&["grip", "FILE"][..], &STATICS, &["check", "FILE"]] {
+            let (code, said, errors) = run(&text, args);
+            assert_eq!(
+                (code, said.as_str()),
+                (Some(2), ""),
+                "{to} {args:?}: {errors}"
+            );
+            assert!(errors.contains(part), "{to} {args:?}: {errors}");
+            assert!(errors.contains("gripper.toml:"), "{errors}");
+            if line != "contacts" && line != "density" {
+                assert!(
+                    errors.contains(&format!("gripper.toml:{number}:")),
+                    "{to}: {errors}"
+                );
+            }
+        }
+    }
+    // Cannot be held: a valid file, exit code 1 with the reason.
+    for (from, to, part) in [
+        (
+            "friction = 0.2",
+            "friction = 0",
+            "slides along its axis (z); faces without friction cannot stop that",
+        ),
+        (
+            "diameters = { from = 30, to = 50, count = 5 }",
+            "diameters = [90, 100]",
+            "larger than the jaws",
+        ),
+    ] {
+        let text = with(from, to);
+        for args in [&["grip", "FILE"][..], &STATICS] {
+            let (code, said, errors) = run(&text, args);
+            assert_eq!((code, errors.as_str()), (Some(1), ""), "{to} {args:?}");
+            assert!(said.contains(part) && said.contains("cannot"), "{said}");
+        }
+        assert_eq!(run(&text, &["check", "FILE"]).0, Some(0));
+        let (code, said, _) = run(
+            &text,
+            &["statics", "FILE", "--state", "clamped", "--format", "json"],
+        );
+        assert_eq!(code, Some(1));
+        let said: Value = serde_json::from_str(&said).unwrap();
+        assert_eq!(said["held"], false);
+        // Nothing to rank by.
+        let (code, _, errors) = run(&text, &["search", "FILE", "--top", "1"]);
+        assert_eq!(code, Some(2));
+        assert!(errors.contains("holds none of its parts"), "{errors}");
+    }
+    // Friction 0 with a pull across the part alone can be held.
+    let across = with("friction = 0.2", "friction = 0")
+        .replace("any_acceleration = 5\n", "gravity = [-9.81, 0, 0]\n");
+    assert_eq!(run(&across, &["grip", "FILE"]).0, Some(0));
+    assert_eq!(run(&across, &STATICS).0, Some(0));
+    // One of two: what is held is answered, what is not is said.
+    let some = with(
+        "diameters = { from = 30, to = 50, count = 5 }",
+        "diameters = [40, 90]",
+    );
+    assert_eq!(run(&some, &["grip", "FILE"]).0, Some(1));
+    let (code, said, _) = run(&some, &STATICS);
+    assert_eq!(code, Some(0));
+    assert!(
+        said.contains("D = 90 mm cannot be held: larger than the jaws"),
+        "{said}"
+    );
+    let (code, _, _) = run(
+        &some,
+        &["statics", "FILE", "--state", "clamped", "--diameter", "90"],
+    );
+    assert_eq!(code, Some(1));
+    // Figures that are not those of the joints.
+    let off = with("lever_length = 100", "lever_length = 99");
+    for args in [&STATICS[..], &["check", "FILE"], &["grip", "FILE"]] {
+        let (code, said, errors) = run(&off, args);
+        assert_eq!((code, said.as_str()), (Some(2), ""), "{errors}");
+        assert!(
+            errors.contains("make the joints' points and the figures agree"),
+            "{errors}"
+        );
+    }
+    for flag in [
+        &["--stroke", "0:1:2"][..],
+        &["--diameter", "33"],
+        &["--method", "delta"],
+        &["--svg", "x"],
+    ] {
+        let args: Vec<&str> = STATICS.iter().chain(flag).copied().collect();
+        assert_eq!(run(text(), &args).0, Some(2), "{flag:?}");
+    }
+    let (code, _, errors) = run(text(), &["statics", "FILE", "--diameter", "40"]);
+    assert_eq!(code, Some(2));
+    assert!(errors.contains("no grip loads state free"), "{errors}");
+}

@@ -1,0 +1,325 @@
+//! What is wrong with a mechanism file is said with its line, the item and the remedy.
+
+use super::{four_bar, refused};
+use std::fs;
+
+/// Asserts that a file is refused at the line where `line_with` first stands, with these words.
+pub(super) fn bad_file(name: &str, content: &str, line_with: &str, parts: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    fs::write(&path, content).unwrap();
+    for command in ["check", "analyze", "search"] {
+        let said = refused(&[command, path.to_str().unwrap()], parts);
+        assert!(said.contains(name), "{said}");
+        let line = content.lines().position(|l| l.contains(line_with)).unwrap() + 1;
+        assert!(
+            said.contains(&format!("{name}:{line}:")),
+            "no line {line} in: {said}"
+        );
+    }
+}
+
+/// The four-bar with one text replaced, which must be there.
+pub(super) fn with(from: &str, to: &str) -> String {
+    let text = four_bar();
+    assert!(text.contains(from), "{from}");
+    text.replacen(from, to, 1)
+}
+
+// What can be wrong with a file.
+
+#[test]
+fn error_unknown_link() {
+    bad_file(
+        "bad.toml",
+        &with("[\"2\", \"3\"]", "[\"2\", \"zz\"]"),
+        "zz",
+        &["unknown link \"zz\"", "known links: 0, 1, 2, 3"],
+    );
+}
+
+#[test]
+fn error_duplicate_ids() {
+    let text = with("id = \"2-3\"", "id = \"1-2\"  # again");
+    bad_file(
+        "bad.toml",
+        &text,
+        "# again",
+        &["joint has the id \"1-2\" twice"],
+    );
+    let text = with("id = \"3\"", "id = \"2\"  # again");
+    bad_file(
+        "bad.toml",
+        &text,
+        "# again",
+        &["link has the id \"2\" twice"],
+    );
+}
+
+#[test]
+fn error_empty_id() {
+    bad_file(
+        "bad.toml",
+        &with("id = \"2-3\"", "id = \"\""),
+        "id = \"\"",
+        &["1 to 64 characters"],
+    );
+}
+
+#[test]
+fn error_self_loop() {
+    bad_file(
+        "bad.toml",
+        &with("[\"2\", \"3\"]", "[\"2\", \"2\"]"),
+        "[\"2\", \"2\"]",
+        &["\"2-3\" connects link \"2\" to itself"],
+    );
+}
+
+#[test]
+fn error_disconnected() {
+    let joint = "[[link]]\nid = \"p\"\n\n[[link]]\nid = \"q\"\n\n[[joint]]\nid = \"p-q\"\nlinks = [\"p\", \"q\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n\n[[contour]]";
+    bad_file(
+        "bad.toml",
+        &with("[[contour]]", joint),
+        "id = \"p\"",
+        &["link \"p\" is not connected to the frame", "free", "\"q\""],
+    );
+}
+
+#[test]
+fn error_unused_link() {
+    bad_file(
+        "bad.toml",
+        &with("[[joint]]", "[[link]]\nid = \"lone\"\n\n[[joint]]"),
+        "lone",
+        &["link \"lone\" has no joint"],
+    );
+}
+
+#[test]
+fn error_zero_axis() {
+    bad_file(
+        "bad.toml",
+        &with("axis = [0, 0, 1]", "axis = [0, 0, 0.0]"),
+        "0, 0.0]",
+        &["axis of joint \"0-1\" is zero"],
+    );
+}
+
+#[test]
+fn error_parallel_reference() {
+    let text = with(
+        "axis = [0, 0, 1]",
+        "axis = [0, 0, 1]\nreference = [0, 0, -2]",
+    );
+    bad_file(
+        "bad.toml",
+        &text,
+        "reference =",
+        &["reference of joint \"0-1\" is parallel"],
+    );
+}
+
+#[test]
+fn error_coordinates() {
+    for (word, part) in [
+        ("nan", "finite"),
+        ("inf", "finite"),
+        ("1e308", "out of range"),
+        ("1e-100", "out of range"),
+        ("\"sqrt(-1)\"", "square root of a negative number"),
+        ("\"1/0\"", "division by zero"),
+        ("\"tan(90deg)\"", ""),
+        ("\"sqr(2)\"", "unknown word `sqr`"),
+        ("\"\"", "empty"),
+    ] {
+        let text = with("[80, 90, 0]", &format!("[80, {word}, 0]"));
+        bad_file("bad.toml", &text, "[80, ", &[part]);
+    }
+}
+
+#[test]
+fn error_coordinate_overflow() {
+    bad_file(
+        "bad.toml",
+        &with("[80, 90, 0]", "[80, 99999999999999999999, 0]"),
+        "[80, ",
+        &[],
+    );
+}
+
+#[test]
+fn error_unknown_type() {
+    let text = with("type = \"revolute\"", "type = \"hinge\"");
+    let parts = [
+        "unknown joint type \"hinge\"",
+        "revolute, prismatic, helical, cylindrical, universal",
+        "spherical",
+        "custom",
+    ];
+    bad_file("bad.toml", &text, "hinge\"", &parts);
+}
+
+#[test]
+fn error_other_words() {
+    bad_file(
+        "bad.toml",
+        &with("\"mm\"", "\"furlong\""),
+        "furlong",
+        &["unknown length unit \"furlong\"", "m, mm, cm, um, in"],
+    );
+    bad_file(
+        "bad.toml",
+        &with("role = \"output\"", "role = \"tool\""),
+        "\"tool\"",
+        &["unknown role \"tool\"", "frame, output, object"],
+    );
+    let text = with("length_unit", "mode = \"flat\"\nlength_unit");
+    bad_file(
+        "bad.toml",
+        &text,
+        "\"flat\"",
+        &["unknown mode \"flat\"", "spatial, planar"],
+    );
+}
+
+#[test]
+fn error_option_loses_motion() {
+    let text = with("drive = true", "options = [\"revolute\", \"prismatic\"]");
+    bad_file(
+        "bad.toml",
+        &text,
+        "\"prismatic\"",
+        &["option \"prismatic\" of joint \"0-1\"", "present revolute"],
+    );
+}
+
+#[test]
+fn error_no_frame() {
+    bad_file(
+        "bad.toml",
+        &with("role = \"frame\"", ""),
+        "[[link]]",
+        &["no link has the role \"frame\""],
+    );
+}
+
+#[test]
+fn error_second_frame() {
+    bad_file(
+        "bad.toml",
+        &with("role = \"output\"", "role = \"frame\" # 2"),
+        "# 2",
+        &["link \"3\" is a second frame after \"0\""],
+    );
+}
+
+#[test]
+fn error_no_output() {
+    bad_file(
+        "bad.toml",
+        &with("role = \"output\"", ""),
+        "[[link]]",
+        &["no link has the role \"output\""],
+    );
+}
+
+#[test]
+fn error_open_contour() {
+    let text = with(
+        "\"0-1\", \"1-2\", \"2-3\", \"3-0\"",
+        "\"0-1\", \"1-2\", \"2-3\"",
+    );
+    bad_file("bad.toml", &text, "joints = [", &["closed walk"]);
+}
+
+#[test]
+fn error_unknown_joint_in_contour() {
+    let text = with("\"2-3\", \"3-0\"", "\"2-3\", \"9-9\"");
+    bad_file(
+        "bad.toml",
+        &text,
+        "9-9",
+        &["unknown joint \"9-9\"", "0-1, 1-2, 2-3, 3-0"],
+    );
+}
+
+#[test]
+fn error_toml_syntax() {
+    bad_file(
+        "bad.toml",
+        &with("id = \"2-3\"", "id = = \"2-3\""),
+        "= =",
+        &[],
+    );
+}
+
+#[test]
+fn error_unknown_key() {
+    bad_file(
+        "bad.toml",
+        &with("drive = true", "driven = true"),
+        "driven",
+        &["driven"],
+    );
+}
+
+#[test]
+fn error_wrong_type() {
+    bad_file(
+        "bad.toml",
+        &with("drive = true", "drive = 7"),
+        "drive = 7",
+        &["boolean"],
+    );
+    bad_file(
+        "bad.toml",
+        &with("[80, 90, 0]", "[80, 90]"),
+        "[80, 90]",
+        &[],
+    );
+    bad_file(
+        "bad.toml",
+        &with("[80, 90, 0]", "[80, true, 0]"),
+        "[80, true, 0]",
+        &["expected a number"],
+    );
+}
+
+#[test]
+fn error_all_at_once() {
+    let text = with("[\"2\", \"3\"]", "[\"2\", \"zz\"]").replacen(
+        "type = \"revolute\"",
+        "type = \"hinge\"",
+        1,
+    );
+    bad_file(
+        "bad.toml",
+        &text,
+        "hinge\"",
+        &["unknown link \"zz\"", "unknown joint type \"hinge\""],
+    );
+}
+
+// Once wrong: a nonzero value that underflows to 0.0 as f64 passes the range check.
+#[test]
+fn error_coordinate_underflow() {
+    bad_file(
+        "bad.toml",
+        &with("[80, 90, 0]", "[80, \"1e-9^60\", 0]"),
+        "[80, ",
+        &["out of range"],
+    );
+}
+
+// BUG (toml through the untagged Coordinate): "invalid type: integer `...` as i128, expected any value".
+#[test]
+fn error_coordinate_overflow_in_words() {
+    bad_file(
+        "bad.toml",
+        &with("[80, 90, 0]", "[80, 99999999999999999999, 0]"),
+        "[80, ",
+        &["number"],
+    );
+}

@@ -1,0 +1,139 @@
+//! Files written, standard input and output, closed pipes.
+
+use super::{four_bar, refused};
+use crate::common::{json, out, ozols, text};
+use serde_json::Value;
+use std::fs;
+use std::io::{BufRead, BufReader, Read};
+use std::process::Stdio;
+
+// Files written.
+
+#[test]
+fn output_into_a_missing_folder_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("none/x.json");
+    refused(
+        &["search", "four-bar", "-o", path.to_str().unwrap()],
+        &["cannot write", "none/x.json"],
+    );
+    refused(
+        &["analyze", "four-bar", "-o", path.to_str().unwrap()],
+        &["cannot write", "none/x.json"],
+    );
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn output_file_is_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("x");
+    let file = path.to_str().unwrap();
+    for args in [
+        &["search", "four-bar", "--format", "json"][..],
+        &["search", "four-bar", "--all", "--format", "csv"],
+        &["search", "four-bar"],
+        &["analyze", "four-bar", "--format", "json"],
+        &["analyze", "four-bar"],
+    ] {
+        assert_eq!(out(&[args, &["-o", file]].concat()), "");
+        assert_eq!(fs::read_to_string(&path).unwrap(), out(args), "{args:?}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn show_round_trips_through_standard_input() {
+    let shown = four_bar();
+    let o = ozols(&["check", "-"])
+        .write_stdin(shown.clone())
+        .output()
+        .unwrap();
+    assert_eq!((o.status.code(), text(&o.stderr).as_str()), (Some(0), ""));
+    assert_eq!(text(&o.stdout), out(&["check", "four-bar"]));
+    let o = ozols(&["analyze", "-", "--format", "json"])
+        .write_stdin(shown)
+        .output()
+        .unwrap();
+    let mut read: Value = serde_json::from_slice(&o.stdout).unwrap();
+    let mut named = json(&["analyze", "four-bar", "--format", "json"]);
+    // What to do next names the file.
+    for v in [&mut read, &mut named] {
+        v["next"].take();
+    }
+    assert_eq!(read, named);
+    let o = ozols(&["check", "-"])
+        .write_stdin("x = [")
+        .output()
+        .unwrap();
+    assert_eq!(o.status.code(), Some(2));
+    assert!(text(&o.stderr).contains("standard input:1:"));
+}
+
+// `ozols search ... | head -1`
+#[test]
+fn a_closed_pipe_is_quiet() {
+    for format in ["csv", "jsonl"] {
+        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_ozols"))
+            .args(["search", "gripper-10", "--all", "--format", format])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut first = String::new();
+        BufReader::new(child.stdout.take().unwrap())
+            .read_line(&mut first)
+            .unwrap();
+        assert!(!first.is_empty());
+        let mut said = String::new();
+        child
+            .stderr
+            .take()
+            .unwrap()
+            .read_to_string(&mut said)
+            .unwrap();
+        assert_eq!(said, "");
+        assert!(child.wait().unwrap().success());
+    }
+}
+
+// Once wrong: the temporary file is renamed over whatever PATH is. As root, `-o /dev/null` replaces the
+// device by an ordinary file; a FIFO stands for it here. Never try this with a real device.
+#[cfg(unix)]
+#[test]
+fn output_to_a_special_file_keeps_it() {
+    use std::os::unix::fs::FileTypeExt;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("fifo");
+    assert!(
+        std::process::Command::new("mkfifo")
+            .arg(&path)
+            .status()
+            .unwrap()
+            .success()
+    );
+    // Open at both ends, so that neither side waits.
+    let _both = fs::OpenOptions::new()
+        .read(true)
+        .write(true)
+        .open(&path)
+        .unwrap();
+    out(&["analyze", "four-bar", "-o", path.to_str().unwrap()]);
+    assert!(fs::symlink_metadata(&path).unwrap().file_type().is_fifo());
+}
+
+// Once wrong: the same with a symbolic link: the link is replaced, its target keeps the old content.
+#[cfg(unix)]
+#[test]
+fn output_through_a_symbolic_link() {
+    let folder = tempfile::tempdir().unwrap();
+    let (real, link) = (folder.path().join("real"), folder.path().join("link"));
+    fs::write(&real, "old").unwrap();
+    std::os::unix::fs::symlink(&real, &link).unwrap();
+    out(&["analyze", "four-bar", "-o", link.to_str().unwrap()]);
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(
+        fs::read_to_string(&real).unwrap(),
+        out(&["analyze", "four-bar"])
+    );
+}

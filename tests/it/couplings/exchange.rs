@@ -1,0 +1,159 @@
+//! Couplings in what is written and read: the page, mechanism files, robot formats, drawings.
+
+use super::{SLIDE, TURN, builtin, coupled, exact, mechanism, pair};
+use crate::common::ozols;
+use ozols::model::mechanism::StateId;
+
+#[test]
+fn the_report_has_a_row_for_each_coupling() {
+    let o = ozols(&["analyze", "planetary-gear", "--format", "json"])
+        .output()
+        .unwrap();
+    let v: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
+    let shares = &v["states"][0]["per_coupling"];
+    assert_eq!(shares.as_array().unwrap().len(), 6);
+    assert_eq!(shares[5]["coupling"], "0-c ~ c-3");
+    assert_eq!(
+        (&shares[5]["redundant"], &shares[0]["greatest"]),
+        (&1.into(), &1.into())
+    );
+    let text = String::from_utf8(
+        ozols(&["analyze", "geared-gripper"])
+            .output()
+            .unwrap()
+            .stdout,
+    )
+    .unwrap();
+    assert!(
+        text.contains("c = 1 coupling") && text.contains("0-1 ~ 0-4"),
+        "{text}"
+    );
+}
+
+#[test]
+fn the_file_comes_back_from_export() {
+    let m = mechanism(&pair(
+        TURN,
+        "type = \"cylindrical\"\naxis = [0, 0, 2]",
+        &coupled("a", "b:tz", "\"sqrt(2)/3\""),
+    ));
+    let again = mechanism(&ozols::robots::formats::write(&m, "toml").unwrap());
+    assert_eq!(again.couplings.len(), 1);
+    assert_eq!(again.couplings[0].ends, m.couplings[0].ends);
+    assert_eq!(
+        again.couplings[0].ratio.to_string(),
+        m.couplings[0].ratio.to_string()
+    );
+}
+
+/// Couplings survive as mimic joints, with lengths in metres; those of joints that close loops, or that a tree of mimic
+/// joints cannot hold, are comments.
+#[test]
+fn exported_as_mimic_joints() {
+    use ozols::robots::formats;
+    let m = mechanism(&pair(SLIDE, TURN, &coupled("a", "b", "\"1/20\"")));
+    let urdf = formats::write(&m, "urdf").unwrap();
+    // 1/20 rad a mm is 50 rad a m.
+    assert!(
+        urdf.contains("<mimic joint=\"a\" multiplier=\"50\" offset=\"0\"/>"),
+        "{urdf}"
+    );
+    let sdf = formats::write(&m, "sdf").unwrap();
+    assert!(
+        sdf.contains("<sdf version=\"1.11\">") && sdf.contains("<multiplier>50</multiplier>"),
+        "{sdf}"
+    );
+    let gear = builtin("planetary-gear");
+    let sdf = formats::write(&gear, "sdf").unwrap();
+    assert_eq!(
+        (
+            sdf.matches("<mimic ").count(),
+            sdf.matches("<!-- coupled, ").count()
+        ),
+        (4, 2),
+        "{sdf}"
+    );
+    assert!(!sdf.contains('\0'));
+    let urdf = formats::write(&builtin("geared-gripper"), "urdf").unwrap();
+    assert!(
+        urdf.contains("<mimic joint=\"0-1\" multiplier=\"-1\" offset=\"0\"/>"),
+        "{urdf}"
+    );
+}
+
+const MJCF: &str = r#"<mujoco><worldbody>
+  <body name="1"><joint name="a" type="hinge" axis="0 0 2"/><geom size="1"/>
+    <body name="2" pos="1 0 0"><joint name="b" type="slide" axis="1 0 0"/><geom size="1"/></body></body>
+  <body name="3" pos="0 1 0"><joint name="c" type="hinge" axis="0 1 1"/><geom size="1"/></body>
+</worldbody><equality>EQUALITY</equality></mujoco>"#;
+
+fn mjcf(equality: &str) -> ozols::robots::Imported {
+    let text = MJCF.replace("EQUALITY", equality);
+    let none = |_: &str| Err(std::io::Error::other("no files"));
+    ozols::robots::import(
+        "x.xml",
+        text.as_bytes(),
+        &none,
+        &ozols::robots::Options::default(),
+    )
+    .unwrap()
+}
+
+/// MuJoCo: joint1 = c0 + c1 joint2 + ...; the linear ones are couplings, the others are left out and said so.
+#[test]
+fn equalities_of_mujoco() {
+    let i = mjcf(
+        r#"<joint joint1="b" joint2="a" polycoef="0.1 -0.25"/><joint joint1="c" joint2="a"/>"#,
+    );
+    let m = mechanism(&i.toml().unwrap());
+    let ends = |q: usize| m.couplings[q].ends.map(|e| m.joints[e.joint].id.as_str());
+    assert_eq!((ends(0), ends(1)), (["a", "b"], ["a", "c"]));
+    assert_eq!([0, 1].map(|q| m.couplings[q].ratio.to_f64()), [-0.25, 1.0]);
+    let kept = i.report.kept.unwrap();
+    assert_eq!((kept.couplings, kept.mobility), (2, Some((3, 1))));
+    // Rates are those of the joints, whatever the length of their axes.
+    let rows = ozols::closure::coupling::coefficients(&m, StateId::FREE);
+    assert!(
+        rows.iter()
+            .zip([0.25, -1.0])
+            .all(|(x, y)| (x.to_f64() - y).abs() < 1e-12)
+    );
+    for (equality, why) in [
+        (
+            r#"<joint joint1="b" joint2="a" polycoef="0 1 0.5 0 0"/>"#,
+            "it is not linear",
+        ),
+        (
+            r#"<joint joint1="b" joint2="a" polycoef="0 0"/>"#,
+            "times 0",
+        ),
+        (r#"<joint joint1="b"/>"#, "equality to a constant"),
+    ] {
+        let i = mjcf(equality);
+        assert_eq!(
+            (i.report.coupling_rows, i.report.kept),
+            (1, None),
+            "{equality}"
+        );
+        assert!(
+            i.report.text("x.xml").contains(why),
+            "{}",
+            i.report.text("x.xml")
+        );
+        assert_eq!(exact(&mechanism(&i.toml().unwrap())).mobility, 3);
+    }
+}
+
+#[test]
+fn drawn_as_a_dashed_line() {
+    for kind in ["scheme", "kinematic"] {
+        let o = ozols(&["draw", "geared-gripper", "--kind", kind])
+            .output()
+            .unwrap();
+        let svg = String::from_utf8(o.stdout).unwrap();
+        assert!(
+            svg.contains("coupled joints") && svg.contains("Coupled: 0-1 ~ 0-4, ratio -1."),
+            "{kind}"
+        );
+    }
+}

@@ -1,0 +1,161 @@
+//! `new` and `list`: templates of every built-in mechanism.
+
+use super::run;
+use crate::common::{json, out};
+use ozols::builtin;
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::StateId;
+use ozols::redundancy::analysis::{Method, analyse};
+use std::fs;
+
+// new
+
+#[test]
+fn a_template_of_every_built_in_mechanism_gives_its_figures() {
+    for name in builtin::names() {
+        let given = builtin::text(name).unwrap();
+        let new = ozols::file::template::commented(given, name, "mine").unwrap();
+        let figures = |text: &str| {
+            let m = mechanism_from_str("mine.toml", text).unwrap();
+            let states: Vec<StateId> = m.state_ids().collect();
+            let of = analyse(&m, &states, Method::Modular).unwrap();
+            of.into_iter()
+                .map(|s| {
+                    (
+                        s.state,
+                        s.links,
+                        s.joints,
+                        s.freedoms,
+                        s.rank,
+                        s.working_mobility,
+                        s.redundant,
+                    )
+                })
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(figures(given), figures(&new), "{name}");
+    }
+}
+
+#[test]
+fn a_new_file_is_checked_and_analysed_like_the_one_it_is_made_of() {
+    let folder = tempfile::tempdir().unwrap();
+    for from in [
+        "four-bar",
+        "gripper-10-loaded",
+        "lever-gripper",
+        "torsion-module",
+        "parallel-shears",
+    ] {
+        let path = folder.path().join(format!("my {from}.toml"));
+        let path = path.to_str().unwrap();
+        let said = out(&["new", path, "--from", from]);
+        assert!(said.contains("ozols check"), "{said}");
+        let (code, _, err) = run(&["check", path]);
+        assert_eq!((code, err.as_str()), (Some(0), ""), "{from}");
+        let analysis = |file: &str| {
+            let mut v = json(&["analyze", file, "--format", "json"]);
+            v["next"].take(); // names the file
+            (v["mechanism"].take(), v)
+        };
+        let (name, mine) = analysis(path);
+        assert_eq!(name, format!("my {from}"));
+        assert_eq!(mine, analysis(from).1);
+    }
+}
+
+#[test]
+fn a_new_file_never_takes_the_place_of_another_unasked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let file = path.to_str().unwrap();
+    fs::write(&path, "mine").unwrap();
+    let (code, stdout, err) = run(&["new", file]);
+    assert_eq!((code, stdout.as_str()), (Some(2), ""));
+    assert!(
+        err.contains("is there already") && err.contains("--force"),
+        "{err}"
+    );
+    assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
+    assert_eq!(out(&["new", file, "--force", "--quiet"]), "");
+    assert!(
+        fs::read_to_string(&path)
+            .unwrap()
+            .contains("\nname = \"mine\"")
+    );
+}
+
+#[test]
+fn a_new_file_needs_a_known_mechanism_and_a_toml_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    for (from, meant) in [
+        ("fourbar", "four-bar"),
+        ("benett", "bennett"),
+        ("gripper10", "gripper-10"),
+    ] {
+        let (code, _, err) = run(&["new", path.to_str().unwrap(), "--from", from]);
+        assert_eq!(code, Some(2), "{err}");
+        assert!(err.contains("did you mean") && err.contains(meant), "{err}");
+        assert!(!path.exists());
+    }
+    for name in ["mine", "mine.json"] {
+        let (code, _, err) = run(&["new", folder.path().join(name).to_str().unwrap()]);
+        assert_eq!(code, Some(2));
+        assert!(err.contains("mine.toml"), "{err}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+// list
+
+#[test]
+fn the_list_is_by_family_and_can_be_narrowed() {
+    let all = out(&["list"]);
+    for name in builtin::names() {
+        assert!(
+            all.lines()
+                .any(|l| l.split_whitespace().next() == Some(name)),
+            "{name}"
+        );
+    }
+    for (family, members) in builtin::families() {
+        let after = all.split(&format!("\n{family}\n")).nth(1).unwrap();
+        assert_eq!(
+            after.split_whitespace().next(),
+            Some(members[0]),
+            "{family}"
+        );
+    }
+    let rows = |args: &[&str]| {
+        let listed = out(args);
+        let rows = listed
+            .lines()
+            .skip(2)
+            .filter(|l| l.starts_with("  ") && !l.starts_with("   "));
+        rows.map(|l| l.split_whitespace().next().unwrap().to_owned())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(
+        rows(&["list", "bennett"]),
+        [
+            "bennett",
+            "bennett-perturbed",
+            "two-bennetts",
+            "waldron-hybrid"
+        ]
+    );
+    assert_eq!(rows(&["list", "BENNETT", "rigid"]), ["bennett-perturbed"]);
+    assert!(rows(&["list", "robot"]).contains(&"delta".to_owned()));
+    let line = out(&["list", "four-bar"]);
+    assert!(
+        line.contains("Planar crank-rocker four-bar as a spatial mechanism"),
+        "{line}"
+    );
+    let (code, stdout, err) = run(&["list", "benett"]);
+    assert_eq!((code, stdout.as_str()), (Some(1), ""));
+    assert!(
+        err.contains("benett") && err.contains("did you mean bennett"),
+        "{err}"
+    );
+}

@@ -1,0 +1,62 @@
+//! Expressions for coordinates, such as `sqrt(3)/2` and `cos(36deg)`.
+
+use super::runs;
+use ozols::geom::expr::Expr;
+use proptest::prelude::*;
+use proptest::sample::select;
+
+const TOKENS: [&str; 28] = [
+    "0", "1", "2", "7", "360", "0.5", "1e3", "1e-9", ".", "+", "-", "*", "/", "^", "(", ")",
+    "sqrt(", "cos(", "sin(", "tan(", "pi", "deg", "rad", " ", ",", "2^9", "1/0", "é",
+];
+
+/// A written expression reads as the same number.
+fn read(text: &str) {
+    if let Ok(e) = text.parse::<Expr>() {
+        assert!(e.to_f64().is_finite(), "{text}");
+        let written = e.to_string();
+        let again: Expr = written.parse().unwrap();
+        assert_eq!(again.to_f64(), e.to_f64(), "{text} is written {written}");
+    }
+}
+
+/// Expressions that are well-formed, though some have no value.
+fn formed() -> impl Strategy<Value = String> {
+    let leaf = prop_oneof![
+        (0u32..400).prop_map(|n| n.to_string()),
+        (0u32..100, 1u32..1000).prop_map(|(a, b)| format!("{a}.{b}")),
+        (1u32..720).prop_map(|n| format!("cos({n}deg)")),
+        (1u32..12, 1u32..12).prop_map(|(k, n)| format!("tan({k}*pi/{n})")),
+    ];
+    leaf.prop_recursive(4, 24, 2, |inner| {
+        prop_oneof![
+            (
+                inner.clone(),
+                select(&["+", "-", "*", "/"][..]),
+                inner.clone()
+            )
+                .prop_map(|(a, op, b)| format!("({a}{op}{b})")),
+            inner.clone().prop_map(|a| format!("sqrt({a})")),
+            inner.clone().prop_map(|a| format!("-{a}")),
+            (inner, 0u32..5).prop_map(|(a, n)| format!("({a})^{n}")),
+        ]
+    })
+}
+
+proptest! {
+    #![proptest_config(runs(1024))]
+    #[test]
+    fn random_tokens(tokens in prop::collection::vec(select(&TOKENS[..]), 0..24)) {
+        read(&tokens.concat());
+    }
+
+    #[test]
+    fn well_formed(text in formed()) {
+        read(&text);
+    }
+
+    #[test]
+    fn nested_far(open in select(&["(", "-", "sqrt(", "2^", "1/(", "cos("][..]), depth in 0usize..2000) {
+        read(&format!("{}1{}", open.repeat(depth), ")".repeat(if open.ends_with('(') { depth } else { 0 })));
+    }
+}

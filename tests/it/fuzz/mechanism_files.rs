@@ -1,0 +1,128 @@
+//! Mechanism files in TOML and JSON.
+
+use super::{edits, runs, spoilt};
+use ozols::builtin;
+use ozols::file::text::mechanism_from_bytes;
+use ozols::file::write::mechanism_file;
+use ozols::model::mechanism::StateId;
+use ozols::redundancy::analysis::{Method, analyse};
+use proptest::prelude::*;
+use proptest::sample::Index;
+
+const WORDS: [&str; 20] = [
+    "1e308",
+    "-0.0",
+    "nan",
+    "inf",
+    "99999999999999999999",
+    "\"sqrt(-1)\"",
+    "\"1/0\"",
+    "\"tan(90deg)\"",
+    "\"2^(2^9)\"",
+    "[]",
+    "{}",
+    "\"\"",
+    "\"",
+    "\"\"\"",
+    "\\u0000",
+    "null",
+    "spherical",
+    "frame",
+    "[[joint]]\n",
+    "\n",
+];
+
+/// What is read can be analysed, and written so that it reads as the same.
+fn read(name: &str, bytes: &[u8]) {
+    match mechanism_from_bytes(name, bytes) {
+        Ok(m) => {
+            let written = serde_json::to_vec(&mechanism_file(&m)).unwrap();
+            let again = mechanism_from_bytes("written.json", &written).unwrap();
+            assert_eq!(
+                serde_json::to_vec(&mechanism_file(&again)).unwrap(),
+                written
+            );
+            if m.joints.len() < 20 {
+                let _ = analyse(&m, &[StateId::FREE], Method::Auto { tolerance: None });
+            }
+        }
+        Err(e) => {
+            assert!(!e.problems.is_empty());
+            let _ = (e.render(true), e.to_string());
+        }
+    }
+}
+
+fn built_in(which: Index) -> &'static str {
+    let names = builtin::names();
+    builtin::text(names[which.index(names.len())]).unwrap()
+}
+
+proptest! {
+    #![proptest_config(runs(256))]
+    #[test]
+    fn random_bytes(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
+        read("x.toml", &bytes);
+        read("x.json", &bytes);
+    }
+
+    #[test]
+    fn spoilt_toml(which in any::<Index>(), edits in edits(&WORDS)) {
+        read("x.toml", &spoilt(built_in(which), &edits));
+    }
+
+    #[test]
+    fn spoilt_json(which in any::<Index>(), edits in edits(&WORDS)) {
+        let value: toml::Value = toml::from_str(built_in(which)).unwrap();
+        read("x.json", &spoilt(&serde_json::to_string_pretty(&value).unwrap(), &edits));
+    }
+}
+
+/// A mechanism of one hinge, with more behind its joint.
+fn hinge(more: &str) -> String {
+    format!(
+        "name = \"x\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\nrole = \"output\"\n\
+         [[joint]]\nid = \"a\"\nlinks = [\"0\", \"1\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n{more}\n"
+    )
+}
+
+/// Each mistake was once looked up by reading the whole file again, and all of them were drawn: minutes for a few megabytes.
+#[test]
+fn of_very_many_mistakes_the_first_are_told() {
+    let mirror = r#"["a", "a"], "#.repeat(5000);
+    let costs: String = (0..5000).map(|i| format!("b{i} = 1\n")).collect();
+    for more in [
+        format!("[search]\nmirror = [{mirror}]"),
+        format!("[search.costs]\n{costs}"),
+        "[[expected]]\nstate = \"nowhere\"\n".repeat(5000),
+    ] {
+        let e = mechanism_from_bytes("x.toml", hinge(&more).as_bytes()).unwrap_err();
+        assert_eq!(e.problems.len(), 101);
+        assert!(e.problems[..100].iter().all(|p| p.span.is_some()));
+        let last = e.problems[100].kind.to_string();
+        assert!(
+            last.ends_with("more problems are not listed; mend those above first"),
+            "{last}"
+        );
+    }
+}
+
+#[test]
+fn lists_have_limits() {
+    let words = |n: usize| (0..n).map(|i| format!("\"s{i}\", ")).collect::<String>();
+    for (more, said) in [
+        (format!("state = [{}]", words(200)), "states"),
+        (
+            format!("unloading = [{}]", "\"spherical\", ".repeat(65)),
+            "65 unloading joints",
+        ),
+        (
+            "[[contour]]\njoints = [\"a\"]\n".repeat(4001),
+            "4001 contours",
+        ),
+    ] {
+        let e = mechanism_from_bytes("x.toml", hinge(&more).as_bytes()).unwrap_err();
+        let e = e.to_string();
+        assert!(e.contains(said) && e.contains("allowed"), "{said}: {e}");
+    }
+}

@@ -1,0 +1,122 @@
+//! Robot descriptions (URDF, MJCF, SDF) and the loops beside them.
+
+use super::{edits, runs, spoilt};
+use ozols::file::text::mechanism_from_str;
+use ozols::robots::{Options, import};
+use proptest::prelude::*;
+use proptest::sample::Index;
+
+/// Name and text of a description, and of the file beside it.
+type Input = (
+    &'static str,
+    &'static str,
+    Option<(&'static str, &'static str)>,
+);
+
+const FILES: [Input; 6] = [
+    (
+        "a.xml",
+        include_str!("../../data/robots/robotiq_2f85_v4/2f85.nomesh.xml"),
+        None,
+    ),
+    (
+        "b.xml",
+        include_str!("../../data/robots/xarm7_hand/hand.nomesh.xml"),
+        None,
+    ),
+    (
+        "c.urdf",
+        include_str!("../../data/robots/epr_5bar_linkage/robot.urdf"),
+        Some((
+            "s.yaml",
+            include_str!("../../data/robots/epr_5bar_linkage/robot.yaml"),
+        )),
+    ),
+    (
+        "d.urdf",
+        include_str!("../../data/robots/robotiq_ros_urdf/robotiq_arg2f_85_model.expanded.urdf"),
+        None,
+    ),
+    (
+        "e.sdf",
+        include_str!("../../data/robots/drake_four_bar/four_bar_loop.sdf"),
+        None,
+    ),
+    (
+        "f.sdf",
+        include_str!("../../data/robots/drake_four_bar/four_bar_weld.sdf"),
+        None,
+    ),
+];
+
+const WORDS: [&str; 26] = [
+    "1e308",
+    "-1e308",
+    "1e-320",
+    "nan",
+    "inf",
+    "-0.0",
+    "0 0 0",
+    "\"",
+    "'",
+    "<",
+    ">",
+    "/>",
+    "</",
+    "<!--",
+    "]]>",
+    "<![CDATA[",
+    "&amp;",
+    "&x;",
+    "&#0;",
+    "<!DOCTYPE a [<!ENTITY b 'c'>]>",
+    "<?x",
+    "\u{0}",
+    "\u{feff}",
+    "world",
+    "é",
+    "",
+];
+
+fn read(name: &str, bytes: &[u8], side: Option<(&str, &[u8])>, bits: u8) {
+    let options = Options {
+        loops: side.map(|(n, b)| (n.to_owned(), b.to_vec())),
+        floating: bits & 1 != 0,
+        open: bits & 2 != 0,
+        assemble: bits & 4 != 0,
+        ..Options::default()
+    };
+    let none = |_: &str| Err(std::io::Error::other("no such file"));
+    match import(name, bytes, &none, &options) {
+        Ok(i) => {
+            mechanism_from_str("x.toml", &i.toml().unwrap()).unwrap();
+            assert!(!i.report.text(name).is_empty());
+        }
+        Err(e) => {
+            assert!(!e.problems.is_empty());
+            let _ = (e.render(true), e.to_string());
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(runs(512))]
+    #[test]
+    fn random_bytes(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
+        read("x.urdf", &bytes, None, 0);
+        read("c.urdf", FILES[2].1.as_bytes(), Some(("s.yaml", &bytes)), 2);
+    }
+
+    #[test]
+    fn spoilt_descriptions(which in any::<Index>(), edits in edits(&WORDS), bits in 0u8..8) {
+        let (name, text, side) = FILES[which.index(FILES.len())];
+        read(name, &spoilt(text, &edits), side.map(|(n, t)| (n, t.as_bytes())), bits);
+    }
+
+    #[test]
+    fn spoilt_loops(edits in edits(&WORDS), bits in 0u8..8) {
+        let (name, text, side) = FILES[2];
+        let (beside, loops) = side.unwrap();
+        read(name, text.as_bytes(), Some((beside, &spoilt(loops, &edits))), bits);
+    }
+}

@@ -1,0 +1,240 @@
+//! The library by its front door: what a program gets is what the command writes.
+
+use crate::common::ozols;
+use ozols::model::ranking::Term;
+use ozols::score::request::{Check, JointOptions, List, Method};
+use ozols::score::run::{Event, run};
+use ozols::search::conditions::Symmetry;
+use ozols::search::diagram::Stop;
+use ozols::view::{search_csv, search_json, search_text};
+use ozols::{Error, Mechanism, Outcome, Request, Scheme};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+fn search(name: &str, request: &Request) -> Outcome {
+    ozols::search(&Mechanism::builtin(name).unwrap(), request).unwrap()
+}
+
+fn json(outcome: &Outcome) -> String {
+    let mut out = Vec::new();
+    let eased = outcome.relaxations().unwrap();
+    search_json::write(&mut out, outcome, outcome.variants(), &eased).unwrap();
+    String::from_utf8(out).unwrap()
+}
+
+fn printed(name: &str, flags: &str) -> String {
+    let mut args = vec!["search", name, "--format", "json"];
+    args.extend(flags.split_whitespace());
+    String::from_utf8(ozols(&args).output().unwrap().stdout).unwrap()
+}
+
+#[test]
+fn an_outcome_is_what_the_command_writes() {
+    let request = Request::default;
+    let names = |n: &[&str]| n.iter().map(|n| (*n).to_owned()).collect();
+    let cases: Vec<(&str, &str, Request)> = vec![
+        ("gripper-10", "", request()),
+        ("bennett", "", request()),
+        (
+            "gripper-10",
+            "--max-mobility 1 --options revolute,cylindrical,universal,spherical --top 3",
+            Request {
+                max_mobility: Some(1),
+                options: names(&["revolute", "cylindrical", "universal", "spherical"]),
+                list: List::Top(3),
+                ..request()
+            },
+        ),
+        (
+            "gripper-10",
+            "--forbid 2-3=spherical --max-external 2 --state clamped --top 2",
+            Request {
+                forbid: vec![JointOptions {
+                    joint: "2-3".to_owned(),
+                    names: names(&["spherical"]),
+                }],
+                max_external: Some(2),
+                state: Some("clamped".to_owned()),
+                list: List::Top(2),
+                ..request()
+            },
+        ),
+        (
+            "gripper-10",
+            "--one-per-orbit --check none --sample 4 --seed 7",
+            Request {
+                symmetry: Symmetry::OnePerOrbit,
+                check: Check::None,
+                list: List::Sample(4),
+                seed: 7,
+                ..request()
+            },
+        ),
+        (
+            "gripper-10-loaded",
+            "--rank peak-force,cost=0.5 --pool 60",
+            Request {
+                rank: vec![(Term::PeakForce, 1.0), (Term::Cost, 0.5)],
+                pool: 60,
+                ..request()
+            },
+        ),
+        (
+            "3-crr",
+            "--generic-only --top 4",
+            Request {
+                generic_only: true,
+                list: List::Top(4),
+                ..request()
+            },
+        ),
+        (
+            "four-bar",
+            "--method brute",
+            Request {
+                method: Method::Brute,
+                ..request()
+            },
+        ),
+        (
+            "four-bar",
+            "--max-mobility 0 --max-changes 0",
+            Request {
+                max_mobility: Some(0),
+                max_changes: Some(0),
+                ..request()
+            },
+        ),
+    ];
+    for (name, flags, request) in cases {
+        assert_eq!(
+            json(&search(name, &request)),
+            printed(name, flags),
+            "{name} {flags}"
+        );
+    }
+}
+
+#[test]
+fn a_cancelled_search_says_so() {
+    let m = Mechanism::builtin("gripper-10").unwrap();
+    let outcome = run(m, &Request::default(), &|| true, &mut |_| {}).unwrap();
+    assert_eq!(outcome.stop, Stop::Interrupted);
+    assert!(!outcome.is_exact());
+    assert_eq!(outcome.check.unwrap().agree(), None);
+}
+
+#[test]
+fn cancelled_orbits_are_not_called_exact() {
+    let request = Request {
+        symmetry: Symmetry::OnePerOrbit,
+        ..Request::default()
+    };
+    let built = AtomicBool::new(false);
+    let outcome = run(
+        Mechanism::builtin("gripper-10").unwrap(),
+        &request,
+        &|| built.load(Ordering::SeqCst),
+        &mut |event| built.store(matches!(event, Event::Built), Ordering::SeqCst),
+    );
+    assert_eq!(outcome.unwrap().stop, Stop::Interrupted);
+}
+
+#[test]
+fn giving_ends_when_it_is_cancelled() {
+    let outcome = search("four-bar", &Request::default());
+    let enough = AtomicBool::new(false);
+    let cancelled = || enough.load(Ordering::SeqCst);
+    let mut given = outcome.variants_unless(&cancelled);
+    assert!(given.next().is_some());
+    enough.store(true, Ordering::SeqCst);
+    assert!(given.next().is_none() && given.interrupted());
+    assert_eq!(given.summary().given, 1);
+}
+
+/// Each variant brings its scores along. Once it was looked up in the pool by its choices, and a list of n took n² looks.
+#[test]
+fn scores_stay_with_their_variants() {
+    let request = Request {
+        pool: 300,
+        list: List::Top(300),
+        check: Check::None,
+        ..Request::default()
+    };
+    let outcome = search("gripper-10-loaded", &request);
+    let pool = outcome.ranking.as_ref().unwrap();
+    assert!(pool.list.len() > 100);
+    for (v, r) in outcome.variants().zip(&pool.list) {
+        assert!(
+            std::ptr::eq(v.ranked().unwrap(), r),
+            "a place, not a search"
+        );
+        assert_eq!(v.assignment(), &r.variant);
+    }
+}
+
+#[test]
+fn a_variant_tells_of_itself() {
+    let outcome = search("gripper-10", &Request::default());
+    let best = outcome.variants().next().unwrap();
+    let alone = &ozols::analyze(&best.mechanism()).unwrap()[0];
+    assert_eq!(i64::try_from(alone.mobility).unwrap(), best.mobility());
+    assert_eq!(alone.redundant, best.redundant() as usize);
+    let contours = best.redundant_by_contour().unwrap();
+    assert_eq!(contours.len(), alone.contours);
+    let sum: usize = contours.iter().map(|c| c.redundant).sum();
+    assert_eq!(sum, alone.redundant);
+    assert_eq!(best.changes().len(), best.change_count() as usize);
+    assert!(
+        best.to_string()
+            .starts_with(&format!("1. cost {}, W = ", best.cost())),
+        "{best}"
+    );
+}
+
+#[test]
+fn formats_and_drawings_are_those_of_the_command() {
+    let m = Mechanism::builtin("four-bar").unwrap();
+    let printed = |args: &[&str]| String::from_utf8(ozols(args).output().unwrap().stdout).unwrap();
+    let sdf = ozols::export(&m, "sdf").unwrap();
+    assert_eq!(sdf, printed(&["export", "four-bar", "--to", "sdf"]));
+    let svg = ozols::draw(&m, Scheme::Kinematic).unwrap();
+    assert_eq!(svg, printed(&["draw", "four-bar", "--kind", "kinematic"]));
+    let toml = ozols::export(&m, "toml").unwrap();
+    let again = Mechanism::from_toml(&toml).unwrap();
+    assert_eq!(ozols::export(&again, "toml").unwrap(), toml);
+}
+
+#[test]
+fn csv_and_text_are_those_of_the_command() {
+    let outcome = search("four-bar", &Request::default());
+    let printed = |format: &str| ozols(&["search", "four-bar", "--format", format]).output();
+    let mut csv = Vec::new();
+    search_csv::write(&mut csv, &outcome, outcome.variants()).unwrap();
+    assert_eq!(csv, printed("csv").unwrap().stdout);
+    let mut text = Vec::new();
+    let variants = outcome.variants();
+    search_text::write(&mut text, &outcome, variants, &[], "four-bar", None).unwrap();
+    assert_eq!(text, printed("text").unwrap().stdout);
+}
+
+#[test]
+fn errors_read_as_those_of_the_command() {
+    let request = Request {
+        hold: vec!["nosuch".to_owned()],
+        ..Request::default()
+    };
+    let m = Mechanism::builtin("four-bar").unwrap();
+    let why = ozols::search(&m, &request).unwrap_err();
+    assert!(matches!(why, Error::Search(_)));
+    let printed = ozols(&["search", "four-bar", "--hold", "nosuch"]).output();
+    let printed = String::from_utf8(printed.unwrap().stderr).unwrap();
+    assert_eq!(printed.trim(), format!("error: {why}"));
+    assert!(matches!(
+        Mechanism::builtin("nosuch"),
+        Err(Error::NotBuiltIn(name)) if name == "nosuch"
+    ));
+    assert!(matches!(
+        Mechanism::from_file("/nosuch/file.toml"),
+        Err(Error::Read { .. })
+    ));
+}

@@ -1,0 +1,158 @@
+//! Ranking from the command line and from the file.
+
+use super::{cheapest, loaded, near, search};
+use crate::common::{json, out, ozols};
+use ozols::builtin;
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::Mechanism;
+use ozols::model::ranking::ClearanceSum;
+use ozols::score::evaluate::Evaluator;
+use ozols::search::best::Assignment;
+
+#[test]
+fn the_command_changes_the_order_and_says_why() {
+    let v = json(&["search", "gripper-10-loaded", "--format", "json"]);
+    let ranking = &v["ranking"];
+    assert_eq!(ranking["order"], "weighted");
+    assert_eq!(ranking["pool"], 1000);
+    assert!(ranking["proven"].is_boolean());
+    let first = &v["variants"][0];
+    assert!(first["scores"]["peak-force"].as_f64().unwrap() > 0.0);
+    assert!(first["scores"]["by_cost"].as_u64().unwrap() > 1, "{first}");
+    let reason = first["scores"]["reason"].as_str().unwrap();
+    assert!(
+        reason.starts_with("rank 1 was ") && reason.contains("instead of"),
+        "{reason}"
+    );
+    let text = out(&["search", "gripper-10-loaded"]);
+    assert!(
+        text.contains("rank 1 was ") && text.contains("ranked under the workload"),
+        "{text}"
+    );
+    let csv = out(&[
+        "search",
+        "gripper-10-loaded",
+        "--format",
+        "csv",
+        "--top",
+        "3",
+    ]);
+    let heads = csv.lines().next().unwrap();
+    assert!(
+        heads.ends_with(
+            "by_cost,peak_force,peak_moment,singular_ratio,output_error,idle,total,front"
+        )
+    );
+    assert!(
+        csv.lines()
+            .all(|l| l.split(',').count() == heads.split(',').count()),
+        "{csv}"
+    );
+    // Without a [ranking], the scores stay empty and the order is that of cost.
+    let plain = json(&["search", "gripper-10", "--top", "1", "--format", "json"]);
+    assert!(plain.get("ranking").is_none());
+    assert_eq!(plain["variants"][0]["scores"], serde_json::json!({}));
+    // Asked for on the command line.
+    let asked = json(&[
+        "search",
+        "gripper-10-loaded",
+        "--rank",
+        "peak-moment=2,cost",
+        "--pool",
+        "50",
+        "--format",
+        "json",
+    ]);
+    assert_eq!(asked["ranking"]["terms"][0]["weight"], 2.0);
+    assert_eq!(asked["ranking"]["scored"], 50);
+}
+
+#[test]
+fn bad_rankings_are_refused_with_line_item_and_remedy() {
+    let good = builtin::text("gripper-10-loaded").unwrap();
+    let with = |from: &str, to: &str| {
+        assert!(good.contains(from), "{from}");
+        good.replacen(from, to, 1)
+    };
+    let more = |text: &str| format!("{good}\n{text}\n");
+    for (text, parts) in [
+        (
+            with("term = \"cost\"", "term = \"price\""),
+            &["unknown term \"price\"", "peak-force"][..],
+        ),
+        (
+            with("weight = 0.2", "weight = nan"),
+            &["weight NaN", "from 0 to 1e12"],
+        ),
+        (with("weight = 0.2", "weight = -1"), &["weight -1"]),
+        (
+            with("order = \"weighted\"", "order = \"best\""),
+            &["unknown order \"best\"", "lexicographic"],
+        ),
+        (with("min = 1e-4", "min = inf"), &["limit inf"]),
+        (
+            with("mass = 0.25", "mass = -0.25"),
+            &["mass -0.25", "from 0 to 1e12"],
+        ),
+        (
+            more("[joint_types.spherical]\ncapacity_force = 0"),
+            &["capacity 0", "above 0"],
+        ),
+        (
+            more("[joint_types.spherical]\ncapacity_moment = -1"),
+            &["capacity -1"],
+        ),
+        (
+            more("[joint_types.spherical]\nclearance = -1"),
+            &["clearance -1"],
+        ),
+        (
+            more("[joint_types.ball]\nclearance = 1"),
+            &["unknown joint type \"ball\"", "spherical"],
+        ),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("bad.toml");
+        std::fs::write(&path, text).unwrap();
+        let o = ozols(&["search", path.to_str().unwrap()]).output().unwrap();
+        let said = String::from_utf8(o.stderr).unwrap();
+        assert_eq!(o.status.code(), Some(2), "{said}");
+        assert!(said.contains("bad.toml:"), "{said}");
+        for p in parts {
+            assert!(said.contains(p), "no {p:?} in: {said}");
+        }
+    }
+    for args in [["--rank", "price"], ["--rank", "cost=nan"], ["--pool", "0"]] {
+        let o = ozols(&[&["search", "gripper-10-loaded"], &args[..]].concat())
+            .output()
+            .unwrap();
+        assert_eq!(o.status.code(), Some(2), "{args:?}");
+    }
+}
+
+/// A file's own figures of a joint type change the scores, and its cost the additive part.
+#[test]
+fn joint_types_can_be_overridden() {
+    let text = builtin::text("gripper-10-loaded").unwrap();
+    let text = format!(
+        "{text}\n[joint_types.revolute]\ncapacity_force = 96\n[joint_types.spherical]\ncost = 7\n"
+    );
+    let weak = mechanism_from_str("weak.toml", &text).unwrap();
+    let strong = loaded();
+    let of = |m: &Mechanism| {
+        let s = search(m, 11);
+        let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
+        let present = Assignment {
+            choices: vec![0; s.space.variables.len()],
+            key: cheapest(&s, 1)[0].key,
+        };
+        e.slowly(&present).unwrap().force.utilisation
+    };
+    assert!(near(of(&weak), 10.0 * of(&strong), 1e-9));
+    assert!(
+        weak.search
+            .costs
+            .by_type_milli
+            .contains(&("spherical".to_owned(), 7000))
+    );
+}

@@ -1,0 +1,77 @@
+//! The command `statics` for spatial mechanisms.
+
+use crate::common::{json, out, ozols};
+use ozols::builtin;
+
+#[test]
+fn the_command_gives_six_components_a_joint() {
+    let v = json(&[
+        "statics",
+        "gripper-10-loaded",
+        "--spatial",
+        "--format",
+        "json",
+    ]);
+    assert_eq!(v["choice"], "minimum-norm");
+    assert_eq!(v["self_stresses"].as_array().unwrap().len(), 11);
+    assert_eq!(v["reactions"].as_array().unwrap().len(), 13);
+    assert!(v["residual"].as_f64().unwrap() < 1e-12);
+    assert_eq!(v["reactions"][0]["drive"]["freedom"], "tz");
+    let text = out(&["statics", "gripper-10-loaded", "--spatial"]);
+    assert!(
+        text.contains("minimum norm") && text.contains("11 self-stresses"),
+        "{text}"
+    );
+    assert!(text.contains("Drive 0-1 holds tz"), "{text}");
+    let csv = out(&[
+        "statics",
+        "slider-crank-determinate",
+        "--spatial",
+        "--format",
+        "csv",
+    ]);
+    assert!(csv.starts_with("kind,joint,type,Fx"), "{csv}");
+    // Spatial and redundant mechanisms come here by themselves.
+    assert!(out(&["statics", "bennett"]).contains("states no loads"));
+    assert!(out(&["statics", "parallelogram-3-rods"]).contains("self-stress"));
+}
+
+#[test]
+fn bad_workloads_are_refused_with_line_item_and_remedy() {
+    let good = builtin::text("gripper-10-loaded").unwrap();
+    for (more, parts) in [
+        (
+            "[workload.stiffness.default]\nlinear = 0\nangular = 1\n",
+            &["stiffness 0", "above 0"][..],
+        ),
+        (
+            "[workload.stiffness.ball]\nlinear = 1\nangular = 1\n",
+            &["unknown joint type \"ball\"", "spherical"],
+        ),
+        (
+            "[[workload.misalignment]]\njoint = \"9-9\"\nangle = 0.1\naxis = \"x\"\n",
+            &["unknown joint \"9-9\""],
+        ),
+        (
+            "[[workload.misalignment]]\njoint = \"2-3\"\nangle = 0.1\naxis = \"w\"\n",
+            &["unknown axis \"w\"", "x, y, z"],
+        ),
+        (
+            "[[workload.moment]]\nlink = \"x\"\nmoment = [0, 0, 1]\n",
+            &["unknown link \"x\""],
+        ),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("bad.toml");
+        std::fs::write(&path, format!("{good}\n{more}")).unwrap();
+        let o = ozols(&["statics", path.to_str().unwrap()])
+            .output()
+            .unwrap();
+        let said = String::from_utf8(o.stderr).unwrap();
+        assert_eq!(o.status.code(), Some(2), "{said}");
+        assert!(said.contains("bad.toml:"), "{said}");
+        for p in parts {
+            assert!(said.contains(p), "no {p:?} in: {said}");
+        }
+    }
+}

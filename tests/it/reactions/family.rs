@@ -1,0 +1,107 @@
+//! Reactions that equilibrium leaves open: self-stresses, misalignment, stiffness.
+
+use super::{SOLVED, built_in, left_over, solve};
+use ozols::file::text::mechanism_from_str;
+use ozols::model::loads::{Misalignment, Stiffness};
+use ozols::model::mechanism::StateId;
+use ozols::redundancy::analysis::{Method, analyse};
+use ozols::statics::reactions::JointReaction;
+
+#[test]
+fn self_stresses_are_in_equilibrium_and_as_many_as_the_redundant_constraints() {
+    for name in SOLVED {
+        let mut m = built_in(name);
+        let s = solve(&m);
+        let by_rank = analyse(&m, &[StateId::FREE], Method::Modular).unwrap()[0].redundant;
+        assert_eq!(s.self_stresses.len(), by_rank, "{name}");
+        m.loads = Default::default();
+        for stress in &s.self_stresses {
+            assert!(left_over(&m, stress) < 1e-9, "{name}");
+        }
+    }
+}
+
+/// A bar between two walls, both ends fixed: a turn of one end by θ bends it against the two joints' angular stiffness in
+/// series with what their linear stiffness gives way at the arm's length. By hand: the ends at distance L take a moment
+/// each and forces ±F; least energy under M1 + M2 = F L gives the stiffness.
+#[test]
+fn a_misaligned_joint_strains_as_by_hand() {
+    let text = r#"
+name = "bar"
+[[link]]
+id = "0"
+role = "frame"
+[[link]]
+id = "1"
+role = "output"
+[[joint]]
+id = "a"
+links = ["0", "1"]
+type = "fixed"
+point = [0, 0, 0]
+[[joint]]
+id = "b"
+links = ["0", "1"]
+type = "fixed"
+point = [2, 0, 0]
+[workload.stiffness.default]
+linear = 1000
+angular = 300
+[[workload.misalignment]]
+joint = "b"
+angle = 0.01
+axis = "z"
+"#;
+    let m = mechanism_from_str("bar.toml", text).unwrap();
+    let s = solve(&m);
+    assert_eq!(s.self_stresses.len(), 6);
+    let elastic = s.elastic.as_ref().unwrap();
+    assert!(left_over(&m, elastic) < 1e-12);
+    // Round the contour: M about b = m, force F along y at b; at a the opposite, moment -(m + F L).
+    // Energy ½(m² + (m + F L)²)/ka + ½·2F²/kl - m θ: its gradient vanishes.
+    let (ka, kl, l, theta) = (300.0, 1000.0, 2.0, 0.01);
+    // (2m + F L)/ka = θ, L(m + F L)/ka + 2F/kl = 0
+    let det = (2.0 / ka) * (l * l / ka + 2.0 / kl) - (l / ka) * (l / ka);
+    let (moment, force) = (
+        theta * (l * l / ka + 2.0 / kl) / det,
+        -theta * (l / ka) / det,
+    );
+    let b = &elastic[1];
+    assert!(
+        (b.global_moment()[2] - moment).abs() < 1e-9 * moment,
+        "{b:?} {moment}"
+    );
+    assert!(
+        (b.global_force()[1] - force).abs() < 1e-9 * moment,
+        "{b:?} {force}"
+    );
+    // Without strain, nothing.
+    assert!(s.reactions.iter().all(|r| r.force_size() < 1e-12));
+}
+
+#[test]
+fn stiffness_decides_among_the_family_and_equilibrium_stays() {
+    let mut m = built_in("gripper-10-loaded");
+    let soft = Stiffness {
+        linear: 1e7,
+        angular: 1e3,
+    };
+    m.loads.stiffness = vec![("default".into(), soft)];
+    let s = solve(&m);
+    let straight = s.elastic.clone().unwrap();
+    assert!(left_over(&m, &straight) < 1e-9);
+    m.loads.misalignments.push(Misalignment {
+        joint: m.joint("2-3").unwrap(),
+        turn: [0.001, 0.0, 0.0],
+    });
+    let askew = solve(&m).elastic.unwrap();
+    assert!(left_over(&m, &askew) < 1e-9);
+    let moment = |l: &[JointReaction]| l.iter().map(JointReaction::moment_size).fold(0.0, f64::max);
+    assert!(moment(&askew) > 1.01 * moment(&straight));
+    // A hinge turned about its own axis strains nothing.
+    m.loads.misalignments[0].turn = [0.0, 0.0, 0.001];
+    let free = solve(&m).elastic.unwrap();
+    for (x, y) in free.iter().zip(&straight) {
+        assert!((x.force_size() - y.force_size()).abs() < 1e-6);
+    }
+}

@@ -1,0 +1,131 @@
+//! Twists of joints, and elimination, in rational arithmetic.
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+use ozols::model::joint_type::{Freedom, JointType};
+use ozols::model::mechanism::{Frame, Mode};
+
+pub(super) type Q = BigRational;
+
+fn cross(a: &[Q], b: &[Q]) -> Vec<Q> {
+    let m = |i: usize, j: usize| &a[i] * &b[j] - &a[j] * &b[i];
+    vec![m(1, 2), m(2, 0), m(0, 1)]
+}
+
+pub(super) fn dot(a: &[Q], b: &[Q]) -> Q {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+/// Axes z, x, y of a frame, from the conventions of the design: z the axis, x the reference made perpendicular, y = z × x.
+pub(super) fn axes(frame: &Frame) -> [Vec<Q>; 3] {
+    let value = |v: &[ozols::geom::expr::Expr; 3]| {
+        v.iter()
+            .map(|e| e.as_rational().unwrap())
+            .collect::<Vec<Q>>()
+    };
+    let (z, r) = (value(&frame.axis), value(&frame.reference));
+    let (zz, zr) = (dot(&z, &z), dot(&z, &r));
+    let x: Vec<Q> = (0..3).map(|i| &r[i] * &zz - &z[i] * &zr).collect();
+    let y = cross(&z, &x);
+    [z, x, y]
+}
+
+/// The length of the axis of a freedom, which must be rational.
+pub(super) fn length(frame: &Frame, freedom: Freedom) -> Q {
+    let [z, x, y] = axes(frame);
+    let along = match freedom {
+        Freedom::Rz | Freedom::Tz | Freedom::Screw => z,
+        Freedom::Rx | Freedom::Tx => x,
+        Freedom::Ry | Freedom::Ty => y,
+    };
+    let square = dot(&along, &along);
+    let root = Q::new(square.numer().sqrt(), square.denom().sqrt());
+    assert_eq!(&root * &root, square, "an axis of irrational length");
+    root
+}
+
+/// Twists of a joint.
+pub(super) fn twists(frame: &Frame, kind: &JointType) -> Vec<Vec<Q>> {
+    let value = |v: &[ozols::geom::expr::Expr; 3]| {
+        v.iter()
+            .map(|e| e.as_rational().unwrap())
+            .collect::<Vec<Q>>()
+    };
+    let p = value(&frame.point);
+    let [z, x, y] = axes(frame);
+    let turn = |u: &Vec<Q>| [u.clone(), cross(&p, u)].concat();
+    let slide = |u: &Vec<Q>| [vec![Q::zero(); 3], u.clone()].concat();
+    let one = |f: &Freedom| match f {
+        Freedom::Rx => turn(&x),
+        Freedom::Ry => turn(&y),
+        Freedom::Rz => turn(&z),
+        Freedom::Tx => slide(&x),
+        Freedom::Ty => slide(&y),
+        Freedom::Tz => slide(&z),
+        Freedom::Screw => {
+            let pitch = frame.pitch.as_rational().unwrap();
+            let turned = turn(&z);
+            let slid = slide(&z.iter().map(|c| c * &pitch).collect());
+            turned.iter().zip(&slid).map(|(a, b)| a + b).collect()
+        }
+    };
+    kind.freedoms().iter().map(one).collect()
+}
+
+/// Those of a joint's twists that stay in the plane of a planar mechanism; all in space. A ball turns about the normal.
+pub(super) fn allowed_twists(mode: &Mode, frame: &Frame, kind: &JointType) -> Vec<Vec<Q>> {
+    let all = twists(frame, kind);
+    let Mode::Planar { normal } = mode else {
+        return all;
+    };
+    let n: Vec<Q> = normal.iter().map(|e| e.as_rational().unwrap()).collect();
+    if *kind == JointType::Spherical {
+        let p: Vec<Q> = frame
+            .point
+            .iter()
+            .map(|e| e.as_rational().unwrap())
+            .collect();
+        return vec![[n.clone(), cross(&p, &n)].concat()];
+    }
+    all.into_iter()
+        .filter(|t| cross(&t[..3], &n).iter().all(Zero::is_zero) && dot(&t[3..], &n).is_zero())
+        .collect()
+}
+
+/// Reduced row echelon form of rows, with its pivots.
+pub(super) fn reduce(mut rows: Vec<Vec<Q>>) -> (Vec<Vec<Q>>, Vec<usize>) {
+    let (width, mut pivots) = (rows.first().map_or(0, Vec::len), Vec::new());
+    for c in 0..width {
+        let r = pivots.len();
+        let Some(i) = (r..rows.len()).find(|&i| !rows[i][c].is_zero()) else {
+            continue;
+        };
+        rows.swap(r, i);
+        let inverse = Q::one() / &rows[r][c];
+        rows[r].iter_mut().for_each(|x| *x *= &inverse);
+        for j in (0..rows.len()).filter(|&j| j != r) {
+            let a = rows[j][c].clone();
+            if !a.is_zero() {
+                let pivot = rows[r].clone();
+                rows[j]
+                    .iter_mut()
+                    .zip(&pivot)
+                    .for_each(|(x, y)| *x -= &a * y);
+            }
+        }
+        pivots.push(c);
+    }
+    (rows, pivots)
+}
+
+#[test]
+fn the_rational_elimination_is_right_on_a_known_matrix() {
+    let q = |n: i64| Q::from_integer(BigInt::from(n));
+    let (_, pivots) = reduce(vec![
+        vec![q(1), q(2), q(3)],
+        vec![q(2), q(4), q(7)],
+        vec![q(3), q(6), q(10)],
+    ]);
+    assert_eq!(pivots, vec![0, 2]);
+}
