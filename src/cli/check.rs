@@ -79,8 +79,11 @@ fn stale(m: &Mechanism, warnings: &mut Warnings) {
             ("mobility", e.mobility, int(found.mobility)),
             (
                 "finite_mobility",
+                // A range is at odds with a figure only outside it.
                 e.finite_mobility,
-                int(found.finite.mobility),
+                e.finite_mobility
+                    .filter(|&w| found.finite.could_be(w))
+                    .or(int(found.finite.mobility)),
             ),
             (
                 "working_mobility",

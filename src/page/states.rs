@@ -65,7 +65,10 @@ fn figures(s: &State<'_>) -> Markup {
                 s.freedoms, s.rank, s.working_mobility, s.local_mobility
             )))
             @if s.finite_mobility != s.mobility {
-                (row("", int(s.finite_mobility), "finite mobility"))
+                (row("", int(s.finite_mobility), match s.finite_mobility_at_most {
+                    Some(_) => "finite mobility, at least",
+                    None => "finite mobility",
+                }))
             }
             @if s.counting_is_wrong() {
                 (row("", s.formula_mobility,

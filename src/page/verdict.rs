@@ -87,6 +87,12 @@ fn state(s: &State<'_>) -> Vec<String> {
 
 fn moves(s: &State<'_>) -> String {
     let ways = |n: usize| plural(n, "way");
+    if let Some(most) = s.finite_mobility_at_most {
+        return format!(
+            "W = {} in this pose; how much of that is really there is undecided: between {} and {most}.",
+            s.mobility, s.finite_mobility
+        );
+    }
     match (s.mobility, s.finite_mobility) {
         (0, _) => "Nothing moves in this state.".to_owned(),
         (w, f) if w == f && s.local_mobility == 0 => format!("It moves in {} (W = {w}).", ways(w)),

@@ -2,7 +2,7 @@
 //! why, and what was left out.
 
 use super::field::field_of;
-use super::finite::{Finite, finite, finite_within, followed};
+use super::finite::{Finite, How, finite, finite_within, followed};
 use super::measured::Verdicts;
 use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 use super::modular;
@@ -193,6 +193,9 @@ impl MobilityMethod for Auto {
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         let decision = decide(mechanism, state, None)?;
+        if let How::Undecided { .. } = decision.finite.how {
+            return Err(NoAnswer::Failed(decision.finite.describe()));
+        }
         let numeric = decision
             .numeric
             .filter(|_| matches!(decision.geometry, Geometry::Measured(_)));

@@ -12,7 +12,7 @@ use crate::closure::matrix::{Closure, Column};
 use crate::closure::twist::FrameValues;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::scalars::Scalars;
-use crate::linalg::echelon::{Echelon, relations};
+use crate::linalg::echelon::{Echelon, rank, relations};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
 
@@ -81,6 +81,22 @@ pub fn group_dimension(
         });
     }
     Ok(algebra(exact, mechanism, contour.joints.iter().copied())?.len())
+}
+
+/// Rank of the rows of the couplings alone.
+pub(super) fn coupling_rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
+    let rows: Vec<Vec<Residue>> = closure
+        .couplings
+        .iter()
+        .map(|coupling| {
+            let mut row = vec![0; closure.columns.len()];
+            for &(c, x) in &coupling.entries {
+                row[c] = x;
+            }
+            row
+        })
+        .collect();
+    rank(exact.field(), rows.iter().map(Vec::as_slice))
 }
 
 /// A basis of the Lie algebra that the twists of some joints generate.

@@ -1,79 +1,110 @@
-//! Finite mobility by going there: the dimension of the set of closed poses round a pose.
+//! Finite mobility by going there: the dimension of the set of closed poses round a pose, numerically.
 //!
-//! Steps are taken along instantaneous motions and closed again by Newton's method. Where the pose is a regular point of
-//! the motion the correction shrinks with the square of the step, in every direction, and the rank of J stays. Where it is
-//! not (a branching pose, a dead point, a shaky pose), the poses landed on away from it are examined in the same way:
-//! the mobility is the largest found near by. Poses from which nothing but the same pose is reached are shaky; with motions
-//! left over (idle turns, say), the dimension is that of the displacements found.
+//! At a regular pose every instantaneous motion extends: a step along it closes with corrections across it alone, and so
+//! at a distance at which shaky poses gape clearly. At a singular pose the set of closed poses is, near by, a cone over its
+//! section with a small sphere [Milnor 1968]. So branches are sought where the sphere is met: starts come from the tangent
+//! cone ([`super::tangent_cone`]), and a closed pose on a sphere counts only if it can be followed from sphere to sphere, in
+//! to the pose and out again. The largest dimension of the branches, each examined in the same way at its far end, is the
+//! local one [Wampler, Hauenstein & Sommese 2011].
 //!
 //! Numeric: nothing is proven, and the certainty says so. Random directions come from a fixed seed.
 
-use crate::motion::pose::{FLAT, Pose};
+use super::tangent_cone::{self, Flat, Quadrics, norm};
+use crate::motion::pose::Pose;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use faer::Mat;
+use faer::linalg::solvers::SolveLstsq;
 
-/// Length of a trial step: radians, and fractions of the mechanism's size.
-const STEP: f64 = 0.02;
-/// Steps used to look for poses away from a singular one.
-const REACH: [f64; 2] = [0.1, 0.03];
-/// A step that ends closer to the start than this share of itself has come back.
-const BACK: f64 = 0.05;
+/// Lengths of trial steps at a pose that may be regular: radians, and fractions of the mechanism's size.
+const STEPS: [f64; 3] = [0.2, 0.08, 0.03];
+/// Spheres from which branches are followed.
+const SPHERES: [f64; 3] = [0.1, 0.03, 0.25];
+/// From one sphere to the next.
+const INWARD: f64 = 0.7;
+/// The innermost and the outermost sphere.
+const FOLLOWED: std::ops::Range<f64> = 0.012..0.3;
+/// Branches followed from one singular pose.
+const BRANCHES: usize = 12;
 /// Displacements with a smaller share in a direction do not span it.
-const SPAN: f64 = 0.05;
-/// Steps shrink by this from one singular pose to the next.
-const NEARER: f64 = 0.1;
+const SPAN: f64 = 0.1;
 /// How often a singular pose may lead to further singular poses.
-const DEPTH: usize = 3;
+const DEPTH: usize = 2;
+/// Newton steps before a pose is given up.
+const NEWTON: usize = 50;
 
 /// What following the motion found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Traced {
     /// The largest dimension of a motion through poses at or next to the pose.
     pub mobility: usize,
+    /// The largest dimension that is not excluded.
+    pub at_most: usize,
     /// Poses closed on the way.
     pub poses: usize,
     /// Whether the pose itself is a regular one.
     pub regular: bool,
 }
 
-/// The dimension of the closed poses at and near `pose`, none where a budget of closed poses runs out.
+/// The dimension of the closed poses at and near `pose`, none where a budget of closed poses runs out. `motions` is the
+/// instantaneous mobility; `shaky` says that not all of it can be motion.
 ///
 /// # Complexity
-/// About 4 W closings of O((6k)² f) each at a regular pose, and some hundred at a singular one.
+/// About W closings of O((6k)² f) each at a regular pose, and some hundred at a singular one.
 #[must_use]
-pub fn mobility(pose: &Pose, budget: usize) -> Option<Traced> {
+pub fn mobility(pose: &Pose, motions: usize, shaky: bool, budget: usize) -> Option<Traced> {
     let mut search = Search {
         random: ChaCha8Rng::seed_from_u64(1),
         poses: 0,
         budget,
     };
-    let (mobility, regular) = search.dimension(pose, 0)?;
+    let found = search.dimension(pose, Some(motions), shaky, 1.0, 0)?;
     Some(Traced {
-        mobility,
+        mobility: found.from,
+        at_most: found.to,
         poses: search.poses,
-        regular,
+        regular: found.regular,
     })
 }
 
 /// Null space of J at a pose: `f - rank` orthonormal columns.
 #[must_use]
 pub fn motions(pose: &Pose) -> Mat<f64> {
-    let f = pose.columns.len();
-    if pose.rows() == 0 {
-        return Mat::identity(f, f);
-    }
-    let jacobian = pose.jacobian(&vec![0.0; f]);
-    let Ok(svd) = jacobian.svd() else {
-        return Mat::zeros(f, 0);
-    };
-    let values = svd.S().column_vector();
-    let largest = if values.nrows() > 0 { values[0] } else { 0.0 };
-    let rank = (0..values.nrows())
-        .filter(|&i| values[i] > FLAT * largest.max(1.0))
-        .count();
-    svd.V().subcols(rank, f - rank).to_owned()
+    Flat::new(pose, None).kernel
 }
+
+/// A combination of columns.
+fn along(span: &Mat<f64>, weights: &[f64]) -> Vec<f64> {
+    let row = |r: usize| {
+        weights
+            .iter()
+            .enumerate()
+            .map(|(c, w)| span[(r, c)] * w)
+            .sum()
+    };
+    (0..span.nrows()).map(row).collect()
+}
+
+/// Dimensions found and not excluded.
+#[derive(Debug, Clone, Copy)]
+struct Found {
+    from: usize,
+    to: usize,
+    regular: bool,
+}
+
+impl Found {
+    fn exactly(dimension: usize, regular: bool) -> Found {
+        Found {
+            from: dimension,
+            to: dimension,
+            regular,
+        }
+    }
+}
+
+/// Equations beside those of the contours: their values and rows at some coordinates.
+type Beside<'a> = &'a dyn Fn(&[f64]) -> Vec<(f64, Vec<f64>)>;
 
 struct Search {
     random: ChaCha8Rng,
@@ -81,146 +112,301 @@ struct Search {
     budget: usize,
 }
 
-fn norm(x: impl IntoIterator<Item = f64>) -> f64 {
-    x.into_iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
 impl Search {
-    /// A random unit vector in the span of some columns.
-    fn direction(&mut self, span: &Mat<f64>) -> Vec<f64> {
+    /// A random unit vector.
+    fn direction(&mut self, n: usize) -> Vec<f64> {
         // A sum of twelve uniform numbers is near enough to normal, the same on every machine.
-        let weights: Vec<f64> = (0..span.ncols())
-            .map(|_| {
-                (0..12)
-                    .map(|_| f64::from(self.random.next_u32()) / f64::from(u32::MAX) - 0.5)
-                    .sum()
-            })
-            .collect();
-        let v: Vec<f64> = (0..span.nrows())
-            .map(|r| (0..span.ncols()).map(|c| span[(r, c)] * weights[c]).sum())
-            .collect();
-        let size = norm(v.iter().copied());
+        let mut uniform = || f64::from(self.random.next_u32()) / f64::from(u32::MAX) - 0.5;
+        let v: Vec<f64> = (0..n).map(|_| (0..12).map(|_| uniform()).sum()).collect();
+        let size = norm(&v).max(1e-9);
         v.into_iter().map(|x| x / size).collect()
     }
 
-    /// Closes the pose after a step; `None` in the outer option for an exhausted budget.
-    fn land(&mut self, pose: &Pose, direction: &[f64], step: f64) -> Option<Option<Vec<f64>>> {
+    /// Coordinates near `q` that fulfil all equations best, with the gap that is left; none where the budget is spent.
+    fn close(
+        &mut self,
+        pose: &Pose,
+        mut q: Vec<f64>,
+        beside: Beside<'_>,
+    ) -> Option<(Vec<f64>, f64)> {
         if self.poses >= self.budget {
             return None;
         }
         self.poses += 1;
+        let f = q.len();
+        let mut best = (q.clone(), f64::INFINITY);
+        let mut history: Vec<f64> = Vec::new();
+        for _ in 0..NEWTON {
+            let more = beside(&q);
+            let mut gaps = pose.gaps(&q);
+            let rows = gaps.len();
+            gaps.extend(more.iter().map(|(x, _)| x));
+            let gap = norm(&gaps);
+            if !gap.is_finite() {
+                break;
+            }
+            if gap < best.1 {
+                best = (q.clone(), gap);
+            }
+            let stuck = history.len() >= 10 && gap > 0.7 * history[history.len() - 10];
+            if gap < 1e-14
+                || stuck
+                || (gap < pose.closed() && history.last().is_some_and(|h| gap > 0.1 * h))
+            {
+                break;
+            }
+            history.push(gap);
+            let jacobian = pose.jacobian(&q);
+            let damping = gap.clamp(1e-11_f64.max(1e3 * pose.accuracy()).min(1e-2), 1e-2);
+            let all = rows + more.len();
+            let stacked = Mat::from_fn(all + f, f, |r, c| {
+                if r < rows {
+                    jacobian[(r, c)]
+                } else if r < all {
+                    more[r - rows].1[c]
+                } else if r - all == c {
+                    damping
+                } else {
+                    0.0
+                }
+            });
+            let right = Mat::from_fn(all + f, 1, |r, _| gaps.get(r).copied().unwrap_or(0.0));
+            let step = stacked.qr().solve_lstsq(&right);
+            let length = (0..f)
+                .map(|i| step[(i, 0)] * step[(i, 0)])
+                .sum::<f64>()
+                .sqrt();
+            if !length.is_finite() || length < 1e-16 {
+                break;
+            }
+            let shorten = (0.3 / length).min(1.0);
+            for (i, x) in q.iter_mut().enumerate() {
+                *x -= shorten * step[(i, 0)];
+            }
+        }
+        Some(best)
+    }
+
+    /// Whether motions in random directions of some orthonormal columns extend to a distance: `None` where that is not
+    /// clear.
+    fn smooth(&mut self, pose: &Pose, span: &Mat<f64>, scale: f64) -> Option<Option<bool>> {
+        let n = span.ncols();
+        let mut open = None;
+        for step in STEPS.map(|s| s * scale) {
+            let mut all = true;
+            for _ in 0..(n + 1).min(4) {
+                let x = self.direction(n);
+                let q = along(span, &x).into_iter().map(|v| v * step).collect();
+                let beside = |q: &[f64]| -> Vec<(f64, Vec<f64>)> {
+                    (0..n)
+                        .map(|c| {
+                            let row: Vec<f64> = (0..q.len()).map(|r| span[(r, c)]).collect();
+                            let along: f64 = row.iter().zip(q).map(|(a, b)| a * b).sum();
+                            (along - step * x[c], row)
+                        })
+                        .collect()
+                };
+                let (_, gap) = self.close(pose, q, &beside)?;
+                if gap > pose.closed() {
+                    all = false;
+                    open = Some(gap);
+                    break;
+                }
+            }
+            if all {
+                // A gap this small at the longer step vanishes at the shorter one by a high order alone.
+                return Some(Some(open.is_none_or(|gap| gap > 1e5 * pose.closed())));
+            }
+        }
         Some(
-            pose.close(direction.iter().map(|x| x * step).collect(), &[])
-                .ok(),
+            open.is_some_and(|gap| gap > 30.0 * pose.closed())
+                .then_some(false),
         )
     }
 
-    /// Whether steps in random directions of `span` need corrections of second order only.
-    fn smooth(&mut self, pose: &Pose, span: &Mat<f64>, scale: f64) -> Option<bool> {
-        let first = STEP * scale;
-        for _ in 0..(span.ncols() + 2).min(8) {
-            let d = self.direction(span);
-            let mut corrections = [0.0; 2];
-            for (correction, step) in corrections.iter_mut().zip([first, first / 4.0]) {
-                let Some(q) = self.land(pose, &d, step)? else {
-                    return Some(false);
-                };
-                *correction = norm(q.iter().zip(&d).map(|(q, d)| q - step * d));
-            }
-            // 16 for a quadratic, 4 where the direction is not that of a motion.
-            // Errors of the coordinates alone make some correction, whatever the step.
-            let least = if pose.accuracy() > 0.0 {
-                first / 1e3
-            } else {
-                1e-9
-            };
-            if corrections[0] > least && corrections[1] > corrections[0] / 8.0 {
-                return Some(false);
-            }
-            if corrections[0] > first / 2.0 {
-                return Some(false);
-            }
-        }
-        Some(true)
+    /// A closed pose at a distance from this one, near to `q`.
+    fn on_sphere(&mut self, pose: &Pose, q: &[f64], radius: f64) -> Option<Option<Vec<f64>>> {
+        let size = norm(q).max(1e-300);
+        let start = q.iter().map(|x| x * radius / size).collect();
+        let beside = |q: &[f64]| -> Vec<(f64, Vec<f64>)> {
+            let size = norm(q).max(1e-300);
+            vec![(size - radius, q.iter().map(|x| x / size).collect())]
+        };
+        let (q, gap) = self.close(pose, start, &beside)?;
+        Some((gap < pose.closed()).then_some(q))
     }
 
-    fn dimension(&mut self, pose: &Pose, depth: usize) -> Option<(usize, bool)> {
-        // Ever closer to the pose, or the other branches would be met again.
-        let scale = NEARER.powi(i32::try_from(depth).unwrap_or(0));
-        let span = motions(pose);
-        let free = span.ncols();
-        if free == 0 || self.smooth(pose, &span, scale)? {
-            return Some((free, true));
-        }
-        // A singular pose: go elsewhere, and remember where one can go.
-        let mut landed: Vec<(usize, Vec<f64>, f64)> = Vec::new();
-        for n in 0..(2 * free + 10) {
-            let d = self.direction(&span);
-            let step = scale * REACH[n % REACH.len()];
-            let Some(q) = self.land(pose, &d, step)? else {
+    /// The branch that begins in a direction, where there is one.
+    fn branch(&mut self, pose: &Pose, direction: &[f64], scale: f64) -> Option<Option<Branch>> {
+        for radius in SPHERES.map(|s| s * scale) {
+            let Some(first) = self.on_sphere(pose, direction, radius)? else {
                 continue;
             };
-            if norm(q.iter().copied()) > BACK * step {
-                let there = pose.moved(&q);
-                let gap = norm(pose.gaps(&q));
-                landed.push((motions(&there).ncols(), q, gap));
+            // In to the pose: the same branch on every sphere.
+            let (mut near, mut r, mut joined) = (first.clone(), radius, true);
+            while r * INWARD > FOLLOWED.start * scale {
+                r *= INWARD;
+                match self.on_sphere(pose, &near, r)? {
+                    Some(next) if alike(&near, &next) => near = next,
+                    _ => {
+                        joined = false;
+                        break;
+                    }
+                }
             }
+            if !joined {
+                continue;
+            }
+            let (mut far, mut r) = (first, radius);
+            while r / INWARD < FOLLOWED.end * scale {
+                r /= INWARD;
+                match self.on_sphere(pose, &far, r)? {
+                    Some(next) if alike(&far, &next) => far = next,
+                    _ => break,
+                }
+            }
+            return Some(Some(Branch { near, far }));
         }
-        // The cleanest first: poses on one branch close to the last digit, poses between two branches do not.
-        landed.sort_by(|a, b| a.2.total_cmp(&b.2));
-        let mut best = 0;
-        // Elsewhere with fewer instantaneous motions: the best of the poses of each kind.
-        let mut kinds: Vec<usize> = landed
-            .iter()
-            .map(|(m, ..)| *m)
-            .filter(|&m| m < free)
-            .collect();
-        kinds.sort_unstable();
-        kinds.dedup();
-        if depth < DEPTH {
-            for kind in kinds.iter().rev().take(3) {
-                for (_, q, _) in landed.iter().filter(|(m, ..)| m == kind).take(2) {
-                    let there = pose.moved(q);
-                    best = best.max(self.dimension(&there, depth + 1)?.0);
+        Some(None)
+    }
+
+    /// Dimensions at a pose; `shaky` where it is known that not all instantaneous motions extend.
+    fn dimension(
+        &mut self,
+        pose: &Pose,
+        motions: Option<usize>,
+        shaky: bool,
+        scale: f64,
+        depth: usize,
+    ) -> Option<Found> {
+        let flat = Flat::new(pose, motions);
+        let n = flat.kernel.ncols();
+        if n == 0 {
+            let to = usize::from(!flat.clear);
+            let regular = flat.clear;
+            return Some(Found {
+                from: 0,
+                to,
+                regular,
+            });
+        }
+        if !shaky {
+            match self.smooth(pose, &flat.kernel, scale)? {
+                Some(true) => return Some(Found::exactly(n, true)),
+                Some(false) => {}
+                None => {
+                    return Some(Found {
+                        from: 0,
+                        to: n,
+                        regular: false,
+                    });
                 }
             }
         }
-        let same: Vec<&Vec<f64>> = landed
-            .iter()
-            .filter(|(m, ..)| *m >= free)
-            .map(|(_, q, _)| q)
-            .collect();
-        if same.is_empty() {
-            return Some((best, false));
+        // Not everything extends, so at most a hypersurface does.
+        let at_most = n - 1;
+        if n == 1 {
+            return Some(Found::exactly(0, false));
+        }
+        let quadrics = Quadrics::new(pose, &flat);
+        if quadrics.is_definite() {
+            return Some(Found::exactly(0, false));
+        }
+        let starts = (0..80).map(|_| self.direction(n)).collect();
+        let seeds = tangent_cone::directions(&quadrics, tangent_cone::sparse(&flat.kernel), starts);
+        let mut directions = tangent_cone::choice(&quadrics, &seeds, BRANCHES);
+        if quadrics.vanish() || directions.len() < 4 {
+            directions.extend((0..8).map(|_| self.direction(n)));
+        }
+        let sampled = if quadrics.vanish() {
+            at_most
+        } else {
+            quadrics.dimension(&seeds).min(at_most)
+        };
+        let from = self.along_branches(pose, &flat, &directions, scale, depth);
+        Some(Found {
+            from,
+            to: if self.poses < self.budget {
+                sampled.max(from)
+            } else {
+                at_most
+            },
+            regular: false,
+        })
+    }
+
+    /// The largest dimension found along branches in some directions, as far as the budget goes.
+    fn along_branches(
+        &mut self,
+        pose: &Pose,
+        flat: &Flat,
+        directions: &[Vec<f64>],
+        scale: f64,
+        depth: usize,
+    ) -> usize {
+        let n = flat.kernel.ncols();
+        let (mut best, mut same) = (0, Vec::new());
+        for x in directions {
+            if best + 1 == n {
+                return best;
+            }
+            let start = along(&flat.kernel, x);
+            let opposite: Vec<f64> = start.iter().map(|x| -x).collect();
+            let found = match self.branch(pose, &start, scale) {
+                Some(None) => self.branch(pose, &opposite, scale),
+                found => found,
+            };
+            let Some(Some(branch)) = found else { continue };
+            // A curve through the pose is a motion.
+            best = best.max(1);
+            let there = pose.moved(&branch.far);
+            let motions = Flat::new(&there, None).kernel.ncols();
+            if motions >= n {
+                same.push(branch);
+            } else if motions > best && depth < DEPTH {
+                let distance = (norm(&branch.far) * 0.5).min(scale);
+                let found = self.dimension(&there, None, false, distance, depth + 1);
+                best = best.max(found.map_or(0, |f| f.from));
+            }
+        }
+        if same.is_empty() || best + 1 == n {
+            return best;
         }
         // Nothing changes along the motion: J is short of rank all along it, and the displacements tell its dimension.
-        let part: Mat<f64> = Mat::from_fn(free, same.len(), |i, j| {
-            let q = same[j];
-            let size = norm(q.iter().copied());
-            let along = q.iter().enumerate().map(|(r, x)| span[(r, i)] * x);
-            along.sum::<f64>() / size
+        let f = pose.columns.len();
+        let part = Mat::from_fn(f, same.len(), |r, c| {
+            same[c].near[r] / norm(&same[c].near).max(1e-300)
         });
-        let Ok(svd) = part.svd() else {
-            return Some((best, false));
-        };
-        let values = svd.S().column_vector();
-        let dimension = (0..values.nrows())
-            .filter(|&i| values[i] > SPAN * values[0])
-            .count();
-        let reached = &span * svd.U().subcols(0, dimension);
-        if dimension <= best || self.smooth(pose, &reached, scale)? {
-            return Some((best.max(dimension), false));
-        }
-        if depth < DEPTH {
-            for q in same.iter().take(6) {
-                // A motion of as many dimensions as there are instantaneous ones would have been smooth here.
-                if best + 1 >= free {
-                    break;
-                }
-                let there = pose.moved(q);
-                best = best.max(self.dimension(&there, depth + 1)?.0);
+        if let Ok(svd) = part.svd() {
+            let values = svd.S().column_vector();
+            let d = (0..values.nrows())
+                .filter(|&i| values[i] > SPAN * values[0])
+                .count();
+            let reached = svd.U().subcols(0, d).to_owned();
+            if d < n && d > best && self.smooth(pose, &reached, scale) == Some(Some(true)) {
+                return d;
             }
         }
-        Some((best, false))
+        if depth < DEPTH {
+            for branch in same.iter().take(3) {
+                let distance = (norm(&branch.far) * 0.5).min(scale);
+                let there = pose.moved(&branch.far);
+                let found = self.dimension(&there, None, true, distance, depth + 1);
+                best = best.max(found.map_or(0, |f| f.from));
+            }
+        }
+        best.min(n - 1)
     }
+}
+
+/// A curve of closed poses from a pose: coordinates close to it and far from it.
+struct Branch {
+    near: Vec<f64>,
+    far: Vec<f64>,
+}
+
+/// Whether two coordinates lie in nearly the same direction.
+fn alike(a: &[f64], b: &[f64]) -> bool {
+    let dot: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+    dot > 0.9 * norm(a) * norm(b)
 }

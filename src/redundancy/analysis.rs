@@ -10,7 +10,7 @@ use crate::rank::auto::{self, Geometry};
 use crate::rank::certificate::{self, Budget};
 pub use crate::rank::field::exact_field;
 use crate::rank::field::field_of;
-use crate::rank::finite::{Finite, finite};
+use crate::rank::finite::{Finite, finite, followed};
 use crate::rank::method::{Certainty, MobilityMethod, NoAnswer, RankOfJ};
 use crate::rank::modular;
 pub use crate::rank::numeric::Elimination;
@@ -212,6 +212,12 @@ fn numerically(
         ..exactly(mechanism, state, known)?
     };
     let rank = rank.rank;
+    let finite = match known {
+        Some(known) => known,
+        None if rank == whole.rank => whole.finite.by_numeric_rank(),
+        None => followed(mechanism, state, whole.freedoms - rank, tolerance)?.by_numeric_rank(),
+    };
+    let whole = StateAnalysis { finite, ..whole };
     if rank == whole.rank {
         return Ok(whole);
     }

@@ -40,6 +40,9 @@ pub struct State<'a> {
     pub rank: usize,
     pub mobility: usize,
     pub finite_mobility: usize,
+    /// The most it can be, where that is undecided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub finite_mobility_at_most: Option<usize>,
     pub finite_mobility_known_by: &'static str,
     pub finite_mobility_proven: bool,
     /// How the finite mobility is known, in a sentence.
@@ -209,6 +212,8 @@ impl<'a> State<'a> {
             rank: s.rank,
             mobility: s.mobility,
             finite_mobility: s.finite.mobility,
+            finite_mobility_at_most: Some(s.finite.at_most())
+                .filter(|&most| most > s.finite.mobility),
             finite_mobility_known_by: s.finite.word(),
             finite_mobility_proven: s.finite.is_proven(),
             finite_certainty: s.finite.describe(),

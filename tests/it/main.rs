@@ -16,6 +16,7 @@ mod drawings;
 mod drive;
 mod drive_command;
 mod exports;
+mod finite_traps;
 mod first_hour;
 mod fuzz;
 mod grip;

@@ -1,0 +1,85 @@
+//! Finite mobility where it is hard to tell: right or undecided, never wrong and sure.
+
+#[path = "traps/all.rs"]
+mod all;
+
+use ozols::builtin;
+use ozols::closure::matrix::Closure;
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::rank::field::field_of;
+use ozols::rank::finite::{Finite, How, finite};
+use ozols::rank::modular;
+
+fn judged(m: &Mechanism) -> (usize, Finite) {
+    let exact = field_of(m, StateId::FREE, 0).unwrap();
+    let closure = Closure::new(&exact, m, StateId::FREE).unwrap();
+    let rank = modular::rank(&exact, &closure);
+    let found = finite(&exact, m, &closure, rank).unwrap();
+    (closure.columns.len() - rank, found)
+}
+
+fn judge(text: &str) -> (usize, Finite) {
+    judged(&mechanism_from_str("x.toml", text).unwrap())
+}
+
+/// The traps that stay open; all others must be decided.
+const UNDECIDED: &[&str] = &[];
+
+#[test]
+fn no_trap_is_answered_wrong_and_sure() {
+    let traps = all::all();
+    assert!(traps.len() >= 30, "{}", traps.len());
+    let mut wrong = Vec::new();
+    for t in &traps {
+        assert!(!t.source.is_empty(), "{}", t.name);
+        let (instantaneous, found) = judge(&t.text);
+        let inside = (found.mobility..=found.at_most()).contains(&t.truth);
+        let decided = found.mobility == found.at_most();
+        if !inside
+            || found.at_most() > instantaneous
+            || (!decided && !UNDECIDED.contains(&t.name.as_str()))
+        {
+            wrong.push(format!(
+                "{}: truth {}, W {instantaneous}, found {}: {}",
+                t.name,
+                t.truth,
+                found.figure(),
+                found.describe()
+            ));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Shakiness of any order up to 16 is proven, in space and in the plane, whatever hangs on it.
+#[test]
+fn shakiness_of_higher_order_is_proven() {
+    for t in all::all() {
+        let order = match t.name.as_str() {
+            n if n.starts_with("cascade-order-") => n.split('-').nth(2).unwrap().parse().unwrap(),
+            n if n.starts_with("watt-guided") => 5,
+            _ => continue,
+        };
+        let (_, found) = judge(&t.text);
+        assert!(found.is_proven(), "{}: {found:?}", t.name);
+        assert!(
+            matches!(found.how, How::Stopped { order: o, .. } if o == order),
+            "{}: {found:?}",
+            t.name
+        );
+    }
+}
+
+/// The spins of rods between balls are motions whatever else is found.
+#[test]
+fn idle_spins_are_finite_motions() {
+    for name in ["wren-platform", "stewart-turned-locked", "delta", "rssr"] {
+        let m = mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap();
+        let (_, found) = judged(&m);
+        let mut part = m.clone();
+        let exact = field_of(&m, StateId::FREE, 0).unwrap();
+        let idle = ozols::rank::parts::lock_idle(&exact, &mut part, StateId::FREE).unwrap();
+        assert!(found.mobility >= idle, "{name}: {found:?}, {idle} idle");
+    }
+}
