@@ -49,7 +49,7 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> 
     if outcome.ranking.is_some() {
         row.extend(SCORES.map(str::to_owned));
     }
-    out.write_record(&row)?;
+    out.write_record(&row).map_err(plain)?;
     for v in variants {
         row.clear();
         row.extend([
@@ -86,7 +86,7 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> 
                 None => Default::default(),
             });
         }
-        out.write_record(&row)?;
+        out.write_record(&row).map_err(plain)?;
     }
     out.flush()
 }
@@ -104,4 +104,12 @@ fn columns(search: &Search) -> Vec<(usize, JointId)> {
         .collect();
     out.sort_by_key(|&(_, j)| j);
     out
+}
+
+/// The error of the writer itself: wrapped in one of the crate's, a closed pipe would not be known for one.
+fn plain(e: csv::Error) -> io::Error {
+    match e.into_kind() {
+        csv::ErrorKind::Io(e) => e,
+        other => io::Error::other(format!("{other:?}")),
+    }
 }
