@@ -52,8 +52,9 @@
 pub use api::{Error, Scheme, analyze, draw, export, search};
 pub use model::mechanism::Mechanism;
 pub use redundancy::analysis::StateAnalysis as Analysis;
-pub use score::outcome::{Outcome, Variant};
+pub use score::outcome::Outcome;
 pub use score::request::Request;
+pub use score::variant::Variant;
 
 pub mod accuracy;
 mod api;

@@ -17,7 +17,8 @@ mod workload;
 
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{AnalysisError, StateAnalysis};
-use crate::score::outcome::{Outcome, Variant};
+use crate::score::outcome::Outcome;
+use crate::score::variant::Variant;
 use crate::search::certify::Summary;
 use crate::view::analysis::Analysis;
 use data::Data;

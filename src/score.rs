@@ -40,3 +40,4 @@ pub mod slow;
 pub mod spectrum;
 pub mod table;
 pub mod terms;
+pub mod variant;

@@ -2,9 +2,9 @@
 
 use super::progress::note;
 use crate::model::mechanism::Mechanism;
-use crate::score::outcome::Variant;
 use crate::score::request::{Check, List, Request};
 use crate::score::run::{Event, run};
+use crate::score::variant::Variant;
 use anyhow::{Context, ensure};
 
 /// What `with` makes of variant `k` of the list that `ozols search` gives for the same request: the cheapest first, or in

@@ -5,7 +5,7 @@ use super::workload::{Workload, workload};
 use super::{Page, Redesigns, figures};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::AnalysisError;
-use crate::score::outcome::Variant;
+use crate::score::variant::Variant;
 use crate::search::certify::CHECKED;
 use crate::search::space::{Variable, choice_name};
 use crate::view::search_text;

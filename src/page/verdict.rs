@@ -4,7 +4,7 @@ use super::{Page, Redesigns};
 use crate::format::number::{cost, grouped};
 use crate::format::phrase::{list, plural};
 use crate::model::mechanism::{Mechanism, Role};
-use crate::score::outcome::Variant;
+use crate::score::variant::Variant;
 use crate::search::best::Assignment;
 use crate::view::analysis::{Analysis, State};
 use itertools::Itertools;

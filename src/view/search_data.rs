@@ -2,8 +2,9 @@
 
 use crate::format::number::cost;
 use crate::rank::measured::Verdicts;
-use crate::score::outcome::{Outcome, Variant};
+use crate::score::outcome::Outcome;
 use crate::score::request::LooksMeasured;
+use crate::score::variant::Variant;
 use crate::search::building::Diagrams;
 use crate::search::certify::{Opinion, Summary};
 use crate::search::diagram::Diagram;

@@ -1,8 +1,9 @@
 //! A search for people.
 
 use crate::format::number::{cost, grouped};
-use crate::score::outcome::{Outcome, Variant, Variants, in_words};
+use crate::score::outcome::{Outcome, Variants};
 use crate::score::request::List;
+use crate::score::variant::{Variant, in_words};
 use crate::search::certify::{NEARLY_SINGULAR, Opinion, Second, Summary};
 use crate::search::primes::Verdict;
 use crate::search::relax::Relaxation;

@@ -1,0 +1,227 @@
+//! A variant: its place, figures, changes, opinions and scores, and the mechanism that it is.
+
+use crate::closure::matrix::Closure;
+use crate::geom::exact::ExactError;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::redundancy::share::{ContourShare, shares};
+use crate::score::outcome::Outcome;
+use crate::score::ranking::Ranked;
+use crate::score::terms::Scores;
+use crate::search::best::Assignment;
+use crate::search::certify::{Certified, Second};
+use crate::search::conditions::Search;
+use crate::search::over_stroke::OverStroke;
+use crate::search::space::choice_name;
+use itertools::Itertools;
+use std::fmt;
+
+/// A joint that a variant changes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Change {
+    /// The joint.
+    pub joint: JointId,
+    /// The present option, by name.
+    pub from: String,
+    /// What is put there.
+    pub to: String,
+}
+
+/// A variant of a mechanism.
+#[derive(Debug, Clone)]
+pub struct Variant<'o> {
+    pub(super) outcome: &'o Outcome,
+    pub(super) position: usize,
+    pub(super) certified: Certified,
+    /// Place in the ranking, from 0.
+    pub(super) place: Option<usize>,
+}
+
+impl<'o> Variant<'o> {
+    /// The outcome it is of.
+    #[must_use]
+    pub fn outcome(&self) -> &'o Outcome {
+        self.outcome
+    }
+
+    /// Its place in the list, from 1.
+    #[must_use]
+    pub fn position(&self) -> usize {
+        self.position
+    }
+
+    /// What it chooses: an option for each variable of the space, and its properties as the diagram counts them.
+    #[must_use]
+    pub fn assignment(&self) -> &Assignment {
+        &self.certified.variant
+    }
+
+    /// Its cost above the present mechanism's, in thousandths.
+    #[must_use]
+    pub fn cost_milli(&self) -> i64 {
+        self.outcome
+            .search
+            .steps
+            .milli(self.assignment().key.cost())
+    }
+
+    /// Its cost above the present mechanism's.
+    #[must_use]
+    #[allow(clippy::cast_precision_loss, reason = "costs are small")]
+    pub fn cost(&self) -> f64 {
+        self.cost_milli() as f64 / 1000.0
+    }
+
+    /// Mobility W in the free state.
+    #[must_use]
+    pub fn mobility(&self) -> i64 {
+        self.outcome.search.mobility(self.assignment().key)
+    }
+
+    /// Redundant constraints σ in the free state.
+    #[must_use]
+    pub fn redundant(&self) -> u32 {
+        self.assignment().key.internal()
+    }
+
+    /// Redundant constraints that the searched state adds; `None` where none was searched.
+    #[must_use]
+    pub fn external_redundant(&self) -> Option<u32> {
+        let searched = self.outcome.search.conditions.state;
+        searched.map(|_| self.assignment().key.external())
+    }
+
+    /// Number of changed joints and inserted unloading joints.
+    #[must_use]
+    pub fn change_count(&self) -> u32 {
+        self.assignment().key.changes()
+    }
+
+    /// The joints it changes, in file order.
+    #[must_use]
+    pub fn changes(&self) -> Vec<Change> {
+        changes(&self.outcome.search, self.assignment())
+    }
+
+    /// What singular values say of it.
+    #[must_use]
+    pub fn second(&self) -> &Second {
+        &self.certified.second
+    }
+
+    /// What other poses say of it, where that was asked.
+    #[must_use]
+    pub fn over_stroke(&self) -> Option<&OverStroke> {
+        self.certified.stroke.as_ref()
+    }
+
+    /// Whether other poses were looked at and give other figures.
+    #[must_use]
+    pub fn lucky(&self) -> bool {
+        self.certified.lucky()
+    }
+
+    /// What the ranking knows of it, where there is one.
+    #[must_use]
+    pub fn ranked(&self) -> Option<&'o Ranked> {
+        self.outcome.ranking.as_ref()?.list.get(self.place?)
+    }
+
+    /// Its scores under the workload, where it was ranked.
+    #[must_use]
+    pub fn scores(&self) -> Option<&'o Scores> {
+        self.ranked().map(|r| &r.scores)
+    }
+
+    /// Why its place in the ranking is not that by cost.
+    #[must_use]
+    pub fn reason(&self) -> Option<String> {
+        let pool = self.outcome.ranking.as_ref()?;
+        pool.reason(&self.outcome.search.mechanism, self.place? + 1)
+    }
+
+    /// The variant as a mechanism of its own, named for its place in the list.
+    #[must_use]
+    pub fn mechanism(&self) -> Mechanism {
+        let mut out = self.outcome.search.realize(&self.assignment().choices);
+        out.description = format!(
+            "Variant {} of {}: {}",
+            self.position,
+            out.name,
+            in_words(&self.outcome.search, &self.changes())
+        );
+        out.name = format!("{}-variant-{}", out.name, self.position);
+        // Options are gone, and their names with them.
+        out.joint_types
+            .retain(|t| t.name == "custom" || JointType::from_name(&t.name).is_some());
+        out
+    }
+
+    /// σ of each of its contours in the free state when they are added in this order, with the range over all orders.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field of the search.
+    ///
+    /// # Complexity
+    /// Some eliminations of J for each call.
+    pub fn redundant_by_contour(&self) -> Result<Vec<ContourShare>, ExactError> {
+        let search = &self.outcome.search;
+        let realized = search.realize(&self.assignment().choices);
+        let closure = Closure::new(search.field(), &realized, StateId::FREE)?;
+        Ok(shares(search.field(), &closure))
+    }
+}
+
+/// A line such as `1. cost 11, W = 1, σ = 0: 1-2, 1-5 -> spherical; 2-4 -> cylindrical`.
+impl fmt::Display for Variant<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (w, sigma) = (self.mobility(), self.redundant());
+        write!(
+            f,
+            "{}. cost {}, W = {w}, σ = {sigma}",
+            self.position,
+            self.cost()
+        )?;
+        if let Some(e) = self.external_redundant() {
+            write!(f, " + {e}")?;
+        }
+        let changes = in_words(&self.outcome.search, &self.changes());
+        write!(f, ": {changes}")
+    }
+}
+
+/// The joints that a choice of options changes, in file order.
+#[must_use]
+pub fn changes(search: &Search, assignment: &Assignment) -> Vec<Change> {
+    let mut out = Vec::new();
+    let variables = search.space.variables.iter().zip(&assignment.choices);
+    for (v, &choice) in variables.filter(|(_, c)| **c != 0) {
+        out.extend(v.joints.iter().map(|&joint| Change {
+            joint,
+            from: choice_name(&search.mechanism, joint, &v.choices[0]),
+            to: choice_name(&search.mechanism, joint, &v.choices[choice]),
+        }));
+    }
+    out.sort_by_key(|c| c.joint);
+    out
+}
+
+/// Changes in words: "3-0, 7-0 -> spherical; 5-1 -> cylindrical".
+#[must_use]
+pub fn in_words(search: &Search, changes: &[Change]) -> String {
+    let mut alike: Vec<(&str, Vec<&str>)> = Vec::new();
+    for c in changes {
+        let joint = search.mechanism.joints[c.joint].id.as_str();
+        match alike.iter_mut().find(|(to, _)| *to == c.to) {
+            Some((_, joints)) => joints.push(joint),
+            None => alike.push((&c.to, vec![joint])),
+        }
+    }
+    if alike.is_empty() {
+        return "none: the mechanism as it is".to_owned();
+    }
+    alike
+        .iter()
+        .map(|(to, joints)| format!("{} -> {to}", joints.join(", ")))
+        .join("; ")
+}
