@@ -163,7 +163,8 @@ mod tests {
 
     #[test]
     fn every_style_is_as_its_table_says() {
-        let styles: [(fn(f64) -> String, [&str; 6]); 5] = [
+        type Style = fn(f64) -> String;
+        let styles: [(Style, [&str; 6]); 5] = [
             (significant, ["1235", "2", "1e-5", "1.235e7", "-0.25", "0"]),
             (
                 figure,

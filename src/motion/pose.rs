@@ -99,7 +99,7 @@ impl Pose {
         for (&j, frame) in joints.iter().zip(&frames) {
             let joint = &mechanism.joints[j];
             let freedoms = joint.joint_type.freedoms();
-            let frame = frame.clone().within(&space, freedoms);
+            let frame = frame.within(&space, freedoms);
             let unit = FrameValues {
                 axes: frame.axes.map(vector::unit),
                 point: sub(frame.point, middle).map(|x| x / size),

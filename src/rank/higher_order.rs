@@ -149,6 +149,10 @@ impl HigherOrder {
         let mut monomials = Monomials::new(m);
         let mut q: Vec<Vec<Residue>> = vec![vec![0; m + 1]; f];
         for (c, speeds) in &self.free {
+            #[allow(
+                clippy::needless_range_loop,
+                reason = "several rows are filled at once"
+            )]
             for v in 1..=m {
                 let x = any();
                 q[*c][v] = x;

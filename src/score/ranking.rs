@@ -143,7 +143,7 @@ pub struct Ranker<'e, 's> {
     out: RankedPool,
 }
 
-impl<'e, 's, 'm> Ranker<'e, 's> {
+impl<'e, 's> Ranker<'e, 's> {
     /// For a pool of at most `limit` variants, of which the best `top` are wanted.
     #[must_use]
     pub fn new(evaluator: &'e Evaluator<'s>, ranking: &Ranking, limit: usize, top: usize) -> Self {

@@ -197,7 +197,9 @@ impl Found<'_> {
             );
         }
         // The list is sorted, and so are the groups by their firsts.
-        let mut groups: Vec<((String, usize, i64), Vec<&str>)> = Vec::new();
+        /// What a change is, what it removes and what it costs.
+        type Kind = (String, usize, i64);
+        let mut groups: Vec<(Kind, Vec<&str>)> = Vec::new();
         for x in &self.changes {
             let key = (x.words(), x.removes, x.cost_milli);
             match groups.iter_mut().find(|(k, _)| *k == key) {

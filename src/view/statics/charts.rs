@@ -11,6 +11,9 @@ use crate::view::prefix::prefix;
 use crate::view::statics::{Statics, magnitudes};
 use itertools::Itertools;
 
+/// Named figures of a group's reactions.
+type Figures<'a> = &'a dyn Fn(&GroupSolutions, GroupReactions) -> Vec<(&'static str, f64)>;
+
 /// A chart with the name of its file, without the ending.
 pub type Named = (String, Chart);
 
@@ -100,12 +103,11 @@ pub fn cycle(s: &Statics<'_>) -> Vec<Named> {
     for (i, (index, letters)) in found.contour_groups.iter().enumerate() {
         let title = s.groups[*index].name();
         let place = |p: PairId| m.pairs[p].name.as_str();
-        let solved =
-            |x: &Moment, f: &dyn Fn(&GroupSolutions, GroupReactions) -> Vec<(&str, f64)>| {
-                let found = x.groups.get(i).and_then(|g| Some(f(g, g.by(shown)?)));
-                let named = found.into_iter().flatten();
-                named.map(|(n, v)| (n.to_owned(), v)).collect_vec()
-            };
+        let solved = |x: &Moment, f: Figures<'_>| {
+            let found = x.groups.get(i).and_then(|g| Some(f(g, g.by(shown)?)));
+            let named = found.into_iter().flatten();
+            named.map(|(n, v)| (n.to_owned(), v)).collect_vec()
+        };
         let mut series = over(s, |x| solved(x, &|g, r| magnitudes(&r, &g.pose).to_vec()));
         let prefix = scale(&mut series);
         let letters_named = [letters.d, letters.f, letters.k, letters.m, letters.l];
