@@ -9,7 +9,7 @@
 //!
 //! Lowering a joint's class appends columns to J. What a partly chosen mechanism means to the choices still to come is
 //! only the space of motions it leaves, so variants fold into a decision diagram whose nodes are subspaces over a prime
-//! field ([`search`]): spaces of 10^10 variants are counted exactly in milliseconds.
+//! field ([`mod@search`]): spaces of 10^10 variants are counted exactly in milliseconds.
 //!
 //! # Example
 //!

@@ -133,7 +133,7 @@ impl HigherOrder {
     /// motions; none where that is not so up to a degree that the work allows.
     ///
     /// # Complexity
-    /// At most [`WORK`] products and as many again for the Macaulay matrices.
+    /// At most `WORK` products and as many again for the Macaulay matrices.
     #[must_use]
     pub fn isolated(&self, m: usize) -> Option<usize> {
         let mut random = 0x9e37_79b9_7f4a_7c15_u64;

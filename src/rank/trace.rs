@@ -3,7 +3,7 @@
 //! At a regular pose every instantaneous motion extends: a step along it closes with corrections across it alone, and so
 //! at a distance at which shaky poses gape clearly. At a singular pose the set of closed poses is, near by, a cone over its
 //! section with a small sphere [Milnor 1968]. So branches are sought where the sphere is met: starts come from the tangent
-//! cone ([`super::tangent_cone`]), and a closed pose on a sphere counts only if it can be followed from sphere to sphere, in
+//! cone (`tangent_cone`), and a closed pose on a sphere counts only if it can be followed from sphere to sphere, in
 //! to the pose and out again. The largest dimension of the branches, each examined in the same way at its far end, is the
 //! local one [Wampler, Hauenstein & Sommese 2011].
 //!
