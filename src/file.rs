@@ -6,6 +6,7 @@ pub mod lint;
 pub mod locate;
 pub mod problem;
 pub mod read;
+mod rounding;
 pub mod schema;
 pub mod template;
 pub mod text;

@@ -9,6 +9,6 @@ pub mod grip;
 pub mod id;
 pub mod joint_type;
 pub mod loads;
-pub mod measured;
 pub mod mechanism;
 pub mod ranking;
+pub mod rounded;

@@ -2,11 +2,10 @@
 
 use super::args::{AnalyzeFormat, Args, File};
 use super::{Done, load, output, stroke, verify};
-use crate::model::measured::looks_measured;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::method::MobilityMethod;
+use crate::rank::method::{Certainty, MobilityMethod, RankOfJ};
 use crate::rank::registry;
-use crate::rank::snap::snap;
+use crate::rank::verdict::verdict;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::search::suggest::single_changes;
 use crate::view::analysis::Analysis;
@@ -87,19 +86,28 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     {
         bail!("--tolerance must be between 0 and 1");
     }
-    let stroke = match &a.stroke {
-        None => None,
-        Some(range) => {
-            let state = mechanism.state(&a.state).unwrap_or(StateId::FREE);
-            let drive = a.drive.as_deref();
-            Some(stroke::Asked::new(
-                &mechanism,
-                state,
-                range,
-                drive,
-                a.tolerance,
-            )?)
-        }
+    if a.tolerance.is_some() && matches!(a.method.about().rank, RankOfJ::Exact | RankOfJ::NotFound)
+    {
+        bail!(
+            "--tolerance is nothing to --method {}, which rounds nothing; leave it out, or use auto or svd",
+            a.method.name()
+        );
+    }
+    let over = mechanism.state(&a.state).unwrap_or(StateId::FREE);
+    let asked = a
+        .stroke
+        .as_ref()
+        .map(|_| verdict(&mechanism, over, a.tolerance));
+    let asked = asked.transpose()?;
+    let stroke = match (&a.stroke, &asked) {
+        (Some(range), Some(verdict)) => Some(stroke::Asked::new(
+            &mechanism,
+            over,
+            range,
+            a.drive.as_deref(),
+            (verdict, a.tolerance),
+        )?),
+        _ => None,
     };
     let Some(method) = Method::of(a.method, a.tolerance) else {
         return mobility_alone(&mechanism, &states, a);
@@ -115,12 +123,12 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
             Ok(Done::Found)
         })?;
     }
-    let (advice, snapped) = advise(&mechanism, &states, &found, a.tolerance)?;
+    let advice = advise(&mechanism, &states, &found)?;
     let analysis = Analysis {
         stroke,
         ..Analysis::new(&mechanism, &found, &advice)
     };
-    let next = steps(&mechanism, &analysis.states, &a.file.file, snapped);
+    let next = steps(&mechanism, &analysis.states, &a.file.file, a.tolerance);
     let width = output::width(a.output.as_deref());
     output::to(a.output.as_deref(), |out| {
         match a.format {
@@ -139,31 +147,22 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     })
 }
 
-/// What single changes would do in each state, on the geometry that the analysis is about: snapped, by the tolerance
-/// given back, where it was.
+/// What single changes would do in each state, on the geometry that the analysis is about.
 fn advise(
     mechanism: &Mechanism,
     states: &[StateId],
     found: &[StateAnalysis],
-    tolerance: Option<f64>,
-) -> anyhow::Result<(Vec<Advice>, Option<f64>)> {
-    let snapped = if found.iter().any(|s| !s.snapped.is_empty()) {
-        let of_digits = looks_measured(mechanism).map(|m| m.tolerance());
-        tolerance
-            .or(of_digits)
-            .map(|t| (snap(mechanism, t).mechanism, t))
-    } else {
-        None
-    };
+) -> anyhow::Result<Vec<Advice>> {
     let one = |(&state, s): (&StateId, &StateAnalysis)| {
         if suggestions::concerned(s) == 0 {
             return Ok(Advice::Nothing);
         }
-        let exact = match &snapped {
-            Some((m, _)) if !s.snapped.is_empty() => m,
-            _ => mechanism,
-        };
-        let found = single_changes(exact, state)?;
+        if matches!(s.certainty, Certainty::Undecided { .. }) {
+            return Ok(Advice::Silent(
+                "which constraints are redundant is not decided",
+            ));
+        }
+        let found = single_changes(s.meant.as_deref().unwrap_or(mechanism), state)?;
         Ok(if found.redundant == s.redundant {
             Advice::Changes(found)
         } else {
@@ -172,9 +171,7 @@ fn advise(
             )
         })
     };
-    let advice = states.iter().zip(found).map(one);
-    let advice = advice.collect::<anyhow::Result<Vec<_>>>()?;
-    Ok((advice, snapped.map(|(_, t)| t)))
+    states.iter().zip(found).map(one).collect()
 }
 
 /// By a method that gives a mobility and nothing else.

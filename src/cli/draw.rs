@@ -60,16 +60,19 @@ pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
         );
     };
     let mut marks = None;
+    let external = a.which.max_external.is_some() && state != StateId::FREE;
+    let request = a.which.request(external.then_some(a.state.as_str()))?;
+    let mut tolerance = None;
     if let Some(k) = a.variant {
-        let external = a.which.max_external.is_some() && state != StateId::FREE;
-        let request = a.which.request(external.then_some(a.state.as_str()))?;
         let (realized, changes) = variant::kth(mechanism, request, k, |v| {
             let search = &v.outcome().search;
             draw::marks::of_variant(search, v.assignment(), &format!("variant {k}"))
         })?;
         (mechanism, marks) = (realized, Some(changes));
+    } else {
+        tolerance = request.tolerance()?;
     }
-    let found = analyse(&mechanism, &[state], Method::Auto { tolerance: None })?;
+    let found = analyse(&mechanism, &[state], Method::Auto { tolerance })?;
     let subject = Subject {
         mechanism: &mechanism,
         state,

@@ -1,6 +1,7 @@
 //! `ozols export`.
 
 use super::args::{Args, File};
+use super::progress::note;
 use super::request::Which;
 use super::{Done, load, output, variant};
 use crate::api;
@@ -36,9 +37,11 @@ fn written() -> PossibleValuesParser {
 
 pub(super) fn run(_: &Args, a: &Export) -> anyhow::Result<Done> {
     let mut m = load::mechanism(&a.file.file)?;
+    let request = a.which.request(a.state.as_deref())?;
     if let Some(k) = a.variant {
-        let request = a.which.request(a.state.as_deref())?;
         m = variant::kth(m, request, k, |v| v.mechanism())?;
+    } else if request.snap.is_some() {
+        m = request.snapped(&m, &mut note)?;
     }
     let text = api::export(&m, &a.to)?;
     output::to(a.output.as_deref(), |out| {

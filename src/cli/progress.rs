@@ -3,7 +3,7 @@
 use super::output;
 use crate::model::mechanism::Mechanism;
 use crate::score::outcome::Outcome;
-use crate::score::request::{LooksMeasured, Request};
+use crate::score::request::{LooksRounded, Request};
 use crate::score::run::{self, Event, RunError, ShouldCancel, Tell};
 use crate::search::conditions::Conditions;
 use crate::search::diagram::Progress;
@@ -69,7 +69,7 @@ impl Watch {
     pub(super) fn answer(
         &mut self,
         mechanism: Arc<Mechanism>,
-        conditions: (Conditions, Option<LooksMeasured>),
+        conditions: (Conditions, Option<LooksRounded>),
         request: &Request,
     ) -> Result<Outcome, RunError> {
         self.over(|cancel, tell| run::answer(mechanism, conditions, request, cancel, tell))

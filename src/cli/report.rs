@@ -41,11 +41,16 @@ pub(super) fn run(args: &Args, a: &Report) -> anyhow::Result<Done> {
         list: List::Top(a.top),
         ..a.checked.request(args.seed)?
     };
-    let mechanism = Arc::new(request.prepare(load::mechanism(&a.file.file)?, &mut note)?);
+    let written = load::mechanism(&a.file.file)?;
     // An unknown state is a mistake; geometry that cannot be searched is not.
-    request.state(&mechanism)?;
-    let states: Vec<StateId> = mechanism.state_ids().collect();
-    let states = analyse(&mechanism, &states, Method::Auto { tolerance: None })?;
+    let prepared = request.prepare(written.clone(), &mut note)?;
+    let states: Vec<StateId> = written.state_ids().collect();
+    let method = Method::Auto {
+        tolerance: request.snap,
+    };
+    let states = analyse(&written, &states, method)?;
+    let conditions = request.conditions(&prepared, &mut note);
+    let mechanism = Arc::new(prepared.mechanism);
     let write = |redesigns: Result<Redesigns<'_>, String>| -> anyhow::Result<Done> {
         let page = html(&Page {
             mechanism: &mechanism,
@@ -59,7 +64,7 @@ pub(super) fn run(args: &Args, a: &Report) -> anyhow::Result<Done> {
         })
     };
     // What is known of the mechanism as it is stands, even where its coordinates do not allow a search.
-    let conditions = match request.conditions(&mechanism, &mut note) {
+    let conditions = match conditions {
         Ok(conditions) => conditions,
         Err(why) => return write(Err(format!("{why}."))),
     };

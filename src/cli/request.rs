@@ -62,12 +62,11 @@ pub(super) struct Which {
     /// Of a variant and its mirror image, only one.
     #[arg(long, conflicts_with = "symmetric")]
     one_per_orbit: bool,
-    /// Search a file whose coordinates look measured exactly as it is written, though rounding errors in it change the
-    /// figures.
+    /// Search a file whose coordinates are rounded exactly as it is written, though something else is meant.
     #[arg(long)]
     as_written: bool,
     /// Make axes exactly parallel, square, coaxial or concurrent that are so to within T (radians, and fractions of the
-    /// largest coordinate), for files whose coordinates were measured or rounded; lists what was moved.
+    /// mechanism's size) in place of what the digits allow; lists what was moved, by how much, and what was not.
     #[arg(long, value_name = "T")]
     snap: Option<f64>,
     /// Node budget of each diagram, about 1 KB of memory a node (twice that with a check).

@@ -7,9 +7,9 @@ use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::follow::{Follower, slides};
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::along_stroke::{StrokeRequest, stroke};
-use crate::rank::auto::{Geometry, decide};
+use crate::rank::verdict::{Meant, Verdict};
 use crate::view::stroke::Stroke;
-use anyhow::{Context, bail};
+use anyhow::{Context, bail, ensure};
 use itertools::Itertools;
 
 /// Most steps: every pose on the way is kept.
@@ -20,6 +20,7 @@ const MOST: usize = 10_000;
 pub(super) struct Asked<'a> {
     mechanism: &'a Mechanism,
     state: StateId,
+    verdict: &'a Verdict,
     tolerance: Option<f64>,
     range: loads::Stroke,
     pose: Pose,
@@ -47,14 +48,21 @@ fn names(m: &Mechanism, pose: &Pose) -> Vec<(usize, String)> {
 }
 
 impl<'a> Asked<'a> {
-    /// What `range`, and the joint named as the drive, ask.
+    /// What `range`, and the joint named as the drive, ask of the mechanism that a verdict is about.
     pub(super) fn new(
         m: &'a Mechanism,
         state: StateId,
         range: &str,
         named: Option<&str>,
-        tolerance: Option<f64>,
+        (verdict, tolerance): (&'a Verdict, Option<f64>),
     ) -> anyhow::Result<Asked<'a>> {
+        ensure!(
+            verdict.is_decided(),
+            "the motion of {} over a stroke is not known: {}",
+            m.name,
+            verdict.undecided()
+        );
+        let m = verdict.mechanism().unwrap_or(m);
         let pose = Pose::of_file(m, state)?;
         let (drive, held) = drive(m, &pose, state, named)?;
         let slide = slides(&pose, drive);
@@ -72,6 +80,7 @@ impl<'a> Asked<'a> {
         Ok(Asked {
             mechanism: m,
             state,
+            verdict,
             tolerance,
             range,
             pose,
@@ -82,12 +91,14 @@ impl<'a> Asked<'a> {
 
     /// Goes there.
     pub(super) fn follow(&self) -> anyhow::Result<Stroke<'a>> {
-        let decision = decide(self.mechanism, self.state, self.tolerance)?;
-        let measured = !matches!(decision.geometry, Geometry::Exact);
+        let found = self.verdict;
+        // Rounded coordinates close no better than what they leave of a zero.
+        let measured = found.rounded.as_ref().is_some_and(|r| r.digits.is_some());
+        let rounded = measured || !matches!(found.meant, Meant::AsWritten);
         let (mut pose, mut tolerance) = (self.pose.clone(), self.tolerance);
-        if let (true, Some(n)) = (measured, decision.numeric) {
-            pose = pose.with_accuracy((10.0 * n.dropped).clamp(1e-16, decision.tolerance));
-            tolerance = Some(decision.tolerance.max(FLAT));
+        if let (true, Some(n)) = (rounded, found.numeric) {
+            pose = pose.with_accuracy((10.0 * n.dropped).clamp(1e-16, found.tolerance));
+            tolerance = Some(found.tolerance.max(FLAT));
         } else if let Some(t) = tolerance {
             // Singular values below a hundred times the accuracy count as zero on the way.
             pose = pose.with_accuracy(t / 100.0);

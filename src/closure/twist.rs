@@ -96,18 +96,26 @@ impl<N: Clone> FrameValues<N> {
     /// # Errors
     /// Where a coordinate has no value in the number system.
     pub fn new<S: Scalars<Number = N>>(s: &S, frame: &Frame) -> Result<Self, ExactError> {
-        let z = s.eval3(&frame.axis)?;
-        let r = s.eval3(&frame.reference)?;
+        let vectors = [
+            s.eval3(&frame.point)?,
+            s.eval3(&frame.axis)?,
+            s.eval3(&frame.reference)?,
+        ];
+        Ok(Self::of(s, vectors, s.eval(&frame.pitch)?))
+    }
+
+    /// A frame from the values of its point, axis and reference.
+    pub fn of<S: Scalars<Number = N>>(s: &S, [point, z, r]: [[N; 3]; 3], pitch: N) -> Self {
         let zero = s.sub(z[0].clone(), z[0].clone());
         let minus = s.sub(zero, s.dot(z.clone(), r.clone()));
         let zz = s.dot(z.clone(), z.clone());
         let x = s.scaled_sum(minus, z.clone(), r.map(|c| s.mul(zz.clone(), c)));
         let y = s.cross(z.clone(), x.clone());
-        Ok(FrameValues {
+        FrameValues {
             axes: [x, y, z],
-            point: s.eval3(&frame.point)?,
-            pitch: s.eval(&frame.pitch)?,
-        })
+            point,
+            pitch,
+        }
     }
 
     /// The frame in a motion space: in a plane, a joint with all three turns and no slide turns about the normal whatever

@@ -6,6 +6,7 @@ use crate::file::problem::ImportError;
 use crate::file::read::build;
 use crate::file::read::resolve::{index, key};
 use crate::file::read::workload::workload_tables;
+use crate::file::rounding;
 use crate::file::schema::{MechanismFile, OptionEntry, Unloading};
 use crate::file::text::{read, text_of};
 use crate::file::warning::{WarningKind, Warnings};
@@ -14,7 +15,6 @@ use crate::geom::expr::Expr;
 use crate::geom::extent::diagonal;
 use crate::geom::vector::{length, real, sub};
 use crate::model::joint_type::JointType;
-use crate::model::measured::looks_measured;
 use crate::model::mechanism::{Joint, JointId, Mechanism, Role, StateId};
 use crate::model::ranking::Term;
 use itertools::Itertools;
@@ -109,9 +109,9 @@ fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
         let (across, unit) = (significant(metres), m.length_unit.symbol);
         out.push((root("length_unit"), WarningKind::OddSize { across, unit }));
     }
-    if let Some(measured) = looks_measured(m) {
-        let what = measured.to_string();
-        out.push((root("joint"), WarningKind::Measured { what }));
+    let rounded = rounding::doubts(m);
+    if !rounded.is_empty() {
+        out.extend(rounded.into_iter().map(|kind| (root("joint"), kind)));
         return;
     }
     let pairs = m.joint_ids().tuple_combinations();

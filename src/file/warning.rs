@@ -39,6 +39,20 @@ pub enum WarningKind {
     )]
     Measured { what: String },
     #[error(
+        "state {state}: {meant} is meant, and {written} is what the rounded digits say as written; write roots or expressions such as \"sqrt(3)/2\", or more digits"
+    )]
+    Meant {
+        state: String,
+        meant: String,
+        written: String,
+    },
+    #[error("state {state}: {what}")]
+    Undecided { state: String, what: String },
+    #[error(
+        "nearly special: {what}; make them so exactly if they are meant to be (`ozols export FILE --snap T` does)"
+    )]
+    NearlySpecial { what: String },
+    #[error(
         "no contour is closed in any state; nothing can be redundant without one: add the joints that close it"
     )]
     NoContour,

@@ -59,12 +59,15 @@ fn search(r: &Redesigns<'_>) -> Vec<String> {
         ));
     }
     if let Some((why, verdicts)) = &found.measured {
-        let agree = verdicts.iter().all(|v| v.agree());
-        lines.push(format!(
-            "The coordinates look measured ({why}); exact and tolerant ranks {} on the mechanism as it is, and the search \
-             takes every digit at its word",
-            if agree { "agree" } else { "differ" }
-        ));
+        let written = verdicts.iter().all(|v| v.is_as_written());
+        let searched = if written {
+            "exact and tolerant ranks agree on the mechanism as it is, and the search takes every digit at its word"
+        } else if found.request.as_written {
+            "something else is meant, and the search takes every digit at its word as it was asked to"
+        } else {
+            "the search is of the mechanism as meant, snapped within the digits"
+        };
+        lines.push(format!("The coordinates look rounded ({why}); {searched}"));
     }
     let notes = search_text::notes(&r.summary, &[], None);
     lines.extend(notes.lines().map(|l| l.trim().to_owned()));

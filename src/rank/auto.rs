@@ -2,52 +2,18 @@
 //! why, and what was left out.
 
 use super::field::field_of;
-use super::finite::{Finite, How, finite, finite_within, followed};
-use super::measured::Verdicts;
+use super::finite::{Finite, finite, finite_within, followed};
 use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
-use super::modular;
-use super::numeric::{Elimination, NumericRank, qr_diagonal};
-use super::scaled::{rank_of_values, scaled};
-use super::snap::snap;
-use super::subgroup::whole_group;
+use super::numeric::Elimination;
+use super::verdict::{Meant, Verdict, verdict};
 use crate::closure::matrix::Closure;
-use crate::geom::scalars::Reals;
-use crate::model::measured::{Measured, looks_measured};
 use crate::model::mechanism::{Mechanism, StateId};
-
-/// What the geometry is, and which mechanism the verdict is about.
-#[derive(Debug, Clone)]
-pub enum Geometry {
-    /// Exact as the file has it.
-    Exact,
-    /// Measured; ranks as written and numeric agree.
-    MeasuredAgreeing(Measured),
-    /// Measured; exact once near-coincidences are snapped, and then in agreement with the numeric rank.
-    Snapped {
-        /// Why it looks measured.
-        measured: Measured,
-        /// The snapped mechanism.
-        mechanism: Box<Mechanism>,
-        /// What was moved.
-        moved: Vec<String>,
-    },
-    /// Measured; only the numeric rank sees what the digits mean.
-    Measured(Measured),
-}
 
 /// A decision for one state.
 #[derive(Debug, Clone)]
 pub struct Decision {
-    /// What the geometry is.
-    pub geometry: Geometry,
-    /// Rank of J by the verdict.
-    pub rank: usize,
-    /// Rank of J with every digit taken at its word.
-    pub as_written: usize,
-    /// Singular values of the file's J, where they were asked.
-    pub numeric: Option<NumericRank>,
-    /// The tolerance they were read at.
-    pub tolerance: f64,
+    /// The rank, and which mechanism it is of.
+    pub verdict: Verdict,
     /// The mobility that is really there.
     pub finite: Finite,
     /// What was chosen, why, and what was left out.
@@ -60,119 +26,93 @@ pub struct Decision {
 /// Where the geometry has no image in a prime field, or the singular values do not converge.
 ///
 /// # Complexity
-/// One modular rank for exact geometry; for measured geometry singular values, a second elimination and the snapping.
+/// That of [`verdict`], and of the finite mobility.
 pub fn decide(
     mechanism: &Mechanism,
     state: StateId,
     tolerance: Option<f64>,
 ) -> Result<Decision, NoAnswer> {
-    let exact = field_of(mechanism, state, 0)?;
-    let closure = Closure::new(&exact, mechanism, state)?;
-    let group = whole_group(&exact, mechanism, state)?;
-    let (as_written, needed) = if closure.contours.is_empty() || closure.dim == group.dimension() {
-        (modular::rank(&exact, &closure), String::new())
-    } else {
-        let left_out = closure.dim - group.dimension();
-        let line = format!(
-            "; all joints move in {}, so {} rows per contour do; left out: {left_out} of {}, redundant whatever the rest",
-            group.name(),
-            group.dimension(),
-            closure.dim
-        );
-        (modular::rank(&exact, &group.rows_of(&closure)), line)
-    };
-    let Some(measured) = looks_measured(mechanism) else {
-        return Ok(Decision {
-            geometry: Geometry::Exact,
-            rank: as_written,
-            as_written,
-            numeric: None,
-            tolerance: 0.0,
-            finite: finite(&exact, mechanism, &closure, as_written)?,
-            line: format!("exact geometry, so ranks over prime fields{needed}"),
-        });
-    };
-    let tolerance = tolerance.unwrap_or_else(|| measured.tolerance());
-    let real = Closure::new(&Reals, mechanism, state)?;
-    let verdicts = Verdicts::beside(as_written, &mechanism.states[state], &real, tolerance)
-        .map_err(|e| NoAnswer::Failed(e.to_string()))?;
-    let numeric = verdicts.numeric;
+    let verdict = verdict(mechanism, state, tolerance)?;
+    Ok(Decision {
+        finite: finite_of(mechanism, state, &verdict)?,
+        line: line(&verdict),
+        verdict,
+    })
+}
+
+/// The finite mobility of what is meant.
+fn finite_of(m: &Mechanism, state: StateId, found: &Verdict) -> Result<Finite, NoAnswer> {
     // What rounding and noise leave of a zero says how well poses can close.
-    let accuracy = (10.0 * numeric.dropped).clamp(1e-16, tolerance);
-    let second = rank_of_values(qr_diagonal::<f64>(&scaled(&real)), tolerance);
-    let doubt = if second.rank == numeric.rank {
-        String::new()
-    } else {
-        format!(
-            "; column-pivoted QR says rank {} instead, so treat this as open",
-            second.rank
-        )
+    let accuracy = found
+        .numeric
+        .map(|n| (10.0 * n.dropped).clamp(1e-16, found.tolerance.max(1e-16)));
+    let exactly = |m: &Mechanism, rank: usize| {
+        let exact = field_of(m, state, 0)?;
+        let closure = Closure::new(&exact, m, state)?;
+        match accuracy {
+            Some(_) => finite_within(&exact, m, &closure, rank, accuracy),
+            None => finite(&exact, m, &closure, rank),
+        }
+    };
+    Ok(match &found.meant {
+        Meant::AsWritten => exactly(m, found.as_written)?,
+        Meant::Snapped {
+            mechanism, rank, ..
+        } => exactly(mechanism, *rank)?,
+        Meant::Near {
+            mechanism, rank, ..
+        } => followed(
+            mechanism,
+            state,
+            found.figures(*rank).0,
+            accuracy.unwrap_or(0.0),
+        )?,
+        Meant::Undecided { near } => Finite::unranked(found.figures(*near).0),
+    })
+}
+
+/// What was chosen and why.
+fn line(found: &Verdict) -> String {
+    let needed = &found.needed;
+    let Some(n) = found.numeric else {
+        return format!("exact geometry, so ranks over prime fields{needed}");
+    };
+    let measured = found.rounded.as_ref().is_some_and(|r| r.digits.is_some());
+    let why = match &found.rounded {
+        Some(r) if measured => format!("coordinates look measured ({r}); "),
+        Some(r) if !found.is_as_written() => format!("coordinates look rounded ({r}); "),
+        _ => String::new(),
     };
     let gap = format!(
-        "singular values at tolerance {tolerance:.0e} (smallest kept {:.1e}, largest dropped {:.1e})",
-        numeric.kept, numeric.dropped
+        "singular values at tolerance {:.0e} (smallest kept {:.1e}, largest dropped {:.1e})",
+        found.tolerance, n.kept, n.dropped
     );
-    let why = format!("coordinates look measured ({measured})");
-    let base = |geometry, rank, finite, line| Decision {
-        geometry,
-        rank,
-        as_written,
-        numeric: Some(numeric),
-        tolerance,
-        finite,
-        line,
-    };
-    if verdicts.agree() {
-        let found = finite_within(&exact, mechanism, &closure, as_written, Some(accuracy))?;
-        let line = format!("{why}; exact rank as written and {gap} agree{doubt}{needed}");
-        return Ok(base(
-            Geometry::MeasuredAgreeing(measured),
-            as_written,
-            found,
-            line,
-        ));
-    }
-    let snapped = snap(mechanism, tolerance);
-    let snapped_exact = field_of(&snapped.mechanism, state, 0)?;
-    let snapped_closure = Closure::new(&snapped_exact, &snapped.mechanism, state)?;
-    let snapped_rank = modular::rank(&snapped_exact, &snapped_closure);
     let both = format!(
-        "as written, every digit at its word, the rank would be {as_written} (mobility {}) instead of {} (mobility {})",
-        verdicts.figures(as_written).0,
-        numeric.rank,
-        verdicts.figures(numeric.rank).0
+        "as written, every digit at its word, the rank would be {} (mobility {}) instead of {} (mobility {})",
+        found.as_written,
+        found.figures(found.as_written).0,
+        found.at_least(),
+        found.figures(found.at_least()).0
     );
-    if snapped_rank == numeric.rank {
-        let found = finite_within(
-            &snapped_exact,
-            &snapped.mechanism,
-            &snapped_closure,
-            snapped_rank,
-            Some(accuracy),
-        )?;
-        let line = format!(
-            "{why}; snapped within {tolerance:.0e} ({} changes), exact rank then; {gap} agree{doubt}; {both}",
-            snapped.moved.len()
-        );
-        return Ok(base(
-            Geometry::Snapped {
-                measured,
-                mechanism: Box::new(snapped.mechanism),
-                moved: snapped.moved,
-            },
-            snapped_rank,
-            found,
-            line,
-        ));
+    match &found.meant {
+        Meant::AsWritten if measured => {
+            format!("{why}exact rank as written and {gap} agree{needed}")
+        }
+        Meant::AsWritten => format!(
+            "exact geometry, so ranks over prime fields; no rounding of the last digits changes them{needed}"
+        ),
+        Meant::Snapped { moved, .. } => format!(
+            "{why}snapped within the digits ({} joints), exact rank then; {gap} agree; {both}",
+            moved.len()
+        ),
+        Meant::Near {
+            moved: Some(units), ..
+        } => format!(
+            "{why}a geometry with that rank is within {units:.2} units of the last digits; {gap}; {both}"
+        ),
+        Meant::Near { moved: None, .. } => format!("{why}{gap}; {both}"),
+        Meant::Undecided { .. } => format!("{why}{}", found.undecided()),
     }
-    let found = followed(mechanism, state, verdicts.figures(numeric.rank).0, accuracy)?;
-    let line = format!("{why}; {gap}{doubt}; {both}");
-    Ok(base(
-        Geometry::Measured(measured),
-        numeric.rank,
-        found,
-        line,
-    ))
 }
 
 /// The automatic choice as a method; finite mobility.
@@ -184,27 +124,32 @@ impl MobilityMethod for Auto {
         &About {
             name: "auto",
             title: "automatic choice",
-            help: "The cheapest that is certain: exact where the geometry is, singular values where it was measured",
-            guarantee: "as the method it chooses, which it names; finite mobility",
-            complexity: "one modular rank, and singular values only where coordinates are measured",
+            help: "The cheapest that is certain: exact where the geometry is, as meant within the digits where it is rounded",
+            guarantee: "as the method it chooses, which it names; finite mobility, or undecided",
+            complexity: "one modular rank, and singular values only where coordinates are decimals",
             source: "this program",
             rank: RankOfJ::Chosen,
         }
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
-        let decision = decide(mechanism, state, None)?;
-        if let How::Undecided { .. } = decision.finite.how {
-            return Err(NoAnswer::Failed(decision.finite.describe()));
+        let Decision {
+            verdict, finite, ..
+        } = decide(mechanism, state, None)?;
+        if let Meant::Undecided { .. } = verdict.meant {
+            return Err(NoAnswer::Failed(verdict.undecided()));
         }
-        let numeric = decision
+        if finite.is_undecided() {
+            return Err(NoAnswer::Failed(finite.describe()));
+        }
+        let numeric = verdict
             .numeric
-            .filter(|_| matches!(decision.geometry, Geometry::Measured(_)));
+            .filter(|_| matches!(verdict.meant, Meant::Near { .. }));
         Ok(Answer {
-            mobility: i64::try_from(decision.finite.mobility).unwrap_or(i64::MAX),
+            mobility: i64::try_from(finite.mobility).unwrap_or(i64::MAX),
             quantity: Quantity::Finite,
             certainty: match numeric {
-                Some(n) => Elimination::Svd.certainty(n, decision.tolerance),
-                None if decision.finite.is_proven() => Certainty::Exact,
+                Some(n) => Elimination::Svd.certainty(n, verdict.tolerance),
+                None if finite.is_proven() => Certainty::Exact,
                 None => Certainty::Traced,
             },
         })

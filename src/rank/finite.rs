@@ -49,6 +49,11 @@ pub enum How {
         /// The largest dimension that is not excluded.
         to: usize,
     },
+    /// The rank of J is not decided, so that nothing more is known than the most it can be.
+    Unranked {
+        /// The instantaneous mobility at the least rank that may be meant.
+        to: usize,
+    },
     /// Not followed, for it is too large: an upper bound, the instantaneous mobility.
     Bound,
 }
@@ -71,6 +76,17 @@ impl Finite {
             how,
             numeric: false,
         }
+    }
+
+    /// Where the rank of J is not decided; `to` is the most that moves instantaneously.
+    pub(super) fn unranked(to: usize) -> Finite {
+        Finite::new(0, How::Unranked { to })
+    }
+
+    /// Whether it is a range.
+    #[must_use]
+    pub fn is_undecided(&self) -> bool {
+        matches!(self.how, How::Undecided { .. } | How::Unranked { .. })
     }
 
     /// The same with a rank that is a numeric one.
@@ -96,7 +112,7 @@ impl Finite {
     #[must_use]
     pub fn at_most(&self) -> usize {
         match self.how {
-            How::Undecided { to, .. } => to,
+            How::Undecided { to, .. } | How::Unranked { to } => to,
             _ => self.mobility,
         }
     }
@@ -114,6 +130,7 @@ impl Finite {
     pub fn figure(&self) -> String {
         match self.how {
             How::Undecided { from, to } => format!("{from} to {to}"),
+            How::Unranked { to } => format!("0 to {to}"),
             _ => self.mobility.to_string(),
         }
     }
@@ -149,6 +166,9 @@ impl Finite {
             How::Undecided { from, to } => format!(
                 "undecided: between {from} and {to}; the pose of the file is singular, and following branches from it does not decide"
             ),
+            How::Unranked { to } => {
+                format!("undecided: at most {to}, for the rank of J is not decided")
+            }
             How::Bound => "an upper bound: too large to be followed".to_owned(),
         };
         match self.how {
@@ -168,15 +188,18 @@ impl Finite {
             How::Stopped { order: 2, .. } => "second-order",
             How::Stopped { .. } => "higher-order",
             How::Traced { .. } => "traced",
-            How::Undecided { .. } => "undecided",
+            How::Undecided { .. } | How::Unranked { .. } => "undecided",
             How::Bound => "bound",
         }
     }
 
     /// The finite mobility of two independent parts, or of a part and its idle freedoms.
     fn and(self, other: Finite) -> Finite {
-        use How::{Bound, Rigid, Stopped, Submersion, Traced, Undecided};
+        use How::{Bound, Rigid, Stopped, Submersion, Traced, Undecided, Unranked};
         let how = match (self.how, other.how) {
+            (Unranked { .. }, _) | (_, Unranked { .. }) => Unranked {
+                to: self.at_most() + other.at_most(),
+            },
             (Undecided { .. }, _) | (_, Undecided { .. }) => Undecided {
                 from: self.mobility + other.mobility,
                 to: self.at_most() + other.at_most(),
@@ -417,7 +440,7 @@ impl MobilityMethod for Exact {
         let closure = Closure::new(&exact, mechanism, state)?;
         let rank = super::modular::rank(&exact, &closure);
         let found = finite(&exact, mechanism, &closure, rank)?;
-        if let How::Undecided { .. } = found.how {
+        if found.is_undecided() {
             return Err(NoAnswer::Failed(found.describe()));
         }
         Ok(Answer {

@@ -49,6 +49,17 @@ pub enum Certainty {
     },
     /// Followed by Newton's method.
     Traced,
+    /// Coordinates are rounded, and whether as written or as something near was meant is not decided.
+    Undecided {
+        /// The rank with every digit at its word, the most it can be.
+        as_written: usize,
+        /// The rank that may be meant.
+        near: usize,
+        /// The singular value above the gap that tells them apart, relative to the largest.
+        kept: f64,
+        /// The one below it.
+        dropped: f64,
+    },
 }
 
 impl Certainty {
@@ -73,6 +84,15 @@ impl Certainty {
                 "{values}, tolerance {tolerance:.0e}: smallest kept {kept:.1e}, largest dropped {dropped:.1e}"
             ),
             Certainty::Traced => "followed numerically".to_owned(),
+            Certainty::Undecided {
+                as_written,
+                near,
+                kept,
+                dropped,
+            } => format!(
+                "undecided: rank {as_written} as written, {near} if digits are left over from rounding (singular values \
+                 {kept:.1e} above the gap, {dropped:.1e} below it)"
+            ),
         }
     }
 
@@ -86,6 +106,7 @@ impl Certainty {
             Certainty::Modular { .. } => "modular",
             Certainty::Numeric { .. } => "numeric",
             Certainty::Traced => "traced",
+            Certainty::Undecided { .. } => "undecided",
         }
     }
 }

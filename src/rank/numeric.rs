@@ -139,7 +139,7 @@ pub fn rank_with_tolerance(
     Elimination::Svd.rank(closure, tolerance)
 }
 
-fn singular_values(matrix: &Mat<f64>) -> Result<Vec<f64>, NumericError> {
+pub(super) fn singular_values(matrix: &Mat<f64>) -> Result<Vec<f64>, NumericError> {
     if matrix.nrows() == 0 || matrix.ncols() == 0 {
         return Ok(Vec::new());
     }

@@ -59,6 +59,12 @@ impl Scaling {
         scaling
     }
 
+    /// What lengths are divided by.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
     /// A twist about the middle.
     fn about(&self, twist: &[f64]) -> Vec<f64> {
         let mut t = twist.to_vec();
@@ -120,7 +126,7 @@ pub fn scaled(closure: &Closure<f64>) -> Mat<f64> {
 }
 
 /// A numeric rank with the gap it rests on.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct NumericRank {
     /// Number of values above the tolerance.
     pub rank: usize,

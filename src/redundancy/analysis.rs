@@ -6,7 +6,7 @@ use crate::geom::scalars::Reals;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
-use crate::rank::auto::{self, Geometry};
+use crate::rank::auto::{Decision, decide};
 use crate::rank::certificate::{self, Budget};
 pub use crate::rank::field::exact_field;
 use crate::rank::field::field_of;
@@ -15,6 +15,7 @@ use crate::rank::method::{Certainty, MobilityMethod, NoAnswer, RankOfJ};
 use crate::rank::modular;
 pub use crate::rank::numeric::Elimination;
 use crate::rank::numeric::{NumericError, NumericRank};
+use crate::rank::verdict::Meant;
 pub use crate::redundancy::external::External;
 use crate::redundancy::external::{external, freedoms_of, int, present_links};
 use crate::redundancy::idle::{Idle, idle_motions};
@@ -28,7 +29,7 @@ use thiserror::Error;
 /// How the rank is found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
-    /// The cheapest that is certain, see [`auto`]; a tolerance for measured geometry other than the digits ask for.
+    /// The cheapest that is certain, see [`decide`]; a tolerance other than the digits ask for.
     Auto {
         /// Relative tolerance.
         tolerance: Option<f64>,
@@ -137,6 +138,8 @@ pub struct StateAnalysis {
     pub snapped: Vec<String>,
     /// The rank with every digit taken at its word, where that differs.
     pub as_written: Option<usize>,
+    /// The mechanism that the figures are of, where it was snapped.
+    pub meant: Option<Box<Mechanism>>,
 }
 
 /// Analyses the given states.
@@ -168,29 +171,61 @@ fn chosen(
     state: StateId,
     tolerance: Option<f64>,
 ) -> Result<StateAnalysis, AnalysisError> {
-    let decision = auto::decide(mechanism, state, tolerance)?;
-    let as_written = (decision.as_written != decision.rank).then_some(decision.as_written);
-    let known = Some(decision.finite);
-    let (whole, snapped) = match &decision.geometry {
-        Geometry::Exact | Geometry::MeasuredAgreeing(_) => {
-            (exactly(mechanism, state, known)?, Vec::new())
-        }
-        Geometry::Snapped {
-            mechanism: snapped,
+    let Decision {
+        verdict,
+        finite,
+        line,
+    } = decide(mechanism, state, tolerance)?;
+    let as_written = (verdict.as_written != verdict.rank()).then_some(verdict.as_written);
+    let whole = match &verdict.meant {
+        Meant::AsWritten => exactly(mechanism, state, Some(finite))?,
+        Meant::Snapped { mechanism, .. } => exactly(mechanism, state, Some(finite))?,
+        Meant::Near {
+            mechanism: near,
+            rank,
             moved,
-            ..
-        } => (exactly(snapped, state, known)?, moved.clone()),
-        Geometry::Measured(_) => {
-            let (by, tolerance) = (Elimination::Svd, decision.tolerance);
-            let found = match decision.numeric {
-                Some(rank) => numerically(mechanism, state, by, rank, tolerance, known)?,
-                None => exactly(mechanism, state, known)?,
+        } => {
+            // What was found is as good as doubles; what is written is read at the tolerance asked for.
+            let tolerance = moved.map_or(verdict.tolerance, |_| NEAR);
+            let found = NumericRank {
+                rank: *rank,
+                ..verdict.numeric.unwrap_or_default()
             };
-            (found, Vec::new())
+            let whole = numerically(
+                near,
+                state,
+                Elimination::Svd,
+                found,
+                tolerance,
+                Some(finite),
+            )?;
+            StateAnalysis {
+                certainty: Elimination::Svd.certainty(found, verdict.tolerance),
+                ..whole
+            }
         }
+        Meant::Undecided { near } => StateAnalysis {
+            certainty: Certainty::Undecided {
+                as_written: verdict.as_written,
+                near: *near,
+                kept: verdict.numeric.unwrap_or_default().kept,
+                dropped: verdict.numeric.unwrap_or_default().dropped,
+            },
+            ..exactly(mechanism, state, Some(finite))?
+        },
+    };
+    let (meant, snapped) = match verdict.meant {
+        Meant::Snapped {
+            mechanism, moved, ..
+        } => {
+            let words = moved.iter().map(|x| x.words(&mechanism)).collect();
+            (Some(mechanism), words)
+        }
+        _ => (None, Vec::new()),
     };
     Ok(StateAnalysis {
-        choice: Some(decision.line),
+        choice: Some(line),
+        meant,
         snapped,
         as_written,
         ..whole
@@ -265,6 +300,9 @@ fn outputs(mechanism: &Mechanism) -> Vec<LinkId> {
         .filter(|&l| mechanism.links[l].role == Role::Output)
         .collect()
 }
+
+/// Singular values of a geometry that was moved until it has a rank, below this part of the largest, are zero.
+const NEAR: f64 = 1e-9;
 
 /// Elementary operations spent on a certificate before an analysis does without: some tenths of a second.
 const CERTIFICATE: Budget = Budget {
@@ -362,6 +400,7 @@ fn exactly(
         choice: None,
         snapped: Vec::new(),
         as_written: None,
+        meant: None,
     })
 }
 

@@ -3,9 +3,8 @@
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::model::joint_type::Freedom;
-use crate::model::measured::looks_measured;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::numeric::{DEFAULT_TOLERANCE, rank_with_tolerance};
+use crate::rank::verdict::verdict;
 use crate::robots::parts::Robot;
 use crate::robots::warning::Kept;
 
@@ -55,20 +54,19 @@ pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<([usize; 2], f
     out
 }
 
-/// W of a mechanism without and with its couplings, by singular values; none where there are no couplings.
+/// W of a mechanism without and with its couplings; none where there are no couplings or its digits do not decide.
 pub(crate) fn kept(m: &Mechanism) -> Option<Kept> {
     if m.couplings.is_empty() {
         return None;
     }
-    let tolerance = looks_measured(m).map_or(DEFAULT_TOLERANCE, |x| x.tolerance());
     let mobility = |m: &Mechanism| {
         let closure = Closure::new(&Reals, m, StateId::FREE).ok()?;
         let (rows, columns) = (closure.rows(), closure.columns.len());
         if rows * columns * rows.min(columns) > LARGEST {
             return None;
         }
-        let rank = rank_with_tolerance(&closure, tolerance).ok()?;
-        Some(columns - rank.rank)
+        let found = verdict(m, StateId::FREE, None).ok()?;
+        found.is_decided().then(|| columns - found.rank())
     };
     let mut without = m.clone();
     without.couplings.clear();

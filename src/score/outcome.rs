@@ -1,7 +1,7 @@
 //! What a search found: counts, how they were checked, and the variants one by one.
 
 use crate::score::ranking::RankedPool;
-use crate::score::request::{Check, List, LooksMeasured, Request};
+use crate::score::request::{Check, List, LooksRounded, Request};
 use crate::score::variant::Variant;
 use crate::search::best::Assignment;
 use crate::search::building::Diagrams;
@@ -37,7 +37,7 @@ pub struct Outcome {
     /// What a second prime says; `None` where none was asked.
     pub check: Option<PrimeCheck>,
     /// Why the geometry looks measured, with the verdicts on the mechanism as it is; `None` where it looks exact.
-    pub measured: Option<LooksMeasured>,
+    pub measured: Option<LooksRounded>,
     /// Other poses of the present motion; `None` where none were asked for.
     pub stroke: Option<Stroke>,
     /// The ranking under a workload; `None` where the order is that of cost.
@@ -50,7 +50,7 @@ impl Outcome {
         search: Search,
         request: Request,
         (determinate, admissible): (Counts, Counts),
-        measured: Option<LooksMeasured>,
+        measured: Option<LooksRounded>,
     ) -> Outcome {
         Outcome {
             search,

@@ -2,13 +2,13 @@
 //! how its answer is checked.
 
 use crate::geom::exact::ExactError;
-use crate::model::measured::{Measured, looks_measured};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::model::ranking::{Ranking, Term};
-use crate::rank::measured::{VerdictError, Verdicts};
+use crate::model::rounded::Rounded;
+use crate::rank::method::NoAnswer;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::rank::snap::snap;
-use crate::redundancy::analysis::exact_field;
+use crate::rank::settled::{Settled, settle};
+use crate::rank::verdict::Verdict;
 use crate::search::conditions::{Conditions, Symmetry};
 use thiserror::Error;
 
@@ -96,10 +96,10 @@ pub struct Request {
     pub forbid: Vec<JointOptions>,
     /// Mirror symmetry.
     pub symmetry: Symmetry,
-    /// Whether a file whose coordinates look measured is searched exactly as it is written.
+    /// Whether a file whose coordinates are rounded is searched exactly as it is written, though something else is meant.
     pub as_written: bool,
     /// Make axes exactly parallel, square, coaxial or concurrent that are so to within this (radians, and fractions of the
-    /// largest coordinate).
+    /// mechanism's size), in place of what the digits allow.
     pub snap: Option<f64>,
     /// Node budget of each diagram.
     pub nodes: usize,
@@ -212,45 +212,97 @@ pub enum RequestError {
         /// The states that there are.
         known: Vec<String>,
     },
-    /// Coordinates that look measured, where that changes the figures.
+    /// Coordinates that are rounded, where that changes the figures.
     #[error("{0}; {CURE}, or search the file --as-written")]
-    Measured(String),
+    Rounded(String),
     /// The geometry has no image in a prime field.
     #[error(transparent)]
     Exact(#[from] ExactError),
-    /// Exact and tolerant ranks could not be had.
+    /// Whether rounding matters could not be found.
     #[error(transparent)]
-    Verdicts(#[from] VerdictError),
+    Verdict(#[from] NoAnswer),
 }
 
-/// What to do about measured coordinates.
-const CURE: &str = "round the coordinates, write expressions such as sqrt(3)/2, or snap them with --snap TOLERANCE";
+/// What to do about rounded coordinates.
+const CURE: &str = "write roots or expressions such as sqrt(3)/2, give more digits, or snap them with --snap TOLERANCE";
 
-/// Why a geometry looks measured, with the verdicts on the mechanism as it is.
-pub type LooksMeasured = (Measured, Vec<Verdicts>);
+/// Why a geometry looks rounded, with the verdicts on its states.
+pub type LooksRounded = (Rounded, Vec<Verdict>);
+
+/// A mechanism made ready for a search.
+#[derive(Debug)]
+pub struct Prepared {
+    /// The one that is searched: as meant, and with the options that the request leaves.
+    pub mechanism: Mechanism,
+    settled: Settled,
+}
+
+/// Tells what was moved, and what was not.
+fn tell_moved(settled: &Settled, tell: &mut dyn FnMut(String)) {
+    let m = &settled.mechanism;
+    for moved in &settled.moved {
+        tell(format!("snapped: {}", moved.words(m)));
+    }
+    for one in &settled.refused {
+        let (id, far) = (&m.joints[one.joint].id, one.far(m));
+        tell(format!(
+            "not snapped: joint {id} would have to move by {far}"
+        ));
+    }
+}
 
 impl Request {
-    /// The mechanism that is searched: snapped, and with the options that the request leaves. `tell` hears what was moved.
+    /// Makes a mechanism ready. `tell` hears what was moved.
     ///
     /// # Errors
     /// Where the request names what the mechanism has not.
     pub fn prepare(
         &self,
-        mut mechanism: Mechanism,
+        mechanism: Mechanism,
+        tell: &mut dyn FnMut(String),
+    ) -> Result<Prepared, RequestError> {
+        let state = self.state(&mechanism)?.map(|(s, _)| s);
+        let states: Vec<StateId> = std::iter::once(StateId::FREE).chain(state).collect();
+        let mut settled = settle(&mechanism, &states, self.tolerance()?)?;
+        let mut out = mechanism;
+        if !self.as_written || self.snap.is_some() {
+            out.clone_from(&settled.mechanism);
+            tell_moved(&settled, tell);
+        } else if let Some(i) = settled.verdicts.iter().position(|v| !v.is_as_written()) {
+            settled
+                .open
+                .get_or_insert((i, settled.verdicts[i].as_written));
+        }
+        self.restrict(&mut out)?;
+        Ok(Prepared {
+            mechanism: out,
+            settled,
+        })
+    }
+
+    /// What `--snap` makes of a mechanism. `tell` hears what was moved.
+    ///
+    /// # Errors
+    /// Where the tolerance is none, or there is no verdict on the mechanism.
+    pub fn snapped(
+        &self,
+        mechanism: &Mechanism,
         tell: &mut dyn FnMut(String),
     ) -> Result<Mechanism, RequestError> {
-        if let Some(tolerance) = self.snap {
-            if tolerance.is_nan() || tolerance <= 0.0 || tolerance >= 1.0 {
-                return Err(RequestError::Snap);
-            }
-            let snapped = snap(&mechanism, tolerance);
-            for moved in &snapped.moved {
-                tell(format!("snapped: {moved}"));
-            }
-            mechanism = snapped.mechanism;
+        let settled = settle(mechanism, &[], self.tolerance()?)?;
+        tell_moved(&settled, tell);
+        Ok(settled.mechanism)
+    }
+
+    /// The tolerance of `--snap`, where one is asked for.
+    ///
+    /// # Errors
+    /// Where it is none.
+    pub fn tolerance(&self) -> Result<Option<f64>, RequestError> {
+        match self.snap {
+            Some(t) if !(t > 0.0 && t < 1.0) => Err(RequestError::Snap),
+            snap => Ok(snap),
         }
-        self.restrict(&mut mechanism)?;
-        Ok(mechanism)
     }
 
     /// The state that takes part, with the external redundancy allowed there.
@@ -278,22 +330,26 @@ impl Request {
         }
     }
 
-    /// The conditions on the variants of a mechanism that is prepared, and why its geometry looks measured, where it does;
-    /// `tell` is warned of that.
+    /// The conditions on the variants of a mechanism that is prepared, and why its geometry looks rounded, where that may
+    /// matter; `tell` is warned of that.
     ///
     /// # Errors
-    /// Where the mechanism has no such state, and where measured coordinates change the figures, unless the file is to be
-    /// taken as written.
+    /// Where the mechanism that is meant is not the one that could be searched, unless the file is to be taken as written.
     pub fn conditions(
         &self,
-        mechanism: &Mechanism,
+        prepared: &Prepared,
         tell: &mut dyn FnMut(String),
-    ) -> Result<(Conditions, Option<LooksMeasured>), RequestError> {
-        let state = self.state(mechanism)?;
-        let measured = self.measured(mechanism, state.map(|(s, _)| s), tell)?;
-        let tolerance = measured
-            .as_ref()
-            .map_or(DEFAULT_TOLERANCE, |(m, _)| m.tolerance());
+    ) -> Result<(Conditions, Option<LooksRounded>), RequestError> {
+        let state = self.state(&prepared.mechanism)?;
+        let rounded = self.rounded(prepared, tell)?;
+        let verdicts = rounded.iter().flat_map(|(_, v)| v);
+        // Second opinions are read at the errors of what is searched.
+        let tolerance = match &prepared.settled {
+            s if s.moved.is_empty() || s.open.is_some() => {
+                verdicts.fold(DEFAULT_TOLERANCE, |a, v| a.max(v.tolerance))
+            }
+            _ => DEFAULT_TOLERANCE,
+        };
         let conditions = Conditions {
             max_redundant: self.max_redundant,
             state,
@@ -304,7 +360,7 @@ impl Request {
             nodes: self.nodes.clamp(1, u32::MAX as usize / 2),
             tolerance,
         };
-        Ok((conditions, measured))
+        Ok((conditions, rounded))
     }
 
     /// The ranking of the file, with the terms of the request where it names some; `None` where neither asks for one.
@@ -322,49 +378,59 @@ impl Request {
         Ok(ranking)
     }
 
-    /// Whether the geometry looks measured, and if so what exact and tolerant ranks say of the mechanism as it is. Where
-    /// they differ the search is refused, unless the file is to be taken as written.
-    fn measured(
+    /// Why the geometry looks rounded, where that may matter. Where the mechanism that is meant is not there for exact
+    /// arithmetic the search is refused, unless the file is to be taken as written.
+    fn rounded(
         &self,
-        mechanism: &Mechanism,
-        state: Option<StateId>,
+        Prepared { mechanism, settled }: &Prepared,
         tell: &mut dyn FnMut(String),
-    ) -> Result<Option<LooksMeasured>, RequestError> {
-        let Some(why) = looks_measured(mechanism) else {
-            return Ok(None);
-        };
-        let fields = [exact_field(mechanism, 0)?, exact_field(mechanism, 1)?];
-        let verdicts = std::iter::once(StateId::FREE)
-            .chain(state)
-            .map(|s| Verdicts::new(&fields, mechanism, s, why.tolerance()))
-            .collect::<Result<Vec<_>, _>>()?;
+    ) -> Result<Option<LooksRounded>, RequestError> {
         let name = &mechanism.name;
-        let Some(v) = verdicts.iter().find(|v| !v.agree()) else {
-            tell(format!(
-                "warning: the coordinates of {name} look measured ({why}). Exact and tolerant ranks agree on it as it is, \
-                 but the search takes every digit at its word; {CURE}"
-            ));
-            return Ok(Some((why, verdicts)));
+        let why = settled.verdicts.iter().find_map(|v| v.rounded.clone());
+        let told = |why: Option<Rounded>| why.map(|w| (w, settled.verdicts.clone()));
+        let Some((v, has)) = settled.open.map(|(i, has)| (&settled.verdicts[i], has)) else {
+            let measured = |w: &Rounded| w.digits.is_some();
+            let meant = settled.verdicts.iter().all(Verdict::is_as_written);
+            if let (Some(w), true, None) = (why.as_ref().filter(|w| measured(w)), meant, self.snap)
+            {
+                tell(format!(
+                    "warning: the coordinates of {name} look measured ({w}). Exact and tolerant ranks agree on it as it \
+                     is, but the search takes every digit at its word; {CURE}"
+                ));
+            }
+            return Ok(told(why.filter(|w| measured(w) || !meant)));
         };
-        let (exact, near) = (v.figures(v.exact), v.figures(v.numeric.rank));
+        let looks = why.as_ref().map_or_else(
+            || {
+                format!(
+                    "the mechanism {name} is not the same to within {:.0e}",
+                    v.tolerance
+                )
+            },
+            |w| format!("the coordinates of {name} look rounded ({w}), and that matters"),
+        );
+        let [of, near] = [has, v.at_least()].map(|rank| v.figures(rank));
+        let n = v.numeric.unwrap_or_default();
+        let written = if self.snap.is_some() && has != v.as_written {
+            "snapped"
+        } else {
+            "as written"
+        };
+        let likely = if v.is_decided() {
+            "is meant to have"
+        } else {
+            "may be meant to have"
+        };
         let differ = format!(
-            "the coordinates of {name} look measured ({why}), and that matters: as written, state {} has W = {}, σ = {}; \
-             to within {:.0e} it has W = {}, σ = {} (smallest singular value kept {:.1e}, largest dropped {:.1e}). \
-             Exact ranks take rounding errors for real misalignments",
-            v.state,
-            exact.0,
-            exact.1,
-            why.tolerance(),
-            near.0,
-            near.1,
-            v.numeric.kept,
-            v.numeric.dropped
+            "{looks}: {written}, state {} has W = {}, σ = {}; to within {:.0e} it {likely} W = {}, σ = {} (smallest singular \
+             value kept {:.1e}, largest dropped {:.1e}). Exact ranks take rounding errors for real misalignments",
+            v.state, of.0, of.1, v.tolerance, near.0, near.1, n.kept, n.dropped
         );
         if !self.as_written {
-            return Err(RequestError::Measured(differ));
+            return Err(RequestError::Rounded(differ));
         }
         tell(format!("warning: {differ}; {CURE}"));
-        Ok(Some((why, verdicts)))
+        Ok(told(why))
     }
 
     /// Holds links, and leaves the options that are allowed.

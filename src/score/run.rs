@@ -7,7 +7,7 @@ use crate::redundancy::analysis::exact_field;
 use crate::score::evaluate::{Evaluator, ScoreError};
 use crate::score::outcome::Outcome;
 use crate::score::ranking::{RankedPool, Ranker};
-use crate::score::request::{Check, List, LooksMeasured, Method, Request, RequestError};
+use crate::score::request::{Check, List, LooksRounded, Method, Request, RequestError};
 use crate::search::building::Diagrams;
 use crate::search::conditions::{Conditions, Search, SearchError, Symmetry};
 use crate::search::counts::Counts;
@@ -85,10 +85,10 @@ pub fn run(
     tell: Tell<'_>,
 ) -> Result<Outcome, RunError> {
     let note = &mut |text| tell(Event::Note(text));
-    let mechanism = request.prepare(mechanism, note)?;
-    let conditions = request.conditions(&mechanism, note)?;
+    let prepared = request.prepare(mechanism, note)?;
+    let conditions = request.conditions(&prepared, note)?;
     answer(
-        Arc::new(mechanism),
+        Arc::new(prepared.mechanism),
         conditions,
         request,
         should_cancel,
@@ -102,7 +102,7 @@ pub fn run(
 /// As [`run`].
 pub fn answer(
     mechanism: Arc<Mechanism>,
-    (conditions, measured): (Conditions, Option<LooksMeasured>),
+    (conditions, measured): (Conditions, Option<LooksRounded>),
     request: &Request,
     should_cancel: ShouldCancel<'_>,
     tell: Tell<'_>,

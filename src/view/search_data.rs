@@ -1,9 +1,9 @@
 //! A search as data: the keys are a stable contract, in this order. Counts are strings, since they outgrow 2^53.
 
 use crate::format::number::cost;
-use crate::rank::measured::Verdicts;
+use crate::rank::verdict::Verdict;
 use crate::score::outcome::Outcome;
-use crate::score::request::LooksMeasured;
+use crate::score::request::LooksRounded;
 use crate::score::variant::Variant;
 use crate::search::building::Diagrams;
 use crate::search::certify::{Opinion, Summary};
@@ -120,6 +120,8 @@ struct Ranks<'a> {
     svd: Figures,
     smallest_kept: f64,
     largest_dropped: f64,
+    /// Which mechanism is meant, and so searched: "as written", "snapped", "near", "undecided".
+    meant: &'static str,
 }
 
 #[derive(Debug, Serialize)]
@@ -182,17 +184,18 @@ impl<'a> SearchData<'a> {
 }
 
 impl<'a> Measured<'a> {
-    fn new((why, verdicts): &'a LooksMeasured) -> Self {
+    fn new((why, verdicts): &'a LooksRounded) -> Self {
         let figures = |(mobility, redundant)| Figures {
             mobility,
             redundant,
         };
         let states = verdicts.iter().map(|v| Ranks {
             state: &v.state,
-            exact: figures(v.figures(v.exact)),
-            svd: figures(v.figures(v.numeric.rank)),
-            smallest_kept: v.numeric.kept,
-            largest_dropped: v.numeric.dropped,
+            exact: figures(v.figures(v.as_written)),
+            svd: figures(v.figures(v.at_least())),
+            smallest_kept: v.numeric.unwrap_or_default().kept,
+            largest_dropped: v.numeric.unwrap_or_default().dropped,
+            meant: v.word(),
         });
         Measured {
             coordinates: why.coordinates,
@@ -200,8 +203,8 @@ impl<'a> Measured<'a> {
                 place: &why.place,
                 value: &why.value,
             },
-            tolerance: why.tolerance(),
-            agree: verdicts.iter().all(Verdicts::agree),
+            tolerance: verdicts.iter().fold(0.0, |a, v| a.max(v.tolerance)),
+            agree: verdicts.iter().all(Verdict::is_as_written),
             states: states.collect(),
         }
     }

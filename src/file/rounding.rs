@@ -1,0 +1,107 @@
+//! What rounded coordinates make doubtful in a file: what is meant, and which joints are all but special.
+
+use crate::file::warning::WarningKind;
+use crate::model::mechanism::Mechanism;
+use crate::model::rounded::looks_rounded;
+use crate::rank::snap::relation::{Moved, Reach, Relation};
+use crate::rank::snap::{size, snap};
+use crate::rank::verdict::{Verdict, reach, verdict};
+use itertools::Itertools;
+
+/// Joints nearer to special than this, in radians and sizes of the mechanism, were hardly meant to miss it.
+const NEARLY: f64 = 1e-4;
+/// Pairs of joints told of.
+const TOLD: usize = 5;
+
+/// What is doubtful.
+pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
+    let mut out = Vec::new();
+    if let Some(rounded) = looks_rounded(m).filter(|r| r.digits.is_some()) {
+        let what = rounded.to_string();
+        out.push(WarningKind::Measured { what });
+    }
+    for state in m.state_ids() {
+        // Why there is no verdict is for `ozols analyze` to say.
+        let Ok(found) = verdict(m, state, None) else {
+            continue;
+        };
+        if !found.is_as_written() {
+            out.push(of_verdict(&found));
+        }
+    }
+    let all = nearly(m);
+    if !all.is_empty() {
+        let more = match all.len().saturating_sub(TOLD) {
+            0 => String::new(),
+            n => format!("; and {n} more"),
+        };
+        let what = format!("{}{more}", all.iter().take(TOLD).join("; "));
+        out.push(WarningKind::NearlySpecial { what });
+    }
+    out
+}
+
+fn of_verdict(found: &Verdict) -> WarningKind {
+    let figures = |rank: usize| {
+        let (w, sigma) = found.figures(rank);
+        format!("W = {w}, σ = {sigma}")
+    };
+    let state = found.state.clone();
+    if found.is_decided() {
+        WarningKind::Meant {
+            state,
+            meant: figures(found.rank()),
+            written: figures(found.as_written),
+        }
+    } else {
+        let what = found.undecided();
+        WarningKind::Undecided { state, what }
+    }
+}
+
+/// Pairs of joints that are all but parallel, square, coaxial or concurrent, and how far they are from it.
+fn nearly(m: &Mechanism) -> Vec<String> {
+    let least = Reach::relative(NEARLY, size(m));
+    let within = reach(m).map_or(least, |r| Reach {
+        length: r.length.max(least.length),
+        angle: r.angle.max(least.angle),
+    });
+    let moved = snap(m, within).moved;
+    moved.iter().filter_map(|x| words(m, x)).collect()
+}
+
+/// "LF and LR are 0.002 degrees from coaxial"
+fn words(m: &Mechanism, x: &Moved) -> Option<String> {
+    let strongest = x
+        .relations
+        .iter()
+        .max_by_key(|(r, of)| (rank(*r), of.is_some()));
+    let (relation, other) = strongest?;
+    let (id, far) = (&m.joints[x.joint].id, x.far(m));
+    let special = match relation {
+        Relation::Zero => return None,
+        Relation::Parallel => "parallel",
+        Relation::Square => "square",
+        Relation::InPlane => "one plane",
+        Relation::Coaxial => "coaxial",
+        Relation::Meeting => "meeting",
+        Relation::Concentric => "concentric",
+    };
+    Some(match other {
+        Some(j) => format!("{} and {id} are {far} from {special}", m.joints[*j].id),
+        None => format!("{id} is {far} from {special} to a global axis"),
+    })
+}
+
+/// What says most of two joints.
+fn rank(relation: Relation) -> usize {
+    match relation {
+        Relation::Zero => 0,
+        Relation::InPlane => 1,
+        Relation::Square => 2,
+        Relation::Parallel => 3,
+        Relation::Meeting => 4,
+        Relation::Concentric => 5,
+        Relation::Coaxial => 6,
+    }
+}

@@ -1,0 +1,259 @@
+//! Coordinates that were rounded, measured or computed in floating point, told by their digits, and how finely they are
+//! rounded.
+//!
+//! Exact ranks take every digit at its word, so an axis that is parallel to another but for the last digit counts as
+//! tilted, and constraints that are redundant in truth count as independent.
+
+use crate::geom::expr::Expr;
+use crate::geom::vector::{length, real};
+use crate::model::mechanism::{Frame, Mechanism, Mode};
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{One, Signed};
+use std::fmt;
+
+/// Decimals with so many significant digits are taken to be measured or computed, not chosen.
+pub const DIGITS: usize = 9;
+/// Lengths with so many significant digits may have been rounded.
+const LONG_LENGTH: usize = 4;
+/// Components of directions with so many may.
+const LONG_DIRECTION: usize = 3;
+/// One in so many of those has the unit or a coarser one: a last digit that happens to be 0 is one in ten.
+const SHARE: usize = 5;
+
+/// A unit in the last place of coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Units {
+    /// Of points and pitches, in the file's unit of length; 0 where they are exact.
+    pub length: f64,
+    /// Of the components of directions of unit length; 0 where they are exact.
+    pub direction: f64,
+}
+
+/// Why a mechanism looks rounded, and how finely.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rounded {
+    /// How many coordinates look so.
+    pub coordinates: usize,
+    /// Where the first of them is, such as `axis of joint 2-3`.
+    pub place: String,
+    /// Its value as text.
+    pub value: String,
+    /// The unit in their last place.
+    pub units: Units,
+    /// The fewest digits among those that look measured, [`DIGITS`] or more; none where no coordinate does.
+    pub digits: Option<usize>,
+}
+
+impl Rounded {
+    /// A relative tolerance that errors of measured coordinates stay below, at least 1e-9 and at most 1e-6; none where no
+    /// coordinate looks measured.
+    #[must_use]
+    pub fn tolerance(&self) -> Option<f64> {
+        let digits = i32::try_from(self.digits?).unwrap_or(i32::MAX);
+        Some(10f64.powi(2 - digits.min(300)).clamp(1e-9, 1e-6))
+    }
+}
+
+impl fmt::Display for Rounded {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the {} has {}", self.place, self.value)?;
+        match self.coordinates {
+            0 | 1 => Ok(()),
+            n => write!(f, ", and {} more coordinates are like it", n - 1),
+        }
+    }
+}
+
+/// What is seen of a mechanism's decimals.
+#[derive(Default)]
+struct Seen {
+    /// Units of long lengths, and of long components of directions.
+    units: [Vec<f64>; 2],
+    /// Number, place and value of the first coordinate, for those that look measured and for all.
+    first: [Option<(usize, String, f64)>; 2],
+    digits: Option<usize>,
+}
+
+impl Seen {
+    /// Takes in a coordinate of a vector of length `norm`, 0 for a length.
+    fn see(&mut self, v: &Expr, norm: f64, place: &dyn Fn() -> String) {
+        let direction = norm > 0.0;
+        let least = if direction {
+            LONG_DIRECTION
+        } else {
+            LONG_LENGTH
+        };
+        let Some(decimal) = decimal(v).filter(|d| d.digits >= least) else {
+            return;
+        };
+        let of = if direction { norm } else { 1.0 };
+        self.units[usize::from(direction)].push(decimal.unit() / of);
+        let measured = decimal.digits >= DIGITS;
+        if measured {
+            self.digits = Some(
+                self.digits
+                    .map_or(decimal.digits, |d| d.min(decimal.digits)),
+            );
+        }
+        for (first, counts) in self.first.iter_mut().zip([measured, true]) {
+            if counts {
+                first.get_or_insert_with(|| (0, place(), v.to_f64())).0 += 1;
+            }
+        }
+    }
+
+    fn see_frame(&mut self, f: &Frame, at: &dyn Fn() -> String) {
+        for (what, vector, direction) in [
+            ("point", &f.point, false),
+            ("axis", &f.axis, true),
+            ("reference", &f.reference, true),
+        ] {
+            let norm = if direction { length(real(vector)) } else { 0.0 };
+            for c in vector {
+                self.see(c, norm, &|| format!("{what} of {}", at()));
+            }
+        }
+        self.see(&f.pitch, 0.0, &|| format!("pitch of {}", at()));
+    }
+}
+
+/// The coarsest unit that enough decimals share; 0 of none.
+fn shared(mut units: Vec<f64>) -> f64 {
+    units.sort_by(|a, b| b.total_cmp(a));
+    let enough = units.len().div_ceil(SHARE);
+    enough.checked_sub(1).map_or(0.0, |i| units[i])
+}
+
+/// Whether coordinates of the joints, their options, or the plane are decimals long enough to have been rounded: lengths of
+/// four significant digits and more, directions of three. Fractions and roots written as such are exact however long their
+/// decimals are, and so are whole numbers.
+#[must_use]
+pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
+    let mut seen = Seen::default();
+    for joint in &mechanism.joints {
+        seen.see_frame(&joint.frame, &|| format!("joint {}", joint.id));
+        // Options mostly share the joint's place; only what is their own counts.
+        for o in joint.options.iter().chain(&joint.unloading) {
+            let own = |a: &[Expr; 3], b: &[Expr; 3]| real(a) != real(b);
+            if own(&o.frame.point, &joint.frame.point)
+                || own(&o.frame.axis, &joint.frame.axis)
+                || own(&o.frame.reference, &joint.frame.reference)
+                || o.frame.pitch.to_f64() != joint.frame.pitch.to_f64()
+            {
+                seen.see_frame(&o.frame, &|| {
+                    format!("option {} of joint {}", o.name, joint.id)
+                });
+            }
+        }
+    }
+    if let Mode::Planar { normal } = &mechanism.mode {
+        let norm = length(real(normal));
+        for c in normal {
+            seen.see(c, norm, &|| "normal of the plane".to_owned());
+        }
+    }
+    let [measured, any] = seen.first;
+    let (coordinates, place, value) = measured.or(any)?;
+    let [lengths, directions] = seen.units;
+    Some(Rounded {
+        coordinates,
+        place,
+        value: format!("{value:?}"),
+        units: Units {
+            length: shared(lengths),
+            direction: shared(directions),
+        },
+        digits: seen.digits,
+    })
+}
+
+/// A decimal fraction.
+struct Decimal {
+    /// Significant digits.
+    digits: usize,
+    /// Digits after the point.
+    places: u32,
+}
+
+impl Decimal {
+    /// One unit in the last place.
+    fn unit(&self) -> f64 {
+        10f64.powi(-i32::try_from(self.places).unwrap_or(i32::MAX).min(320))
+    }
+}
+
+/// A decimal as such; `None` for roots, for fractions that no decimal ends (and halves of halves, which are written as
+/// fractions), and for whole numbers.
+fn decimal(expr: &Expr) -> Option<Decimal> {
+    let r = expr.rational_ref()?;
+    let (five, mut rest, mut fives) = (BigInt::from(5), r.denom().clone(), 0u32);
+    let twos = rest.trailing_zeros().unwrap_or(0);
+    rest >>= twos;
+    while fives < 400 {
+        let (quotient, left) = rest.div_rem(&five);
+        if left != BigInt::ZERO {
+            break;
+        }
+        rest = quotient;
+        fives += 1;
+    }
+    if !rest.is_one() || fives == 0 {
+        return None;
+    }
+    let places = fives.max(u32::try_from(twos).ok()?);
+    let scaled = r.numer().abs() * BigInt::from(10).pow(places) / r.denom();
+    let digits = scaled.to_string().trim_end_matches('0').len();
+    Some(Decimal { digits, places })
+}
+
+/// Whether a coordinate may have been rounded: a decimal, or a whole number that may be one whose last digits are 0.
+#[must_use]
+pub fn may_be_rounded(expr: &Expr) -> bool {
+    expr.rational_ref().is_some_and(|r| r.is_integer()) || decimal(expr).is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_have_digits_and_places() {
+        let of = |s: &str| decimal(&s.parse::<Expr>().unwrap()).map(|d| (d.digits, d.places));
+        assert_eq!(of("0.8660254037844386"), Some((16, 16)));
+        assert_eq!(of("-12.7"), Some((3, 1)));
+        assert_eq!(of("1e-9"), Some((1, 9)));
+        assert_eq!(of("0.000123456789"), Some((9, 12)));
+        for exact in ["1/3", "sqrt(3)/2", "1/4096", "123456789012", "cos(36deg)"] {
+            assert_eq!(of(exact), None, "{exact}");
+        }
+    }
+
+    #[test]
+    fn the_unit_is_the_coarsest_that_a_fifth_shares() {
+        assert_eq!(shared(vec![]), 0.0);
+        // One last digit in ten is 0.
+        let mut units = vec![1e-6; 9];
+        units.push(1e-5);
+        assert_eq!(shared(units.clone()), 1e-6);
+        units.extend([1e-5, 1e-4]);
+        assert_eq!(shared(units), 1e-5);
+    }
+
+    #[test]
+    fn the_tolerance_follows_the_digits() {
+        let with = |digits| Rounded {
+            coordinates: 1,
+            place: String::new(),
+            value: String::new(),
+            units: Units {
+                length: 0.0,
+                direction: 0.0,
+            },
+            digits,
+        };
+        assert_eq!(with(Some(16)).tolerance(), Some(1e-9));
+        assert!((with(Some(9)).tolerance().unwrap() - 1e-7).abs() < 1e-20);
+        assert_eq!(with(None).tolerance(), None);
+    }
+}

@@ -1,0 +1,233 @@
+//! The nearest geometry whose closure matrix has a smaller rank, where rounding alone may have raised it.
+//!
+//! With U2 and V2 the singular vectors of J beyond the rank wanted, F = U2ᵀ J V2 vanishes to second order exactly where J has
+//! that rank [Wedin 1972; Golub & Van Loan 2013, 8.6.1]. Newton's method takes the smallest change of coordinates, counted
+//! in units of their last digit, that makes it vanish.
+
+use crate::closure::matrix::Closure;
+use crate::closure::twist::{FrameValues, MotionSpace};
+use crate::geom::expr::Expr;
+use crate::geom::scalars::Reals;
+use crate::geom::vector::{length, real};
+use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
+use crate::model::rounded::{Units, may_be_rounded};
+use crate::rank::scaled::{Scaling, scaled};
+use crate::rank::snap::size;
+use faer::Mat;
+
+/// Newton steps at most.
+const STEPS: usize = 12;
+/// The largest move that rounding explains, in units of the last digit: half a unit, and what the least squares spread.
+const MOST: f64 = 1.05;
+/// F counts as zero.
+const ZERO: f64 = 1e-12;
+/// Changes that F feels by less than this part of what it feels most are left alone: they follow from the others.
+const FELT: f64 = 1e-3;
+/// Equations · coordinates · the lesser of them, up to which it is tried.
+const LARGEST: usize = 200_000_000;
+/// A step of a finite difference, relative to the size of what is moved: twists are at most quadratic in coordinates.
+const DIFFERENCE: f64 = 1e-5;
+
+/// A geometry found.
+#[derive(Debug, Clone)]
+pub struct Nearest {
+    /// The mechanism, its coordinates as doubles.
+    pub mechanism: Mechanism,
+    /// The largest change of a coordinate, in units of its last digit.
+    pub moved: f64,
+}
+
+/// A coordinate that may be moved.
+struct Coordinate {
+    joint: JointId,
+    /// 0 for the point, 1 for the axis, 2 for the reference.
+    vector: usize,
+    component: usize,
+    /// A unit of the last digit.
+    unit: f64,
+    /// A step of a finite difference, in such units.
+    step: f64,
+    written: f64,
+}
+
+/// The coordinates of a state that may have been rounded: lengths and directions by their units.
+fn coordinates(m: &Mechanism, state: StateId, units: Units) -> Vec<Coordinate> {
+    // In a plane, axes must stay square to it.
+    let spatial = matches!(m.mode, Mode::Spatial);
+    let size = size(m);
+    let mut out = Vec::new();
+    for joint in m.joints_in(state) {
+        let frame = &m.joints[joint].frame;
+        for (vector, of) in [&frame.point, &frame.axis, &frame.reference]
+            .into_iter()
+            .enumerate()
+        {
+            let norm = length(real(of));
+            let (unit, scale) = match vector {
+                0 => (units.length, size),
+                _ if spatial => (units.direction * norm, norm),
+                _ => continue,
+            };
+            for (component, x) in of.iter().enumerate() {
+                if unit > 0.0 && may_be_rounded(x) {
+                    let written = x.to_f64();
+                    out.push(Coordinate {
+                        joint,
+                        vector,
+                        component,
+                        unit,
+                        step: DIFFERENCE * scale / unit,
+                        written,
+                    });
+                }
+            }
+        }
+    }
+    out
+}
+
+/// The mechanism with its coordinates moved by so many units each.
+fn moved(m: &Mechanism, of: &[Coordinate], by: &[f64]) -> Option<Mechanism> {
+    let mut out = m.clone();
+    for (c, x) in of.iter().zip(by) {
+        let frame = &mut out.joints[c.joint].frame;
+        let vector = match c.vector {
+            0 => &mut frame.point,
+            1 => &mut frame.axis,
+            _ => &mut frame.reference,
+        };
+        vector[c.component] = Expr::from_f64(c.written + x * c.unit).ok()?;
+    }
+    Some(out)
+}
+
+/// The nearest geometry in which J of a state has a rank, no coordinate moved by more than about a unit of its last digit;
+/// none where there is none, or it is too large to be looked for.
+///
+/// # Guarantee
+/// Numeric: the rank of J of what is given back is the one wanted to within doubles. That this is what was meant is likely,
+/// not proven.
+///
+/// # Complexity
+/// At most 12 decompositions of a matrix of (6k - rank)(f - rank) rows and 9p columns.
+#[must_use]
+pub fn nearest(m: &Mechanism, state: StateId, rank: usize, units: Units) -> Option<Nearest> {
+    let of = coordinates(m, state, units);
+    let mut closure = Closure::new(&Reals, m, state).ok()?;
+    let contours = closure.contours.clone();
+    let equations = (closure.rows() - rank) * (closure.columns.len() - rank);
+    if of.is_empty() || equations * of.len() * equations.min(of.len()) > LARGEST {
+        return None;
+    }
+    let (mut by, mut found) = (vec![0.0_f64; of.len()], m.clone());
+    for _ in 0..STEPS {
+        let matrix = scaled(&closure);
+        let svd = matrix.svd().ok()?;
+        let (u, s, v) = (svd.U(), svd.S().column_vector(), svd.V());
+        let largest = s[0];
+        if rank >= s.nrows() || s[rank] <= ZERO * largest {
+            let most = by.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+            return (most <= MOST).then_some(Nearest {
+                mechanism: found,
+                moved: most,
+            });
+        }
+        let (left, right) = (
+            u.subcols(rank, matrix.nrows() - rank),
+            v.subcols(rank, matrix.ncols() - rank),
+        );
+        let residue = left.transpose() * &matrix * right;
+        let change = changes(
+            &found,
+            &closure,
+            &of,
+            &by,
+            (left.to_owned(), right.to_owned()),
+        )?;
+        let step = least(&change, &residue)?;
+        for (x, d) in by.iter_mut().zip(step) {
+            *x -= d;
+        }
+        // Far off already: no step leads back within a unit.
+        if by.iter().any(|x| !x.is_finite() || x.abs() > 10.0 * MOST) {
+            return None;
+        }
+        found = moved(m, &of, &by)?;
+        closure = Closure::with_contours(&Reals, &found, state, contours.clone()).ok()?;
+    }
+    None
+}
+
+/// How F changes with each coordinate, per unit of its last digit: one column a coordinate. Couplings do not feel it: they
+/// are linear in the joints' own rates.
+fn changes(
+    m: &Mechanism,
+    closure: &Closure<f64>,
+    of: &[Coordinate],
+    by: &[f64],
+    (left, right): (Mat<f64>, Mat<f64>),
+) -> Option<Mat<f64>> {
+    let scaling = Scaling::of(closure);
+    let space = MotionSpace::new(&Reals, &m.mode).ok()?;
+    let (rows, columns) = (left.ncols(), right.ncols());
+    let mut out = Mat::<f64>::zeros(rows * columns, of.len());
+    for (p, c) in of.iter().enumerate() {
+        let joint = &m.joints[c.joint];
+        let frame = &joint.frame;
+        let freedoms = joint.joint_type.freedoms();
+        let shifted = |d: f64| {
+            let mut vectors = [&frame.point, &frame.axis, &frame.reference].map(real);
+            vectors[c.vector][c.component] = c.written + (by[p] + d) * c.unit;
+            FrameValues::of(&Reals, vectors, frame.pitch.to_f64()).within(&space, freedoms)
+        };
+        let (before, after) = (shifted(-c.step), shifted(c.step));
+        for (n, column) in closure.columns.iter().enumerate() {
+            if column.joint != c.joint {
+                continue;
+            }
+            let twist = |f: &FrameValues<f64>| {
+                let t = space.components(&Reals, &f.twist(&Reals, column.freedom))?;
+                Some(scaling.apply(n, &t))
+            };
+            let (a, b) = (twist(&before)?, twist(&after)?);
+            let rate: Vec<f64> = (a.iter().zip(&b))
+                .map(|(a, b)| (b - a) / (2.0 * c.step))
+                .collect();
+            for (k, contour) in closure.contours.iter().enumerate() {
+                let Some(forward) = contour.direction(c.joint) else {
+                    continue;
+                };
+                let sign = if forward { 1.0 } else { -1.0 };
+                for i in 0..rows {
+                    let along: f64 = (rate.iter().enumerate())
+                        .map(|(r, x)| x * left[(closure.dim * k + r, i)])
+                        .sum();
+                    for j in 0..columns {
+                        out[(i * columns + j, p)] += sign * along * right[(n, j)];
+                    }
+                }
+            }
+        }
+    }
+    Some(out)
+}
+
+/// The smallest x with `change · x` = `residue` in what is felt.
+fn least(change: &Mat<f64>, residue: &Mat<f64>) -> Option<Vec<f64>> {
+    let columns = residue.ncols();
+    let svd = change.thin_svd().ok()?;
+    let (u, s, v) = (svd.U(), svd.S().column_vector(), svd.V());
+    let mut x = vec![0.0; change.ncols()];
+    for k in 0..s.nrows() {
+        if s[k] <= FELT * s[0] {
+            break;
+        }
+        let part: f64 = (0..change.nrows())
+            .map(|r| u[(r, k)] * residue[(r / columns, r % columns)])
+            .sum();
+        for (i, x) in x.iter_mut().enumerate() {
+            *x += v[(i, k)] * part / s[k];
+        }
+    }
+    Some(x)
+}

@@ -1,0 +1,216 @@
+//! Lines made coaxial or concurrent, and centres of joints put where they meet.
+
+use super::relation::Relation;
+use crate::geom::exact_vector::{ExactVector, add_scaled, cross, foot, is_zero, sub};
+use crate::geom::expr::Expr;
+use crate::geom::vector::{self, Vector, dot, length, real, unit};
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::mechanism::{JointId, Mechanism};
+use std::cmp::Reverse;
+
+/// Lines with a smaller sine between them are not made to meet: where is too uncertain.
+const SKEW: f64 = 1e-2;
+
+/// What of a joint's place matters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Nothing: it only slides.
+    Nowhere,
+    /// The line of its axis.
+    Line,
+    /// Its point.
+    Centre,
+}
+
+/// What of a joint of a type matters.
+pub(super) fn kind(joint_type: &JointType) -> Kind {
+    let turns = |f: &&Freedom| f.turns() || **f == Freedom::Screw;
+    let turning: Vec<&Freedom> = joint_type.freedoms().iter().filter(turns).collect();
+    match turning[..] {
+        [] => Kind::Nowhere,
+        [Freedom::Rz | Freedom::Screw] => Kind::Line,
+        _ => Kind::Centre,
+    }
+}
+
+/// Joints on one line, or with one centre.
+struct Place {
+    /// The first is the one the others are compared with.
+    joints: Vec<JointId>,
+    point: ExactVector,
+    /// Direction of the line; none for a centre.
+    along: Option<ExactVector>,
+    /// Whether it must stay: it passes through a point that others share.
+    fixed: bool,
+}
+
+impl Place {
+    fn distance(&self, p: Vector) -> f64 {
+        let off = vector::sub(p, real(&self.point));
+        match &self.along {
+            Some(a) => length(vector::cross(off, unit(real(a)))),
+            None => length(off),
+        }
+    }
+
+    /// The point of it that is nearest to `p`.
+    fn nearest(&self, p: &ExactVector) -> Option<ExactVector> {
+        match &self.along {
+            Some(a) => foot(p, &self.point, a),
+            None => Some(self.point.clone()),
+        }
+    }
+
+    fn passes(&self, p: &ExactVector) -> bool {
+        let off = sub(p, &self.point);
+        is_zero(&match &self.along {
+            Some(a) => cross(&off, a),
+            None => off,
+        })
+    }
+}
+
+/// Where a joint's point goes, and why.
+pub(super) struct Put {
+    pub(super) joint: JointId,
+    pub(super) point: ExactVector,
+    pub(super) relations: Vec<(Relation, Option<JointId>)>,
+}
+
+/// Puts lines and centres that are within `near` of each other exactly there, each point moved square to its line.
+pub(super) fn places(m: &Mechanism, near: f64) -> Vec<Put> {
+    let mut of = gather(m, near);
+    let mut met: Vec<(JointId, JointId)> = Vec::new();
+    let mut ranked: Vec<(usize, ExactVector)> = candidates(&of, near)
+        .into_iter()
+        .map(|x| (through(&of, real(&x), near).len(), x))
+        .filter(|(n, _)| *n > 1)
+        .collect();
+    ranked.sort_by_key(|(n, _)| Reverse(*n));
+    for (_, x) in ranked {
+        meet(&mut of, &x, near, &mut met);
+    }
+    let mut out = Vec::new();
+    for place in &of {
+        for &joint in &place.joints {
+            let before = &m.joints[joint].frame.point;
+            let Some(point) = place.nearest(before) else {
+                continue;
+            };
+            let mut relations = Vec::new();
+            if let Some(&first) = place.joints.first().filter(|f| **f != joint) {
+                relations.push(match place.along {
+                    Some(_) => (Relation::Coaxial, Some(first)),
+                    None => (Relation::Concentric, Some(first)),
+                });
+            }
+            let with = met.iter().find(|(a, _)| *a == place.joints[0]);
+            relations.extend(with.map(|(_, b)| (Relation::Meeting, Some(*b))));
+            out.push(Put {
+                joint,
+                point,
+                relations,
+            });
+        }
+    }
+    out
+}
+
+/// Lines and centres, those that coincide as one.
+fn gather(m: &Mechanism, near: f64) -> Vec<Place> {
+    let mut of: Vec<Place> = Vec::new();
+    for (j, joint) in m.joints_with_ids() {
+        let along = match kind(&joint.joint_type) {
+            Kind::Nowhere => continue,
+            Kind::Line => Some(&joint.frame.axis),
+            Kind::Centre => None,
+        };
+        let point = &joint.frame.point;
+        let same = |p: &&mut Place| {
+            let parallel = match (&p.along, along) {
+                (Some(a), Some(b)) => is_zero(&cross(a, b)),
+                (None, None) => true,
+                _ => false,
+            };
+            parallel && p.distance(real(point)) <= near
+        };
+        match of.iter_mut().find(same) {
+            Some(p) => p.joints.push(j),
+            None => of.push(Place {
+                joints: vec![j],
+                point: point.clone(),
+                along: along.cloned(),
+                fixed: false,
+            }),
+        }
+    }
+    of
+}
+
+/// The centres, and where lines nearly meet.
+fn candidates(of: &[Place], near: f64) -> Vec<ExactVector> {
+    let mut out: Vec<ExactVector> = Vec::new();
+    out.extend(
+        of.iter()
+            .filter(|p| p.along.is_none())
+            .map(|p| p.point.clone()),
+    );
+    for (n, a) in of.iter().enumerate() {
+        for b in &of[..n] {
+            out.extend(crossing(a, b, near));
+        }
+    }
+    out
+}
+
+/// The point of line `a` that is nearest to line `b`, to a double, where the two nearly meet.
+fn crossing(a: &Place, b: &Place, near: f64) -> Option<ExactVector> {
+    let (along, other) = (a.along.as_ref()?, b.along.as_ref()?);
+    let (u, w) = (real(along), unit(real(other)));
+    let normal = vector::cross(u, w);
+    let square = dot(normal, normal);
+    let off = vector::sub(real(&b.point), real(&a.point));
+    if square.sqrt() < SKEW * length(u) || dot(off, normal).abs() > near * square.sqrt() {
+        return None;
+    }
+    let t = dot(vector::cross(off, w), normal) / square;
+    Some(add_scaled(&a.point, &Expr::from_f64(t).ok()?, along))
+}
+
+fn through(of: &[Place], p: Vector, near: f64) -> Vec<usize> {
+    let near = |i: &usize| of[*i].distance(p) <= near;
+    (0..of.len()).filter(near).collect()
+}
+
+/// Moves what is near a point there; what stays already decides where that is.
+fn meet(of: &mut [Place], x: &ExactVector, near: f64, met: &mut Vec<(JointId, JointId)>) {
+    let mut here = through(of, real(x), near);
+    // A fixed centre first, then a fixed line, then the others.
+    here.sort_by_key(|&i| (!of[i].fixed, of[i].along.is_some()));
+    let Some((&first, rest)) = here.split_first().filter(|(_, rest)| !rest.is_empty()) else {
+        return;
+    };
+    let point = if of[first].fixed {
+        let Some(point) = of[first].nearest(x) else {
+            return;
+        };
+        point
+    } else {
+        x.clone()
+    };
+    for &i in &here {
+        if of[i].passes(&point) {
+            of[i].fixed = true;
+        } else if !of[i].fixed {
+            of[i].point.clone_from(&point);
+            of[i].fixed = true;
+        }
+    }
+    let lead = of[first].joints[0];
+    for &i in rest {
+        if of[i].passes(&point) {
+            met.push((of[i].joints[0], lead));
+            met.push((lead, of[i].joints[0]));
+        }
+    }
+}

@@ -1,0 +1,379 @@
+//! The verdict on the rank of a state: as written, or as meant where coordinates are rounded, or undecided.
+//!
+//! Rounding raises ranks. A singular value above what rounding can do is there in truth; where all that the exact rank counts
+//! are, it holds. Where not, the widest gap among the others says which rank was meant, and it is taken only if there is such
+//! a geometry within the digits: by snapping, exactly, or else by Newton's method.
+
+use crate::closure::matrix::Closure;
+use crate::geom::scalars::Reals;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::rounded::{Rounded, Units, looks_rounded};
+use crate::rank::field::field_of;
+use crate::rank::method::NoAnswer;
+use crate::rank::modular;
+use crate::rank::nearest::{Nearest, nearest};
+use crate::rank::numeric::singular_values;
+use crate::rank::rounding::bound;
+use crate::rank::scaled::{NumericRank, scaled};
+use crate::rank::snap::relation::{Moved, Reach};
+use crate::rank::snap::{size, snap};
+use crate::rank::subgroup::whole_group;
+
+/// Singular values below this fraction of the largest are zero in double precision.
+const ROUND_OFF: f64 = 1e-14;
+/// A gap this wide among the values that the exact rank counts,
+const GAP: f64 = 1e3;
+/// that ends below this fraction of the largest, says that some are left over from zero.
+const LEFT_OVER: f64 = 1e-4;
+
+/// Which mechanism a verdict is about.
+#[derive(Debug, Clone)]
+pub enum Meant {
+    /// The one that is written: no rounding of its digits lowers the rank.
+    AsWritten,
+    /// The one with its near-coincidences exact.
+    Snapped {
+        /// It.
+        mechanism: Box<Mechanism>,
+        /// Rank of its J, exact.
+        rank: usize,
+        /// What was moved.
+        moved: Vec<Moved>,
+    },
+    /// The nearest one whose J has a smaller rank.
+    Near {
+        /// It, in doubles.
+        mechanism: Box<Mechanism>,
+        /// Rank of its J, numeric.
+        rank: usize,
+        /// The largest move of a coordinate, in units of its last digit; none where the one that is written is read at the
+        /// tolerance asked for.
+        moved: Option<f64>,
+    },
+    /// Not decided.
+    Undecided {
+        /// The rank that may be meant.
+        near: usize,
+    },
+}
+
+/// The verdict on a state.
+#[derive(Debug, Clone)]
+pub struct Verdict {
+    /// Name of the state.
+    pub state: String,
+    /// f.
+    pub freedoms: usize,
+    /// Rows of J.
+    pub rows: usize,
+    /// Why coordinates look rounded, where they do.
+    pub rounded: Option<Rounded>,
+    /// Rank of J with every digit taken at its word, by one prime.
+    pub as_written: usize,
+    /// Singular values of the J that is written, at the rank meant; none where every digit is exact.
+    pub numeric: Option<NumericRank>,
+    /// What rounding can do to a singular value, relative to the largest; or the tolerance asked for.
+    pub tolerance: f64,
+    /// What is meant.
+    pub meant: Meant,
+    /// What is left out of the rows, where joints all move in a group of fewer dimensions.
+    pub needed: String,
+}
+
+impl Verdict {
+    /// The rank of J; as written where that is not decided, which then is the most it can be.
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        match self.meant {
+            Meant::AsWritten | Meant::Undecided { .. } => self.as_written,
+            Meant::Snapped { rank, .. } | Meant::Near { rank, .. } => rank,
+        }
+    }
+
+    /// The least rank it can be: that of the mechanism that may be meant where it is not decided.
+    #[must_use]
+    pub fn at_least(&self) -> usize {
+        match self.meant {
+            Meant::Undecided { near } => near,
+            _ => self.rank(),
+        }
+    }
+
+    /// (W, σ) of a rank.
+    #[must_use]
+    pub fn figures(&self, rank: usize) -> (usize, usize) {
+        (
+            self.freedoms.saturating_sub(rank),
+            self.rows.saturating_sub(rank),
+        )
+    }
+
+    /// Whether it is decided.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        !matches!(self.meant, Meant::Undecided { .. })
+    }
+
+    /// The mechanism that it is about, where that is not the one that is written.
+    #[must_use]
+    pub fn mechanism(&self) -> Option<&Mechanism> {
+        match &self.meant {
+            Meant::AsWritten | Meant::Undecided { .. } => None,
+            Meant::Snapped { mechanism, .. } | Meant::Near { mechanism, .. } => Some(mechanism),
+        }
+    }
+
+    /// One word for programs.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self.meant {
+            Meant::AsWritten => "as written",
+            Meant::Snapped { .. } => "snapped",
+            Meant::Near { .. } => "near",
+            Meant::Undecided { .. } => "undecided",
+        }
+    }
+
+    /// Whether it is about the mechanism that is written.
+    #[must_use]
+    pub fn is_as_written(&self) -> bool {
+        matches!(self.meant, Meant::AsWritten)
+    }
+
+    /// Why it is not decided, and what to do.
+    #[must_use]
+    pub fn undecided(&self) -> String {
+        let ((w, sigma), (near_w, near_sigma)) =
+            (self.figures(self.as_written), self.figures(self.at_least()));
+        let gap = self.numeric.map_or_else(String::new, |n| {
+            format!(
+                "; singular values: {:.1e} above the gap, {:.1e} below it",
+                n.kept, n.dropped
+            )
+        });
+        let snap = self
+            .suggested_tolerance()
+            .map_or_else(String::new, |t| format!(", or allow --snap {t:.0e}"));
+        format!(
+            "undecided: W = {w}, σ = {sigma} as written, W = {near_w}, σ = {near_sigma} if digits are left over from \
+             rounding{gap}. Write roots or expressions such as \"sqrt(3)/2\", give more digits{snap}"
+        )
+    }
+
+    /// A tolerance for `--snap` in the gap below the rank that is likely meant.
+    #[must_use]
+    pub fn suggested_tolerance(&self) -> Option<f64> {
+        let n = self.numeric?;
+        let power = |x: f64| 10f64.powf(x.log10().ceil());
+        let wide = power(n.dropped.max(ROUND_OFF) * 10.0);
+        Some(if wide < n.kept / 10.0 {
+            wide
+        } else {
+            (n.kept * n.dropped).sqrt()
+        })
+    }
+}
+
+/// The exact rank, and what is left out where the joints all move in a group of fewer dimensions.
+fn exact_rank(mechanism: &Mechanism, state: StateId) -> Result<(usize, String), NoAnswer> {
+    let exact = field_of(mechanism, state, 0)?;
+    let closure = Closure::new(&exact, mechanism, state)?;
+    let group = whole_group(&exact, mechanism, state)?;
+    if closure.contours.is_empty() || closure.dim == group.dimension() {
+        return Ok((modular::rank(&exact, &closure), String::new()));
+    }
+    let left_out = closure.dim - group.dimension();
+    let line = format!(
+        "; all joints move in {}, so {} rows per contour do; left out: {left_out} of {}, redundant whatever the rest",
+        group.name(),
+        group.dimension(),
+        closure.dim
+    );
+    Ok((modular::rank(&exact, &group.rows_of(&closure)), line))
+}
+
+/// The exact rank of J of a mechanism that is snapped, by one prime.
+pub(super) fn rank_of(mechanism: &Mechanism, state: StateId) -> Result<usize, NoAnswer> {
+    let exact = field_of(mechanism, state, 0)?;
+    Ok(modular::rank(
+        &exact,
+        &Closure::new(&exact, mechanism, state)?,
+    ))
+}
+
+/// The verdict on a state; `tolerance` is asked for in place of what the digits say: values below it are zero, and joints
+/// are snapped within it.
+///
+/// # Errors
+/// Where the geometry has no image in a prime field, or the singular values do not converge.
+///
+/// # Guarantee
+/// As written where Weyl's bound holds the exact rank against any rounding of the last digits. As meant where a geometry
+/// within the digits has the rank of the widest gap: likely, not proven. Undecided otherwise.
+///
+/// # Complexity
+/// One modular rank; with decimals one singular value decomposition more, and only where they disagree the snapping, and
+/// then [`nearest`].
+pub fn verdict(
+    mechanism: &Mechanism,
+    state: StateId,
+    tolerance: Option<f64>,
+) -> Result<Verdict, NoAnswer> {
+    let (as_written, needed) = exact_rank(mechanism, state)?;
+    let real = Closure::new(&Reals, mechanism, state)?;
+    let rounded = looks_rounded(mechanism);
+    let mut found = Verdict {
+        state: mechanism.states[state].clone(),
+        freedoms: real.columns.len(),
+        rows: real.rows(),
+        as_written,
+        numeric: None,
+        tolerance: 0.0,
+        meant: Meant::AsWritten,
+        needed,
+        rounded,
+    };
+    let size = size(mechanism);
+    let (units, reach) = match (tolerance, &found.rounded) {
+        (Some(t), _) => (
+            Units {
+                length: t * size,
+                direction: t,
+            },
+            Reach::relative(t, size),
+        ),
+        (None, Some(r)) => {
+            let units = effective(r, size);
+            (units, Reach::of_units(units, size))
+        }
+        (None, None) => return Ok(found),
+    };
+    let Some(values) = relative_values(&real)? else {
+        return Ok(found);
+    };
+    found.tolerance = match tolerance {
+        Some(t) => t,
+        None => {
+            let measured = found.rounded.as_ref().and_then(Rounded::tolerance);
+            let bound = bound(mechanism, &real, units) / values.largest;
+            bound.max(measured.unwrap_or(0.0))
+        }
+    };
+    let above = values.above(found.tolerance);
+    if above >= as_written {
+        found.numeric = Some(values.at(as_written));
+        if let (Some(near), None) = (values.left_over(as_written), tolerance) {
+            found.numeric = Some(values.at(near));
+            found.meant = Meant::Undecided { near };
+        }
+        return Ok(found);
+    }
+    let near = match tolerance {
+        Some(_) => above,
+        None => values.widest_gap(above, as_written),
+    };
+    found.numeric = Some(values.at(near));
+    found.meant = meant(mechanism, state, near, (units, reach), tolerance.is_some())?;
+    Ok(found)
+}
+
+/// How far the digits of a mechanism allow its joints to be moved; none where they are exact.
+#[must_use]
+pub fn reach(mechanism: &Mechanism) -> Option<Reach> {
+    let size = size(mechanism);
+    looks_rounded(mechanism).map(|r| Reach::of_units(effective(&r, size), size))
+}
+
+/// Units of coordinates, not finer than the errors that measured ones have whatever their digits; exact ones stay exact.
+fn effective(r: &Rounded, size: f64) -> Units {
+    let error = r.tolerance().unwrap_or(0.0) / 2.0;
+    let coarser = |unit: f64, than: f64| if unit > 0.0 { unit.max(than) } else { 0.0 };
+    Units {
+        length: coarser(r.units.length, error * size),
+        direction: coarser(r.units.direction, error),
+    }
+}
+
+/// Singular values over the largest, falling.
+struct Values {
+    largest: f64,
+    relative: Vec<f64>,
+}
+
+fn relative_values(closure: &Closure<f64>) -> Result<Option<Values>, NoAnswer> {
+    let mut relative =
+        singular_values(&scaled(closure)).map_err(|e| NoAnswer::Failed(e.to_string()))?;
+    relative.sort_by(|a, b| b.total_cmp(a));
+    let largest = relative.first().copied().filter(|s| *s > 0.0);
+    Ok(largest.map(|largest| {
+        relative.iter_mut().for_each(|v| *v /= largest);
+        Values { largest, relative }
+    }))
+}
+
+impl Values {
+    fn above(&self, tolerance: f64) -> usize {
+        self.relative.iter().filter(|v| **v > tolerance).count()
+    }
+
+    /// The rank with the gap it rests on.
+    fn at(&self, rank: usize) -> NumericRank {
+        let value = |i: usize| self.relative.get(i).copied();
+        NumericRank {
+            rank,
+            kept: rank.checked_sub(1).and_then(value).unwrap_or(1.0),
+            dropped: value(rank).unwrap_or(0.0),
+        }
+    }
+
+    /// How far apart the last value of a rank and the next one are.
+    fn gap(&self, rank: usize) -> f64 {
+        let found = self.at(rank);
+        found.kept / found.dropped.max(ROUND_OFF)
+    }
+
+    /// The rank with the widest gap.
+    fn widest_gap(&self, from: usize, below: usize) -> usize {
+        let wider = |a: &usize, b: &usize| self.gap(*a).total_cmp(&self.gap(*b));
+        (from..below).max_by(wider).unwrap_or(from)
+    }
+
+    /// The rank at a gap so wide, and values so small below it, that they are likely left over from zero.
+    fn left_over(&self, rank: usize) -> Option<usize> {
+        (1..rank).find(|&r| self.gap(r) >= GAP && self.at(r).dropped < LEFT_OVER)
+    }
+}
+
+/// The mechanism that is meant if J is to have a rank.
+fn meant(
+    mechanism: &Mechanism,
+    state: StateId,
+    rank: usize,
+    (units, reach): (Units, Reach),
+    asked: bool,
+) -> Result<Meant, NoAnswer> {
+    let snapped = snap(mechanism, reach);
+    if rank_of(&snapped.mechanism, state)? == rank {
+        return Ok(Meant::Snapped {
+            mechanism: Box::new(snapped.mechanism),
+            rank,
+            moved: snapped.moved,
+        });
+    }
+    Ok(match nearest(mechanism, state, rank, units) {
+        Some(Nearest {
+            mechanism: m,
+            moved,
+        }) => Meant::Near {
+            mechanism: Box::new(m),
+            rank,
+            moved: Some(moved),
+        },
+        None if asked => Meant::Near {
+            mechanism: Box::new(mechanism.clone()),
+            rank,
+            moved: None,
+        },
+        None => Meant::Undecided { near: rank },
+    })
+}
