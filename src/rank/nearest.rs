@@ -13,7 +13,7 @@ use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
 use crate::model::rounded::{Units, may_be_rounded};
 use crate::rank::scaled::{Scaling, scaled};
 use crate::rank::snap::size;
-use faer::Mat;
+use ozols_dense::{Matrix, svd, thin_svd};
 
 /// Newton steps at most.
 const STEPS: usize = 12;
@@ -122,28 +122,18 @@ pub fn nearest(m: &Mechanism, state: StateId, rank: usize, units: Units) -> Opti
     let (mut by, mut found) = (vec![0.0_f64; of.len()], m.clone());
     for _ in 0..STEPS {
         let matrix = scaled(&closure);
-        let svd = matrix.svd().ok()?;
-        let (u, s, v) = (svd.U(), svd.S().column_vector(), svd.V());
-        let largest = s[0];
-        if rank >= s.nrows() || s[rank] <= ZERO * largest {
+        let singular = svd(&matrix)?;
+        let beyond = singular.values.get(rank).copied().unwrap_or(0.0);
+        if beyond <= ZERO * singular.values[0] {
             let most = by.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
             return (most <= MOST).then_some(Nearest {
                 mechanism: found,
                 moved: most,
             });
         }
-        let (left, right) = (
-            u.subcols(rank, matrix.nrows() - rank),
-            v.subcols(rank, matrix.ncols() - rank),
-        );
-        let residue = left.transpose() * &matrix * right;
-        let change = changes(
-            &found,
-            &closure,
-            &of,
-            &by,
-            (left.to_owned(), right.to_owned()),
-        )?;
+        let (left, right) = (singular.left_null_space(rank), singular.null_space(rank));
+        let residue = left.transpose_times(&matrix.times(&right));
+        let change = changes(&found, &closure, &of, &by, (&left, &right))?;
         let step = least(&change, &residue)?;
         for (x, d) in by.iter_mut().zip(step) {
             *x -= d;
@@ -165,12 +155,12 @@ fn changes(
     closure: &Closure<f64>,
     of: &[Coordinate],
     by: &[f64],
-    (left, right): (Mat<f64>, Mat<f64>),
-) -> Option<Mat<f64>> {
+    (left, right): (&Matrix, &Matrix),
+) -> Option<Matrix> {
     let scaling = Scaling::of(closure);
     let space = MotionSpace::new(&Reals, &m.mode).ok()?;
     let (rows, columns) = (left.ncols(), right.ncols());
-    let mut out = Mat::<f64>::zeros(rows * columns, of.len());
+    let mut out = Matrix::zeros(rows * columns, of.len());
     for (p, c) in of.iter().enumerate() {
         let joint = &m.joints[c.joint];
         let frame = &joint.frame;
@@ -213,21 +203,12 @@ fn changes(
 }
 
 /// The smallest x with `change · x` = `residue` in what is felt.
-fn least(change: &Mat<f64>, residue: &Mat<f64>) -> Option<Vec<f64>> {
+fn least(change: &Matrix, residue: &Matrix) -> Option<Vec<f64>> {
     let columns = residue.ncols();
-    let svd = change.thin_svd().ok()?;
-    let (u, s, v) = (svd.U(), svd.S().column_vector(), svd.V());
-    let mut x = vec![0.0; change.ncols()];
-    for k in 0..s.nrows() {
-        if s[k] <= FELT * s[0] {
-            break;
-        }
-        let part: f64 = (0..change.nrows())
-            .map(|r| u[(r, k)] * residue[(r / columns, r % columns)])
-            .sum();
-        for (i, x) in x.iter_mut().enumerate() {
-            *x += v[(i, k)] * part / s[k];
-        }
-    }
-    Some(x)
+    let right = Matrix::from_fn(change.nrows(), 1, |r, _| {
+        residue[(r / columns, r % columns)]
+    });
+    let factors = thin_svd(change)?;
+    let x = factors.least_norm(factors.rank(FELT), &right);
+    Some(x.col(0).to_vec())
 }

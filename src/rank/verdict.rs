@@ -12,12 +12,13 @@ use crate::rank::field::field_of;
 use crate::rank::method::NoAnswer;
 use crate::rank::modular;
 use crate::rank::nearest::{Nearest, nearest};
-use crate::rank::numeric::singular_values;
+use crate::rank::numeric::NumericError;
 use crate::rank::rounding::bound;
 use crate::rank::scaled::{NumericRank, scaled};
 use crate::rank::snap::relation::{Moved, Reach};
 use crate::rank::snap::{size, snap};
 use crate::rank::subgroup::whole_group;
+use ozols_dense::singular_values;
 
 /// Singular values below this fraction of the largest are zero in double precision.
 const ROUND_OFF: f64 = 1e-14;
@@ -301,9 +302,8 @@ struct Values {
 }
 
 fn relative_values(closure: &Closure<f64>) -> Result<Option<Values>, NoAnswer> {
-    let mut relative =
-        singular_values(&scaled(closure)).map_err(|e| NoAnswer::Failed(e.to_string()))?;
-    relative.sort_by(|a, b| b.total_cmp(a));
+    let mut relative = singular_values(&scaled(closure))
+        .ok_or_else(|| NoAnswer::Failed(NumericError::NoConvergence.to_string()))?;
     let largest = relative.first().copied().filter(|s| *s > 0.0);
     Ok(largest.map(|largest| {
         relative.iter_mut().for_each(|v| *v /= largest);
