@@ -1,8 +1,9 @@
-//! Where numbers fail: geometry, size, scale, noise and tolerance moved until answers turn wrong.
+//! Where numbers fail: geometry, size, scale, noise, rounding and tolerance moved until answers turn wrong.
 
 pub mod change;
 mod distance;
 mod noise;
+mod rounded;
 mod scale;
 mod size;
 pub mod sweep;
@@ -87,6 +88,7 @@ pub fn all(
         size::study(effort, progress),
         scale::study(&some, effort, progress),
         noise::study(&some, effort, progress),
+        rounded::study(&some, effort, progress),
         tolerance::study(&some, effort, progress),
     ])
 }

@@ -18,7 +18,7 @@ pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
     let several = analysis.states.len() > 1;
     html! {
         @for (i, s) in analysis.states.iter().enumerate() {
-            div class={ "verdict " (if s.redundant == 0 { "good" } else { "bad" }) } {
+            div class={ "verdict " (if s.redundant == 0 && s.redundant_at_most.is_none() { "good" } else { "bad" }) } {
                 @if several { p.label { "State " (s.state) } }
                 p.head { (head(s)) }
                 p {
@@ -44,6 +44,9 @@ fn capitalised(text: &str) -> String {
 /// What that means, in sentences.
 fn state(s: &State<'_>) -> Vec<String> {
     let mut out = Vec::new();
+    if s.redundant_at_most.is_some() {
+        return vec![format!("{}.", s.choice.unwrap_or_default())];
+    }
     out.push(
         if s.redundant == 0 {
             "Parts a little out of true assemble without strain, and the loads alone say what each joint bears."

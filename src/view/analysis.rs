@@ -4,6 +4,7 @@ pub mod next;
 mod text;
 
 use crate::model::mechanism::{JointId, Mechanism};
+use crate::rank::method::Certainty;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::share::{ContourShare, CouplingShare};
 use crate::redundancy::stress::{JointWrench, Verdict};
@@ -39,6 +40,9 @@ pub struct State<'a> {
     pub rows: usize,
     pub rank: usize,
     pub mobility: usize,
+    /// The most it can be, where rounded coordinates leave that undecided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mobility_at_most: Option<usize>,
     pub finite_mobility: usize,
     /// The most it can be, where that is undecided.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -51,6 +55,9 @@ pub struct State<'a> {
     pub working_mobility: usize,
     pub local_mobility: usize,
     pub redundant: usize,
+    /// The most it can be, where rounded coordinates leave that undecided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub redundant_at_most: Option<usize>,
     pub formula_mobility: i64,
     pub per_contour: Vec<Contour<'a>>,
     pub external: Option<External>,
@@ -202,6 +209,10 @@ impl<'a> Analysis<'a> {
 impl<'a> State<'a> {
     fn new(mechanism: &'a Mechanism, s: &'a StateAnalysis) -> State<'a> {
         let joint = |j: JointId| mechanism.joints[j].id.as_str();
+        let near = match s.certainty {
+            Certainty::Undecided { near, .. } => Some(near),
+            _ => None,
+        };
         State {
             state: &s.state,
             links: s.links,
@@ -211,6 +222,7 @@ impl<'a> State<'a> {
             rows: s.rows,
             rank: s.rank,
             mobility: s.mobility,
+            mobility_at_most: near.map(|rank| s.freedoms - rank),
             finite_mobility: s.finite.mobility,
             finite_mobility_at_most: Some(s.finite.at_most())
                 .filter(|&most| most > s.finite.mobility),
@@ -220,6 +232,7 @@ impl<'a> State<'a> {
             working_mobility: s.working_mobility,
             local_mobility: s.local_mobility,
             redundant: s.redundant,
+            redundant_at_most: near.map(|rank| s.rows - rank),
             formula_mobility: s.formula_mobility,
             per_contour: s
                 .per_contour
@@ -262,7 +275,11 @@ impl<'a> State<'a> {
                 })
                 .collect(),
             method: s.method,
-            certainty: s.certainty.describe(),
+            certainty: if s.as_written.is_some() {
+                format!("as meant: {}", s.certainty.describe())
+            } else {
+                s.certainty.describe()
+            },
             certainty_kind: s.certainty.word(),
             choice: s.choice.as_deref(),
             snapped: &s.snapped,

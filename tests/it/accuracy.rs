@@ -86,6 +86,7 @@ fn verdicts(folder: &std::path::Path) -> Vec<(String, String)> {
         "stability-distance.csv",
         "stability-scale.csv",
         "stability-noise.csv",
+        "stability-rounded.csv",
         "stability-tolerance.csv",
     ]
     .map(|n| (n.to_owned(), read(n)))

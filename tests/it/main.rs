@@ -35,6 +35,7 @@ mod robot_mjcf;
 mod robot_models;
 mod robot_sdf;
 mod robots;
+mod rounded;
 mod statics;
 mod stroke;
 mod stroke_poses;

@@ -2,6 +2,7 @@
 
 use crate::geom::expr::Expr;
 use crate::geom::extent::diagonal;
+use crate::geom::rigid::Motion;
 use crate::geom::vector::real;
 use crate::model::mechanism::{Mechanism, Mode};
 use chacha20::ChaCha8Rng;
@@ -89,6 +90,35 @@ pub fn shaken(mechanism: &Mechanism, level: f64, noise: &mut Noise) -> Mechanism
             let by = level * length(&frame.reference);
             noise.shake(&mut frame.reference, by);
         }
+    }
+    m
+}
+
+/// The mechanism as a person would write it who drew it askew: turned, the plane of a planar one about its normal, and
+/// every number rounded to so many decimals.
+#[must_use]
+pub fn turned_and_rounded(mechanism: &Mechanism, decimals: usize, noise: &mut Noise) -> Mechanism {
+    let mut m = bare(mechanism);
+    let angle = std::f64::consts::PI * noise.uniform();
+    let spatial = matches!(m.mode, Mode::Spatial);
+    let axis = match &m.mode {
+        Mode::Spatial => [(); 3].map(|()| noise.uniform()),
+        Mode::Planar { normal } => real(normal),
+    };
+    let turn = Motion::turn(axis, angle);
+    let round = |x: f64| {
+        let text = format!("{x:.decimals$}");
+        text.parse().unwrap_or_else(|_| Expr::from(0))
+    };
+    for joint in &mut m.joints {
+        let frame = &mut joint.frame;
+        frame.point = turn.direction(real(&frame.point)).map(round);
+        // In a plane joints must stay square to it.
+        if spatial {
+            frame.axis = turn.direction(real(&frame.axis)).map(round);
+            frame.reference = turn.direction(real(&frame.reference)).map(round);
+        }
+        frame.pitch = round(frame.pitch.to_f64());
     }
     m
 }

@@ -32,7 +32,7 @@ impl State<'_> {
             "{mechanism}, state {}: {}, mobility {}\n",
             self.state,
             self.verdict(),
-            self.mobility
+            self.mobility_figure()
         )?;
         let couplings = match self.per_coupling.len() {
             0 => String::new(),
@@ -102,9 +102,24 @@ impl State<'_> {
         Ok(())
     }
 
+    /// W, a range where rounded coordinates do not decide.
+    #[must_use]
+    pub fn mobility_figure(&self) -> String {
+        range(
+            self.mobility,
+            self.mobility_at_most.unwrap_or(self.mobility),
+        )
+    }
+
     /// The answer in a few words.
     #[must_use]
     pub fn verdict(&self) -> String {
+        if let Some(most) = self.redundant_at_most {
+            return format!(
+                "undecided, {} to {most} redundant constraints",
+                self.redundant
+            );
+        }
         match self.redundant {
             0 => "statically determinate".to_owned(),
             n => plural(n, "redundant constraint"),

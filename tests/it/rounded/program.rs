@@ -1,0 +1,361 @@
+//! One verdict, whichever command is asked.
+
+use crate::common::{out, run, run_on, text};
+use ozols::file::text::mechanism_from_str;
+use ozols::geom::vector::{length, real, sub};
+use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::rank::registry;
+use ozols::rank::snap::relation::Reach;
+use ozols::rank::snap::{size, snap};
+use ozols::redundancy::analysis::{Method, analyse};
+use serde_json::Value;
+
+/// The built-in four-bar tilted by 30 degrees about x, to so many decimals.
+fn tilted(decimals: usize) -> String {
+    let mut file = out(&["show", "four-bar"]);
+    let (s, c) = 30f64.to_radians().sin_cos();
+    for (x, y) in [(0, 0), (0, 30), (80, 90), (120, 0)] {
+        let (u, v) = (f64::from(y) * c, f64::from(y) * s);
+        file = file.replace(
+            &format!("point = [{x}, {y}, 0]"),
+            &format!("point = [{x}, {u:.decimals$}, {v:.decimals$}]"),
+        );
+    }
+    // Each axis is tilted a little otherwise, as rounding has it.
+    let axis = |n: i32| {
+        let a = (30.0 + 2e-5 * f64::from(n) * 10f64.powi(6 - decimals as i32)).to_radians();
+        format!(
+            "axis = [0, {:.decimals$}, {:.decimals$}]",
+            -a.sin(),
+            a.cos()
+        )
+    };
+    let mut n = 0;
+    while file.contains("axis = [0, 0, 1]") {
+        file = file.replacen("axis = [0, 0, 1]", &axis(n % 3 - 1), 1);
+        n += 1;
+    }
+    file
+}
+
+fn value(stdout: &str) -> Value {
+    serde_json::from_str(stdout).unwrap()
+}
+
+#[test]
+fn every_command_takes_the_mechanism_as_meant() {
+    let file = tilted(6);
+    let on = |command: &str, more: &[&str]| run_on(command, "it.toml", &file, more);
+    let (code, stdout, _) = on("analyze", &["--format", "json"]);
+    assert_eq!(code, Some(0));
+    let s = &value(&stdout)["states"][0];
+    assert_eq!(
+        (&s["mobility"], &s["redundant"]),
+        (&1.into(), &3.into()),
+        "{s:#}"
+    );
+    assert_eq!(
+        (&s["finite_mobility"], &s["as_written"]["mobility"]),
+        (&1.into(), &0.into())
+    );
+    let (code, stdout, stderr) = on("search", &["--format", "json"]);
+    assert_eq!(code, Some(0), "{stderr}");
+    assert!(stderr.contains("snapped: joint 1-2 moved by "), "{stderr}");
+    let v = value(&stdout);
+    assert_eq!(
+        (&v["determinate"], &v["measured"]["agree"]),
+        (&"34".into(), &false.into())
+    );
+    assert_eq!(v["measured"]["states"][0]["meant"], "snapped");
+    let (code, stdout, stderr) = on("check", &[]);
+    assert_eq!(code, Some(0));
+    assert!(!stdout.contains(": valid\n"), "{stdout}");
+    for part in [
+        "W = 1, σ = 3 is meant",
+        "W = 0, σ = 2",
+        "degrees",
+        "from parallel",
+    ] {
+        assert!(stderr.contains(part), "no {part:?} in {stderr}");
+    }
+    let (_, page, _) = on("report", &[]);
+    assert!(
+        page.contains("3 redundant constraints") && page.contains("as written"),
+        "{page}"
+    );
+    let (_, exact, _) = run_on("draw", "it.toml", &out(&["show", "four-bar"]), &[]);
+    assert_eq!(on("draw", &[]).1, exact);
+    let (code, variant, _) = on("export", &["--to", "toml", "--variant", "1"]);
+    assert_eq!(code, Some(0));
+    let (_, stdout, _) = run_on("analyze", "v.toml", &variant, &["--format", "json"]);
+    let s = &value(&stdout)["states"][0];
+    assert_eq!(
+        (&s["mobility"], &s["redundant"]),
+        (&1.into(), &0.into()),
+        "{s:#}"
+    );
+}
+
+#[test]
+fn the_file_as_it_is_written_is_searched_on_demand_and_with_a_warning() {
+    let (code, stdout, stderr) = run_on(
+        "search",
+        "it.toml",
+        &tilted(6),
+        &["--as-written", "--format", "json"],
+    );
+    assert_eq!(code, Some(0));
+    assert!(
+        stderr.contains("warning: ") && stderr.contains("is meant to have W = 1, σ = 3"),
+        "{stderr}"
+    );
+    assert_eq!(value(&stdout)["measured"]["agree"], false);
+}
+
+/// A door on two coaxial hinges, each with nine digits of its own.
+const DOOR: &str = r#"
+name = "door"
+[[link]]
+id = "0"
+role = "frame"
+[[link]]
+id = "door"
+role = "output"
+[[joint]]
+id = "low"
+links = ["0", "door"]
+type = "revolute"
+point = [0.123456789, 0.234567891, 0.345678912]
+axis = [0.267261242, 0.534522484, 0.801783726]
+[[joint]]
+id = "high"
+links = ["0", "door"]
+type = "revolute"
+point = [0.657979273, 1.303612859, 1.949246364]
+axis = [0.267261243, 0.534522483, 0.801783726]
+[search]
+options = ["spherical", "sphere-in-cylinder"]
+"#;
+
+#[test]
+fn a_door_keeps_its_hinges_apart_when_it_is_snapped() {
+    let counts = |file: &str, more: &[&str]| {
+        let all = [&["--format", "json"], more].concat();
+        let (code, stdout, stderr) = run_on("search", "door.toml", file, &all);
+        assert_eq!(code, Some(0), "{stderr}");
+        value(&stdout)["admissible"].clone()
+    };
+    let exact = DOOR
+        .replace("0.123456789, 0.234567891, 0.345678912", "0, 0, 0")
+        .replace("0.657979273, 1.303612859, 1.949246364", "0, 0, 2")
+        .replace("0.267261242, 0.534522484, 0.801783726", "0, 0, 1")
+        .replace("0.267261243, 0.534522483, 0.801783726", "0, 0, 1");
+    assert_eq!(counts(&exact, &[]), "2");
+    assert_eq!(counts(DOOR, &["--snap", "1e-5"]), "2");
+    assert_eq!(counts(DOOR, &[]), "2");
+    let m = mechanism_from_str("door.toml", DOOR).unwrap();
+    let snapped = snap(&m, Reach::relative(1e-5, size(&m)));
+    let apart = |m: &Mechanism| {
+        let [a, b] = [0, 1].map(|i| real(&m.joints[i].frame.point));
+        length(sub(a, b))
+    };
+    assert!((apart(&snapped.mechanism) - apart(&m)).abs() < 1e-8);
+    let s = &analyse(&snapped.mechanism, &[StateId::FREE], Method::Modular).unwrap()[0];
+    assert_eq!((s.mobility, s.redundant), (1, 5));
+}
+
+/// A wishbone on two bolts, its ball, and the upright on a second ball and a rod: dimensions to 0.01 mm.
+const WISHBONE: &str = r#"
+name = "wishbone"
+length_unit = "mm"
+[[link]]
+id = "0"
+role = "frame"
+[[link]]
+id = "arm"
+[[link]]
+id = "upright"
+role = "output"
+[[joint]]
+id = "LF"
+links = ["0", "arm"]
+type = "revolute"
+point = [151.23, 0.01, 12.04]
+axis = [0.99998, 0.00001, 0.00632]
+[[joint]]
+id = "LR"
+links = ["0", "arm"]
+type = "revolute"
+point = [-149.85, -0.01, 10.12]
+axis = [0.99998, -0.00002, 0.00635]
+[[joint]]
+id = "ball"
+links = ["arm", "upright"]
+type = "spherical"
+point = [3.42, 310.55, -14.31]
+[[joint]]
+id = "top"
+links = ["0", "upright"]
+type = "sphere-on-plane"
+point = [1.23, 290.12, 240.33]
+axis = [0, 1, 0]
+"#;
+
+#[test]
+fn nothing_is_moved_further_than_is_allowed() {
+    let m = mechanism_from_str("wishbone.toml", WISHBONE).unwrap();
+    for tolerance in [1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
+        let reach = Reach::relative(tolerance, size(&m));
+        let snapped = snap(&m, reach);
+        for (before, after) in m.joints.iter().zip(&snapped.mechanism.joints) {
+            let shift = length(sub(real(&before.frame.point), real(&after.frame.point)));
+            assert!(
+                shift <= 1.0001 * reach.length,
+                "{tolerance}: {} by {shift}",
+                before.id
+            );
+        }
+        let moved = snapped.moved.iter().chain(&snapped.refused);
+        for x in moved.clone() {
+            assert!(!x.words(&m).is_empty());
+        }
+        assert!(
+            snapped
+                .moved
+                .iter()
+                .all(|x| x.shift <= 1.0001 * reach.length && x.turn <= 1.0001 * reach.angle)
+        );
+    }
+    let bolts = snap(&m, Reach::relative(1e-3, size(&m)));
+    let told: Vec<String> = bolts.moved.iter().map(|x| x.words(&m)).collect();
+    assert!(
+        told.iter()
+            .any(|t| t.starts_with("joint LR moved by 0.0") && t.contains("coaxial with LF")),
+        "{told:?}"
+    );
+}
+
+#[test]
+fn check_says_what_is_nearly_special() {
+    let (_, _, stderr) = run_on("check", "wishbone.toml", WISHBONE, &[]);
+    assert!(stderr.contains("LF and LR are 0.00"), "{stderr}");
+    assert!(stderr.contains("from coaxial"), "{stderr}");
+    for name in ["four-bar", "bennett", "delta", "gripper-10"] {
+        assert!(
+            text(&run(&["check", name]).stdout).contains(": valid\n"),
+            "{name}"
+        );
+    }
+}
+
+/// Four hinges whose axes are square to a plane but for a tenth of a degree: neither special nor general to four digits.
+fn undecided() -> String {
+    let mut file = out(&["show", "four-bar"]);
+    for (n, tilt) in ["0.0013", "0.0021", "-0.0017", "0.0008"].iter().enumerate() {
+        let at = file.match_indices("axis = [").nth(n).unwrap().0;
+        let end = at + file[at..].find('\n').unwrap();
+        file.replace_range(at..end, &format!("axis = [{tilt}, 0.0{}11, 1]", n + 1));
+    }
+    file
+}
+
+#[test]
+fn what_is_not_decided_is_said_so_everywhere() {
+    let file = undecided();
+    let on = |command: &str, more: &[&str]| run_on(command, "it.toml", &file, more);
+    let (code, stdout, _) = on("analyze", &[]);
+    assert_eq!(code, Some(0));
+    for part in ["undecided", "--snap"] {
+        assert!(stdout.contains(part), "no {part:?} in {stdout}");
+    }
+    let (_, stdout, _) = on("analyze", &["--format", "json"]);
+    let s = &value(&stdout)["states"][0];
+    assert_eq!(
+        (&s["certainty_kind"], &s["finite_mobility_proven"]),
+        (&"undecided".into(), &false.into())
+    );
+    assert!(
+        s["mobility_at_most"].as_i64() > s["mobility"].as_i64(),
+        "{s:#}"
+    );
+    let (code, stdout, stderr) = on("search", &[]);
+    assert_eq!((code, stdout.as_str()), (Some(2), ""));
+    assert!(
+        stderr.contains("may be meant to have") && stderr.contains("--snap"),
+        "{stderr}"
+    );
+    let (_, _, stderr) = on("check", &[]);
+    assert!(stderr.contains("undecided"), "{stderr}");
+}
+
+#[test]
+fn the_finite_mobility_is_that_of_the_rank_whatever_the_method() {
+    let file = tilted(6);
+    for method in ["auto", "svd", "lu", "qr", "lu32", "qr32", "modular"] {
+        for tolerance in [None, Some("1e-4"), Some("1e-12")] {
+            if tolerance.is_some() && method == "modular" {
+                continue;
+            }
+            let more: Vec<&str> = tolerance
+                .into_iter()
+                .flat_map(|t| ["--tolerance", t])
+                .collect();
+            let args = [&["--format", "json", "--method", method], &more[..]].concat();
+            let (code, stdout, stderr) = run_on("analyze", "it.toml", &file, &args);
+            assert_eq!(code, Some(0), "{stderr}");
+            let s = &value(&stdout)["states"][0];
+            let (w, finite) = (
+                s["mobility"].as_i64().unwrap(),
+                s["finite_mobility"].as_i64().unwrap(),
+            );
+            assert_eq!(w, finite, "{method} {tolerance:?}: {s:#}");
+            let numeric = s["certainty_kind"] == "numeric";
+            assert!(
+                !numeric || s["finite_mobility_proven"] == false,
+                "{method} {tolerance:?}"
+            );
+        }
+    }
+    // The list of methods has not grown past this test.
+    assert_eq!(registry::ALL.len(), 13);
+}
+
+#[test]
+fn a_tolerance_is_never_ignored() {
+    let (code, _, stderr) = run_on(
+        "analyze",
+        "it.toml",
+        &tilted(6),
+        &["--method", "modular", "--tolerance", "1e-6"],
+    );
+    assert_eq!(code, Some(2));
+    assert!(stderr.contains("--method modular"), "{stderr}");
+    // Exact geometry, too: the tilt of 1e-3 is nothing to 1e-2.
+    let exact =
+        out(&["show", "four-bar"]).replacen("axis = [0, 0, 1]", "axis = [0, \"1/1000\", 1]", 1);
+    let w = |more: &[&str]| {
+        let (_, stdout, _) = run_on(
+            "analyze",
+            "it.toml",
+            &exact,
+            &[&["--format", "json"], more].concat(),
+        );
+        value(&stdout)["states"][0]["mobility"].as_i64().unwrap()
+    };
+    assert_eq!((w(&[]), w(&["--snap", "1e-2"])), (0, 1));
+    // And where nothing is searched: the file that is written is snapped.
+    let (_, stdout, stderr) = run_on(
+        "export",
+        "it.toml",
+        &tilted(6),
+        &["--to", "toml", "--snap", "1e-4"],
+    );
+    assert!(stderr.contains("snapped: "), "{stderr}");
+    let (_, stdout, _) = run_on(
+        "analyze",
+        "it.toml",
+        &stdout,
+        &["--format", "json", "--method", "modular"],
+    );
+    assert_eq!(value(&stdout)["states"][0]["mobility"], 1);
+}
