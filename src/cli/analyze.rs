@@ -114,7 +114,7 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     };
     let found = analyse(&mechanism, &states, method)?;
     if let Some(path) = &a.certificate {
-        verify::write(path, &mechanism, &states)?;
+        verify::write(path, &mechanism, &states, &found)?;
     }
     let stroke = stroke.as_ref().map(stroke::Asked::follow).transpose()?;
     if let (Some(s), Some(path)) = (&stroke, &a.svg) {

@@ -73,7 +73,10 @@ fn stale(m: &Mechanism, warnings: &mut Warnings) {
         let Ok(found) = analyse(m, &[s], Method::Auto { tolerance: None }) else {
             continue;
         };
-        let Some(found) = found.first() else { continue };
+        // What is not decided is not at odds with a figure.
+        let Some(found) = found.first().filter(|f| f.at_most().is_none()) else {
+            continue;
+        };
         let int = |n: usize| i64::try_from(n).ok();
         let figures = [
             ("mobility", e.mobility, int(found.mobility)),

@@ -4,6 +4,7 @@ use super::args::{Args, File};
 use super::{Done, load, output};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::certificate::{certify, matrix, number_field};
+use crate::redundancy::analysis::StateAnalysis;
 use crate::verify::certificate::{CertificateFile, FORMAT, Without};
 use crate::verify::check;
 use anyhow::{Context, bail};
@@ -24,20 +25,29 @@ pub(super) struct Verify {
     planar: bool,
 }
 
-/// Writes a certificate for each state that has one.
-pub(super) fn write(path: &Path, m: &Mechanism, states: &[StateId]) -> anyhow::Result<()> {
+/// Writes a certificate for each state that has one: of the rank as written, so none where the analysis is of another.
+pub(super) fn write(
+    path: &Path,
+    m: &Mechanism,
+    states: &[StateId],
+    found: &[StateAnalysis],
+) -> anyhow::Result<()> {
     let mut file = CertificateFile {
         format: FORMAT.to_owned(),
         mechanism: m.name.clone(),
         certificates: Vec::new(),
         without: Vec::new(),
     };
-    for &state in states {
-        match certify(m, state) {
+    for (&state, s) in states.iter().zip(found) {
+        let certificate = if s.as_written.is_some() || s.at_most().is_some() {
+            Err("a certificate is of what is written, and rounded coordinates mean something else; write roots or expressions".to_owned())
+        } else {
+            certify(m, state).map_err(|reason| reason.to_string())
+        };
+        match certificate {
             Ok(certificate) => file.certificates.push(certificate),
             Err(reason) => {
                 let state = m.states[state].clone();
-                let reason = reason.to_string();
                 let _ = writeln!(
                     std::io::stderr().lock(),
                     "note: no certificate of state {state}: {reason}"

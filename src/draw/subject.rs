@@ -94,8 +94,16 @@ impl Subject<'_> {
         };
         let figures = self.analysis.map_or(String::new(), |a| {
             format!(
-                "n = {}, p = {}, k = {}, f = {}, W = {}, σ = {}",
-                a.links, a.joints, a.contours, a.freedoms, a.mobility, a.redundant
+                "n = {}, p = {}, k = {}, f = {}, W = {}, σ = {}{}",
+                a.links,
+                a.joints,
+                a.contours,
+                a.freedoms,
+                a.mobility,
+                a.redundant,
+                a.at_most().map_or(String::new(), |(w, sigma)| format!(
+                    " as written; undecided, W up to {w}, σ up to {sigma}"
+                ))
             )
         });
         [what, figures]

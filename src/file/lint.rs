@@ -17,6 +17,7 @@ use crate::geom::vector::{length, real, sub};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, JointId, Mechanism, Role, StateId};
 use crate::model::ranking::Term;
+use crate::model::rounded::looks_rounded;
 use itertools::Itertools;
 
 /// Metres across, without a stated unit, beyond which the unit was probably forgotten.
@@ -109,9 +110,19 @@ fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
         let (across, unit) = (significant(metres), m.length_unit.symbol);
         out.push((root("length_unit"), WarningKind::OddSize { across, unit }));
     }
-    let rounded = rounding::doubts(m);
-    if !rounded.is_empty() {
-        out.extend(rounded.into_iter().map(|kind| (root("joint"), kind)));
+    let before = out.len();
+    places(m, across, out);
+    // What is told of a pair with its line need not be told again.
+    let told = out.len() > before;
+    let rounded = rounding::doubts(m).into_iter();
+    let rounded = rounded.filter(|k| !(told && matches!(k, WarningKind::NearlySpecial { .. })));
+    out.extend(rounded.map(|kind| (root("joint"), kind)));
+}
+
+/// Joints of one link that are all but in one place; where many digits say that coordinates were measured, that is told
+/// instead.
+fn places(m: &Mechanism, across: f64, out: &mut Found) {
+    if looks_rounded(m).is_some_and(|r| r.digits.is_some()) {
         return;
     }
     let pairs = m.joint_ids().tuple_combinations();

@@ -142,6 +142,17 @@ pub struct StateAnalysis {
     pub meant: Option<Box<Mechanism>>,
 }
 
+impl StateAnalysis {
+    /// The most that W and σ can be, where rounded coordinates leave them undecided; the figures are the least then.
+    #[must_use]
+    pub fn at_most(&self) -> Option<(usize, usize)> {
+        match self.certainty {
+            Certainty::Undecided { near, .. } => Some((self.freedoms - near, self.rows - near)),
+            _ => None,
+        }
+    }
+}
+
 /// Analyses the given states.
 ///
 /// # Errors

@@ -4,7 +4,6 @@ pub mod next;
 mod text;
 
 use crate::model::mechanism::{JointId, Mechanism};
-use crate::rank::method::Certainty;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::share::{ContourShare, CouplingShare};
 use crate::redundancy::stress::{JointWrench, Verdict};
@@ -209,10 +208,7 @@ impl<'a> Analysis<'a> {
 impl<'a> State<'a> {
     fn new(mechanism: &'a Mechanism, s: &'a StateAnalysis) -> State<'a> {
         let joint = |j: JointId| mechanism.joints[j].id.as_str();
-        let near = match s.certainty {
-            Certainty::Undecided { near, .. } => Some(near),
-            _ => None,
-        };
+        let most = s.at_most();
         State {
             state: &s.state,
             links: s.links,
@@ -222,7 +218,7 @@ impl<'a> State<'a> {
             rows: s.rows,
             rank: s.rank,
             mobility: s.mobility,
-            mobility_at_most: near.map(|rank| s.freedoms - rank),
+            mobility_at_most: most.map(|(w, _)| w),
             finite_mobility: s.finite.mobility,
             finite_mobility_at_most: Some(s.finite.at_most())
                 .filter(|&most| most > s.finite.mobility),
@@ -232,7 +228,7 @@ impl<'a> State<'a> {
             working_mobility: s.working_mobility,
             local_mobility: s.local_mobility,
             redundant: s.redundant,
-            redundant_at_most: near.map(|rank| s.rows - rank),
+            redundant_at_most: most.map(|(_, sigma)| sigma),
             formula_mobility: s.formula_mobility,
             per_contour: s
                 .per_contour
