@@ -2,12 +2,14 @@
 //! why, and what was left out.
 
 use super::field::field_of;
-use super::finite::{Finite, finite, finite_within, followed};
+use super::finite::{Finite, finite, finite_within, within};
 use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 use super::numeric::Elimination;
+use super::snap::size;
 use super::verdict::{Meant, Verdict, verdict};
 use crate::closure::matrix::Closure;
 use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::rounded::Rounded;
 
 /// A decision for one state.
 #[derive(Debug, Clone)]
@@ -42,10 +44,14 @@ pub fn decide(
 
 /// The finite mobility of what is meant.
 fn finite_of(m: &Mechanism, state: StateId, found: &Verdict) -> Result<Finite, NoAnswer> {
-    // What rounding and noise leave of a zero says how well poses can close.
+    // What rounding and noise leave of a zero says how well poses can close, and so does the last digit.
+    let size = size(m);
+    let unit = |r: &Rounded| r.units.direction.max(r.units.length / size);
+    let unit = found.rounded.as_ref().map_or(0.0, unit);
+    let most = found.tolerance.max(1e-16);
     let accuracy = found
         .numeric
-        .map(|n| (10.0 * n.dropped).clamp(1e-16, found.tolerance.max(1e-16)));
+        .map(|n| (10.0 * n.dropped).max(unit).clamp(1e-16, most));
     let exactly = |m: &Mechanism, rank: usize| {
         let exact = field_of(m, state, 0)?;
         let closure = Closure::new(&exact, m, state)?;
@@ -61,13 +67,13 @@ fn finite_of(m: &Mechanism, state: StateId, found: &Verdict) -> Result<Finite, N
         } => exactly(mechanism, *rank)?,
         Meant::Near {
             mechanism, rank, ..
-        } => followed(
+        } => within(
             mechanism,
             state,
             found.figures(*rank).0,
             accuracy.unwrap_or(0.0),
         )?,
-        Meant::Undecided { near } => Finite::unranked(found.figures(*near).0),
+        Meant::Undecided { near } => Finite::rounded(found.figures(*near).0),
     })
 }
 

@@ -15,6 +15,8 @@ use crate::motion::pose::Pose;
 const LARGEST: usize = 30_000_000;
 /// Work of all closings together.
 const WORK: usize = 5_000_000_000;
+/// Relative errors of coordinates above which poses that are shaky to the third or fourth order close like motions.
+const COARSE: f64 = 5e-8;
 /// Closings at most.
 const CLOSINGS: usize = 1_000;
 
@@ -49,9 +51,9 @@ pub enum How {
         /// The largest dimension that is not excluded.
         to: usize,
     },
-    /// The rank of J is not decided, so that nothing more is known than the most it can be.
-    Unranked {
-        /// The instantaneous mobility at the least rank that may be meant.
+    /// Coordinates are rounded too coarsely to tell a motion from a shaky pose, or to tell the rank of J.
+    Rounded {
+        /// The most that it can be.
         to: usize,
     },
     /// Not followed, for it is too large: an upper bound, the instantaneous mobility.
@@ -78,15 +80,15 @@ impl Finite {
         }
     }
 
-    /// Where the rank of J is not decided; `to` is the most that moves instantaneously.
-    pub(super) fn unranked(to: usize) -> Finite {
-        Finite::new(0, How::Unranked { to })
+    /// Where rounded coordinates tell no more than that at most `to` moves instantaneously.
+    pub(super) fn rounded(to: usize) -> Finite {
+        Finite::new(0, How::Rounded { to })
     }
 
     /// Whether it is a range.
     #[must_use]
     pub fn is_undecided(&self) -> bool {
-        matches!(self.how, How::Undecided { .. } | How::Unranked { .. })
+        matches!(self.how, How::Undecided { .. } | How::Rounded { .. })
     }
 
     /// The same with a rank that is a numeric one.
@@ -112,7 +114,7 @@ impl Finite {
     #[must_use]
     pub fn at_most(&self) -> usize {
         match self.how {
-            How::Undecided { to, .. } | How::Unranked { to } => to,
+            How::Undecided { to, .. } | How::Rounded { to } => to,
             _ => self.mobility,
         }
     }
@@ -130,7 +132,7 @@ impl Finite {
     pub fn figure(&self) -> String {
         match self.how {
             How::Undecided { from, to } => format!("{from} to {to}"),
-            How::Unranked { to } => format!("0 to {to}"),
+            How::Rounded { to } => format!("{} to {to}", self.mobility),
             _ => self.mobility.to_string(),
         }
     }
@@ -166,9 +168,10 @@ impl Finite {
             How::Undecided { from, to } => format!(
                 "undecided: between {from} and {to}; the pose of the file is singular, and following branches from it does not decide"
             ),
-            How::Unranked { to } => {
-                format!("undecided: at most {to}, for the rank of J is not decided")
-            }
+            How::Rounded { to } => format!(
+                "undecided: between {} and {to}; coordinates are rounded too coarsely to tell a motion from a shaky pose",
+                self.mobility
+            ),
             How::Bound => "an upper bound: too large to be followed".to_owned(),
         };
         match self.how {
@@ -188,16 +191,16 @@ impl Finite {
             How::Stopped { order: 2, .. } => "second-order",
             How::Stopped { .. } => "higher-order",
             How::Traced { .. } => "traced",
-            How::Undecided { .. } | How::Unranked { .. } => "undecided",
+            How::Undecided { .. } | How::Rounded { .. } => "undecided",
             How::Bound => "bound",
         }
     }
 
     /// The finite mobility of two independent parts, or of a part and its idle freedoms.
     fn and(self, other: Finite) -> Finite {
-        use How::{Bound, Rigid, Stopped, Submersion, Traced, Undecided, Unranked};
+        use How::{Bound, Rigid, Rounded, Stopped, Submersion, Traced, Undecided};
         let how = match (self.how, other.how) {
-            (Unranked { .. }, _) | (_, Unranked { .. }) => Unranked {
+            (Rounded { .. }, _) | (_, Rounded { .. }) => Rounded {
                 to: self.at_most() + other.at_most(),
             },
             (Undecided { .. }, _) | (_, Undecided { .. }) => Undecided {
@@ -340,7 +343,7 @@ fn moved(
     let instantaneous = closure.columns.len() - rank;
     let state = closure.state;
     if let Some(accuracy) = accuracy {
-        return followed(mechanism, state, instantaneous, accuracy);
+        return within(mechanism, state, instantaneous, accuracy);
     }
     let pose = Pose::of_file(mechanism, state)?;
     let series = HigherOrder::new(exact, mechanism, closure, &pose, rank)?;
@@ -417,6 +420,22 @@ pub fn followed(
     let pose = Pose::of_file(mechanism, state)?.with_accuracy(accuracy);
     let found = pursued(&pose, instantaneous, false);
     Ok(found.map_or(Finite::new(instantaneous, How::Bound), of_pursuit))
+}
+
+/// By following the motion, unless coordinates with this relative error would hide what stops it.
+///
+/// # Errors
+/// Where a coordinate has no value.
+pub(super) fn within(
+    mechanism: &Mechanism,
+    state: StateId,
+    instantaneous: usize,
+    accuracy: f64,
+) -> Result<Finite, ExactError> {
+    if accuracy > COARSE && instantaneous > 0 {
+        return Ok(Finite::rounded(instantaneous));
+    }
+    followed(mechanism, state, instantaneous, accuracy)
 }
 
 /// Exact rank at the pose, then [`finite`], as a method.

@@ -1,7 +1,7 @@
 //! The nearest geometry whose closure matrix has a smaller rank, where rounding alone may have raised it.
 //!
 //! With U2 and V2 the singular vectors of J beyond the rank wanted, F = U2ᵀ J V2 vanishes to second order exactly where J has
-//! that rank [Wedin 1972; Golub & Van Loan 2013, 8.6.1]. Newton's method takes the smallest change of coordinates, counted
+//! that rank (Golub & Van Loan, "Matrix Computations", 2013, 8.6). Newton's method takes the smallest change of coordinates, counted
 //! in units of their last digit, that makes it vanish.
 
 use crate::closure::matrix::Closure;
@@ -17,8 +17,11 @@ use ozols_dense::{Matrix, svd, thin_svd};
 
 /// Newton steps at most.
 const STEPS: usize = 12;
-/// The largest move that rounding explains, in units of the last digit: half a unit, and what the least squares spread.
+/// The largest move of a coordinate that rounding explains, in units of its last digit: half a unit, and what the least
+/// squares spread.
 const MOST: f64 = 1.05;
+/// One in a thousand roundings is further off than what is taken for one, in standard deviations.
+const RARE: f64 = 3.09;
 /// F counts as zero.
 const ZERO: f64 = 1e-12;
 /// Changes that F feels by less than this part of what it feels most are left alone: they follow from the others.
@@ -119,14 +122,16 @@ pub fn nearest(m: &Mechanism, state: StateId, rank: usize, units: Units) -> Opti
     if of.is_empty() || equations * of.len() * equations.min(of.len()) > LARGEST {
         return None;
     }
-    let (mut by, mut found) = (vec![0.0_f64; of.len()], m.clone());
+    let (mut by, mut found, mut conditions) = (vec![0.0_f64; of.len()], m.clone(), 0);
     for _ in 0..STEPS {
         let matrix = scaled(&closure);
         let singular = svd(&matrix)?;
         let beyond = singular.values.get(rank).copied().unwrap_or(0.0);
         if beyond <= ZERO * singular.values[0] {
             let most = by.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-            return (most <= MOST).then_some(Nearest {
+            let square: f64 = by.iter().map(|x| x * x).sum();
+            let likely = most <= MOST && square <= largest_square(conditions);
+            return likely.then_some(Nearest {
                 mechanism: found,
                 moved: most,
             });
@@ -134,7 +139,8 @@ pub fn nearest(m: &Mechanism, state: StateId, rank: usize, units: Units) -> Opti
         let (left, right) = (singular.left_null_space(rank), singular.null_space(rank));
         let residue = left.transpose_times(&matrix.times(&right));
         let change = changes(&found, &closure, &of, &by, (&left, &right))?;
-        let step = least(&change, &residue)?;
+        let (step, felt) = least(&change, &residue)?;
+        conditions = conditions.max(felt);
         for (x, d) in by.iter_mut().zip(step) {
             *x -= d;
         }
@@ -202,13 +208,37 @@ fn changes(
     Some(out)
 }
 
-/// The smallest x with `change · x` = `residue` in what is felt.
-fn least(change: &Matrix, residue: &Matrix) -> Option<Vec<f64>> {
+/// The smallest x with `change · x` = `residue` in what is felt, and in how many ways it is felt.
+fn least(change: &Matrix, residue: &Matrix) -> Option<(Vec<f64>, usize)> {
     let columns = residue.ncols();
     let right = Matrix::from_fn(change.nrows(), 1, |r, _| {
         residue[(r / columns, r % columns)]
     });
     let factors = thin_svd(change)?;
-    let x = factors.least_norm(factors.rank(FELT), &right);
-    Some(x.col(0).to_vec())
+    let felt = factors.rank(FELT);
+    Some((factors.least_norm(felt, &right).col(0).to_vec(), felt))
+}
+
+/// The square of the longest move that rounding explains, in units of the last digit. The errors of rounding are uniform and
+/// independent, of variance 1/12; the smallest move back is their projection to as many dimensions as there are conditions,
+/// so that twelve times its square follows nearly the chi-square law, whose quantile is that of (Wilson & Hilferty, "The distribution of chi-square", 1931).
+fn largest_square(conditions: usize) -> f64 {
+    #[allow(clippy::cast_precision_loss, reason = "conditions are few")]
+    let n = conditions.max(1) as f64;
+    let part = 2.0 / (9.0 * n);
+    n * (1.0 - part + RARE * part.sqrt()).powi(3) / 12.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::largest_square;
+
+    #[test]
+    fn moves_are_as_long_as_chi_square_allows() {
+        // Quantiles of 0.999 from the tables: 10.83, 16.27, 29.59.
+        for (n, quantile) in [(1, 10.83), (3, 16.27), (10, 29.59)] {
+            let found = 12.0 * largest_square(n);
+            assert!((found / quantile - 1.0).abs() < 0.03, "{n}: {found}");
+        }
+    }
 }

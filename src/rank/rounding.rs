@@ -8,8 +8,8 @@ use crate::rank::scaled::Scaling;
 
 /// The most by which rounding to half a unit can have changed any singular value of the scaled J.
 ///
-/// By Weyl's inequality no singular value changes by more than the norm of the change of the matrix [Golub & Van Loan 2013,
-/// 8.6.2]. A unit vector whose components are rounded is off by √3/2 units at most; a turn feels that in its own direction
+/// By Weyl's inequality no singular value changes by more than the norm of the change of the matrix (Golub & Van Loan, "Matrix Computations", 2013,
+/// 8.6.2). A unit vector whose components are rounded is off by √3/2 units at most; a turn feels that in its own direction
 /// and, at an arm of at most the mechanism's size, in its moment, and feels the point's error beside.
 #[must_use]
 pub(super) fn bound(m: &Mechanism, closure: &Closure<f64>, units: Units) -> f64 {

@@ -271,7 +271,7 @@ pub fn verdict(
     }
     let near = match tolerance {
         Some(_) => above,
-        None => values.widest_gap(above, as_written),
+        None => values.widest_gap(above, as_written, found.tolerance),
     };
     found.numeric = Some(values.at(near));
     found.meant = meant(mechanism, state, near, (units, reach), tolerance.is_some())?;
@@ -326,21 +326,23 @@ impl Values {
         }
     }
 
-    /// How far apart the last value of a rank and the next one are.
-    fn gap(&self, rank: usize) -> f64 {
+    /// How far apart the last value of a rank and the next one are, with values below a floor as high as that.
+    fn gap(&self, rank: usize, floor: f64) -> f64 {
         let found = self.at(rank);
-        found.kept / found.dropped.max(ROUND_OFF)
+        found.kept.max(floor) / found.dropped.max(floor)
     }
 
-    /// The rank with the widest gap.
-    fn widest_gap(&self, from: usize, below: usize) -> usize {
-        let wider = |a: &usize, b: &usize| self.gap(*a).total_cmp(&self.gap(*b));
+    /// The rank with the widest gap. Zeros that rounding disturbs to second order only are as large as its square.
+    fn widest_gap(&self, from: usize, below: usize, tolerance: f64) -> usize {
+        let floor = (tolerance * tolerance).max(ROUND_OFF);
+        let gap = |rank: usize| self.gap(rank, floor);
+        let wider = |a: &usize, b: &usize| gap(*a).total_cmp(&gap(*b));
         (from..below).max_by(wider).unwrap_or(from)
     }
 
     /// The rank at a gap so wide, and values so small below it, that they are likely left over from zero.
     fn left_over(&self, rank: usize) -> Option<usize> {
-        (1..rank).find(|&r| self.gap(r) >= GAP && self.at(r).dropped < LEFT_OVER)
+        (1..rank).find(|&r| self.gap(r, ROUND_OFF) >= GAP && self.at(r).dropped < LEFT_OVER)
     }
 }
 

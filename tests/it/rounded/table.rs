@@ -1,0 +1,130 @@
+//! Every mechanism of known mobility, turned three times at random and rounded to 4 to 16 decimals.
+
+use super::cases::{Case, cases};
+use ozols::accuracy::stability::change::{Noise, turned_and_rounded};
+use ozols::model::mechanism::Mechanism;
+use ozols::rank::auto::decide;
+use ozols::rank::verdict::verdict;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// What an answer is worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Worth {
+    Right,
+    Undecided,
+    Wrong,
+}
+
+impl Worth {
+    /// Of a range that the truth must be in.
+    fn of(range: (usize, usize), truth: i64) -> Worth {
+        let (from, to) = (
+            i64::try_from(range.0).unwrap(),
+            i64::try_from(range.1).unwrap(),
+        );
+        match (from <= truth && truth <= to, from == to) {
+            (false, _) => Worth::Wrong,
+            (true, true) => Worth::Right,
+            (true, false) => Worth::Undecided,
+        }
+    }
+}
+
+/// What is said of the cases turned and rounded, one of every `part` of them unless all are asked for: how often it is worth
+/// what, by decimals, and what is wrong.
+fn judged(
+    part: usize,
+    say: impl Fn(&Mechanism, &Case) -> (Worth, String) + Sync,
+) -> BTreeMap<usize, BTreeMap<Worth, usize>> {
+    let part = match std::env::var("OZOLS_ROUNDED") {
+        Ok(_) => 1,
+        Err(_) => part,
+    };
+    let cases = cases();
+    let of = |d| (0..cases.len()).flat_map(move |c| (0..3).map(move |turn| (d, c, turn)));
+    let all: Vec<(usize, usize, u64)> =
+        (4..=16).flat_map(of).skip(part / 2).step_by(part).collect();
+    let found: Vec<(usize, Worth, String)> = all
+        .into_par_iter()
+        .map(|(decimals, c, turn)| {
+            let case = &cases[c];
+            let m = turned_and_rounded(&case.mechanism, decimals, &mut Noise::new(turn, c));
+            let (worth, what) = say(&m, case);
+            let line = format!("{} at {decimals} decimals, turn {turn}: {what}", case.name);
+            (decimals, worth, line)
+        })
+        .collect();
+    let mut table = BTreeMap::<usize, BTreeMap<Worth, usize>>::new();
+    for (decimals, worth, line) in &found {
+        *table
+            .entry(*decimals)
+            .or_default()
+            .entry(*worth)
+            .or_default() += 1;
+        if *worth != Worth::Right {
+            println!("{worth:?}: {line}");
+        }
+    }
+    println!("| decimals | right | undecided | wrong and sure |");
+    for (decimals, of) in &table {
+        let n = |w| of.get(&w).copied().unwrap_or(0);
+        let (right, open, wrong) = (n(Worth::Right), n(Worth::Undecided), n(Worth::Wrong));
+        println!("| {decimals} | {right} | {open} | {wrong} |");
+    }
+    let wrong: Vec<&String> = found
+        .iter()
+        .filter(|f| f.1 == Worth::Wrong)
+        .map(|f| &f.2)
+        .collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    table
+}
+
+#[test]
+fn no_verdict_on_rounded_coordinates_is_wrong_and_sure() {
+    let table = judged(41, |m, case| {
+        let v = verdict(m, case.state, None).unwrap();
+        let [w, most] = [v.rank(), v.at_least()].map(|rank| v.figures(rank).0);
+        // Undecided is no answer, even where its range leaves the truth out.
+        let worth = if v.is_decided() {
+            Worth::of((w, most), case.mobility)
+        } else {
+            Worth::Undecided
+        };
+        let what = format!(
+            "W = {w} to {most} for {}, {}: {:?}",
+            case.mobility,
+            v.word(),
+            v.numeric
+        );
+        (worth, what)
+    });
+    let of_six = &table[&6];
+    let right = of_six.get(&Worth::Right).copied().unwrap_or(0);
+    assert!(
+        right * 20 >= of_six.values().sum::<usize>() * 19,
+        "{of_six:?}"
+    );
+}
+
+#[test]
+fn no_finite_mobility_of_rounded_coordinates_is_wrong_and_sure() {
+    judged(61, |m, case| {
+        let found = decide(m, case.state, None).unwrap();
+        let finite = found.finite;
+        let what = format!(
+            "finite {} for {}: {}",
+            finite.figure(),
+            case.finite,
+            found.line
+        );
+        let undecided = !found.verdict.is_decided();
+        let worth = if undecided {
+            Worth::Undecided
+        } else {
+            Worth::of((finite.mobility, finite.at_most()), case.finite)
+        };
+        (worth, what)
+    });
+}
