@@ -10,6 +10,8 @@ use itertools::Itertools;
 
 /// Joints nearer to special than this, in radians and sizes of the mechanism, were hardly meant to miss it.
 const NEARLY: f64 = 1e-4;
+/// Nor told of where doubles alone miss it.
+const DOUBLE: f64 = 1e-12;
 /// Pairs of joints told of.
 const TOLD: usize = 5;
 
@@ -33,9 +35,9 @@ pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
     if !all.is_empty() {
         let more = match all.len().saturating_sub(TOLD) {
             0 => String::new(),
-            n => format!("; and {n} more"),
+            n => format!(" and {n} more"),
         };
-        let what = format!("{}{more}", all.iter().take(TOLD).join("; "));
+        let what = format!("{}{more}", all.iter().take(TOLD).join(", "));
         out.push(WarningKind::NearlySpecial { what });
     }
     out
@@ -67,7 +69,12 @@ fn nearly(m: &Mechanism) -> Vec<String> {
         angle: r.angle.max(least.angle),
     });
     let moved = snap(m, within).moved;
-    moved.iter().filter_map(|x| words(m, x)).collect()
+    let told = |x: &&Moved| x.turn > DOUBLE || x.shift > DOUBLE * size(m);
+    moved
+        .iter()
+        .filter(told)
+        .filter_map(|x| words(m, x))
+        .collect()
 }
 
 /// "LF and LR are 0.002 degrees from coaxial"

@@ -11,6 +11,9 @@ use std::cmp::Reverse;
 /// Lines with a smaller sine between them are not made to meet: where is too uncertain.
 const SKEW: f64 = 1e-2;
 
+/// Gaps that doubles leave.
+const DOUBLE: f64 = 1e-13;
+
 /// What of a joint's place matters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
@@ -171,6 +174,14 @@ fn crossing(a: &Place, b: &Place, near: f64) -> Option<ExactVector> {
     let square = dot(normal, normal);
     let off = vector::sub(real(&b.point), real(&a.point));
     if square.sqrt() < SKEW * length(u) || dot(off, normal).abs() > near * square.sqrt() {
+        return None;
+    }
+    // Roots that meet to a double meet: no decimal could say where.
+    let rational = [&a.point, &b.point, along, other]
+        .into_iter()
+        .flatten()
+        .all(|x| x.rational_ref().is_some());
+    if !rational && dot(off, normal).abs() <= DOUBLE * length(off) * square.sqrt() {
         return None;
     }
     let t = dot(vector::cross(off, w), normal) / square;

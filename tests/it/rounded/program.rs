@@ -290,7 +290,9 @@ fn what_is_not_decided_is_said_so_everywhere() {
 #[test]
 fn the_finite_mobility_is_that_of_the_rank_whatever_the_method() {
     let file = tilted(6);
-    let whole = registry::ALL.into_iter().filter(|m| Method::of(*m, None).is_some());
+    let whole = registry::ALL
+        .into_iter()
+        .filter(|m| Method::of(*m, None).is_some());
     for method in whole.map(|m| m.name()) {
         for tolerance in [None, Some("1e-4"), Some("1e-12")] {
             if tolerance.is_some() && ["modular", "rational", "finite"].contains(&method) {
