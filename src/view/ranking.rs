@@ -8,7 +8,6 @@ use crate::score::cases::Gripped;
 use crate::score::ranking::{Ranked, RankedPool};
 use itertools::Itertools;
 use serde::Serialize;
-use std::fmt::Write;
 
 /// Reasons told at most.
 const REASONS: usize = 10;
@@ -64,60 +63,46 @@ fn gripped(m: &Mechanism, g: &Gripped) -> String {
     )
 }
 
-/// What a list of ranked variants rests on, and why its order is not that of cost.
+/// What a list of ranked variants rests on, a line each.
 #[must_use]
-pub fn notes(m: &Mechanism, p: &RankedPool) -> String {
-    let mut out = String::new();
+pub fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
     let n = |x: usize| grouped(&x.to_string());
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        out,
-        "\n  The best of the {} cheapest variants{}; {}: {}",
+    let poses = match p.poses {
+        0 | 1 => String::new(),
+        many => format!(", each in {many} poses"),
+    };
+    let proven = if p.proven { "proven" } else { "not proven" };
+    let mut out = vec![format!(
+        "The best of the {} cheapest variants{poses}; {proven} the best of all: {}",
         n(p.scored),
-        if p.poses > 1 {
-            format!(", each in {} poses", p.poses)
-        } else {
-            String::new()
-        },
-        if p.proven {
-            "proven the best of all"
-        } else {
-            "not proven the best of all"
-        },
         p.proof
-    );
+    )];
     if !p.proven {
-        let _ = writeln!(out, "  --pool widens the view (now {})", n(p.pool));
+        out.push(format!("--pool widens the view (now {})", n(p.pool)));
     }
-    if p.unheld > 0 {
-        let _ = writeln!(
-            out,
-            "  {} left out: no equilibrium, an idle freedom gives way under the loads",
-            n(p.unheld)
-        );
-    }
-    if p.limited > 0 {
-        let _ = writeln!(out, "  {} left out: beyond a limit", n(p.limited));
-    }
-    if p.open > 0 {
-        let _ = writeln!(
-            out,
-            "  {} keep redundant constraints: scored by their reactions of minimum norm",
-            n(p.open)
-        );
-    }
-    for g in &p.gripped {
-        let _ = writeln!(out, "  {}", gripped(m, g));
-    }
-    if let Some(at) = p.stroke_stopped {
-        let _ = writeln!(out, "  The stroke could not be followed to {at}");
-    }
-    for i in (1..=p.list.len()).take(REASONS) {
-        if let Some(reason) = p.reason(m, i) {
-            let _ = writeln!(out, "  {reason}");
-        }
-    }
+    let left_out = [
+        (
+            p.unheld,
+            "left out: no equilibrium, an idle freedom gives way under the loads",
+        ),
+        (p.limited, "left out: beyond a limit"),
+        (
+            p.open,
+            "keep redundant constraints: scored by their reactions of minimum norm",
+        ),
+    ];
+    let some = left_out.iter().filter(|(count, _)| *count > 0);
+    out.extend(some.map(|(count, what)| format!("{} {what}", n(*count))));
+    out.extend(p.gripped.iter().map(|g| gripped(m, g)));
+    let stopped = p.stroke_stopped;
+    out.extend(stopped.map(|at| format!("The stroke could not be followed to {at}")));
     out
+}
+
+/// Why the first of a list of ranked variants are not in the order of cost, a line each.
+pub fn reasons<'a>(m: &'a Mechanism, p: &'a RankedPool) -> impl Iterator<Item = String> + 'a {
+    let places = (1..=p.list.len()).take(REASONS);
+    places.filter_map(|place| p.reason(m, place))
 }
 
 /// Heads of the columns of a list.
