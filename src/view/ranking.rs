@@ -1,6 +1,6 @@
 //! A ranking in words and as data.
 
-use crate::format::number::{grouped, significant};
+use crate::format::number::{cost, grouped, significant};
 use crate::format::phrase::plural;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::model::ranking::{ClearanceSum, Order, Term};
@@ -77,6 +77,18 @@ pub fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
         n(p.scored),
         p.proof
     )];
+    if let Some(missing) = &p.missing {
+        let cheaper = missing.cheaper.as_ref().map_or(String::new(), |n| {
+            format!(", as {} are", grouped(&n.to_string()))
+        });
+        out.push(format!(
+            "How far from proven: a variant not scored has a sum of at least {}, the last here {}; one that could still \
+             come before it costs less than {}{cheaper}",
+            significant(missing.least),
+            significant(missing.last),
+            cost(missing.settled_at)
+        ));
+    }
     if !p.proven {
         out.push(format!("--pool widens the view (now {})", n(p.pool)));
     }
@@ -164,6 +176,17 @@ pub struct RankingData<'a> {
     minimum_norm: usize,
     proven: bool,
     proof: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    missing: Option<MissingData>,
+}
+
+/// What is missing to a proof: sums, a cost, and a count as text, since it may be large.
+#[derive(Debug, Serialize)]
+struct MissingData {
+    least_sum_elsewhere: f64,
+    last_sum: f64,
+    settled_at_cost: f64,
+    cheaper: Option<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -221,6 +244,12 @@ impl<'a> RankingData<'a> {
             minimum_norm: p.open,
             proven: p.proven,
             proof: p.proof,
+            missing: p.missing.as_ref().map(|m| MissingData {
+                least_sum_elsewhere: m.least,
+                last_sum: m.last,
+                settled_at_cost: m.settled_at_cost(),
+                cheaper: m.cheaper.as_ref().map(ToString::to_string),
+            }),
         }
     }
 }
