@@ -97,7 +97,8 @@ impl Outcome {
         if !self.admissible.total.is_zero() || self.search.size().is_one() {
             return Ok(Vec::new());
         }
-        self.search.relaxations(&|| false)
+        let nodes = self.diagrams.as_ref().map_or(0, |d| d.admissible.nodes);
+        self.search.relaxations(nodes, &|| false)
     }
 
     /// The variants asked for, one by one: the best in order, all, or a sample. No more than a thousand are held at a time,

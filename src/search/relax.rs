@@ -1,6 +1,6 @@
 //! Where a question has no answer: which of its conditions, eased alone, would leave some variants.
 
-use crate::search::conditions::{Conditions, Search, SearchError};
+use crate::search::conditions::{Conditions, InState, Search, SearchError};
 use crate::search::counts::Counts;
 use crate::search::diagram::Stop;
 use num_bigint::BigUint;
@@ -17,16 +17,22 @@ pub enum Relaxation {
     Mobility(i64),
     /// Up to this many changes.
     Changes(u32),
+    /// Harmful ones among them up to this many.
+    Harmful(u32),
     /// Outputs that move in other ways than now.
     OutputChange,
+    /// Objects that are not held.
+    LooseObject,
 }
 
-/// Nodes of a diagram at most: easing should cost no more than the question did.
+/// Nodes of a diagram at most, where the question took fewer: easing should cost little more than the question did.
 const NODES: usize = 20_000;
+/// How many times the question's nodes, where those are more.
+const MORE: usize = 4;
 
 impl Search {
     /// The conditions that, eased alone, leave some variants, with how many; a condition whose search would take too many
-    /// nodes is passed over.
+    /// nodes is passed over. `nodes` are those that the question took.
     ///
     /// # Errors
     /// As [`Search::new`].
@@ -35,12 +41,14 @@ impl Search {
     /// One search for each condition, and for redundancies one for each bit of the least that is enough, or two.
     pub fn relaxations(
         &self,
+        nodes: usize,
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
         let conditions = &self.conditions;
+        let most = nodes.saturating_mul(MORE).max(NODES);
         let counted = |change: &dyn Fn(&mut Conditions)| -> Result<Option<Counts>, SearchError> {
             let mut eased = conditions.clone();
-            eased.nodes = eased.nodes.min(NODES);
+            eased.nodes = eased.nodes.min(most);
             change(&mut eased);
             let search = Search::new(self.exact.clone(), self.mechanism.clone(), eased)?;
             let diagrams = search.build(cancelled, &mut |_| {});
@@ -64,17 +72,21 @@ impl Search {
                 break;
             }
         }
-        if let Some((state, allowed)) = conditions.state
-            && allowed < rows
-        {
-            let with = |most: u32| counted(&|r: &mut Conditions| r.state = Some((state, most)));
+        // The least bound that is enough, doubling what is allowed and then halving the gap.
+        let least = |allowed: u32, set: &dyn Fn(&mut InState, u32)| -> Result<_, SearchError> {
+            let with = |most: u32| {
+                counted(&|r: &mut Conditions| {
+                    if let Some(s) = &mut r.state {
+                        set(s, most);
+                    }
+                })
+            };
             let mut few = allowed;
             for bound in further(allowed) {
                 let Some(mut found) = with(bound)? else {
                     few = bound;
                     continue;
                 };
-                // The least that is enough lies between.
                 let mut enough = bound;
                 while enough - few > 1 {
                     let middle = few + (enough - few) / 2;
@@ -83,8 +95,28 @@ impl Search {
                         None => few = middle,
                     }
                 }
-                out.push((Relaxation::External(enough), found.total));
-                break;
+                return Ok(Some((enough, found.total)));
+            }
+            Ok(None)
+        };
+        if let Some(state) = conditions.state {
+            if let Some(allowed) = state.max_external {
+                let found = least(allowed, &|s, most| s.max_external = Some(most))?;
+                out.extend(found.map(|(n, total)| (Relaxation::External(n), total)));
+            }
+            if let Some(allowed) = state.max_harmful {
+                let found = least(allowed, &|s, most| s.max_harmful = Some(most))?;
+                out.extend(found.map(|(n, total)| (Relaxation::Harmful(n), total)));
+            }
+            let loose = |r: &mut Conditions| {
+                if let Some(s) = &mut r.state {
+                    s.hold_objects = false;
+                }
+            };
+            if state.hold_objects
+                && let Some(c) = counted(&loose)?
+            {
+                out.push((Relaxation::LooseObject, c.total));
             }
         }
         if conditions.max_mobility.is_some()

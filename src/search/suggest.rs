@@ -139,6 +139,7 @@ fn present(joint: &Joint) -> JointOption {
             joint_type: joint.joint_type.clone(),
             frame: joint.frame.clone(),
             cost_milli: None,
+            state: None,
         })
 }
 
@@ -152,6 +153,7 @@ fn changes(joint: &Joint, present: &JointOption, state: StateId, usual: bool) ->
             joint_type: t.clone(),
             frame: joint.frame.clone(),
             cost_milli: None,
+            state: None,
         };
         return match (state, joint.drive, &joint.joint_type) {
             (StateId::FREE, true, _) | (StateId::FREE, _, JointType::Fixed) => Vec::new(),

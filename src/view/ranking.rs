@@ -132,7 +132,7 @@ pub fn columns(p: &RankedPool) -> Vec<&'static str> {
             Term::Conditioning => "condit.",
             Term::OutputError => "error, mm",
             Term::Changes => "changed",
-            Term::Cost | Term::Idle => t.name(),
+            Term::Cost | Term::Idle | Term::Harmful => t.name(),
         })
         .collect();
     match p.ranking.order {
@@ -151,7 +151,7 @@ pub fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
         .filter(|t| *t != Term::Cost)
         .map(|t| match t {
             Term::OutputError => format!("{:.4}", 1e3 * r.scores.output_error),
-            Term::Changes | Term::Idle => r.scores.value(t).to_string(),
+            Term::Changes | Term::Idle | Term::Harmful => r.scores.value(t).to_string(),
             _ => format!("{:.4}", r.scores.value(t)),
         })
         .collect();
@@ -255,6 +255,7 @@ pub struct RankedData<'a> {
     changes: u32,
     cost: f64,
     idle: i64,
+    harmful: u32,
     minimum_norm: bool,
     #[serde(rename = "by_cost")]
     by_cost: usize,
@@ -281,6 +282,7 @@ impl<'a> RankedData<'a> {
             changes: s.changes,
             cost: s.value(Term::Cost),
             idle: s.idle,
+            harmful: s.harmful,
             minimum_norm: s.minimum_norm,
             by_cost: r.by_cost,
             total: r.total,

@@ -3,18 +3,22 @@
 use crate::format::number::cost;
 use crate::model::mechanism::JointId;
 use crate::score::outcome::{Outcome, Variants};
+use crate::score::variant::Variant;
 use crate::search::conditions::Search;
 use crate::search::over_stroke::OverStroke;
 use crate::search::space::choice_name;
+use itertools::Itertools;
 use std::io::{self, Write};
 
 /// Columns before the joints.
-const FIGURES: [&str; 6] = [
+const FIGURES: [&str; 8] = [
     "position",
     "cost",
     "mobility",
     "redundant",
     "external_redundant",
+    "external_harmful",
+    "redundant_by_contour",
     "changes",
 ];
 /// Columns after them.
@@ -58,6 +62,8 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> 
             v.mobility().to_string(),
             v.redundant().to_string(),
             told(v.external_redundant()),
+            told(v.external_harmful()),
+            contours(&v),
             v.change_count().to_string(),
         ]);
         let choices = &v.assignment().choices;
@@ -101,6 +107,14 @@ fn of_writer(e: csv::Error) -> io::Error {
 
 fn told<T: ToString>(value: Option<T>) -> String {
     value.map_or_else(String::new, |x| x.to_string())
+}
+
+/// "0-1-2-3: 1 (0 to 1); 0-1-6-7: 0 (0 to 1)": σ of the contours that may have any, in the order they are added in.
+fn contours(v: &Variant<'_>) -> String {
+    let shares = v.redundant_by_contour().into_iter().flatten();
+    let some = shares.filter(|(_, s)| s.range.1 > 0);
+    some.map(|(name, s)| format!("{name}: {} ({} to {})", s.redundant, s.range.0, s.range.1))
+        .join("; ")
 }
 
 /// The joints that have a choice, in file order: (variable, joint).

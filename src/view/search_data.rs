@@ -265,9 +265,11 @@ pub(super) fn condition(how: Relaxation) -> (&'static str, Option<i64>) {
     match how {
         Relaxation::Redundant(n) => ("max-redundant", Some(i64::from(n))),
         Relaxation::External(n) => ("max-external", Some(i64::from(n))),
+        Relaxation::Harmful(n) => ("max-harmful", Some(i64::from(n))),
         Relaxation::Mobility(n) => ("max-mobility", Some(n)),
         Relaxation::Changes(n) => ("max-changes", Some(i64::from(n))),
         Relaxation::OutputChange => ("allow-output-change", None),
+        Relaxation::LooseObject => ("allow-loose-object", None),
     }
 }
 
@@ -278,7 +280,9 @@ pub struct VariantData<'a> {
     cost: Cost,
     mobility: i64,
     redundant: u32,
-    external_redundant: Option<u32>,
+    external_redundant: Option<i32>,
+    external_harmful: Option<u32>,
+    per_contour: Vec<ContourData>,
     changes: Vec<ChangeData<'a>>,
     scores: ScoresData<'a>,
     conditioning: Option<f64>,
@@ -293,6 +297,15 @@ pub struct VariantData<'a> {
 enum Cost {
     Whole(i64),
     Part(f64),
+}
+
+/// σ of a contour when they are added in the order given, with the range over all orders.
+#[derive(Debug, Serialize)]
+struct ContourData {
+    contour: String,
+    redundant: usize,
+    least: usize,
+    greatest: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -349,6 +362,18 @@ impl<'a> VariantData<'a> {
             mobility: v.mobility(),
             redundant: v.redundant(),
             external_redundant: v.external_redundant(),
+            external_harmful: v.external_harmful(),
+            per_contour: v
+                .redundant_by_contour()
+                .into_iter()
+                .flatten()
+                .map(|(contour, share)| ContourData {
+                    contour,
+                    redundant: share.redundant,
+                    least: share.range.0,
+                    greatest: share.range.1,
+                })
+                .collect(),
             changes: v
                 .changes()
                 .into_iter()

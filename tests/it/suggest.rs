@@ -70,6 +70,7 @@ fn slowly(m: &Mechanism, state: StateId) -> Vec<Line> {
         joint_type: t.clone(),
         frame: m.joints[j].frame.clone(),
         cost_milli: None,
+        state: None,
     };
     let offered = joints
         .iter()

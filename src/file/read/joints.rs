@@ -96,6 +96,7 @@ fn joint(
         joint_type: joint_type.clone(),
         frame: frame.clone(),
         cost_milli: None,
+        state: None,
     };
     let states_of = entry.state.as_ref().map(|w| {
         words(Some(w))

@@ -288,9 +288,13 @@ pub(crate) fn option(
         || present.pitch.clone(),
         |c| number(c, &key(&at, "pitch"), out),
     );
+    let point = table.point.as_ref();
     let frame = frame(
         joint,
-        present.point.clone(),
+        point.map_or_else(
+            || present.point.clone(),
+            |p| vector(p, &key(&at, "point"), out),
+        ),
         axis,
         reference,
         pitch,
@@ -307,6 +311,7 @@ pub(crate) fn option(
         joint_type,
         frame,
         cost_milli,
+        state: None,
     })
 }
 
