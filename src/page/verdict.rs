@@ -176,9 +176,9 @@ fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
         request
             .max_changes
             .map(|c| format!("change{s} at most {}", plural(c as usize, "joint"))),
-        in_state(&r.found.search, one),
     ];
-    let all = all.into_iter().flatten().join(", ");
+    let all = all.into_iter().flatten();
+    let all = all.chain(in_state(&r.found.search, one)).join(", ");
     if all.is_empty() {
         all
     } else {

@@ -11,7 +11,7 @@ use crate::search::counts::Counts;
 use crate::search::diagram::Stop;
 use crate::search::over_stroke::Stroke;
 use crate::search::primes::PrimeCheck;
-use crate::search::relax::Relaxation;
+use crate::search::relax::{Hopeless, Relaxation};
 use itertools::Itertools;
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
@@ -99,6 +99,17 @@ impl Outcome {
         }
         let nodes = self.diagrams.as_ref().map_or(0, |d| d.admissible.nodes);
         self.search.relaxations(nodes, &|| false)
+    }
+
+    /// What stands in the way of every variant, where nothing was found.
+    ///
+    /// # Errors
+    /// Where the geometry has no exact image.
+    pub fn hopeless(&self) -> Result<Hopeless, SearchError> {
+        if !self.admissible.total.is_zero() {
+            return Ok(Hopeless::default());
+        }
+        Ok(self.search.hopeless()?)
     }
 
     /// The variants asked for, one by one: the best in order, all, or a sample. No more than a thousand are held at a time,

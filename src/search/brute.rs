@@ -38,6 +38,8 @@ pub struct Matrices {
     /// `columns[variable][choice]`: full columns (contours and couplings of the free state, kept links, contours and couplings
     /// of the searched one).
     columns: Vec<Vec<Vec<Vec<Residue>>>>,
+    /// For each joint without a choice, the columns of every motion.
+    whole: Vec<(JointId, Vec<Vec<Residue>>)>,
 }
 
 impl Matrices {
@@ -112,13 +114,44 @@ impl Matrices {
                 v.choices.iter().map(|c| of_choice(&c.spans)).collect()
             })
             .collect();
+        let fixed = space.variables.iter().filter(|v| v.choices.len() == 1);
+        let whole = fixed.flat_map(|v| &v.joints).map(|&j| {
+            let rates = mechanism.couplings_of(j).count();
+            let every = (0..d).map(|c| {
+                let mut twist = vec![0; d + rates];
+                twist[c] = f.one();
+                column(j, &signs(j), &twist)
+            });
+            (j, every.collect())
+        });
         Matrices {
+            whole: whole.collect(),
             field: f,
             free_rows: free.len() * d + coupled.len(),
             kept_rows: kept.len() * d,
             state_rows: space.state.map_or(0, |_| all.len() * d + all_coupled.len()),
             columns,
         }
+    }
+
+    /// The redundant constraints within the mechanism that are left with every joint at once free to do what any of its
+    /// options allows, and the joints without a choice that would remove some of them.
+    #[must_use]
+    pub fn freest(&self) -> (usize, Vec<JointId>) {
+        let within = |c: &Vec<Residue>| c[..self.free_rows].to_vec();
+        let all: Vec<Vec<Residue>> = self
+            .columns
+            .iter()
+            .flatten()
+            .flatten()
+            .map(within)
+            .collect();
+        let rank = eliminate(self.field, all.clone()).len();
+        let loaded = self.whole.iter().filter(|(_, columns)| {
+            let more = columns.iter().map(within);
+            eliminate(self.field, all.iter().cloned().chain(more).collect()).len() > rank
+        });
+        (self.free_rows - rank, loaded.map(|(j, _)| *j).collect())
     }
 
     /// Looks at one variant.

@@ -1,5 +1,10 @@
 //! Where a question has no answer: which of its conditions, eased alone, would leave some variants.
 
+use crate::closure::matrix::Closure;
+use crate::geom::exact::ExactError;
+use crate::model::mechanism::{JointId, StateId};
+use crate::redundancy::motion::motions;
+use crate::search::brute::Matrices;
 use crate::search::conditions::{Conditions, InState, Search, SearchError};
 use crate::search::counts::Counts;
 use crate::search::diagram::Stop;
@@ -25,12 +30,47 @@ pub enum Relaxation {
     LooseObject,
 }
 
+/// Why nothing can be found, whatever is chosen.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Hopeless {
+    /// Redundant constraints left within the mechanism with every joint at the freest of its options, where that is more
+    /// than allowed.
+    pub least_redundant: Option<usize>,
+    /// Joints that have no choice, and of which a freer one would remove some of these.
+    pub unchanged: Vec<JointId>,
+    /// Driven joints that nothing moves in the mechanism as it is.
+    pub frozen: Vec<JointId>,
+}
+
 /// Nodes of a diagram at most, where the question took fewer: easing should cost little more than the question did.
 const NODES: usize = 20_000;
 /// How many times the question's nodes, where those are more.
 const MORE: usize = 4;
 
 impl Search {
+    /// What stands in the way of every variant.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    pub fn hopeless(&self) -> Result<Hopeless, ExactError> {
+        let m = &*self.mechanism;
+        let (least, unchanged) = Matrices::new(&self.exact, m, &self.space, &[]).freest();
+        let most = usize::try_from(self.conditions.max_redundant).unwrap_or(usize::MAX);
+        let closure = Closure::new(&self.exact, m, StateId::FREE)?;
+        let kernel = motions(&self.exact, &closure);
+        let moves = |j: JointId| {
+            let columns = closure.columns.iter().enumerate();
+            let mut own = columns.filter(|(_, c)| c.joint == j);
+            own.any(|(at, _)| kernel.iter().any(|speeds| speeds[at] != 0))
+        };
+        let driven = m.joints_in(StateId::FREE).filter(|&j| m.joints[j].drive);
+        Ok(Hopeless {
+            frozen: driven.filter(|&j| !moves(j)).collect(),
+            least_redundant: (least > most).then_some(least),
+            unchanged: if least > most { unchanged } else { Vec::new() },
+        })
+    }
+
     /// The conditions that, eased alone, leave some variants, with how many; a condition whose search would take too many
     /// nodes is passed over. `nodes` are those that the question took.
     ///

@@ -6,8 +6,8 @@ use crate::score::request::List;
 use crate::score::variant::{Variant, in_words};
 use crate::search::certify::{NEARLY_SINGULAR, Opinion, Second, Summary};
 use crate::search::primes::Verdict;
-use crate::search::relax::Relaxation;
-use crate::view::conditions::in_state;
+use crate::search::relax::{Hopeless, Relaxation};
+use crate::view::conditions::{hopeless, in_state};
 use crate::view::layout::{fit, table};
 use crate::view::next::{self, Step, file_name};
 use crate::view::ranking;
@@ -22,7 +22,7 @@ use std::io;
 /// Variants a table holds at most.
 const BLOCK: usize = 1000;
 
-/// Writes an outcome with its variants as they come, and what to do next; `eased` is told where there is none. `file` is
+/// Writes an outcome with its variants as they come, and what to do next; `eased` is told where there is none, and why there can be none. `file` is
 /// the argument that named the mechanism.
 ///
 /// # Errors
@@ -31,11 +31,13 @@ pub fn write(
     out: &mut dyn io::Write,
     outcome: &Outcome,
     mut given: Variants<'_>,
-    eased: &[(Relaxation, BigUint)],
+    (eased, why): (&[(Relaxation, BigUint)], &Hopeless),
     file: &str,
     width: Option<u16>,
 ) -> io::Result<()> {
     write!(out, "{}", counts(outcome, width))?;
+    let why = hopeless(&outcome.search.mechanism, why);
+    write!(out, "{}", fit(&why, width))?;
     let sample = matches!(outcome.request.list, List::Sample(_));
     let what = match &outcome.ranking {
         Some(p) => ranking::head(p),
@@ -94,9 +96,9 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
         conditions
             .max_changes
             .map(|c| format!("change at most {c} joints")),
-        in_state(&outcome.search, false),
     ];
-    let more: Vec<String> = more.into_iter().flatten().collect();
+    let more = more.into_iter().flatten();
+    let more = more.chain(in_state(&outcome.search, false)).collect_vec();
     let all = match more.split_last() {
         None => format!("have {condition}"),
         Some((last, rest)) => {

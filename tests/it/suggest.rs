@@ -206,7 +206,9 @@ fn the_best_single_changes_of_the_gripper() {
     );
     assert_eq!(
         texts(1),
-        ["a-8: unloading joint in series: spherical (a ball pivot) removes 3 of 5 external"]
+        ["4-a", "a-8"].map(|j| format!(
+            "{j}: unloading joint in series: spherical (a ball pivot) removes 3 of 5 external"
+        ))
     );
     let text = out(&["analyze", "gripper-10"]);
     assert!(text.starts_with("gripper-10, state free: 11 redundant constraints, mobility 1\n"));
