@@ -9,6 +9,7 @@ use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
 use crate::search::cost::CostTable;
 use num_bigint::BigUint;
+use std::collections::BTreeSet;
 
 /// What a choice puts at the joints of its variable.
 #[derive(Debug, Clone)]
@@ -50,6 +51,8 @@ pub struct Variable {
     pub external: bool,
     /// Whether the joints are absent from the searched state.
     pub alone: bool,
+    /// How many different motions the choices allow: an unloading joint may allow what another option does.
+    pub motions: usize,
 }
 
 /// Everything a search chooses from.
@@ -121,7 +124,9 @@ impl Space {
                     a.cost_milli += b.cost_milli;
                 }
             }
+            let motions: BTreeSet<_> = merged.iter().map(|c| &c.spans).collect();
             variables.push(Variable {
+                motions: motions.len(),
                 alone: joints.iter().any(alone),
                 joints,
                 choices: merged,

@@ -11,18 +11,18 @@ use itertools::Itertools;
 use std::io::{self, Write};
 
 /// Columns before the joints.
-const FIGURES: [&str; 8] = [
+const FIGURES: [&str; 6] = [
     "position",
     "cost",
     "mobility",
     "redundant",
     "external_redundant",
-    "external_harmful",
-    "redundant_by_contour",
     "changes",
 ];
 /// Columns after them.
 const OPINIONS: [&str; 3] = ["conditioning", "agree", "lucky"];
+/// Columns at the end.
+const MORE: [&str; 2] = ["external_harmful", "redundant_by_contour"];
 /// Columns of a ranking.
 const SCORES: [&str; 8] = [
     "by_cost",
@@ -53,6 +53,7 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> 
     if outcome.ranking.is_some() {
         row.extend(SCORES.map(str::to_owned));
     }
+    row.extend(MORE.map(str::to_owned));
     out.write_record(&row).map_err(of_writer)?;
     for v in variants {
         row.clear();
@@ -62,8 +63,6 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> 
             v.mobility().to_string(),
             v.redundant().to_string(),
             told(v.external_redundant()),
-            told(v.external_harmful()),
-            contours(&v),
             v.change_count().to_string(),
         ]);
         let choices = &v.assignment().choices;
@@ -92,6 +91,7 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> 
                 None => Default::default(),
             });
         }
+        row.extend([told(v.external_harmful()), contours(&v)]);
         out.write_record(&row).map_err(of_writer)?;
     }
     out.flush()
