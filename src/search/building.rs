@@ -97,7 +97,16 @@ impl Search {
             (limits.external, limits.harmful) = (state.max_external, state.max_harmful);
             let live = first.steps.last().map_or(&[][..], |s| &s.live);
             let joints = (&alone[..], &added[..]);
-            let ways = ways(&self.mechanism, &self.space, joints, live, &self.grasps);
+            let mut kept = vec![frame];
+            kept.extend(self.kept.0.iter().filter(|_| self.conditions.keep_output));
+            let ways = ways(
+                &self.mechanism,
+                &self.space,
+                joints,
+                live,
+                &kept,
+                &self.grasps,
+            );
             let copies = std::iter::once(ways.copies).chain(std::iter::repeat(1));
             for ((variable, moves), copies) in ways.stages.into_iter().zip(copies) {
                 stages.push(Stage {

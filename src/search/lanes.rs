@@ -79,12 +79,14 @@ pub(super) struct Ways {
 }
 
 /// The ways on for the variables `alone` of the free state and `added` by the searched one, from a node with the live links
-/// `live` as (root, link); `held` are the links to be held with those that may hold them.
+/// `live` as (root, link); `kept` are links whose motion in the free state counts, and `held` the links to be held with those
+/// that may hold them.
 pub(super) fn ways(
     mechanism: &Mechanism,
     space: &Space,
     (alone, added): (&[usize], &[usize]),
     live: &[(LinkId, LinkId)],
+    kept: &[LinkId],
     held: &[(LinkId, Vec<LinkId>)],
 ) -> Ways {
     let joints = |v: &usize| space.variables[*v].joints.iter().copied().enumerate();
@@ -127,10 +129,11 @@ pub(super) fn ways(
             components.iter().map(of).collect::<Vec<_>>()
         })
         .collect();
-    let pinned: Vec<LinkId> = held
-        .iter()
-        .flat_map(|(l, by)| by.iter().chain([l]))
+    let hold = held.iter().flat_map(|(l, by)| by.iter().chain([l]));
+    let kept = kept.iter().filter(|_| !alone.is_empty());
+    let pinned: Vec<LinkId> = hold
         .map(|&l| copy(l, state))
+        .chain(kept.map(|&l| copy(l, 0)))
         .collect();
     let steps = plan(mechanism, &order, &pinned, &start).steps;
     let end = steps.last().map_or(&[][..], |s| &s.live);

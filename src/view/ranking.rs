@@ -125,7 +125,8 @@ pub fn notes(m: &Mechanism, p: &RankedPool) -> String {
 pub fn columns(p: &RankedPool) -> Vec<&'static str> {
     let terms = p.ranking.terms.iter().map(|(t, _)| *t);
     let mut out: Vec<&str> = terms
-        .filter(|t| *t != Term::Cost)
+        // Those have columns of their own.
+        .filter(|t| !matches!(t, Term::Cost | Term::Harmful))
         .map(|t| match t {
             Term::PeakForce => "force",
             Term::PeakMoment => "moment",
@@ -148,7 +149,8 @@ pub fn columns(p: &RankedPool) -> Vec<&'static str> {
 pub fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
     let terms = p.ranking.terms.iter().map(|(t, _)| *t);
     let mut out: Vec<String> = terms
-        .filter(|t| *t != Term::Cost)
+        // Those have columns of their own.
+        .filter(|t| !matches!(t, Term::Cost | Term::Harmful))
         .map(|t| match t {
             Term::OutputError => format!("{:.4}", 1e3 * r.scores.output_error),
             Term::Changes | Term::Idle | Term::Harmful => r.scores.value(t).to_string(),

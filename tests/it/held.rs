@@ -201,7 +201,12 @@ fn harm_has_a_price_and_a_term() {
         v["cost"].as_f64().unwrap() - 4.0,
         first(&path)["cost"].as_f64().unwrap()
     );
-    let ranked = ["--rank", "harmful,cost=0.01", "--pool", "2000"];
+    let ranked = [
+        "--rank",
+        "harmful,cost=0.01",
+        "--options",
+        "revolute,sphere-in-cylinder",
+    ];
     let v = searched("gripper-10-loaded", &[&question[..], &ranked].concat());
     assert_eq!(v["variants"][0]["scores"]["harmful"], 0, "{v}");
     let o = run(&["search", "gripper-10-loaded", "--rank", "harmful"]);

@@ -62,6 +62,7 @@ fn an_unloading_joint_has_a_place_of_its_own() {
     let place = "point = [6, -2, 0], axis = [1, 0, 0]";
     let list = format!("unloading = [{{ type = \"planar\", {place} }}]\n\n[[contour]]");
     let text = changed(&pads(), "unloading = true\n\n[[contour]]", &list);
+    let text = changed(&text, "unloading = true", "unloading = false");
     let m = mechanism_from_str("m.toml", &text).unwrap();
     let pad = &m.joints[m.joint("a-8").unwrap()].unloading[0];
     let point = pad.frame.point.each_ref().map(Expr::to_f64);
