@@ -79,6 +79,7 @@ fn slowly(m: &Mechanism, state: StateId) -> Vec<Line> {
     for j in joints {
         let joint = &m.joints[j];
         let (mut options, mut pads) = (joint.options[1..].to_vec(), joint.unloading.clone());
+        pads.retain(|p| p.state.is_none_or(|s| s == state));
         if !offered && state != StateId::FREE {
             pads = vec![plain(j, &USUAL_UNLOADING)];
         } else if !offered && !joint.drive && joint.joint_type != JointType::Fixed {
