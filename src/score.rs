@@ -31,6 +31,7 @@ pub mod elimination;
 pub mod evaluate;
 pub mod joint_types;
 pub mod lower_bound;
+mod offers;
 pub mod outcome;
 pub mod pareto;
 pub mod ranking;

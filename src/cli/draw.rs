@@ -61,8 +61,8 @@ pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     };
     let mut marks = None;
     if let Some(k) = a.variant {
-        let external = a.which.max_external.is_some() && state != StateId::FREE;
-        let request = a.which.request(external.then_some(a.state.as_str()))?;
+        let searched = state != StateId::FREE;
+        let request = a.which.request(searched.then_some(a.state.as_str()))?;
         let (realized, changes) = variant::kth(mechanism, request, k, |v| {
             let search = &v.outcome().search;
             draw::marks::of_variant(search, v.assignment(), &format!("variant {k}"))

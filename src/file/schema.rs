@@ -177,6 +177,9 @@ pub struct OptionTable {
     /// Freedoms of a custom joint.
     #[serde(default)]
     pub freedoms: Option<Vec<String>>,
+    /// Origin, the joint's own by default.
+    #[serde(default)]
+    pub point: Option<[Coordinate; 3]>,
     /// Direction of z, the joint's own by default.
     #[serde(default)]
     pub axis: Option<[Coordinate; 3]>,
@@ -192,6 +195,9 @@ pub struct OptionTable {
     /// Cost, in place of the table's.
     #[serde(default)]
     pub cost: Option<f64>,
+    /// The state that must be searched for it to be offered; offered in any search where left out.
+    #[serde(default)]
+    pub state: Option<String>,
 }
 
 /// Two joints that move in a fixed ratio.
@@ -229,7 +235,8 @@ pub struct SearchEntry {
     /// Pairs of joints that are mirror images.
     #[serde(default)]
     pub mirror: Vec<[String; 2]>,
-    /// Costs by option or type name, and `change` and `link`.
+    /// Costs by option or type name, and `change`, `link` and `harmful` (of each harmful redundant constraint that a searched
+    /// state adds).
     #[serde(default)]
     pub costs: BTreeMap<String, f64>,
 }

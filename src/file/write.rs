@@ -194,10 +194,10 @@ fn joint(m: &Mechanism, j: &Joint) -> JointEntry {
     // The present joint is understood, unless it has a cost of its own.
     let priced = j.options.first().is_some_and(|o| o.cost_milli.is_some());
     let listed = j.options.iter().skip(usize::from(!priced));
-    let options: Vec<OptionEntry> = listed.map(|o| option(o, &j.frame)).collect();
+    let options: Vec<OptionEntry> = listed.map(|o| option(m, o, &j.frame)).collect();
     let options = (!options.is_empty()).then_some(options);
     let unloading = (!j.unloading.is_empty())
-        .then(|| Unloading::List(j.unloading.iter().map(|o| option(o, &j.frame)).collect()));
+        .then(|| Unloading::List(j.unloading.iter().map(|o| option(m, o, &j.frame)).collect()));
     JointEntry {
         id: j.id.clone(),
         links: j.links.map(|l| m.links[l].id.clone()),
@@ -230,12 +230,13 @@ fn coupling(m: &Mechanism, c: &Coupling) -> CouplingEntry {
 }
 
 /// An option: its type alone where the rest is as the joint's own.
-fn option(o: &JointOption, present: &Frame) -> OptionEntry {
+fn option(m: &Mechanism, o: &JointOption, present: &Frame) -> OptionEntry {
     let f = &o.frame;
     let turned = !same(&f.axis, &present.axis);
     let table = OptionTable {
         kind: Some(o.joint_type.name().to_owned()),
         freedoms: freedoms(&o.joint_type),
+        point: (!same(&f.point, &present.point)).then(|| vector(&f.point)),
         axis: turned.then(|| vector(&f.axis)),
         reference: (turned || !same(&f.reference, &present.reference))
             .then(|| vector(&f.reference)),
@@ -243,8 +244,11 @@ fn option(o: &JointOption, present: &Frame) -> OptionEntry {
             .then(|| coordinate(&f.pitch)),
         name: Some(o.name.clone()).filter(|n| n != o.joint_type.name()),
         cost: o.cost_milli.map(cost),
+        state: o.state.map(|s| m.states[s].clone()),
     };
     let plain = table.freedoms.is_none()
+        && table.point.is_none()
+        && table.state.is_none()
         && table.reference.is_none()
         && table.pitch.is_none()
         && table.name.is_none()
@@ -270,6 +274,11 @@ fn search(m: &Mechanism) -> SearchEntry {
             .map(|c| ("change".to_owned(), cost(c))),
     );
     costs.extend(spec.costs.link_milli.map(|c| ("link".to_owned(), cost(c))));
+    costs.extend(
+        spec.costs
+            .harmful_milli
+            .map(|c| ("harmful".to_owned(), cost(c))),
+    );
     SearchEntry {
         hold: spec.hold.iter().map(|&l| m.links[l].id.clone()).collect(),
         mirror: spec

@@ -167,6 +167,7 @@ impl<'s> Evaluator<'s> {
             changes: variant.key.changes(),
             cost_milli: self.search.steps.milli(variant.key.cost()),
             idle: self.search.mobility(variant.key) - self.working,
+            harmful: variant.key.harmful(),
             minimum_norm: false,
         }
     }

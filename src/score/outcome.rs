@@ -8,7 +8,7 @@ use crate::search::counts::Counts;
 use crate::search::diagram::Stop;
 use crate::search::over_stroke::Stroke;
 use crate::search::primes::PrimeCheck;
-use crate::search::relax::Relaxation;
+use crate::search::relax::{Hopeless, Relaxation};
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 use std::collections::BTreeMap;
@@ -92,6 +92,18 @@ impl Outcome {
         if !self.admissible.total.is_zero() || self.search.size().is_one() {
             return Ok(Vec::new());
         }
-        self.search.relaxations(&|| false)
+        let nodes = self.diagrams.as_ref().map_or(0, |d| d.admissible.nodes);
+        self.search.relaxations(nodes, &|| false)
+    }
+
+    /// What stands in the way of every variant, where nothing was found.
+    ///
+    /// # Errors
+    /// Where the geometry has no exact image.
+    pub fn hopeless(&self) -> Result<Hopeless, SearchError> {
+        if !self.admissible.total.is_zero() {
+            return Ok(Hopeless::default());
+        }
+        Ok(self.search.hopeless()?)
     }
 }

@@ -116,7 +116,7 @@ pub fn answer(
         if search.size() > BRUTE_LIMIT.into() {
             return Err(RunError::TooMany(search.size()));
         }
-        let counts = search.brute();
+        let counts = search.brute()?;
         return Ok(Outcome::of_counts(
             search,
             request.clone(),
@@ -131,6 +131,9 @@ pub fn answer(
             (search?, Some(twin?))
         }
     };
+    for note in search.already_loose()? {
+        tell(Event::Note(note));
+    }
     let progress = &mut |p| tell(Event::Building(p));
     let (diagrams, check) = match &twin {
         None => (search.build(should_cancel, progress), None),

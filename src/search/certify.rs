@@ -187,7 +187,7 @@ impl Search {
 
     fn shape(&self, realized: &Mechanism) -> Shape {
         let lock = || contour_basis(&self.locked(realized), StateId::FREE);
-        let state = self.conditions.state.map(|(s, _)| s);
+        let state = self.conditions.state.map(|s| s.state);
         Shape {
             free: contour_basis(realized, StateId::FREE),
             locked: self.conditions.keep_output.then(lock),

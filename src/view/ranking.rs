@@ -122,14 +122,15 @@ pub fn reasons<'a>(m: &'a Mechanism, p: &'a RankedPool) -> impl Iterator<Item = 
 pub fn columns(p: &RankedPool) -> Vec<&'static str> {
     let terms = p.ranking.terms.iter().map(|(t, _)| *t);
     let mut out: Vec<&str> = terms
-        .filter(|t| *t != Term::Cost)
+        // Those have columns of their own.
+        .filter(|t| !matches!(t, Term::Cost | Term::Harmful))
         .map(|t| match t {
             Term::PeakForce => "force",
             Term::PeakMoment => "moment",
             Term::Conditioning => "condit.",
             Term::OutputError => "error, mm",
             Term::Changes => "changed",
-            Term::Cost | Term::Idle => t.name(),
+            Term::Cost | Term::Idle | Term::Harmful => t.name(),
         })
         .collect();
     match p.ranking.order {
@@ -145,10 +146,11 @@ pub fn columns(p: &RankedPool) -> Vec<&'static str> {
 pub fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
     let terms = p.ranking.terms.iter().map(|(t, _)| *t);
     let mut out: Vec<String> = terms
-        .filter(|t| *t != Term::Cost)
+        // Those have columns of their own.
+        .filter(|t| !matches!(t, Term::Cost | Term::Harmful))
         .map(|t| match t {
             Term::OutputError => format!("{:.4}", 1e3 * r.scores.output_error),
-            Term::Changes | Term::Idle => r.scores.value(t).to_string(),
+            Term::Changes | Term::Idle | Term::Harmful => r.scores.value(t).to_string(),
             _ => format!("{:.4}", r.scores.value(t)),
         })
         .collect();
@@ -269,6 +271,7 @@ pub struct RankedData<'a> {
     changes: u32,
     cost: f64,
     idle: i64,
+    harmful: u32,
     minimum_norm: bool,
     #[serde(rename = "by_cost")]
     by_cost: usize,
@@ -295,6 +298,7 @@ impl<'a> RankedData<'a> {
             changes: s.changes,
             cost: s.value(Term::Cost),
             idle: s.idle,
+            harmful: s.harmful,
             minimum_norm: s.minimum_norm,
             by_cost: r.by_cost,
             total: r.total,

@@ -7,7 +7,8 @@ use crate::score::variant::{Variant, in_words};
 use crate::score::variants::Variants;
 use crate::search::certify::{NEARLY_SINGULAR, Opinion, Second, Summary};
 use crate::search::primes::Verdict;
-use crate::search::relax::Relaxation;
+use crate::search::relax::{Hopeless, Relaxation};
+use crate::view::conditions::{hopeless, in_state};
 use crate::view::layout::{fit, table};
 use crate::view::next::{self, Step, file_name};
 use crate::view::ranking;
@@ -22,7 +23,7 @@ use std::io;
 /// Variants a table holds at most.
 const BLOCK: usize = 1000;
 
-/// Writes an outcome with its variants as they come, and what to do next; `eased` is told where there is none. `file` is
+/// Writes an outcome with its variants as they come, and what to do next; `eased` is told where there is none, and why there can be none. `file` is
 /// the argument that named the mechanism.
 ///
 /// # Errors
@@ -31,11 +32,13 @@ pub fn write(
     out: &mut dyn io::Write,
     outcome: &Outcome,
     mut given: Variants<'_>,
-    eased: &[(Relaxation, BigUint)],
+    (eased, why): (&[(Relaxation, BigUint)], &Hopeless),
     file: &str,
     width: Option<u16>,
 ) -> io::Result<()> {
     write!(out, "{}", counts(outcome, width))?;
+    let why = hopeless(&outcome.search.mechanism, why);
+    write!(out, "{}", fit(&why, width))?;
     let sample = matches!(outcome.request.list, List::Sample(_));
     let what = match &outcome.ranking {
         Some(p) => ranking::head(p),
@@ -51,6 +54,7 @@ pub fn write(
             write!(out, "{}", fit(&format!("\n  {what}:\n"), width))?;
         }
         writeln!(out, "{}", variants(outcome, &block, width))?;
+        write!(out, "{}", contours(&block, width))?;
         footnotes.extend(block.iter().filter_map(note));
     }
     let summary = given.summary();
@@ -100,14 +104,9 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
         conditions
             .max_changes
             .map(|c| format!("change at most {c} joints")),
-        conditions.state.map(|(s, e)| {
-            format!(
-                "have external σ ≤ {e} in state {}",
-                outcome.search.mechanism.states[s]
-            )
-        }),
     ];
-    let more: Vec<String> = more.into_iter().flatten().collect();
+    let more = more.into_iter().flatten();
+    let more = more.chain(in_state(&outcome.search, false)).collect_vec();
     let all = match more.split_last() {
         None => format!("have {condition}"),
         Some((last, rest)) => {
@@ -193,6 +192,7 @@ fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u16>) -> Stri
             v.mobility().to_string(),
             sigma,
         ];
+        row.extend(v.external_harmful().map(|n| n.to_string()));
         if checked {
             let of = |o: &Opinion| format!("{:.1e}", o.conditioning);
             row.push(v.second().opinion().map_or(String::new(), of));
@@ -205,10 +205,58 @@ fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u16>) -> Stri
         row
     });
     let mut head = vec!["", "cost", "W", "σ"];
+    head.extend(outcome.search.conditions.state.map(|_| "harmful"));
     head.extend(checked.then_some("cond."));
     head.extend(ranking.into_iter().flat_map(ranking::columns));
     head.push("changes");
     table(&head, rows.collect(), width)
+}
+
+/// σ contour by contour of some variants, those alike together.
+fn contours(best: &[Variant<'_>], width: Option<u16>) -> String {
+    let mut alike: Vec<(String, Vec<usize>)> = Vec::new();
+    for v in best {
+        let shares = v.redundant_by_contour().into_iter().flatten();
+        let some = shares.filter(|(_, s)| s.range.1 > 0).map(|(name, s)| {
+            let range = match s.range {
+                (a, b) if a == b => String::new(),
+                (a, b) => format!(" ({a} to {b})"),
+            };
+            format!("{name} {}{range}", s.redundant)
+        });
+        let text = some.collect_vec().join(", ");
+        match alike.iter_mut().find(|(known, _)| *known == text) {
+            Some((_, places)) => places.push(v.position()),
+            None => alike.push((text, vec![v.position()])),
+        }
+    }
+    if let [(one, _)] = &alike[..]
+        && one.is_empty()
+    {
+        return "\n  σ by contour: none in any, in whatever order they are added\n".to_owned();
+    }
+    let head = "\n  σ by contour, added in this order (range over all orders):\n".to_owned();
+    let line = |(text, places): &(String, Vec<usize>)| {
+        let text = if text.is_empty() { "none" } else { text };
+        format!("  {}: {text}\n", runs(places))
+    };
+    fit(&alike.iter().map(line).fold(head, |all, l| all + &l), width)
+}
+
+/// "1, 3-5" for 1, 3, 4, 5.
+fn runs(places: &[usize]) -> String {
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for &p in places {
+        match runs.last_mut() {
+            Some((_, last)) if *last + 1 == p => *last = p,
+            _ => runs.push((p, p)),
+        }
+    }
+    let one = |&(a, b): &(usize, usize)| match a == b {
+        true => a.to_string(),
+        false => format!("{a}-{b}"),
+    };
+    runs.iter().map(one).join(", ")
 }
 
 /// The mark of a variant that a footnote tells about.
@@ -335,10 +383,12 @@ fn next(outcome: &Outcome, given: usize, eased: &[(Relaxation, BigUint)], file: 
         let name = format!("--{condition}");
         let flag = to.map_or_else(|| name.clone(), |n| format!("{name} {n}"));
         let n = grouped(&n.to_string());
-        let least = if *how == Relaxation::OutputChange {
-            format!("{n} variants, whose outputs move in other ways than now")
-        } else {
-            format!("{n} variants; no smaller number leaves any")
+        let least = match how {
+            Relaxation::OutputChange => {
+                format!("{n} variants, whose outputs move in other ways than now")
+            }
+            Relaxation::LooseObject => format!("{n} variants, none of which holds what it grips"),
+            _ => format!("{n} variants; no smaller number leaves any"),
         };
         // The flag replaces the one that was given.
         let kept = without(flags, &name);

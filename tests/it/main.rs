@@ -20,6 +20,7 @@ mod finite_traps;
 mod first_hour;
 mod fuzz;
 mod grip;
+mod held;
 mod holding;
 mod layering;
 mod library;
