@@ -12,6 +12,7 @@ use crate::statics::contour_group::solutions::GroupMethod;
 use crate::statics::contour_group::stability::{GROUPS, study};
 use crate::statics::cycle;
 use crate::statics::reactions::Cycle;
+use crate::statics::reactions::contact::object_at;
 use crate::statics::solve::{Answer, Model, solve};
 use crate::view;
 use crate::view::layout::table;
@@ -68,10 +69,19 @@ pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
         return stability(&m, state, stroke, folder, args.seed);
     }
     let own = matches!(a.method, StaticsMethod::Delta | StaticsMethod::Projective);
-    let model = match (a.spatial, own || a.svg.is_some()) {
-        (true, _) => Model::Spatial,
-        (false, true) => Model::Planar,
-        (false, false) => Model::Either,
+    if a.unilateral && !m.joints_in(state).any(|j| object_at(&m, j).is_some()) {
+        bail!(
+            "--unilateral is for contacts with an object, and state {} of {} has none: a link of role = \"object\", and joints of \
+             type fixed, planar, cylinder-on-plane or sphere-on-plane to it",
+            a.state,
+            m.name
+        );
+    }
+    let model = match (a.unilateral, a.spatial, own || a.svg.is_some()) {
+        (true, ..) => Model::Pushing,
+        (_, true, _) => Model::Spatial,
+        (_, false, true) => Model::Planar,
+        (_, false, false) => Model::Either,
     };
     let found = solve(&m, state, stroke, model)?;
     match &found {

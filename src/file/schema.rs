@@ -14,8 +14,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 pub use workload::{
-    ForceEntry, InertiaEntry, MisalignmentEntry, MomentEntry, StiffnessEntry, StrokeEntry,
-    WorkloadEntry,
+    ContactEntry, ForceEntry, InertiaEntry, MisalignmentEntry, MomentEntry, StiffnessEntry,
+    StrokeEntry, WorkloadEntry,
 };
 
 /// A mechanism: links, joints, and what a search may change.

@@ -5,7 +5,7 @@
 
 use crate::geom::scalars::{Reals, Scalars};
 use crate::model::loads::{Inertia, acts_at};
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::assur::Decomposition;
 use crate::statics::dense::System;
 use crate::statics::planar::{BodyId, PairId, PairKind};
@@ -86,9 +86,15 @@ pub struct PlanarLoads {
 }
 
 impl PlanarLoads {
-    /// The loads a file states, seen in the plane; parts out of it are left out.
+    /// The loads a file states for a state, seen in the plane; parts out of it are left out.
     #[must_use]
-    pub fn new(mechanism: &Mechanism, linkage: &Linkage, drive_slides: bool) -> PlanarLoads {
+    pub fn new(
+        mechanism: &Mechanism,
+        state: StateId,
+        linkage: &Linkage,
+        drive_slides: bool,
+    ) -> PlanarLoads {
+        let stated = mechanism.loads.in_state(state);
         let m = &linkage.mechanism;
         let real = |v: &[crate::geom::expr::Expr; 3]| [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()];
         let normal = m.axes[2];
@@ -110,7 +116,7 @@ impl PlanarLoads {
             })
         });
         let unit = if drive_slides { m.metres } else { 1.0 };
-        let forces = mechanism.loads.forces.iter().filter_map(|f| {
+        let forces = stated.forces.iter().filter_map(|f| {
             Some(PlanarForce {
                 body: m.body_of(f.link)?,
                 point: m.flat(real(&f.point)),
@@ -119,8 +125,7 @@ impl PlanarLoads {
                 period: (!drive_slides).then_some(std::f64::consts::TAU),
             })
         });
-        let moments = mechanism
-            .loads
+        let moments = stated
             .moments
             .iter()
             .filter_map(|x| Some((m.body_of(x.link)?, Reals.dot(normal, real(&x.moment)))));
