@@ -7,7 +7,7 @@ pub mod text;
 
 use crate::file::read::workload::Workload;
 use crate::grip::clamping::{self, Hardest, Verdict};
-use crate::grip::findings::{FINDINGS, Finding};
+use crate::grip::findings::{FINDINGS, Finding, REFUTED};
 use crate::grip::gripping::{self, effort};
 use crate::grip::holding::Slip;
 use crate::grip::lever_arm::{Arms, Lever};
@@ -34,6 +34,8 @@ pub struct Grip<'a> {
     pub transmission: Option<Transmission<'a>>,
     /// What the paper found, and whether it is so.
     pub findings: &'static [Finding],
+    /// What the paper says besides, and is not so.
+    pub refuted: [Finding; 1],
     /// The file, for its units and inputs.
     #[serde(skip)]
     pub file: &'a Workload<GripSpec>,
@@ -127,6 +129,15 @@ pub struct Contact {
     pub along_part: f64,
 }
 
+impl Contact {
+    /// Friction over the normal force; nothing where the face does not press.
+    #[must_use]
+    pub fn friction(&self) -> Option<f64> {
+        let friction = self.along_face.hypot(self.along_part);
+        (self.normal > 0.0).then(|| friction / self.normal)
+    }
+}
+
 impl<'a> Grip<'a> {
     /// A gripper of a file and what was found of it.
     #[must_use]
@@ -151,6 +162,7 @@ impl<'a> Grip<'a> {
             hardest,
             diameters,
             findings: &FINDINGS,
+            refuted: [REFUTED],
             file,
         }
     }
