@@ -81,9 +81,9 @@ impl ContactForce {
             };
         }
         let most = friction * self.normal;
-        // One digit of slack, so that the square root of the sum of squares is not above it by rounding.
+        // A few digits of slack, so that the square root of the sum of squares is not above it by rounding.
         let scale = if self.friction() > most {
-            most / self.friction() * (1.0 - f64::EPSILON)
+            most / self.friction() * (1.0 - 4.0 * f64::EPSILON)
         } else {
             1.0
         };
