@@ -15,8 +15,6 @@ mod flint;
 
 use self::flint::against_flint;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use faer::traits::{ComplexField, RealField};
-use faer::{Mat, MatRef};
 use itertools::Itertools;
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -33,6 +31,7 @@ use ozols::linalg::modp::Residue;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::{modular, numeric};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
+use ozols_dense::{Format, Matrix};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -68,8 +67,7 @@ struct Case {
     closure: Closure<Residue>,
     dense: Vec<Vec<Residue>>,
     real: Closure<f64>,
-    f64s: Mat<f64>,
-    f32s: Mat<f32>,
+    matrix: Matrix,
     whole: Vec<Vec<i128>>,
 }
 
@@ -79,18 +77,17 @@ impl Case {
         let closure = Closure::new(&exact, m, StateId::FREE).expect("exact");
         let real = Closure::new(&Reals, m, StateId::FREE).expect("real");
         let columns = real.dense(&Reals);
-        let f64s = Mat::from_fn(real.rows(), columns.len(), |r, c| columns[c][r]);
+        let matrix = Matrix::from_fn(real.rows(), columns.len(), |r, c| columns[c][r]);
         let whole = Closure::new(&Doubled, m, StateId::FREE)
             .expect("whole")
             .dense(&Doubled);
         Case {
             name: format!("{name}, {} x {}", real.rows(), columns.len()),
             dense: closure.dense(&exact),
-            f32s: Mat::from_fn(f64s.nrows(), f64s.ncols(), |r, c| f64s[(r, c)] as f32),
             exact,
             closure,
             real,
-            f64s,
+            matrix,
             whole,
         }
     }
@@ -125,16 +122,28 @@ impl Case {
             ),
             (
                 "f64 singular values",
-                Box::new(|| by_values(&self.f64s, 1e-9)),
+                Box::new(|| by_values(&self.matrix, Format::Double, 1e-9)),
             ),
-            ("f64 QR, pivoted", Box::new(|| by_qr(&self.f64s, 1e-9))),
-            ("f64 LU, full pivots", Box::new(|| by_lu(&self.f64s, 1e-9))),
+            (
+                "f64 QR, pivoted",
+                Box::new(|| above(&Format::Double.qr_diagonal(&self.matrix), 1e-9)),
+            ),
+            (
+                "f64 LU, full pivots",
+                Box::new(|| above(&Format::Double.pivots(&self.matrix), 1e-9)),
+            ),
             (
                 "f32 singular values",
-                Box::new(|| by_values(&self.f32s, 1e-4)),
+                Box::new(|| by_values(&self.matrix, Format::Single, 1e-4)),
             ),
-            ("f32 QR, pivoted", Box::new(|| by_qr(&self.f32s, 1e-4))),
-            ("f32 LU, full pivots", Box::new(|| by_lu(&self.f32s, 1e-4))),
+            (
+                "f32 QR, pivoted",
+                Box::new(|| above(&Format::Single.qr_diagonal(&self.matrix), 1e-4)),
+            ),
+            (
+                "f32 LU, full pivots",
+                Box::new(|| above(&Format::Single.pivots(&self.matrix), 1e-4)),
+            ),
         ];
         if self.whole.len() <= 200 {
             all.push(("exact, Bareiss", Box::new(|| bareiss(&self.whole))));
@@ -150,34 +159,13 @@ fn cases(sizes: &[usize]) -> impl Iterator<Item = Case> + '_ {
     sizes.iter().flat_map(move |&k| of(k))
 }
 
-/// What the decompositions here ask of a number.
-trait Float: ComplexField<Real = Self> + RealField + Copy + Into<f64> {}
-impl Float for f32 {}
-impl Float for f64 {}
-
-fn above<T: Float>(sizes: impl Iterator<Item = T>, tolerance: f64) -> usize {
-    let sizes: Vec<f64> = sizes.map(|x| x.into().abs()).collect();
+fn above(sizes: &[f64], tolerance: f64) -> usize {
     let least = sizes.iter().fold(0.0, |a: f64, &b| a.max(b)) * tolerance;
     sizes.iter().filter(|v| **v > least).count()
 }
 
-fn diagonal<T: Float>(m: MatRef<'_, T>, tolerance: f64) -> usize {
-    above((0..m.nrows().min(m.ncols())).map(|i| m[(i, i)]), tolerance)
-}
-
-fn by_values<T: Float>(m: &Mat<T>, tolerance: f64) -> usize {
-    above(
-        m.singular_values().unwrap_or_default().into_iter(),
-        tolerance,
-    )
-}
-
-fn by_qr<T: Float>(m: &Mat<T>, tolerance: f64) -> usize {
-    diagonal(m.col_piv_qr().thin_R(), tolerance)
-}
-
-fn by_lu<T: Float>(m: &Mat<T>, tolerance: f64) -> usize {
-    diagonal(m.full_piv_lu().U(), tolerance)
+fn by_values(m: &Matrix, format: Format, tolerance: f64) -> usize {
+    above(&format.singular_values(m).unwrap_or_default(), tolerance)
 }
 
 /// Elimination without fractions, Bareiss 1968.

@@ -1,8 +1,7 @@
 //! Closing the contours of a pose: damped Newton steps of least norm.
 
 use crate::motion::pose::Pose;
-use faer::Mat;
-use faer::linalg::solvers::SolveLstsq;
+use ozols_dense::{Matrix, least_squares};
 
 /// Newton steps before a pose is given up.
 const STEPS: usize = 60;
@@ -80,16 +79,14 @@ impl Pose {
 /// The damped solution of J·x = gaps, min |J·x - gaps|² + λ|x|² by orthogonal factors, λ in proportion to the gap: where J is
 /// singular at the solution this still converges, and where it is regular the damping vanishes faster than the error
 /// [Yamashita & Fukushima 2001].
-fn least_norm(jacobian: &Mat<f64>, gaps: &[f64], damping: f64) -> Vec<f64> {
-    let (rows, columns) = jacobian.shape();
-    let stacked = Mat::from_fn(rows + columns, columns, |r, c| match r.checked_sub(rows) {
+fn least_norm(jacobian: &Matrix, gaps: &[f64], damping: f64) -> Vec<f64> {
+    let (rows, columns) = (jacobian.nrows(), jacobian.ncols());
+    let stacked = Matrix::from_fn(rows + columns, columns, |r, c| match r.checked_sub(rows) {
         None => jacobian[(r, c)],
         Some(i) if i == c => damping,
         Some(_) => 0.0,
     });
-    let right = Mat::from_fn(rows + columns, 1, |r, _| {
-        gaps.get(r).copied().unwrap_or(0.0)
-    });
-    let x = stacked.qr().solve_lstsq(&right);
-    (0..columns).map(|i| x[(i, 0)]).collect()
+    let mut right = gaps.to_vec();
+    right.resize(rows + columns, 0.0);
+    least_squares(&stacked, &right)
 }

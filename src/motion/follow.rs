@@ -12,7 +12,7 @@
 //! new one.
 
 use crate::motion::pose::{FLAT, Pose};
-use faer::Mat;
+use ozols_dense::{Matrix, svd};
 use thiserror::Error;
 
 /// The longest step of the drive: radians, or fractions of the mechanism's size.
@@ -126,24 +126,16 @@ fn tangent(
         motions,
         kept,
     };
-    let (null, kept) = if anchor.rows() == 0 {
-        (Mat::identity(free.len(), free.len()), 1.0)
-    } else {
-        let whole = anchor.jacobian(q);
-        let part = Mat::from_fn(whole.nrows(), free.len(), |r, c| whole[(r, free[c])]);
-        let Ok(svd) = part.svd() else {
-            return none(0, 0.0);
-        };
-        let values = svd.S().column_vector();
-        let largest = if values.nrows() > 0 { values[0] } else { 0.0 };
-        // Errors of the coordinates open poses a little, and hide singular values up to their size.
-        let flat = FLAT.max(10.0 * anchor.closed());
-        let rank = (0..values.nrows())
-            .filter(|&i| values[i] > flat * largest)
-            .count();
-        let kept = rank.checked_sub(1).map_or(1.0, |i| values[i] / largest);
-        (svd.V().subcols(rank, free.len() - rank).to_owned(), kept)
+    let whole = anchor.jacobian(q);
+    let part = Matrix::from_fn(whole.nrows(), free.len(), |r, c| whole[(r, free[c])]);
+    let Some(svd) = svd(&part) else {
+        return none(0, 0.0);
     };
+    // Errors of the coordinates open poses a little, and hide singular values up to their size.
+    let rank = svd.rank(FLAT.max(10.0 * anchor.closed()));
+    let last = rank.checked_sub(1);
+    let kept = last.map_or(1.0, |i| svd.values[i] / svd.values[0]);
+    let null = svd.null_space(rank);
     let motions = null.ncols();
     let Some(row) = free.iter().position(|&c| c == drive) else {
         return none(motions, kept);

@@ -18,7 +18,7 @@ use crate::geom::vector::{self, across, cross, dot, length, sub};
 use crate::model::coupling::{CoupledFreedom, Coupling};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
-use faer::Mat;
+use ozols_dense::Matrix;
 
 /// Largest residual of a closed pose: radians, and fractions of the mechanism's size.
 pub const CLOSED: f64 = 1e-12;
@@ -213,8 +213,8 @@ impl Pose {
 
     /// J at coordinates `q` from this pose, (6k + c) × f.
     #[must_use]
-    pub fn jacobian(&self, q: &[f64]) -> Mat<f64> {
-        let mut matrix = Mat::zeros(self.rows(), self.columns.len());
+    pub fn jacobian(&self, q: &[f64]) -> Matrix {
+        let mut matrix = Matrix::zeros(self.rows(), self.columns.len());
         for (k, contour) in self.contours.iter().enumerate() {
             let mut at = Motion::IDENTITY;
             for &(c, sign) in contour {
@@ -235,10 +235,10 @@ impl Pose {
 
     /// J at this pose, with six rows more for each path of joints: the twist at its end.
     #[must_use]
-    pub fn jacobian_with(&self, paths: &[Vec<(JointId, bool)>]) -> Mat<f64> {
+    pub fn jacobian_with(&self, paths: &[Vec<(JointId, bool)>]) -> Matrix {
         let f = self.columns.len();
         let (closure, rows) = (self.jacobian(&vec![0.0; f]), self.rows());
-        Mat::from_fn(rows + 6 * paths.len(), f, |r, c| {
+        Matrix::from_fn(rows + 6 * paths.len(), f, |r, c| {
             let Some(r) = r.checked_sub(rows) else {
                 return closure[(r, c)];
             };

@@ -10,7 +10,7 @@ use crate::model::mechanism::{LinkId, Mechanism, Mode, Role, StateId};
 use crate::motion::follow::{Follower, Stop, Why, positions};
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::scaled::{NumericRank, rank_of_values};
-use faer::Mat;
+use ozols_dense::{Matrix, singular_values};
 
 /// Changes of rank are bracketed to this fraction of the stroke, or to the stretch where singular values are below the
 /// tolerance where that is longer.
@@ -91,11 +91,8 @@ pub struct StrokeRequest<'a> {
     pub tolerance: Option<f64>,
 }
 
-fn values(matrix: &Mat<f64>) -> Vec<f64> {
-    if matrix.nrows() == 0 || matrix.ncols() == 0 {
-        return Vec::new();
-    }
-    matrix.singular_values().unwrap_or_default()
+fn values(matrix: &Matrix) -> Vec<f64> {
+    singular_values(matrix).unwrap_or_default()
 }
 
 struct Looker<'a> {
@@ -308,7 +305,7 @@ impl<'a> Looker<'a> {
             .filter(|c| *c != self.request.drive && !self.request.held.contains(c))
             .collect();
         let whole = pose.jacobian_with(&paths);
-        let part = |rows: usize| Mat::from_fn(rows, free.len(), |r, c| whole[(r, free[c])]);
+        let part = |rows: usize| Matrix::from_fn(rows, free.len(), |r, c| whole[(r, free[c])]);
         let rank = |rows| rank_of_values(values(&part(rows)), self.tolerance).rank;
         rank(whole.nrows()) - rank(pose.rows())
     }

@@ -6,7 +6,7 @@ use super::finite::{Finite, How, finite, finite_within, followed};
 use super::measured::Verdicts;
 use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 use super::modular;
-use super::numeric::{Elimination, NumericRank, qr_diagonal};
+use super::numeric::{Elimination, NumericRank};
 use super::scaled::{rank_of_values, scaled};
 use super::snap::snap;
 use super::subgroup::whole_group;
@@ -14,6 +14,7 @@ use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::model::measured::{Measured, looks_measured};
 use crate::model::mechanism::{Mechanism, StateId};
+use ozols_dense::Format;
 
 /// What the geometry is, and which mechanism the verdict is about.
 #[derive(Debug, Clone)]
@@ -99,7 +100,7 @@ pub fn decide(
     let numeric = verdicts.numeric;
     // What rounding and noise leave of a zero says how well poses can close.
     let accuracy = (10.0 * numeric.dropped).clamp(1e-16, tolerance);
-    let second = rank_of_values(qr_diagonal::<f64>(&scaled(&real)), tolerance);
+    let second = rank_of_values(Format::Double.qr_diagonal(&scaled(&real)), tolerance);
     let doubt = if second.rank == numeric.rank {
         String::new()
     } else {

@@ -7,8 +7,7 @@ use super::scaled::{as_it_stands, rank_of_values, scaled};
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
-use faer::traits::ComplexField;
-use faer::{Mat, MatRef};
+use ozols_dense::{Format, singular_values};
 use thiserror::Error;
 
 /// Values below this fraction of the largest count as zero in double precision unless the caller says otherwise.
@@ -77,11 +76,13 @@ impl Elimination {
     /// O(6k · f · min(6k, f)).
     pub fn rank(self, closure: &Closure<f64>, tolerance: f64) -> Result<NumericRank, NumericError> {
         let values = match self {
-            Elimination::Lu32 => pivots::<f32>(&as_it_stands(closure)),
-            Elimination::Lu => pivots::<f64>(&as_it_stands(closure)),
-            Elimination::Qr32 => qr_diagonal::<f32>(&as_it_stands(closure)),
-            Elimination::Qr => qr_diagonal::<f64>(&as_it_stands(closure)),
-            Elimination::Svd => singular_values(&scaled(closure))?,
+            Elimination::Lu32 => Format::Single.pivots(&as_it_stands(closure)),
+            Elimination::Lu => Format::Double.pivots(&as_it_stands(closure)),
+            Elimination::Qr32 => Format::Single.qr_diagonal(&as_it_stands(closure)),
+            Elimination::Qr => Format::Double.qr_diagonal(&as_it_stands(closure)),
+            Elimination::Svd => {
+                singular_values(&scaled(closure)).ok_or(NumericError::NoConvergence)?
+            }
         };
         Ok(rank_of_values(values, tolerance))
     }
@@ -137,78 +138,6 @@ pub fn rank_with_tolerance(
     tolerance: f64,
 ) -> Result<NumericRank, NumericError> {
     Elimination::Svd.rank(closure, tolerance)
-}
-
-fn singular_values(matrix: &Mat<f64>) -> Result<Vec<f64>, NumericError> {
-    if matrix.nrows() == 0 || matrix.ncols() == 0 {
-        return Ok(Vec::new());
-    }
-    let values = matrix
-        .singular_values()
-        .map_err(|_| NumericError::NoConvergence)?;
-    if values.iter().any(|v| !v.is_finite()) {
-        return Err(NumericError::NoConvergence);
-    }
-    Ok(values)
-}
-
-/// The diagonal of U of LU factors with full pivoting.
-fn pivots<T: Format>(matrix: &Mat<f64>) -> Vec<f64> {
-    if matrix.nrows() == 0 || matrix.ncols() == 0 {
-        return Vec::new();
-    }
-    diagonal(rounded::<T>(matrix).full_piv_lu().U())
-}
-
-/// The diagonal of R of QR factors with column pivoting.
-pub(super) fn qr_diagonal<T: Format>(matrix: &Mat<f64>) -> Vec<f64> {
-    if matrix.nrows() == 0 || matrix.ncols() == 0 {
-        return Vec::new();
-    }
-    diagonal(rounded::<T>(matrix).col_piv_qr().R())
-}
-
-/// A floating-point format to eliminate in.
-pub(super) trait Format: ComplexField + Copy {
-    /// The nearest number.
-    fn nearest(x: f64) -> Self;
-    /// As f64.
-    fn wide(self) -> f64;
-}
-
-impl Format for f32 {
-    #[allow(
-        clippy::cast_possible_truncation,
-        reason = "single precision is the point"
-    )]
-    fn nearest(x: f64) -> f32 {
-        x as f32
-    }
-    fn wide(self) -> f64 {
-        f64::from(self)
-    }
-}
-
-impl Format for f64 {
-    fn nearest(x: f64) -> f64 {
-        x
-    }
-    fn wide(self) -> f64 {
-        self
-    }
-}
-
-fn rounded<T: Format>(matrix: &Mat<f64>) -> Mat<T> {
-    Mat::from_fn(matrix.nrows(), matrix.ncols(), |r, c| {
-        T::nearest(matrix[(r, c)])
-    })
-}
-
-/// Absolute values on the diagonal of a triangular factor.
-fn diagonal<T: Format>(factor: MatRef<'_, T>) -> Vec<f64> {
-    (0..factor.nrows().min(factor.ncols()))
-        .map(|i| factor[(i, i)].wide().abs())
-        .collect()
 }
 
 const CUBIC: &str = "O(6k f min(6k, f))";

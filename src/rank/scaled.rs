@@ -2,13 +2,13 @@
 
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
-use faer::Mat;
+use ozols_dense::Matrix;
 
 /// J as it stands: 6k × f, lengths in the file's unit, about the global origin.
 #[must_use]
-pub fn as_it_stands(closure: &Closure<f64>) -> Mat<f64> {
+pub fn as_it_stands(closure: &Closure<f64>) -> Matrix {
     let columns = closure.dense(&Reals);
-    Mat::from_fn(closure.rows(), columns.len(), |r, c| columns[c][r])
+    Matrix::from_fn(closure.rows(), columns.len(), |r, c| columns[c][r])
 }
 
 /// What J is scaled by.
@@ -89,7 +89,7 @@ impl Scaling {
 
 /// J about the middle of the mechanism, lengths over its size, columns of unit length.
 #[must_use]
-pub fn scaled(closure: &Closure<f64>) -> Mat<f64> {
+pub fn scaled(closure: &Closure<f64>) -> Matrix {
     let scaling = Scaling::of(closure);
     let columns: Vec<Vec<f64>> = closure
         .columns
@@ -97,7 +97,7 @@ pub fn scaled(closure: &Closure<f64>) -> Mat<f64> {
         .enumerate()
         .map(|(c, column)| scaling.apply(c, &column.twist))
         .collect();
-    let mut matrix = Mat::from_fn(closure.rows(), columns.len(), |r, c| {
+    let mut matrix = Matrix::from_fn(closure.rows(), columns.len(), |r, c| {
         let contour = closure.contours.get(r / closure.dim);
         match contour.and_then(|k| k.direction(closure.columns[c].joint)) {
             None => 0.0,

@@ -5,7 +5,7 @@
 //! real zeros are found from many starts by damped Newton steps; a combination of the forms that is definite leaves none.
 
 use crate::motion::pose::{FLAT, Pose};
-use faer::{Mat, Side};
+use ozols_dense::{Matrix, singular_values, solve, svd, symmetric_eigen};
 
 /// Step of the differences that the forms are taken from.
 const DIFFERENCE: f64 = 1e-4;
@@ -18,9 +18,9 @@ const UNCLEAR: std::ops::Range<f64> = 1e-9..1e-6;
 /// The flat directions of J at a pose.
 pub(super) struct Flat {
     /// Instantaneous motions, orthonormal columns.
-    pub(super) kernel: Mat<f64>,
+    pub(super) kernel: Matrix,
     /// Self-stresses, orthonormal columns.
-    pub(super) stresses: Mat<f64>,
+    pub(super) stresses: Matrix,
     /// Whether all singular values are clearly zero or clearly not.
     pub(super) clear: bool,
 }
@@ -29,37 +29,26 @@ impl Flat {
     /// With `motions` columns where their number is known.
     pub(super) fn new(pose: &Pose, motions: Option<usize>) -> Flat {
         let (f, rows) = (pose.columns.len(), pose.rows());
-        let none = Flat {
-            kernel: Mat::identity(f, f),
-            stresses: Mat::identity(rows, rows),
-            clear: true,
-        };
-        if rows == 0 || f == 0 {
-            return none;
-        }
-        let Ok(svd) = pose.jacobian(&vec![0.0; f]).svd() else {
+        let Some(svd) = svd(&pose.jacobian(&vec![0.0; f])) else {
             return Flat {
-                kernel: Mat::zeros(f, 0),
+                kernel: Matrix::zeros(f, 0),
+                stresses: Matrix::identity(rows, rows),
                 clear: false,
-                ..none
             };
         };
-        let values = svd.S().column_vector();
-        let largest = if values.nrows() > 0 { values[0] } else { 0.0 };
-        let scale = largest.max(1.0);
+        let values = &svd.values;
+        let scale = values.first().map_or(1.0, |s| s.max(1.0));
         let flat = FLAT.max(10.0 * pose.accuracy());
         let rank = match motions {
             Some(n) => f - n.min(f),
-            None => (0..values.nrows())
-                .filter(|&i| values[i] > flat * scale)
-                .count(),
+            None => values.iter().filter(|&&s| s > flat * scale).count(),
         };
         Flat {
-            kernel: svd.V().subcols(rank, f - rank).to_owned(),
-            stresses: svd.U().subcols(rank, rows - rank).to_owned(),
+            kernel: svd.null_space(rank),
+            stresses: svd.left_null_space(rank),
             clear: motions.is_some()
                 || pose.accuracy() > 0.0
-                || (0..values.nrows()).all(|i| !UNCLEAR.contains(&(values[i] / scale))),
+                || values.iter().all(|s| !UNCLEAR.contains(&(s / scale))),
         }
     }
 }
@@ -72,7 +61,7 @@ pub(super) fn norm(x: &[f64]) -> f64 {
 #[derive(Debug)]
 pub(super) struct Quadrics {
     /// Symmetric matrices, n × n.
-    forms: Vec<Mat<f64>>,
+    forms: Vec<Matrix>,
     motions: usize,
 }
 
@@ -87,12 +76,13 @@ impl Quadrics {
                 .collect();
             let at = |h: f64| {
                 let q: Vec<f64> = v.iter().map(|v| h * v).collect();
-                let speeds = Mat::from_fn(f, 1, |r, _| v[r]);
-                pose.jacobian(&q) * speeds
+                pose.jacobian(&q).times(&Matrix::column(&v))
             };
-            let difference = at(DIFFERENCE) - at(-DIFFERENCE);
-            let work = flat.stresses.transpose() * difference;
-            (0..s).map(|i| work[(i, 0)] / (4.0 * DIFFERENCE)).collect()
+            let mut difference = at(DIFFERENCE);
+            difference.add_multiple(-1.0, &at(-DIFFERENCE));
+            let work = flat.stresses.transpose_times(&difference);
+            let work = work.col(0).iter();
+            work.map(|w| w / (4.0 * DIFFERENCE)).collect()
         };
         let unit = |pairs: &[usize]| {
             let mut x = vec![0.0; n];
@@ -113,7 +103,7 @@ impl Quadrics {
             })
             .collect();
         // One row a form, one column a pair; singular values tell which combinations matter.
-        let table = Mat::from_fn(s, pairs.len(), |k, p| {
+        let table = Matrix::from_fn(s, pairs.len(), |k, p| {
             let (i, j) = pairs[p];
             if i == j {
                 single[i][k]
@@ -122,15 +112,11 @@ impl Quadrics {
             }
         });
         let mut forms = Vec::new();
-        if s > 0
-            && n > 0
-            && let Ok(svd) = table.svd()
-        {
-            let values = svd.S().column_vector();
+        if let Some(svd) = svd(&table) {
             let floor = ZERO.max(10.0 * pose.accuracy());
-            for k in (0..values.nrows()).filter(|&k| values[k] > floor) {
-                let row = svd.V().col(k);
-                let mut form = Mat::zeros(n, n);
+            for k in (0..svd.values.len()).filter(|&k| svd.values[k] > floor) {
+                let row = svd.v.col(k);
+                let mut form = Matrix::zeros(n, n);
                 for (p, &(i, j)) in pairs.iter().enumerate() {
                     form[(i, j)] = row[p];
                     form[(j, i)] = row[p];
@@ -146,14 +132,14 @@ impl Quadrics {
         self.forms.is_empty()
     }
 
-    fn times(form: &Mat<f64>, x: &[f64]) -> Vec<f64> {
+    fn times(form: &Matrix, x: &[f64]) -> Vec<f64> {
         (0..x.len())
             .map(|i| x.iter().enumerate().map(|(j, x)| form[(i, j)] * x).sum())
             .collect()
     }
 
     fn values(&self, x: &[f64]) -> Vec<f64> {
-        let value = |q: &Mat<f64>| Self::times(q, x).iter().zip(x).map(|(a, b)| a * b).sum();
+        let value = |q: &Matrix| Self::times(q, x).iter().zip(x).map(|(a, b)| a * b).sum();
         self.forms.iter().map(value).collect()
     }
 
@@ -169,21 +155,17 @@ impl Quadrics {
             let gradients: Vec<Vec<f64>> = self.forms.iter().map(|q| Self::times(q, &x)).collect();
             // (GᵀG + xxᵀ + λ) step = Gᵀ values, G = 2 gradients.
             let damping = gap.min(1e-2) * 1e-2 + 1e-14;
-            let normal = Mat::from_fn(n, n, |i, j| {
+            let normal = Matrix::from_fn(n, n, |i, j| {
                 let sum: f64 = gradients.iter().map(|g| 4.0 * g[i] * g[j]).sum();
                 sum + x[i] * x[j] + if i == j { damping } else { 0.0 }
             });
-            let right = Mat::from_fn(n, 1, |i, _| {
-                gradients
-                    .iter()
-                    .zip(&values)
-                    .map(|(g, v)| 2.0 * g[i] * v)
-                    .sum::<f64>()
-            });
-            use faer::linalg::solvers::Solve;
-            let step = normal.partial_piv_lu().solve(&right);
-            for (i, x) in x.iter_mut().enumerate() {
-                *x -= step[(i, 0)];
+            let weighted = |i| {
+                let pairs = gradients.iter().zip(&values);
+                pairs.map(|(g, v)| 2.0 * g[i] * v).sum::<f64>()
+            };
+            let right: Vec<f64> = (0..n).map(weighted).collect();
+            for (x, step) in x.iter_mut().zip(solve(&normal, &right)) {
+                *x -= step;
             }
             let size = norm(&x);
             if !size.is_finite() || size < 1e-9 {
@@ -201,10 +183,9 @@ impl Quadrics {
             return n;
         }
         let gradients: Vec<Vec<f64>> = self.forms.iter().map(|q| Self::times(q, x)).collect();
-        let matrix = Mat::from_fn(gradients.len(), n, |i, j| gradients[i][j]);
-        let Ok(svd) = matrix.svd() else { return n };
-        let values = svd.S().column_vector();
-        n - (0..values.nrows()).filter(|&i| values[i] > 1e-3).count()
+        let matrix = Matrix::from_fn(gradients.len(), n, |i, j| gradients[i][j]);
+        let values = singular_values(&matrix).unwrap_or_default();
+        n - values.iter().filter(|&&s| s > 1e-3).count()
     }
 
     /// The largest dimension of the cone at the zeros found.
@@ -216,29 +197,27 @@ impl Quadrics {
     /// Whether some combination of the forms is definite, so that they have no common zero.
     pub(super) fn is_definite(&self) -> bool {
         let n = self.motions;
-        let mut sum: Mat<f64> = Mat::zeros(n, n);
+        let mut sum: Matrix = Matrix::zeros(n, n);
         for q in &self.forms {
             let trace: f64 = (0..n).map(|i| q[(i, i)]).sum();
-            sum += q * faer::Scale(trace);
+            sum.add_multiple(trace, q);
         }
         // Towards larger least eigenvalues: add the forms by their values at the least eigenvector.
         for _ in 0..200 {
-            let Ok(eigen) = sum.self_adjoint_eigen(Side::Lower) else {
+            let Some((values, vectors)) = symmetric_eigen(&sum) else {
                 return false;
             };
-            let values = eigen.S().column_vector();
             let largest = values[0].abs().max(values[n - 1].abs());
             if values[0] > 1e-3 * largest {
                 return true;
             }
-            let x: Vec<f64> = (0..n).map(|i| eigen.U()[(i, 0)]).collect();
-            let weights = self.values(&x);
+            let weights = self.values(vectors.col(0));
             let size = norm(&weights);
             if size < 1e-9 {
                 return false;
             }
             for (q, w) in self.forms.iter().zip(weights) {
-                sum += q * faer::Scale(w / size * largest.max(1e-3) * 0.2);
+                sum.add_multiple(w / size * largest.max(1e-3) * 0.2, q);
             }
         }
         false
@@ -286,8 +265,8 @@ pub(super) fn choice(quadrics: &Quadrics, zeros: &[Vec<f64>], most: usize) -> Ve
 }
 
 /// Motions of few joints: a basis of the kernel in reduced form, as weights of its columns.
-pub(super) fn sparse(kernel: &Mat<f64>) -> Vec<Vec<f64>> {
-    let (f, n) = kernel.shape();
+pub(super) fn sparse(kernel: &Matrix) -> Vec<Vec<f64>> {
+    let (f, n) = (kernel.nrows(), kernel.ncols());
     let mut rows: Vec<Vec<f64>> = (0..n)
         .map(|c| (0..f).map(|r| kernel[(r, c)]).collect())
         .collect();

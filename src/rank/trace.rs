@@ -13,8 +13,7 @@ use super::tangent_cone::{self, Flat, Quadrics, norm};
 use crate::motion::pose::Pose;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
-use faer::Mat;
-use faer::linalg::solvers::SolveLstsq;
+use ozols_dense::{Matrix, least_squares, svd};
 
 /// Lengths of trial steps at a pose that may be regular: radians, and fractions of the mechanism's size.
 const STEPS: [f64; 3] = [0.2, 0.08, 0.03];
@@ -69,12 +68,12 @@ pub fn mobility(pose: &Pose, motions: usize, shaky: bool, budget: usize) -> Opti
 
 /// Null space of J at a pose: `f - rank` orthonormal columns.
 #[must_use]
-pub fn motions(pose: &Pose) -> Mat<f64> {
+pub fn motions(pose: &Pose) -> Matrix {
     Flat::new(pose, None).kernel
 }
 
 /// A combination of columns.
-fn along(span: &Mat<f64>, weights: &[f64]) -> Vec<f64> {
+fn along(span: &Matrix, weights: &[f64]) -> Vec<f64> {
     let row = |r: usize| {
         weights
             .iter()
@@ -159,7 +158,7 @@ impl Search {
             let jacobian = pose.jacobian(&q);
             let damping = gap.clamp(1e-11_f64.max(1e3 * pose.accuracy()).min(1e-2), 1e-2);
             let all = rows + more.len();
-            let stacked = Mat::from_fn(all + f, f, |r, c| {
+            let stacked = Matrix::from_fn(all + f, f, |r, c| {
                 if r < rows {
                     jacobian[(r, c)]
                 } else if r < all {
@@ -170,18 +169,15 @@ impl Search {
                     0.0
                 }
             });
-            let right = Mat::from_fn(all + f, 1, |r, _| gaps.get(r).copied().unwrap_or(0.0));
-            let step = stacked.qr().solve_lstsq(&right);
-            let length = (0..f)
-                .map(|i| step[(i, 0)] * step[(i, 0)])
-                .sum::<f64>()
-                .sqrt();
+            gaps.resize(all + f, 0.0);
+            let step = least_squares(&stacked, &gaps);
+            let length = norm(&step);
             if !length.is_finite() || length < 1e-16 {
                 break;
             }
             let shorten = (0.3 / length).min(1.0);
-            for (i, x) in q.iter_mut().enumerate() {
-                *x -= shorten * step[(i, 0)];
+            for (x, s) in q.iter_mut().zip(&step) {
+                *x -= shorten * s;
             }
         }
         Some(best)
@@ -189,7 +185,7 @@ impl Search {
 
     /// Whether motions in random directions of some orthonormal columns extend to a distance: `None` where that is not
     /// clear.
-    fn smooth(&mut self, pose: &Pose, span: &Mat<f64>, scale: f64) -> Option<Option<bool>> {
+    fn smooth(&mut self, pose: &Pose, span: &Matrix, scale: f64) -> Option<Option<bool>> {
         let n = span.ncols();
         let mut open = None;
         for step in STEPS.map(|s| s * scale) {
@@ -374,15 +370,12 @@ impl Search {
         }
         // Nothing changes along the motion: J is short of rank all along it, and the displacements tell its dimension.
         let f = pose.columns.len();
-        let part = Mat::from_fn(f, same.len(), |r, c| {
+        let part = Matrix::from_fn(f, same.len(), |r, c| {
             same[c].near[r] / norm(&same[c].near).max(1e-300)
         });
-        if let Ok(svd) = part.svd() {
-            let values = svd.S().column_vector();
-            let d = (0..values.nrows())
-                .filter(|&i| values[i] > SPAN * values[0])
-                .count();
-            let reached = svd.U().subcols(0, d).to_owned();
+        if let Some(svd) = svd(&part) {
+            let d = svd.rank(SPAN);
+            let reached = svd.u.cols(0..d);
             if d < n && d > best && self.smooth(pose, &reached, scale) == Some(Some(true)) {
                 return d;
             }

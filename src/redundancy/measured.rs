@@ -6,7 +6,7 @@ use crate::geom::scalars::Reals;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::rank::scaled::{Scaling, scaled};
 use crate::redundancy::share::{ContourShare, CouplingShare};
-use faer::Mat;
+use ozols_dense::{Matrix, singular_values, svd};
 
 /// Ranks and motions of one J at one relative tolerance.
 #[derive(Debug)]
@@ -14,18 +14,11 @@ pub struct Measured<'a> {
     mechanism: &'a Mechanism,
     closure: Closure<f64>,
     /// The scaled J.
-    matrix: Mat<f64>,
+    matrix: Matrix,
     /// Singular values at or below this count as zero.
     floor: f64,
     /// Motions: columns of an orthonormal basis of the null space.
-    kernel: Mat<f64>,
-}
-
-fn values(matrix: &Mat<f64>) -> Vec<f64> {
-    if matrix.nrows() == 0 || matrix.ncols() == 0 {
-        return Vec::new();
-    }
-    matrix.singular_values().unwrap_or_default()
+    kernel: Matrix,
 }
 
 impl<'a> Measured<'a> {
@@ -44,15 +37,10 @@ impl<'a> Measured<'a> {
         let closure = Closure::new(&Reals, mechanism, state)?;
         let matrix = scaled(&closure);
         let f = closure.columns.len();
-        let (mut floor, mut kernel) = (0.0, Mat::identity(f, f));
-        if matrix.nrows() > 0
-            && f > 0
-            && let Ok(svd) = matrix.svd()
-        {
-            let s = svd.S().column_vector();
-            floor = tolerance * s[0];
-            let rank = (0..s.nrows()).filter(|&i| s[i] > floor).count();
-            kernel = svd.V().subcols(rank, f - rank).to_owned();
+        let (mut floor, mut kernel) = (0.0, Matrix::identity(f, f));
+        if let Some(svd) = svd(&matrix) {
+            floor = tolerance * svd.values.first().copied().unwrap_or(0.0);
+            kernel = svd.null_space(svd.rank(tolerance));
         }
         Ok(Measured {
             mechanism,
@@ -69,8 +57,12 @@ impl<'a> Measured<'a> {
         self.kernel.ncols()
     }
 
-    fn rank_of(&self, matrix: &Mat<f64>) -> usize {
-        values(matrix).iter().filter(|&&v| v > self.floor).count()
+    fn rank_of(&self, matrix: &Matrix) -> usize {
+        singular_values(matrix)
+            .unwrap_or_default()
+            .iter()
+            .filter(|&&v| v > self.floor)
+            .count()
     }
 
     /// Dimension of the joint motion of some links.
@@ -88,10 +80,10 @@ impl<'a> Measured<'a> {
             })
             .collect();
         let dim = self.closure.dim;
-        let motion = Mat::from_fn(dim * links.len(), self.closure.columns.len(), |r, c| {
+        let motion = Matrix::from_fn(dim * links.len(), self.closure.columns.len(), |r, c| {
             twists[r / dim][c][r % dim]
         });
-        self.rank_of(&(motion * &self.kernel))
+        self.rank_of(&motion.times(&self.kernel))
     }
 
     /// Dimension of the part of the motions that some joints do.
@@ -100,7 +92,7 @@ impl<'a> Measured<'a> {
         let columns: Vec<usize> = (0..self.closure.columns.len())
             .filter(|&c| joints.contains(&self.closure.columns[c].joint))
             .collect();
-        let part = Mat::from_fn(columns.len(), self.kernel.ncols(), |r, c| {
+        let part = Matrix::from_fn(columns.len(), self.kernel.ncols(), |r, c| {
             self.kernel[(columns[r], c)]
         });
         self.rank_of(&part)
@@ -113,7 +105,7 @@ impl<'a> Measured<'a> {
         let rows: Vec<usize> = of_contours
             .chain(couplings.iter().map(|q| first + q))
             .collect();
-        let part = Mat::from_fn(rows.len(), self.matrix.ncols(), |r, c| {
+        let part = Matrix::from_fn(rows.len(), self.matrix.ncols(), |r, c| {
             self.matrix[(rows[r], c)]
         });
         self.rank_of(&part)

@@ -5,8 +5,7 @@ use crate::geom::vector::{Vector, add, cross, dot, length, scale, sub};
 use crate::model::joint_type::Freedom;
 use crate::robots::kinematics::{Tree, displacement, places, world_axes};
 use crate::robots::parts::{Part, Robot};
-use faer::linalg::solvers::Solve;
-use faer::{Mat, Side};
+use ozols_dense::{Matrix, solve_positive};
 
 /// A loop that is open by less than this fraction of the robot's size counts as closed: coordinates are rounded.
 pub(crate) const CLOSED: f64 = 1e-6;
@@ -195,20 +194,17 @@ fn descend(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
             break;
         }
         let (jacobian, residual) = linearise(robot, tree, size, &offsets, unknowns);
-        let mut normal = jacobian.transpose() * &jacobian;
-        let right = jacobian.transpose() * &residual;
+        let mut normal = jacobian.transpose_times(&jacobian);
+        let right = jacobian.transpose_times(&residual);
         for i in 0..unknowns {
             normal[(i, i)] += damping;
         }
-        let Ok(factor) = normal.llt(Side::Lower) else {
+        let Some(change) = solve_positive(&normal, right.col(0)) else {
             damping *= 10.0;
             continue;
         };
-        let change = factor.solve(&right);
         let before: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
-        let longest = (0..unknowns)
-            .map(|i| change[(i, 0)].abs())
-            .fold(0.0, f64::max);
+        let longest = change.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         let shrink = if longest > LONGEST {
             LONGEST / longest
         } else {
@@ -216,7 +212,7 @@ fn descend(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
         };
         for (j, &first) in robot.joints.iter_mut().zip(&offsets) {
             for (i, (v, f)) in j.values.iter_mut().zip(j.joint_type.freedoms()).enumerate() {
-                *v += shrink * change[(first + i, 0)] * if f.slides() { size } else { 1.0 };
+                *v += shrink * change[first + i] * if f.slides() { size } else { 1.0 };
             }
         }
         let after = self::cost(robot, tree, size);
@@ -252,11 +248,11 @@ fn linearise(
     size: f64,
     offsets: &[usize],
     unknowns: usize,
-) -> (Mat<f64>, Mat<f64>) {
+) -> (Matrix, Matrix) {
     let places = places(robot, tree);
     let rows = 6 * tree.loops.len();
-    let mut jacobian = Mat::<f64>::zeros(rows, unknowns);
-    let mut residual = Mat::<f64>::zeros(rows, 1);
+    let mut jacobian = Matrix::zeros(rows, unknowns);
+    let mut residual = Matrix::zeros(rows, 1);
     for (n, &j) in tree.loops.iter().enumerate() {
         let (shift, turn) = mismatch(robot, &places, j);
         let turning = free_turns(robot, j) != 3;

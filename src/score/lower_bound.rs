@@ -10,7 +10,7 @@ use crate::geom::vector::{dot, length};
 use crate::model::ranking::{ClearanceSum, Ranking, Term};
 use crate::score::evaluate::Evaluator;
 use crate::score::table::{Place, Table};
-use faer::Mat;
+use ozols_dense::{Matrix, svd, thin_svd};
 
 /// Steps of each problem.
 const STEPS: usize = 60;
@@ -147,7 +147,7 @@ fn common(table: &Table) -> Option<Common> {
     if rows.is_empty() || unknowns == 0 {
         return None;
     }
-    let mut matrix = Mat::zeros(rows.len(), unknowns);
+    let mut matrix = Matrix::zeros(rows.len(), unknowns);
     for (r, (place, row)) in rows.iter().enumerate() {
         for &(k, sign) in &place.contours {
             for (b, x) in row[..dim].iter().enumerate() {
@@ -155,27 +155,15 @@ fn common(table: &Table) -> Option<Common> {
             }
         }
     }
-    let right = Mat::from_fn(rows.len(), table.cases, |r, c| rows[r].1[dim + c]);
-    let svd = matrix.svd().ok()?;
-    let values = svd.S().column_vector();
-    let rank = (0..values.nrows())
-        .filter(|&i| values[i] > NONE * values[0])
-        .count();
-    let mut along = svd.U().transpose() * &right;
-    for i in 0..rank {
-        for c in 0..table.cases {
-            along[(i, c)] /= values[i];
-        }
-    }
-    let v = svd.V();
-    let x = v.subcols(0, rank) * along.subrows(0, rank);
+    let right = Matrix::from_fn(rows.len(), table.cases, |r, c| rows[r].1[dim + c]);
+    let svd = svd(&matrix)?;
+    let rank = svd.rank(NONE);
+    let x = svd.least_norm(rank, &right);
     let solution = (0..unknowns)
         .flat_map(|u| (0..table.cases).map(move |c| (u, c)))
         .map(|(u, c)| x[(u, c)])
         .collect();
-    let open = (rank..unknowns)
-        .map(|j| (0..unknowns).map(|u| v[(u, j)]).collect())
-        .collect();
+    let open = (rank..unknowns).map(|j| svd.v.col(j).to_vec()).collect();
     Some(Common { solution, open })
 }
 
@@ -236,23 +224,14 @@ fn weighted_least(parts: &[Part], weights: &[f64]) -> Option<Vec<[f64; 3]>> {
         return Some(out);
     }
     let root = |r: usize| weights[r / 3].sqrt();
-    let matrix = Mat::from_fn(3 * parts.len(), open, |r, c| {
+    let matrix = Matrix::from_fn(3 * parts.len(), open, |r, c| {
         root(r) * parts[r / 3].open[c][r % 3]
     });
-    let right = Mat::from_fn(3 * parts.len(), 1, |r, _| {
+    let right = Matrix::from_fn(3 * parts.len(), 1, |r, _| {
         -root(r) * parts[r / 3].fixed[r % 3]
     });
-    let svd = matrix.thin_svd().ok()?;
-    let values = svd.S().column_vector();
-    let mut along = svd.U().transpose() * &right;
-    for i in 0..values.nrows() {
-        along[(i, 0)] = if values[i] > NONE * values[0] {
-            along[(i, 0)] / values[i]
-        } else {
-            0.0
-        };
-    }
-    let y = svd.V() * along;
+    let svd = thin_svd(&matrix)?;
+    let y = svd.least_norm(svd.rank(NONE), &right);
     for (out, part) in out.iter_mut().zip(parts) {
         for (c, direction) in part.open.iter().enumerate() {
             for i in 0..3 {

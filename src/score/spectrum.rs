@@ -159,7 +159,7 @@ fn logarithmic(d: &[f64], e: &[f64], x: [f64; 2]) -> ([f64; 2], [f64; 2]) {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use faer::Mat;
+    use ozols_dense::{Matrix, singular_values};
 
     /// Numbers from a small generator.
     pub(in crate::score) fn numbers(seed: u64, n: usize) -> Vec<f64> {
@@ -179,9 +179,8 @@ pub(super) mod tests {
                 gram[i * m + j] = (0..n).map(|r| a[r * m + i] * a[r * m + j]).sum();
             }
         }
-        let values = Mat::from_fn(n, m, |r, c| a[r * m + c])
-            .singular_values()
-            .unwrap_or_default();
+        let values = Matrix::from_fn(n, m, |r, c| a[r * m + c]);
+        let values = singular_values(&values).unwrap_or_default();
         let found = Spectrum::default().conditioning(&mut gram, m);
         (found, values[m - 1] / values[0])
     }

@@ -20,7 +20,7 @@ use crate::search::best::Assignment;
 use crate::search::conditions::Search;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
-use faer::Mat;
+use ozols_dense::{Matrix, singular_values};
 
 /// The largest coordinate of the first steps: radians, and fractions of the mechanism's size.
 const STEP: f64 = 0.2;
@@ -211,10 +211,6 @@ impl Search {
 }
 
 /// Rank by singular values.
-fn rank(matrix: &Mat<f64>) -> Option<usize> {
-    if matrix.nrows() == 0 || matrix.ncols() == 0 {
-        return Some(0);
-    }
-    let values = matrix.singular_values().ok()?;
-    Some(rank_of_values(values, FLAT).rank)
+fn rank(matrix: &Matrix) -> Option<usize> {
+    Some(rank_of_values(singular_values(matrix)?, FLAT).rank)
 }

@@ -1,30 +1,24 @@
 //! Small dense systems of linear equations in double precision.
 
-use faer::Mat;
-use faer::linalg::solvers::Solve;
+use ozols_dense::{Matrix, determinant, singular_values, solve};
 
 /// A square system, by rows.
 #[derive(Debug, Clone)]
 pub(crate) struct System {
-    matrix: Mat<f64>,
+    matrix: Matrix,
 }
 
 impl System {
     /// Takes the rows of a square matrix.
     pub(crate) fn new(rows: &[Vec<f64>]) -> System {
         System {
-            matrix: Mat::from_fn(rows.len(), rows.len(), |r, c| rows[r][c]),
+            matrix: Matrix::from_fn(rows.len(), rows.len(), |r, c| rows[r][c]),
         }
     }
 
     /// The solution by LU with partial pivoting; `None` where it is not finite.
     pub(crate) fn solve(&self, right: &[f64]) -> Option<Vec<f64>> {
-        if right.is_empty() {
-            return Some(Vec::new());
-        }
-        let b = Mat::from_fn(right.len(), 1, |r, _| right[r]);
-        let x = self.matrix.partial_piv_lu().solve(&b);
-        let x: Vec<f64> = (0..right.len()).map(|r| x[(r, 0)]).collect();
+        let x = solve(&self.matrix, right);
         x.iter().all(|v| v.is_finite()).then_some(x)
     }
 
@@ -43,7 +37,7 @@ impl System {
 
     /// Whether the determinant is positive.
     pub(crate) fn is_positive(&self) -> bool {
-        self.matrix.nrows() == 0 || self.matrix.determinant() > 0.0
+        determinant(&self.matrix) > 0.0
     }
 
     /// Ratio of the greatest and smallest singular values; infinite for singular matrices.
@@ -51,7 +45,7 @@ impl System {
         if self.matrix.nrows() == 0 {
             return 1.0;
         }
-        let Ok(values) = self.matrix.singular_values() else {
+        let Some(values) = singular_values(&self.matrix) else {
             return f64::INFINITY;
         };
         let greatest = values.iter().copied().fold(0.0, f64::max);

@@ -4,7 +4,7 @@ use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::motion::follow::slides;
 use crate::motion::pose::Pose;
-use faer::Mat;
+use ozols_dense::svd;
 use thiserror::Error;
 
 /// Singular values below this fraction of the largest count as zero.
@@ -73,21 +73,10 @@ pub fn rates(
     };
     let at = only(drive)?;
     let jacobian = pose.jacobian(&vec![0.0; f]);
-    // Padded to a square, so that the decomposition has a vector for every column.
-    let matrix = Mat::from_fn(pose.rows().max(f), f, |r, c| {
-        if r < pose.rows() {
-            jacobian[(r, c)]
-        } else {
-            0.0
-        }
-    });
-    let svd = matrix.svd().map_err(|_| TransmissionError::Numeric)?;
-    let (values, v) = (svd.S().column_vector(), svd.V());
-    let largest = values.iter().copied().fold(0.0, f64::max);
-    let free: Vec<usize> = (0..f)
-        .filter(|&i| values[i] <= TOLERANCE * largest)
-        .collect();
-    let drive_row: Vec<f64> = free.iter().map(|&i| v[(at, i)]).collect();
+    let svd = svd(&jacobian).ok_or(TransmissionError::Numeric)?;
+    let free = svd.null_space(svd.rank(TOLERANCE));
+    let speeds = |c: usize| -> Vec<f64> { (0..free.ncols()).map(|i| free[(c, i)]).collect() };
+    let drive_row = speeds(at);
     let size: f64 = drive_row.iter().map(|x| x * x).sum();
     if size.sqrt() <= TOLERANCE {
         return Err(TransmissionError::Stuck(id(drive)));
@@ -100,7 +89,7 @@ pub fn rates(
     };
     let rates = joints.iter().map(|&j| {
         let c = only(j)?;
-        let row: Vec<f64> = free.iter().map(|&i| v[(c, i)]).collect();
+        let row = speeds(c);
         let along: f64 = row.iter().zip(&drive_row).map(|(a, b)| a * b).sum::<f64>() / size;
         let rest: f64 = row
             .iter()

@@ -3,7 +3,6 @@
 
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
-use faer::Mat;
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
@@ -14,6 +13,7 @@ use ozols::rank::field::field_of;
 use ozols::rank::finite::{How, finite, followed};
 use ozols::rank::{generic, modular, registry, trace};
 use ozols::redundancy::analysis::{Method, analyse};
+use ozols_dense::Matrix;
 use proptest::prelude::*;
 
 fn built_in(name: &str) -> Mechanism {
@@ -224,7 +224,7 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
         let pose = Pose::of_file(&built_in(name), StateId::FREE).unwrap();
         let f = pose.columns.len();
         let zero = vec![0.0; f];
-        let jacobian: Mat<f64> = pose.jacobian(&zero);
+        let jacobian: Matrix = pose.jacobian(&zero);
         for c in 0..f {
             let h = 1e-6;
             let at = |x: f64| {

@@ -42,7 +42,7 @@ mod with_png {
         let m = mechanism_from_str(name, text).unwrap();
         let subject = Subject {
             mechanism: &m,
-            state: ozols::model::StateId(0),
+            state: ozols::model::mechanism::StateId::FREE,
             analysis: None,
             marks: None,
         };

@@ -19,6 +19,7 @@ use crate::rank::field::field_of;
 use crate::rank::method::{Answer, NoAnswer};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::{modular, registry, scaled};
+use ozols_dense::singular_values;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -138,7 +139,7 @@ fn truth(m: &Mechanism) -> (Truth, usize) {
 fn smallest(m: &Mechanism, rank: usize) -> f64 {
     let values = Closure::new(&Reals, m, StateId::FREE)
         .ok()
-        .and_then(|c| scaled::scaled(&c).singular_values().ok());
+        .and_then(|c| singular_values(&scaled::scaled(&c)));
     let mut values = values.unwrap_or_default();
     values.sort_by(|a, b| b.total_cmp(a));
     match (

@@ -4,7 +4,7 @@ use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
 use crate::statics::reactions::geometry::{Geometry, TOLERANCE};
 use crate::statics::reactions::unsolved::Unsolved;
-use faer::Mat;
+use ozols_dense::{Matrix, svd};
 
 /// A driven joint and the freedom its drive moves.
 pub type Driven = (JointId, Freedom);
@@ -75,7 +75,7 @@ fn working_motions(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Vec<f64>>, 
     let n = geometry.columns.len();
     let rows: Vec<Vec<f64>> = geometry.columns.iter().map(|c| geometry.row(c)).collect();
     let height = rows.first().map_or(0, Vec::len);
-    let jacobian = Mat::from_fn(height.max(1), n, |r, c| {
+    let jacobian = Matrix::from_fn(height.max(1), n, |r, c| {
         rows[c].get(r).copied().unwrap_or(0.0)
     });
     let null = null_space(&jacobian)?;
@@ -90,20 +90,18 @@ fn working_motions(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Vec<f64>>, 
     if null.is_empty() || outputs.is_empty() {
         return Ok(null);
     }
-    let motion = Mat::from_fn(6 * outputs.len(), null.len(), |r, c| {
+    let motion = Matrix::from_fn(6 * outputs.len(), null.len(), |r, c| {
         twists[c][outputs[r / 6]][r % 6]
     });
-    let svd = motion.svd().map_err(|_| Unsolved::NoConvergence)?;
-    let values = svd.S().column_vector();
-    let greatest = if values.nrows() > 0 { values[0] } else { 0.0 };
-    let moving = (0..values.nrows()).filter(|&i| values[i] > 1e-9 * greatest && values[i] > 1e-9);
-    Ok(moving
+    let svd = svd(&motion).ok_or(Unsolved::NoConvergence)?;
+    let moving = svd.values.iter().filter(|&&s| s > 1e-9).count();
+    Ok((0..moving.min(svd.rank(1e-9)))
         .map(|i| {
             (0..n)
                 .map(|c| {
                     null.iter()
                         .enumerate()
-                        .map(|(k, v)| v[c] * svd.V()[(k, i)])
+                        .map(|(k, v)| v[c] * svd.v[(k, i)])
                         .sum()
                 })
                 .collect()
@@ -112,17 +110,8 @@ fn working_motions(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Vec<f64>>, 
 }
 
 /// An orthonormal basis of the null space.
-fn null_space(a: &Mat<f64>) -> Result<Vec<Vec<f64>>, Unsolved> {
-    if a.ncols() == 0 {
-        return Ok(Vec::new());
-    }
-    let svd = a.svd().map_err(|_| Unsolved::NoConvergence)?;
-    let values = svd.S().column_vector();
-    let greatest = if values.nrows() > 0 { values[0] } else { 0.0 };
-    let rank = (0..values.nrows())
-        .filter(|&i| values[i] > TOLERANCE * greatest)
-        .count();
-    Ok((rank..a.ncols())
-        .map(|i| (0..a.ncols()).map(|c| svd.V()[(c, i)]).collect())
-        .collect())
+fn null_space(a: &Matrix) -> Result<Vec<Vec<f64>>, Unsolved> {
+    let svd = svd(a).ok_or(Unsolved::NoConvergence)?;
+    let null = svd.null_space(svd.rank(TOLERANCE));
+    Ok((0..null.ncols()).map(|i| null.col(i).to_vec()).collect())
 }

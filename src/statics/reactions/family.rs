@@ -3,8 +3,7 @@
 use crate::model::loads::{Loads, Stiffness};
 use crate::model::mechanism::Mechanism;
 use crate::statics::reactions::geometry::{Geometry, Six, about};
-use faer::Mat;
-use faer::linalg::solvers::SolveLstsq;
+use ozols_dense::{Matrix, least_squares_pivoted};
 
 /// Adds self-stresses so that Σ (weight · (w at the joint's point) - aim)² becomes least; weights and aims by joint of the
 /// state, six each.
@@ -24,12 +23,13 @@ fn fit(
         weights[n][i] * about(&w[j], geometry.points[j])[i]
     };
     let rows = 6 * geometry.joints.len();
-    let a = Mat::from_fn(rows, stresses.len(), |r, c| at(&stresses[c], r));
-    let b = Mat::from_fn(rows, 1, |r, _| aims[r / 6][r % 6] - at(wrenches, r));
-    let x = a.col_piv_qr().solve_lstsq(&b);
-    for (i, stress) in stresses.iter().enumerate() {
+    let a = Matrix::from_fn(rows, stresses.len(), |r, c| at(&stresses[c], r));
+    let b: Vec<f64> = (0..rows)
+        .map(|r| aims[r / 6][r % 6] - at(wrenches, r))
+        .collect();
+    for (x, stress) in least_squares_pivoted(&a, &b).iter().zip(stresses) {
         for (w, s) in wrenches.iter_mut().flatten().zip(stress.iter().flatten()) {
-            *w += x[(i, 0)] * s;
+            *w += x * s;
         }
     }
 }

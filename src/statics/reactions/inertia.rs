@@ -13,7 +13,7 @@ use crate::motion::pose::Pose;
 use crate::statics::reactions::drives::Driven;
 use crate::statics::reactions::geometry::{Column, Geometry, Six, TOLERANCE, power, wrench};
 use crate::statics::reactions::unsolved::Unsolved;
-use faer::Mat;
+use ozols_dense::{Matrix, svd};
 
 /// Contours may stay open by this fraction of the speeds (or rates) in them.
 const CLOSES: f64 = 1e-7;
@@ -61,21 +61,12 @@ fn walk(geometry: &Geometry, joint: JointId, forward: bool) -> Vec<(usize, f64)>
 }
 
 /// The least x with `matrix` x = `right`; `None` where there is none.
-fn least(matrix: &Mat<f64>, right: &[f64], scale: f64) -> Result<Option<Vec<f64>>, Unsolved> {
-    let (rows, columns) = matrix.shape();
-    let mut x = vec![0.0; columns];
-    if rows > 0 && columns > 0 {
-        let svd = matrix.svd().map_err(|_| Unsolved::NoConvergence)?;
-        let s = svd.S().column_vector();
-        for i in (0..s.nrows()).filter(|&i| s[i] > TOLERANCE * s[0]) {
-            let share: f64 = (0..rows).map(|r| svd.U()[(r, i)] * right[r]).sum();
-            for (c, x) in x.iter_mut().enumerate() {
-                *x += share / s[i] * svd.V()[(c, i)];
-            }
-        }
-    }
-    let left = (0..rows).map(|r| {
-        let sum: f64 = (0..columns).map(|c| matrix[(r, c)] * x[c]).sum();
+fn least(matrix: &Matrix, right: &[f64], scale: f64) -> Result<Option<Vec<f64>>, Unsolved> {
+    let svd = svd(matrix).ok_or(Unsolved::NoConvergence)?;
+    let x = svd.least_norm(svd.rank(TOLERANCE), &Matrix::column(right));
+    let x = x.col(0).to_vec();
+    let left = (0..matrix.nrows()).map(|r| {
+        let sum: f64 = (0..matrix.ncols()).map(|c| matrix[(r, c)] * x[c]).sum();
         (sum - right[r]).abs()
     });
     let size = x.iter().fold(scale, |a, v| a.max(v.abs()));
@@ -114,7 +105,7 @@ pub fn motion(
         .collect();
     let rows: Vec<Vec<f64>> = geometry.columns.iter().map(|c| geometry.row(c)).collect();
     let height = geometry.basis.len() * geometry.contours.len();
-    let part = Mat::from_fn(height, free.len(), |r, c| rows[free[c]][r]);
+    let part = Matrix::from_fn(height, free.len(), |r, c| rows[free[c]][r]);
     let stuck = || Unsolved::Stuck;
     let mut speed: Vec<f64> = geometry.columns.iter().map(given).collect();
     let fastest = speed.iter().fold(0.0, |a: f64, s| a.max(s.abs()));

@@ -1,0 +1,159 @@
+//! Decompositions of a matrix, and what they solve.
+
+use crate::matrix::Matrix;
+use faer::linalg::solvers::{Solve, SolveLstsq};
+use faer::{Mat, Side};
+
+/// Singular values and vectors: A = U · diag(values) · Vᵀ.
+#[derive(Debug, Clone)]
+pub struct Svd {
+    /// The singular values, the largest first: as many as A has rows or columns, whichever is fewer.
+    pub values: Vec<f64>,
+    /// Left singular vectors, by columns.
+    pub u: Matrix,
+    /// Right singular vectors, by columns.
+    pub v: Matrix,
+}
+
+impl Svd {
+    /// How many singular values exceed this fraction of the largest.
+    #[must_use]
+    pub fn rank(&self, tolerance: f64) -> usize {
+        let least = tolerance * self.values.first().copied().unwrap_or(0.0);
+        self.values.iter().filter(|&&s| s > least).count()
+    }
+
+    /// The vectors that A, taken for a matrix of this rank, sends to zero: by columns, orthonormal.
+    ///
+    /// # Panics
+    /// Where the rank exceeds the number of columns of A.
+    #[must_use]
+    pub fn null_space(&self, rank: usize) -> Matrix {
+        self.v.cols(rank..self.v.ncols())
+    }
+
+    /// The vectors that the transpose of A, taken for a matrix of this rank, sends to zero: by columns, orthonormal.
+    ///
+    /// # Panics
+    /// Where the rank exceeds the number of rows of A.
+    #[must_use]
+    pub fn left_null_space(&self, rank: usize) -> Matrix {
+        self.u.cols(rank..self.u.ncols())
+    }
+
+    /// The shortest x for each right side at which A·x, with A taken for a matrix of this rank, comes nearest to it.
+    ///
+    /// # Panics
+    /// Where the right sides have not as many rows as A.
+    #[must_use]
+    pub fn least_norm(&self, rank: usize, right: &Matrix) -> Matrix {
+        let along = self.u.cols(0..rank).transpose_times(right);
+        let along = Matrix::from_fn(rank, right.ncols(), |i, c| along[(i, c)] / self.values[i]);
+        self.v.cols(0..rank).times(&along)
+    }
+}
+
+/// All singular values and vectors, U and V square; `None` where the iteration does not converge or a value is not finite.
+#[must_use]
+pub fn svd(a: &Matrix) -> Option<Svd> {
+    if a.is_empty() {
+        return Some(Svd {
+            values: Vec::new(),
+            u: Matrix::identity(a.nrows(), a.nrows()),
+            v: Matrix::identity(a.ncols(), a.ncols()),
+        });
+    }
+    let found = a.view().svd().ok()?;
+    collected(&found)
+}
+
+/// As [`svd`], with as many columns in U and V as there are values.
+#[must_use]
+pub fn thin_svd(a: &Matrix) -> Option<Svd> {
+    if a.is_empty() {
+        return Some(Svd {
+            values: Vec::new(),
+            u: Matrix::zeros(a.nrows(), 0),
+            v: Matrix::zeros(a.ncols(), 0),
+        });
+    }
+    let found = a.view().thin_svd().ok()?;
+    collected(&found)
+}
+
+fn collected(found: &faer::linalg::solvers::Svd<f64>) -> Option<Svd> {
+    let values: Vec<f64> = found.S().column_vector().iter().copied().collect();
+    let finite = values.iter().all(|v| v.is_finite());
+    finite.then(|| Svd {
+        values,
+        u: Matrix::of(found.U()),
+        v: Matrix::of(found.V()),
+    })
+}
+
+/// The singular values, the largest first; `None` where the iteration does not converge or a value is not finite.
+#[must_use]
+pub fn singular_values(a: &Matrix) -> Option<Vec<f64>> {
+    if a.is_empty() {
+        return Some(Vec::new());
+    }
+    let values = a.view().singular_values().ok()?;
+    values.iter().all(|v| v.is_finite()).then_some(values)
+}
+
+/// The eigenvalues of a symmetric matrix, the least first, and its eigenvectors by columns; `None` where the iteration does
+/// not converge.
+#[must_use]
+pub fn symmetric_eigen(a: &Matrix) -> Option<(Vec<f64>, Matrix)> {
+    let found = a.view().self_adjoint_eigen(Side::Lower).ok()?;
+    let values = found.S().column_vector().iter().copied().collect();
+    Some((values, Matrix::of(found.U())))
+}
+
+/// The x at which A·x comes nearest to the right side, by QR factors; A has at least as many rows as columns, and full rank.
+#[must_use]
+pub fn least_squares(a: &Matrix, right: &[f64]) -> Vec<f64> {
+    let x = a.view().qr().solve_lstsq(Matrix::column(right).view());
+    first(&x, a.ncols())
+}
+
+/// As [`least_squares`], with columns exchanged for the sake of accuracy.
+#[must_use]
+pub fn least_squares_pivoted(a: &Matrix, right: &[f64]) -> Vec<f64> {
+    let factors = a.view().col_piv_qr();
+    first(
+        &factors.solve_lstsq(Matrix::column(right).view()),
+        a.ncols(),
+    )
+}
+
+/// The solution of a square system, by LU factors with partial pivoting; not finite where there is none.
+#[must_use]
+pub fn solve(a: &Matrix, right: &[f64]) -> Vec<f64> {
+    let factors = a.view().partial_piv_lu();
+    first(&factors.solve(Matrix::column(right).view()), a.ncols())
+}
+
+/// The solution of a symmetric positive definite system, by Cholesky factors; `None` where it is not positive definite.
+#[must_use]
+pub fn solve_positive(a: &Matrix, right: &[f64]) -> Option<Vec<f64>> {
+    let factors = a.view().llt(Side::Lower).ok()?;
+    Some(first(
+        &factors.solve(Matrix::column(right).view()),
+        a.ncols(),
+    ))
+}
+
+fn first(x: &Mat<f64>, rows: usize) -> Vec<f64> {
+    (0..rows).map(|r| x[(r, 0)]).collect()
+}
+
+/// The determinant of a square matrix.
+#[must_use]
+pub fn determinant(a: &Matrix) -> f64 {
+    if a.nrows() == 0 {
+        1.0
+    } else {
+        a.view().determinant()
+    }
+}

@@ -1,0 +1,64 @@
+//! What a decomposition shows of a rank in the one or the other format of floating-point numbers.
+
+use crate::decompose::singular_values;
+use crate::matrix::Matrix;
+use faer::traits::{ComplexField, RealField};
+use faer::{Mat, MatRef};
+
+/// A format of floating-point numbers to eliminate in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// 32 bits.
+    Single,
+    /// 64 bits.
+    Double,
+}
+
+impl Format {
+    /// The absolute diagonal of U of LU factors with full pivoting.
+    #[must_use]
+    pub fn pivots(self, a: &Matrix) -> Vec<f64> {
+        match self {
+            _ if a.is_empty() => Vec::new(),
+            Format::Single => diagonal(rounded(a).full_piv_lu().U()),
+            Format::Double => diagonal(a.view().full_piv_lu().U()),
+        }
+    }
+
+    /// The absolute diagonal of R of QR factors with column pivoting.
+    #[must_use]
+    pub fn qr_diagonal(self, a: &Matrix) -> Vec<f64> {
+        match self {
+            _ if a.is_empty() => Vec::new(),
+            Format::Single => diagonal(rounded(a).col_piv_qr().R()),
+            Format::Double => diagonal(a.view().col_piv_qr().R()),
+        }
+    }
+
+    /// The singular values, the largest first; `None` where the iteration does not converge or a value is not finite.
+    #[must_use]
+    pub fn singular_values(self, a: &Matrix) -> Option<Vec<f64>> {
+        if a.is_empty() || self == Format::Double {
+            return singular_values(a);
+        }
+        let values = rounded(a).singular_values().ok()?;
+        let finite = values.iter().all(|v| v.is_finite());
+        finite.then(|| values.into_iter().map(f64::from).collect())
+    }
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "single precision is the point"
+)]
+fn rounded(a: &Matrix) -> Mat<f32> {
+    Mat::from_fn(a.nrows(), a.ncols(), |r, c| a[(r, c)] as f32)
+}
+
+fn diagonal<T: ComplexField<Real = T> + RealField + Copy + Into<f64>>(
+    factor: MatRef<'_, T>,
+) -> Vec<f64> {
+    (0..factor.nrows().min(factor.ncols()))
+        .map(|i| factor[(i, i)].into().abs())
+        .collect()
+}

@@ -1,0 +1,155 @@
+//! A matrix of doubles, by columns.
+
+use faer::MatRef;
+use std::ops::{Index, IndexMut, Range};
+
+/// A matrix of doubles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Matrix {
+    rows: usize,
+    columns: usize,
+    /// Column after column.
+    entries: Vec<f64>,
+}
+
+impl Matrix {
+    /// The matrix with the entry `at(row, column)` everywhere.
+    pub fn from_fn(rows: usize, columns: usize, mut at: impl FnMut(usize, usize) -> f64) -> Self {
+        let mut entries = Vec::with_capacity(rows * columns);
+        for c in 0..columns {
+            entries.extend((0..rows).map(|r| at(r, c)));
+        }
+        Matrix {
+            rows,
+            columns,
+            entries,
+        }
+    }
+
+    /// Zero everywhere.
+    #[must_use]
+    pub fn zeros(rows: usize, columns: usize) -> Self {
+        Matrix {
+            rows,
+            columns,
+            entries: vec![0.0; rows * columns],
+        }
+    }
+
+    /// One on the diagonal, zero elsewhere.
+    #[must_use]
+    pub fn identity(rows: usize, columns: usize) -> Self {
+        Matrix::from_fn(rows, columns, |r, c| if r == c { 1.0 } else { 0.0 })
+    }
+
+    /// A single column.
+    #[must_use]
+    pub fn column(entries: &[f64]) -> Self {
+        Matrix {
+            rows: entries.len(),
+            columns: 1,
+            entries: entries.to_vec(),
+        }
+    }
+
+    /// How many rows.
+    #[must_use]
+    pub fn nrows(&self) -> usize {
+        self.rows
+    }
+
+    /// How many columns.
+    #[must_use]
+    pub fn ncols(&self) -> usize {
+        self.columns
+    }
+
+    /// Whether there is no entry.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// A column, from its first row on.
+    ///
+    /// # Panics
+    /// Where there is no such column.
+    #[must_use]
+    pub fn col(&self, column: usize) -> &[f64] {
+        &self.entries[column * self.rows..(column + 1) * self.rows]
+    }
+
+    /// A column, to write to.
+    ///
+    /// # Panics
+    /// Where there is no such column.
+    pub fn col_mut(&mut self, column: usize) -> &mut [f64] {
+        &mut self.entries[column * self.rows..(column + 1) * self.rows]
+    }
+
+    /// Some columns.
+    ///
+    /// # Panics
+    /// Where there are fewer columns.
+    #[must_use]
+    pub fn cols(&self, range: Range<usize>) -> Matrix {
+        Matrix {
+            rows: self.rows,
+            columns: range.len(),
+            entries: self.entries[range.start * self.rows..range.end * self.rows].to_vec(),
+        }
+    }
+
+    /// The product with another matrix.
+    ///
+    /// # Panics
+    /// Where `other` has not as many rows as this has columns.
+    #[must_use]
+    pub fn times(&self, other: &Matrix) -> Matrix {
+        Matrix::of((self.view() * other.view()).as_ref())
+    }
+
+    /// The product of the transpose with another matrix.
+    ///
+    /// # Panics
+    /// Where the two have not as many rows.
+    #[must_use]
+    pub fn transpose_times(&self, other: &Matrix) -> Matrix {
+        Matrix::of((self.view().transpose() * other.view()).as_ref())
+    }
+
+    /// Adds a multiple of another matrix of the same shape.
+    ///
+    /// # Panics
+    /// Where the shapes differ.
+    pub fn add_multiple(&mut self, factor: f64, other: &Matrix) {
+        assert_eq!((self.rows, self.columns), (other.rows, other.columns));
+        for (x, y) in self.entries.iter_mut().zip(&other.entries) {
+            *x += factor * y;
+        }
+    }
+
+    pub(crate) fn view(&self) -> MatRef<'_, f64> {
+        MatRef::from_column_major_slice(&self.entries, self.rows, self.columns)
+    }
+
+    pub(crate) fn of(matrix: MatRef<'_, f64>) -> Matrix {
+        Matrix::from_fn(matrix.nrows(), matrix.ncols(), |r, c| matrix[(r, c)])
+    }
+}
+
+impl Index<(usize, usize)> for Matrix {
+    type Output = f64;
+
+    fn index(&self, (row, column): (usize, usize)) -> &f64 {
+        debug_assert!(row < self.rows);
+        &self.entries[column * self.rows + row]
+    }
+}
+
+impl IndexMut<(usize, usize)> for Matrix {
+    fn index_mut(&mut self, (row, column): (usize, usize)) -> &mut f64 {
+        debug_assert!(row < self.rows);
+        &mut self.entries[column * self.rows + row]
+    }
+}
