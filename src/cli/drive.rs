@@ -31,7 +31,7 @@ pub(super) fn run(_: &Args, a: &Drive) -> anyhow::Result<Done> {
     let found = drive(&file.spec)?;
     let shown = view::drive::Drive::new(&file, &found);
     if let (Some(folder), true) = (&a.svg, shown.design.is_some()) {
-        charts::write(folder, None, &charts(&shown))?;
+        charts::write(folder, None, &charts(&shown), &[])?;
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {

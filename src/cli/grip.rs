@@ -65,7 +65,7 @@ pub(super) fn run(_: &Args, a: &Grip) -> anyhow::Result<Done> {
     let found = grip(&file.spec, file.mechanism.as_ref())?;
     let shown = view::grip::Grip::new(&file, &found);
     if let Some(folder) = &a.svg {
-        charts::write(folder, None, &charts(&shown))?;
+        charts::write(folder, None, &charts(&shown), &[])?;
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {

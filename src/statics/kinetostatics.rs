@@ -8,6 +8,7 @@ use crate::model::loads::{Inertia, acts_at};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::assur::Decomposition;
 use crate::statics::dense::System;
+use crate::statics::inertia::link_inertias;
 use crate::statics::planar::{BodyId, PairId, PairKind};
 use crate::statics::planar_motion::Instant;
 use crate::statics::pose::{Linkage, Pose, cross, dot, minus, plus, quarter};
@@ -146,32 +147,17 @@ impl PlanarLoads {
     #[must_use]
     pub fn at(&self, linkage: &Linkage, now: &Instant) -> Vec<Load> {
         let mut out = Vec::new();
-        for (body, mass) in self.masses.iter().enumerate() {
-            let Some(mass) = mass.filter(|_| body != linkage.mechanism.frame) else {
-                continue;
-            };
-            let point = linkage.point(&now.pose, body, mass.centre);
-            let a = linkage.acceleration(
-                &now.pose,
-                &now.velocity,
-                &now.acceleration,
-                body,
-                mass.centre,
-            );
+        for x in link_inertias(self, linkage, now) {
             let load = |source, force, moment| Load {
-                body,
+                body: x.body,
                 source,
-                point,
+                point: x.centre,
                 force,
                 moment,
             };
-            out.push(load(
-                Source::Gravity,
-                self.gravity.map(|g| g * mass.mass),
-                0.0,
-            ));
-            let moment = -mass.inertia * now.acceleration[body][2];
-            out.push(load(Source::Inertia, a.map(|a| -a * mass.mass), moment));
+            let mass = self.masses[x.body].map_or(0.0, |m| m.mass);
+            out.push(load(Source::Gravity, self.gravity.map(|g| g * mass), 0.0));
+            out.push(load(Source::Inertia, x.force, x.moment));
         }
         for &(body, moment) in &self.moments {
             if body != linkage.mechanism.frame {

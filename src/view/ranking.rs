@@ -89,6 +89,13 @@ pub fn notes(m: &Mechanism, p: &RankedPool) -> String {
     if !p.proven {
         let _ = writeln!(out, "  --pool widens the view (now {})", n(p.pool));
     }
+    let by = |term| p.ranking.terms.iter().any(|(t, _)| *t == term);
+    if by(Term::Conditioning) {
+        let _ = writeln!(
+            out,
+            "  cond. held: as cond., the smallest singular value over the largest, but with the drives held and over all poses"
+        );
+    }
     if p.unheld > 0 {
         let _ = writeln!(
             out,
@@ -129,7 +136,7 @@ pub fn columns(p: &RankedPool) -> Vec<&'static str> {
         .map(|t| match t {
             Term::PeakForce => "force",
             Term::PeakMoment => "moment",
-            Term::Conditioning => "condit.",
+            Term::Conditioning => "cond. held",
             Term::OutputError => "error, mm",
             Term::Changes => "changed",
             Term::Cost | Term::Idle => t.name(),
