@@ -3,6 +3,7 @@
 
 pub mod charts;
 pub mod clamped;
+pub mod motion;
 pub mod text;
 
 use crate::file::read::workload::Workload;
@@ -13,6 +14,7 @@ use crate::grip::holding::Slip;
 use crate::grip::lever_arm::{Arms, Lever};
 use crate::model::grip::GripSpec;
 use crate::statics::transmission::Rates;
+use crate::view::grip::motion::Motion;
 use serde::Serialize;
 
 /// What a gripper can hold.
@@ -32,6 +34,9 @@ pub struct Grip<'a> {
     pub diameters: Vec<Diameter<'a>>,
     /// How the drive works on the levers at the hardest diameter, or the first.
     pub transmission: Option<Transmission<'a>>,
+    /// The clamping along a motion, where one is asked about.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motion: Option<Motion>,
     /// What the paper found, and whether it is so.
     pub findings: &'static [Finding],
     /// What the paper says besides, and is not so.
@@ -161,6 +166,7 @@ impl<'a> Grip<'a> {
                 .and_then(|d| d.transmission),
             hardest,
             diameters,
+            motion: None,
             findings: &FINDINGS,
             refuted: [REFUTED],
             file,

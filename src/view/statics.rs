@@ -4,6 +4,7 @@
 pub mod charts;
 pub mod csv;
 pub mod force_plans;
+pub mod link_motion;
 pub mod text;
 
 use crate::statics::assur::{self, Decomposition};
@@ -13,6 +14,7 @@ use crate::statics::cycle::{self, Moment};
 use crate::statics::inertia::link_inertias;
 use crate::statics::kinetostatics::Equilibrium;
 use crate::statics::planar::{BodyId, PairId, PlanarMechanism};
+use crate::view::statics::link_motion::LinkMotion;
 use itertools::Itertools;
 use serde::Serialize;
 
@@ -85,25 +87,6 @@ pub struct Position<'a> {
     pub contour_groups: Vec<ContourGroup>,
     /// How the links with mass move, and their inertia forces.
     pub links: Vec<LinkMotion<'a>>,
-}
-
-/// Acceleration and inertia of a link.
-#[derive(Debug, Serialize)]
-pub struct LinkMotion<'a> {
-    /// The link.
-    pub link: &'a str,
-    /// Its mass centre `[m]`.
-    pub centre: [f64; 2],
-    /// Of the mass centre `[m/s²]`.
-    pub acceleration: [f64; 2],
-    /// `[rad/s²]`
-    pub angular_acceleration: f64,
-    /// `[N]`
-    pub inertia_force: [f64; 2],
-    /// `[N·m]`
-    pub inertia_moment: f64,
-    /// How far aside of the centre the force alone does both `[m]`.
-    pub offset: f64,
 }
 
 /// What equations are worth.
@@ -408,15 +391,7 @@ impl<'a> Position<'a> {
                 .collect(),
             links: link_inertias(&s.loads, &s.linkage, &x.instant)
                 .iter()
-                .map(|i| LinkMotion {
-                    link: &m.bodies[i.body].name,
-                    centre: i.centre,
-                    acceleration: i.acceleration,
-                    angular_acceleration: i.angular_acceleration,
-                    inertia_force: i.force,
-                    inertia_moment: i.moment,
-                    offset: i.offset(),
-                })
+                .map(|i| LinkMotion::new(&m.bodies[i.body].name, i))
                 .collect(),
         }
     }

@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod adding;
+mod cam;
 mod catalogs;
 mod certificates;
 mod certify;
@@ -18,6 +19,7 @@ mod drive_command;
 mod exports;
 mod finite_traps;
 mod first_hour;
+mod force_plans;
 mod fuzz;
 mod grip;
 mod holding;
@@ -41,6 +43,7 @@ mod stroke;
 mod stroke_poses;
 mod structure;
 mod suggest;
+mod tables;
 mod twin;
 mod unilateral;
 mod variants;

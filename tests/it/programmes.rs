@@ -175,7 +175,7 @@ fn by_steps(m: &Module, turns: &[usize]) -> Vec<f64> {
             };
             way * (cam - disc.coulomb) - disc.stiffness * (x - at[o]) - disc.viscous * v
         };
-        let (mut x, mut v, h) = (at[d], 0.0, 2e-5);
+        let (mut x, mut v, h) = (at[d], 0.0, 2e-6);
         loop {
             // The middle of a step carries it: an error of second order.
             let half = v + h / 2.0 * moment(x, v) / disc.inertia;

@@ -84,6 +84,9 @@ fn write(out: &mut String, g: &Grip<'_>, width: Option<u16>) -> std::fmt::Result
             )
         )?;
     }
+    if let Some(motion) = &g.motion {
+        write!(out, "{}", motion.text(width))?;
+    }
     writeln!(
         out,
         "\n  Findings of [Pavlenko & Godunko 2010], on the curves of its figures: {} of {} confirmed, and {} drawing refuted\n",

@@ -14,7 +14,7 @@ const STRESSES: usize = 12;
 /// What a component is next to: below this fraction of the greatest it is rounding.
 pub(super) const NOTHING: f64 = 1e-12;
 
-fn joints(list: &[Joint<'_>], size: f64, width: Option<u16>) -> String {
+fn joints(list: &[Joint<'_>], size: f64, rounding: f64, width: Option<u16>) -> String {
     let greatest = list
         .iter()
         .map(|r| r.force_magnitude.max(r.moment_magnitude / size))
@@ -25,7 +25,7 @@ fn joints(list: &[Joint<'_>], size: f64, width: Option<u16>) -> String {
         false => figure(x / unit),
     };
     let rows = list.iter().map(|r| {
-        let (force, moment) = (NOTHING * greatest, NOTHING * greatest * size);
+        let (force, moment) = (rounding * greatest, rounding * greatest * size);
         let mut row = [r.joint, r.kind].map(str::to_owned).to_vec();
         row.extend(r.force.map(|x| show(x, force)));
         row.push(show(r.force_magnitude, force));
@@ -150,7 +150,9 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
             "The file states no loads: give links a mass and centre and the [workload] gravity, or forces under [[workload.force]].\n"
         )?;
     }
-    writeln!(out, "{}\n", joints(&s.reactions, s.size, width))?;
+    // A cone programme is solved to its tolerance, equations to rounding.
+    let rounding = if s.choice == "pushing" { 1e-7 } else { NOTHING };
+    writeln!(out, "{}\n", joints(&s.reactions, s.size, rounding, width))?;
     if !s.contacts.is_empty() {
         writeln!(out, "{}\n", contacts(&s.contacts, width))?;
     }
@@ -166,7 +168,11 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
                 "Drive {} holds {}: {what} {} {unit}",
                 r.joint,
                 d.freedom,
-                figure(d.effort)
+                figure(if d.effort.abs() <= rounding * r.force_magnitude {
+                    0.0
+                } else {
+                    d.effort
+                })
             )?;
         }
     }
@@ -192,7 +198,12 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
     if open > 0 {
         writeln!(
             out,
-            "\nRedundant constraints leave these reactions open: any multiples of the {open} {stresses} may be added"
+            "\nRedundant constraints leave these reactions open: any multiples of the {open} {stresses} may be added{}",
+            if s.choice == "pushing" {
+                " with which contacts still push"
+            } else {
+                ""
+            }
         )?;
         for (i, stress) in s.self_stresses.iter().take(STRESSES).enumerate() {
             let loaded = stress
@@ -214,7 +225,7 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
             writeln!(
                 out,
                 "\nReactions of elastic joints of the stated stiffness, {askew}\n\n{}",
-                joints(list, s.size, width)
+                joints(list, s.size, NOTHING, width)
             )?;
         }
         None if open > 0 => writeln!(

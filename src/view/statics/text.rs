@@ -9,7 +9,8 @@ use crate::statics::kinetostatics::Equilibrium;
 use crate::statics::planar::PairId;
 use crate::view::layout::{fit, table};
 use crate::view::prefix::prefix;
-use crate::view::statics::{Decomposed, Group, LinkMotion, Statics, Structures, magnitudes};
+use crate::view::statics::link_motion::LinkMotion;
+use crate::view::statics::{Decomposed, Group, Statics, Structures, magnitudes};
 use itertools::Itertools;
 use std::fmt::Write;
 
