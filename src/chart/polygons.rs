@@ -201,20 +201,20 @@ fn plan(xml: &mut crate::svg::xml::Xml, panel: &Panel, is: &Rect, room: &Rect, b
             .close();
         if long >= 24.0 {
             let middle = scale(add(from, to), 0.5);
-            let out = sub(middle, room.middle());
-            let normal = [-along[1], along[0]];
-            let sign = if normal[0] * out[0] + normal[1] * out[1] < 0.0 {
-                -1.0
-            } else {
-                1.0
+            // To the left of its way, so that two that go to and fro have their names apart.
+            let normal = [along[1], -along[0]];
+            let at = add(middle, scale(normal, 8.0));
+            let anchor = match normal[0] {
+                x if x > 0.3 => "start",
+                x if x < -0.3 => "end",
+                _ => "middle",
             };
-            let at = add(middle, scale(normal, sign * 12.0));
-            let label = xml
-                .tag("text")
+            xml.tag("text")
                 .set("class", "small halo")
                 .num("x", at[0])
-                .num("y", at[1] + 4.0);
-            label.set("text-anchor", "middle").text(&a.name);
+                .num("y", at[1] + 4.0)
+                .set("text-anchor", anchor)
+                .text(&a.name);
         }
     }
 }

@@ -5,7 +5,7 @@ use super::{Done, charts, load, output};
 use crate::drive::driving::drive;
 use crate::file::read::workload::drive_from_bytes;
 use crate::view;
-use crate::view::drive::{charts::cam, charts::charts, text};
+use crate::view::drive::{charts::cam, charts::charts, charts::motion, text};
 use crate::view::next::{self, Step};
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
@@ -17,7 +17,8 @@ pub(super) struct Drive {
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     pub(super) format: AnalyzeFormat,
-    /// Also write charts, each as SVG and CSV, and the cam's profile, as SVG, CSV and DXF, into this folder.
+    /// Also write charts, each as SVG and CSV, the cam's profile as SVG, CSV and DXF, and the payload's motion on the first
+    /// disc for `ozols grip --motion`, into this folder.
     #[arg(long, value_name = "DIR")]
     pub(super) svg: Option<PathBuf>,
     /// Write to a file instead of standard output.
@@ -36,8 +37,13 @@ pub(super) fn run(_: &Args, a: &Drive) -> anyhow::Result<Done> {
             files: vec![("svg", cam.svg()), ("csv", cam.csv()), ("dxf", cam.dxf())],
             title: cam.title,
         });
-        let cam: Vec<charts::Drawing> = cam.into_iter().collect();
-        charts::write(folder, None, &charts(&shown), &cam)?;
+        let motion = motion(&shown).map(|table| charts::Drawing {
+            name: "motion".to_owned(),
+            files: vec![("csv", table)],
+            title: String::new(),
+        });
+        let more: Vec<charts::Drawing> = cam.into_iter().chain(motion).collect();
+        charts::write(folder, None, &charts(&shown), &more)?;
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {

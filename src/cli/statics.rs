@@ -15,6 +15,7 @@ use crate::statics::reactions::contact::object_at;
 use crate::statics::reactions::{Cycle, Unsolved};
 use crate::statics::solve::{Answer, Model, StaticsError, solve};
 use crate::view;
+use crate::view::grip::clamped::NotHeld;
 use crate::view::layout::table;
 use crate::view::next::{self, Step};
 use crate::view::reactions::stroke::Stroke as StrokeView;
@@ -87,7 +88,14 @@ pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
         // Not held is an answer, and no failure.
         Err(StaticsError::Spatial(why @ Unsolved::Loose)) => {
             return output::to(a.output.as_deref(), |out| {
-                writeln!(out, "{}, state {}: {why}", m.name, a.state)?;
+                match a.format {
+                    StaticsFormat::Json => {
+                        output::json(out, &NotHeld::because(&m, state, &why.to_string()))?
+                    }
+                    StaticsFormat::Csv | StaticsFormat::Text => {
+                        writeln!(out, "{}, state {}: {why}", m.name, a.state)?;
+                    }
+                }
                 Ok(Done::Nothing)
             });
         }

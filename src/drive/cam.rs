@@ -26,7 +26,7 @@ pub struct Cam {
     pub roller: f64,
 }
 
-/// A point of a cam, by the turn on it from the middle between two grooves.
+/// A point of the roller's path, by the turn from the middle between two grooves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProfilePoint {
     /// The turn. `[rad]`
@@ -35,15 +35,16 @@ pub struct ProfilePoint {
     pub fall: f64,
     /// The roller's centre. `[m]`
     pub pitch: [f64; 2],
-    /// Where the roller touches. `[m]`
-    pub profile: [f64; 2],
 }
 
 /// The profile round a disc.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
-    /// In order of the turn, `grooves` times the points of one swing.
+    /// In order of the turn, `grooves` times the points of one swing, the first of each in a groove.
     pub points: Vec<ProfilePoint>,
+    /// What the roller rolls on, by the angle round the axis: no point of it nearer to any place of the roller than its radius.
+    /// The roller's own round in the grooves. `[m]`
+    pub outline: Vec<[f64; 2]>,
     /// Angles of the grooves on the disc. `[rad]`
     pub grooves: Vec<f64>,
     /// Whether a whole number of swings makes a turn, so that stepwise rotation finds grooves for ever.
@@ -105,34 +106,48 @@ impl Cam {
         .max(1.0) as u32;
         // A flank that begins before the middle leaves no room for one the other way.
         let both_ways = self.from >= 0.0;
-        let (mut points, mut pressure_angle) = (Vec::new(), 0.0f64);
+        let (mut points, mut touched, mut pressure_angle) = (Vec::new(), Vec::new(), 0.0f64);
         let mut least_curvature = self.radius;
         for swing in 0..count {
             for i in 0..per_swing {
                 let turn = self.half_swing * (2.0 * f64::from(i) / f64::from(per_swing) - 1.0);
-                let flank = if both_ways { turn.abs() } else { turn };
+                let in_groove = i == 0;
+                let flank = if both_ways || in_groove {
+                    turn.abs()
+                } else {
+                    turn
+                };
                 let (fall, slope) = (self.fall(flank), self.slope(flank));
                 let way = if both_ways { turn.signum() } else { 1.0 };
                 let (r, dr) = (self.radius - fall, -slope * way);
                 let angle = self.half_swing * (1.0 + 2.0 * f64::from(swing)) + turn;
                 let (s, c) = angle.sin_cos();
+                let pitch = [r * c, r * s];
+                points.push(ProfilePoint { turn, fall, pitch });
+                if in_groove {
+                    touched.extend(self.round(pitch));
+                    continue;
+                }
                 let long = r.hypot(dr);
                 let normal = [(r * c + dr * s) / long, (r * s - dr * c) / long];
-                let pitch = [r * c, r * s];
-                points.push(ProfilePoint {
-                    turn,
-                    fall,
-                    pitch,
-                    profile: [0, 1].map(|k| pitch[k] - self.roller * normal[k]),
-                });
+                touched.push([0, 1].map(|k| pitch[k] - self.roller * normal[k]));
                 pressure_angle = pressure_angle.max((slope / r).atan());
                 least_curvature = least_curvature.min(self.curvature(flank, r, dr));
             }
         }
+        // Where the roller's path has a corner outwards, flanks beyond their crossing would be cut away.
+        let clear = |q: &[f64; 2]| {
+            let far = |p: &ProfilePoint| (p.pitch[0] - q[0]).hypot(p.pitch[1] - q[1]);
+            points.iter().all(|p| far(p) >= self.roller * (1.0 - 1e-6))
+        };
+        let mut outline: Vec<[f64; 2]> = touched.into_iter().filter(clear).collect();
+        let angle = |q: &[f64; 2]| q[1].atan2(q[0]);
+        outline.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
         let last = self.half_swing;
         let end = (self.slope(last) / (self.radius - self.stroke)).atan();
         Profile {
             points,
+            outline,
             grooves: (0..count)
                 .map(|n| 2.0 * self.half_swing * f64::from(n))
                 .collect(),
@@ -145,6 +160,15 @@ impl Cam {
             },
             least_curvature,
         }
+    }
+
+    /// The roller in a groove, the half of it towards the axis.
+    fn round(&self, [x, y]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> + use<> {
+        let (inwards, roller) = ((-y).atan2(-x), self.roller);
+        (0..=48).map(move |k| {
+            let (s, c) = (inwards + FRAC_PI_2 * (f64::from(k) / 24.0 - 1.0)).sin_cos();
+            [x + roller * c, y + roller * s]
+        })
     }
 
     /// Radius of curvature of the roller's path where it bulges outwards; without bound elsewhere.

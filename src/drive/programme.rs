@@ -88,6 +88,10 @@ pub struct Sample {
     pub potential: f64,
     /// Of the swinging disc. `[J]`
     pub kinetic: f64,
+    /// Of the discs. `[rad/s]`
+    pub speeds: [f64; 2],
+    /// Of the discs. `[rad/s²]`
+    pub accelerations: [f64; 2],
 }
 
 impl Run {
@@ -245,11 +249,14 @@ impl Module {
                 let t = step.duration * f64::from(i) / f64::from(count);
                 let mut angles = step.angles;
                 let mut kinetic = 0.0;
+                let (mut speeds, mut accelerations) = ([0.0; 2], [0.0; 2]);
                 if let Event::Swing { disc, swing } = &step.event {
                     let ahead = (angles[*disc] - angles[1 - disc]).signum();
                     let (u, v) = swing.at(t);
                     angles[*disc] = angles[1 - disc] - ahead * u;
                     kinetic = self.discs[*disc].inertia * v * v / 2.0;
+                    speeds[*disc] = -ahead * v;
+                    accelerations[*disc] = -ahead * swing.acceleration(t);
                 }
                 let twist = angles[0] - angles[1];
                 let potential = self.discs[0].stiffness * twist * twist / 2.0;
@@ -258,6 +265,8 @@ impl Module {
                     angles,
                     potential,
                     kinetic,
+                    speeds,
+                    accelerations,
                 });
             }
         }

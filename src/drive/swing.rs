@@ -353,6 +353,17 @@ impl Disc {
 }
 
 impl Swing {
+    /// Acceleration at a time from the release; none at its end. `[rad/s²]`
+    #[must_use]
+    pub fn acceleration(&self, time: f64) -> f64 {
+        let now = self.pieces.iter().find(|p| time <= p.start + p.length);
+        now.map_or(0.0, |p| {
+            let (place, speed) = self.disc.state(p, (time - p.start).max(0.0));
+            let moment = -self.disc.stiffness * (place - p.middle) - self.disc.viscous * speed;
+            moment / self.disc.inertia
+        })
+    }
+
     /// Place and speed at a time from the release; at rest at its end afterwards.
     #[must_use]
     pub fn at(&self, time: f64) -> (f64, f64) {

@@ -1,9 +1,19 @@
 //! How links move and what their inertia does: accelerations, inertia forces and moments, by D'Alembert.
 
-use crate::statics::kinetostatics::{BodyMass, PlanarLoads};
 use crate::statics::planar::BodyId;
 use crate::statics::planar_motion::Instant;
 use crate::statics::pose::{Linkage, length};
+
+/// Mass data of a body in the plane: mass `[kg]`, centre at the pose of the file `[m]`, inertia `[kg·m²]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyMass {
+    /// Mass `[kg]`.
+    pub mass: f64,
+    /// Mass centre at the pose of the file `[m]`.
+    pub centre: [f64; 2],
+    /// Inertia about the mass centre and the plane's normal `[kg·m²]`.
+    pub inertia: f64,
+}
 
 /// A link with mass at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,10 +44,14 @@ impl LinkInertia {
     }
 }
 
-/// The links with mass at an instant, the frame left out.
+/// The links with mass at an instant, the frame left out; `masses` by body.
 #[must_use]
-pub fn link_inertias(loads: &PlanarLoads, linkage: &Linkage, now: &Instant) -> Vec<LinkInertia> {
-    let bodies = loads.masses.iter().enumerate();
+pub fn link_inertias(
+    masses: &[Option<BodyMass>],
+    linkage: &Linkage,
+    now: &Instant,
+) -> Vec<LinkInertia> {
+    let bodies = masses.iter().enumerate();
     let one = |(body, mass): (usize, &Option<BodyMass>)| {
         let mass = mass.filter(|_| body != linkage.mechanism.frame)?;
         let (pose, v, a) = (&now.pose, &now.velocity, &now.acceleration);

@@ -8,7 +8,7 @@ use crate::model::loads::{Inertia, acts_at};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::assur::Decomposition;
 use crate::statics::dense::System;
-use crate::statics::inertia::link_inertias;
+use crate::statics::inertia::{BodyMass, link_inertias};
 use crate::statics::planar::{BodyId, PairId, PairKind};
 use crate::statics::planar_motion::Instant;
 use crate::statics::pose::{Linkage, Pose, cross, dot, minus, plus, quarter};
@@ -45,17 +45,6 @@ impl Load {
     pub fn moment_about(&self, point: [f64; 2]) -> f64 {
         self.moment + cross(minus(self.point, point), self.force)
     }
-}
-
-/// Mass data of a body in the plane: mass `[kg]`, centre at the pose of the file `[m]`, inertia `[kg·m²]`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BodyMass {
-    /// Mass `[kg]`.
-    pub mass: f64,
-    /// Mass centre at the pose of the file `[m]`.
-    pub centre: [f64; 2],
-    /// Inertia about the mass centre and the plane's normal `[kg·m²]`.
-    pub inertia: f64,
 }
 
 /// A force from outside in the plane.
@@ -147,7 +136,7 @@ impl PlanarLoads {
     #[must_use]
     pub fn at(&self, linkage: &Linkage, now: &Instant) -> Vec<Load> {
         let mut out = Vec::new();
-        for x in link_inertias(self, linkage, now) {
+        for x in link_inertias(&self.masses, linkage, now) {
             let load = |source, force, moment| Load {
                 body: x.body,
                 source,

@@ -185,7 +185,7 @@ pub struct Profile {
     pub least_curvature: f64,
     /// The roller's centre from groove to groove, round the disc `[m]`.
     pub pitch: Vec<[f64; 2]>,
-    /// Where the roller touches `[m]`.
+    /// What the roller rolls on, by the angle round the axis `[m]`.
     pub profile: Vec<[f64; 2]>,
 }
 
@@ -216,7 +216,7 @@ impl Profile {
             pressure_angle: p.pressure_angle,
             least_curvature: p.least_curvature,
             pitch: p.points.iter().map(|x| x.pitch).collect(),
-            profile: p.points.iter().map(|x| x.profile).collect(),
+            profile: p.outline.clone(),
         }
     }
 }

@@ -389,7 +389,7 @@ impl<'a> Position<'a> {
                     ContourGroup::new(g, guide, methods)
                 })
                 .collect(),
-            links: link_inertias(&s.loads, &s.linkage, &x.instant)
+            links: link_inertias(&s.loads.masses, &s.linkage, &x.instant)
                 .iter()
                 .map(|i| LinkMotion::new(&m.bodies[i.body].name, i))
                 .collect(),

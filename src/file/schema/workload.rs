@@ -1,9 +1,9 @@
 //! `[workload]` and the inertia of links.
 
-use super::Words;
 use super::drive::DriveEntry;
 use super::grip::GripEntry;
 use super::number::{Coordinate, Quantities, Quantity};
+use super::words::Words;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

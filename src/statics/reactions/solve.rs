@@ -120,7 +120,11 @@ impl Reactions {
         if of_contacts == Contacts::Pushing {
             pushing(geometry, &faces, &mut wrenches, &stresses)?;
         }
-        let elastic = family::elastic(m, geometry, loads, rigid, &stresses);
+        // Elastic joints are solved with contacts as joints alone.
+        let elastic = match of_contacts {
+            Contacts::AsJoints => family::elastic(m, geometry, loads, rigid, &stresses),
+            Contacts::Pushing => None,
+        };
         let residual = residual(m, geometry, &wrenches, loads_of_links);
         let present = |w: &[Six]| present(m, geometry, w, drives);
         Ok(Solution {

@@ -3,6 +3,7 @@
 use crate::chart::{Axis, Chart, Outline, Scale, Series, Style};
 use crate::drive::driving::PROFILE_POINTS;
 use crate::drive::programme::Sample;
+use crate::format::csv;
 use crate::view::drive::Drive;
 
 /// Points drawn of a swing.
@@ -31,11 +32,30 @@ pub fn cam(d: &Drive<'_>) -> Option<Outline> {
     }
     Some(Outline {
         title: format!("{}: profile of the cam", d.mechanism),
-        subtitle: "An even moment on the flanks; the grooves, as deep as the latch wants them, are where the rollers are."
+        subtitle: "An even moment on the flanks; grooves as the roller is round, to be cut as deep as the latch wants them."
             .to_owned(),
         unit: unit.symbol.to_owned(),
         curves,
     })
+}
+
+/// The payload's acceleration on the first disc over the programme, as `ozols grip --motion` takes it: a gripper that reaches
+/// outwards from the axis (its x), the part along the axis (its z).
+#[must_use]
+pub fn motion(d: &Drive<'_>) -> Option<String> {
+    let (found, payload) = (d.found?, d.file.spec.payload?);
+    let rows = found
+        .module
+        .samples(&found.run, PER_SWING)
+        .into_iter()
+        .map(|s| {
+            let inwards = -s.speeds[0] * s.speeds[0] * payload.radius;
+            let across = s.accelerations[0] * payload.radius;
+            [s.time, inwards, across, 0.0]
+                .map(|x| format!("{x:?}"))
+                .to_vec()
+        });
+    Some(csv::table(&["time", "ax", "ay", "az"], rows))
 }
 
 /// Both charts with the names of their files; none without a bar.

@@ -228,11 +228,11 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
                 joints(list, s.size, NOTHING, width)
             )?;
         }
-        None if open > 0 => writeln!(
+        None if open > 0 && s.choice != "pushing" => writeln!(
             out,
             "State [workload.stiffness.default] linear and angular, and [[workload.misalignment]], to see which of them arises."
         )?,
-        None if !loads.misalignments.is_empty() => writeln!(
+        None if open == 0 && !loads.misalignments.is_empty() => writeln!(
             out,
             "Misalignments cause no reactions here: the mechanism is determinate and assembles without strain."
         )?,

@@ -209,7 +209,7 @@ pub fn cycle(s: &Statics<'_>) -> Vec<Named> {
         );
     }
     let links = |x: &Moment, of: &dyn Fn(&LinkInertia) -> f64| -> Vec<(String, f64)> {
-        let all = link_inertias(&found.loads, &found.linkage, &x.instant);
+        let all = link_inertias(&found.loads.masses, &found.linkage, &x.instant);
         all.iter()
             .map(|l| (m.bodies[l.body].name.clone(), of(l)))
             .collect()

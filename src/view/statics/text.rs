@@ -320,9 +320,14 @@ fn inertia(out: &mut String, s: &Statics<'_>, width: Option<u16>) -> std::fmt::R
     if peaks.is_empty() {
         return Ok(());
     }
+    // What is this small beside the greatest is rounding.
+    let column = |i: usize| peaks.iter().map(|p| p.2[i]).fold(0.0, f64::max);
+    let least = [0, 1, 2, 3].map(|i| 1e-12 * column(i));
+    let figure = |x: f64, i: usize| figure(if x <= least[i] { 0.0 } else { x });
     let rows = peaks.iter().map(|(link, at, figures)| {
-        let mut row = vec![(*link).to_owned(), figure(figures[0]), figure(s.shown(*at))];
-        row.extend(figures[1..].iter().map(|x| figure(*x)));
+        let at = crate::format::number::figure(s.shown(*at));
+        let mut row = vec![(*link).to_owned(), figure(figures[0], 0), at];
+        row.extend((1..4).map(|i| figure(figures[i], i)));
         row
     });
     let at = format!("at, {}", s.unit());
