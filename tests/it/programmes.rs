@@ -76,7 +76,7 @@ fn energy_of_a_run_is_conserved() {
 /// With friction, what a run stores at its end is what it had, plus what was fed, less what was lost.
 #[test]
 fn energy_of_a_run_balances() {
-    let m = module(0.02, 0.1, 0.31);
+    let m = module(0.02, 0.1, 0.37);
     let run = m
         .run(&[
             Step::Swing(1),
