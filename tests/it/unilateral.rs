@@ -262,7 +262,7 @@ fn words_that_are_no_states_or_contacts_are_refused() {
         (
             "[[workload.contact]]",
             "[[workload.force]]\nlink = \"part\"\npoint = [0, 0, 0]\nforce = [1, 0, 0]\nstate = \"closed\"\n[[workload.contact]]",
-            "unknown state \"closed\"; known: free, clamped",
+            "unknown state \"closed\"",
         ),
     ] {
         let (code, _, errors) = statics(&changed(&content, from, to), &["--state", "clamped"]);
