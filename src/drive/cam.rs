@@ -128,6 +128,11 @@ impl Cam {
                     touched.extend(self.round(pitch));
                     continue;
                 }
+                // One way only, the lifted part begins beside the roller in the groove: a wall, which the roller is lifted over.
+                let beside = (self.roller / (self.radius - self.stroke)).min(1.0).asin();
+                if !both_ways && turn < self.from && self.half_swing + turn <= 1.05 * beside {
+                    continue;
+                }
                 let long = r.hypot(dr);
                 let normal = [(r * c + dr * s) / long, (r * s - dr * c) / long];
                 touched.push([0, 1].map(|k| pitch[k] - self.roller * normal[k]));
