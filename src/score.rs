@@ -41,3 +41,4 @@ pub mod spectrum;
 pub mod table;
 pub mod terms;
 pub mod variant;
+pub mod variants;

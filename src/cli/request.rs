@@ -38,7 +38,7 @@ pub(super) struct Which {
     /// peak-force, peak-moment, conditioning, output-error, changes, cost, idle; weight 1 where none stands.
     #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',')]
     rank: Vec<String>,
-    /// How many of the cheapest variants a ranking scores.
+    /// How many of the cheapest variants a ranking scores at most; it ends before where the best are proven.
     #[arg(long, value_name = "K", default_value_t = POOL)]
     pool: usize,
     /// Also give variants whose outputs move in other ways than now.

@@ -234,7 +234,11 @@ fn ranked(
     let exhausted = diagrams.stop() == Stop::Exhausted;
     let mut out = ranker.finish(exhausted && given <= request.pool);
     if !exhausted {
-        (out.proven, out.proof) = (false, "the search stopped early");
+        (out.proven, out.proof, out.missing) = (false, "the search stopped early", None);
+    }
+    if let Some(missing) = &mut out.missing {
+        let by_cost = search.counts_by_cost(&diagrams.admissible);
+        missing.cheaper = Some(by_cost.range(..missing.settled_at).map(|(_, n)| n).sum());
     }
     Ok(Some(out))
 }

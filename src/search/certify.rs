@@ -111,6 +111,12 @@ pub struct Summary {
 }
 
 impl Summary {
+    /// Whether second opinions were asked for.
+    #[must_use]
+    pub fn is_asked(&self) -> bool {
+        self.checked + self.failed > 0
+    }
+
     /// Counts one more.
     pub fn add(&mut self, one: &Certified) {
         self.given += 1;

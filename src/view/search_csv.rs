@@ -2,7 +2,8 @@
 
 use crate::format::number::cost;
 use crate::model::mechanism::JointId;
-use crate::score::outcome::{Outcome, Variants};
+use crate::score::outcome::Outcome;
+use crate::score::variants::Variants;
 use crate::search::conditions::Search;
 use crate::search::over_stroke::OverStroke;
 use crate::search::space::choice_name;

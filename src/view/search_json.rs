@@ -1,6 +1,7 @@
 //! A search as JSON, and its variants as JSON lines, written as they come.
 
-use crate::score::outcome::{Outcome, Variants};
+use crate::score::outcome::Outcome;
+use crate::score::variants::Variants;
 use crate::search::relax::Relaxation;
 use crate::view::search_data::{SearchData, TailData, VariantData};
 use num_bigint::BigUint;

@@ -1,9 +1,10 @@
 //! A search for people.
 
 use crate::format::number::{cost, grouped};
-use crate::score::outcome::{Outcome, Variants};
+use crate::score::outcome::Outcome;
 use crate::score::request::List;
 use crate::score::variant::{Variant, in_words};
+use crate::score::variants::Variants;
 use crate::search::certify::{NEARLY_SINGULAR, Opinion, Second, Summary};
 use crate::search::primes::Verdict;
 use crate::search::relax::Relaxation;
@@ -53,10 +54,17 @@ pub fn write(
         footnotes.extend(block.iter().filter_map(note));
     }
     let summary = given.summary();
-    write!(out, "{}", notes(&summary, &footnotes, width))?;
+    let lines = notes(&summary).into_iter();
+    let notes = lines.chain(marked(footnotes)).map(|l| format!("  {l}\n"));
+    let gap = if summary.is_asked() { "\n" } else { "" };
+    write!(out, "{gap}{}", fit(&notes.collect::<String>(), width))?;
     if let Some(p) = &outcome.ranking {
-        let notes = ranking::notes(&outcome.search.mechanism, p);
-        write!(out, "{}", fit(&notes, width))?;
+        let m = &outcome.search.mechanism;
+        let lines = ranking::notes(m, p).into_iter();
+        let notes = lines
+            .chain(ranking::reasons(m, p))
+            .map(|l| format!("\n  {l}"));
+        writeln!(out, "{}", fit(&notes.collect::<String>(), width))?;
     }
     if given.interrupted() {
         writeln!(out, "\n  interrupted after {} variants", summary.given)?;
@@ -268,34 +276,35 @@ pub fn note(v: &Variant<'_>) -> Option<String> {
 /// Footnotes told at most.
 const NOTES: usize = 20;
 
-/// What the singular values say of a list, with its footnotes.
+/// What second opinions and other poses say, a line each.
 #[must_use]
-pub fn notes(summary: &Summary, notes: &[String], width: Option<u16>) -> String {
-    let mut out = String::new();
-    if summary.checked + summary.failed > 0 {
-        opinions(&mut out, summary);
+pub fn notes(summary: &Summary) -> Vec<String> {
+    let mut out = Vec::new();
+    if summary.is_asked() {
+        out.push(opinions(summary));
     }
     let posed = grouped(&summary.posed.to_string());
-    // Writing to a string cannot fail.
-    let _ = match (summary.posed, summary.lucky, summary.dropped) {
-        (0, _, 0) => Ok(()),
-        (_, _, n) if n > 0 => writeln!(
-            out,
-            "  {n} left out: their figures are not the same at other poses"
-        ),
-        (_, 0, _) => writeln!(out, "  Figures the same at other poses: all {posed}"),
-        (_, n, _) => writeln!(
-            out,
-            "  Figures not the same at other poses: {n} of {posed}, marked !"
-        ),
-    };
-    for n in notes.iter().take(NOTES) {
-        let _ = writeln!(out, "  {n}");
+    match (summary.posed, summary.lucky, summary.dropped) {
+        (0, _, 0) => {}
+        (_, _, n) if n > 0 => out.push(format!(
+            "{n} left out: their figures are not the same at other poses"
+        )),
+        (_, 0, _) => out.push(format!("Figures the same at other poses: all {posed}")),
+        (_, n, _) => out.push(format!(
+            "Figures not the same at other poses: {n} of {posed}, marked !"
+        )),
     }
-    if notes.len() > NOTES {
-        let _ = writeln!(out, "  and {} more marked", notes.len() - NOTES);
+    out
+}
+
+/// The notes of marked variants, the first of them if there are many.
+fn marked(mut notes: Vec<String>) -> Vec<String> {
+    let more = notes.len().saturating_sub(NOTES);
+    notes.truncate(NOTES);
+    if more > 0 {
+        notes.push(format!("and {more} more marked"));
     }
-    fit(&out, width)
+    notes
 }
 
 /// What to do after a search: look at the first variant given, or ease a condition. `file` is the search's own, as
@@ -365,7 +374,7 @@ fn without(flags: &str, flag: &str) -> String {
     kept.join(" ")
 }
 
-fn opinions(out: &mut String, summary: &Summary) {
+fn opinions(summary: &Summary) -> String {
     let asked = grouped(&(summary.checked + summary.failed).to_string());
     let which = if summary.given > summary.checked + summary.failed {
         format!("the first {asked}; the rest was not asked about")
@@ -381,6 +390,5 @@ fn opinions(out: &mut String, summary: &Summary) {
             which.trim_start_matches("all ")
         )
     };
-    // Writing to a string cannot fail.
-    let _ = writeln!(out, "\n  {verdict} (cond.: the smallest over the largest)");
+    format!("{verdict} (cond.: the smallest over the largest)")
 }
