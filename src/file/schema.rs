@@ -4,6 +4,7 @@ mod drive;
 mod grip;
 mod number;
 mod ranking;
+mod words;
 mod workload;
 
 pub use drive::DriveEntry;
@@ -13,9 +14,10 @@ pub use ranking::{JointTypeEntry, LimitEntry, RankingEntry, TermEntry};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+pub use words::Words;
 pub use workload::{
-    ForceEntry, InertiaEntry, MisalignmentEntry, MomentEntry, StiffnessEntry, StrokeEntry,
-    WorkloadEntry,
+    ContactEntry, ForceEntry, InertiaEntry, MisalignmentEntry, MomentEntry, StiffnessEntry,
+    StrokeEntry, WorkloadEntry,
 };
 
 /// A mechanism: links, joints, and what a search may change.
@@ -129,16 +131,6 @@ pub struct JointEntry {
     /// Joints that may be inserted here in series: true for those of `[search]`, or a list.
     #[serde(default)]
     pub unloading: Option<Unloading>,
-}
-
-/// One word or several.
-#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
-#[serde(untagged, expecting = "expected a word in quotes or a list of them")]
-pub enum Words {
-    /// One.
-    One(String),
-    /// Several.
-    Many(Vec<String>),
 }
 
 /// Whether and what unloading joints may be inserted.

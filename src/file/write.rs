@@ -6,14 +6,15 @@ mod quantity;
 mod ranking;
 
 use crate::file::schema::{
-    ContourEntry, Coordinate, CouplingEntry, ExpectedEntry, ForceEntry, InertiaEntry, JointEntry,
-    LinkEntry, MechanismFile, MisalignmentEntry, MomentEntry, OptionEntry, OptionTable, Quantities,
-    Quantity, SearchEntry, StiffnessEntry, StrokeEntry, Unloading, Words, WorkloadEntry,
+    ContactEntry, ContourEntry, Coordinate, CouplingEntry, ExpectedEntry, ForceEntry, InertiaEntry,
+    JointEntry, LinkEntry, MechanismFile, MisalignmentEntry, MomentEntry, OptionEntry, OptionTable,
+    Quantities, Quantity, SearchEntry, StiffnessEntry, StrokeEntry, Unloading, Words,
+    WorkloadEntry,
 };
 use crate::geom::expr::Expr;
 use crate::model::coupling::Coupling;
 use crate::model::joint_type::{Freedom, JointType};
-use crate::model::loads::{ExternalMoment, Inertia, Stiffness};
+use crate::model::loads::{ExternalMoment, Face, Inertia, Stiffness};
 use crate::model::mechanism::{
     Expected, Frame, Joint, JointId, JointOption, Mechanism, Mode, Role, StateId,
 };
@@ -189,8 +190,12 @@ fn cost(milli: i64) -> f64 {
     milli as f64 / 1000.0
 }
 
+/// The names of states, where any are named.
+fn states(m: &Mechanism, of: Option<&Vec<StateId>>) -> Option<Words> {
+    of.map(|s| Words::Many(s.iter().map(|&s| m.states[s].clone()).collect()))
+}
+
 fn joint(m: &Mechanism, j: &Joint) -> JointEntry {
-    let names = |s: &Vec<StateId>| s.iter().map(|&s| m.states[s].clone()).collect::<Vec<_>>();
     // The present joint is understood, unless it has a cost of its own.
     let priced = j.options.first().is_some_and(|o| o.cost_milli.is_some());
     let listed = j.options.iter().skip(usize::from(!priced));
@@ -208,7 +213,7 @@ fn joint(m: &Mechanism, j: &Joint) -> JointEntry {
         reference: (!is_default(&j.frame)).then(|| vector(&j.frame.reference)),
         pitch: screws(&j.joint_type).then(|| coordinate(&j.frame.pitch)),
         drive: j.drive,
-        state: j.states.as_ref().map(|s| Words::Many(names(s))),
+        state: states(m, j.states.as_ref()),
         options,
         forbid: Vec::new(),
         unloading,
@@ -309,11 +314,19 @@ fn workload(m: &Mechanism) -> WorkloadEntry {
         force: vector(&f.force),
         from: f.range.and_then(|[from, _]| end(from)),
         to: f.range.and_then(|[_, to]| end(to)),
+        state: states(m, f.states.as_ref()),
     });
     let speed = |x: &f64| Quantity::Number(*x);
     let moment = |x: &ExternalMoment| MomentEntry {
         link: m.links[x.link].id.clone(),
         moment: vector(&x.moment),
+        state: states(m, x.states.as_ref()),
+    };
+    let decimal = |x: f64| quantity::number(x, 1.0);
+    let face = |f: &Face| ContactEntry {
+        joint: m.joints[f.joint].id.clone(),
+        friction: f.friction.map(decimal),
+        radius: f.radius.map(decimal),
     };
     let stiffness = |(name, s): &(String, Stiffness)| {
         let entry = StiffnessEntry {
@@ -337,6 +350,7 @@ fn workload(m: &Mechanism) -> WorkloadEntry {
         gravity: loads.gravity.as_ref().map(vector),
         force: force.collect(),
         moment: loads.moments.iter().map(moment).collect(),
+        contact: loads.faces.iter().map(face).collect(),
         stiffness: loads.stiffness.iter().map(stiffness).collect(),
         misalignment: misalignment.collect(),
         drive_speed: match &loads.drive_speeds[..] {

@@ -83,6 +83,7 @@ impl Evaluator<'_> {
                         }),
                         force: unit,
                         range: None,
+                        states: None,
                     };
                     let loads = Loads {
                         forces: vec![force],

@@ -92,6 +92,13 @@ pub fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
     if !p.proven {
         out.push(format!("--pool widens the view (now {})", n(p.pool)));
     }
+    if p.ranking
+        .terms
+        .iter()
+        .any(|(t, _)| *t == Term::Conditioning)
+    {
+        out.push("cond. held: as cond., the smallest singular value over the largest, but with the drives held and over all poses".to_owned());
+    }
     let left_out = [
         (
             p.unheld,
@@ -127,7 +134,7 @@ pub fn columns(p: &RankedPool) -> Vec<&'static str> {
         .map(|t| match t {
             Term::PeakForce => "force",
             Term::PeakMoment => "moment",
-            Term::Conditioning => "condit.",
+            Term::Conditioning => "cond. held",
             Term::OutputError => "error, mm",
             Term::Changes => "changed",
             Term::Cost | Term::Idle | Term::Harmful => t.name(),

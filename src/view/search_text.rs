@@ -155,18 +155,27 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
         .chain(outcome.admissible.by_mobility.keys())
         .copied()
         .collect();
-    // Mobilities that no admissible variant has are of no use to a designer.
-    let shown = mobilities.iter().filter(|w| {
+    // Mobilities that no admissible variant has are of no use to a designer: they are told in one row.
+    let (shown, rest): (Vec<i64>, Vec<i64>) = mobilities.iter().partition(|w| {
         outcome.admissible.total.is_zero() || outcome.admissible.by_mobility.contains_key(w)
     });
-    let rows = shown.map(|w| {
-        let of = |m: &BTreeMap<i64, BigUint>| m.get(w).map_or("0".into(), big);
+    let row = |name: String, of: &[i64]| {
+        let sum =
+            |m: &BTreeMap<i64, BigUint>| big(&of.iter().filter_map(|w| m.get(w)).sum::<BigUint>());
+        let (determinate, admissible) = (&outcome.determinate, &outcome.admissible);
         vec![
-            w.to_string(),
-            of(&outcome.determinate.by_mobility),
-            of(&outcome.admissible.by_mobility),
+            name,
+            sum(&determinate.by_mobility),
+            sum(&admissible.by_mobility),
         ]
-    });
+    };
+    let each = shown.iter().map(|w| row(w.to_string(), &[*w]));
+    let left_out = match (rest.first(), rest.last()) {
+        (Some(least), Some(most)) if least == most => Some(row(least.to_string(), &rest)),
+        (Some(least), Some(most)) => Some(row(format!("rest, {least} to {most}"), &rest)),
+        _ => None,
+    };
+    let rows = each.chain(left_out);
     if !mobilities.is_empty() {
         let _ = writeln!(
             out,
