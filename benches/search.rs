@@ -124,6 +124,7 @@ fn spaces(c: &mut Criterion) {
                 joint_type,
                 frame: j.frame.clone(),
                 cost_milli: None,
+                state: None,
             });
         }
     }

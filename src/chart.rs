@@ -16,9 +16,13 @@ mod labels;
 mod line;
 mod look;
 mod matrix;
+mod outline;
 mod page;
+mod polygons;
 
+pub use outline::Outline;
 pub use page::page;
+pub use polygons::{Arrow, Panel, Polygons};
 
 #[cfg(test)]
 mod tests;

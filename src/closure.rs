@@ -3,5 +3,6 @@
 pub mod contour;
 pub mod coupling;
 pub mod matrix;
+pub mod mirror;
 pub mod tree;
 pub mod twist;

@@ -2,6 +2,7 @@
 //!
 //! [`driving::drive`] does all of it.
 
+pub mod cam;
 pub mod driving;
 pub mod programme;
 pub mod swing;

@@ -11,3 +11,4 @@ pub mod gripping;
 pub mod holding;
 pub mod jaw_loads;
 pub mod lever_arm;
+pub mod motion;

@@ -7,6 +7,7 @@ pub mod counting;
 mod elimination_order;
 pub mod field;
 pub mod finite;
+pub mod finite_exact;
 pub mod generic;
 pub mod higher_order;
 mod kernel;

@@ -2,8 +2,10 @@
 //! what an over-constrained assembly is stressed with.
 
 pub mod analysis;
+pub mod borne;
 pub mod external;
 pub mod idle;
+mod joint_wrench;
 pub mod measured;
 pub mod motion;
 pub mod share;

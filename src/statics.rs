@@ -9,6 +9,7 @@ pub mod assur_class;
 pub mod contour_group;
 pub mod cycle;
 mod dense;
+pub mod inertia;
 pub mod kinetostatics;
 pub mod planar;
 pub mod planar_motion;

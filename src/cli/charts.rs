@@ -1,16 +1,28 @@
-//! Charts into a folder, each as SVG and CSV.
+//! Charts and drawings into a folder, each as SVG and CSV.
 
 use super::{Done, output};
 use crate::chart::{Chart, page};
+
+/// A drawing beside the charts.
+pub(super) struct Drawing {
+    /// Name of its files.
+    pub(super) name: String,
+    /// What is shown.
+    pub(super) title: String,
+    /// Its texts by ending; one of them svg.
+    pub(super) files: Vec<(&'static str, String)>,
+}
+
 use anyhow::Context;
 use std::path::Path;
 
 /// Writes `NAME.svg` and `NAME.csv` of each chart, making the folder where it is missing, and a page of all where it gets a
-/// title.
+/// title; drawings come last.
 pub(super) fn write(
     folder: &Path,
     title: Option<&str>,
     charts: &[(String, Chart)],
+    drawings: &[Drawing],
 ) -> anyhow::Result<()> {
     std::fs::create_dir_all(folder)
         .with_context(|| format!("cannot make the folder {}", folder.display()))?;
@@ -30,7 +42,16 @@ pub(super) fn write(
             series.points.retain(|p| p.1.is_finite());
         }
         write(&format!("{name}.csv"), &table.csv())?;
-        parts.push((chart.title.clone(), chart.subtitle.clone(), svg));
+        // The drawing has its subtitle.
+        parts.push((chart.title.clone(), String::new(), svg));
+    }
+    for drawing in drawings {
+        for (ending, text) in &drawing.files {
+            write(&format!("{}.{ending}", drawing.name), text)?;
+            if *ending == "svg" {
+                parts.push((drawing.title.clone(), String::new(), text.clone()));
+            }
+        }
     }
     if let Some(title) = title {
         write("index.html", &page(title, &parts))?;

@@ -60,8 +60,8 @@ pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
         );
     };
     let mut marks = None;
-    let external = a.which.max_external.is_some() && state != StateId::FREE;
-    let request = a.which.request(external.then_some(a.state.as_str()))?;
+    let searched = state != StateId::FREE;
+    let request = a.which.request(searched.then_some(a.state.as_str()))?;
     let mut tolerance = None;
     if let Some(k) = a.variant {
         let (realized, changes) = variant::kth(mechanism, request, k, |v| {

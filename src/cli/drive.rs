@@ -5,7 +5,7 @@ use super::{Done, charts, load, output};
 use crate::drive::driving::drive;
 use crate::file::read::workload::drive_from_bytes;
 use crate::view;
-use crate::view::drive::{charts::charts, text};
+use crate::view::drive::{charts::cam, charts::charts, charts::motion, text};
 use crate::view::next::{self, Step};
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
@@ -17,7 +17,8 @@ pub(super) struct Drive {
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     pub(super) format: AnalyzeFormat,
-    /// Also write charts, each as SVG and CSV, into this folder.
+    /// Also write charts, each as SVG and CSV, the cam's profile as SVG, CSV and DXF, and the payload's motion on the first
+    /// disc for `ozols grip --motion`, into this folder.
     #[arg(long, value_name = "DIR")]
     pub(super) svg: Option<PathBuf>,
     /// Write to a file instead of standard output.
@@ -31,7 +32,18 @@ pub(super) fn run(_: &Args, a: &Drive) -> anyhow::Result<Done> {
     let found = drive(&file.spec)?;
     let shown = view::drive::Drive::new(&file, &found);
     if let (Some(folder), true) = (&a.svg, shown.design.is_some()) {
-        charts::write(folder, None, &charts(&shown))?;
+        let cam = cam(&shown).map(|cam| charts::Drawing {
+            name: "cam".to_owned(),
+            files: vec![("svg", cam.svg()), ("csv", cam.csv()), ("dxf", cam.dxf())],
+            title: cam.title,
+        });
+        let motion = motion(&shown).map(|table| charts::Drawing {
+            name: "motion".to_owned(),
+            files: vec![("csv", table)],
+            title: String::new(),
+        });
+        let more: Vec<charts::Drawing> = cam.into_iter().chain(motion).collect();
+        charts::write(folder, None, &charts(&shown), &more)?;
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {
@@ -40,7 +52,7 @@ pub(super) fn run(_: &Args, a: &Drive) -> anyhow::Result<Done> {
                 let width = output::width(a.output.as_deref());
                 write!(out, "{}", text::drive(&shown, width))?;
                 if a.svg.is_none() && shown.design.is_some() {
-                    let gives = "charts of the programme: angle, speed and energy over time";
+                    let gives = "charts of the programme, angle and energy over time, and the cam's profile where its radii are stated";
                     let charts = Step::new("drive", &a.file.file, "--svg charts", gives);
                     write!(out, "{}", next::text(&[charts], width))?;
                 }

@@ -20,7 +20,7 @@ pub(super) struct Export {
     /// Write variant K of the list that `ozols search FILE` gives, with the same of the options below.
     #[arg(long, value_name = "K")]
     variant: Option<usize>,
-    /// The state meant by --max-external; the file's first besides free by default.
+    /// The state that the search takes in besides the free one.
     #[arg(long, value_name = "STATE", requires = "variant")]
     state: Option<String>,
     #[command(flatten)]

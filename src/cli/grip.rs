@@ -2,13 +2,15 @@
 
 use super::args::{AnalyzeFormat, Args, File};
 use super::{Done, charts, load, output};
+use crate::file::read::trajectory::trajectory;
 use crate::file::read::workload::grip_from_bytes;
 use crate::grip::gripping::grip;
+use crate::grip::motion::along;
 use crate::model::grip::Toward;
 use crate::view;
-use crate::view::grip::{charts::charts, text};
+use crate::view::grip::{charts::charts, motion::Motion, text};
 use crate::view::next::{self, Step};
-use anyhow::{bail, ensure};
+use anyhow::{Context, bail, ensure};
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
 
@@ -22,6 +24,10 @@ pub(super) struct Grip {
     /// A further acceleration of the gripper in m/s², in any direction; `ozols drive` prints one.
     #[arg(long, value_name = "A")]
     pub(super) any_acceleration: Option<f64>,
+    /// A motion as CSV, one step a line: columns ax, ay, az in m/s², and if wanted gx, gy, gz (gravity in the gripper's axes),
+    /// time, diameter. The least clamping is found for every step.
+    #[arg(long, value_name = "CSV", value_hint = clap::ValueHint::FilePath)]
+    pub(super) motion: Option<PathBuf>,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     pub(super) format: AnalyzeFormat,
@@ -62,10 +68,34 @@ pub(super) fn run(_: &Args, a: &Grip) -> anyhow::Result<Done> {
             file.name
         ),
     }
+    let steps = match &a.motion {
+        Some(path) => {
+            let bytes =
+                std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
+            let steps = trajectory(&path.display().to_string(), &bytes, file.length_unit.metres)?;
+            // Its parts are studied along with the others.
+            let parts = steps
+                .iter()
+                .map(|s| s.diameter.unwrap_or(file.spec.diameter));
+            let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a;
+            for part in parts.collect::<Vec<f64>>() {
+                if !file.spec.diameters.iter().any(|d| near(*d, part)) {
+                    file.spec.diameters.push(part);
+                }
+            }
+            file.spec.diameters.sort_by(f64::total_cmp);
+            Some(steps)
+        }
+        None => None,
+    };
     let found = grip(&file.spec, file.mechanism.as_ref())?;
-    let shown = view::grip::Grip::new(&file, &found);
+    let mut shown = view::grip::Grip::new(&file, &found);
+    if let Some(steps) = steps {
+        let along = along(&file.spec, &found, &steps)?;
+        shown.motion = Some(Motion::new(&along, file.length_unit));
+    }
     if let Some(folder) = &a.svg {
-        charts::write(folder, None, &charts(&shown))?;
+        charts::write(folder, None, &charts(&shown), &[])?;
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {
@@ -80,7 +110,8 @@ pub(super) fn run(_: &Args, a: &Grip) -> anyhow::Result<Done> {
                 }
             }
         }
-        Ok(if shown.holds {
+        let held_along = shown.motion.as_ref().is_none_or(|m| m.holds);
+        Ok(if shown.holds && held_along {
             Done::Found
         } else {
             Done::Nothing

@@ -3,7 +3,8 @@
 use super::output;
 use crate::model::mechanism::Mechanism;
 use crate::score::outcome::Outcome;
-use crate::score::request::{LooksRounded, Request};
+use crate::score::prepared::LooksRounded;
+use crate::score::request::Request;
 use crate::score::run::{self, Event, RunError, ShouldCancel, Tell};
 use crate::search::conditions::Conditions;
 use crate::search::diagram::Progress;

@@ -1,7 +1,7 @@
 //! What is asked of a search, in arguments: the same for every command that searches.
 
 use crate::model::ranking::Term;
-use crate::score::request::{self, JointOptions, POOL, Request};
+use crate::score::request::{self, Inserts, JointOptions, POOL, Request};
 use crate::search::conditions::Symmetry;
 use anyhow::{Context, bail};
 use clap::{Args as ClapArgs, ValueEnum};
@@ -24,10 +24,16 @@ pub(super) struct Which {
     /// Redundant constraints allowed within the mechanism.
     #[arg(long, value_name = "N", default_value_t = 0)]
     max_redundant: u32,
-    /// Redundant constraints allowed from the clamped object; takes the joints of `--state` (and their unloading
-    /// places) into the search.
+    /// Redundant constraints that the state of --state may add; takes its joints (and their unloading places) into the
+    /// search.
     #[arg(long, value_name = "N")]
-    pub(super) max_external: Option<u32>,
+    max_external: Option<u32>,
+    /// Harmful ones among them: those that load clamping faces with more than friction; takes the state into the search.
+    #[arg(long, value_name = "N")]
+    max_harmful: Option<u32>,
+    /// Also give variants in which the clamped object can move against all its jaws.
+    #[arg(long)]
+    allow_loose_object: bool,
     /// Largest mobility W allowed.
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     max_mobility: Option<i64>,
@@ -35,16 +41,16 @@ pub(super) struct Which {
     #[arg(long, value_name = "N")]
     max_changes: Option<u32>,
     /// Rank under the workload by these terms, in place of the file's [ranking] terms: peak-force=1,cost=0.5. Terms:
-    /// peak-force, peak-moment, conditioning, output-error, changes, cost, idle; weight 1 where none stands.
+    /// peak-force, peak-moment, conditioning, output-error, changes, cost, idle, harmful; weight 1 where none stands.
     #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',')]
     rank: Vec<String>,
-    /// How many of the cheapest variants a ranking scores.
+    /// How many of the cheapest variants a ranking scores at most; it ends before where the best are proven.
     #[arg(long, value_name = "K", default_value_t = POOL)]
     pool: usize,
     /// Also give variants whose outputs move in other ways than now.
     #[arg(long)]
     allow_output_change: bool,
-    /// Another link that must not gain a motion (repeatable).
+    /// Another link that must not gain a motion, or an object that must be held (repeatable).
     #[arg(long, value_name = "LINK")]
     hold: Vec<String>,
     /// Use these of the file's options everywhere, by name: revolute,spherical.
@@ -56,6 +62,10 @@ pub(super) struct Which {
     /// Options forbidden at a joint: 2-3=spherical; all changes with 2-3 alone (repeatable).
     #[arg(long, value_name = "JOINT[=NAMES]")]
     forbid: Vec<String>,
+    /// Joints to offer in series, beside those of the file: spherical,planar=4-a,a-8, or spherical alone for all joints that
+    /// the searched state adds (repeatable).
+    #[arg(long, value_name = "NAMES[=JOINTS]")]
+    unloading: Vec<String>,
     /// Only variants that are their own mirror image.
     #[arg(long)]
     symmetric: bool,
@@ -79,7 +89,8 @@ pub(super) struct Which {
 pub(super) struct Checked {
     #[command(flatten)]
     which: Which,
-    /// The state meant by --max-external; the file's first besides free by default.
+    /// The state that takes part besides the free one, its joints among what is searched; the file's first where only
+    /// --max-external or --max-harmful is given.
     #[arg(long, value_name = "STATE")]
     state: Option<String>,
     /// Look at each variant given, up to 1000, in N further poses of the present motion, and mark those whose W, σ or
@@ -107,14 +118,28 @@ impl Which {
                 names: Vec::new(),
             },
         };
+        let inserts = |rule: &String| {
+            let (names, joints) = rule.split_once('=').unwrap_or((rule, ""));
+            let list = |words: &str| {
+                let words = words.split(',').map(str::trim).filter(|w| !w.is_empty());
+                words.map(str::to_owned).collect()
+            };
+            Inserts {
+                names: list(names),
+                joints: list(joints),
+            }
+        };
         Ok(Request {
             max_redundant: self.max_redundant,
             max_external: self.max_external,
+            max_harmful: self.max_harmful,
+            allow_loose_object: self.allow_loose_object,
             state: state.map(str::to_owned),
             max_mobility: self.max_mobility,
             max_changes: self.max_changes,
             allow_output_change: self.allow_output_change,
             hold: self.hold.clone(),
+            unloading: self.unloading.iter().map(inserts).collect(),
             options: self.options.clone(),
             allow: self.allow.iter().map(joint_options).collect(),
             forbid: self.forbid.iter().map(joint_options).collect(),

@@ -84,16 +84,17 @@ pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
         Method::Brute => Watch::idle(),
     };
     let outcome = watch.run(mechanism, &request)?;
-    let eased = outcome.relaxations()?;
+    let (eased, why) = (outcome.relaxations()?, outcome.hopeless()?);
+    let none = (&eased[..], &why);
     output::to(a.output.as_deref(), |out| {
         let cancelled = || watch.cancelled();
         let variants = outcome.variants_unless(&cancelled);
         match a.format {
             SearchFormat::Text => {
                 let width = output::width(a.output.as_deref());
-                search_text::write(out, &outcome, variants, &eased, &a.file.file, width)?;
+                search_text::write(out, &outcome, variants, none, &a.file.file, width)?;
             }
-            SearchFormat::Json => search_json::write(out, &outcome, variants, &eased)?,
+            SearchFormat::Json => search_json::write(out, &outcome, variants, none)?,
             SearchFormat::Jsonl => search_json::write_lines(out, &outcome, variants)?,
             SearchFormat::Csv => search_csv::write(out, &outcome, variants)?,
         }

@@ -11,14 +11,16 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::contour_group::solutions::GroupMethod;
 use crate::statics::contour_group::stability::{GROUPS, study};
 use crate::statics::cycle;
-use crate::statics::reactions::Cycle;
-use crate::statics::solve::{Answer, Model, solve};
+use crate::statics::reactions::contact::object_at;
+use crate::statics::reactions::{Cycle, Unsolved};
+use crate::statics::solve::{Answer, Model, StaticsError, solve};
 use crate::view;
+use crate::view::grip::clamped::NotHeld;
 use crate::view::layout::table;
 use crate::view::next::{self, Step};
 use crate::view::reactions::stroke::Stroke as StrokeView;
 use crate::view::reactions::{Reactions, text::reactions};
-use crate::view::statics::{Structures, charts as drawn, csv::csv, text};
+use crate::view::statics::{Structures, charts as drawn, csv::csv, force_plans::plans, text};
 use anyhow::{Context, bail};
 use args::{Statics, StaticsFormat, StaticsMethod};
 use std::path::Path;
@@ -68,12 +70,37 @@ pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
         return stability(&m, state, stroke, folder, args.seed);
     }
     let own = matches!(a.method, StaticsMethod::Delta | StaticsMethod::Projective);
-    let model = match (a.spatial, own || a.svg.is_some()) {
-        (true, _) => Model::Spatial,
-        (false, true) => Model::Planar,
-        (false, false) => Model::Either,
+    if a.unilateral && !m.joints_in(state).any(|j| object_at(&m, j).is_some()) {
+        bail!(
+            "--unilateral is for contacts with an object, and state {} of {} has none: a link of role = \"object\", and joints of \
+             type fixed, planar, cylinder-on-plane or sphere-on-plane to it",
+            a.state,
+            m.name
+        );
+    }
+    let model = match (a.unilateral, a.spatial, own || a.svg.is_some()) {
+        (true, ..) => Model::Pushing,
+        (_, true, _) => Model::Spatial,
+        (_, false, true) => Model::Planar,
+        (_, false, false) => Model::Either,
     };
-    let found = solve(&m, state, stroke, model)?;
+    let found = match solve(&m, state, stroke, model) {
+        // Not held is an answer, and no failure.
+        Err(StaticsError::Spatial(why @ Unsolved::Loose)) => {
+            return output::to(a.output.as_deref(), |out| {
+                match a.format {
+                    StaticsFormat::Json => {
+                        output::json(out, &NotHeld::because(&m, state, &why.to_string()))?
+                    }
+                    StaticsFormat::Csv | StaticsFormat::Text => {
+                        writeln!(out, "{}, state {}: {why}", m.name, a.state)?;
+                    }
+                }
+                Ok(Done::Nothing)
+            });
+        }
+        found => found?,
+    };
     match &found {
         Answer::Planar(found) => planar(&m, found, own, a)?,
         Answer::Spatial(found) => spatial(&m, state, stroke, found, a)?,
@@ -101,7 +128,15 @@ fn planar(m: &Mechanism, found: &cycle::Statics, own: bool, a: &Statics) -> anyh
     }
     let shown = view::statics::Statics::new(&m.name, found, methods);
     if let Some(folder) = &a.svg {
-        charts::write(folder, Some(&m.name), &drawn::cycle(&shown))?;
+        let plans = plans(&shown)
+            .into_iter()
+            .map(|(name, plan)| charts::Drawing {
+                name,
+                files: vec![("svg", plan.svg()), ("csv", plan.csv())],
+                title: plan.title,
+            });
+        let plans: Vec<charts::Drawing> = plans.collect();
+        charts::write(folder, Some(&m.name), &drawn::cycle(&shown), &plans)?;
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {
@@ -114,7 +149,8 @@ fn planar(m: &Mechanism, found: &cycle::Statics, own: bool, a: &Statics) -> anyh
                 let file = a.file.as_deref().unwrap_or(&m.name);
                 let mut steps = Vec::new();
                 if loaded && a.svg.is_none() {
-                    let gives = "charts of the reactions over the cycle";
+                    let gives =
+                        "charts of reactions and accelerations over the cycle, and the force plans";
                     steps.push(Step::new("statics", file, "--svg charts", gives));
                 }
                 if loaded {
@@ -232,7 +268,7 @@ fn stability(
     })?;
     let found = study(base, seed);
     let all: Vec<drawn::Named> = found.iter().map(|(f, s)| drawn::stability(*f, s)).collect();
-    charts::write(folder, Some("Stability of the δ-point method"), &all)?;
+    charts::write(folder, Some("Stability of the δ-point method"), &all, &[])?;
     let rows = found.iter().flat_map(|(f, s)| drawn::stability_rows(*f, s));
     output::to(None, |out| {
         writeln!(

@@ -1,5 +1,6 @@
 //! A torsional drive designed and run: bar, missing angle, cam spring, programme, and the motion it gives its payload.
 
+use crate::drive::cam::{Cam, Magnet, Profile, magnet};
 use crate::drive::programme::{Endurance, Module, Run};
 use crate::drive::swing::{Disc, Feed, Latch, SwingError};
 use crate::drive::torsion::{Bar, CamSpring, Sizing, Wanted, frequency, friction_energy};
@@ -22,13 +23,22 @@ pub enum DampingFrom {
     None,
 }
 
-/// The cam's spring by the formulas and by the simulation.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Points of a cam from groove to groove.
+pub const PROFILE_POINTS: u32 = 180;
+
+/// The cam's spring by the formulas and by the simulation, its profile and its electromagnets.
+#[derive(Debug, Clone, PartialEq)]
 pub struct CamDesign {
     /// By equation (14).
     pub spring: CamSpring,
     /// The one that brings the disc to its latch at rest, where any does.
     pub needed: Option<CamSpring>,
+    /// The one that gives what is fed in this run.
+    pub fitted: CamSpring,
+    /// What the electromagnets do against that one.
+    pub magnet: Magnet,
+    /// The profile, where the cam's and the roller's radius are stated.
+    pub profile: Option<Profile>,
 }
 
 /// The motion of a payload. SI units.
@@ -181,13 +191,6 @@ pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
         .into_iter()
         .try_fold(0.0f64, |most, n| n.map(|n| most.max(n)));
     let feed = spec.feed.unwrap_or(by_formula);
-    let cam = spec.cam.map(|c| {
-        let spring = |energy| CamSpring::for_friction(energy, c.efficiency, c.mounting, c.stroke);
-        CamDesign {
-            spring: spring(by_formula),
-            needed: needed_feed.map(spring),
-        }
-    });
     let module = Module {
         discs,
         latch,
@@ -197,6 +200,27 @@ pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
         },
     };
     let run = module.run(&spec.programme)?;
+    let cam = spec.cam.map(|c| {
+        let spring = |energy| CamSpring::for_friction(energy, c.efficiency, c.mounting, c.stroke);
+        let profile = c.profile.map(|(radius, roller)| {
+            let cam = Cam {
+                half_swing: spec.twist,
+                from: spec.feed_from,
+                stroke: c.stroke,
+                mounting: c.mounting,
+                radius,
+                roller,
+            };
+            cam.profile(PROFILE_POINTS)
+        });
+        CamDesign {
+            spring: spring(by_formula),
+            needed: needed_feed.map(spring),
+            fitted: spring(feed),
+            magnet: magnet(&run, &spring(feed)),
+            profile,
+        }
+    });
     let mut used: Vec<usize> = run.swings().map(|(disc, _)| disc).collect();
     used.sort_unstable();
     used.dedup();

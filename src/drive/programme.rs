@@ -88,6 +88,10 @@ pub struct Sample {
     pub potential: f64,
     /// Of the swinging disc. `[J]`
     pub kinetic: f64,
+    /// Of the discs. `[rad/s]`
+    pub speeds: [f64; 2],
+    /// Of the discs. `[rad/s²]`
+    pub accelerations: [f64; 2],
 }
 
 impl Run {
@@ -106,11 +110,55 @@ impl Run {
     }
 }
 
+/// Where the discs stand. A disc's grooves are 2φ0 apart on it, and those of the two discs φ0 from each other's: a disc at
+/// rest is in the groove at φ0 times its place, or short of it by as much as the latch lets pass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Standing {
+    /// Of the grooves, in steps of φ0; always one apart.
+    places: [i32; 2],
+    /// From the grooves to where the discs are. `[rad]`
+    offsets: [f64; 2],
+}
+
 impl Module {
+    /// The discs in their grooves, the first a step ahead.
+    const START: Standing = Standing {
+        places: [1, 0],
+        offsets: [0.0; 2],
+    };
+
+    fn angles(&self, now: &Standing) -> [f64; 2] {
+        [0, 1].map(|d| f64::from(now.places[d]) * self.latch.at + now.offsets[d])
+    }
+
+    /// Lets a disc swing to its next groove on the far side of the other disc, and stands it where it stops.
+    ///
+    /// The latch and the cam's push are where the disc's own grooves have them, however far short of its groove either disc
+    /// stands: shortfalls add up.
+    fn swing(&self, now: &mut Standing, disc: usize) -> Result<Swing, SwingError> {
+        let other = 1 - disc;
+        let onward = now.places[other] - now.places[disc];
+        let way = f64::from(onward);
+        let [own, neutral] = [disc, other].map(|d| way * now.offsets[d]);
+        let latch = Latch {
+            at: self.latch.at - neutral,
+            ..self.latch
+        };
+        let feed = Feed {
+            from: self.feed.from - neutral,
+            ..self.feed
+        };
+        let start = self.latch.at - own + neutral;
+        let swing = self.discs[disc].swing(start, latch, feed)?;
+        now.places[disc] += 2 * onward;
+        now.offsets[disc] = way * (swing.place - latch.at);
+        Ok(swing)
+    }
+
     /// Runs a programme from rest, with the first disc turned φ0 ahead of the second.
     ///
     /// # Guarantee
-    /// Exact, see [`Disc::swing`]; latched discs do not move.
+    /// Exact, see [`Disc::swing`]; latched discs do not move. A disc that the latch catches short of its groove stays there.
     ///
     /// # Errors
     /// Discs that do not swing.
@@ -119,11 +167,12 @@ impl Module {
             .iter()
             .filter(|s| matches!(s, Step::Swing(_)))
             .count();
+        let mut now = Self::START;
         let mut run = Run {
             steps: Vec::new(),
             latched: 0,
             wanted,
-            angles: [self.latch.at, 0.0],
+            angles: self.angles(&now),
         };
         let mut time = 0.0;
         for step in programme {
@@ -131,9 +180,8 @@ impl Module {
             let (duration, event) = match *step {
                 Step::Dwell(length) => (length, Event::Dwell),
                 Step::Swing(disc) => {
-                    let ahead = angles[disc] - angles[1 - disc];
-                    let swing = self.discs[disc].swing(ahead.abs(), self.latch, self.feed)?;
-                    run.angles[disc] = angles[1 - disc] - ahead.signum() * swing.place;
+                    let swing = self.swing(&mut now, disc)?;
+                    run.angles = self.angles(&now);
                     (swing.duration, Event::Swing { disc, swing })
                 }
             };
@@ -156,29 +204,35 @@ impl Module {
         Ok(run)
     }
 
-    /// Lets the discs named take turns until their swings repeat or a latch is missed.
+    /// Lets the discs named take turns until a round leaves them as it found them or a latch is missed.
     ///
     /// # Errors
     /// As [`Module::run`].
     pub fn endurance(&self, discs: &[usize]) -> Result<Endurance, SwingError> {
-        let (mut place, mut missing) = (self.latch.at, vec![f64::NAN; discs.len().max(1)]);
-        for (n, &disc) in discs.iter().cycle().take(PATIENCE).enumerate() {
-            let swing = self.discs[disc].swing(place, self.latch, self.feed)?;
+        let mut now = Self::START;
+        let short = |now: &Standing| now.offsets.map(f64::abs);
+        let mut before = [f64::NAN; 2];
+        for n in 0..PATIENCE {
+            let Some(&disc) = discs.get(n % discs.len().max(1)) else {
+                break;
+            };
+            let swing = self.swing(&mut now, disc)?;
             if matches!(swing.end, End::Missed { .. } | End::Stuck) {
                 return Ok(Endurance::Fails { after: n });
             }
-            place = swing.place;
-            let turn = n % missing.len();
-            let before = std::mem::replace(&mut missing[turn], self.latch.at - place);
-            if (missing[turn] - before).abs() <= 1e-12 * self.latch.at {
-                return Ok(Endurance::Lasts {
-                    missing: missing[turn],
-                });
+            if (n + 1) % discs.len() == 0 {
+                let after = short(&now);
+                let still = |d: usize| (after[d] - before[d]).abs() <= 1e-12 * self.latch.at;
+                if still(0) && still(1) {
+                    return Ok(Endurance::Lasts {
+                        missing: after[0].max(after[1]),
+                    });
+                }
+                before = after;
             }
         }
-        Ok(Endurance::Drifts {
-            missing: self.latch.at - place,
-        })
+        let [a, b] = short(&now);
+        Ok(Endurance::Drifts { missing: a.max(b) })
     }
 
     /// The run at moments `per_swing` to a swing, for charts.
@@ -195,11 +249,14 @@ impl Module {
                 let t = step.duration * f64::from(i) / f64::from(count);
                 let mut angles = step.angles;
                 let mut kinetic = 0.0;
+                let (mut speeds, mut accelerations) = ([0.0; 2], [0.0; 2]);
                 if let Event::Swing { disc, swing } = &step.event {
                     let ahead = (angles[*disc] - angles[1 - disc]).signum();
                     let (u, v) = swing.at(t);
                     angles[*disc] = angles[1 - disc] - ahead * u;
                     kinetic = self.discs[*disc].inertia * v * v / 2.0;
+                    speeds[*disc] = -ahead * v;
+                    accelerations[*disc] = -ahead * swing.acceleration(t);
                 }
                 let twist = angles[0] - angles[1];
                 let potential = self.discs[0].stiffness * twist * twist / 2.0;
@@ -208,6 +265,8 @@ impl Module {
                     angles,
                     potential,
                     kinetic,
+                    speeds,
+                    accelerations,
                 });
             }
         }

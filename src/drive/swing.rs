@@ -119,6 +119,8 @@ pub struct Swing {
     pub end: End,
     /// `[s]`
     pub duration: f64,
+    /// When the cam's push begins, where it comes to that. `[s]`
+    pub push_begins: Option<f64>,
     /// Where it ends. `[rad]`
     pub place: f64,
     /// Where its energy went.
@@ -190,7 +192,7 @@ impl Disc {
             initial: self.stiffness * start * start / 2.0,
             ..Balance::default()
         };
-        let mut arrived = false;
+        let (mut arrived, mut push_begins) = (false, None);
         let bounds = if push > 0.0 {
             vec![(feed.from, 0.0), (latch.at, push)]
         } else {
@@ -204,6 +206,9 @@ impl Disc {
             // At rest, the bar must be stronger than friction; what is stopped stays so.
             if v <= 0.0 && u >= middle {
                 break;
+            }
+            if moment > 0.0 {
+                push_begins = Some(t);
             }
             let piece = self.piece(t, u, v, middle, bound);
             let (end, speed) = self.state(&piece, piece.length);
@@ -237,6 +242,7 @@ impl Disc {
             pieces,
             end,
             duration: t,
+            push_begins,
             place: u,
             balance,
         })
@@ -347,6 +353,17 @@ impl Disc {
 }
 
 impl Swing {
+    /// Acceleration at a time from the release; none at its end. `[rad/s²]`
+    #[must_use]
+    pub fn acceleration(&self, time: f64) -> f64 {
+        let now = self.pieces.iter().find(|p| time <= p.start + p.length);
+        now.map_or(0.0, |p| {
+            let (place, speed) = self.disc.state(p, (time - p.start).max(0.0));
+            let moment = -self.disc.stiffness * (place - p.middle) - self.disc.viscous * speed;
+            moment / self.disc.inertia
+        })
+    }
+
     /// Place and speed at a time from the release; at rest at its end afterwards.
     #[must_use]
     pub fn at(&self, time: f64) -> (f64, f64) {

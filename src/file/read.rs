@@ -19,6 +19,7 @@ pub(crate) mod quantity;
 pub mod ranking;
 pub(crate) mod resolve;
 mod search;
+pub mod trajectory;
 mod unit;
 pub mod workload;
 

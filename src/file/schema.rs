@@ -4,6 +4,7 @@ mod drive;
 mod grip;
 mod number;
 mod ranking;
+mod words;
 mod workload;
 
 pub use drive::DriveEntry;
@@ -13,9 +14,10 @@ pub use ranking::{JointTypeEntry, LimitEntry, RankingEntry, TermEntry};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+pub use words::Words;
 pub use workload::{
-    ForceEntry, InertiaEntry, MisalignmentEntry, MomentEntry, StiffnessEntry, StrokeEntry,
-    WorkloadEntry,
+    ContactEntry, ForceEntry, InertiaEntry, MisalignmentEntry, MomentEntry, StiffnessEntry,
+    StrokeEntry, WorkloadEntry,
 };
 
 /// A mechanism: links, joints, and what a search may change.
@@ -131,16 +133,6 @@ pub struct JointEntry {
     pub unloading: Option<Unloading>,
 }
 
-/// One word or several.
-#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
-#[serde(untagged, expecting = "expected a word in quotes or a list of them")]
-pub enum Words {
-    /// One.
-    One(String),
-    /// Several.
-    Many(Vec<String>),
-}
-
 /// Whether and what unloading joints may be inserted.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(
@@ -177,6 +169,9 @@ pub struct OptionTable {
     /// Freedoms of a custom joint.
     #[serde(default)]
     pub freedoms: Option<Vec<String>>,
+    /// Origin, the joint's own by default.
+    #[serde(default)]
+    pub point: Option<[Coordinate; 3]>,
     /// Direction of z, the joint's own by default.
     #[serde(default)]
     pub axis: Option<[Coordinate; 3]>,
@@ -192,6 +187,9 @@ pub struct OptionTable {
     /// Cost, in place of the table's.
     #[serde(default)]
     pub cost: Option<f64>,
+    /// The state that must be searched for it to be offered; offered in any search where left out.
+    #[serde(default)]
+    pub state: Option<String>,
 }
 
 /// Two joints that move in a fixed ratio.
@@ -229,7 +227,8 @@ pub struct SearchEntry {
     /// Pairs of joints that are mirror images.
     #[serde(default)]
     pub mirror: Vec<[String; 2]>,
-    /// Costs by option or type name, and `change` and `link`.
+    /// Costs by option or type name, and `change`, `link` and `harmful` (of each harmful redundant constraint that a searched
+    /// state adds).
     #[serde(default)]
     pub costs: BTreeMap<String, f64>,
 }

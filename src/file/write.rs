@@ -6,14 +6,15 @@ mod quantity;
 mod ranking;
 
 use crate::file::schema::{
-    ContourEntry, Coordinate, CouplingEntry, ExpectedEntry, ForceEntry, InertiaEntry, JointEntry,
-    LinkEntry, MechanismFile, MisalignmentEntry, MomentEntry, OptionEntry, OptionTable, Quantities,
-    Quantity, SearchEntry, StiffnessEntry, StrokeEntry, Unloading, Words, WorkloadEntry,
+    ContactEntry, ContourEntry, Coordinate, CouplingEntry, ExpectedEntry, ForceEntry, InertiaEntry,
+    JointEntry, LinkEntry, MechanismFile, MisalignmentEntry, MomentEntry, OptionEntry, OptionTable,
+    Quantities, Quantity, SearchEntry, StiffnessEntry, StrokeEntry, Unloading, Words,
+    WorkloadEntry,
 };
 use crate::geom::expr::Expr;
 use crate::model::coupling::Coupling;
 use crate::model::joint_type::{Freedom, JointType};
-use crate::model::loads::{ExternalMoment, Inertia, Stiffness};
+use crate::model::loads::{ExternalMoment, Face, Inertia, Stiffness};
 use crate::model::mechanism::{
     Expected, Frame, Joint, JointId, JointOption, Mechanism, Mode, Role, StateId,
 };
@@ -189,15 +190,19 @@ fn cost(milli: i64) -> f64 {
     milli as f64 / 1000.0
 }
 
+/// The names of states, where any are named.
+fn states(m: &Mechanism, of: Option<&Vec<StateId>>) -> Option<Words> {
+    of.map(|s| Words::Many(s.iter().map(|&s| m.states[s].clone()).collect()))
+}
+
 fn joint(m: &Mechanism, j: &Joint) -> JointEntry {
-    let names = |s: &Vec<StateId>| s.iter().map(|&s| m.states[s].clone()).collect::<Vec<_>>();
     // The present joint is understood, unless it has a cost of its own.
     let priced = j.options.first().is_some_and(|o| o.cost_milli.is_some());
     let listed = j.options.iter().skip(usize::from(!priced));
-    let options: Vec<OptionEntry> = listed.map(|o| option(o, &j.frame)).collect();
+    let options: Vec<OptionEntry> = listed.map(|o| option(m, o, &j.frame)).collect();
     let options = (!options.is_empty()).then_some(options);
     let unloading = (!j.unloading.is_empty())
-        .then(|| Unloading::List(j.unloading.iter().map(|o| option(o, &j.frame)).collect()));
+        .then(|| Unloading::List(j.unloading.iter().map(|o| option(m, o, &j.frame)).collect()));
     JointEntry {
         id: j.id.clone(),
         links: j.links.map(|l| m.links[l].id.clone()),
@@ -208,7 +213,7 @@ fn joint(m: &Mechanism, j: &Joint) -> JointEntry {
         reference: (!is_default(&j.frame)).then(|| vector(&j.frame.reference)),
         pitch: screws(&j.joint_type).then(|| coordinate(&j.frame.pitch)),
         drive: j.drive,
-        state: j.states.as_ref().map(|s| Words::Many(names(s))),
+        state: states(m, j.states.as_ref()),
         options,
         forbid: Vec::new(),
         unloading,
@@ -230,12 +235,13 @@ fn coupling(m: &Mechanism, c: &Coupling) -> CouplingEntry {
 }
 
 /// An option: its type alone where the rest is as the joint's own.
-fn option(o: &JointOption, present: &Frame) -> OptionEntry {
+fn option(m: &Mechanism, o: &JointOption, present: &Frame) -> OptionEntry {
     let f = &o.frame;
     let turned = !same(&f.axis, &present.axis);
     let table = OptionTable {
         kind: Some(o.joint_type.name().to_owned()),
         freedoms: freedoms(&o.joint_type),
+        point: (!same(&f.point, &present.point)).then(|| vector(&f.point)),
         axis: turned.then(|| vector(&f.axis)),
         reference: (turned || !same(&f.reference, &present.reference))
             .then(|| vector(&f.reference)),
@@ -243,8 +249,11 @@ fn option(o: &JointOption, present: &Frame) -> OptionEntry {
             .then(|| coordinate(&f.pitch)),
         name: Some(o.name.clone()).filter(|n| n != o.joint_type.name()),
         cost: o.cost_milli.map(cost),
+        state: o.state.map(|s| m.states[s].clone()),
     };
     let plain = table.freedoms.is_none()
+        && table.point.is_none()
+        && table.state.is_none()
         && table.reference.is_none()
         && table.pitch.is_none()
         && table.name.is_none()
@@ -270,6 +279,11 @@ fn search(m: &Mechanism) -> SearchEntry {
             .map(|c| ("change".to_owned(), cost(c))),
     );
     costs.extend(spec.costs.link_milli.map(|c| ("link".to_owned(), cost(c))));
+    costs.extend(
+        spec.costs
+            .harmful_milli
+            .map(|c| ("harmful".to_owned(), cost(c))),
+    );
     SearchEntry {
         hold: spec.hold.iter().map(|&l| m.links[l].id.clone()).collect(),
         mirror: spec
@@ -300,11 +314,19 @@ fn workload(m: &Mechanism) -> WorkloadEntry {
         force: vector(&f.force),
         from: f.range.and_then(|[from, _]| end(from)),
         to: f.range.and_then(|[_, to]| end(to)),
+        state: states(m, f.states.as_ref()),
     });
     let speed = |x: &f64| Quantity::Number(*x);
     let moment = |x: &ExternalMoment| MomentEntry {
         link: m.links[x.link].id.clone(),
         moment: vector(&x.moment),
+        state: states(m, x.states.as_ref()),
+    };
+    let decimal = |x: f64| quantity::number(x, 1.0);
+    let face = |f: &Face| ContactEntry {
+        joint: m.joints[f.joint].id.clone(),
+        friction: f.friction.map(decimal),
+        radius: f.radius.map(decimal),
     };
     let stiffness = |(name, s): &(String, Stiffness)| {
         let entry = StiffnessEntry {
@@ -328,6 +350,7 @@ fn workload(m: &Mechanism) -> WorkloadEntry {
         gravity: loads.gravity.as_ref().map(vector),
         force: force.collect(),
         moment: loads.moments.iter().map(moment).collect(),
+        contact: loads.faces.iter().map(face).collect(),
         stiffness: loads.stiffness.iter().map(stiffness).collect(),
         misalignment: misalignment.collect(),
         drive_speed: match &loads.drive_speeds[..] {

@@ -9,92 +9,19 @@
 //! # Sources
 //! Ireland & Rosen, "A Classical Introduction to Modern Number Theory", ch. 6 (quadratic Gauss sums).
 
+mod error;
 pub(crate) mod eval;
+mod field;
 pub(crate) mod plan;
 pub(crate) mod quadratic;
 pub(crate) mod radical;
 
-use std::collections::BTreeMap;
+pub use error::ExactError;
+pub use field::ExactField;
 
-use num_rational::BigRational;
-
-use self::eval::Target;
 use self::plan::{MAX_FAILURES, Plan};
-use self::radical::Radical;
 use super::expr::Expr;
 use crate::linalg::modp::{Field, Residue};
-
-/// Why expressions have no image in a prime field.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ExactError {
-    /// A nested root lies in the field already, and its sign could not be settled.
-    #[error(
-        "the nested root sqrt({radicand}) depends on the other roots and angles in a way that is not resolved exactly; \
-         write it without nesting, or give a decimal"
-    )]
-    AmbiguousNestedRoot {
-        /// What stands under the root.
-        radicand: String,
-    },
-    /// A divisor is zero.
-    #[error("`{expression}` divides by zero; correct the divisor")]
-    DivisionByZero {
-        /// The expression.
-        expression: String,
-    },
-    /// A radicand could not be factored.
-    #[error(
-        "the number under sqrt({radicand}) is too large to factor; write it with fewer digits, or give a decimal"
-    )]
-    RadicandTooLarge {
-        /// What stands under the root.
-        radicand: String,
-    },
-    /// The angles have no small common denominator.
-    #[error("the angles have no common denominator below 2^44; round them to fewer decimals")]
-    AnglesTooFine,
-    /// Too many independent square roots.
-    #[error(
-        "{count} independent square roots exceed the limit of {limit}; give some of them as decimals"
-    )]
-    TooManyRoots {
-        /// How many there are.
-        count: usize,
-        /// How many may be.
-        limit: usize,
-    },
-    /// No more primes of the size wanted.
-    #[error(
-        "no suitable prime number {nth} below 2^62; ask for fewer, or simplify roots and angles"
-    )]
-    NoPrime {
-        /// Which prime was asked for.
-        nth: usize,
-    },
-    /// The expression was not among those the field was made for.
-    #[error(
-        "`{expression}` lies outside the field; include it among the expressions the field is made for"
-    )]
-    NotInField {
-        /// The expression.
-        expression: String,
-    },
-}
-
-/// A homomorphism from the number field of some expressions into F_p.
-#[derive(Debug, Clone)]
-pub struct ExactField {
-    field: Field,
-    /// N
-    order: u64,
-    /// A primitive N-th root of unity.
-    zeta: Residue,
-    roots: BTreeMap<u64, Residue>,
-    radicals: BTreeMap<BigRational, Radical>,
-    /// Radicands of the nested roots with the root chosen.
-    nested: Vec<(Residue, Residue)>,
-}
 
 impl ExactField {
     /// The homomorphism into the `nth` suitable prime field above 2^61; the same expressions give the same field.
@@ -151,46 +78,6 @@ impl ExactField {
     /// [`ExactError::DivisionByZero`] where a divisor vanishes in F_p.
     pub fn eval(&self, expr: &Expr) -> Result<Residue, ExactError> {
         eval::eval(self, expr)
-    }
-}
-
-impl Target for ExactField {
-    type Number = Residue;
-
-    fn rational(&self, r: &BigRational) -> Option<Residue> {
-        self.field.from_rational(r)
-    }
-    fn sum(&self, a: &Residue, b: &Residue) -> Residue {
-        self.field.add(*a, *b)
-    }
-    fn difference(&self, a: &Residue, b: &Residue) -> Residue {
-        self.field.sub(*a, *b)
-    }
-    fn product(&self, a: &Residue, b: &Residue) -> Residue {
-        self.field.mul(*a, *b)
-    }
-    fn inverse(&self, a: &Residue) -> Option<Residue> {
-        (*a != 0).then(|| self.field.inv(*a))
-    }
-    fn twice_cos_sin(&self, k: u64, n: u64) -> Option<[Residue; 2]> {
-        if !self.order.is_multiple_of(n) {
-            return None;
-        }
-        let f = self.field;
-        let z = f.pow(self.zeta, self.order / n * k);
-        let w = f.inv(z);
-        let inverse_i = f.pow(self.zeta, self.order / 4 * 3);
-        Some([f.add(z, w), f.mul(f.sub(z, w), inverse_i)])
-    }
-    fn prime_root(&self, q: u64) -> Option<Residue> {
-        self.roots.get(&q).copied()
-    }
-    fn nested_root(&self, radicand: &Residue) -> Option<Residue> {
-        let mut known = self.nested.iter();
-        known.find(|(a, _)| a == radicand).map(|&(_, root)| root)
-    }
-    fn radicals(&self) -> &BTreeMap<BigRational, Radical> {
-        &self.radicals
     }
 }
 

@@ -8,59 +8,23 @@ mod error;
 mod node;
 mod operators;
 mod parse;
+mod rational;
 mod write;
 
 pub use error::ExprError;
+pub use node::Expr;
 pub(crate) use node::{Function, Kind};
 pub use parse::{MAX_ANGLE_DENOMINATOR, MAX_EXPONENT, MAX_NESTING, MAX_POWER, MAX_TEXT};
+pub(crate) use rational::rational_sqrt;
+use rational::{MAX_BITS, bits, decimal};
 
-use enclosure::Enclosure;
-use node::Node;
-use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// Rationals wider than this stay unevaluated, so that repeated squaring cannot exhaust memory.
-const MAX_BITS: u64 = 1 << 14;
-
-/// An exact real number: rationals, square roots, cosines of rational angles. Clones share the tree.
-#[derive(Clone)]
-pub struct Expr(Arc<Node>);
-
-fn bits(r: &BigRational) -> u64 {
-    r.numer().bits() + r.denom().bits()
-}
-
 impl Expr {
-    fn new(kind: Kind) -> Expr {
-        let enclosure = match &kind {
-            Kind::Rational(r) => Enclosure::rational(r),
-            Kind::Add(a, b) => a.0.enclosure.add(&b.0.enclosure),
-            Kind::Sub(a, b) => a.0.enclosure.add(&b.0.enclosure.neg()),
-            Kind::Mul(a, b) => a.0.enclosure.mul(&b.0.enclosure),
-            Kind::Div(a, b) => a.0.enclosure.div(&b.0.enclosure),
-            Kind::Neg(a) => a.0.enclosure.neg(),
-            Kind::Pow(a, n) => a.0.enclosure.pow(*n),
-            Kind::Sqrt(a) => a.0.enclosure.sqrt(),
-            Kind::Trig(Function::Cos, k, n) => Enclosure::cos(*k, *n),
-            Kind::Trig(Function::Sin, k, n) => Enclosure::sin(*k, *n),
-            Kind::Trig(Function::Tan, k, n) => Enclosure::sin(*k, *n).div(&Enclosure::cos(*k, *n)),
-        };
-        let size = kind
-            .children()
-            .into_iter()
-            .flatten()
-            .fold(1u64, |s, c| s.saturating_add(c.0.size));
-        Expr(Arc::new(Node {
-            kind,
-            enclosure,
-            size,
-        }))
-    }
-
     /// The expression of a rational number. O(1).
     #[must_use]
     pub fn rational(value: BigRational) -> Expr {
@@ -205,27 +169,6 @@ impl From<i64> for Expr {
     fn from(x: i64) -> Expr {
         Expr::rational(BigRational::from_integer(x.into()))
     }
-}
-
-/// The root of a rational that is the square of a rational.
-pub(crate) fn rational_sqrt(r: &BigRational) -> Option<BigRational> {
-    if r.is_negative() {
-        return None;
-    }
-    let (n, d) = (r.numer().sqrt(), r.denom().sqrt());
-    (&n * &n == *r.numer() && &d * &d == *r.denom()).then(|| BigRational::new(n, d))
-}
-
-/// `whole.fraction * 10^exponent` exactly; `None` unless both parts are digits.
-fn decimal(whole: &str, fraction: &str, exponent: i64) -> Option<BigRational> {
-    let digits = BigInt::parse_bytes(format!("0{whole}{fraction}").as_bytes(), 10)?;
-    let exponent = exponent.checked_sub(i64::try_from(fraction.len()).ok()?)?;
-    let scale = BigInt::from(10).pow(u32::try_from(exponent.unsigned_abs()).ok()?);
-    Some(if exponent < 0 {
-        BigRational::new(digits, scale)
-    } else {
-        BigRational::from_integer(digits * scale)
-    })
 }
 
 #[cfg(test)]

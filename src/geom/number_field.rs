@@ -9,9 +9,7 @@
 //! Watkins & Zeitlin, "The minimal polynomial of cos(2π/n)", Amer. Math. Monthly 100 (1993).
 
 mod cosine;
-mod splitting;
-
-pub use splitting::Splitting;
+pub mod splitting;
 
 use std::collections::BTreeMap;
 

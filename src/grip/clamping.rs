@@ -173,7 +173,8 @@ fn hardness(v: &Verdict) -> f64 {
     }
 }
 
-fn verdict(pose: &Pose, load: &Load, friction: f64, levers: LeverDrive) -> Verdict {
+/// What comes of a load in a pose.
+pub(super) fn verdict(pose: &Pose, load: &Load, friction: f64, levers: LeverDrive) -> Verdict {
     match hold(pose, load, friction, levers) {
         Ok(Outcome::Held(h)) => Verdict::Held(h),
         Ok(Outcome::Slips(s)) => Verdict::Slips(s),

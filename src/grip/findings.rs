@@ -24,6 +24,16 @@ const fn confirmed(claim: &'static str, evidence: &'static str) -> Finding {
     }
 }
 
+/// What the paper draws and says besides, and its own equations contradict.
+///
+/// # Sources
+/// `[Pavlenko & Godunko 2010]` fig. 2 and its discussion.
+pub const REFUTED: Finding = Finding {
+    claim: "with the pivots held (a = 40 mm) both arms grow less with L: lines 10 and 11 of fig. 2",
+    holds: false,
+    evidence: "by (1) and (2) the arms do not depend on a: 0.766 and 0.940 mm per mm of L, as lines 1 and 3",
+};
+
 /// The paper's findings.
 ///
 /// # Sources

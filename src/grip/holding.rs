@@ -69,6 +69,35 @@ impl ContactForce {
     }
 }
 
+impl ContactForce {
+    /// The same within the cone of friction, from which a solver's answer is off by its tolerance; nothing where the normal
+    /// force is below `least`, which is rounding.
+    fn within(self, friction: f64, least: f64) -> ContactForce {
+        if self.normal <= least {
+            return ContactForce {
+                normal: 0.0,
+                along: 0.0,
+                axial: 0.0,
+            };
+        }
+        let most = friction * self.normal;
+        // A few digits of slack, so that the square root of the sum of squares is not above it by rounding.
+        let scale = if self.friction() > most {
+            most / self.friction() * (1.0 - 4.0 * f64::EPSILON)
+        } else {
+            1.0
+        };
+        ContactForce {
+            along: self.along * scale,
+            axial: self.axial * scale,
+            ..self
+        }
+    }
+}
+
+/// Forces below this fraction of the load are rounding of the solver's.
+const ROUNDING: f64 = 1e-7;
+
 /// A small motion of the part against the faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slip {
@@ -87,7 +116,7 @@ pub struct Holding {
     pub moments: [f64; 2],
     /// The drive moment per lever that is enough: the mean of the two where they are coupled, the greater otherwise. `[N·m]`
     pub drive: f64,
-    /// No smaller drive moment holds the part: value of the dual programme. `[N·m]`
+    /// No smaller drive moment holds the part: value of the dual programme, to its tolerance, and not above `drive`. `[N·m]`
     pub lower_bound: f64,
 }
 
@@ -342,22 +371,22 @@ pub fn hold(
     let s = programme.solve()?;
     match s.status {
         SolverStatus::Solved | SolverStatus::AlmostSolved => {
-            // Normal forces below zero by rounding are none.
-            let x = |v: usize| {
-                if v.is_multiple_of(3) {
-                    s.x[v].max(0.0)
-                } else {
-                    s.x[v]
-                }
-            };
-            let forces = [0, 1, 2, 3].map(|c| ContactForce {
-                normal: x(3 * c) * unit,
-                along: x(3 * c + 1) * unit,
-                axial: x(3 * c + 2) * unit,
+            let forces = [0, 1, 2, 3].map(|c| {
+                let [normal, along, axial] = [0, 1, 2].map(|d| s.x[3 * c + d] * unit);
+                let found = ContactForce {
+                    normal,
+                    along,
+                    axial,
+                };
+                found.within(friction, ROUNDING * unit)
             });
+            let of = |v: usize| {
+                let f: &ContactForce = &forces[v / 3];
+                [f.normal, f.along, f.axial][v % 3]
+            };
             let moment = |k| {
                 let own = programme.lever(k, 1.0);
-                own.iter().map(|&(v, a)| a * x(v)).sum::<f64>() * unit * length
+                own.iter().map(|&(v, a)| a * of(v)).sum::<f64>() * length
             };
             let moments = [moment(0), moment(1)];
             // That of these forces, so that statics find the same, and not the solver's own to its tolerance.
@@ -365,11 +394,12 @@ pub fn hold(
                 LeverDrive::Coupled => f64::midpoint(moments[0], moments[1]),
                 LeverDrive::Equal | LeverDrive::Independent => moments[0].max(moments[1]),
             };
+            let drive = drive.max(0.0);
             Ok(Outcome::Held(Holding {
                 forces,
                 moments,
-                drive: drive.max(0.0),
-                lower_bound: s.obj_val_dual.max(0.0) * unit * length,
+                drive,
+                lower_bound: (s.obj_val_dual.max(0.0) * unit * length).min(drive),
             }))
         }
         SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {

@@ -334,7 +334,7 @@ impl Gripping {
         let mut out = Loads {
             drive_speeds: Vec::new(),
             stroke: None,
-            ..self.mechanism.loads.clone()
+            ..self.mechanism.loads.in_state(self.state)
         };
         if out.gravity.is_some() {
             out.gravity = Some(exact(self.axes.direction(hardest.pull))?);
@@ -350,6 +350,7 @@ impl Gripping {
                 // The part's force on the jaw is less the jaw's on the part.
                 force: exact(self.axes.direction([-force[0], -force[1], -f.axial]))?,
                 range: None,
+                states: None,
             });
         }
         Some(out)

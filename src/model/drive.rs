@@ -27,6 +27,8 @@ pub struct Cam {
     pub mounting: f64,
     /// η, mean efficiency.
     pub efficiency: f64,
+    /// From the disc's axis to the roller's centre where the follower is lifted, and the roller's radius, where stated. `[m]`
+    pub profile: Option<(f64, f64)>,
 }
 
 /// A payload carried on a disc, by which accelerations are told.

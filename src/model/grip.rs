@@ -60,6 +60,19 @@ pub enum Toward {
     Any(f64),
 }
 
+/// A step of a motion: how the gripper is held and carried.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionStep {
+    /// `[s]`, where stated.
+    pub time: Option<f64>,
+    /// The part; the nominal one where not stated. `[m]`
+    pub diameter: Option<f64>,
+    /// Gravity in the gripper's axes; the file's where not stated. `[m/s²]`
+    pub gravity: Option<[f64; 3]>,
+    /// Of the gripper in its axes. `[m/s²]`
+    pub acceleration: [f64; 3],
+}
+
 /// What the gripper must hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GripLoad {

@@ -3,7 +3,7 @@
 use crate::geom::expr::Expr;
 use crate::model::drive::DriveSpec;
 use crate::model::grip::GripSpec;
-use crate::model::id::{JointId, LinkId};
+use crate::model::id::{JointId, LinkId, StateId};
 
 /// Inertia of a link about its mass centre `[kg·m²]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +39,8 @@ pub struct ExternalForce {
     /// The range of the first drive's position it acts in, ends included, again in each turn; always where `None`. Radians,
     /// or the file's length unit.
     pub range: Option<[f64; 2]>,
+    /// The states it acts in; all where `None`.
+    pub states: Option<Vec<StateId>>,
 }
 
 /// Whether a force acts when the first drive is at a position, counted from the pose of the file, given the range it acts
@@ -63,6 +65,19 @@ pub struct ExternalMoment {
     pub link: LinkId,
     /// The moment `[N·m]` in global axes.
     pub moment: [Expr; 3],
+    /// The states it acts in; all where `None`.
+    pub states: Option<Vec<StateId>>,
+}
+
+/// What the face of a contact with a clamped part can do beside pushing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Face {
+    /// The joint.
+    pub joint: JointId,
+    /// Coefficient of friction; as much friction as it takes where `None`.
+    pub friction: Option<f64>,
+    /// Radius in the file's length unit, within which the pressure has its centre; anywhere where `None`.
+    pub radius: Option<f64>,
 }
 
 /// How stiff a joint is where it does not move, alike in all directions.
@@ -107,6 +122,12 @@ impl Stroke {
     }
 }
 
+/// Whether what acts in `states`, in all where there are none, acts in `state`.
+#[must_use]
+pub fn acts_in(states: Option<&Vec<StateId>>, state: StateId) -> bool {
+    states.is_none_or(|s| s.contains(&state))
+}
+
 /// Loads and drive of a mechanism.
 #[derive(Debug, Clone, Default)]
 pub struct Loads {
@@ -118,6 +139,8 @@ pub struct Loads {
     pub moments: Vec<ExternalMoment>,
     /// Stiffness by the name of a joint type; `default` for the rest.
     pub stiffness: Vec<(String, Stiffness)>,
+    /// Faces of contacts.
+    pub faces: Vec<Face>,
     /// Joints made askew.
     pub misalignments: Vec<Misalignment>,
     /// Speed of each drive `[rad/s]` or in the file's length unit per second; those not stated stand still.
@@ -128,4 +151,25 @@ pub struct Loads {
     pub grip: Option<GripSpec>,
     /// The torsional drive, where the file states one.
     pub drive: Option<DriveSpec>,
+}
+
+impl Loads {
+    /// Only the forces and moments of a state, which then act wherever these loads are put.
+    #[must_use]
+    pub fn in_state(&self, state: StateId) -> Loads {
+        let mut out = self.clone();
+        out.forces.retain(|f| acts_in(f.states.as_ref(), state));
+        out.moments.retain(|x| acts_in(x.states.as_ref(), state));
+        out.forces.iter_mut().for_each(|f| f.states = None);
+        out.moments.iter_mut().for_each(|x| x.states = None);
+        out
+    }
+
+    /// Whether a force or moment from outside acts in a state.
+    #[must_use]
+    pub fn acts_from_outside(&self, state: StateId) -> bool {
+        let force = self.forces.iter().map(|f| f.states.as_ref());
+        let mut all = force.chain(self.moments.iter().map(|x| x.states.as_ref()));
+        all.any(|s| acts_in(s, state))
+    }
 }

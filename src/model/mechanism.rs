@@ -57,6 +57,8 @@ pub struct JointOption {
     pub frame: Frame,
     /// The option's own cost in thousandths, where the file states one.
     pub cost_milli: Option<i64>,
+    /// The state whose search alone offers it; any search where there is none.
+    pub state: Option<StateId>,
 }
 
 /// A joint between two links. Its twist is the motion of `links[1]` relative to `links[0]`.
@@ -131,6 +133,8 @@ pub struct CostSpec {
     pub change_milli: Option<i64>,
     /// Cost of the extra link of an unloading joint.
     pub link_milli: Option<i64>,
+    /// Cost of a harmful redundant constraint that a searched state adds.
+    pub harmful_milli: Option<i64>,
 }
 
 /// What the file asks of a search.

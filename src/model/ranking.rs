@@ -19,11 +19,13 @@ pub enum Term {
     Cost,
     /// Mobility beyond the working one.
     Idle,
+    /// Harmful redundant constraints that the searched state adds.
+    Harmful,
 }
 
 impl Term {
     /// Every term.
-    pub const ALL: [Term; 7] = [
+    pub const ALL: [Term; 8] = [
         Term::PeakForce,
         Term::PeakMoment,
         Term::Conditioning,
@@ -31,6 +33,7 @@ impl Term {
         Term::Changes,
         Term::Cost,
         Term::Idle,
+        Term::Harmful,
     ];
 
     /// The word used for it in files and results.
@@ -44,6 +47,7 @@ impl Term {
             Term::Changes => "changes",
             Term::Cost => "cost",
             Term::Idle => "idle",
+            Term::Harmful => "harmful",
         }
     }
 

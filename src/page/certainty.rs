@@ -69,11 +69,9 @@ fn search(r: &Redesigns<'_>) -> Vec<String> {
         };
         lines.push(format!("The coordinates look rounded ({why}); {searched}"));
     }
-    let notes = search_text::notes(&r.summary, &[], None);
-    lines.extend(notes.lines().map(|l| l.trim().to_owned()));
+    lines.extend(search_text::notes(&r.summary));
     if r.interrupted {
         lines.push(format!("Interrupted after {} variants", r.variants.len()));
     }
-    lines.retain(|l| !l.is_empty());
     lines
 }

@@ -103,7 +103,7 @@ fn contours(s: &State<'_>) -> Markup {
                         th scope="col" { "Joints" }
                         th.n scope="col" { "σ" }
                         th.n scope="col" { "range" }
-                        th scope="col" { "Self-stresses: where they are felt least, and as what" }
+                        th scope="col" { "Self-stresses: where each is simplest, as what there, and the share that each joint bears" }
                     }
                 }
                 tbody { @for (i, c) in s.per_contour.iter().enumerate() { (contour(s, i, c)) } }
@@ -129,9 +129,9 @@ fn contour(s: &State<'_>, i: usize, c: &Contour<'_>) -> Markup {
     }
 }
 
-/// A self-stress where it is felt least.
+/// A self-stress where it has the fewest components, and who bears it.
 fn stress(t: &SelfStress<'_>) -> Markup {
-    let what = match &t.felt {
+    let what = match &t.simplest {
         Some((joint, what)) => format!("{what} at {joint}"),
         None => "none".to_owned(),
     };
@@ -146,6 +146,9 @@ fn stress(t: &SelfStress<'_>) -> Markup {
         _ => ("bad", ""),
     };
     html! {
-        li { (what) (with) " " span class={ "tag " (class) } { (t.verdict) (why) } }
+        li {
+            (what) (with) " " span class={ "tag " (class) } { (t.verdict) (why) }
+            br; small { "borne by " (t.borne()) }
+        }
     }
 }

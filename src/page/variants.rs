@@ -27,7 +27,7 @@ pub(super) struct Found {
     changes: Vec<u32>,
     mobility: Vec<i64>,
     redundant: Vec<u32>,
-    external: Option<Vec<Option<u32>>>,
+    external: Option<Vec<Option<i32>>>,
     idle: Option<Vec<Option<i64>>>,
     /// Idle motions repeat: each text once, and its number by variant.
     idle_words: Vec<String>,
@@ -122,7 +122,7 @@ impl Found {
             determinate: r.found.determinate.total.to_string(),
             admissible: r.found.admissible.total.to_string(),
             max_redundant: conditions.max_redundant,
-            state: conditions.state.map(|(s, _)| s.index()),
+            state: conditions.state.map(|s| s.state.index()),
             variables: search
                 .space
                 .variables

@@ -7,6 +7,7 @@ use crate::model::mechanism::{Mechanism, Role};
 use crate::score::variant::Variant;
 use crate::search::best::Assignment;
 use crate::view::analysis::{Analysis, State};
+use crate::view::conditions::in_state;
 use itertools::Itertools;
 use maud::{Markup, html};
 use num_traits::{One, Zero};
@@ -178,12 +179,9 @@ fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
         request
             .max_changes
             .map(|c| format!("change{s} at most {}", plural(c as usize, "joint"))),
-        request.state.map(|(state, e)| match e {
-            u32::MAX => format!("{have} any external σ in state {}", m.states[state]),
-            e => format!("{have} external σ at most {e} in state {}", m.states[state]),
-        }),
     ];
-    let all = all.into_iter().flatten().join(", ");
+    let all = all.into_iter().flatten();
+    let all = all.chain(in_state(&r.found.search, one)).join(", ");
     if all.is_empty() {
         all
     } else {

@@ -3,14 +3,10 @@
 use super::Redesigns;
 use super::number::Number;
 use crate::model::ranking::Term;
-use crate::score::bearing::Bearing;
-use crate::score::cases::is_loaded;
-use crate::score::elimination::Scratch;
-use crate::score::evaluate::Evaluator;
+use crate::score::bearing::{Bearing, Bearings};
 use crate::score::ranking::{Ranked, RankedPool};
 use crate::score::terms::Scores;
 use crate::view::ranking::{head, notes};
-use rayon::prelude::*;
 use serde::Serialize;
 
 /// Columns of the variants; `None` in them where the loads of a variant have no equilibrium.
@@ -62,33 +58,22 @@ const ARM: f64 = 1e-12;
 
 /// Scores and bearings of the variants for the script; none where the file states no loads and asks for no ranking.
 pub(super) fn workload(r: &Redesigns<'_>) -> Option<Workload> {
-    let search = &r.found.search;
-    let m = &*search.mechanism;
-    let ranking = r.found.ranking.as_ref();
-    if !is_loaded(m) && ranking.is_none() {
-        return None;
-    }
-    let clearance = ranking.map_or_else(Default::default, |p| p.ranking.clearance);
-    let states = ranking.map_or(&[][..], |p| &p.ranking.states);
-    let evaluator = match Evaluator::in_states(search, clearance, states) {
-        Ok(e) => e,
+    let Bearings {
+        poses,
+        stopped,
+        of: scored,
+    } = match r.found.bearings(&r.variants) {
+        Ok(bearings) => bearings?,
         Err(why) => {
             return Some(Workload::Failed {
                 failed: why.to_string(),
             });
         }
     };
-    let scored: Vec<Scored> = r
-        .variants
-        .par_iter()
-        .map_init(Scratch::default, |scratch, v| {
-            evaluator.bearings(v.assignment(), scratch).ok()
-        })
-        .collect();
     let term = |t: Term| column(&scored, |s| Number::measured(s.value(t)));
     Some(Workload::Scored(Box::new(Columns {
-        poses: evaluator.cases.list.len(),
-        stopped: evaluator.cases.stopped,
+        poses,
+        stopped,
         peak_force: term(Term::PeakForce),
         peak_moment: term(Term::PeakMoment),
         conditioning: term(Term::Conditioning),
@@ -98,7 +83,7 @@ pub(super) fn workload(r: &Redesigns<'_>) -> Option<Workload> {
         moment: joints(&scored, |b| Some(b.moment), ARM),
         force_share: joints(&scored, |b| Some(b.force_share), 0.0),
         moment_share: joints(&scored, |b| b.moment_share, 0.0),
-        ranked: ranking.map(|p| Order::new(r, p)),
+        ranked: r.found.ranking.as_ref().map(|p| Order::new(r, p)),
     })))
 }
 
@@ -129,14 +114,9 @@ impl Order {
     fn new(r: &Redesigns<'_>, p: &RankedPool) -> Order {
         let m = &r.found.search.mechanism;
         let all: Column<&Ranked> = r.variants.iter().map(|v| v.ranked()).collect();
-        let notes = notes(m, p);
-        let notes = notes.lines().map(str::trim);
         Order {
             head: head(p),
-            notes: notes
-                .filter(|l| !l.is_empty() && !l.starts_with("rank "))
-                .map(str::to_owned)
-                .collect(),
+            notes: notes(m, p),
             terms: p.ranking.terms.iter().map(|(t, _)| t.name()).collect(),
             by_cost: all.iter().map(|x| x.map(|r| r.by_cost)).collect(),
             total: all

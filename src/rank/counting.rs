@@ -3,6 +3,7 @@
 use super::field::field_of;
 use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 use super::subgroup::{Kind, whole_group};
+use crate::closure::matrix::Closure;
 use crate::model::mechanism::{Mechanism, StateId};
 
 /// W = 6(n - 1) - Σ constraints.
@@ -13,21 +14,17 @@ pub struct Spatial;
 #[derive(Debug, Clone, Copy)]
 pub struct Planar;
 
-/// `dim`·(n - 1) - Σ (`dim` - f_i) over the joints of a state, less one for each coupling.
-#[must_use]
-pub fn count(mechanism: &Mechanism, state: StateId, dim: i64) -> i64 {
+/// `dim`·(n - 1) - Σ (`dim` - f_i) over the joints of a state, less one for each coupling; `freedoms` is Σ f_i.
+fn count(mechanism: &Mechanism, state: StateId, dim: i64, freedoms: usize) -> i64 {
     let mut links: Vec<_> = mechanism
         .joints_in(state)
         .flat_map(|j| mechanism.joints[j].links)
         .collect();
     links.sort_unstable();
     links.dedup();
-    let constraints: i64 = mechanism
-        .joints_in(state)
-        .map(|j| dim - i64::try_from(mechanism.joints[j].joint_type.freedoms().len()).unwrap_or(0))
-        .sum();
-    let couplings = i64::try_from(mechanism.couplings_in(state).count()).unwrap_or(0);
-    dim * (i64::try_from(links.len()).unwrap_or(i64::MAX).max(1) - 1) - constraints - couplings
+    let int = |n: usize| i64::try_from(n).unwrap_or(i64::MAX);
+    let constraints = dim * int(mechanism.joints_in(state).count()) - int(freedoms);
+    dim * (int(links.len()).max(1) - 1) - constraints - int(mechanism.couplings_in(state).count())
 }
 
 fn counted(mobility: i64) -> Answer {
@@ -54,7 +51,9 @@ impl MobilityMethod for Spatial {
         if matches!(mechanism.mode, crate::model::mechanism::Mode::Planar { .. }) {
             return Err(NoAnswer::DoesNotApply("the file is in planar mode"));
         }
-        Ok(counted(count(mechanism, state, 6)))
+        let joints = mechanism.joints_in(state);
+        let freedoms = joints.map(|j| mechanism.joints[j].joint_type.freedoms().len());
+        Ok(counted(count(mechanism, state, 6, freedoms.sum())))
     }
 }
 
@@ -73,7 +72,11 @@ impl MobilityMethod for Planar {
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         let exact = field_of(mechanism, state, 0)?;
         match whole_group(&exact, mechanism, state)?.kind() {
-            Kind::Planar | Kind::Rotation => Ok(counted(count(mechanism, state, 3))),
+            // Freedoms out of the plane, which planar mode leaves out, do not count in it.
+            Kind::Planar | Kind::Rotation => {
+                let freedoms = Closure::new(&exact, mechanism, state)?.columns.len();
+                Ok(counted(count(mechanism, state, 3, freedoms)))
+            }
             _ => Err(NoAnswer::DoesNotApply("not every joint moves in one plane")),
         }
     }

@@ -15,7 +15,8 @@ use thiserror::Error;
 
 use super::reconstruct::{Modulus, Settled, Unknown, inverse_of};
 use crate::geom::exact::ExactError;
-use crate::geom::number_field::{NumberField, NumberFieldError, Splitting};
+use crate::geom::number_field::splitting::Splitting;
+use crate::geom::number_field::{NumberField, NumberFieldError};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::linalg::number_ring::Element;

@@ -2,7 +2,7 @@
 
 use super::method::MobilityMethod;
 use super::numeric::Elimination;
-use super::{auto, counting, finite, generic, loops, modular, rational};
+use super::{auto, counting, finite_exact, generic, loops, modular, rational};
 
 /// Every method, the cheapest kind first.
 pub const ALL: [&dyn MobilityMethod; 13] = [
@@ -17,7 +17,7 @@ pub const ALL: [&dyn MobilityMethod; 13] = [
     &Elimination::Svd,
     &modular::Modular,
     &rational::Rational,
-    &finite::Exact,
+    &finite_exact::Exact,
     &auto::Auto,
 ];
 

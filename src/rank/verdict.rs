@@ -26,6 +26,8 @@ const ROUND_OFF: f64 = 1e-14;
 const GAP: f64 = 1e3;
 /// that ends below this fraction of the largest, says that some are left over from zero.
 const LEFT_OVER: f64 = 1e-4;
+/// Units of coordinates, relative to the size, above which a geometry that is near says nothing.
+const COARSE: f64 = 5e-5;
 
 /// Which mechanism a verdict is about.
 #[derive(Debug, Clone)]
@@ -362,7 +364,12 @@ fn meant(
             moved: snapped.moved,
         });
     }
-    Ok(match nearest(mechanism, state, rank, units) {
+    // With so few digits a geometry of that rank is near by chance.
+    let coarse = units.direction.max(units.length / size(mechanism)) > COARSE;
+    let found = (asked || !coarse)
+        .then(|| nearest(mechanism, state, rank, units))
+        .flatten();
+    Ok(match found {
         Some(Nearest {
             mechanism: m,
             moved,

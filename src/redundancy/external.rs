@@ -11,7 +11,7 @@ use crate::redundancy::motion::Speeds;
 /// The external constraints of a state, counted and by rank.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct External {
-    /// Σα: constraints of the joints that the state adds, and their couplings.
+    /// Σα: constraints of the joints that the state adds, and their couplings, less those of the joints it leaves out.
     pub constraints: i64,
     /// W_a: mobility with the object absent.
     pub actual_mobility: i64,
@@ -41,8 +41,14 @@ pub(super) fn external(
     let of_joints: i64 = added()
         .map(|&j| int(closure.dim) - int(freedoms_of(closure, j)))
         .sum();
+    let left_out = own.iter().filter(|j| !all.contains(j));
+    let of_joints = of_joints
+        - left_out
+            .map(|&j| int(closure.dim) - int(freedoms_of(&free, j)))
+            .sum::<i64>();
     let constraints = of_joints + int(closure.couplings.len()) - int(free.couplings.len());
-    let bodies = present_links(mechanism, &all).len() - present_links(mechanism, &own).len();
+    let bodies =
+        int(present_links(mechanism, &all).len()) - int(present_links(mechanism, &own).len());
     // The mechanism's own part of each motion.
     let mut span = Echelon::new(exact.field());
     for speeds in kernel {
@@ -54,7 +60,7 @@ pub(super) fn external(
         span.insert(&part);
     }
     let (actual, working) = (int(free.columns.len() - free_rank), int(span.rank()));
-    let lost = int(closure.dim * bodies) - (int(kernel.len()) - working);
+    let lost = int(closure.dim) * bodies - (int(kernel.len()) - working);
     Ok(External {
         constraints,
         actual_mobility: actual,

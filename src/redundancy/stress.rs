@@ -3,13 +3,13 @@
 //! passes round, and the entry of a coupling's row the force or moment that it passes from one joint to the other.
 
 use crate::closure::matrix::Closure;
-use crate::closure::twist::FrameValues;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::geom::scalars::Scalars;
 use crate::linalg::echelon::{Echelon, relations, transpose};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::redundancy::borne::{Faces, Shares};
+use crate::redundancy::joint_wrench::JointWrenches;
 use itertools::Itertools;
 
 /// What a self-stress does to the parts.
@@ -22,7 +22,7 @@ pub enum Verdict {
 }
 
 /// Components of a wrench at a joint, as moments and forces along the global axes.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct JointWrench {
     /// The joint.
     pub joint: JointId,
@@ -30,6 +30,9 @@ pub struct JointWrench {
     pub moments: [bool; 3],
     /// Which of the forces along x, y, z are not zero.
     pub forces: [bool; 3],
+    /// Its part of Σ |f|² + |m|²/ℓ² over all joints, about their own points, ℓ the size of the mechanism: what it bears of
+    /// the stress in joints alike. `None` where that is left uncomputed, see [`Shares`].
+    pub share: Option<f64>,
 }
 
 /// One self-stress of a basis.
@@ -88,25 +91,8 @@ pub fn self_stresses(
         .joints_in(closure.state)
         .filter(|j| !own.contains(j))
         .collect();
-    let frames: Vec<FrameValues<Residue>> = mechanism
-        .joints
-        .iter()
-        .map(|j| FrameValues::new(exact, &j.frame))
-        .collect::<Result<_, _>>()?;
-    let mut passes: Vec<Vec<(usize, bool)>> = vec![Vec::new(); mechanism.joints.len()];
-    for (i, c) in closure.contours.iter().enumerate() {
-        for &(j, forward) in &c.joints {
-            passes[j].push((i, forward));
-        }
-    }
-    let wrench = |stress: &[Residue], j: JointId| -> Vec<Residue> {
-        let mut out = vec![0; closure.dim];
-        for &(i, forward) in &passes[j] {
-            let block = &stress[i * closure.dim..(i + 1) * closure.dim];
-            f.accumulate(&mut out, block, forward);
-        }
-        out
-    };
+    let wrenches = JointWrenches::new(exact, mechanism, closure)?;
+    let wrench = |stress: &[Residue], j: JointId| wrenches.at(stress, j);
     let needs_contacts =
         |s: &[Residue]| added.iter().any(|&j| wrench(s, j).iter().any(|&x| x != 0));
     let (external, internal): (Vec<_>, Vec<_>) =
@@ -119,8 +105,7 @@ pub fn self_stresses(
     // Forces along two faces apart are a couple that one of them must take up as a shift of pressure, so moments are
     // judged at one face: the one that shows most friction.
     let harm_at = |s: &[Residue], reference: Option<JointId>| -> Vec<Residue> {
-        let part =
-            |&j: &JointId| harmful_part(exact, &frames[j], &wrench(s, j), Some(j) == reference);
+        let part = |&j: &JointId| wrenches.harm(s, j, Some(j) == reference);
         faces.iter().flat_map(part).collect()
     };
     let friction = |reference: Option<JointId>| {
@@ -134,7 +119,12 @@ pub fn self_stresses(
         .max_by_key(|&j| friction(Some(j)));
     let harm = |s: &[Residue]| harm_at(s, reference);
     let external = friction_first(exact, external, &harm);
-    let describe = |s: &Vec<Residue>, is_external: bool| {
+    let mut shares = Shares::new(mechanism, closure)?;
+    let at_faces = Faces {
+        joints: &faces,
+        reference,
+    };
+    let mut describe = |s: &Vec<Residue>, is_external: bool| {
         let contours = (0..closure.contours.len())
             .filter(|i| {
                 s[i * closure.dim..(i + 1) * closure.dim]
@@ -145,11 +135,18 @@ pub fn self_stresses(
         let couplings = (0..closure.couplings.len())
             .filter(|q| s[closure.contour_rows() + q] != 0)
             .collect();
-        let joints = mechanism
-            .joints_in(closure.state)
-            .filter_map(|j| at_joint(exact, &frames[j], j, &wrench(s, j)));
-        let friction =
-            is_external && closure.dim == 6 && !faces.is_empty() && harm(s).iter().all(|&x| x == 0);
+        let friction = is_external && !faces.is_empty() && harm(s).iter().all(|&x| x == 0);
+        let borne = shares.of(s, friction.then_some(at_faces));
+        let joints = mechanism.joints_in(closure.state).filter_map(|j| {
+            let w = wrench(s, j);
+            let nonzero = |v: [Residue; 3]| v.map(|x| x != 0);
+            w.iter().any(|&x| x != 0).then(|| JointWrench {
+                joint: j,
+                moments: nonzero(wrenches.moment_at(j, &w)),
+                forces: nonzero([w[3], w[4], w[5]]),
+                share: borne.as_ref().map(|b| b[j]),
+            })
+        });
         SelfStress {
             contours,
             couplings,
@@ -162,10 +159,10 @@ pub fn self_stresses(
             },
         }
     };
-    Ok(internal
-        .iter()
-        .map(|s| describe(s, false))
-        .chain(external.iter().map(|s| describe(s, true)))
+    let internal = internal.iter().map(|s| (s, false));
+    let all = internal.chain(external.iter().map(|s| (s, true)));
+    Ok(all
+        .map(|(s, is_external)| describe(s, is_external))
         .collect())
 }
 
@@ -201,59 +198,4 @@ fn friction_first(
         }
     }
     out
-}
-
-/// Moment of a wrench about a frame's origin: m - p × f.
-fn moment_at(exact: &ExactField, frame: &FrameValues<Residue>, w: &[Residue]) -> [Residue; 3] {
-    let arm = exact.cross(frame.point, [w[3], w[4], w[5]]);
-    [0, 1, 2].map(|i| exact.field().sub(w[i], arm[i]))
-}
-
-/// What a wrench at a face (z its normal) has beyond friction: a force across it and, where asked, moments along it.
-fn harmful_part(
-    exact: &ExactField,
-    frame: &FrameValues<Residue>,
-    w: &[Residue],
-    moments: bool,
-) -> Vec<Residue> {
-    if w.len() < 6 {
-        return Vec::new();
-    }
-    let m = moment_at(exact, frame, w);
-    let [x, y, z] = frame.axes;
-    let across = exact.dot([w[3], w[4], w[5]], z);
-    if moments {
-        vec![across, exact.dot(m, x), exact.dot(m, y)]
-    } else {
-        vec![across]
-    }
-}
-
-fn at_joint(
-    exact: &ExactField,
-    frame: &FrameValues<Residue>,
-    joint: JointId,
-    w: &[Residue],
-) -> Option<JointWrench> {
-    if w.iter().all(|&x| x == 0) {
-        return None;
-    }
-    let nonzero = |v: [Residue; 3]| v.map(|x| x != 0);
-    Some(match w {
-        &[_, _, _, f0, f1, f2] => JointWrench {
-            joint,
-            moments: nonzero(moment_at(exact, frame, w)),
-            forces: nonzero([f0, f1, f2]),
-        },
-        // In a plane: a moment about its normal and a force in it.
-        _ => JointWrench {
-            joint,
-            moments: [false, false, w.first().is_some_and(|&x| x != 0)],
-            forces: [
-                w.get(1).is_some_and(|&x| x != 0),
-                w.get(2).is_some_and(|&x| x != 0),
-                false,
-            ],
-        },
-    })
 }

@@ -1,5 +1,6 @@
 //! MJCF, read.
 
+mod context;
 mod defaults;
 mod equality;
 mod include;

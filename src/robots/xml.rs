@@ -303,6 +303,27 @@ impl<'a> Element<'a> {
         problem.at(&source.name, &source.text, Some(span))
     }
 
+    /// A part that cannot be read.
+    pub(crate) fn unsupported(self, why: &str, remedy: &str) -> ImportError {
+        let problem = RobotProblem::Unsupported {
+            element: self.label(),
+            why: why.to_owned(),
+            remedy: remedy.to_owned(),
+        };
+        self.fail(None, problem)
+    }
+
+    /// A word that is none of those known.
+    pub(crate) fn unknown_word(self, what: &'static str, word: &str, known: &str) -> ImportError {
+        let problem = RobotProblem::UnknownWord {
+            element: self.label(),
+            what,
+            word: word.to_owned(),
+            known: known.to_owned(),
+        };
+        self.fail(Some(what), problem)
+    }
+
     /// Refuses one more of `what` where there are too many already.
     pub(crate) fn room(self, what: &'static str, count: usize) -> Result<(), ImportError> {
         let limit = MAX_PARTS;

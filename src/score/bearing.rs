@@ -1,23 +1,14 @@
 //! What each joint of a variant bears.
 
-use crate::model::mechanism::JointId;
+use crate::score::cases::is_loaded;
 use crate::score::elimination::Scratch;
-use crate::score::evaluate::Evaluator;
+use crate::score::evaluate::{Evaluator, Load, ScoreError};
+use crate::score::outcome::Outcome;
 use crate::score::terms::Scores;
+use crate::score::variant::Variant;
 use crate::search::best::Assignment;
 use crate::statics::reactions::Unsolved;
-
-/// What a joint bears in one pose, without what its drive does.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Load {
-    pub(super) joint: JointId,
-    /// `[N]`
-    pub(super) force: f64,
-    /// `[N·m]`
-    pub(super) moment: f64,
-    /// The greatest of both that its type bears; `None` for moments where it bears none and need not.
-    pub(super) capacity: (f64, Option<f64>),
-}
+use rayon::prelude::*;
 
 /// The most that a joint bears over the poses looked at.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -64,5 +55,48 @@ impl Evaluator<'_> {
             out[load.joint].get_or_insert_default().raise(&load);
         })?;
         Ok((scores, out))
+    }
+}
+
+/// What the joints of some variants bear.
+#[derive(Debug, Clone)]
+pub struct Bearings {
+    /// How many poses were looked at.
+    pub poses: usize,
+    /// Where the stroke could be followed no further, in the drive's unit.
+    pub stopped: Option<f64>,
+    /// Of each variant its scores and what each joint bears; `None` where its loads have no equilibrium.
+    pub of: Vec<Option<(Scores, Vec<Option<Bearing>>)>>,
+}
+
+impl Outcome {
+    /// What the joints of some variants bear, in the states of the ranking or else in those with loads; `None` where the file
+    /// states no loads and no ranking was asked for. Scores of a ranking are made for its whole pool; bearings are not, so
+    /// they are had here for the few that are shown.
+    ///
+    /// # Errors
+    /// As [`Evaluator::in_states`].
+    ///
+    /// # Complexity
+    /// [`Evaluator::scores`] for each variant, in parallel.
+    pub fn bearings(&self, variants: &[Variant<'_>]) -> Result<Option<Bearings>, ScoreError> {
+        let ranking = self.ranking.as_ref();
+        if !is_loaded(&self.search.mechanism) && ranking.is_none() {
+            return Ok(None);
+        }
+        let clearance = ranking.map_or_else(Default::default, |p| p.ranking.clearance);
+        let states = ranking.map_or(&[][..], |p| &p.ranking.states);
+        let evaluator = Evaluator::in_states(&self.search, clearance, states)?;
+        let of = variants
+            .par_iter()
+            .map_init(Scratch::default, |scratch, v| {
+                evaluator.bearings(v.assignment(), scratch).ok()
+            })
+            .collect();
+        Ok(Some(Bearings {
+            poses: evaluator.cases.list.len(),
+            stopped: evaluator.cases.stopped,
+            of,
+        }))
     }
 }

@@ -88,7 +88,7 @@ pub struct Cases {
 fn free_is_loaded(m: &Mechanism) -> bool {
     let l = &m.loads;
     let weights = l.gravity.is_some() && m.links.iter().any(|x| x.mass.is_some());
-    weights || !l.forces.is_empty() || !l.moments.is_empty()
+    weights || l.acts_from_outside(StateId::FREE)
 }
 
 /// Whether the file loads any state.
@@ -129,7 +129,7 @@ pub fn cases(m: &Mechanism, drives: &[Driven], states: &[StateId]) -> Result<Cas
             let each = followed.poses.into_iter().map(|(drive, pose)| Case {
                 drive,
                 pose,
-                loads: m.loads.clone(),
+                loads: m.loads.in_state(StateId::FREE),
             });
             out.list.splice(0..0, each);
         } else if let Some(g) = Gripping::new(m, state)? {

@@ -1,10 +1,9 @@
 //! The scores of variants, fast.
 
 use crate::geom::vector::dot;
-use crate::model::mechanism::{LinkId, StateId};
+use crate::model::mechanism::{JointId, LinkId, StateId};
 use crate::model::ranking::ClearanceSum;
 use crate::redundancy::analysis::{AnalysisError, Method, analyse};
-use crate::score::bearing::Load;
 use crate::score::cases::{CaseError, Cases, cases};
 use crate::score::elimination::{Ended, Scratch};
 use crate::score::joint_types::JointTypes;
@@ -34,6 +33,18 @@ pub enum ScoreError {
     /// It has no cases to be scored in.
     #[error(transparent)]
     Cases(#[from] CaseError),
+}
+
+/// What a joint bears in one pose, without what its drive does.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Load {
+    pub(super) joint: JointId,
+    /// `[N]`
+    pub(super) force: f64,
+    /// `[N·m]`
+    pub(super) moment: f64,
+    /// The greatest of both that its type bears; `None` for moments where it bears none and need not.
+    pub(super) capacity: (f64, Option<f64>),
 }
 
 /// Scores the variants of one search.
@@ -156,6 +167,7 @@ impl<'s> Evaluator<'s> {
             changes: variant.key.changes(),
             cost_milli: self.search.steps.milli(variant.key.cost()),
             idle: self.search.mobility(variant.key) - self.working,
+            harmful: variant.key.harmful(),
             minimum_norm: false,
         }
     }

@@ -38,7 +38,7 @@ impl Floor {
             Term::PeakForce => self.force,
             Term::PeakMoment => self.moment,
             Term::OutputError => 1e3 * self.output_error,
-            Term::Conditioning | Term::Changes | Term::Cost | Term::Idle => 0.0,
+            Term::Conditioning | Term::Changes | Term::Cost | Term::Idle | Term::Harmful => 0.0,
         };
         ranking.terms.iter().map(|&(t, w)| w * bound(t)).sum()
     }

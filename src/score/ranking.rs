@@ -10,6 +10,7 @@ use crate::score::pareto::fronts;
 use crate::score::terms::Scores;
 use crate::search::best::Assignment;
 use crate::statics::reactions::Unsolved;
+use num_bigint::BigUint;
 use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
@@ -53,6 +54,8 @@ pub struct RankedPool {
     pub proven: bool,
     /// Why it is proven, or is not.
     pub proof: &'static str,
+    /// What is missing to a proof, where the order is by a weighted sum in which cost counts.
+    pub missing: Option<Missing>,
     /// The cheapest that could be scored, as a measure for the others.
     pub cheapest: Option<Ranked>,
     /// Poses looked at.
@@ -61,6 +64,28 @@ pub struct RankedPool {
     pub gripped: Vec<Gripped>,
     /// Whether the stroke ended early.
     pub stroke_stopped: Option<f64>,
+}
+
+/// What is missing to the proof that a pool holds the best.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Missing {
+    /// No variant that was not scored has a lower sum.
+    pub least: f64,
+    /// The sum of the last of the list.
+    pub last: f64,
+    /// Variants of this cost and dearer ones `[1/1000]` cannot be among the list.
+    pub settled_at: i64,
+    /// Variants cheaper than that, with those scored; `None` where they were not counted.
+    pub cheaper: Option<BigUint>,
+}
+
+impl Missing {
+    /// The cost from which on no variant can be among the list.
+    #[must_use]
+    #[allow(clippy::cast_precision_loss, reason = "costs are small")]
+    pub fn settled_at_cost(&self) -> f64 {
+        self.settled_at as f64 / 1000.0
+    }
 }
 
 fn within(ranking: &Ranking, s: &Scores) -> bool {
@@ -137,6 +162,8 @@ pub struct Ranker<'e, 's> {
     evaluator: &'e Evaluator<'s>,
     /// Least weighted sum of the terms but cost.
     floor: f64,
+    /// Cost of the last variant scored, in thousandths.
+    reached: i64,
     top: usize,
     block: Vec<Assignment>,
     kept: Vec<Ranked>,
@@ -154,6 +181,7 @@ impl<'e, 's> Ranker<'e, 's> {
         Ranker {
             evaluator,
             floor,
+            reached: 0,
             top,
             block: Vec::new(),
             kept: Vec::new(),
@@ -167,6 +195,7 @@ impl<'e, 's> Ranker<'e, 's> {
                 open: 0,
                 proven: false,
                 proof: "dearer variants were not looked at",
+                missing: None,
                 cheapest: None,
                 poses: evaluator.cases.list.len(),
                 gripped: evaluator.cases.gripped.clone(),
@@ -222,16 +251,42 @@ impl<'e, 's> Ranker<'e, 's> {
         }
         let top = self.top.max(1);
         self.kept.sort_by(|a, b| compare(ranking, a, b));
+        if let Some(last) = block.last() {
+            self.reached = self.evaluator.search.steps.milli(last.key.cost());
+        }
         if self.kept.len() >= top
-            && let Some(last) = block.last()
+            && let Some(proof) = settled(ranking, &self.kept[..top], self.reached, self.floor)
         {
-            let cost = self.evaluator.search.steps.milli(last.key.cost());
-            if let Some(proof) = settled(ranking, &self.kept[..top], cost, self.floor) {
-                (self.out.proven, self.out.proof) = (true, proof);
-            }
+            (self.out.proven, self.out.proof) = (true, proof);
         }
         // What is behind the best so far stays behind.
         self.kept.truncate(top);
+    }
+
+    /// What is missing to a proof.
+    fn missing(&self) -> Option<Missing> {
+        let ranking = &self.out.ranking;
+        let weight = ranking.terms.iter().find(|(t, _)| *t == Term::Cost)?.1;
+        let last = self.kept.get(self.top.max(1) - 1)?;
+        if ranking.order != Order::Weighted || weight <= 0.0 {
+            return None;
+        }
+        let last = weighted(ranking, &last.scores);
+        #[allow(
+            clippy::cast_precision_loss,
+            clippy::cast_possible_truncation,
+            reason = "costs are small"
+        )]
+        let (reached, settled_at) = (
+            self.reached as f64 / 1000.0,
+            (1000.0 * (last - self.floor) / weight).ceil() as i64,
+        );
+        Some(Missing {
+            least: weight * reached + self.floor,
+            last,
+            settled_at,
+            cheaper: None,
+        })
     }
 
     /// The ranked pool. `all` says that every admissible variant was given.
@@ -245,6 +300,9 @@ impl<'e, 's> Ranker<'e, 's> {
         }
         if all && !self.out.proven {
             (self.out.proven, self.out.proof) = (true, "every admissible variant was scored");
+        }
+        if !self.out.proven {
+            self.out.missing = self.missing();
         }
         let ranking = &self.out.ranking;
         if ranking.order == Order::Pareto {

@@ -2,18 +2,18 @@
 //! how its answer is checked.
 
 use crate::geom::exact::ExactError;
-use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::model::ranking::{Ranking, Term};
-use crate::model::rounded::Rounded;
 use crate::rank::method::NoAnswer;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::rank::settled::{Settled, settle};
-use crate::rank::verdict::Verdict;
-use crate::search::conditions::{Conditions, Symmetry};
+use crate::rank::settled::settle;
+use crate::score::prepared::{CURE, LooksRounded, Prepared, tell_moved};
+use crate::search::conditions::{Conditions, InState, Symmetry};
 use thiserror::Error;
 
-/// How many of the cheapest variants a ranking scores, unless told otherwise.
-pub const POOL: usize = 1000;
+/// How many of the cheapest variants a ranking scores at most, unless told otherwise: it ends before where the best are
+/// proven. At about ten microseconds each these take a fifth of a second.
+pub const POOL: usize = 20_000;
 /// Largest pool.
 const LARGEST_POOL: usize = 100_000_000;
 
@@ -24,6 +24,15 @@ pub struct JointOptions {
     pub joint: String,
     /// Names of options; none where all changes are meant.
     pub names: Vec<String>,
+}
+
+/// Unloading joints offered at some joints, all by name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Inserts {
+    /// Types, or names that the file gives to unloading joints of these joints.
+    pub names: Vec<String>,
+    /// The joints; none where those are meant that the searched state adds.
+    pub joints: Vec<String>,
 }
 
 /// Which of the admissible variants are given.
@@ -78,16 +87,22 @@ pub struct Request {
     pub max_redundant: u32,
     /// Redundant constraints allowed from the joints that [`Request::state`] adds; takes those joints into the search.
     pub max_external: Option<u32>,
-    /// The state meant by [`Request::max_external`]; the first besides free where none is named.
+    /// Harmful ones allowed among them; takes those joints into the search.
+    pub max_harmful: Option<u32>,
+    /// The state that takes part; the first besides free where only limits in it are given.
     pub state: Option<String>,
+    /// Whether objects may be let go in the state that takes part.
+    pub allow_loose_object: bool,
     /// Largest mobility W allowed.
     pub max_mobility: Option<i64>,
     /// Most changes allowed.
     pub max_changes: Option<u32>,
     /// Whether outputs may move in other ways than now.
     pub allow_output_change: bool,
-    /// Links that must not gain a motion, besides the outputs.
+    /// Links that must not gain a motion, besides the outputs; bodies that the searched state adds must be held there.
     pub hold: Vec<String>,
+    /// Unloading joints offered besides those of the file.
+    pub unloading: Vec<Inserts>,
     /// The options used everywhere, by name; all of the file where there are none.
     pub options: Vec<String>,
     /// Options allowed at single joints.
@@ -126,11 +141,14 @@ impl Default for Request {
         Request {
             max_redundant: 0,
             max_external: None,
+            max_harmful: None,
             state: None,
+            allow_loose_object: false,
             max_mobility: None,
             max_changes: None,
             allow_output_change: false,
             hold: Vec::new(),
+            unloading: Vec::new(),
             options: Vec::new(),
             allow: Vec::new(),
             forbid: Vec::new(),
@@ -196,6 +214,46 @@ pub enum RequestError {
         /// The joint.
         joint: String,
     },
+    /// A type that cannot be put in series.
+    #[error(
+        "--unloading: {word} is no joint type to put in series at {joint}; there are: {}", known.join(", ")
+    )]
+    NoUnloading {
+        /// The joint.
+        joint: String,
+        /// The word given.
+        word: String,
+        /// What there is.
+        known: Vec<String>,
+    },
+    /// Unloading joints for a state that is not searched.
+    #[error(
+        "--unloading {names} is meant for the joints that a state adds; search one with --state, or name joints: --unloading {names}=JOINT"
+    )]
+    NoPlace {
+        /// The names given.
+        names: String,
+    },
+    /// A joint or link that takes no part.
+    #[error("{flag}: {item} of {mechanism} takes no part in this search, it is there in state {} alone; add --state {}", states.join(", "), states[0])]
+    Absent {
+        /// Which part of the request.
+        flag: &'static str,
+        /// Name of the mechanism.
+        mechanism: String,
+        /// The joint or link, such as "link a".
+        item: String,
+        /// The states it is in.
+        states: Vec<String>,
+    },
+    /// Ranking by what only a state shows.
+    #[error(
+        "ranking by harmful constraints needs the state that they are in; add --state, such as --state {state}"
+    )]
+    HarmfulWhere {
+        /// A state that there is.
+        state: String,
+    },
     /// No state to take joints from.
     #[error("{mechanism} has no state besides free")]
     OnlyFree {
@@ -223,34 +281,6 @@ pub enum RequestError {
     Verdict(#[from] NoAnswer),
 }
 
-/// What to do about rounded coordinates.
-const CURE: &str = "write roots or expressions such as sqrt(3)/2, give more digits, or snap them with --snap TOLERANCE";
-
-/// Why a geometry looks rounded, with the verdicts on its states.
-pub type LooksRounded = (Rounded, Vec<Verdict>);
-
-/// A mechanism made ready for a search.
-#[derive(Debug)]
-pub struct Prepared {
-    /// The one that is searched: as meant, and with the options that the request leaves.
-    pub mechanism: Mechanism,
-    settled: Settled,
-}
-
-/// Tells what was moved, and what was not.
-fn tell_moved(settled: &Settled, tell: &mut dyn FnMut(String)) {
-    let m = &settled.mechanism;
-    for moved in &settled.moved {
-        tell(format!("snapped: {}", moved.words(m)));
-    }
-    for one in &settled.refused {
-        let (id, far) = (&m.joints[one.joint].id, one.far(m));
-        tell(format!(
-            "not snapped: joint {id} would have to move by {far}"
-        ));
-    }
-}
-
 impl Request {
     /// Makes a mechanism ready. `tell` hears what was moved.
     ///
@@ -261,7 +291,7 @@ impl Request {
         mechanism: Mechanism,
         tell: &mut dyn FnMut(String),
     ) -> Result<Prepared, RequestError> {
-        let state = self.state(&mechanism)?.map(|(s, _)| s);
+        let state = self.state(&mechanism)?.map(|s| s.state);
         let states: Vec<StateId> = std::iter::once(StateId::FREE).chain(state).collect();
         let mut settled = settle(&mechanism, &states, self.tolerance()?)?;
         let mut out = mechanism;
@@ -274,6 +304,7 @@ impl Request {
                 .get_or_insert((i, settled.verdicts[i].as_written));
         }
         self.restrict(&mut out)?;
+        self.insert(&mut out)?;
         Ok(Prepared {
             mechanism: out,
             settled,
@@ -305,29 +336,33 @@ impl Request {
         }
     }
 
-    /// The state that takes part, with the external redundancy allowed there.
+    /// The state that takes part, with what is asked of variants in it.
     ///
     /// # Errors
     /// Where the mechanism has no such state.
-    pub fn state(&self, mechanism: &Mechanism) -> Result<Option<(StateId, u32)>, RequestError> {
-        let name = || mechanism.name.clone();
-        match (&self.state, self.max_external) {
-            (None, None) => Ok(None),
-            (None, Some(_)) if mechanism.states.len() < 2 => {
-                Err(RequestError::OnlyFree { mechanism: name() })
+    pub fn state(&self, mechanism: &Mechanism) -> Result<Option<InState>, RequestError> {
+        let state = match &self.state {
+            None if self.max_external.is_none() && self.max_harmful.is_none() => {
+                return Ok(None);
             }
-            (None, Some(external)) => Ok(Some((StateId::new(1), external))),
-            (Some(state), external) => {
-                let Some(s) = mechanism.state(state) else {
-                    return Err(RequestError::NoState {
-                        mechanism: name(),
-                        state: state.clone(),
-                        known: mechanism.states.clone(),
-                    });
-                };
-                Ok((s != StateId::FREE).then_some((s, external.unwrap_or(u32::MAX))))
+            None if mechanism.states.len() < 2 => {
+                return Err(RequestError::OnlyFree {
+                    mechanism: mechanism.name.clone(),
+                });
             }
-        }
+            None => StateId::new(1),
+            Some(name) => mechanism.state(name).ok_or_else(|| RequestError::NoState {
+                mechanism: mechanism.name.clone(),
+                state: name.clone(),
+                known: mechanism.states.clone(),
+            })?,
+        };
+        Ok((state != StateId::FREE).then_some(InState {
+            state,
+            max_external: self.max_external,
+            max_harmful: self.max_harmful,
+            hold_objects: !self.allow_loose_object,
+        }))
     }
 
     /// The conditions on the variants of a mechanism that is prepared, and why its geometry looks rounded, where that may
@@ -341,7 +376,10 @@ impl Request {
         tell: &mut dyn FnMut(String),
     ) -> Result<(Conditions, Option<LooksRounded>), RequestError> {
         let state = self.state(&prepared.mechanism)?;
-        let rounded = self.rounded(prepared, tell)?;
+        let asked = (self.as_written, self.snap.is_some());
+        let rounded = prepared
+            .rounded(asked, tell)
+            .map_err(RequestError::Rounded)?;
         let verdicts = rounded.iter().flat_map(|(_, v)| v);
         // Second opinions are read at the errors of what is searched.
         let tolerance = match &prepared.settled {
@@ -372,129 +410,16 @@ impl Request {
         if !self.rank.is_empty() {
             ranking.get_or_insert_default().terms.clone_from(&self.rank);
         }
+        let harm = ranking.iter().flat_map(|r| &r.terms);
+        if harm.clone().any(|(t, _)| *t == Term::Harmful) && self.state(mechanism)?.is_none() {
+            let some = mechanism.states.get(1);
+            return Err(RequestError::HarmfulWhere {
+                state: some.cloned().unwrap_or_else(|| "clamped".to_owned()),
+            });
+        }
         if ranking.is_some() && !(1..=LARGEST_POOL).contains(&self.pool) {
             return Err(RequestError::Pool);
         }
         Ok(ranking)
-    }
-
-    /// Why the geometry looks rounded, where that may matter. Where the mechanism that is meant is not there for exact
-    /// arithmetic the search is refused, unless the file is to be taken as written.
-    fn rounded(
-        &self,
-        Prepared { mechanism, settled }: &Prepared,
-        tell: &mut dyn FnMut(String),
-    ) -> Result<Option<LooksRounded>, RequestError> {
-        let name = &mechanism.name;
-        let why = settled.verdicts.iter().find_map(|v| v.rounded.clone());
-        let told = |why: Option<Rounded>| why.map(|w| (w, settled.verdicts.clone()));
-        let Some((v, has)) = settled.open.map(|(i, has)| (&settled.verdicts[i], has)) else {
-            let measured = |w: &Rounded| w.digits.is_some();
-            let meant = settled.verdicts.iter().all(Verdict::is_as_written);
-            if let (Some(w), true, None) = (why.as_ref().filter(|w| measured(w)), meant, self.snap)
-            {
-                tell(format!(
-                    "warning: the coordinates of {name} look measured ({w}). Exact and tolerant ranks agree on it as it \
-                     is, but the search takes every digit at its word; {CURE}"
-                ));
-            }
-            return Ok(told(why.filter(|w| measured(w) || !meant)));
-        };
-        let looks = why.as_ref().map_or_else(
-            || {
-                format!(
-                    "the mechanism {name} is not the same to within {:.0e}",
-                    v.tolerance
-                )
-            },
-            |w| format!("the coordinates of {name} look rounded ({w}), and that matters"),
-        );
-        let [of, near] = [has, v.at_least()].map(|rank| v.figures(rank));
-        let n = v.numeric.unwrap_or_default();
-        let written = if self.snap.is_some() && has != v.as_written {
-            "snapped"
-        } else {
-            "as written"
-        };
-        let likely = if v.is_decided() {
-            "is meant to have"
-        } else {
-            "may be meant to have"
-        };
-        let differ = format!(
-            "{looks}: {written}, state {} has W = {}, σ = {}; to within {:.0e} it {likely} W = {}, σ = {} (smallest singular \
-             value kept {:.1e}, largest dropped {:.1e}). Exact ranks take rounding errors for real misalignments",
-            v.state, of.0, of.1, v.tolerance, near.0, near.1, n.kept, n.dropped
-        );
-        if !self.as_written {
-            return Err(RequestError::Rounded(differ));
-        }
-        tell(format!("warning: {differ}; {CURE}"));
-        Ok(told(why))
-    }
-
-    /// Holds links, and leaves the options that are allowed.
-    fn restrict(&self, mechanism: &mut Mechanism) -> Result<(), RequestError> {
-        let name = || mechanism.name.clone();
-        let mut held = Vec::with_capacity(self.hold.len());
-        for link in &self.hold {
-            held.push(mechanism.link(link).ok_or_else(|| RequestError::NoLink {
-                mechanism: name(),
-                link: link.clone(),
-            })?);
-        }
-        let offered = mechanism.joints.iter().flat_map(|j| &j.options);
-        let mut known: Vec<&str> = offered.map(|o| o.name.as_str()).collect();
-        known.sort_unstable();
-        known.dedup();
-        let check = |names: &[String], flag: &'static str| match names
-            .iter()
-            .find(|n| !known.contains(&n.as_str()))
-        {
-            None => Ok(()),
-            Some(option) => Err(RequestError::NoOption {
-                flag,
-                mechanism: name(),
-                option: option.clone(),
-                known: known.iter().map(|k| (*k).to_owned()).collect(),
-            }),
-        };
-        check(&self.options, "--options")?;
-        let mut rules: Vec<(JointId, &[String], bool)> = Vec::new();
-        for (list, flag) in [(&self.allow, "--allow"), (&self.forbid, "--forbid")] {
-            for JointOptions { joint, names } in list {
-                let id = mechanism
-                    .joint(joint)
-                    .ok_or_else(|| RequestError::NoJoint {
-                        flag,
-                        mechanism: name(),
-                        joint: joint.clone(),
-                    })?;
-                if flag == "--allow" && names.is_empty() {
-                    return Err(RequestError::NoNames {
-                        joint: joint.clone(),
-                    });
-                }
-                check(names, flag)?;
-                rules.push((id, names, flag == "--allow"));
-            }
-        }
-        mechanism.search.hold.extend(held);
-        for (id, joint) in mechanism.joint_ids().zip(&mut mechanism.joints) {
-            let kept = |name: &String| {
-                let mut own = rules.iter().filter(|(j, ..)| *j == id);
-                (self.options.is_empty() || self.options.contains(name))
-                    && own.all(|(_, names, allow)| {
-                        !names.is_empty() && names.contains(name) == *allow
-                    })
-            };
-            let mut place = 0;
-            joint.options.retain(|o| {
-                place += 1;
-                // The present joint stays.
-                place == 1 || kept(&o.name)
-            });
-        }
-        Ok(())
     }
 }

@@ -6,8 +6,9 @@ use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::exact_field;
 use crate::score::evaluate::{Evaluator, ScoreError};
 use crate::score::outcome::Outcome;
+use crate::score::prepared::LooksRounded;
 use crate::score::ranking::{RankedPool, Ranker};
-use crate::score::request::{Check, List, LooksRounded, Method, Request, RequestError};
+use crate::score::request::{Check, List, Method, Request, RequestError};
 use crate::search::building::Diagrams;
 use crate::search::conditions::{Conditions, Search, SearchError, Symmetry};
 use crate::search::counts::Counts;
@@ -116,7 +117,7 @@ pub fn answer(
         if search.size() > BRUTE_LIMIT.into() {
             return Err(RunError::TooMany(search.size()));
         }
-        let counts = search.brute();
+        let counts = search.brute()?;
         return Ok(Outcome::of_counts(
             search,
             request.clone(),
@@ -131,6 +132,9 @@ pub fn answer(
             (search?, Some(twin?))
         }
     };
+    for note in search.already_loose()? {
+        tell(Event::Note(note));
+    }
     let progress = &mut |p| tell(Event::Building(p));
     let (diagrams, check) = match &twin {
         None => (search.build(should_cancel, progress), None),
@@ -234,7 +238,11 @@ fn ranked(
     let exhausted = diagrams.stop() == Stop::Exhausted;
     let mut out = ranker.finish(exhausted && given <= request.pool);
     if !exhausted {
-        (out.proven, out.proof) = (false, "the search stopped early");
+        (out.proven, out.proof, out.missing) = (false, "the search stopped early", None);
+    }
+    if let Some(missing) = &mut out.missing {
+        let by_cost = search.counts_by_cost(&diagrams.admissible);
+        missing.cheaper = Some(by_cost.range(..missing.settled_at).map(|(_, n)| n).sum());
     }
     Ok(Some(out))
 }

@@ -4,8 +4,8 @@ use crate::geom::vector::length;
 use crate::model::joint_type::Freedom;
 use crate::model::loads::{ExternalForce, Loads};
 use crate::model::mechanism::{JointId, StateId};
-use crate::score::bearing::Load;
 use crate::score::evaluate::Evaluator;
+use crate::score::evaluate::Load;
 use crate::score::joint_types::JointType;
 use crate::score::terms::{ErrorSum, Scores, axis_of};
 use crate::search::best::Assignment;
@@ -83,6 +83,7 @@ impl Evaluator<'_> {
                         }),
                         force: unit,
                         range: None,
+                        states: None,
                     };
                     let loads = Loads {
                         forces: vec![force],

@@ -53,6 +53,8 @@ pub struct Scores {
     pub cost_milli: i64,
     /// Mobility beyond the working one.
     pub idle: i64,
+    /// Harmful redundant constraints that the searched state adds.
+    pub harmful: u32,
     /// Whether redundant constraints are left, so that reactions are those of minimum norm.
     pub minimum_norm: bool,
 }
@@ -70,6 +72,7 @@ impl Scores {
             Term::Changes => f64::from(self.changes),
             Term::Cost => self.cost_milli as f64 / 1000.0,
             Term::Idle => self.idle as f64,
+            Term::Harmful => f64::from(self.harmful),
         }
     }
 
@@ -83,7 +86,7 @@ impl Scores {
             Term::Conditioning => coarse(-self.conditioning.max(1e-300).log10()),
             Term::OutputError => coarse(1e3 * self.output_error),
             Term::PeakForce | Term::PeakMoment => coarse(self.value(term)),
-            Term::Changes | Term::Cost | Term::Idle => self.value(term),
+            Term::Changes | Term::Cost | Term::Idle | Term::Harmful => self.value(term),
         }
     }
 

@@ -86,9 +86,16 @@ impl<'o> Variant<'o> {
 
     /// Redundant constraints that the searched state adds; `None` where none was searched.
     #[must_use]
-    pub fn external_redundant(&self) -> Option<u32> {
+    pub fn external_redundant(&self) -> Option<i32> {
         let searched = self.outcome.search.conditions.state;
         searched.map(|_| self.assignment().key.external())
+    }
+
+    /// Harmful ones among them: self-stresses that load the joints the state adds with more than friction.
+    #[must_use]
+    pub fn external_harmful(&self) -> Option<u32> {
+        let searched = self.outcome.search.conditions.state;
+        searched.map(|_| self.assignment().key.harmful())
     }
 
     /// Number of changed joints and inserted unloading joints.
@@ -157,18 +164,24 @@ impl<'o> Variant<'o> {
         out
     }
 
-    /// σ of each of its contours in the free state when they are added in this order, with the range over all orders.
+    /// σ of each of its contours when they are added in this order, with the range over all orders: of the searched state,
+    /// whose own contours come last, or of the free one. Nothing where no contour has any.
     ///
     /// # Errors
     /// Where a coordinate has no value in the field of the search.
     ///
     /// # Complexity
     /// Some eliminations of J for each call.
-    pub fn redundant_by_contour(&self) -> Result<Vec<ContourShare>, ExactError> {
-        let search = &self.outcome.search;
+    pub fn redundant_by_contour(&self) -> Result<Vec<(String, ContourShare)>, ExactError> {
+        let (search, key) = (&self.outcome.search, self.assignment().key);
+        if key.internal() == 0 && key.external() == 0 {
+            return Ok(Vec::new());
+        }
+        let state = search.conditions.state.map_or(StateId::FREE, |s| s.state);
         let realized = search.realize(&self.assignment().choices);
-        let closure = Closure::new(search.field(), &realized, StateId::FREE)?;
-        Ok(shares(search.field(), &closure))
+        let closure = Closure::new(search.field(), &realized, state)?;
+        let shares = shares(search.field(), &closure).into_iter();
+        Ok(shares.map(|s| (s.contour.name(&realized), s)).collect())
     }
 }
 
@@ -184,6 +197,9 @@ impl fmt::Display for Variant<'_> {
         )?;
         if let Some(e) = self.external_redundant() {
             write!(f, " + {e}")?;
+        }
+        if let Some(n) = self.external_harmful() {
+            write!(f, " ({n} harmful)")?;
         }
         let changes = in_words(&self.outcome.search, &self.changes());
         write!(f, ": {changes}")

@@ -115,18 +115,14 @@ fn enough<C: Count>(
     top: usize,
     wanted: impl Fn(Key) -> bool,
 ) -> (Tally<C>, Vec<Key>) {
-    let least = least_costs(diagram, &steps.keys);
+    let least = least_costs(diagram, steps);
     let Some(floor) = least.completion[0][0] else {
-        return (Tally::new(diagram, &steps.keys, None), Vec::new());
+        return (Tally::new(diagram, steps, None), Vec::new());
     };
-    let ceiling = steps
-        .keys
-        .iter()
-        .flatten()
-        .map(|k| k.cost())
-        .max()
-        .unwrap_or(0)
-        * steps.keys.len() as u64;
+    let chosen = steps.keys.iter().flatten().map(|k| k.cost()).max();
+    let ends = diagram.terminals.iter();
+    let end = ends.map(|&r| steps.redundancy(r).cost()).max();
+    let ceiling = chosen.unwrap_or(0) * steps.keys.len() as u64 + end.unwrap_or(0);
     let mut slack = 0;
     loop {
         let limit = floor.saturating_add(slack).min(ceiling);
@@ -139,7 +135,7 @@ fn enough<C: Count>(
                     .collect()
             })
             .collect();
-        let tally: Tally<C> = Tally::new(diagram, &steps.keys, Some(&bound));
+        let tally: Tally<C> = Tally::new(diagram, steps, Some(&bound));
         let found: Vec<Key> = tally
             .totals()
             .iter()
@@ -165,7 +161,8 @@ struct Least {
     completion: Vec<Vec<Option<u64>>>,
 }
 
-fn least_costs(diagram: &Diagram, keys: &[Vec<Key>]) -> Least {
+fn least_costs(diagram: &Diagram, steps: &Steps) -> Least {
+    let keys = &steps.keys;
     let sizes = || {
         diagram
             .layers
@@ -177,7 +174,8 @@ fn least_costs(diagram: &Diagram, keys: &[Vec<Key>]) -> Least {
     let mut completion = prefix.clone();
     prefix[0][0] = Some(0);
     if let Some(last) = completion.last_mut() {
-        last.fill(Some(0));
+        let ends = diagram.terminals.iter();
+        *last = ends.map(|&r| Some(steps.redundancy(r).cost())).collect();
     }
     let lower = |slot: &mut Option<u64>, x: u64| *slot = Some(slot.map_or(x, |s| s.min(x)));
     for (l, layer) in diagram.layers.iter().enumerate() {
@@ -215,11 +213,11 @@ fn least_costs(diagram: &Diagram, keys: &[Vec<Key>]) -> Least {
 
 /// Draws `count` variants whose key passes `wanted`, independently, each with the same chance.
 ///
-/// `keys` are the keys the tally was made with; the variants' own keys are made from `steps`.
+/// `told` are the steps the tally was made with; the variants' own keys are made from `steps`.
 pub fn sample<C: Count>(
     diagram: &Diagram,
     steps: &Steps,
-    keys: &[Vec<Key>],
+    told: &Steps,
     tally: &Tally<C>,
     count: usize,
     seed: u64,
@@ -249,7 +247,7 @@ pub fn sample<C: Count>(
         let mut choices = vec![0; steps.keys.len()];
         let (mut node, mut whole) = (0usize, 0u128);
         for (l, layer) in diagram.layers.iter().enumerate() {
-            for (choice, edge) in keys[layer.variable].iter().enumerate() {
+            for (choice, edge) in told.keys[layer.variable].iter().enumerate() {
                 let to = layer.edges[node * layer.choices + choice];
                 let Some(rest) = key.0.checked_sub(edge.0).map(Key) else {
                     continue;
@@ -271,8 +269,7 @@ pub fn sample<C: Count>(
                 ticket -= size;
             }
         }
-        let (internal, external) = diagram.terminals[node];
-        whole += Key::new(0, 0, 0, internal, external).0;
+        whole += steps.redundancy(diagram.terminals[node]).0;
         Assignment {
             choices,
             key: Key(whole),

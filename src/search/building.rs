@@ -2,12 +2,15 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::{JointId, LinkId, StateId};
+use crate::model::mechanism::{JointId, LinkId};
 use crate::search::conditions::Search;
-use crate::search::diagram::{self, Collapse, Diagram, Limits, Progress, Stage, Stop};
+use crate::search::diagram::{self, Diagram, Progress, Stop};
+use crate::search::lanes::{Lane, Move, ways};
 use crate::search::lookahead::lookahead;
 use crate::search::order::variable_order;
-use crate::search::plan::plan;
+use crate::search::plan::{At, plan};
+use crate::search::spent::Limits;
+use crate::search::stage::{self, Collapse, Stage};
 
 /// Diagrams of one search.
 #[derive(Debug)]
@@ -28,6 +31,11 @@ impl Diagrams {
     }
 }
 
+/// Whether a joint comes after the common ones.
+fn is_way(joined: &Move) -> bool {
+    joined.lane != Lane::Common
+}
+
 impl Search {
     /// Builds both diagrams.
     pub fn build(
@@ -35,96 +43,87 @@ impl Search {
         cancelled: &(dyn Fn() -> bool + Sync),
         progress: &mut (dyn FnMut(Progress) + Send),
     ) -> Diagrams {
-        let limits = |external| Limits {
+        let state = self.conditions.state.as_ref();
+        let limits = Limits {
             internal: self.conditions.max_redundant,
-            external,
+            external: None,
+            harmful: None,
             nodes: self.conditions.nodes,
         };
+        let all = 0..self.space.variables.len();
         let (free, added): (Vec<usize>, Vec<usize>) =
-            (0..self.space.variables.len()).partition(|&v| !self.space.variables[v].external);
+            all.partition(|&v| !self.space.variables[v].external);
         let order = variable_order(&self.mechanism, &self.space, &free, &[]);
-        let joints = |order: &[usize]| -> Vec<JointId> {
-            order
-                .iter()
-                .flat_map(|&v| self.space.variables[v].joints.iter().copied())
-                .collect()
+        let at = |order: &[usize]| -> Vec<At> {
+            let joints = order.iter().flat_map(|&v| &self.space.variables[v].joints);
+            joints.map(|&joint| At { joint, lane: 0 }).collect()
         };
-        let idle = added.iter().map(|&variable| Stage {
-            variable,
-            steps: Vec::new(),
-            external: true,
-            collapse: None,
-            lookahead: None,
-        });
-        let mut stages = diagram::stages(
-            &self.space,
-            &order,
-            &plan(&self.mechanism, &joints(&order), &[], &[]),
-        );
+        let idle = added.iter().map(|&v| Stage::plain(v, Vec::new()));
+        let whole = plan(&self.mechanism, &at(&order), &[], &[]);
+        let mut stages = stage::stages(&self.space, &order, &whole);
         stages.extend(idle);
-        let determinate = diagram::build(
-            &self.exact,
-            &self.space,
-            &stages,
-            &limits(u32::MAX),
-            cancelled,
-            progress,
-        );
-        if !self.conditions.keep_output && added.is_empty() {
+        let build =
+            |stages: &[Stage], limits: &Limits, progress: &mut (dyn FnMut(Progress) + Send)| {
+                diagram::build(
+                    &self.exact,
+                    &self.space,
+                    stages,
+                    limits,
+                    cancelled,
+                    progress,
+                )
+            };
+        let determinate = build(&stages, &limits, progress);
+        if !self.conditions.keep_output && state.is_none() {
             return Diagrams {
                 admissible: determinate.clone(),
                 determinate,
                 order,
             };
         }
+        let (alone, both): (Vec<usize>, Vec<usize>) =
+            free.iter().partition(|&&v| self.space.variables[v].alone);
         let mut pinned = vec![self.mechanism.frame()];
-        pinned.extend(&self.kept.0);
-        let free_links: Vec<LinkId> = self
-            .mechanism
-            .joints_in(StateId::FREE)
-            .flat_map(|j| self.mechanism.joints[j].links)
-            .collect();
-        let contacts = joints(&added)
-            .into_iter()
-            .flat_map(|j| self.mechanism.joints[j].links);
-        pinned.extend(contacts.filter(|l| free_links.contains(l)));
+        pinned.extend(self.kept.0.iter().filter(|_| self.conditions.keep_output));
+        let later = at(&alone).into_iter().chain(at(&added));
+        pinned.extend(later.flat_map(|at| self.mechanism.joints[at.joint].links));
         pinned.sort_unstable();
         pinned.dedup();
-        let mut order = variable_order(
-            &self.mechanism,
-            &self.space,
-            &free,
-            &[self.mechanism.frame()],
-        );
-        let first = plan(&self.mechanism, &joints(&order), &pinned, &[]);
-        let mut stages = diagram::stages(&self.space, &order, &first);
-        let live = first
-            .steps
-            .last()
-            .map(|s| s.live.clone())
-            .unwrap_or_default();
-        if self.conditions.keep_output {
-            self.look_ahead(&mut stages);
+        let frame = self.mechanism.frame();
+        let mut order = variable_order(&self.mechanism, &self.space, &both, &[frame]);
+        let first = plan(&self.mechanism, &at(&order), &pinned, &[]);
+        let mut stages = stage::stages(&self.space, &order, &first);
+        let mut limits = limits;
+        if let Some(state) = state {
+            (limits.external, limits.harmful) = (state.max_external, state.max_harmful);
+            let live = first.steps.last().map_or(&[][..], |s| &s.live);
+            let joints = (&alone[..], &added[..]);
+            let mut kept = vec![frame];
+            kept.extend(self.kept.0.iter().filter(|_| self.conditions.keep_output));
+            let ways = ways(
+                &self.mechanism,
+                &self.space,
+                joints,
+                live,
+                &kept,
+                &self.grasps,
+            );
+            let copies = std::iter::once(ways.copies).chain(std::iter::repeat(1));
+            for ((variable, moves), copies) in ways.stages.into_iter().zip(copies) {
+                stages.push(Stage {
+                    copies,
+                    ..Stage::plain(variable, moves)
+                });
+            }
+            if let Some(last) = stages.last_mut().filter(|s| s.moves.iter().all(is_way)) {
+                last.ending = Some(ways.held);
+            }
         }
-        let start: Vec<Vec<LinkId>> = match live.first() {
-            Some((root, _)) => vec![
-                std::iter::once(*root)
-                    .chain(live.iter().map(|(_, l)| *l))
-                    .collect(),
-            ],
-            None => Vec::new(),
-        };
-        let second = plan(&self.mechanism, &joints(&added), &[], &start);
-        stages.extend(diagram::stages(&self.space, &added, &second));
-        let external = self.conditions.state.map_or(u32::MAX, |(_, e)| e);
-        let admissible = diagram::build(
-            &self.exact,
-            &self.space,
-            &stages,
-            &limits(external),
-            cancelled,
-            progress,
-        );
+        if self.conditions.keep_output {
+            self.look_ahead(&mut stages[..free.len()], alone.is_empty());
+        }
+        let admissible = build(&stages, &limits, progress);
+        order.extend(alone);
         order.extend(added);
         Diagrams {
             determinate,
@@ -133,8 +132,10 @@ impl Search {
         }
     }
 
-    /// Gives each stage of the free state the test that its nodes must pass.
-    fn look_ahead(&self, stages: &mut [Stage]) {
+    /// Gives each stage of the free state the test that its nodes must pass. `same_joints` says that all of them are in the
+    /// searched state, too: then a node that passes the last test has kept links that move as they do now, and the
+    /// searched state needs no more of them.
+    fn look_ahead(&self, stages: &mut [Stage], same_joints: bool) {
         let present = |v: usize| {
             let variable = &self.space.variables[v];
             variable
@@ -148,22 +149,34 @@ impl Search {
                 .iter()
                 .flat_map(|s| present(s.variable))
                 .collect();
-            let Some((_, last)) = stages[i].steps.last() else {
+            let Some(last) = stages[i].moves.last() else {
                 continue;
             };
+            // The free state's lane comes first; what other lanes hold is of no concern.
+            let (links, couplings) = (self.mechanism.links.len(), self.mechanism.couplings.len());
+            let step = &last.step;
+            let mine = step.live.iter().filter(|(_, l)| l.index() < links);
+            let live: Vec<_> = mine.copied().collect();
+            let mine = step.pending.iter().filter(|&&q| q < couplings);
+            let pending: Vec<_> = mine.copied().collect();
+            let others = step.live.len() + step.pending.len() - live.len() - pending.len();
             let (kept, allowed) = (&self.kept.0, self.kept.1.len());
-            let last = last.clone();
-            let test = lookahead(
+            let mut test = lookahead(
                 &self.exact,
                 &self.mechanism,
                 self.space.dim,
-                (&last.live, &last.pending),
+                (&live, &pending),
                 &left,
                 kept,
                 allowed,
             );
+            let nothing = vec![0; test.map.first().map_or(0, Vec::len)];
+            let size = test.map.len() + others * self.space.dim;
+            test.map.resize(size, nothing);
             stages[i].lookahead = Some(test);
-            stages[i].collapse = self.collapse(&last.live, &left);
+            if last.lane == Lane::Common {
+                stages[i].collapse = self.collapse(&live, &left, same_joints);
+            }
         }
     }
 
@@ -172,6 +185,7 @@ impl Search {
         &self,
         live: &[(LinkId, LinkId)],
         left: &[(JointId, Vec<Vec<Residue>>)],
+        same_joints: bool,
     ) -> Option<Collapse> {
         let (frame, dim) = (self.mechanism.frame(), self.space.dim);
         let contact = |l: LinkId| {
@@ -179,7 +193,7 @@ impl Search {
                 .space
                 .variables
                 .iter()
-                .filter(|v| v.external)
+                .filter(|v| v.external && !same_joints)
                 .flat_map(|v| &v.joints);
             left.iter()
                 .map(|(j, _)| j)

@@ -111,6 +111,12 @@ pub struct Summary {
 }
 
 impl Summary {
+    /// Whether second opinions were asked for.
+    #[must_use]
+    pub fn is_asked(&self) -> bool {
+        self.checked + self.failed > 0
+    }
+
     /// Counts one more.
     pub fn add(&mut self, one: &Certified) {
         self.given += 1;
@@ -181,7 +187,7 @@ impl Search {
 
     fn shape(&self, realized: &Mechanism) -> Shape {
         let lock = || contour_basis(&self.locked(realized), StateId::FREE);
-        let state = self.conditions.state.map(|(s, _)| s);
+        let state = self.conditions.state.map(|s| s.state);
         Shape {
             free: contour_basis(realized, StateId::FREE),
             locked: self.conditions.keep_output.then(lock),

@@ -3,18 +3,14 @@
 use crate::closure::contour::contour_basis;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::modp::Residue;
-use crate::model::coupling::{CoupledFreedom, Coupling};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::redundancy::motion::joint_motion;
-use crate::search::best::{self, Assignment, Cheapest};
-use crate::search::brute::{self, Matrices};
-use crate::search::building::Diagrams;
 use crate::search::cost::CostTable;
-use crate::search::counts::Counts;
-use crate::search::diagram::Diagram;
+use crate::search::held::{Grasp, grasps, is_free, loose};
+use crate::search::mirror::{self, MirrorError};
 use crate::search::space::Space;
-use crate::search::tally::{Key, Kinds, Steps, Tally};
+use crate::search::tally::{Key, Steps};
 use num_bigint::BigUint;
 use std::sync::Arc;
 use thiserror::Error;
@@ -31,13 +27,39 @@ pub enum Symmetry {
     OnePerOrbit,
 }
 
+/// A state that takes part, and what variants must be like in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct InState {
+    /// The state, not the free one; its additional joints take part.
+    pub state: StateId,
+    /// Redundant constraints that it may add, where there is a limit.
+    pub max_external: Option<u32>,
+    /// Harmful ones among them, where there is a limit.
+    pub max_harmful: Option<u32>,
+    /// Whether the objects must be held.
+    pub hold_objects: bool,
+}
+
+impl InState {
+    /// A state without limits in which objects are held.
+    #[must_use]
+    pub fn holding(state: StateId) -> InState {
+        InState {
+            state,
+            max_external: None,
+            max_harmful: None,
+            hold_objects: true,
+        }
+    }
+}
+
 /// What variants must be like, said of one mechanism: its state by number.
 #[derive(Debug, Clone)]
 pub struct Conditions {
     /// Redundant constraints allowed within the mechanism.
     pub max_redundant: u32,
-    /// The state whose additional joints take part, with the external redundancy allowed there.
-    pub state: Option<(StateId, u32)>,
+    /// The state that takes part besides the free one.
+    pub state: Option<InState>,
     /// Largest mobility W allowed.
     pub max_mobility: Option<i64>,
     /// Most changes allowed.
@@ -74,32 +96,9 @@ pub enum SearchError {
     /// The geometry has no image in the field.
     #[error(transparent)]
     Exact(#[from] ExactError),
-    /// Symmetry asked of a mechanism whose file names no mirror pairs.
-    #[error(
-        "{mechanism} names no mirror pairs; add `mirror = [[\"joint\", \"its image\"], ...]` under [search]"
-    )]
-    NoMirror {
-        /// Name of the mechanism.
-        mechanism: String,
-    },
-    /// A coupling without a mirror image.
-    #[error(
-        "joints {coupling} are coupled, their mirror images are not, or in another ratio; couple both pairs alike, or search without symmetry"
-    )]
-    UnlikeCoupling {
-        /// The coupling.
-        coupling: String,
-    },
-    /// Mirrored joints that offer different options.
-    #[error(
-        "joints {first} and {second} are mirror images but offer different options; give both the same list"
-    )]
-    UnlikeMirror {
-        /// One joint.
-        first: String,
-        /// Its image.
-        second: String,
-    },
+    /// Symmetry of a mechanism that is not its own mirror image.
+    #[error(transparent)]
+    Mirror(#[from] MirrorError),
 }
 
 /// A search made ready: space, costs, and the diagram of the admissible variants.
@@ -118,6 +117,8 @@ pub struct Search {
     rows: i64,
     /// Links whose motion is kept, with their present joint motion.
     pub(super) kept: (Vec<LinkId>, Vec<Vec<Residue>>),
+    /// What must be held in the searched state.
+    pub(super) grasps: Vec<Grasp>,
 }
 
 impl Search {
@@ -132,52 +133,24 @@ impl Search {
     ) -> Result<Self, SearchError> {
         let mechanism: Arc<Mechanism> = mechanism.into();
         if conditions.symmetry != Symmetry::All {
-            if mechanism.search.mirror.is_empty() {
-                return Err(SearchError::NoMirror {
-                    mechanism: mechanism.name.clone(),
-                });
-            }
-            for &(a, b) in &mechanism.search.mirror {
-                let (a, b) = (&mechanism.joints[a], &mechanism.joints[b]);
-                let names = |j: &crate::model::mechanism::Joint| -> Vec<String> {
-                    j.options
-                        .iter()
-                        .chain(&j.unloading)
-                        .map(|o| o.name.clone())
-                        .collect()
-                };
-                if names(a) != names(b) {
-                    return Err(SearchError::UnlikeMirror {
-                        first: a.id.clone(),
-                        second: b.id.clone(),
-                    });
-                }
-            }
-            if let Some(c) = mechanism
-                .couplings
-                .iter()
-                .find(|c| !mirrored(&mechanism, c))
-            {
-                return Err(SearchError::UnlikeCoupling {
-                    coupling: c.name(&mechanism),
-                });
-            }
+            mirror::check(&exact, &mechanism, conditions.state.map(|s| s.state))?;
         }
         let costs = CostTable::new(&mechanism.search.costs);
         let symmetric = conditions.symmetry == Symmetry::SymmetricOnly;
         let space = Space::new(
             &exact,
             &mechanism,
-            conditions.state.map(|(s, _)| s),
+            conditions.state.map(|s| s.state),
             symmetric,
             &costs,
         )?;
-        let steps = Steps::new(&space);
+        let steps = Steps::new(&space, &costs);
         let outputs = mechanism
             .link_ids()
             .filter(|&l| mechanism.links[l].role == Role::Output);
         let mut kept: Vec<LinkId> = outputs
             .chain(mechanism.search.hold.iter().copied())
+            .filter(|&l| is_free(&mechanism, l))
             .collect();
         kept.sort_unstable();
         kept.dedup();
@@ -185,7 +158,10 @@ impl Search {
         let rows = space.dim * contour_basis(&mechanism, StateId::FREE).len()
             + mechanism.couplings_in(StateId::FREE).count();
         let rows = i64::try_from(rows).unwrap_or(i64::MAX);
+        let searched = conditions.state.iter();
+        let grasps = searched.flat_map(|s| grasps(&mechanism, s.state, s.hold_objects));
         Ok(Search {
+            grasps: grasps.collect(),
             mechanism,
             conditions,
             space,
@@ -194,6 +170,32 @@ impl Search {
             rows,
             kept: (kept, present),
         })
+    }
+
+    /// The bodies that must be held in the searched state.
+    pub fn held(&self) -> impl Iterator<Item = LinkId> + '_ {
+        self.grasps.iter().map(|(body, _)| *body)
+    }
+
+    /// The bodies that must be held and are not in the mechanism as it is, in a sentence each: no option takes a motion away,
+    /// so no variant holds them.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    pub fn already_loose(&self) -> Result<Vec<String>, ExactError> {
+        let Some(s) = self.conditions.state else {
+            return Ok(Vec::new());
+        };
+        let m = &self.mechanism;
+        let said = |l: LinkId| {
+            let (body, state) = (&m.links[l].id, &m.states[s.state]);
+            format!(
+                "warning: in state {state} something moves {body} against all that holds it, in the mechanism as it is \
+                 already, so that no variant can hold it; --allow-loose-object does not ask for that"
+            )
+        };
+        let loose = loose(&self.exact, m, s.state, &self.grasps)?;
+        Ok(loose.into_iter().map(said).collect())
     }
 
     /// The prime field of the search.
@@ -226,48 +228,6 @@ impl Search {
                 .is_none_or(|c| key.changes() <= c)
     }
 
-    /// The admissible variants, cheapest first, then by W, then by changes, then in the order of the diagram's variables;
-    /// `top` of them at most.
-    pub fn cheapest<'a>(
-        &'a self,
-        diagrams: &'a Diagrams,
-        top: usize,
-    ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-        if self.conditions.symmetry != Symmetry::OnePerOrbit {
-            return self.in_order(&diagrams.admissible, top);
-        }
-        // At most every other variant is dropped, so twice as many always suffice.
-        let all = self.in_order(&diagrams.admissible, top.saturating_mul(2));
-        let first_of_orbit = |v: &Assignment| self.mirrored(&v.choices) >= v.choices;
-        Box::new(all.filter(first_of_orbit).take(top))
-    }
-
-    fn in_order<'a>(
-        &'a self,
-        diagram: &'a Diagram,
-        top: usize,
-    ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-        let rank = |k: Key| (self.mobility(k), k.changes());
-        let wanted = |k: Key| self.wanted(k);
-        if self.fits() {
-            Box::new(Cheapest::<u128>::new(
-                diagram,
-                &self.steps,
-                top,
-                wanted,
-                rank,
-            ))
-        } else {
-            Box::new(Cheapest::<BigUint>::new(
-                diagram,
-                &self.steps,
-                top,
-                wanted,
-                rank,
-            ))
-        }
-    }
-
     /// The choices of a variant's mirror image.
     #[must_use]
     pub fn mirrored(&self, choices: &[usize]) -> Vec<usize> {
@@ -280,72 +240,4 @@ impl Search {
         }
         out
     }
-
-    /// Draws admissible variants, each with the same chance.
-    #[must_use]
-    pub fn sample(&self, diagrams: &Diagrams, count: usize, seed: u64) -> Vec<Assignment> {
-        let kinds = Kinds {
-            freedoms: self.conditions.max_mobility.is_some(),
-            changes: self.conditions.max_changes.is_some(),
-            cost: false,
-        };
-        let keys = self.steps.only(kinds);
-        let diagram = &diagrams.admissible;
-        let wanted = |k: Key| self.wanted(k);
-        if self.fits() {
-            let tally: Tally<u128> = Tally::new(diagram, &keys, None);
-            best::sample(diagram, &self.steps, &keys, &tally, count, seed, wanted)
-        } else {
-            let tally: Tally<BigUint> = Tally::new(diagram, &keys, None);
-            best::sample(diagram, &self.steps, &keys, &tally, count, seed, wanted)
-        }
-    }
-
-    /// Counts by looking at every variant: (determinate, admissible).
-    #[must_use]
-    pub fn brute(&self) -> (Counts, Counts) {
-        let matrices = Matrices::new(&self.exact, &self.mechanism, &self.space, &self.kept.0);
-        let admissible = |seen: brute::Seen| {
-            (!self.conditions.keep_output || seen.motion == self.kept.1.len())
-                && self
-                    .conditions
-                    .state
-                    .is_none_or(|(_, e)| seen.external <= e)
-        };
-        let class = |seen: brute::Seen| {
-            (seen.internal <= self.conditions.max_redundant).then(|| admissible(seen))
-        };
-        let (mut all, mut good) = (Counts::default(), Counts::default());
-        for ((key, admissible), count) in brute::count(&matrices, &self.steps, class) {
-            let count = BigUint::from(count);
-            all.add(self.mobility(key), key, &count);
-            if admissible && self.wanted(key) {
-                good.add(self.mobility(key), key, &count);
-            }
-        }
-        (all, good)
-    }
-}
-
-/// Whether the mirror images of two coupled joints are coupled alike, whichever way they turn.
-fn mirrored(mechanism: &Mechanism, coupling: &Coupling) -> bool {
-    /// Relative difference of equal ratios.
-    const EQUAL: f64 = 1e-12;
-    let image = |j: JointId| {
-        let pairs = mechanism.search.mirror.iter();
-        let other = pairs
-            .flat_map(|&(a, b)| [(a, b), (b, a)])
-            .find(|p| p.0 == j);
-        other.map_or(j, |p| p.1)
-    };
-    let [a, b] = coupling.ends.map(|e| CoupledFreedom {
-        joint: image(e.joint),
-        ..e
-    });
-    let ratio = coupling.ratio.to_f64().abs();
-    mechanism.couplings.iter().any(|c| {
-        let other = c.ratio.to_f64().abs();
-        let near = |x: f64| (x / ratio - 1.0).abs() < EQUAL;
-        (c.ends == [a, b] && near(other)) || (c.ends == [b, a] && near(1.0 / other))
-    })
 }

@@ -2,6 +2,7 @@
 //!
 //! cost(variant) = Σ over changed joints (cost of the new type - cost of the present type + change)
 //!               + Σ over unloading joints (cost of their type + link + change)
+//!               + harmful redundant constraints that a searched state adds · harmful, 0 by default
 //!
 //! Joint types have default costs ([`JointType::default_cost_milli`]); a file replaces any of them under `[search.costs]`,
 //! and an option may state a cost of its own.
@@ -22,6 +23,8 @@ pub struct CostTable {
     pub change: i64,
     /// Cost of an extra link.
     pub link: i64,
+    /// Cost of a harmful redundant constraint that the searched state adds.
+    pub harmful: i64,
 }
 
 impl CostTable {
@@ -32,6 +35,7 @@ impl CostTable {
             by_type: spec.by_type_milli.clone(),
             change: spec.change_milli.unwrap_or(CHANGE),
             link: spec.link_milli.unwrap_or(LINK),
+            harmful: spec.harmful_milli.unwrap_or(0),
         }
     }
 

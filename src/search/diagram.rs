@@ -6,39 +6,15 @@
 use crate::geom::exact::ExactField;
 use crate::linalg::modp::{Field, Residue};
 use crate::search::lookahead::Lookahead;
-use crate::search::plan::{Plan, Step};
 use crate::search::space::Space;
+use crate::search::spent::{Limits, Redundancy, Spent};
+use crate::search::stage::Stage;
 use crate::search::transition::{Children, Worker};
 use hashbrown::HashTable;
 use rayon::prelude::*;
 
 /// A missing edge: the choice leads nowhere admissible.
 pub const DEAD: u32 = u32::MAX;
-
-/// When a partly built mechanism is given up, and when building stops.
-#[derive(Debug, Clone)]
-pub struct Limits {
-    /// Redundant constraints allowed within the mechanism.
-    pub internal: u32,
-    /// Redundant constraints allowed from the state's additional joints.
-    pub external: u32,
-    /// Nodes in all.
-    pub nodes: usize,
-}
-
-/// Folds away how exactly a finished kept link goes wrong.
-///
-/// Once all joints of a kept link are chosen, its twist matters only to the question whether the kept motions at the
-/// end are the present ones. That question does not change under a linear map of the twist that leaves the present
-/// motions fixed, so a motion either gives the link a present twist, which is kept, or it does not, and then all that
-/// counts is which motions of the live links do so. Nodes that differ in nothing else become equal.
-#[derive(Debug, Clone)]
-pub struct Collapse {
-    /// Blocks that hold the finished links' twists relative to the frame.
-    pub blocks: Vec<usize>,
-    /// Reduced basis of their present motions, in the coordinates of the blocks in that order.
-    pub present: Vec<Vec<Residue>>,
-}
 
 /// Building progress, for whoever shows it.
 #[derive(Debug, Clone, Copy)]
@@ -82,21 +58,6 @@ impl Stop {
     }
 }
 
-/// A variable of the diagram with the steps its joints take.
-#[derive(Debug, Clone)]
-pub struct Stage {
-    /// Index of the variable in the space.
-    pub variable: usize,
-    /// (Position of the joint within the variable, its step); empty where the variable does not matter to the diagram.
-    pub steps: Vec<(usize, Step)>,
-    /// Whether contours closed here count as external.
-    pub external: bool,
-    /// Simplification of finished kept links after this stage.
-    pub collapse: Option<Collapse>,
-    /// Test that nodes must pass after this stage.
-    pub lookahead: Option<Lookahead>,
-}
-
 /// Edges of one layer: `edges[node * choices + choice]`, an index into the next layer or [`DEAD`].
 #[derive(Debug, Clone)]
 pub struct Layer {
@@ -115,8 +76,8 @@ pub struct Layer {
 pub struct Diagram {
     /// The layers in order; layer 0 has the root alone.
     pub layers: Vec<Layer>,
-    /// Of each terminal node, redundant constraints (internal, external).
-    pub terminals: Vec<(u32, u32)>,
+    /// Of each terminal node, the redundant constraints.
+    pub terminals: Vec<Redundancy>,
     /// Why building ended.
     pub stop: Stop,
     /// Nodes in all, root and terminals included.
@@ -127,8 +88,8 @@ pub struct Diagram {
 
 /// The nodes of a layer while it is being built.
 struct Nodes {
-    /// Redundancy so far: internal, external.
-    spent: Vec<(u32, u32)>,
+    /// Redundancy so far.
+    spent: Vec<Spent>,
     /// Start of each node's matrix in `data`; one more at the end.
     start: Vec<usize>,
     data: Vec<Residue>,
@@ -139,7 +100,7 @@ struct Nodes {
 impl Nodes {
     fn root() -> Self {
         Nodes {
-            spent: vec![(0, 0)],
+            spent: vec![Spent::default()],
             start: vec![0, 0],
             data: Vec::new(),
             least: vec![0],
@@ -163,7 +124,7 @@ impl Nodes {
         &self.data[self.start[i]..self.start[i + 1]]
     }
 
-    fn push(&mut self, spent: (u32, u32), matrix: &[Residue], least: i64) {
+    fn push(&mut self, spent: Spent, matrix: &[Residue], least: i64) {
         self.spent.push(spent);
         self.data.extend_from_slice(matrix);
         self.start.push(self.data.len());
@@ -250,7 +211,7 @@ pub fn build(
     }
     Diagram {
         layers,
-        terminals: nodes.spent,
+        terminals: nodes.spent.iter().map(Spent::redundancy).collect(),
         stop,
         nodes: total,
         largest_layer: largest,
@@ -286,7 +247,7 @@ fn expand(
                 space,
                 stage,
                 nodes.matrix(i),
-                nodes.spent[i],
+                &nodes.spent[i],
                 limits,
                 &mut out,
             );
@@ -321,7 +282,7 @@ impl Merge {
     fn take(&mut self, part: &Children, parents: &Nodes, cost: impl Fn(usize) -> i64) {
         let choices = part.choices;
         for child in &part.found {
-            let Some((hash, spent, start, end)) = *child else {
+            let Some((hash, ref spent, start, end)) = *child else {
                 self.edges.push(DEAD);
                 continue;
             };
@@ -330,7 +291,7 @@ impl Merge {
             let least = parents.least[at / choices] + cost(at % choices);
             let next = &mut self.next;
             let same = |&(h, i): &(u64, u32)| {
-                h == hash && next.spent[i as usize] == spent && next.matrix(i as usize) == matrix
+                h == hash && next.spent[i as usize] == *spent && next.matrix(i as usize) == matrix
             };
             let index = match self.table.entry(hash, same, |&(h, _)| h) {
                 hashbrown::hash_table::Entry::Occupied(o) => o.get().1,
@@ -344,7 +305,7 @@ impl Merge {
                     }
                     let index = u32::try_from(next.len()).expect("the node budget is below 2^32");
                     v.insert((hash, index));
-                    next.push(spent, matrix, least);
+                    next.push(spent.clone(), matrix, least);
                     index
                 }
             };
@@ -394,35 +355,11 @@ fn retain(nodes: &Nodes, kept: &[usize], edges: &mut [u32]) -> Nodes {
     let mut out = Nodes::empty();
     for &i in kept {
         renamed[i] = u32::try_from(out.len()).expect("fewer than before");
-        out.push(nodes.spent[i], nodes.matrix(i), nodes.least[i]);
+        out.push(nodes.spent[i].clone(), nodes.matrix(i), nodes.least[i]);
     }
     edges
         .iter_mut()
         .filter(|e| **e != DEAD)
         .for_each(|e| *e = renamed[*e as usize]);
     out
-}
-
-/// Makes one stage per variable from a plan over the joints.
-///
-/// `order` lists the variables as they take part; `plan` has one step per joint in the same sequence.
-#[must_use]
-pub fn stages(space: &Space, order: &[usize], plan: &Plan) -> Vec<Stage> {
-    let mut steps = plan.steps.iter();
-    order
-        .iter()
-        .map(|&variable| {
-            let v = &space.variables[variable];
-            Stage {
-                variable,
-                steps: (0..v.joints.len())
-                    .zip(steps.by_ref())
-                    .map(|(i, s)| (i, s.clone()))
-                    .collect(),
-                external: v.external,
-                collapse: None,
-                lookahead: None,
-            }
-        })
-        .collect()
 }

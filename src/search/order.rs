@@ -117,7 +117,7 @@ fn grow(
     p.done.insert(v);
     let variable = &space.variables[v];
     #[allow(clippy::cast_precision_loss, reason = "a guess of a logarithm")]
-    let mut choices = (variable.choices.len() as f64).log2();
+    let mut choices = (variable.motions as f64).log2();
     // States of the other components multiply the work.
     let others = |p: &Partial, but: usize| -> f64 {
         p.components

@@ -48,6 +48,16 @@ pub struct Step {
     pub pending: Vec<usize>,
 }
 
+/// A joint in one of several copies of the mechanism's links and couplings, which are numbered on: link `l` of copy `lane`
+/// is `lane * links + l`.
+#[derive(Debug, Clone, Copy)]
+pub struct At {
+    /// The joint.
+    pub joint: JointId,
+    /// The copy; 0 where there is one.
+    pub lane: usize,
+}
+
 /// The steps for an order of joints.
 #[derive(Debug, Clone)]
 pub struct Plan {
@@ -73,17 +83,18 @@ fn plus(a: &Combination, sign: i8, b: &Combination) -> Combination {
 /// # Panics
 /// Never for joints of the mechanism.
 #[must_use]
-pub fn plan(
-    mechanism: &Mechanism,
-    order: &[JointId],
-    pinned: &[LinkId],
-    start: &[Vec<LinkId>],
-) -> Plan {
+pub fn plan(mechanism: &Mechanism, order: &[At], pinned: &[LinkId], start: &[Vec<LinkId>]) -> Plan {
+    let (count, frame) = (mechanism.links.len(), mechanism.frame());
+    let ends = |at: &At| {
+        let links = mechanism.joints[at.joint].links;
+        links.map(|l| LinkId::new(at.lane * count + l.index()))
+    };
+    let is_frame = |l: &LinkId| l.index() % count == frame.index();
     let mut components: Vec<Vec<LinkId>> = start.to_vec();
     let mut pending: Vec<usize> = Vec::new();
     let mut steps = Vec::with_capacity(order.len());
-    for (at, &joint) in order.iter().enumerate() {
-        let [u, v] = mechanism.joints[joint].links;
+    for (at, joined) in order.iter().enumerate() {
+        let (joint, [u, v]) = (joined.joint, ends(joined));
         // Every live link's twist relative to its root, in the old coordinates.
         let mut relative: BTreeMap<LinkId, Combination> = BTreeMap::new();
         let mut next = 0;
@@ -116,8 +127,7 @@ pub fn plan(
             .collect();
         let twist = Combination::from([(Source::Joint, 1)]);
         // The frame stays the root wherever it is, so that its component's coordinates are absolute.
-        let frame = mechanism.frame();
-        let (u, v, a, b, forward) = if components[b].contains(&frame) {
+        let (u, v, a, b, forward) = if components[b].iter().any(is_frame) {
             (v, u, b, a, false)
         } else {
             (u, v, a, b, true)
@@ -143,15 +153,11 @@ pub fn plan(
             components[a].extend(moved);
             components.remove(b);
         }
-        let coupled = couple(mechanism, joint, &mut waiting, &mut rows);
-        let live = |l: &LinkId| {
-            pinned.contains(l)
-                || order[at + 1..]
-                    .iter()
-                    .any(|&j| mechanism.joints[j].links.contains(l))
-        };
+        let coupled = couple(mechanism, *joined, &mut waiting, &mut rows);
+        let live =
+            |l: &LinkId| pinned.contains(l) || order[at + 1..].iter().any(|j| ends(j).contains(l));
         for c in &mut components {
-            if let Some(i) = c.iter().position(|&l| l == frame) {
+            if let Some(i) = c.iter().position(is_frame) {
                 c.swap(0, i);
             }
             c.retain(live);
@@ -197,12 +203,14 @@ pub fn plan(
 /// Returns the number of couplings closed.
 fn couple(
     mechanism: &Mechanism,
-    joint: JointId,
+    at: At,
     waiting: &mut Vec<(usize, Combination)>,
     rows: &mut Vec<Combination>,
 ) -> usize {
     let mut closed = 0;
-    for (i, (q, _)) in mechanism.couplings_of(joint).enumerate() {
+    let first = at.lane * mechanism.couplings.len();
+    for (i, (q, _)) in mechanism.couplings_of(at.joint).enumerate() {
+        let q = first + q;
         let rate = Combination::from([(Source::Rate(i), 1)]);
         match waiting.iter().position(|(w, _)| *w == q) {
             Some(at) => {

@@ -9,6 +9,7 @@ use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
 use crate::search::cost::CostTable;
 use num_bigint::BigUint;
+use std::collections::BTreeSet;
 
 /// What a choice puts at the joints of its variable.
 #[derive(Debug, Clone)]
@@ -20,12 +21,23 @@ pub struct Choice {
     /// For each joint of the variable, independent twists that span its motion, each with the joint's entry in the row of
     /// every coupling it is in behind it.
     pub spans: Vec<Vec<Vec<Residue>>>,
+    /// For each joint of the variable that is a face which the state adds, what it does under friction.
+    pub faces: Vec<Option<Face>>,
     /// Freedoms the joints put here have in the free state, those of an unloading joint included.
     pub freedoms: u32,
     /// Number of changed joints and inserted unloading joints.
     pub changes: u32,
     /// Cost above the present joint's, in thousandths.
     pub cost_milli: i64,
+}
+
+/// The motion of a face that carries friction only, its unloading joint and entries for couplings included.
+#[derive(Debug, Clone)]
+pub struct Face {
+    /// It may part: forces along it and any moment are carried.
+    pub parts: Vec<Vec<Residue>>,
+    /// It may part and tilt: forces along it and a moment about its normal are carried.
+    pub slides: Vec<Vec<Residue>>,
 }
 
 /// A joint to choose for, or joints that must be chosen alike.
@@ -37,6 +49,10 @@ pub struct Variable {
     pub choices: Vec<Choice>,
     /// Whether the joints are present only in the searched state beyond the free one (contacts).
     pub external: bool,
+    /// Whether the joints are absent from the searched state.
+    pub alone: bool,
+    /// How many different motions the choices allow: an unloading joint may allow what another option does.
+    pub motions: usize,
 }
 
 /// Everything a search chooses from.
@@ -69,6 +85,8 @@ impl Space {
             .into_iter()
             .flat_map(|s| mechanism.joints_in(s))
             .filter(|j| !free.contains(j));
+        let present: Option<Vec<JointId>> = state.map(|s| mechanism.joints_in(s).collect());
+        let alone = |j: &JointId| present.as_ref().is_some_and(|p| !p.contains(j));
         let mut groups: Vec<(Vec<JointId>, bool)> = Vec::new();
         for (j, external) in free
             .iter()
@@ -94,18 +112,22 @@ impl Space {
         for (joints, external) in groups {
             let per_joint: Vec<Vec<Choice>> = joints
                 .iter()
-                .map(|&j| choices(exact, &motion, mechanism, j, external, costs))
+                .map(|&j| choices(exact, &motion, mechanism, j, (external, state), costs))
                 .collect::<Result<_, _>>()?;
             let mut merged = per_joint[0].clone();
             for other in &per_joint[1..] {
                 for (a, b) in merged.iter_mut().zip(other) {
                     a.spans.extend(b.spans.iter().cloned());
+                    a.faces.extend(b.faces.iter().cloned());
                     a.freedoms += b.freedoms;
                     a.changes += b.changes;
                     a.cost_milli += b.cost_milli;
                 }
             }
+            let motions: BTreeSet<_> = merged.iter().map(|c| &c.spans).collect();
             variables.push(Variable {
+                motions: motions.len(),
+                alone: joints.iter().any(alone),
                 joints,
                 choices: merged,
                 external,
@@ -133,16 +155,20 @@ fn choices(
     motion: &MotionSpace<Residue>,
     mechanism: &Mechanism,
     id: JointId,
-    external: bool,
+    (external, state): (bool, Option<StateId>),
     costs: &CostTable,
 ) -> Result<Vec<Choice>, ExactError> {
     let joint = &mechanism.joints[id];
     let twists = |o: &JointOption| joint_twists(exact, motion, &o.frame, &o.joint_type);
     let rates = mechanism.couplings_of(id).count();
     let mut out = Vec::new();
-    let inserted = std::iter::once(None).chain((0..joint.unloading.len()).map(Some));
-    for unloading in inserted {
-        for (i, option) in joint.options.iter().enumerate() {
+    // The present joint is offered always.
+    let offered =
+        |(i, o): &(usize, &JointOption)| *i == 0 || o.state.is_none_or(|s| state == Some(s));
+    let unloading = joint.unloading.iter().enumerate();
+    let unloading = unloading.filter(|(_, o)| o.state.is_none_or(|s| state == Some(s)));
+    for unloading in std::iter::once(None).chain(unloading.map(|(u, _)| Some(u))) {
+        for (i, option) in joint.options.iter().enumerate().filter(offered) {
             let mut columns = twists(option)?
                 .into_iter()
                 .map(|(f, t)| with_rates(exact, mechanism, id, option, f, t))
@@ -157,14 +183,30 @@ fn choices(
                 }));
             }
             let freedoms = u32::try_from(columns.len() - absent).unwrap_or(u32::MAX);
-            let mut span = Echelon::new(exact.field());
-            columns.iter().for_each(|c| {
-                span.insert(c);
-            });
+            let span = |more: &[Freedom]| -> Result<Vec<Vec<Residue>>, ExactError> {
+                let freed = JointType::Custom(more.to_vec());
+                let mut span = Echelon::new(exact.field());
+                columns.iter().for_each(|c| {
+                    span.insert(c);
+                });
+                for (_, mut t) in joint_twists(exact, motion, &option.frame, &freed)? {
+                    t.resize(t.len() + rates, 0);
+                    span.insert(&t);
+                }
+                Ok(span.reduced())
+            };
+            let face = external && motion.dim() == 6 && option.joint_type == JointType::Fixed;
+            let friction = || -> Result<Face, ExactError> {
+                Ok(Face {
+                    parts: span(&[Freedom::Tz])?,
+                    slides: span(&[Freedom::Tz, Freedom::Rx, Freedom::Ry])?,
+                })
+            };
             out.push(Choice {
                 option: i,
                 unloading,
-                spans: vec![span.reduced()],
+                spans: vec![span(&[])?],
+                faces: vec![face.then(friction).transpose()?],
                 freedoms,
                 changes: u32::from(i != 0) + u32::from(unloading.is_some()),
                 cost_milli: costs.change(&joint.options[0], (i != 0).then_some(option), inserted),

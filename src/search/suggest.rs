@@ -81,7 +81,7 @@ pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestio
         .collect();
     let offered = |j: &JointId| {
         let joint = &mechanism.joints[*j];
-        joint.options.len() > 1 || !joint.unloading.is_empty()
+        !changes(joint, &present(joint), state, false).is_empty()
     };
     let usual = !joints.iter().any(offered);
     let twists = |o: &JointOption| -> Result<Vec<Vec<Residue>>, ExactError> {
@@ -139,6 +139,7 @@ fn present(joint: &Joint) -> JointOption {
             joint_type: joint.joint_type.clone(),
             frame: joint.frame.clone(),
             cost_milli: None,
+            state: None,
         })
 }
 
@@ -152,6 +153,7 @@ fn changes(joint: &Joint, present: &JointOption, state: StateId, usual: bool) ->
             joint_type: t.clone(),
             frame: joint.frame.clone(),
             cost_milli: None,
+            state: None,
         };
         return match (state, joint.drive, &joint.joint_type) {
             (StateId::FREE, true, _) | (StateId::FREE, _, JointType::Fixed) => Vec::new(),
@@ -162,10 +164,13 @@ fn changes(joint: &Joint, present: &JointOption, state: StateId, usual: bool) ->
             _ => vec![(None, Some(option(&USUAL_UNLOADING)))],
         };
     }
-    let inserted = std::iter::once(None).chain(joint.unloading.iter().cloned().map(Some));
+    let offered = |o: &&JointOption| o.state.is_none_or(|s| s == state);
+    let inserted = joint.unloading.iter().filter(offered).cloned().map(Some);
+    let inserted = std::iter::once(None).chain(inserted);
     inserted
         .flat_map(|u| {
-            let others = joint.options.iter().skip(1).cloned().map(Some);
+            let others = joint.options.iter().skip(1).filter(offered);
+            let others = others.cloned().map(Some);
             let kept = std::iter::once(None);
             kept.chain(others).map(move |to| (to, u.clone()))
         })

@@ -1,7 +1,9 @@
 //! Exact counts on a diagram: for every node, how many completions there are of each kind.
 
+use crate::search::cost::CostTable;
 use crate::search::diagram::{DEAD, Diagram};
 use crate::search::space::Space;
+use crate::search::spent::Redundancy;
 use num_bigint::BigUint;
 use std::ops::AddAssign;
 
@@ -49,39 +51,52 @@ pub struct Kinds {
 pub struct Key(pub u128);
 
 impl Key {
-    /// Packs.
+    /// Packs what is chosen. A mechanism has at most 4000 joints, so that each count fits sixteen bits.
     #[must_use]
-    pub fn new(cost: u64, freedoms: u32, changes: u32, internal: u32, external: u32) -> Key {
-        Key(u128::from(cost) << 80
-            | u128::from(freedoms) << 60
-            | u128::from(changes) << 40
-            | u128::from(internal) << 20
-            | u128::from(external))
+    pub fn new(cost: u64, freedoms: u32, changes: u32) -> Key {
+        Key(u128::from(cost) << 80 | u128::from(freedoms) << 64 | u128::from(changes) << 48)
     }
+
+    /// Packs the redundancy of a whole variant.
+    #[must_use]
+    pub fn of_redundancy(r: Redundancy) -> Key {
+        // Fewer than none are written as a complement: only one of the keys that are added up has any.
+        let external = u128::from(r.external.cast_unsigned() & 0xffff);
+        Key(u128::from(r.internal) << 32 | external << 16 | u128::from(r.harmful))
+    }
+
     /// Cost steps.
     #[must_use]
     pub fn cost(self) -> u64 {
         (self.0 >> 80) as u64
     }
+    fn part(self, at: u32) -> u16 {
+        (self.0 >> at) as u16
+    }
     /// Freedoms.
     #[must_use]
     pub fn freedoms(self) -> u32 {
-        (self.0 >> 60) as u32 & 0xf_ffff
+        u32::from(self.part(64))
     }
     /// Changes.
     #[must_use]
     pub fn changes(self) -> u32 {
-        (self.0 >> 40) as u32 & 0xf_ffff
+        u32::from(self.part(48))
     }
     /// Redundant constraints within the mechanism.
     #[must_use]
     pub fn internal(self) -> u32 {
-        (self.0 >> 20) as u32 & 0xf_ffff
+        u32::from(self.part(32))
     }
-    /// Redundant constraints of the state's additional joints.
+    /// Redundant constraints that the state adds; fewer than none where it leaves joints out.
     #[must_use]
-    pub fn external(self) -> u32 {
-        self.0 as u32 & 0xf_ffff
+    pub fn external(self) -> i32 {
+        i32::from(self.part(16).cast_signed())
+    }
+    /// Harmful ones among them.
+    #[must_use]
+    pub fn harmful(self) -> u32 {
+        u32::from(self.part(0))
     }
 }
 
@@ -92,14 +107,16 @@ pub struct Steps {
     pub unit_milli: i64,
     /// Cost of the cheapest conceivable variant, in thousandths.
     pub base_milli: i64,
-    /// `key[variable][choice]`, all kinds included.
+    /// `key[variable][choice]`.
     pub keys: Vec<Vec<Key>>,
+    /// Steps for each harmful redundant constraint that the state adds.
+    harmful: u64,
 }
 
 impl Steps {
     /// The steps of a space: the unit is the greatest common divisor of all cost differences.
     #[must_use]
-    pub fn new(space: &Space) -> Steps {
+    pub fn new(space: &Space, costs: &CostTable) -> Steps {
         let least: Vec<i64> = space
             .variables
             .iter()
@@ -110,11 +127,12 @@ impl Steps {
             .iter()
             .zip(&least)
             .flat_map(|(v, l)| v.choices.iter().map(move |c| c.cost_milli - l));
-        let unit = above.fold(0, num_integer::gcd).max(1);
+        let harmful = space.state.map_or(0, |_| costs.harmful);
+        let unit = above.fold(harmful, num_integer::gcd).max(1);
         let keys = space.variables.iter().zip(&least).map(|(v, l)| {
             let key = |c: &crate::search::space::Choice| {
                 let cost = u64::try_from((c.cost_milli - l) / unit).unwrap_or(0);
-                Key::new(cost, c.freedoms, c.changes, 0, 0)
+                Key::new(cost, c.freedoms, c.changes)
             };
             v.choices.iter().map(key).collect()
         });
@@ -122,25 +140,33 @@ impl Steps {
             unit_milli: unit,
             base_milli: least.iter().sum(),
             keys: keys.collect(),
+            harmful: u64::try_from(harmful / unit).unwrap_or(0),
         }
     }
 
-    /// The keys with only the wanted kinds left.
+    /// The key of a variant's redundancy, with what it costs.
     #[must_use]
-    pub fn only(&self, kinds: Kinds) -> Vec<Vec<Key>> {
+    pub fn redundancy(&self, r: Redundancy) -> Key {
+        let cost = self.harmful * u64::from(r.harmful);
+        Key(Key::of_redundancy(r).0 | Key::new(cost, 0, 0).0)
+    }
+
+    /// The same with only the wanted kinds left.
+    #[must_use]
+    pub fn only(&self, kinds: Kinds) -> Steps {
         let keep = |k: &Key| {
             Key::new(
                 if kinds.cost { k.cost() } else { 0 },
                 if kinds.freedoms { k.freedoms() } else { 0 },
                 if kinds.changes { k.changes() } else { 0 },
-                0,
-                0,
             )
         };
-        self.keys
-            .iter()
-            .map(|v| v.iter().map(keep).collect())
-            .collect()
+        let keys = self.keys.iter();
+        Steps {
+            keys: keys.map(|v| v.iter().map(keep).collect()).collect(),
+            harmful: if kinds.cost { self.harmful } else { 0 },
+            ..*self
+        }
     }
 
     /// A cost in thousandths from the cost part of a key.
@@ -164,15 +190,15 @@ impl<C: Count> Tally<C> {
     /// # Complexity
     /// O(edges · table size · log), with table sizes given by the kinds told apart.
     #[must_use]
-    pub fn new(diagram: &Diagram, keys: &[Vec<Key>], bound: Option<&[Vec<u64>]>) -> Tally<C> {
+    pub fn new(diagram: &Diagram, steps: &Steps, bound: Option<&[Vec<u64>]>) -> Tally<C> {
         let last = diagram
             .terminals
             .iter()
-            .map(|&(i, e)| vec![(Key::new(0, 0, 0, i, e), C::one())]);
+            .map(|&r| vec![(steps.redundancy(r), C::one())]);
         let mut tables: Vec<Vec<Vec<(Key, C)>>> = vec![last.collect()];
         for (l, layer) in diagram.layers.iter().enumerate().rev() {
             let below = tables.last().expect("there is a last layer");
-            let keys = &keys[layer.variable];
+            let keys = &steps.keys[layer.variable];
             let mut here = Vec::with_capacity(layer.nodes);
             let mut gathered: Vec<(Key, &C)> = Vec::new();
             for node in 0..layer.nodes {

@@ -3,13 +3,15 @@
 //! Everything here works on flat scratch space that a thread keeps, in a field with a memory of inverses.
 
 use crate::linalg::modp::{Field, Residue};
-use crate::search::diagram::{Collapse, Limits, Stage};
+use crate::search::lanes::{Held, Lane};
 use crate::search::lookahead::Lookahead;
 use crate::search::plan::Step;
 use crate::search::space::Space;
+use crate::search::spent::{Limits, Spent};
+use crate::search::stage::{Collapse, Stage};
 
 /// A child: its hash, the redundancy spent, and where its matrix starts and ends.
-pub(super) type Child = (u64, (u32, u32), usize, usize);
+pub(super) type Child = (u64, Spent, usize, usize);
 
 /// The children of some consecutive nodes, before equal ones are merged.
 pub(super) struct Children {
@@ -171,54 +173,79 @@ impl Worker {
         space: &Space,
         stage: &Stage,
         matrix: &[Residue],
-        spent: (u32, u32),
+        spent: &Spent,
         limits: &Limits,
         out: &mut Children,
     ) {
         let choices = &space.variables[stage.variable].choices;
-        let Some(((member, first), rest)) = stage.steps.split_first() else {
+        let Some((first, rest)) = stage.moves.split_first() else {
             // The variable does not matter here: every choice leads to the same node.
             let start = out.data.len();
             out.data.extend_from_slice(matrix);
-            out.found.resize(
-                out.found.len() + choices.len(),
-                Some((hash(matrix, spent), spent, start, out.data.len())),
-            );
+            let child = (hash(matrix, spent), spent.clone(), start, out.data.len());
+            out.found
+                .resize(out.found.len() + choices.len(), Some(child));
             return;
         };
-        self.begin(first, matrix);
+        if stage.copies > 1 {
+            let width = first.step.old_width * self.dim / stage.copies;
+            self.begin(&first.step, &side_by_side(matrix, width, stage.copies));
+        } else {
+            self.begin(&first.step, matrix);
+        }
         let base = (!rest.is_empty()).then(|| self.base.clone());
         for choice in choices {
             if let Some(base) = &base {
                 self.base.clone_from(base);
             }
-            let mut redundant = self.finish(first, &choice.spans[*member]);
-            for (member, step) in rest {
-                let old = std::mem::take(&mut self.work.data);
-                self.begin(step, &old);
-                redundant += self.finish(step, &choice.spans[*member]);
+            let mut now = spent.clone();
+            for (i, joined) in stage.moves.iter().enumerate() {
+                if i > 0 {
+                    let old = std::mem::take(&mut self.work.data);
+                    self.begin(&joined.step, &old);
+                }
+                let span = joined.span(choice);
+                let redundant = self.finish(&joined.step, span.unwrap_or_default());
+                match (span, joined.lane) {
+                    (None, Lane::Friction(face)) => now.rule_out(face),
+                    (_, lane) => now.add(lane, redundant),
+                }
             }
-            let spent = if stage.external {
-                (spent.0, spent.1 + redundant)
-            } else {
-                (spent.0 + redundant, spent.1)
-            };
-            if spent.0 > limits.internal || spent.1 > limits.external {
+            if !now.within(limits) {
                 out.found.push(None);
                 continue;
+            }
+            if let Some(held) = &stage.ending {
+                now.settle();
+                if !self.holds(held) || !now.harms_within(limits) {
+                    out.found.push(None);
+                    continue;
+                }
+                // Nothing comes after it.
+                self.work.data.clear();
             }
             if let Some(collapse) = &stage.collapse {
                 self.collapse(collapse);
             }
             let start = out.data.len();
             out.data.extend_from_slice(&self.work.data);
-            out.found.push(Some((
-                hash(&self.work.data, spent),
-                spent,
-                start,
-                out.data.len(),
-            )));
+            let hash = hash(&self.work.data, &now);
+            out.found.push(Some((hash, now, start, out.data.len())));
         }
+    }
+
+    /// Whether each link of a list moves with one of those that may hold it in all motions of `work`.
+    fn holds(&self, held: &Held) -> bool {
+        let d = self.dim;
+        let together = |row: &[Residue], a: Option<usize>, b: Option<usize>| {
+            let at = |place: Option<usize>, i: usize| place.map_or(0, |p| row[p * d + i]);
+            (0..d).all(|i| at(a, i) == at(b, i))
+        };
+        let rows = self.work.data.chunks_exact(self.work.width.max(1));
+        held.iter().all(|(link, by)| {
+            let mut by = by.iter();
+            by.any(|b| rows.clone().all(|row| together(row, *link, *b)))
+        })
     }
 
     /// Brings `work` into the form that [`Collapse`] describes.
@@ -306,10 +333,23 @@ impl Worker {
     }
 }
 
+/// Some copies of a space, each in coordinates of its own.
+fn side_by_side(matrix: &[Residue], width: usize, copies: usize) -> Vec<Residue> {
+    let mut out = Vec::with_capacity(matrix.len() * copies * copies);
+    for copy in 0..copies {
+        for row in matrix.chunks_exact(width.max(1)) {
+            let at = out.len() + copy * width;
+            out.resize(out.len() + copies * width, 0);
+            out[at..at + width].copy_from_slice(row);
+        }
+    }
+    out
+}
+
 /// A fixed hash: the same on every machine and run, so that nothing depends on a random seed.
-fn hash(matrix: &[Residue], spent: (u32, u32)) -> u64 {
-    let mut h = 0x517c_c1b7_2722_0a95_u64 ^ (u64::from(spent.0) << 32 | u64::from(spent.1));
-    for &x in matrix {
+fn hash(matrix: &[Residue], spent: &Spent) -> u64 {
+    let mut h = 0x517c_c1b7_2722_0a95_u64;
+    for x in spent.words().chain(matrix.iter().copied()) {
         let wide = u128::from(h ^ x) * 0x9e37_79b9_7f4a_7c15_u128;
         h = (wide >> 64) as u64 ^ wide as u64;
     }

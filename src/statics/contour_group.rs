@@ -7,6 +7,7 @@
 
 pub mod delta_point;
 pub mod equilibrium;
+pub mod force_plan;
 pub mod letters;
 pub mod pose;
 pub mod projective;

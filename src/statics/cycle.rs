@@ -126,7 +126,7 @@ pub fn statics_at(
     let slides = drives
         .first()
         .is_some_and(|&p| linkage.mechanism.pairs[p].kind == PairKind::Sliding);
-    let loads = PlanarLoads::new(mechanism, &linkage, slides);
+    let loads = PlanarLoads::new(mechanism, state, &linkage, slides);
     let positions: Vec<f64> = positions.iter().map(|x| x * unit(0)).collect();
     let motion = Motion::new(&linkage, &decomposition, &speeds);
     let conditions = motion.conditions(&linkage.home());

@@ -5,9 +5,10 @@
 
 use crate::geom::scalars::{Reals, Scalars};
 use crate::model::loads::{Inertia, acts_at};
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::assur::Decomposition;
 use crate::statics::dense::System;
+use crate::statics::inertia::{BodyMass, link_inertias};
 use crate::statics::planar::{BodyId, PairId, PairKind};
 use crate::statics::planar_motion::Instant;
 use crate::statics::pose::{Linkage, Pose, cross, dot, minus, plus, quarter};
@@ -46,17 +47,6 @@ impl Load {
     }
 }
 
-/// Mass data of a body in the plane: mass `[kg]`, centre at the pose of the file `[m]`, inertia `[kg·m²]`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BodyMass {
-    /// Mass `[kg]`.
-    pub mass: f64,
-    /// Mass centre at the pose of the file `[m]`.
-    pub centre: [f64; 2],
-    /// Inertia about the mass centre and the plane's normal `[kg·m²]`.
-    pub inertia: f64,
-}
-
 /// A force from outside in the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanarForce {
@@ -86,9 +76,15 @@ pub struct PlanarLoads {
 }
 
 impl PlanarLoads {
-    /// The loads a file states, seen in the plane; parts out of it are left out.
+    /// The loads a file states for a state, seen in the plane; parts out of it are left out.
     #[must_use]
-    pub fn new(mechanism: &Mechanism, linkage: &Linkage, drive_slides: bool) -> PlanarLoads {
+    pub fn new(
+        mechanism: &Mechanism,
+        state: StateId,
+        linkage: &Linkage,
+        drive_slides: bool,
+    ) -> PlanarLoads {
+        let stated = mechanism.loads.in_state(state);
         let m = &linkage.mechanism;
         let real = |v: &[crate::geom::expr::Expr; 3]| [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()];
         let normal = m.axes[2];
@@ -110,7 +106,7 @@ impl PlanarLoads {
             })
         });
         let unit = if drive_slides { m.metres } else { 1.0 };
-        let forces = mechanism.loads.forces.iter().filter_map(|f| {
+        let forces = stated.forces.iter().filter_map(|f| {
             Some(PlanarForce {
                 body: m.body_of(f.link)?,
                 point: m.flat(real(&f.point)),
@@ -119,8 +115,7 @@ impl PlanarLoads {
                 period: (!drive_slides).then_some(std::f64::consts::TAU),
             })
         });
-        let moments = mechanism
-            .loads
+        let moments = stated
             .moments
             .iter()
             .filter_map(|x| Some((m.body_of(x.link)?, Reals.dot(normal, real(&x.moment)))));
@@ -141,32 +136,17 @@ impl PlanarLoads {
     #[must_use]
     pub fn at(&self, linkage: &Linkage, now: &Instant) -> Vec<Load> {
         let mut out = Vec::new();
-        for (body, mass) in self.masses.iter().enumerate() {
-            let Some(mass) = mass.filter(|_| body != linkage.mechanism.frame) else {
-                continue;
-            };
-            let point = linkage.point(&now.pose, body, mass.centre);
-            let a = linkage.acceleration(
-                &now.pose,
-                &now.velocity,
-                &now.acceleration,
-                body,
-                mass.centre,
-            );
+        for x in link_inertias(&self.masses, linkage, now) {
             let load = |source, force, moment| Load {
-                body,
+                body: x.body,
                 source,
-                point,
+                point: x.centre,
                 force,
                 moment,
             };
-            out.push(load(
-                Source::Gravity,
-                self.gravity.map(|g| g * mass.mass),
-                0.0,
-            ));
-            let moment = -mass.inertia * now.acceleration[body][2];
-            out.push(load(Source::Inertia, a.map(|a| -a * mass.mass), moment));
+            let mass = self.masses[x.body].map_or(0.0, |m| m.mass);
+            out.push(load(Source::Gravity, self.gravity.map(|g| g * mass), 0.0));
+            out.push(load(Source::Inertia, x.force, x.moment));
         }
         for &(body, moment) in &self.moments {
             if body != linkage.mechanism.frame {

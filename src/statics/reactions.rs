@@ -13,6 +13,7 @@
 //! which the loads do work, there is no equilibrium [Angeles 2014, ch. 6; Davies 1983].
 
 pub mod applied;
+pub mod contact;
 pub mod cycle;
 pub mod drives;
 mod equations;
@@ -22,8 +23,10 @@ pub mod geometry;
 pub mod inertia;
 pub mod solution;
 pub mod solve;
+mod unilateral;
 pub mod unsolved;
 
+pub use contact::Contacts;
 pub use cycle::{Cycle, cycle};
 pub use solution::{Choice, JointReaction, NEARLY_SINGULAR, Solution};
 pub use solve::Reactions;

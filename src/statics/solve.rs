@@ -6,7 +6,8 @@ use crate::statics::assur::AssurError;
 use crate::statics::cycle::{PlanarStaticsError, Statics, statics};
 use crate::statics::planar::PlanarError;
 use crate::statics::reactions::Unsolved;
-use crate::statics::reactions::cycle::{Cycle, cycle};
+use crate::statics::reactions::contact::{Contacts, object_at};
+use crate::statics::reactions::cycle::{Cycle, cycle_with};
 use thiserror::Error;
 
 /// Which equations a mechanism's reactions come from.
@@ -16,8 +17,10 @@ pub enum Model {
     Planar,
     /// All six components of each joint, redundant constraints and all.
     Spatial,
-    /// Those of the plane where they determine it, otherwise all six.
+    /// Those of the plane where they determine it and there are no contacts with an object, otherwise all six.
     Either,
+    /// All six, and contacts with an object only push.
+    Pushing,
 }
 
 /// Reactions over a stroke, or at one pose.
@@ -93,12 +96,19 @@ pub fn solve(
     stroke: Option<Stroke>,
     model: Model,
 ) -> Result<Answer, StaticsError> {
-    if model != Model::Spatial {
+    let touched = m.joints_in(state).any(|j| object_at(m, j).is_some());
+    let (flat, contacts) = match model {
+        Model::Planar => (true, Contacts::AsJoints),
+        Model::Spatial => (false, Contacts::AsJoints),
+        Model::Either => (!touched, Contacts::AsJoints),
+        Model::Pushing => (false, Contacts::Pushing),
+    };
+    if flat {
         match statics(m, state, stroke) {
             Ok(found) => return Ok(Answer::Planar(Box::new(found))),
             Err(e) if model == Model::Either && is_for_space(&e) => {}
             Err(e) => return Err(e.into()),
         }
     }
-    Ok(Answer::Spatial(cycle(m, state, stroke)?))
+    Ok(Answer::Spatial(cycle_with(m, state, stroke, contacts)?))
 }

@@ -143,9 +143,9 @@ pub struct SelfStress<'a> {
     /// The couplings that pass it on, in mechanisms that have any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub couplings: Option<Vec<&'a str>>,
-    /// The joint that feels it least, of the contacts where they do, and as what.
+    /// The joint where it has the fewest components, of the contacts where they have any, and which.
     #[serde(skip)]
-    pub felt: Option<(&'a str, String)>,
+    pub simplest: Option<(&'a str, String)>,
     /// The place in the order reported of the contour it ends in.
     #[serde(skip)]
     pub ends_in: Option<usize>,
@@ -160,6 +160,8 @@ pub struct Wrench<'a> {
     pub moments: Vec<&'static str>,
     /// Axes of its forces.
     pub forces: Vec<&'static str>,
+    /// Its part of Σ |f|² + |m|²/ℓ² over the joints; nothing where that was not computed.
+    pub share: Option<f64>,
 }
 
 /// What planar mode leaves out.
@@ -323,7 +325,7 @@ impl<'a> SelfStress<'a> {
         t: &'a crate::redundancy::stress::SelfStress,
     ) -> SelfStress<'a> {
         // At the contacts, where there are any, since that is where external redundancy is felt.
-        let felt = t
+        let simplest = t
             .joints
             .iter()
             .filter(|w| !t.external || mechanism.joints[w.joint].states.is_some())
@@ -346,7 +348,7 @@ impl<'a> SelfStress<'a> {
                     .map(|&q| s.per_coupling[q].name.as_str())
                     .collect()
             }),
-            felt: felt.map(|w| (w.joint, w.words())),
+            simplest: simplest.map(|w| (w.joint, w.words())),
             ends_in: t.contours.last().copied(),
         }
     }
@@ -362,6 +364,7 @@ impl<'a> Wrench<'a> {
             joint: &mechanism.joints[w.joint].id,
             moments: axes(w.moments),
             forces: axes(w.forces),
+            share: w.share,
         }
     }
 }

@@ -3,16 +3,18 @@
 
 pub mod charts;
 pub mod clamped;
+pub mod motion;
 pub mod text;
 
 use crate::file::read::workload::Workload;
 use crate::grip::clamping::{self, Hardest, Verdict};
-use crate::grip::findings::{FINDINGS, Finding};
+use crate::grip::findings::{FINDINGS, Finding, REFUTED};
 use crate::grip::gripping::{self, effort};
 use crate::grip::holding::Slip;
 use crate::grip::lever_arm::{Arms, Lever};
 use crate::model::grip::GripSpec;
 use crate::statics::transmission::Rates;
+use crate::view::grip::motion::Motion;
 use serde::Serialize;
 
 /// What a gripper can hold.
@@ -32,8 +34,13 @@ pub struct Grip<'a> {
     pub diameters: Vec<Diameter<'a>>,
     /// How the drive works on the levers at the hardest diameter, or the first.
     pub transmission: Option<Transmission<'a>>,
+    /// The clamping along a motion, where one is asked about.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motion: Option<Motion>,
     /// What the paper found, and whether it is so.
     pub findings: &'static [Finding],
+    /// What the paper says besides, and is not so.
+    pub refuted: [Finding; 1],
     /// The file, for its units and inputs.
     #[serde(skip)]
     pub file: &'a Workload<GripSpec>,
@@ -127,6 +134,15 @@ pub struct Contact {
     pub along_part: f64,
 }
 
+impl Contact {
+    /// Friction over the normal force; nothing where the face does not press.
+    #[must_use]
+    pub fn friction(&self) -> Option<f64> {
+        let friction = self.along_face.hypot(self.along_part);
+        (self.normal > 0.0).then(|| friction / self.normal)
+    }
+}
+
 impl<'a> Grip<'a> {
     /// A gripper of a file and what was found of it.
     #[must_use]
@@ -150,7 +166,9 @@ impl<'a> Grip<'a> {
                 .and_then(|d| d.transmission),
             hardest,
             diameters,
+            motion: None,
             findings: &FINDINGS,
+            refuted: [REFUTED],
             file,
         }
     }

@@ -57,13 +57,12 @@ pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
     };
     let some = |n: u32| (n > 0).then(|| n.to_string());
     let list = |names: Vec<String>| (!names.is_empty()).then(|| names.join(","));
-    let (state, external) = match r.state(mechanism) {
-        Ok(Some((s, external))) => (
-            r.state.as_ref().map(|_| mechanism.states[s].clone()),
-            Some(external.to_string()),
-        ),
-        _ => (None, None),
-    };
+    let state = r.state(mechanism).ok().flatten().is_some();
+    let state = r.state.as_ref().filter(|_| state).cloned();
+    let unloading = r.unloading.iter().map(|i| match i.joints.as_slice() {
+        [] => i.names.join(","),
+        joints => format!("{}={}", i.names.join(","), joints.join(",")),
+    });
     let rank = r.rank.iter().map(|(term, weight)| match weight {
         1.0 => term.name().to_owned(),
         weight => format!("{}={weight}", term.name()),
@@ -71,7 +70,8 @@ pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
     let pool = (r.pool != POOL).then(|| r.pool.to_string());
     let valued = [
         ("max-redundant", some(r.max_redundant)),
-        ("max-external", external),
+        ("max-external", r.max_external.map(|n| n.to_string())),
+        ("max-harmful", r.max_harmful.map(|n| n.to_string())),
         ("state", state),
         ("max-mobility", r.max_mobility.map(|w| w.to_string())),
         ("max-changes", r.max_changes.map(|c| c.to_string())),
@@ -80,11 +80,13 @@ pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
     ]
     .into_iter()
     .chain(r.hold.iter().map(|l| ("hold", Some(l.clone()))))
+    .chain(unloading.map(|u| ("unloading", Some(u))))
     .chain([("options", list(r.options.clone()))])
     .chain(r.allow.iter().map(|j| ("allow", Some(joints(j)))))
     .chain(r.forbid.iter().map(|j| ("forbid", Some(joints(j)))));
     let switches = [
         ("allow-output-change", r.allow_output_change),
+        ("allow-loose-object", r.allow_loose_object),
         ("symmetric", r.symmetry == Symmetry::SymmetricOnly),
         ("one-per-orbit", r.symmetry == Symmetry::OnePerOrbit),
         ("as-written", r.as_written),

@@ -1,6 +1,6 @@
 //! A ranking in words and as data.
 
-use crate::format::number::{grouped, significant};
+use crate::format::number::{cost, grouped, significant};
 use crate::format::phrase::plural;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::model::ranking::{ClearanceSum, Order, Term};
@@ -8,7 +8,6 @@ use crate::score::cases::Gripped;
 use crate::score::ranking::{Ranked, RankedPool};
 use itertools::Itertools;
 use serde::Serialize;
-use std::fmt::Write;
 
 /// Reasons told at most.
 const REASONS: usize = 10;
@@ -64,60 +63,65 @@ fn gripped(m: &Mechanism, g: &Gripped) -> String {
     )
 }
 
-/// What a list of ranked variants rests on, and why its order is not that of cost.
+/// What a list of ranked variants rests on, a line each.
 #[must_use]
-pub fn notes(m: &Mechanism, p: &RankedPool) -> String {
-    let mut out = String::new();
+pub fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
     let n = |x: usize| grouped(&x.to_string());
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        out,
-        "\n  The best of the {} cheapest variants{}; {}: {}",
+    let poses = match p.poses {
+        0 | 1 => String::new(),
+        many => format!(", each in {many} poses"),
+    };
+    let proven = if p.proven { "proven" } else { "not proven" };
+    let mut out = vec![format!(
+        "The best of the {} cheapest variants{poses}; {proven} the best of all: {}",
         n(p.scored),
-        if p.poses > 1 {
-            format!(", each in {} poses", p.poses)
-        } else {
-            String::new()
-        },
-        if p.proven {
-            "proven the best of all"
-        } else {
-            "not proven the best of all"
-        },
         p.proof
-    );
+    )];
+    if let Some(missing) = &p.missing {
+        let cheaper = missing.cheaper.as_ref().map_or(String::new(), |n| {
+            format!(", as {} are", grouped(&n.to_string()))
+        });
+        out.push(format!(
+            "How far from proven: a variant not scored has a sum of at least {}, the last here {}; one that could still \
+             come before it costs less than {}{cheaper}",
+            significant(missing.least),
+            significant(missing.last),
+            cost(missing.settled_at)
+        ));
+    }
     if !p.proven {
-        let _ = writeln!(out, "  --pool widens the view (now {})", n(p.pool));
+        out.push(format!("--pool widens the view (now {})", n(p.pool)));
     }
-    if p.unheld > 0 {
-        let _ = writeln!(
-            out,
-            "  {} left out: no equilibrium, an idle freedom gives way under the loads",
-            n(p.unheld)
-        );
+    if p.ranking
+        .terms
+        .iter()
+        .any(|(t, _)| *t == Term::Conditioning)
+    {
+        out.push("cond. held: as cond., the smallest singular value over the largest, but with the drives held and over all poses".to_owned());
     }
-    if p.limited > 0 {
-        let _ = writeln!(out, "  {} left out: beyond a limit", n(p.limited));
-    }
-    if p.open > 0 {
-        let _ = writeln!(
-            out,
-            "  {} keep redundant constraints: scored by their reactions of minimum norm",
-            n(p.open)
-        );
-    }
-    for g in &p.gripped {
-        let _ = writeln!(out, "  {}", gripped(m, g));
-    }
-    if let Some(at) = p.stroke_stopped {
-        let _ = writeln!(out, "  The stroke could not be followed to {at}");
-    }
-    for i in (1..=p.list.len()).take(REASONS) {
-        if let Some(reason) = p.reason(m, i) {
-            let _ = writeln!(out, "  {reason}");
-        }
-    }
+    let left_out = [
+        (
+            p.unheld,
+            "left out: no equilibrium, an idle freedom gives way under the loads",
+        ),
+        (p.limited, "left out: beyond a limit"),
+        (
+            p.open,
+            "keep redundant constraints: scored by their reactions of minimum norm",
+        ),
+    ];
+    let some = left_out.iter().filter(|(count, _)| *count > 0);
+    out.extend(some.map(|(count, what)| format!("{} {what}", n(*count))));
+    out.extend(p.gripped.iter().map(|g| gripped(m, g)));
+    let stopped = p.stroke_stopped;
+    out.extend(stopped.map(|at| format!("The stroke could not be followed to {at}")));
     out
+}
+
+/// Why the first of a list of ranked variants are not in the order of cost, a line each.
+pub fn reasons<'a>(m: &'a Mechanism, p: &'a RankedPool) -> impl Iterator<Item = String> + 'a {
+    let places = (1..=p.list.len()).take(REASONS);
+    places.filter_map(|place| p.reason(m, place))
 }
 
 /// Heads of the columns of a list.
@@ -125,14 +129,15 @@ pub fn notes(m: &Mechanism, p: &RankedPool) -> String {
 pub fn columns(p: &RankedPool) -> Vec<&'static str> {
     let terms = p.ranking.terms.iter().map(|(t, _)| *t);
     let mut out: Vec<&str> = terms
-        .filter(|t| *t != Term::Cost)
+        // Those have columns of their own.
+        .filter(|t| !matches!(t, Term::Cost | Term::Harmful))
         .map(|t| match t {
             Term::PeakForce => "force",
             Term::PeakMoment => "moment",
-            Term::Conditioning => "condit.",
+            Term::Conditioning => "cond. held",
             Term::OutputError => "error, mm",
             Term::Changes => "changed",
-            Term::Cost | Term::Idle => t.name(),
+            Term::Cost | Term::Idle | Term::Harmful => t.name(),
         })
         .collect();
     match p.ranking.order {
@@ -148,10 +153,11 @@ pub fn columns(p: &RankedPool) -> Vec<&'static str> {
 pub fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
     let terms = p.ranking.terms.iter().map(|(t, _)| *t);
     let mut out: Vec<String> = terms
-        .filter(|t| *t != Term::Cost)
+        // Those have columns of their own.
+        .filter(|t| !matches!(t, Term::Cost | Term::Harmful))
         .map(|t| match t {
             Term::OutputError => format!("{:.4}", 1e3 * r.scores.output_error),
-            Term::Changes | Term::Idle => r.scores.value(t).to_string(),
+            Term::Changes | Term::Idle | Term::Harmful => r.scores.value(t).to_string(),
             _ => format!("{:.4}", r.scores.value(t)),
         })
         .collect();
@@ -179,6 +185,17 @@ pub struct RankingData<'a> {
     minimum_norm: usize,
     proven: bool,
     proof: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    missing: Option<MissingData>,
+}
+
+/// What is missing to a proof: sums, a cost, and a count as text, since it may be large.
+#[derive(Debug, Serialize)]
+struct MissingData {
+    least_sum_elsewhere: f64,
+    last_sum: f64,
+    settled_at_cost: f64,
+    cheaper: Option<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -236,6 +253,12 @@ impl<'a> RankingData<'a> {
             minimum_norm: p.open,
             proven: p.proven,
             proof: p.proof,
+            missing: p.missing.as_ref().map(|m| MissingData {
+                least_sum_elsewhere: m.least,
+                last_sum: m.last,
+                settled_at_cost: m.settled_at_cost(),
+                cheaper: m.cheaper.as_ref().map(ToString::to_string),
+            }),
         }
     }
 }
@@ -255,6 +278,7 @@ pub struct RankedData<'a> {
     changes: u32,
     cost: f64,
     idle: i64,
+    harmful: u32,
     minimum_norm: bool,
     #[serde(rename = "by_cost")]
     by_cost: usize,
@@ -281,6 +305,7 @@ impl<'a> RankedData<'a> {
             changes: s.changes,
             cost: s.value(Term::Cost),
             idle: s.idle,
+            harmful: s.harmful,
             minimum_norm: s.minimum_norm,
             by_cost: r.by_cost,
             total: r.total,

@@ -6,6 +6,7 @@ pub mod text;
 
 use crate::format::csv::table;
 use crate::model::mechanism::{Mechanism, StateId};
+use crate::statics::reactions::contact::{ContactForce, Touch};
 use crate::statics::reactions::drives::slides;
 use crate::statics::reactions::{Choice, JointReaction, Solution};
 use serde::Serialize;
@@ -19,7 +20,7 @@ pub struct Reactions<'a> {
     pub state: &'a str,
     /// Whether these are the only reactions in equilibrium.
     pub unique: bool,
-    /// `unique`, or `minimum-norm` of a family.
+    /// `unique`, `minimum-norm` of a family, or `pushing`: of minimum norm where contacts only push.
     pub choice: &'static str,
     /// What moments are divided by in that norm `[m]`.
     pub size: f64,
@@ -31,6 +32,9 @@ pub struct Reactions<'a> {
     pub residual: f64,
     /// Freedoms left with the drives held.
     pub undriven: usize,
+    /// What is asked of the faces on objects, in states that have any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub contacts: Vec<Contact<'a>>,
     /// By joint of the state.
     pub reactions: Vec<Joint<'a>>,
     /// Those that load nothing from outside, one set for each redundant constraint.
@@ -70,6 +74,51 @@ pub struct Joint<'a> {
     pub global_moment: [f64; 3],
     /// What its drive does, part of force and moment.
     pub drive: Option<Effort>,
+}
+
+/// The force of a face on an object.
+#[derive(Debug, Serialize)]
+pub struct Contact<'a> {
+    /// The joint.
+    pub contact: &'a str,
+    /// `pushes`, `idle`, or what no such face can do: `pulls`, `slips`, `tilts`.
+    pub touch: &'static str,
+    /// Along the face's normal, negative where it pulls `[N]`.
+    pub normal: f64,
+    /// Along the face `[N]`.
+    pub along_face: f64,
+    /// Moment along the face `[N·m]`.
+    pub tilting: f64,
+    /// Coefficient of friction, where stated.
+    pub friction: Option<f64>,
+    /// Radius of the face `[m]`, where stated.
+    pub radius: Option<f64>,
+}
+
+impl<'a> Contact<'a> {
+    fn new(m: &'a Mechanism, c: &ContactForce) -> Self {
+        Contact {
+            contact: &m.joints[c.joint].id,
+            touch: match c.touch {
+                Touch::Pushes => "pushes",
+                Touch::Idle => "idle",
+                Touch::Pulls => "pulls",
+                Touch::Slips => "slips",
+                Touch::Tilts => "tilts",
+            },
+            normal: c.normal,
+            along_face: c.along,
+            tilting: c.tilting,
+            friction: c.friction,
+            radius: c.radius,
+        }
+    }
+
+    /// Whether a face can do what is asked of it.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        matches!(self.touch, "pushes" | "idle")
+    }
 }
 
 /// Unit vectors of a frame in global axes.
@@ -134,12 +183,14 @@ impl<'a> Reactions<'a> {
             choice: match s.choice {
                 Choice::Unique => "unique",
                 Choice::MinimumNorm => "minimum-norm",
+                Choice::Pushing => "pushing",
             },
             size: s.size,
             condition: s.condition,
             nearly_singular: s.nearly_singular(),
             residual: s.residual,
             undriven: s.undriven,
+            contacts: s.contacts.iter().map(|c| Contact::new(m, c)).collect(),
             reactions: joints(&s.reactions),
             self_stresses: s.self_stresses.iter().map(joints).collect(),
             elastic: s.elastic.as_ref().map(joints),

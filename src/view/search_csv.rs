@@ -2,10 +2,13 @@
 
 use crate::format::number::cost;
 use crate::model::mechanism::JointId;
-use crate::score::outcome::{Outcome, Variants};
+use crate::score::outcome::Outcome;
+use crate::score::variant::Variant;
+use crate::score::variants::Variants;
 use crate::search::conditions::Search;
 use crate::search::over_stroke::OverStroke;
 use crate::search::space::choice_name;
+use itertools::Itertools;
 use std::io::{self, Write};
 
 /// Columns before the joints.
@@ -19,6 +22,8 @@ const FIGURES: [&str; 6] = [
 ];
 /// Columns after them.
 const OPINIONS: [&str; 3] = ["conditioning", "agree", "lucky"];
+/// Columns at the end.
+const MORE: [&str; 2] = ["external_harmful", "redundant_by_contour"];
 /// Columns of a ranking.
 const SCORES: [&str; 8] = [
     "by_cost",
@@ -49,6 +54,7 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> 
     if outcome.ranking.is_some() {
         row.extend(SCORES.map(str::to_owned));
     }
+    row.extend(MORE.map(str::to_owned));
     out.write_record(&row).map_err(of_writer)?;
     for v in variants {
         row.clear();
@@ -86,6 +92,7 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> 
                 None => Default::default(),
             });
         }
+        row.extend([told(v.external_harmful()), contours(&v)]);
         out.write_record(&row).map_err(of_writer)?;
     }
     out.flush()
@@ -101,6 +108,14 @@ fn of_writer(e: csv::Error) -> io::Error {
 
 fn told<T: ToString>(value: Option<T>) -> String {
     value.map_or_else(String::new, |x| x.to_string())
+}
+
+/// "0-1-2-3: 1 (0 to 1); 0-1-6-7: 0 (0 to 1)": σ of the contours that may have any, in the order they are added in.
+fn contours(v: &Variant<'_>) -> String {
+    let shares = v.redundant_by_contour().into_iter().flatten();
+    let some = shares.filter(|(_, s)| s.range.1 > 0);
+    some.map(|(name, s)| format!("{name}: {} ({} to {})", s.redundant, s.range.0, s.range.1))
+        .join("; ")
 }
 
 /// The joints that have a choice, in file order: (variable, joint).

@@ -1,15 +1,16 @@
 //! A search as data: the keys are a stable contract, in this order. Counts are strings, since they outgrow 2^53.
 
 use crate::format::number::cost;
+use crate::model::mechanism::{JointId, Mechanism};
 use crate::rank::verdict::Verdict;
 use crate::score::outcome::Outcome;
-use crate::score::request::LooksRounded;
+use crate::score::prepared::LooksRounded;
 use crate::score::variant::Variant;
 use crate::search::building::Diagrams;
 use crate::search::certify::{Opinion, Summary};
 use crate::search::diagram::Diagram;
 use crate::search::over_stroke::OverStroke;
-use crate::search::relax::Relaxation;
+use crate::search::relax::{Hopeless, Relaxation};
 use crate::view::ranking::{RankedData, RankingData};
 use num_bigint::BigUint;
 use serde::{Serialize, Serializer};
@@ -212,7 +213,7 @@ impl<'a> Measured<'a> {
 
 /// What follows the variants.
 #[derive(Debug, Serialize)]
-pub struct TailData {
+pub struct TailData<'a> {
     variants_complete: bool,
     variants_checked: usize,
     variants_disagreeing: usize,
@@ -220,8 +221,42 @@ pub struct TailData {
     variants_posed: usize,
     variants_lucky: usize,
     variants_dropped: usize,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    relaxations: Option<Vec<EasedData>>,
+    #[serde(flatten)]
+    none: Option<NoneData<'a>>,
+}
+
+/// Where there is no variant: what easing would leave, and what stands in the way of all.
+#[derive(Debug, Serialize)]
+pub struct NoneData<'a> {
+    relaxations: Vec<EasedData>,
+    least_redundant: Option<usize>,
+    unchanged: Vec<&'a str>,
+    frozen: Vec<&'a str>,
+}
+
+impl<'a> NoneData<'a> {
+    /// Of an outcome without variants.
+    #[must_use]
+    pub fn new(m: &'a Mechanism, eased: &[(Relaxation, BigUint)], why: &Hopeless) -> Self {
+        let one = |(how, n): &(Relaxation, BigUint)| {
+            let (condition, to) = condition(*how);
+            EasedData {
+                condition,
+                to: to.map_or(Bound::Yes(true), Bound::Number),
+                admissible: n.to_string(),
+            }
+        };
+        let named = |joints: &[JointId]| {
+            let ids = joints.iter().map(|&j| m.joints[j].id.as_str());
+            ids.collect()
+        };
+        NoneData {
+            relaxations: eased.iter().map(one).collect(),
+            least_redundant: why.least_redundant,
+            unchanged: named(&why.unchanged),
+            frozen: named(&why.frozen),
+        }
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -238,18 +273,10 @@ enum Bound {
     Yes(bool),
 }
 
-impl TailData {
-    /// `complete` unless the giving was interrupted; `eased` where nothing was found.
+impl<'a> TailData<'a> {
+    /// `complete` unless the giving was interrupted.
     #[must_use]
-    pub fn new(summary: &Summary, complete: bool, eased: Option<&[(Relaxation, BigUint)]>) -> Self {
-        let one = |(how, n): &(Relaxation, BigUint)| {
-            let (condition, to) = condition(*how);
-            EasedData {
-                condition,
-                to: to.map_or(Bound::Yes(true), Bound::Number),
-                admissible: n.to_string(),
-            }
-        };
+    pub fn new(summary: &Summary, complete: bool, none: Option<NoneData<'a>>) -> Self {
         TailData {
             variants_complete: complete,
             variants_checked: summary.checked,
@@ -258,7 +285,7 @@ impl TailData {
             variants_posed: summary.posed,
             variants_lucky: summary.lucky,
             variants_dropped: summary.dropped,
-            relaxations: eased.map(|list| list.iter().map(one).collect()),
+            none,
         }
     }
 }
@@ -268,9 +295,11 @@ pub(super) fn condition(how: Relaxation) -> (&'static str, Option<i64>) {
     match how {
         Relaxation::Redundant(n) => ("max-redundant", Some(i64::from(n))),
         Relaxation::External(n) => ("max-external", Some(i64::from(n))),
+        Relaxation::Harmful(n) => ("max-harmful", Some(i64::from(n))),
         Relaxation::Mobility(n) => ("max-mobility", Some(n)),
         Relaxation::Changes(n) => ("max-changes", Some(i64::from(n))),
         Relaxation::OutputChange => ("allow-output-change", None),
+        Relaxation::LooseObject => ("allow-loose-object", None),
     }
 }
 
@@ -281,7 +310,9 @@ pub struct VariantData<'a> {
     cost: Cost,
     mobility: i64,
     redundant: u32,
-    external_redundant: Option<u32>,
+    external_redundant: Option<i32>,
+    external_harmful: Option<u32>,
+    per_contour: Vec<ContourData>,
     changes: Vec<ChangeData<'a>>,
     scores: ScoresData<'a>,
     conditioning: Option<f64>,
@@ -296,6 +327,15 @@ pub struct VariantData<'a> {
 enum Cost {
     Whole(i64),
     Part(f64),
+}
+
+/// σ of a contour when they are added in the order given, with the range over all orders.
+#[derive(Debug, Serialize)]
+struct ContourData {
+    contour: String,
+    redundant: usize,
+    least: usize,
+    greatest: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -352,6 +392,18 @@ impl<'a> VariantData<'a> {
             mobility: v.mobility(),
             redundant: v.redundant(),
             external_redundant: v.external_redundant(),
+            external_harmful: v.external_harmful(),
+            per_contour: v
+                .redundant_by_contour()
+                .into_iter()
+                .flatten()
+                .map(|(contour, share)| ContourData {
+                    contour,
+                    redundant: share.redundant,
+                    least: share.range.0,
+                    greatest: share.range.1,
+                })
+                .collect(),
             changes: v
                 .changes()
                 .into_iter()

@@ -1,8 +1,9 @@
 //! A search as JSON, and its variants as JSON lines, written as they come.
 
-use crate::score::outcome::{Outcome, Variants};
-use crate::search::relax::Relaxation;
-use crate::view::search_data::{SearchData, TailData, VariantData};
+use crate::score::outcome::Outcome;
+use crate::score::variants::Variants;
+use crate::search::relax::{Hopeless, Relaxation};
+use crate::view::search_data::{NoneData, SearchData, TailData, VariantData};
 use num_bigint::BigUint;
 use num_traits::Zero;
 use std::io::{self, Write};
@@ -15,7 +16,7 @@ pub fn write(
     out: &mut dyn Write,
     outcome: &Outcome,
     mut variants: Variants<'_>,
-    eased: &[(Relaxation, BigUint)],
+    (eased, why): (&[(Relaxation, BigUint)], &Hopeless),
 ) -> io::Result<()> {
     // Variants stream: the closing brace of the header waits for them.
     let text = serde_json::to_string_pretty(&SearchData::new(outcome))?;
@@ -26,8 +27,10 @@ pub fn write(
         write!(out, "{comma}\n    ")?;
         serde_json::to_writer(&mut *out, &VariantData::new(outcome, &v))?;
     }
-    let eased = outcome.admissible.total.is_zero().then_some(eased);
-    let tail = TailData::new(&variants.summary(), !variants.interrupted(), eased);
+    let m = &outcome.search.mechanism;
+    let none = outcome.admissible.total.is_zero();
+    let none = none.then(|| NoneData::new(m, eased, why));
+    let tail = TailData::new(&variants.summary(), !variants.interrupted(), none);
     let text = serde_json::to_string_pretty(&tail)?;
     let rest = text.strip_prefix("{\n").unwrap_or(&text);
     writeln!(out, "\n  ],\n{rest}")

@@ -1,12 +1,14 @@
 //! A search for people.
 
 use crate::format::number::{cost, grouped};
-use crate::score::outcome::{Outcome, Variants};
+use crate::score::outcome::Outcome;
 use crate::score::request::List;
 use crate::score::variant::{Variant, in_words};
+use crate::score::variants::Variants;
 use crate::search::certify::{NEARLY_SINGULAR, Opinion, Second, Summary};
 use crate::search::primes::Verdict;
-use crate::search::relax::Relaxation;
+use crate::search::relax::{Hopeless, Relaxation};
+use crate::view::conditions::{hopeless, in_state};
 use crate::view::layout::{fit, table};
 use crate::view::next::{self, Step, file_name};
 use crate::view::ranking;
@@ -21,7 +23,7 @@ use std::io;
 /// Variants a table holds at most.
 const BLOCK: usize = 1000;
 
-/// Writes an outcome with its variants as they come, and what to do next; `eased` is told where there is none. `file` is
+/// Writes an outcome with its variants as they come, and what to do next; `eased` is told where there is none, and why there can be none. `file` is
 /// the argument that named the mechanism.
 ///
 /// # Errors
@@ -30,11 +32,13 @@ pub fn write(
     out: &mut dyn io::Write,
     outcome: &Outcome,
     mut given: Variants<'_>,
-    eased: &[(Relaxation, BigUint)],
+    (eased, why): (&[(Relaxation, BigUint)], &Hopeless),
     file: &str,
     width: Option<u16>,
 ) -> io::Result<()> {
     write!(out, "{}", counts(outcome, width))?;
+    let why = hopeless(&outcome.search.mechanism, why);
+    write!(out, "{}", fit(&why, width))?;
     let sample = matches!(outcome.request.list, List::Sample(_));
     let what = match &outcome.ranking {
         Some(p) => ranking::head(p),
@@ -50,13 +54,21 @@ pub fn write(
             write!(out, "{}", fit(&format!("\n  {what}:\n"), width))?;
         }
         writeln!(out, "{}", variants(outcome, &block, width))?;
+        write!(out, "{}", contours(&block, width))?;
         footnotes.extend(block.iter().filter_map(note));
     }
     let summary = given.summary();
-    write!(out, "{}", notes(&summary, &footnotes, width))?;
+    let lines = notes(&summary).into_iter();
+    let notes = lines.chain(marked(footnotes)).map(|l| format!("  {l}\n"));
+    let gap = if summary.is_asked() { "\n" } else { "" };
+    write!(out, "{gap}{}", fit(&notes.collect::<String>(), width))?;
     if let Some(p) = &outcome.ranking {
-        let notes = ranking::notes(&outcome.search.mechanism, p);
-        write!(out, "{}", fit(&notes, width))?;
+        let m = &outcome.search.mechanism;
+        let lines = ranking::notes(m, p).into_iter();
+        let notes = lines
+            .chain(ranking::reasons(m, p))
+            .map(|l| format!("\n  {l}"));
+        writeln!(out, "{}", fit(&notes.collect::<String>(), width))?;
     }
     if given.interrupted() {
         writeln!(out, "\n  interrupted after {} variants", summary.given)?;
@@ -92,14 +104,9 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
         conditions
             .max_changes
             .map(|c| format!("change at most {c} joints")),
-        conditions.state.map(|(s, e)| {
-            format!(
-                "have external σ ≤ {e} in state {}",
-                outcome.search.mechanism.states[s]
-            )
-        }),
     ];
-    let more: Vec<String> = more.into_iter().flatten().collect();
+    let more = more.into_iter().flatten();
+    let more = more.chain(in_state(&outcome.search, false)).collect_vec();
     let all = match more.split_last() {
         None => format!("have {condition}"),
         Some((last, rest)) => {
@@ -148,18 +155,27 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
         .chain(outcome.admissible.by_mobility.keys())
         .copied()
         .collect();
-    // Mobilities that no admissible variant has are of no use to a designer.
-    let shown = mobilities.iter().filter(|w| {
+    // Mobilities that no admissible variant has are of no use to a designer: they are told in one row.
+    let (shown, rest): (Vec<i64>, Vec<i64>) = mobilities.iter().partition(|w| {
         outcome.admissible.total.is_zero() || outcome.admissible.by_mobility.contains_key(w)
     });
-    let rows = shown.map(|w| {
-        let of = |m: &BTreeMap<i64, BigUint>| m.get(w).map_or("0".into(), big);
+    let row = |name: String, of: &[i64]| {
+        let sum =
+            |m: &BTreeMap<i64, BigUint>| big(&of.iter().filter_map(|w| m.get(w)).sum::<BigUint>());
+        let (determinate, admissible) = (&outcome.determinate, &outcome.admissible);
         vec![
-            w.to_string(),
-            of(&outcome.determinate.by_mobility),
-            of(&outcome.admissible.by_mobility),
+            name,
+            sum(&determinate.by_mobility),
+            sum(&admissible.by_mobility),
         ]
-    });
+    };
+    let each = shown.iter().map(|w| row(w.to_string(), &[*w]));
+    let left_out = match (rest.first(), rest.last()) {
+        (Some(least), Some(most)) if least == most => Some(row(least.to_string(), &rest)),
+        (Some(least), Some(most)) => Some(row(format!("rest, {least} to {most}"), &rest)),
+        _ => None,
+    };
+    let rows = each.chain(left_out);
     if !mobilities.is_empty() {
         let _ = writeln!(
             out,
@@ -185,6 +201,7 @@ fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u16>) -> Stri
             v.mobility().to_string(),
             sigma,
         ];
+        row.extend(v.external_harmful().map(|n| n.to_string()));
         if checked {
             let of = |o: &Opinion| format!("{:.1e}", o.conditioning);
             row.push(v.second().opinion().map_or(String::new(), of));
@@ -197,10 +214,58 @@ fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u16>) -> Stri
         row
     });
     let mut head = vec!["", "cost", "W", "σ"];
+    head.extend(outcome.search.conditions.state.map(|_| "harmful"));
     head.extend(checked.then_some("cond."));
     head.extend(ranking.into_iter().flat_map(ranking::columns));
     head.push("changes");
     table(&head, rows.collect(), width)
+}
+
+/// σ contour by contour of some variants, those alike together.
+fn contours(best: &[Variant<'_>], width: Option<u16>) -> String {
+    let mut alike: Vec<(String, Vec<usize>)> = Vec::new();
+    for v in best {
+        let shares = v.redundant_by_contour().into_iter().flatten();
+        let some = shares.filter(|(_, s)| s.range.1 > 0).map(|(name, s)| {
+            let range = match s.range {
+                (a, b) if a == b => String::new(),
+                (a, b) => format!(" ({a} to {b})"),
+            };
+            format!("{name} {}{range}", s.redundant)
+        });
+        let text = some.collect_vec().join(", ");
+        match alike.iter_mut().find(|(known, _)| *known == text) {
+            Some((_, places)) => places.push(v.position()),
+            None => alike.push((text, vec![v.position()])),
+        }
+    }
+    if let [(one, _)] = &alike[..]
+        && one.is_empty()
+    {
+        return "\n  σ by contour: none in any, in whatever order they are added\n".to_owned();
+    }
+    let head = "\n  σ by contour, added in this order (range over all orders):\n".to_owned();
+    let line = |(text, places): &(String, Vec<usize>)| {
+        let text = if text.is_empty() { "none" } else { text };
+        format!("  {}: {text}\n", runs(places))
+    };
+    fit(&alike.iter().map(line).fold(head, |all, l| all + &l), width)
+}
+
+/// "1, 3-5" for 1, 3, 4, 5.
+fn runs(places: &[usize]) -> String {
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for &p in places {
+        match runs.last_mut() {
+            Some((_, last)) if *last + 1 == p => *last = p,
+            _ => runs.push((p, p)),
+        }
+    }
+    let one = |&(a, b): &(usize, usize)| match a == b {
+        true => a.to_string(),
+        false => format!("{a}-{b}"),
+    };
+    runs.iter().map(one).join(", ")
 }
 
 /// The mark of a variant that a footnote tells about.
@@ -259,34 +324,35 @@ pub fn note(v: &Variant<'_>) -> Option<String> {
 /// Footnotes told at most.
 const NOTES: usize = 20;
 
-/// What the singular values say of a list, with its footnotes.
+/// What second opinions and other poses say, a line each.
 #[must_use]
-pub fn notes(summary: &Summary, notes: &[String], width: Option<u16>) -> String {
-    let mut out = String::new();
-    if summary.checked + summary.failed > 0 {
-        opinions(&mut out, summary);
+pub fn notes(summary: &Summary) -> Vec<String> {
+    let mut out = Vec::new();
+    if summary.is_asked() {
+        out.push(opinions(summary));
     }
     let posed = grouped(&summary.posed.to_string());
-    // Writing to a string cannot fail.
-    let _ = match (summary.posed, summary.lucky, summary.dropped) {
-        (0, _, 0) => Ok(()),
-        (_, _, n) if n > 0 => writeln!(
-            out,
-            "  {n} left out: their figures are not the same at other poses"
-        ),
-        (_, 0, _) => writeln!(out, "  Figures the same at other poses: all {posed}"),
-        (_, n, _) => writeln!(
-            out,
-            "  Figures not the same at other poses: {n} of {posed}, marked !"
-        ),
-    };
-    for n in notes.iter().take(NOTES) {
-        let _ = writeln!(out, "  {n}");
+    match (summary.posed, summary.lucky, summary.dropped) {
+        (0, _, 0) => {}
+        (_, _, n) if n > 0 => out.push(format!(
+            "{n} left out: their figures are not the same at other poses"
+        )),
+        (_, 0, _) => out.push(format!("Figures the same at other poses: all {posed}")),
+        (_, n, _) => out.push(format!(
+            "Figures not the same at other poses: {n} of {posed}, marked !"
+        )),
     }
-    if notes.len() > NOTES {
-        let _ = writeln!(out, "  and {} more marked", notes.len() - NOTES);
+    out
+}
+
+/// The notes of marked variants, the first of them if there are many.
+fn marked(mut notes: Vec<String>) -> Vec<String> {
+    let more = notes.len().saturating_sub(NOTES);
+    notes.truncate(NOTES);
+    if more > 0 {
+        notes.push(format!("and {more} more marked"));
     }
-    fit(&out, width)
+    notes
 }
 
 /// What to do after a search: look at the first variant given, or ease a condition. `file` is the search's own, as
@@ -326,10 +392,12 @@ fn next(outcome: &Outcome, given: usize, eased: &[(Relaxation, BigUint)], file: 
         let name = format!("--{condition}");
         let flag = to.map_or_else(|| name.clone(), |n| format!("{name} {n}"));
         let n = grouped(&n.to_string());
-        let least = if *how == Relaxation::OutputChange {
-            format!("{n} variants, whose outputs move in other ways than now")
-        } else {
-            format!("{n} variants; no smaller number leaves any")
+        let least = match how {
+            Relaxation::OutputChange => {
+                format!("{n} variants, whose outputs move in other ways than now")
+            }
+            Relaxation::LooseObject => format!("{n} variants, none of which holds what it grips"),
+            _ => format!("{n} variants; no smaller number leaves any"),
         };
         // The flag replaces the one that was given.
         let kept = without(flags, &name);
@@ -356,7 +424,7 @@ fn without(flags: &str, flag: &str) -> String {
     kept.join(" ")
 }
 
-fn opinions(out: &mut String, summary: &Summary) {
+fn opinions(summary: &Summary) -> String {
     let asked = grouped(&(summary.checked + summary.failed).to_string());
     let which = if summary.given > summary.checked + summary.failed {
         format!("the first {asked}; the rest was not asked about")
@@ -372,6 +440,5 @@ fn opinions(out: &mut String, summary: &Summary) {
             which.trim_start_matches("all ")
         )
     };
-    // Writing to a string cannot fail.
-    let _ = writeln!(out, "\n  {verdict} (cond.: the smallest over the largest)");
+    format!("{verdict} (cond.: the smallest over the largest)")
 }

@@ -3,14 +3,18 @@
 
 pub mod charts;
 pub mod csv;
+pub mod force_plans;
+pub mod link_motion;
 pub mod text;
 
 use crate::statics::assur::{self, Decomposition};
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
 use crate::statics::cycle::{self, Moment};
+use crate::statics::inertia::link_inertias;
 use crate::statics::kinetostatics::Equilibrium;
 use crate::statics::planar::{BodyId, PairId, PlanarMechanism};
+use crate::view::statics::link_motion::LinkMotion;
 use itertools::Itertools;
 use serde::Serialize;
 
@@ -81,6 +85,8 @@ pub struct Position<'a> {
     pub load_power: f64,
     /// The four-link groups with a closed contour.
     pub contour_groups: Vec<ContourGroup>,
+    /// How the links with mass move, and their inertia forces.
+    pub links: Vec<LinkMotion<'a>>,
 }
 
 /// What equations are worth.
@@ -121,6 +127,12 @@ pub struct ContourGroup {
     /// l_Dδ `[m]`.
     #[serde(rename = "l_D_delta")]
     pub l_d_delta: f64,
+    /// R46^τ `[N]`.
+    #[serde(rename = "R46_tangential")]
+    pub r46_tangential: f64,
+    /// R47^τ `[N]`.
+    #[serde(rename = "R47_tangential")]
+    pub r47_tangential: f64,
     /// R34^τ `[N]`.
     #[serde(rename = "R34_tangential")]
     pub r34_tangential: f64,
@@ -377,6 +389,10 @@ impl<'a> Position<'a> {
                     ContourGroup::new(g, guide, methods)
                 })
                 .collect(),
+            links: link_inertias(&s.loads.masses, &s.linkage, &x.instant)
+                .iter()
+                .map(|i| LinkMotion::new(&m.bodies[i.body].name, i))
+                .collect(),
         }
     }
 }
@@ -399,6 +415,8 @@ impl ContourGroup {
             group: g.group,
             delta_point: g.steps.delta,
             l_d_delta: g.steps.l_d_delta,
+            r46_tangential: g.steps.r46_tangential,
+            r47_tangential: g.steps.r47_tangential,
             r34_tangential: g.steps.r34_tangential,
             r34_normal: g.steps.r34_normal,
             condition: g.equilibrium.map(|e| e.1.condition),

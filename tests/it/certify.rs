@@ -4,7 +4,7 @@ use crate::common::{json, out, ozols};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::exact_field;
-use ozols::search::conditions::{Conditions, Search};
+use ozols::search::conditions::{Conditions, InState, Search};
 use ozols::search::primes::{Verdict, build_both, compare, compare_counts, primes};
 use serde_json::Value;
 use std::fs;
@@ -101,7 +101,10 @@ fn singular_values_agree_on_the_best_of_every_built_in_mechanism() {
             let request = Conditions {
                 keep_output,
                 max_redundant,
-                state: clamped.then_some((StateId::new(1), 100)),
+                state: clamped.then_some(InState {
+                    hold_objects: false,
+                    ..InState::holding(StateId::new(1))
+                }),
                 ..Conditions::default()
             };
             let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();

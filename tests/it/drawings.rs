@@ -10,7 +10,7 @@ use ozols::draw::{Drawing, Rect, Subject, kinematic, marks, scheme};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
-use ozols::search::conditions::{Conditions, Search};
+use ozols::search::conditions::{Conditions, InState, Search};
 use std::fmt::Write as _;
 
 fn built_in(name: &str) -> Mechanism {
@@ -99,7 +99,10 @@ fn the_scheme_says_what_the_field_says() {
 fn variants_are_marked() {
     let m = built_in("gripper-10");
     let request = Conditions {
-        state: Some((StateId::new(1), 2)),
+        state: Some(InState {
+            max_external: Some(2),
+            ..InState::holding(StateId::new(1))
+        }),
         ..Conditions::default()
     };
     let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();

@@ -1,5 +1,6 @@
 //! Clamping levers against `[Pavlenko & Godunko 2010]`, and holding forces against independent statics.
 
+mod motion;
 mod published;
 
 use crate::common::{changed, near, run_on};
@@ -116,11 +117,50 @@ fn small_with(from: &str, to: &str) -> String {
     changed(SMALL, from, to)
 }
 
+/// What is printed is possible: friction within its cone, a lower bound not above what it bounds, forces that *can* hold.
+#[test]
+fn friction_and_bounds_keep_their_limits_in_print() {
+    for more in [
+        &[][..],
+        &["--any-acceleration", "9"],
+        &["--acceleration", "5,0,-2"],
+    ] {
+        let arguments = [&["grip", "lever-gripper"], more].concat();
+        let text = out(&arguments);
+        assert!(text.starts_with("lever-gripper: can hold D"), "{text}");
+        let table = text.split("The four contact forces").nth(1).unwrap();
+        let rows = table
+            .lines()
+            .filter(|l| l.contains("upper ") || l.contains("lower "));
+        let ratios: Vec<&str> = rows.map(|l| l.split_whitespace().last().unwrap()).collect();
+        assert_eq!(ratios.len(), 4, "{table}");
+        for ratio in ratios {
+            assert!(
+                ratio == "-" || ratio.parse::<f64>().unwrap() <= 0.2,
+                "{table}"
+            );
+        }
+        let value = json(&[&arguments[..], &["--format", "json"]].concat());
+        for row in value["diameters"].as_array().unwrap() {
+            let number = |v: &Value| v.as_f64().unwrap();
+            let load = &row["load"];
+            assert!(
+                number(&load["lower_bound"]) <= number(&load["drive_moment_per_lever"]),
+                "{load}"
+            );
+            for c in load["contacts"].as_array().unwrap() {
+                let friction = number(&c["along_face"]).hypot(number(&c["along_part"]));
+                assert!(friction <= 0.2 * number(&c["normal"]), "{c}");
+            }
+        }
+    }
+}
+
 #[test]
 fn built_in_gripper_holds() {
     let text = out(&["grip", "lever-gripper"]);
     assert!(
-        text.starts_with("lever-gripper: holds D = 30 to 50 mm; hardest at 50 mm"),
+        text.starts_with("lever-gripper: can hold D = 30 to 50 mm; hardest at 50 mm"),
         "{text}"
     );
     assert!(text.contains("6 of 6 confirmed"));

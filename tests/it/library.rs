@@ -6,6 +6,7 @@ use ozols::score::request::{Check, JointOptions, List, Method};
 use ozols::score::run::{Event, run};
 use ozols::search::conditions::Symmetry;
 use ozols::search::diagram::Stop;
+use ozols::search::relax::Hopeless;
 use ozols::view::{search_csv, search_json, search_text};
 use ozols::{Error, Mechanism, Outcome, Request, Scheme};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,7 +18,8 @@ fn search(name: &str, request: &Request) -> Outcome {
 fn json(outcome: &Outcome) -> String {
     let mut out = Vec::new();
     let eased = outcome.relaxations().unwrap();
-    search_json::write(&mut out, outcome, outcome.variants(), &eased).unwrap();
+    let why = outcome.hopeless().unwrap();
+    search_json::write(&mut out, outcome, outcome.variants(), (&eased, &why)).unwrap();
     String::from_utf8(out).unwrap()
 }
 
@@ -180,8 +182,18 @@ fn a_variant_tells_of_itself() {
     assert_eq!(i64::try_from(alone.mobility).unwrap(), best.mobility());
     assert_eq!(alone.redundant, best.redundant() as usize);
     let contours = best.redundant_by_contour().unwrap();
+    assert!(contours.is_empty(), "no contour has any");
+    let few = Request {
+        max_redundant: 3,
+        max_changes: Some(3),
+        ..Request::default()
+    };
+    let outcome = search("gripper-10", &few);
+    let best = outcome.variants().next().unwrap();
+    let alone = &ozols::analyze(&best.mechanism()).unwrap()[0];
+    let contours = best.redundant_by_contour().unwrap();
     assert_eq!(contours.len(), alone.contours);
-    let sum: usize = contours.iter().map(|c| c.redundant).sum();
+    let sum: usize = contours.iter().map(|(_, c)| c.redundant).sum();
     assert_eq!(sum, alone.redundant);
     assert_eq!(best.changes().len(), best.change_count() as usize);
     assert!(
@@ -213,7 +225,8 @@ fn csv_and_text_are_those_of_the_command() {
     assert_eq!(csv, printed("csv").unwrap().stdout);
     let mut text = Vec::new();
     let variants = outcome.variants();
-    search_text::write(&mut text, &outcome, variants, &[], "four-bar", None).unwrap();
+    let none = (&[][..], &Hopeless::default());
+    search_text::write(&mut text, &outcome, variants, none, "four-bar", None).unwrap();
     assert_eq!(text, printed("text").unwrap().stdout);
 }
 

@@ -357,3 +357,38 @@ fn the_catalogue_of_joint_types_is_whole() {
     }
     assert!(types.get("custom").is_some());
 }
+
+/// A pool of a thousand once made another variant the first of gripper-10-loaded than one of twenty thousand does: that many
+/// are scored now unless told otherwise, and what is missing to a proof is said.
+#[test]
+fn the_default_pool_finds_the_winner_and_says_how_far_it_is_from_proven() {
+    use ozols::score::request::Request;
+    let m = loaded();
+    let asked = |pool| Request {
+        pool,
+        list: ozols::score::request::List::Top(1),
+        ..Request::default()
+    };
+    let first = |request: &Request| {
+        let found = ozols::search(&m, request).unwrap();
+        let ranking = found.ranking.unwrap();
+        let best = ranking.list[0].clone();
+        (best, ranking)
+    };
+    let (narrow, _) = first(&asked(1000));
+    let (best, ranking) = first(&asked(Request::default().pool));
+    assert_eq!((narrow.by_cost, best.by_cost), (347, 12_500));
+    assert!(best.total < narrow.total);
+    // What is missing: nothing elsewhere is below the least sum, and nothing from the stated cost on can come before.
+    assert!(!ranking.proven);
+    let missing = ranking.missing.unwrap();
+    assert_eq!(missing.last, best.total.unwrap());
+    assert!(missing.least < missing.last, "{missing:?}");
+    let cheaper: u64 = missing.cheaper.as_ref().unwrap().try_into().unwrap();
+    assert!(cheaper > 20_000 && cheaper < 6_352_317_325, "{cheaper}");
+    // Where cost weighs enough the list is proven, and nothing is missing.
+    let mut heavy = asked(20_000);
+    heavy.rank = vec![(Term::PeakMoment, 10.0), (Term::Cost, 50.0)];
+    let (_, ranking) = first(&heavy);
+    assert!(ranking.proven && ranking.missing.is_none() && ranking.scored < 20_000);
+}

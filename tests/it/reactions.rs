@@ -52,6 +52,7 @@ fn with_masses(m: &mut Mechanism, seed: &[f64]) {
         .find(|&l| m.links[l].role == Role::Output)
         .unwrap();
     m.loads.forces.push(ExternalForce {
+        states: None,
         link: output,
         point: vector([draw(), draw(), draw()]),
         force: vector([20.0 * draw() - 10.0, 20.0 * draw(), 5.0 - 10.0 * draw()]),

@@ -49,6 +49,10 @@ pub(in crate::cli) struct Statics {
     /// planar or not determinate in its plane.
     #[arg(long, conflicts_with_all = ["planar", "groups", "stability", "svg"])]
     pub(in crate::cli) spatial: bool,
+    /// Contacts with a clamped object only push, with the friction and faces of [[workload.contact]]; otherwise they are the
+    /// joints they are in the file, and the report says which of them would pull.
+    #[arg(long, conflicts_with_all = ["groups", "stability", "svg"])]
+    pub(in crate::cli) unilateral: bool,
     /// Only the Assur groups, under each possible drive.
     #[arg(long, conflicts_with_all = ["stability", "svg", "stroke"])]
     pub(in crate::cli) groups: bool,

@@ -43,10 +43,29 @@ fn cam(t: &mut Table<'_>, e: &DriveEntry, unit: f64) -> Option<Cam> {
             t.needs(k, "spring_stroke beside it");
         }
     }
+    let radius = t.positive("cam_radius", &e.cam_radius, unit);
+    let roller = t.positive("roller_radius", &e.roller_radius, unit);
+    let profile = radius.zip(roller);
+    match (stroke, radius, roller) {
+        (_, Some(_), None) => t.needs("cam_radius", "roller_radius beside it"),
+        (_, None, Some(_)) => t.needs("roller_radius", "cam_radius beside it"),
+        (None, Some(_), Some(_)) => t.needs("cam_radius", "spring_stroke beside it"),
+        (Some(stroke), Some(radius), Some(roller)) if radius <= stroke + roller => {
+            let path = key(&t.at, "cam_radius");
+            t.bad(
+                &path,
+                "cam_radius",
+                (radius / unit).to_string(),
+                "more than spring_stroke and roller_radius together, so that the cam keeps clear of the axis",
+            );
+        }
+        _ => {}
+    }
     stroke.map(|stroke| Cam {
         stroke,
         mounting: mounting.unwrap_or(0.0),
         efficiency: efficiency.unwrap_or(1.0),
+        profile,
     })
 }
 

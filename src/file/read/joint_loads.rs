@@ -4,12 +4,14 @@ use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
 use crate::file::read::motion::{MAX_FORCES, position, quantity};
-use crate::file::read::names::{joint_by_id, link_by_id};
+use crate::file::read::names::{joint_by_id, link_by_id, states_by_name};
+use crate::file::read::quantity::{Bound, Table};
 use crate::file::read::resolve::{index, key, vector};
 use crate::file::schema::WorkloadEntry;
 use crate::model::joint_type::JointType;
-use crate::model::loads::{ExternalMoment, Misalignment, Stiffness};
+use crate::model::loads::{ExternalMoment, Face, Misalignment, Stiffness};
 use crate::model::mechanism::Mechanism;
+use crate::statics::reactions::contact::object_at;
 use itertools::Itertools;
 
 /// Moments from outside.
@@ -24,7 +26,48 @@ pub(crate) fn moments(
         let at = index(&key(at, "moment"), i);
         let moment = vector(&m.moment, &key(&at, "moment"), out);
         let link = link_by_id(&mechanism.links, &m.link, &key(&at, "link"), out);
-        found.extend(link.map(|link| ExternalMoment { link, moment }));
+        let states = states_by_name(mechanism, m.state.as_ref(), &key(&at, "state"), out);
+        found.extend(link.map(|link| ExternalMoment {
+            link,
+            moment,
+            states,
+        }));
+    }
+    found
+}
+
+/// Faces of contacts.
+pub(crate) fn faces(
+    entry: &WorkloadEntry,
+    mechanism: &Mechanism,
+    at: &[Step],
+    out: &mut Findings,
+) -> Vec<Face> {
+    let mut found = Vec::new();
+    for (i, e) in entry.contact.iter().enumerate().take(MAX_FORCES) {
+        let at = index(&key(at, "contact"), i);
+        let Some(joint) = joint_by_id(mechanism, &e.joint, &key(&at, "joint"), out) else {
+            continue;
+        };
+        if object_at(mechanism, joint).is_none() {
+            let faces = mechanism
+                .joint_ids()
+                .filter(|&j| object_at(mechanism, j).is_some());
+            let known = faces.map(|j| mechanism.joints[j].id.as_str()).join(", ");
+            let kind = ProblemKind::UnknownWord {
+                what: "contact (a fixed or planar joint, or one on a plane, with a link of the role object)",
+                word: e.joint.clone(),
+                known,
+            };
+            out.add(&key(&at, "joint"), kind);
+        }
+        let t = &mut Table { at, out };
+        let range = Bound::Range(0.0, 10.0, "a number from 0 to 10");
+        found.push(Face {
+            joint,
+            friction: t.optional("friction", e.friction.as_ref(), 1.0, range),
+            radius: t.positive("radius", &e.radius, 1.0),
+        });
     }
     found
 }

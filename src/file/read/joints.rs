@@ -96,6 +96,7 @@ fn joint(
         joint_type: joint_type.clone(),
         frame: frame.clone(),
         cost_milli: None,
+        state: None,
     };
     let states_of = entry.state.as_ref().map(|w| {
         words(Some(w))
@@ -107,8 +108,8 @@ fn joint(
         .as_ref()
         .is_none_or(|s| s.contains(&StateId::FREE));
     let changeable = in_free && !entry.drive && joint_type != JointType::Fixed;
-    let options = options(file, entry, &present, changeable, &at, out);
-    let unloading = unloading(file, entry, &frame, &at, out);
+    let options = options(file, entry, &present, changeable, states, &at, out);
+    let unloading = unloading(file, entry, &frame, states, &at, out);
     Some(Joint {
         id: entry.id.clone(),
         links: ends,
@@ -126,6 +127,7 @@ fn unloading(
     file: &MechanismFile,
     entry: &JointEntry,
     frame: &Frame,
+    states: &[String],
     at: &[Step],
     out: &mut Findings,
 ) -> Vec<JointOption> {
@@ -150,7 +152,7 @@ fn unloading(
     }
     list.iter()
         .enumerate()
-        .filter_map(|(n, e)| option(&entry.id, frame, e, &index(&from, n), out))
+        .filter_map(|(n, e)| option(&entry.id, frame, e, states, &index(&from, n), out))
         .collect()
 }
 

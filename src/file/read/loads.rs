@@ -3,11 +3,11 @@
 use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
-use crate::file::read::joint_loads::{misalignments, moments, stiffness};
+use crate::file::read::joint_loads::{faces, misalignments, moments, stiffness};
 use crate::file::read::motion::{
     LARGEST, MAX_FORCES, MAX_STEPS, POSITION, SPEED, position, quantity, speed,
 };
-use crate::file::read::names::link_by_id;
+use crate::file::read::names::{link_by_id, states_by_name};
 use crate::file::read::resolve::{index, key, vector};
 use crate::file::schema::{
     InertiaEntry, LinkEntry, MechanismFile, Quantities, Quantity, StrokeEntry,
@@ -117,6 +117,7 @@ pub(crate) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findi
                 },
             );
         }
+        let states = states_by_name(mechanism, f.state.as_ref(), &key(&at, "state"), out);
         let Some(link) = link_by_id(&mechanism.links, &f.link, &key(&at, "link"), out) else {
             continue;
         };
@@ -125,10 +126,12 @@ pub(crate) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findi
             point,
             force,
             range: (f.from.is_some() || f.to.is_some()).then_some([from, to]),
+            states,
         });
     }
     let moments = moments(entry, mechanism, &at, out);
     let stiffness = stiffness(entry, &at, out);
+    let faces = faces(entry, mechanism, &at, out);
     let misalignments = misalignments(entry, mechanism, &at, out);
     let path = key(&at, "drive_speed");
     let drive_speeds = match &entry.drive_speed {
@@ -158,6 +161,7 @@ pub(crate) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findi
             .map(|g| vector(g, &key(&at, "gravity"), out)),
         forces,
         moments,
+        faces,
         stiffness,
         misalignments,
         drive_speeds,

@@ -3,7 +3,8 @@
 use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
-use crate::model::mechanism::{JointId, Link, LinkId, Mechanism};
+use crate::file::schema::Words;
+use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, StateId};
 use itertools::Itertools;
 
 /// Most names listed where one is not known.
@@ -49,6 +50,34 @@ pub(crate) fn link_by_id(
         );
     }
     found
+}
+
+/// The states that an entry names; `None` where it names none, which means all.
+pub(crate) fn states_by_name(
+    mechanism: &Mechanism,
+    named: Option<&Words>,
+    path: &[Step],
+    out: &mut Findings,
+) -> Option<Vec<StateId>> {
+    let words = match named? {
+        Words::One(word) => std::slice::from_ref(word),
+        Words::Many(words) => words,
+    };
+    let mut found = Vec::new();
+    for word in words {
+        match mechanism.state(word) {
+            Some(state) => found.push(state),
+            None => out.add(
+                path,
+                ProblemKind::UnknownWord {
+                    what: "state",
+                    word: word.clone(),
+                    known: mechanism.states.iter().take(LISTED).join(", "),
+                },
+            ),
+        }
+    }
+    Some(found)
 }
 
 /// The joint that an entry means.

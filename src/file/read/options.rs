@@ -15,6 +15,7 @@ pub(crate) fn options(
     entry: &JointEntry,
     present: &JointOption,
     changeable: bool,
+    states: &[String],
     at: &[Step],
     out: &mut Findings,
 ) -> Vec<JointOption> {
@@ -44,7 +45,7 @@ pub(crate) fn options(
         // A bad entry of the common list would be reported once per joint.
         let (before, Some(option)) = (
             out.count(),
-            option(&entry.id, &present.frame, item, &path, out),
+            option(&entry.id, &present.frame, item, states, &path, out),
         ) else {
             continue;
         };

@@ -6,7 +6,7 @@ use crate::file::problem::ProblemKind;
 use crate::file::schema::{Coordinate, OptionEntry, OptionTable};
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{Frame, JointOption};
+use crate::model::mechanism::{Frame, JointOption, StateId};
 use itertools::Itertools;
 
 pub(crate) fn key(path: &[Step], k: &str) -> Vec<Step> {
@@ -259,6 +259,7 @@ pub(crate) fn option(
     joint: &str,
     present: &Frame,
     entry: &OptionEntry,
+    states: &[String],
     path: &[Step],
     out: &mut Findings,
 ) -> Option<JointOption> {
@@ -288,9 +289,13 @@ pub(crate) fn option(
         || present.pitch.clone(),
         |c| number(c, &key(&at, "pitch"), out),
     );
+    let point = table.point.as_ref();
     let frame = frame(
         joint,
-        present.point.clone(),
+        point.map_or_else(
+            || present.point.clone(),
+            |p| vector(p, &key(&at, "point"), out),
+        ),
         axis,
         reference,
         pitch,
@@ -301,12 +306,27 @@ pub(crate) fn option(
         .name
         .clone()
         .unwrap_or_else(|| motion_name(&joint_type));
+    let state = table.state.as_ref().and_then(|name| {
+        let known = states.iter().position(|s| s == name);
+        if known.is_none() {
+            out.add(
+                &key(&at, "state"),
+                ProblemKind::UnknownWord {
+                    what: "state",
+                    word: name.clone(),
+                    known: states.join(", "),
+                },
+            );
+        }
+        known.map(StateId::new)
+    });
     let cost_milli = table.cost.and_then(|c| cost(c, &key(&at, "cost"), out));
     Some(JointOption {
         name,
         joint_type,
         frame,
         cost_milli,
+        state,
     })
 }
 

@@ -1,15 +1,47 @@
 //! What the search may change and what it costs.
 
+use crate::closure::mirror::Plane;
 use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
 use crate::file::read::names::{joint_by_id, link_by_id};
 use crate::file::read::resolve::{cost, index, key};
 use crate::file::schema::MechanismFile;
+use crate::format::number::brief;
+use crate::geom::extent::diagonal;
+use crate::geom::vector::real;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Mechanism, SearchSpec};
+use crate::model::mechanism::{JointId, Mechanism, SearchSpec};
 use itertools::Itertools;
 use std::collections::BTreeSet;
+
+/// Off by more than this, as an angle and as a fraction of the mechanism's size, joints are no mirror images, however their
+/// coordinates were rounded.
+const NO_IMAGE: f64 = 1e-3;
+
+/// Tells pairs that are no mirror images.
+fn images(mechanism: &Mechanism, pairs: &[(JointId, JointId)], at: &[Step], out: &mut Findings) {
+    let Some((_, misses)) = Plane::of_pairs(mechanism, pairs) else {
+        return;
+    };
+    let points = mechanism.joints.iter().map(|j| real(&j.frame.point));
+    let size = diagonal(points.collect_vec().iter().copied());
+    for (i, (&(a, b), miss)) in pairs.iter().zip(&misses).enumerate() {
+        if miss.angle > NO_IMAGE || miss.distance > NO_IMAGE * size {
+            let [first, second] = [a, b].map(|j| mechanism.joints[j].id.clone());
+            out.add(
+                &index(&key(at, "mirror"), i),
+                ProblemKind::NoMirrorImage {
+                    first,
+                    second,
+                    distance: brief(miss.distance),
+                    unit: mechanism.length_unit.symbol,
+                    angle: brief(miss.angle.to_degrees()),
+                },
+            );
+        }
+    }
+}
 
 pub(crate) fn search(
     file: &MechanismFile,
@@ -45,6 +77,7 @@ pub(crate) fn search(
             spec.mirror.push((a, b));
         }
     }
+    images(mechanism, &spec.mirror, &at, out);
     let options = mechanism.joints.iter().flat_map(|j| &j.options);
     let unloading = mechanism.joints.iter().flat_map(|j| &j.unloading);
     let option_names: BTreeSet<&str> = options.chain(unloading).map(|o| o.name.as_str()).collect();
@@ -56,11 +89,12 @@ pub(crate) fn search(
         match name.as_str() {
             "change" => spec.costs.change_milli = Some(milli),
             "link" => spec.costs.link_milli = Some(milli),
+            "harmful" => spec.costs.harmful_milli = Some(milli),
             n if JointType::from_name(n).is_some() || option_names.contains(n) => {
                 spec.costs.by_type_milli.push((name.clone(), milli));
             }
             _ => {
-                let known = ["change", "link"]
+                let known = ["change", "link", "harmful"]
                     .into_iter()
                     .chain(JointType::NAMED.iter().map(JointType::name))
                     .join(", ");

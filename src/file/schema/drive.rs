@@ -66,6 +66,13 @@ pub struct DriveEntry {
     /// η, mean efficiency of the cam; 1 where left out.
     #[serde(default)]
     pub cam_efficiency: Option<Coordinate>,
+    /// From the disc's axis to the centre of the follower's roller where it is lifted; with `roller_radius` the cam's profile
+    /// follows.
+    #[serde(default)]
+    pub cam_radius: Option<Coordinate>,
+    /// Radius of the follower's roller.
+    #[serde(default)]
+    pub roller_radius: Option<Coordinate>,
     /// Work of the cam in a swing in J, in place of what friction takes by equation (12).
     #[serde(default)]
     pub feed_energy: Option<Coordinate>,

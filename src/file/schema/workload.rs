@@ -3,6 +3,7 @@
 use super::drive::DriveEntry;
 use super::grip::GripEntry;
 use super::number::{Coordinate, Quantities, Quantity};
+use super::words::Words;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -20,6 +21,9 @@ pub struct WorkloadEntry {
     /// Moments from outside.
     #[serde(default)]
     pub moment: Vec<MomentEntry>,
+    /// Faces of the contacts with a clamped object, for `ozols statics --unilateral`.
+    #[serde(default)]
+    pub contact: Vec<ContactEntry>,
     /// Stiffness of joints by the name of their type, `default` for the rest: `[workload.stiffness.spherical]`.
     #[serde(default)]
     pub stiffness: BTreeMap<String, StiffnessEntry>,
@@ -57,6 +61,9 @@ pub struct ForceEntry {
     /// And up to this one.
     #[serde(default)]
     pub to: Option<Quantity>,
+    /// State or states it acts in, such as "free" for a force that stands for a part; all where left out.
+    #[serde(default)]
+    pub state: Option<Words>,
 }
 
 /// A range of the first drive's position, counted from the pose of the file.
@@ -79,6 +86,23 @@ pub struct MomentEntry {
     pub link: String,
     /// The moment in N·m.
     pub moment: [Coordinate; 3],
+    /// State or states it acts in; all where left out.
+    #[serde(default)]
+    pub state: Option<Words>,
+}
+
+/// The face of a contact between a jaw and an object.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContactEntry {
+    /// The joint.
+    pub joint: String,
+    /// Coefficient of friction; as much friction as it takes where left out.
+    #[serde(default)]
+    pub friction: Option<Coordinate>,
+    /// Radius of the face, within which the pressure has its centre; anywhere where left out.
+    #[serde(default)]
+    pub radius: Option<Coordinate>,
 }
 
 /// Stiffness of a joint where it does not move.

@@ -33,6 +33,8 @@ pub(crate) fn drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
         spring_stroke: spec.cam.map(|c| length(c.stroke)),
         mounting_coefficient: spec.cam.map(|c| plain(c.mounting)),
         cam_efficiency: spec.cam.map(|c| plain(c.efficiency)),
+        cam_radius: spec.cam.and_then(|c| c.profile).map(|p| length(p.0)),
+        roller_radius: spec.cam.and_then(|c| c.profile).map(|p| length(p.1)),
         feed_energy: spec.feed.map(plain),
         feed_from: Some(angle(spec.feed_from)),
         latch_capture: Some(angle(spec.capture)),

@@ -6,9 +6,10 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 
+use super::error::ExactError;
+use super::field::ExactField;
 use super::quadratic::denested;
 use super::radical::{Radical, TRIAL_LIMIT, factor, radical};
-use super::{ExactError, ExactField};
 use crate::geom::expr::{Expr, Kind, MAX_ANGLE_DENOMINATOR};
 use crate::linalg::modp::{Field, is_prime};
 

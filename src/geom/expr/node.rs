@@ -1,9 +1,12 @@
 //! The nodes of the tree.
 
-use super::Expr;
 use super::enclosure::Enclosure;
 use num_rational::BigRational;
 use std::sync::Arc;
+
+/// An exact real number: rationals, square roots, cosines of rational angles. Clones share the tree.
+#[derive(Clone)]
+pub struct Expr(pub(super) Arc<Node>);
 
 pub(super) struct Node {
     pub(super) kind: Kind,
@@ -32,6 +35,34 @@ pub(crate) enum Kind {
     Sqrt(Expr),
     /// The function of `k/n` turns, in lowest terms, `0 <= k < n`.
     Trig(Function, u64, u64),
+}
+
+impl Expr {
+    pub(super) fn new(kind: Kind) -> Expr {
+        let enclosure = match &kind {
+            Kind::Rational(r) => Enclosure::rational(r),
+            Kind::Add(a, b) => a.0.enclosure.add(&b.0.enclosure),
+            Kind::Sub(a, b) => a.0.enclosure.add(&b.0.enclosure.neg()),
+            Kind::Mul(a, b) => a.0.enclosure.mul(&b.0.enclosure),
+            Kind::Div(a, b) => a.0.enclosure.div(&b.0.enclosure),
+            Kind::Neg(a) => a.0.enclosure.neg(),
+            Kind::Pow(a, n) => a.0.enclosure.pow(*n),
+            Kind::Sqrt(a) => a.0.enclosure.sqrt(),
+            Kind::Trig(Function::Cos, k, n) => Enclosure::cos(*k, *n),
+            Kind::Trig(Function::Sin, k, n) => Enclosure::sin(*k, *n),
+            Kind::Trig(Function::Tan, k, n) => Enclosure::sin(*k, *n).div(&Enclosure::cos(*k, *n)),
+        };
+        let size = kind
+            .children()
+            .into_iter()
+            .flatten()
+            .fold(1u64, |s, c| s.saturating_add(c.0.size));
+        Expr(Arc::new(Node {
+            kind,
+            enclosure,
+            size,
+        }))
+    }
 }
 
 impl Kind {

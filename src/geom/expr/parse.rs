@@ -1,7 +1,8 @@
 //! From text to an expression: a recursive descent with limits on size and depth.
 
-use super::node::{Function, Kind};
-use super::{Expr, ExprError, MAX_BITS, bits, decimal};
+use super::error::ExprError;
+use super::node::{Expr, Function, Kind};
+use super::rational::{MAX_BITS, bits, decimal};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};

@@ -65,7 +65,7 @@ function makeColumns() {
       { show: percent, table: shown("peak-moment") });
     add("peak-force", "force", "peak force, share of capacity", work.peak_force,
       { show: percent, table: shown("peak-force") });
-    add("condit", "condit.", "conditioning with drives held", work.conditioning,
+    add("condit", "cond. held", "conditioning with drives held", work.conditioning,
       { better: 1, log: true, show: power, table: Boolean(drivesHeld) });
     add("output-error", "error, mm", "output error in mm from clearances", work.output_error_mm,
       { show: short, table: shown("output-error") });

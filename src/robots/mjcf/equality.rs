@@ -3,7 +3,7 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
 use crate::model::joint_type::JointType;
-use crate::robots::mjcf::read::{Context, unsupported};
+use crate::robots::mjcf::context::Context;
 use crate::robots::parts::{Part, Ratio, Robot};
 use crate::robots::problem::{RobotProblem, known};
 use crate::robots::urdf::read::same_link;
@@ -43,7 +43,7 @@ pub(crate) fn read(
                 );
             }
             "flex" | "flexvert" | "flexstrain" | "distance" => {
-                return Err(unsupported(e, "it is not a joint", "remove it"));
+                return Err(e.unsupported("it is not a joint", "remove it"));
             }
             other => robot.report.drop(other, e.attribute("name")),
         }

@@ -6,8 +6,7 @@ use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
 use crate::model::joint_type::JointType;
 use crate::robots::parts::{Part, Ratio, Robot, free};
 use crate::robots::problem::RobotProblem;
-use crate::robots::sdf::read::{end, unsupported};
-use crate::robots::sdf::scene::{Scene, absolute, located};
+use crate::robots::sdf::scene::{Scene, absolute, end, located};
 use crate::robots::urdf::read::{same_link, unknown_type};
 use crate::robots::xml::Element;
 
@@ -227,11 +226,7 @@ pub(crate) fn two_axes(
 ) -> Result<(), ImportError> {
     let (a, b) = (towards(first), towards(second));
     if length(cross(a, b)) < 1e-9 {
-        return Err(unsupported(
-            e,
-            "its two axes are parallel",
-            "give two directions",
-        ));
+        return Err(e.unsupported("its two axes are parallel", "give two directions"));
     }
     if dot(a, b).abs() < 1e-9 {
         (part.axis, part.second) = (first, second);

@@ -8,7 +8,7 @@ use crate::robots::options::{Options, Reader};
 use crate::robots::parts::{Part, Robot};
 use crate::robots::problem::RobotProblem;
 use crate::robots::sdf::joints::{joint, weld};
-use crate::robots::sdf::scene::{Placed, Scene, absolute, insert, moves_with, resolve};
+use crate::robots::sdf::scene::{Placed, Scene, absolute, end, insert, moves_with, resolve};
 use crate::robots::urdf::read::ball_constraint;
 use crate::robots::xml::{Document, Element};
 
@@ -35,7 +35,7 @@ pub(crate) fn read(
         }
         if let Some(e) = w.child("joint").or(w.child("frame")) {
             let why = "joints and frames between models of a world are not read";
-            return Err(unsupported(e, why, "put the models into one <model>"));
+            return Err(e.unsupported(why, "put the models into one <model>"));
         }
     }
     let Some(first) = models.first() else {
@@ -117,21 +117,8 @@ pub(crate) fn read(
     Ok(robot)
 }
 
-pub(crate) fn unsupported(e: Element<'_>, why: &str, remedy: &str) -> ImportError {
-    let (element, why, remedy) = (e.label(), why.to_owned(), remedy.to_owned());
-    e.fail(
-        None,
-        RobotProblem::Unsupported {
-            element,
-            why,
-            remedy,
-        },
-    )
-}
-
 fn include(e: Element<'_>) -> ImportError {
-    unsupported(
-        e,
+    e.unsupported(
         "another file is needed",
         "expand the file first, for example with `gz sdf -p`",
     )
@@ -260,19 +247,4 @@ fn model<'a>(
         }
     }
     Ok(())
-}
-
-/// Parent or child of a joint: the element and the name.
-pub(crate) fn end<'a>(e: Element<'a>, tag: &str) -> Result<(Element<'a>, &'a str), ImportError> {
-    let c = e.child(tag).filter(|c| !c.text().is_empty());
-    c.map(|c| (c, c.text())).ok_or_else(|| {
-        let what = format!("<{tag}> with the name of a link");
-        e.fail(
-            None,
-            RobotProblem::Missing {
-                element: e.label(),
-                what,
-            },
-        )
-    })
 }

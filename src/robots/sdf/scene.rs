@@ -3,7 +3,6 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
 use crate::robots::problem::{RobotProblem, known};
-use crate::robots::sdf::read::unsupported;
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
@@ -97,11 +96,8 @@ pub(crate) fn resolve(scene: &mut Scene<'_>) -> Result<(), ImportError> {
             }
             if path.len() > scene.placed.len() {
                 let why = "its place is relative to itself, by way of others";
-                return Err(unsupported(
-                    p.element,
-                    why,
-                    "change one of their relative_to",
-                ));
+                let remedy = "change one of their relative_to";
+                return Err(p.element.unsupported(why, remedy));
             }
             let next = p.relative_to.clone();
             path.push(at);
@@ -150,10 +146,24 @@ pub(crate) fn located(
 ) -> Result<(usize, Motion), ImportError> {
     moves_with(scene, name).map_err(|missing| match missing {
         Some(n) => unknown(e, &n, scene),
-        None => unsupported(
-            e,
+        None => e.unsupported(
             &format!("{name} is attached to itself, by way of others"),
             "attach it to a link",
         ),
+    })
+}
+
+/// Parent or child of a joint: the element and the name.
+pub(crate) fn end<'a>(e: Element<'a>, tag: &str) -> Result<(Element<'a>, &'a str), ImportError> {
+    let c = e.child(tag).filter(|c| !c.text().is_empty());
+    c.map(|c| (c, c.text())).ok_or_else(|| {
+        let what = format!("<{tag}> with the name of a link");
+        e.fail(
+            None,
+            RobotProblem::Missing {
+                element: e.label(),
+                what,
+            },
+        )
     })
 }

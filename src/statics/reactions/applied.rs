@@ -1,8 +1,8 @@
 //! The loads of a mechanism as one wrench a link.
 
 use crate::geom::expr::Expr;
-use crate::model::loads::{ExternalForce, Loads, acts_at};
-use crate::model::mechanism::{LinkId, Mechanism};
+use crate::model::loads::{ExternalForce, Loads, acts_at, acts_in};
+use crate::model::mechanism::{LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::geometry::{Geometry, Six, wrench};
 
@@ -10,8 +10,8 @@ fn real(v: &[Expr; 3]) -> [f64; 3] {
     [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()]
 }
 
-/// Weights, forces and moments from outside, by link, about the geometry's middle; those on the frame and on links
-/// absent from the state are left out, and in planar mode what is across the plane. `drive` is the first drive's position since the pose of the file `[rad]` or in the
+/// Weights, forces and moments from outside, by link, about the geometry's middle; those on the frame, on links absent
+/// from the state and of other states are left out, and in planar mode what is across the plane. `drive` is the first drive's position since the pose of the file `[rad]` or in the
 /// file's unit, for forces that act in a range of it; ranges come again after `period`.
 #[must_use]
 pub fn link_loads(
@@ -41,12 +41,13 @@ pub fn link_loads(
             }
         }
     }
-    let now = |f: &&ExternalForce| acts_at(f.range, drive, period);
+    let here = |states: Option<&Vec<StateId>>| acts_in(states, geometry.state);
+    let now = |f: &&ExternalForce| here(f.states.as_ref()) && acts_at(f.range, drive, period);
     for f in loads.forces.iter().filter(now) {
         let at = geometry.place(pose, f.link, real(&f.point));
         add(f.link, wrench(at, real(&f.force), [0.0; 3]));
     }
-    for x in &loads.moments {
+    for x in loads.moments.iter().filter(|x| here(x.states.as_ref())) {
         let moment = real(&x.moment).map(|v| v / geometry.size);
         add(x.link, wrench([0.0; 3], [0.0; 3], moment));
     }

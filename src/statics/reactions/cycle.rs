@@ -3,6 +3,7 @@
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::pose::Pose;
+use crate::statics::reactions::contact::Contacts;
 use crate::statics::reactions::drives::{Driven, driven};
 use crate::statics::reactions::follow::follow;
 use crate::statics::reactions::geometry::Geometry;
@@ -30,12 +31,30 @@ pub struct Cycle {
 /// # Complexity
 /// O((6k)²·f) a pose, for k contours and f freedoms.
 pub fn cycle(m: &Mechanism, state: StateId, stroke: Option<Stroke>) -> Result<Cycle, Unsolved> {
+    cycle_with(m, state, stroke, Contacts::AsJoints)
+}
+
+/// The same with contacts as asked for.
+///
+/// # Errors
+/// As [`cycle`].
+pub fn cycle_with(
+    m: &Mechanism,
+    state: StateId,
+    stroke: Option<Stroke>,
+    contacts: Contacts,
+) -> Result<Cycle, Unsolved> {
     let home = Pose::of_file(m, state)?;
     let drives = driven(m, &Geometry::new(m, state, &home)?)?;
     let followed = follow(m, state, &drives, stroke)?;
     let each = followed.poses.iter();
     let positions: Vec<_> = each
-        .map(|(at, pose)| (*at, Reactions::moving(m, state, pose, *at, &drives)))
+        .map(|(at, pose)| {
+            (
+                *at,
+                Reactions::moving(m, state, pose, *at, &drives, contacts),
+            )
+        })
         .collect();
     if let [(_, Err(e)), rest @ ..] = &positions[..]
         && rest.iter().all(|(_, s)| s.is_err())

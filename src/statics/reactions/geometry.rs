@@ -64,6 +64,8 @@ pub struct Column {
 /// A pose of a mechanism in one state.
 #[derive(Debug, Clone)]
 pub struct Geometry {
+    /// The state.
+    pub state: StateId,
     /// Orthonormal wrenches that contours carry: six, or the three of a plane.
     pub basis: Vec<Six>,
     /// The size `[m]`.
@@ -154,6 +156,7 @@ impl Geometry {
             }
         };
         Ok(Geometry {
+            state,
             basis,
             size: spread * metres,
             middle: mean.map(|x| x * metres),
@@ -174,6 +177,13 @@ impl Geometry {
         let (mean, spread) = self.pose;
         let p = moved(pose, link, point);
         sub(p, mean).map(|x| x / spread)
+    }
+
+    /// A point of the file, from the middle, in the size; of links that are as in the file.
+    #[must_use]
+    pub fn of_file(&self, point: [f64; 3]) -> [f64; 3] {
+        let (mean, spread) = self.pose;
+        sub(point, mean).map(|x| x / spread)
     }
 
     /// The part of a wrench that the model can carry: all of it, or what is in the plane.

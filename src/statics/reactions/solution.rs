@@ -2,6 +2,7 @@
 
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism};
+use crate::statics::reactions::contact::ContactForce;
 use crate::statics::reactions::drives::Driven;
 use crate::statics::reactions::geometry::{Geometry, Six, about, dot, power};
 
@@ -62,6 +63,8 @@ pub enum Choice {
     Unique,
     /// Those of minimum norm in a family.
     MinimumNorm,
+    /// Those of minimum norm among the ones of a family in which contacts only push.
+    Pushing,
 }
 
 /// Reactions of a mechanism.
@@ -76,6 +79,8 @@ pub struct Solution {
     pub self_stresses: Vec<Vec<JointReaction>>,
     /// The reactions that fit the stated stiffness and misalignments, where stiffness is stated and it matters.
     pub elastic: Option<Vec<JointReaction>>,
+    /// What is asked of the contacts with objects.
+    pub contacts: Vec<ContactForce>,
     /// Freedoms left with the drives held; the loads do no work on them.
     pub undriven: usize,
     /// Ratio of the greatest and the smallest singular value kept.

@@ -4,12 +4,14 @@ use crate::model::loads::Loads;
 use crate::model::mechanism::{LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::applied::link_loads;
+use crate::statics::reactions::contact::{Contacts, contacts};
 use crate::statics::reactions::drives::{Driven, driven, period};
 use crate::statics::reactions::equations::System;
 use crate::statics::reactions::family;
 use crate::statics::reactions::geometry::{Geometry, Six, power};
 use crate::statics::reactions::inertia::inertia_loads;
 use crate::statics::reactions::solution::{Choice, Solution, present, residual};
+use crate::statics::reactions::unilateral::pushing;
 use crate::statics::reactions::unsolved::{Unsolved, no_couplings};
 
 /// Work on undriven motions below this fraction of the loads is none.
@@ -34,7 +36,7 @@ impl Reactions {
         Self::at(m, state, loads, &pose, 0.0, &drives)
     }
 
-    /// The same with inertia forces of drives that go at the stated speeds, at any pose.
+    /// The same with inertia forces of drives that go at the stated speeds, at any pose, with contacts as asked for.
     ///
     /// # Errors
     /// [`Unsolved`].
@@ -44,6 +46,7 @@ impl Reactions {
         pose: &Pose,
         drive: f64,
         drives: &[Driven],
+        of_contacts: Contacts,
     ) -> Result<Solution, Unsolved> {
         no_couplings(m, state)?;
         let geometry = Geometry::new(m, state, pose)?;
@@ -52,7 +55,7 @@ impl Reactions {
         for (all, own) in of_links.iter_mut().zip(&inertia) {
             all.iter_mut().zip(own).for_each(|(a, b)| *a += b);
         }
-        Self::bearing(m, &m.loads, &geometry, &of_links, drives)
+        Self::bearing(m, &m.loads, &geometry, &of_links, drives, of_contacts)
     }
 
     /// Reactions at any pose, the first drive `drive` `[rad]` or file units away from the pose of the file, with the
@@ -71,7 +74,7 @@ impl Reactions {
         no_couplings(m, state)?;
         let geometry = Geometry::new(m, state, pose)?;
         let of_links = link_loads(m, loads, &geometry, pose, drive, period(drives));
-        Self::bearing(m, loads, &geometry, &of_links, drives)
+        Self::bearing(m, loads, &geometry, &of_links, drives, Contacts::AsJoints)
     }
 
     /// Reactions to one wrench a link.
@@ -81,6 +84,7 @@ impl Reactions {
         geometry: &Geometry,
         loads_of_links: &[Six],
         drives: &[Driven],
+        of_contacts: Contacts,
     ) -> Result<Solution, Unsolved> {
         let system = System::new(geometry, drives)?;
         let particular = geometry.along_tree(m.joints.len(), loads_of_links);
@@ -108,15 +112,28 @@ impl Reactions {
         let stresses = system.self_stresses(m.joints.len());
         let rigid = wrenches.clone();
         family::least_norm(geometry, &mut wrenches, &stresses);
-        let elastic = family::elastic(m, geometry, loads, rigid, &stresses);
+        let faces = match of_contacts {
+            Contacts::Pushing => contacts(m, geometry)?,
+            // Where the side is open, nothing can be said of pulling.
+            Contacts::AsJoints => contacts(m, geometry).unwrap_or_default(),
+        };
+        if of_contacts == Contacts::Pushing {
+            pushing(geometry, &faces, &mut wrenches, &stresses)?;
+        }
+        // Elastic joints are solved with contacts as joints alone.
+        let elastic = match of_contacts {
+            Contacts::AsJoints => family::elastic(m, geometry, loads, rigid, &stresses),
+            Contacts::Pushing => None,
+        };
         let residual = residual(m, geometry, &wrenches, loads_of_links);
         let present = |w: &[Six]| present(m, geometry, w, drives);
         Ok(Solution {
-            choice: if stresses.is_empty() {
-                Choice::Unique
-            } else {
-                Choice::MinimumNorm
+            choice: match of_contacts {
+                _ if stresses.is_empty() => Choice::Unique,
+                Contacts::AsJoints => Choice::MinimumNorm,
+                Contacts::Pushing => Choice::Pushing,
             },
+            contacts: faces.iter().map(|c| c.force(geometry, &wrenches)).collect(),
             reactions: present(&wrenches),
             self_stresses: stresses.iter().map(|s| present(s)).collect(),
             elastic: elastic.map(|w| present(&w)),

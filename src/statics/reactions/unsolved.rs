@@ -38,6 +38,26 @@ pub enum Unsolved {
         /// The link.
         link: String,
     },
+    /// A face whose side cannot be told.
+    #[error(
+        "contact {joint} lies in one plane with all that touches {object}, so which way it pushes is open; give {object} a mass \
+         and centre"
+    )]
+    Side {
+        /// The contact.
+        joint: String,
+        /// The object.
+        object: String,
+    },
+    /// Contacts that only push cannot be in equilibrium.
+    #[error(
+        "no reactions are in equilibrium in which every contact pushes within its friction and its face: the object slips, \
+         lifts off or tilts; drive the jaws harder, or state more friction or larger faces under [[workload.contact]]"
+    )]
+    Loose,
+    /// The cone programme gave no answer.
+    #[error("the programme of contacts that only push ended with {0}; no answer")]
+    Programme(String),
     /// Loads do work on a motion that no drive holds.
     #[error(
         "no equilibrium: link {link} would move under the loads, and no drive holds it ({mobility} undriven freedoms); \

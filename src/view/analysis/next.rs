@@ -63,8 +63,7 @@ pub fn next(m: &Mechanism, states: &[State<'_>], file: &str, snap: Option<f64>) 
     if !steps.is_empty() {
         return steps;
     }
-    let loaded =
-        !m.loads.forces.is_empty() || !m.loads.moments.is_empty() || m.loads.gravity.is_some();
+    let loaded = m.loads.acts_from_outside(StateId::FREE) || m.loads.gravity.is_some();
     if loaded {
         steps.push(Step::new(
             "statics",

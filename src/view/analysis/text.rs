@@ -91,7 +91,13 @@ impl State<'_> {
             )?;
         }
         if !self.self_stresses.is_empty() {
-            let head = ["self-stress in contour", "carried at", "as", ""];
+            let head = [
+                "self-stress in contour",
+                "simplest at",
+                "there as",
+                "",
+                "borne by, share of Σ |F|² + |M|²/ℓ²",
+            ];
             let rows = self.self_stresses.iter().map(SelfStress::row).collect();
             writeln!(
                 out,
@@ -231,7 +237,7 @@ impl External {
 impl SelfStress<'_> {
     fn row(&self) -> Vec<String> {
         let contours = self.contours.iter().map(String::as_str);
-        let (joint, what) = self.felt.clone().unwrap_or_default();
+        let (joint, what) = self.simplest.clone().unwrap_or_default();
         vec![
             contours
                 .chain(self.couplings.iter().flatten().copied())
@@ -239,11 +245,32 @@ impl SelfStress<'_> {
             joint.to_owned(),
             what,
             self.verdict.to_owned(),
+            self.borne(),
         ]
+    }
+
+    /// Every joint that bears it with its share, the greatest first: "4-5 52 %, 5-1 48 %".
+    #[must_use]
+    pub fn borne(&self) -> String {
+        let mut all: Vec<&Wrench> = self.joints.iter().collect();
+        all.sort_by(|a, b| {
+            let share = |w: &Wrench| w.share.unwrap_or(0.0);
+            share(b).total_cmp(&share(a))
+        });
+        all.iter().map(|w| w.borne()).join(", ")
     }
 }
 
 impl Wrench<'_> {
+    /// The joint with its share, where that is known.
+    fn borne(&self) -> String {
+        match self.share.map(|s| 100.0 * s) {
+            None => self.joint.to_owned(),
+            Some(share) if share < 1.0 => format!("{} <1 %", self.joint),
+            Some(share) => format!("{} {share:.0} %", self.joint),
+        }
+    }
+
     /// Which components it has: "moments about x and y, force along z".
     #[must_use]
     pub fn words(&self) -> String {

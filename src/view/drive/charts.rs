@@ -1,11 +1,62 @@
 //! Charts of a drive's programme: angles and energies over time.
 
-use crate::chart::{Axis, Chart, Scale, Series, Style};
+use crate::chart::{Axis, Chart, Outline, Scale, Series, Style};
+use crate::drive::driving::PROFILE_POINTS;
 use crate::drive::programme::Sample;
+use crate::format::csv;
 use crate::view::drive::Drive;
 
 /// Points drawn of a swing.
 const PER_SWING: u32 = 48;
+
+/// The cam's profile, where the cam's and the roller's radius are stated; in the file's unit.
+#[must_use]
+pub fn cam(d: &Drive<'_>) -> Option<Outline> {
+    let cam = d.design.as_ref()?.cam.as_ref()?;
+    let (profile, unit) = (cam.profile.as_ref()?, d.file.length_unit);
+    let (_, roller) = d.file.spec.cam?.profile?;
+    let own = |p: [f64; 2]| p.map(|x| x / unit.metres);
+    let all = |points: &[[f64; 2]]| points.iter().map(|p| own(*p)).collect();
+    let mut curves = vec![
+        ("profile".to_owned(), all(&profile.profile)),
+        ("path of the roller".to_owned(), all(&profile.pitch)),
+    ];
+    // The first point of each swing is in a groove.
+    let at = profile.pitch.iter().step_by(PROFILE_POINTS as usize);
+    for (i, [x, y]) in at.enumerate() {
+        let round = (0..48).map(|k| {
+            let (s, c) = (std::f64::consts::TAU * f64::from(k) / 48.0).sin_cos();
+            own([x + roller * c, y + roller * s])
+        });
+        curves.push((format!("roller in groove {}", i + 1), round.collect()));
+    }
+    Some(Outline {
+        title: format!("{}: profile of the cam", d.mechanism),
+        subtitle: "An even moment on the flanks; grooves as the roller is round, to be cut as deep as the latch wants them."
+            .to_owned(),
+        unit: unit.symbol.to_owned(),
+        curves,
+    })
+}
+
+/// The payload's acceleration on the first disc over the programme, as `ozols grip --motion` takes it: a gripper that reaches
+/// outwards from the axis (its x), the part along the axis (its z).
+#[must_use]
+pub fn motion(d: &Drive<'_>) -> Option<String> {
+    let (found, payload) = (d.found?, d.file.spec.payload?);
+    let rows = found
+        .module
+        .samples(&found.run, PER_SWING)
+        .into_iter()
+        .map(|s| {
+            let inwards = -s.speeds[0] * s.speeds[0] * payload.radius;
+            let across = s.accelerations[0] * payload.radius;
+            [s.time, inwards, across, 0.0]
+                .map(|x| format!("{x:?}"))
+                .to_vec()
+        });
+    Some(csv::table(&["time", "ax", "ay", "az"], rows))
+}
 
 /// Both charts with the names of their files; none without a bar.
 #[must_use]

@@ -6,7 +6,7 @@ use crate::drive::swing::End;
 use crate::drive::torsion::stored_energy;
 use crate::format::number::significant;
 use crate::format::phrase::plural;
-use crate::view::drive::{Design, Drive, Endurance, Remedies};
+use crate::view::drive::{Cam, Design, Drive, Endurance, Remedies};
 use crate::view::layout::{fit, table};
 use std::fmt::Write;
 
@@ -238,6 +238,64 @@ fn losses(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result 
             "  cam spring: c = {} N/m (14), which gives {} J (13){exact}",
             significant(cam.spring.rate),
             significant(cam.spring.energy)
+        )?;
+        electromagnet(out, d, cam)?;
+    }
+    Ok(())
+}
+
+/// When the electromagnets are on, what that takes, and what the cam looks like.
+fn electromagnet(out: &mut String, d: &Drive<'_>, cam: &Cam) -> std::fmt::Result {
+    let m = &cam.electromagnet;
+    let times = m.pulses.iter().map(|p| p.off - p.on);
+    let least = times.clone().fold(f64::INFINITY, f64::min);
+    let most = times.fold(0.0, f64::max);
+    let on = match significant(least) == significant(most) {
+        true => significant(most),
+        false => format!("{} to {}", significant(least), significant(most)),
+    };
+    writeln!(
+        out,
+        "  electromagnet: on at each release for {on} s, up to where the push begins; lifts the follower by {} against {} to {} N: {} J a swing, {} J a cycle, {} W on average; spring c = {} N/m for this run",
+        length(d, cam.fitted.stroke),
+        significant(m.first_force),
+        significant(m.last_force),
+        significant(m.energy_per_swing),
+        significant(m.energy_per_cycle),
+        significant(m.mean_power),
+        significant(cam.fitted.rate)
+    )?;
+    let (Some(p), Some((_, roller))) = (&cam.profile, d.file.spec.cam.and_then(|c| c.profile))
+    else {
+        return writeln!(
+            out,
+            "    give cam_radius and roller_radius, and --svg writes the cam's profile as SVG, CSV and DXF"
+        );
+    };
+    writeln!(
+        out,
+        "  cam profile: {}, pressure angle up to {}{}; --svg writes it as SVG, CSV and DXF",
+        plural(p.grooves.len(), "groove"),
+        degrees(p.pressure_angle),
+        if p.both_ways {
+            ""
+        } else {
+            "; its flank begins before the middle and feeds swings one way only"
+        },
+    )?;
+    if roller > p.least_curvature {
+        writeln!(
+            out,
+            "    THE ROLLER IS TOO LARGE: its path bulges with a radius of {}, and a larger roller cuts the flank away",
+            length(d, p.least_curvature)
+        )?;
+    }
+    if !p.closes {
+        writeln!(
+            out,
+            "    {} does not divide a turn: stepwise rotation finds no groove after {} of a disc",
+            degrees(2.0 * d.half_swing),
+            plural(p.grooves.len(), "swing")
         )?;
     }
     Ok(())

@@ -49,5 +49,10 @@ pub fn charts(g: &Grip<'_>) -> Vec<(String, Chart)> {
             },
         ));
     }
+    out.extend(
+        g.motion
+            .as_ref()
+            .map(|m| ("motion".to_owned(), m.chart(g.mechanism))),
+    );
     out
 }

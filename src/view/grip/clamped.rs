@@ -6,6 +6,7 @@ use crate::grip::clamped;
 use crate::grip::clamping::{Hardest, Row, Verdict};
 use crate::grip::jaw_loads::Gripping;
 use crate::model::grip::GripLoad;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::view::grip::reason;
 use crate::view::grip::text::effort_of_drive;
 use crate::view::layout::table;
@@ -110,6 +111,17 @@ pub fn not_held(g: &Gripping, row: &Row) -> String {
 }
 
 impl<'a> NotHeld<'a> {
+    /// A part of a state that is not held, for one reason.
+    #[must_use]
+    pub fn because(m: &'a Mechanism, state: StateId, why: &str) -> Self {
+        NotHeld {
+            mechanism: &m.name,
+            state: &m.states[state],
+            held: false,
+            reasons: vec![why.to_owned()],
+        }
+    }
+
     /// Why no diameter of a grip, or not the one asked for, is held.
     #[must_use]
     pub fn new(g: &'a Gripping) -> Self {

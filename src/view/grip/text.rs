@@ -34,8 +34,9 @@ fn range(g: &Grip<'_>, rows: &[&Diameter<'_>]) -> String {
 fn write(out: &mut String, g: &Grip<'_>, width: Option<u16>) -> std::fmt::Result {
     let (name, symbol) = (g.mechanism, g.file.length_unit.symbol);
     let (held, lost): (Vec<&Diameter>, Vec<&Diameter>) = g.diameters.iter().partition(|d| d.holds);
+    // The forces found can balance the load; others may arise, and the safety factor is for those.
     let verb = if g.file.spec.load.is_some() {
-        "holds"
+        "can hold"
     } else {
         "can hold (no load stated)"
     };
@@ -76,16 +77,24 @@ fn write(out: &mut String, g: &Grip<'_>, width: Option<u16>) -> std::fmt::Result
         writeln!(
             out,
             "\n  The four contact forces in that case:\n\n{}",
-            contacts(forces, width)
+            contacts(
+                forces,
+                g.file.spec.load.as_ref().map_or(0.0, |l| l.friction),
+                width
+            )
         )?;
+    }
+    if let Some(motion) = &g.motion {
+        write!(out, "{}", motion.text(width))?;
     }
     writeln!(
         out,
-        "\n  Findings of [Pavlenko & Godunko 2010], on the curves of its figures: {} of {} confirmed\n",
+        "\n  Findings of [Pavlenko & Godunko 2010], on the curves of its figures: {} of {} confirmed, and {} drawing refuted\n",
         g.findings.iter().filter(|f| f.holds).count(),
-        g.findings.len()
+        g.findings.len(),
+        g.refuted.len()
     )?;
-    let lines = g.findings.iter().map(|f| {
+    let lines = g.findings.iter().chain(&g.refuted).map(|f| {
         let so = if f.holds { "yes" } else { "NO" };
         [f.claim, so, f.evidence].map(str::to_owned).to_vec()
     });
@@ -205,16 +214,25 @@ fn diameters(g: &Grip<'_>, width: Option<u16>) -> String {
     table(&head, g.diameters.iter().map(line).collect(), width)
 }
 
-fn contacts(all: &[Contact], width: Option<u16>) -> String {
+/// A ratio to three decimals, rounded down where that would go beyond its limit.
+fn at_most(ratio: f64, limit: f64) -> String {
+    let text = format!("{ratio:.3}");
+    let beyond = text.parse::<f64>().is_ok_and(|shown| shown > limit);
+    if beyond {
+        format!("{:.3}", (1000.0 * limit).floor() / 1000.0)
+    } else {
+        text
+    }
+}
+
+fn contacts(all: &[Contact], limit: f64, width: Option<u16>) -> String {
     let line = |c: &Contact| {
-        let friction = if c.normal > 0.0 {
-            c.along_face.hypot(c.along_part) / c.normal
-        } else {
-            0.0
-        };
         let mut cells = vec![c.contact.to_owned()];
         cells.extend([c.normal, c.along_face, c.along_part].map(significant));
-        cells.push(format!("{friction:.3}"));
+        cells.push(
+            c.friction()
+                .map_or_else(|| "-".to_owned(), |f| at_most(f, limit)),
+        );
         cells
     };
     let head = [

@@ -179,6 +179,20 @@ impl<'a> Stroke<'a> {
         );
         let header = ["joint", "", &n, &place, &nm, &place];
         writeln!(out, "{}\n", text_table(&header, rows.collect(), width))?;
+        for (i, contact) in first.contacts.iter().enumerate() {
+            let bad = all.iter().filter(|(_, r)| !r.contacts[i].holds());
+            let bad: Vec<&(f64, &Reactions)> = bad.collect();
+            if let Some((from, r)) = bad.first() {
+                writeln!(
+                    out,
+                    "NOT AS CONTACTS ACT: {} in {}, first at {} {unit}, where it {}; --unilateral solves with contacts that only push",
+                    contact.contact,
+                    plural(bad.len(), "pose"),
+                    at(*from),
+                    r.contacts[i].touch
+                )?;
+            }
+        }
         for (i, joint) in first.reactions.iter().enumerate() {
             let Some(drive) = &joint.drive else { continue };
             let each = all.iter().filter_map(|(at, r)| {

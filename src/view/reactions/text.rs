@@ -1,11 +1,11 @@
 //! Joint reactions in one pose for people.
 
-use crate::format::number::figure;
+use crate::format::number::{figure, significant};
 use crate::format::phrase::plural;
 use crate::statics::reactions::NEARLY_SINGULAR;
 use crate::view::layout::{fit, table};
 use crate::view::prefix::prefix;
-use crate::view::reactions::{Joint, Reactions};
+use crate::view::reactions::{Contact, Joint, Reactions};
 use std::fmt::Write;
 
 /// Self-stresses told at most.
@@ -14,7 +14,7 @@ const STRESSES: usize = 12;
 /// What a component is next to: below this fraction of the greatest it is rounding.
 pub(super) const NOTHING: f64 = 1e-12;
 
-fn joints(list: &[Joint<'_>], size: f64, width: Option<u16>) -> String {
+fn joints(list: &[Joint<'_>], size: f64, rounding: f64, width: Option<u16>) -> String {
     let greatest = list
         .iter()
         .map(|r| r.force_magnitude.max(r.moment_magnitude / size))
@@ -25,7 +25,7 @@ fn joints(list: &[Joint<'_>], size: f64, width: Option<u16>) -> String {
         false => figure(x / unit),
     };
     let rows = list.iter().map(|r| {
-        let (force, moment) = (NOTHING * greatest, NOTHING * greatest * size);
+        let (force, moment) = (rounding * greatest, rounding * greatest * size);
         let mut row = [r.joint, r.kind].map(str::to_owned).to_vec();
         row.extend(r.force.map(|x| show(x, force)));
         row.push(show(r.force_magnitude, force));
@@ -36,6 +36,67 @@ fn joints(list: &[Joint<'_>], size: f64, width: Option<u16>) -> String {
     let (n, nm) = (format!("|F|, {prefix}N"), format!("|M|, {prefix}N·m"));
     let header = ["joint", "", "Fx", "Fy", "Fz", &n, "Mx", "My", "Mz", &nm];
     table(&header, rows.collect(), width)
+}
+
+/// What the faces on objects are asked to do.
+fn contacts(list: &[Contact<'_>], width: Option<u16>) -> String {
+    let greatest = list.iter().map(|c| c.normal.abs().max(c.along_face));
+    let greatest = greatest.fold(0.0, f64::max);
+    let (unit, prefix) = prefix(greatest);
+    let show = |x: f64| match x.abs() <= 1e-7 * greatest {
+        true => "0".to_owned(),
+        false => figure(x / unit),
+    };
+    let stated = |x: Option<f64>| x.map_or_else(|| "not stated".to_owned(), significant);
+    let rows = list.iter().map(|c| {
+        let mut row = [c.contact, c.touch].map(str::to_owned).to_vec();
+        row.extend([show(c.normal), show(c.along_face), stated(c.friction)]);
+        row.extend([show(c.tilting), stated(c.radius)]);
+        row
+    });
+    let head = [
+        "contact".to_owned(),
+        String::new(),
+        format!("normal, {prefix}N"),
+        format!("along the face, {prefix}N"),
+        "friction".to_owned(),
+        format!("tilting, {prefix}N·m"),
+        "face radius, m".to_owned(),
+    ];
+    let head: Vec<&str> = head.iter().map(String::as_str).collect();
+    table(&head, rows.collect(), width)
+}
+
+/// Says first where contacts are asked for what faces cannot do.
+fn refuted(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
+    let bad: Vec<&Contact> = s.contacts.iter().filter(|c| !c.holds()).collect();
+    for c in &bad {
+        let (unit, prefix) = prefix(c.normal.abs().max(c.along_face));
+        let force = |x: f64| format!("{} {prefix}N", significant(x / unit));
+        let limit = |x: Option<f64>| x.map_or_else(String::new, significant);
+        let what = match c.touch {
+            "pulls" => format!("would pull with {}", force(-c.normal)),
+            "slips" => format!(
+                "would need friction of {} under {}, more than the coefficient {} gives",
+                force(c.along_face),
+                force(c.normal),
+                limit(c.friction)
+            ),
+            _ => format!(
+                "would need its pressure beyond the face's radius of {} m",
+                limit(c.radius)
+            ),
+        };
+        writeln!(out, "NOT AS CONTACTS ACT: {} {what}", c.contact)?;
+    }
+    if !bad.is_empty() {
+        let way = match s.unique {
+            true => "no other reactions are in equilibrium, so the object is not held",
+            false => "--unilateral solves with contacts that only push",
+        };
+        writeln!(out, "  contacts are taken as joints here; {way}")?;
+    }
+    Ok(())
 }
 
 /// The report, fitted to a terminal of `width` columns where one is given; `pose` in words.
@@ -57,6 +118,10 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
     };
     let what = match s.unique {
         true => "the only ones in equilibrium".to_owned(),
+        false if s.choice == "pushing" => format!(
+            "of minimum norm among those in which contacts only push: Σ |F|² + |M|²/ℓ² least, ℓ = {} m",
+            figure(s.size)
+        ),
         false => format!(
             "of minimum norm among a family with {open} {stresses}: Σ |F|² + |M|²/ℓ² least, ℓ = {} m",
             figure(s.size)
@@ -67,6 +132,7 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
         "{}, state {}, {pose}: joint reactions, {what}",
         s.mechanism, s.state
     )?;
+    refuted(out, s)?;
     writeln!(
         out,
         "First link on second, in the joint's own frame (z its axis), moments about its point\n"
@@ -75,13 +141,21 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
         writeln!(out, "Inertia forces of the stated drive speed included\n")?;
     }
     let no_mass = m.links.iter().all(|l| l.mass.is_none()) || loads.gravity.is_none();
-    if no_mass && loads.forces.is_empty() && loads.moments.is_empty() {
+    let outside = m
+        .state(s.state)
+        .is_some_and(|state| loads.acts_from_outside(state));
+    if no_mass && !outside {
         writeln!(
             out,
             "The file states no loads: give links a mass and centre and the [workload] gravity, or forces under [[workload.force]].\n"
         )?;
     }
-    writeln!(out, "{}\n", joints(&s.reactions, s.size, width))?;
+    // A cone programme is solved to its tolerance, equations to rounding.
+    let rounding = if s.choice == "pushing" { 1e-7 } else { NOTHING };
+    writeln!(out, "{}\n", joints(&s.reactions, s.size, rounding, width))?;
+    if !s.contacts.is_empty() {
+        writeln!(out, "{}\n", contacts(&s.contacts, width))?;
+    }
     for r in &s.reactions {
         if let Some(d) = &r.drive {
             let (what, unit) = if d.slides {
@@ -94,7 +168,11 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
                 "Drive {} holds {}: {what} {} {unit}",
                 r.joint,
                 d.freedom,
-                figure(d.effort)
+                figure(if d.effort.abs() <= rounding * r.force_magnitude {
+                    0.0
+                } else {
+                    d.effort
+                })
             )?;
         }
     }
@@ -120,7 +198,12 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
     if open > 0 {
         writeln!(
             out,
-            "\nRedundant constraints leave these reactions open: any multiples of the {open} {stresses} may be added"
+            "\nRedundant constraints leave these reactions open: any multiples of the {open} {stresses} may be added{}",
+            if s.choice == "pushing" {
+                " with which contacts still push"
+            } else {
+                ""
+            }
         )?;
         for (i, stress) in s.self_stresses.iter().take(STRESSES).enumerate() {
             let loaded = stress
@@ -142,14 +225,14 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
             writeln!(
                 out,
                 "\nReactions of elastic joints of the stated stiffness, {askew}\n\n{}",
-                joints(list, s.size, width)
+                joints(list, s.size, NOTHING, width)
             )?;
         }
-        None if open > 0 => writeln!(
+        None if open > 0 && s.choice != "pushing" => writeln!(
             out,
             "State [workload.stiffness.default] linear and angular, and [[workload.misalignment]], to see which of them arises."
         )?,
-        None if !loads.misalignments.is_empty() => writeln!(
+        None if open == 0 && !loads.misalignments.is_empty() => writeln!(
             out,
             "Misalignments cause no reactions here: the mechanism is determinate and assembles without strain."
         )?,

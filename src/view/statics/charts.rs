@@ -5,6 +5,7 @@ use crate::statics::contour_group::pose::GroupReactions;
 use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
 use crate::statics::contour_group::stability::{Failure, Sample};
 use crate::statics::cycle::Moment;
+use crate::statics::inertia::{LinkInertia, link_inertias};
 use crate::statics::kinetostatics::Source;
 use crate::statics::planar::PairId;
 use crate::view::prefix::prefix;
@@ -123,6 +124,24 @@ pub fn cycle(s: &Statics<'_>) -> Vec<Named> {
             linear(format!("reaction, {prefix}N")),
             series,
         );
+        let mut series = over(s, |x| {
+            solved(x, &|g, _| {
+                let steps = &g.steps;
+                vec![
+                    ("R46τ", steps.r46_tangential),
+                    ("R47τ", steps.r47_tangential),
+                    ("R34τ", steps.r34_tangential),
+                ]
+            })
+        });
+        let prefix = scale(&mut series);
+        add(
+            format!("tangential-{title}"),
+            format!("tangential reactions of group {title}"),
+            format!("By the δ-point method, across the rods and across Dδ; {key}"),
+            linear(format!("reaction, {prefix}N")),
+            series,
+        );
         let far = 2.0 * found.linkage.size;
         // Far out the line only says that the reaction changes its sign.
         let near = |x: f64| if x.abs() <= far { x } else { f64::NAN };
@@ -186,6 +205,37 @@ pub fn cycle(s: &Statics<'_>) -> Vec<Named> {
             format!("{what} of the drive"),
             String::new(),
             linear(format!("{what}, {prefix}{unit}")),
+            series,
+        );
+    }
+    let links = |x: &Moment, of: &dyn Fn(&LinkInertia) -> f64| -> Vec<(String, f64)> {
+        let all = link_inertias(&found.loads.masses, &found.linkage, &x.instant);
+        all.iter()
+            .map(|l| (m.bodies[l.body].name.clone(), of(l)))
+            .collect()
+    };
+    let size = |v: [f64; 2]| v[0].hypot(v[1]);
+    let moving = |series: &[Series]| series.iter().flat_map(|e| &e.points).any(|p| p.1 > 0.0);
+    let series = over(s, |x| links(x, &|l| size(l.acceleration)));
+    if moving(&series) {
+        let title = "accelerations of the links' mass centres".to_owned();
+        let axis = linear("acceleration, m/s²");
+        add(
+            "accelerations".to_owned(),
+            title,
+            String::new(),
+            axis,
+            series,
+        );
+        let mut series = over(s, |x| links(x, &|l| size(l.force)));
+        let prefix = scale(&mut series);
+        let title = "inertia forces of the links".to_owned();
+        let axis = linear(format!("inertia force, {prefix}N"));
+        add(
+            "inertia-forces".to_owned(),
+            title,
+            String::new(),
+            axis,
             series,
         );
     }

@@ -3,11 +3,13 @@
 use crate::format::number::figure;
 use crate::format::phrase::plural;
 use crate::statics::assur_class::roman;
+use crate::statics::contour_group::solutions::GroupMethod;
 use crate::statics::cycle::Moment;
 use crate::statics::kinetostatics::Equilibrium;
 use crate::statics::planar::PairId;
 use crate::view::layout::{fit, table};
 use crate::view::prefix::prefix;
+use crate::view::statics::link_motion::LinkMotion;
 use crate::view::statics::{Decomposed, Group, Statics, Structures, magnitudes};
 use itertools::Itertools;
 use std::fmt::Write;
@@ -115,6 +117,7 @@ fn write_statics(out: &mut String, s: &Statics<'_>, width: Option<u16>) -> std::
         )?;
     } else {
         joints(out, s, width)?;
+        inertia(out, s, width)?;
         summary(out, s)?;
     }
     if let Some(dead) = &s.stopped {
@@ -194,14 +197,34 @@ fn group_table(
     )?;
     writeln!(
         out,
-        "The guide's reaction has the arm h about D; it acts at y along the guide from {}.\n",
-        name(letters.guide)
+        "The guide's reaction has the arm h about D; it acts at y along the guide from {}.{}\n",
+        name(letters.guide),
+        if methods.contains(&GroupMethod::Delta) {
+            let names = [letters.ternary, letters.rods[0], letters.rods[1]]
+                .map(|b| &linkage.mechanism.bodies[b].name);
+            format!(
+                " On the way of the δ-point method: across the rods R46τ at F and R47τ at K, across Dδ R34τ at D (4, 6, 7 = {}, {}, {}).",
+                names[0], names[1], names[2]
+            )
+        } else {
+            String::new()
+        }
     )?;
+    let delta = methods.contains(&GroupMethod::Delta);
     let rows = solved.iter().map(|(x, g, r)| {
         let mut row = vec![figure(s.shown(x.instant.drive))];
         row.extend(magnitudes(r, &g.pose).map(|(_, v)| figure(v / unit)));
         let guide = linkage.place(&x.instant.pose, letters.guide);
         row.extend([figure(r.arm), figure(r.guide_offset(&g.pose, guide))]);
+        let steps = &g.steps;
+        if delta {
+            let on_the_way = [
+                steps.r46_tangential,
+                steps.r47_tangential,
+                steps.r34_tangential,
+            ];
+            row.extend(on_the_way.map(|v| figure(v / unit)));
+        }
         if methods.len() > 1 {
             let differ = g.disagreement(methods);
             row.push(differ.map_or_else(String::new, |e| format!("{e:.0e}")));
@@ -210,6 +233,9 @@ fn group_table(
     });
     let mut header = vec![s.unit()];
     header.extend(["D", "F", "K", "M", "L", "guide", "h, m", "y, m"]);
+    if delta {
+        header.extend(["R46τ", "R47τ", "R34τ"]);
+    }
     if methods.len() > 1 {
         header.push("methods differ");
     }
@@ -265,6 +291,57 @@ fn joints(out: &mut String, s: &Statics<'_>, width: Option<u16>) -> std::fmt::Re
     writeln!(
         out,
         "Greatest reaction of each joint (equilibrium of all links)\n"
+    )?;
+    writeln!(out, "{}\n", table(&header, rows.collect(), width))
+}
+
+/// The greatest acceleration and inertia force of every link, where drives have speeds.
+fn inertia(out: &mut String, s: &Statics<'_>, width: Option<u16>) -> std::fmt::Result {
+    let size = |v: [f64; 2]| v[0].hypot(v[1]);
+    let links = s.positions.first().map_or(0, |x| x.links.len());
+    let peaks = (0..links).filter_map(|i| {
+        let all = s.positions.iter().map(|x| (&x.links[i], x.drive));
+        let most = |of: &dyn Fn(&LinkMotion) -> f64| {
+            let each = all.clone().map(|(l, drive)| (of(l), drive));
+            each.max_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        let (acceleration, at) = most(&|l| size(l.acceleration))?;
+        let (turning, _) = most(&|l| l.angular_acceleration.abs())?;
+        let (force, _) = most(&|l| size(l.inertia_force))?;
+        let (moment, _) = most(&|l| l.inertia_moment.abs())?;
+        let link = all.clone().next()?.0.link;
+        (acceleration > 0.0 || turning > 0.0).then_some((
+            link,
+            at,
+            [acceleration, turning, force, moment],
+        ))
+    });
+    let peaks = peaks.collect_vec();
+    if peaks.is_empty() {
+        return Ok(());
+    }
+    // What is this small beside the greatest is rounding.
+    let column = |i: usize| peaks.iter().map(|p| p.2[i]).fold(0.0, f64::max);
+    let least = [0, 1, 2, 3].map(|i| 1e-12 * column(i));
+    let figure = |x: f64, i: usize| figure(if x <= least[i] { 0.0 } else { x });
+    let rows = peaks.iter().map(|(link, at, figures)| {
+        let at = crate::format::number::figure(s.shown(*at));
+        let mut row = vec![(*link).to_owned(), figure(figures[0], 0), at];
+        row.extend((1..4).map(|i| figure(figures[i], i)));
+        row
+    });
+    let at = format!("at, {}", s.unit());
+    let header = [
+        "link",
+        "a of centre, m/s²",
+        at.as_str(),
+        "ε, rad/s²",
+        "inertia force, N",
+        "inertia moment, N·m",
+    ];
+    writeln!(
+        out,
+        "Greatest acceleration and inertia force of each link with mass\n"
     )?;
     writeln!(out, "{}\n", table(&header, rows.collect(), width))
 }

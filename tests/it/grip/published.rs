@@ -1,9 +1,9 @@
 //! The curves of figures 2 to 5 of `[Pavlenko & Godunko 2010]`, and what the paper found on them.
 
 use super::lever;
-use crate::common::near;
+use crate::common::{json, near, out};
 use ozols::grip::contact::Gripper;
-use ozols::grip::findings::FINDINGS;
+use ozols::grip::findings::{FINDINGS, REFUTED};
 use ozols::grip::lever_arm::Arms;
 
 /// L and D in millimetres, α and γ in degrees, and the pivots' distance where it is held.
@@ -226,4 +226,23 @@ fn the_findings_of_the_paper_are_confirmed() {
         );
     }
     assert!(FINDINGS.iter().all(|f| f.holds));
+}
+
+/// The slope of lines 10 and 11 is told where the findings are, with the numbers of these curves.
+#[test]
+fn the_flatter_slope_is_told_to_be_refuted() {
+    let [length, ..] = figures();
+    let slope = |line: usize| (length[line - 1].at(160.0) - length[line - 1].at(40.0)) / 120.0;
+    near(slope(10), slope(1), 1e-12);
+    near(slope(11), slope(3), 1e-12);
+    let told = format!("{:.3} and {:.3} mm per mm of L", slope(10), slope(11));
+    assert!(REFUTED.evidence.contains(&told) && !REFUTED.holds, "{told}");
+    let text = out(&["grip", "lever-gripper"]);
+    assert!(
+        text.contains("6 of 6 confirmed, and 1 drawing refuted"),
+        "{text}"
+    );
+    assert!(text.contains("lines 10 and 11 of fig. 2"), "{text}");
+    let value = json(&["grip", "lever-gripper", "--format", "json"]);
+    assert_eq!(value["refuted"][0]["holds"], false);
 }

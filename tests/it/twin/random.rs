@@ -35,8 +35,9 @@ pub(crate) fn random() -> impl Strategy<Value = String> {
         prop::collection::vec((any::<prop::sample::Index>(), joint.clone()), 6),
         prop::collection::vec((any::<prop::sample::Index>(), any::<prop::sample::Index>(), joint), 1..4),
         any::<bool>(),
+        0u8..3,
     )
-        .prop_map(|(links, tree, more, clamped)| {
+        .prop_map(|(links, tree, more, clamped, alone)| {
             let mut out = String::from("name = \"random\"\n");
             for l in 0..links {
                 let role = if l == 0 { "role = \"frame\"" } else if l == links - 1 || l == 1 && links > 3 { "role = \"output\"" } else { "" };
@@ -54,15 +55,24 @@ pub(crate) fn random() -> impl Strategy<Value = String> {
                     ("universal", 1) => "options = [\"spherical\"]\nunloading = [\"revolute\"]",
                     _ => "",
                 };
+                // Not of the tree, so that every link stays connected: a rest that is left as the part is clamped.
+                let state = match clamped && alone == 0 && i + 1 == edges.len() && i + 1 >= links {
+                    true => "state = \"free\"",
+                    false => "",
+                };
                 out += &format!(
-                    "[[joint]]\nid = \"j{i}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"{}\"\npoint = {point:?}\naxis = {:?}\n{options}\n",
+                    "[[joint]]\nid = \"j{i}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"{}\"\npoint = {point:?}\naxis = {:?}\n{options}\n{state}\n",
                     TYPES[*kind], AXES[*axis]
                 );
             }
             if clamped {
                 out += "[[link]]\nid = \"part\"\nrole = \"object\"\n";
                 for (i, l) in [0, links - 1].iter().enumerate() {
-                    let unloading = if i == 0 { "" } else { "unloading = [\"spherical\"]" };
+                    let unloading = match (i, alone) {
+                        (0, 2) => "unloading = [{ type = \"spherical\", point = [4, 2, 0] }]",
+                        (0, _) => "",
+                        _ => "unloading = [\"spherical\"]",
+                    };
                     // Contacts with freedoms of their own, which are not the free state's.
                     let kind = if links % 2 == 1 && i == 1 {
                         "type = \"revolute\"\naxis = [1, 0, 0]\noptions = [\"spherical\"]"

@@ -1,0 +1,220 @@
+//! Vectors set head to tail, panel beside panel: plans of forces that close where they are in equilibrium.
+
+use super::frame::{Head, begin, stroke};
+use super::look::{PAD, WIDTH};
+use crate::format::csv;
+use crate::format::number::significant;
+use crate::svg::plane::{Point, Rect, add, norm, scale, sub, unit};
+
+/// A vector of a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arrow {
+    /// Its name.
+    pub name: String,
+    /// x to the right, y up.
+    pub vector: [f64; 2],
+    /// Which of the seven colours.
+    pub colour: usize,
+}
+
+/// Vectors head to tail.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    /// What is added up.
+    pub title: String,
+    /// In order.
+    pub arrows: Vec<Arrow>,
+}
+
+impl Panel {
+    /// The sum of the vectors: nothing where the plan closes.
+    #[must_use]
+    pub fn gap(&self) -> f64 {
+        norm(self.arrows.iter().fold([0.0; 2], |s, a| add(s, a.vector)))
+    }
+
+    fn longest(&self) -> f64 {
+        self.arrows
+            .iter()
+            .map(|a| norm(a.vector))
+            .fold(0.0, f64::max)
+    }
+
+    /// Heads of the vectors from the origin, y down.
+    fn corners(&self) -> Vec<Point> {
+        let mut at = [0.0; 2];
+        let mut out = vec![at];
+        for a in &self.arrows {
+            at = add(at, [a.vector[0], -a.vector[1]]);
+            out.push(at);
+        }
+        out
+    }
+}
+
+/// Plans in rows of two at one scale a row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Polygons {
+    /// What is shown.
+    pub title: String,
+    /// One sentence under the title, or nothing.
+    pub subtitle: String,
+    /// Unit of the vectors.
+    pub unit: String,
+    /// The panels, two a row.
+    pub rows: Vec<[Panel; 2]>,
+}
+
+/// Height of a plan, of a line of its list, and length of an arrowhead. `[px]`
+const PLAN: f64 = 230.0;
+const LINE: f64 = 15.0;
+const HEAD: f64 = 9.0;
+
+impl Polygons {
+    /// The picture.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        let head = Head::new(&self.title, &self.subtitle, WIDTH);
+        let lines = |row: &[Panel; 2]| row[0].arrows.len().max(row[1].arrows.len()) + 1;
+        #[allow(clippy::cast_precision_loss, reason = "a few lines")]
+        let heights: Vec<f64> = self
+            .rows
+            .iter()
+            .map(|r| PLAN + 30.0 + LINE * lines(r) as f64 + PAD)
+            .collect();
+        let height = head.height() + heights.iter().sum::<f64>() + PAD;
+        let about = "Vectors head to tail; a plan that closes is in equilibrium.";
+        let mut xml = begin((WIDTH, height), "oz", &self.title, about, &head);
+        let mut top = head.height() + 6.0;
+        let half = (WIDTH - 3.0 * PAD) / 2.0;
+        for (row, taken) in self.rows.iter().zip(heights) {
+            let boxes = row.each_ref().map(|p| bounds(&p.corners()));
+            let fits = boxes.map(|b| {
+                let (wide, high) = (b.right - b.left, b.bottom - b.top);
+                ((half - 70.0) / wide.max(1e-300)).min((PLAN - 50.0) / high.max(1e-300))
+            });
+            let by = fits[0].min(fits[1]);
+            for (k, panel) in row.iter().enumerate() {
+                #[allow(clippy::cast_precision_loss, reason = "two columns")]
+                let left = PAD + k as f64 * (half + PAD);
+                let room = Rect {
+                    left,
+                    top: top + 22.0,
+                    right: left + half,
+                    bottom: top + 22.0 + PLAN,
+                };
+                let title = xml
+                    .tag("text")
+                    .set("class", "sub")
+                    .num("x", left)
+                    .num("y", top + 14.0);
+                title.text(&panel.title);
+                plan(&mut xml, panel, &boxes[k], &room, by);
+                self.list(&mut xml, panel, [left, room.bottom + LINE]);
+            }
+            top += taken;
+        }
+        xml.finish()
+    }
+
+    /// The vectors by name and size.
+    fn list(&self, xml: &mut crate::svg::xml::Xml, panel: &Panel, [x, mut y]: Point) {
+        for a in &panel.arrows {
+            stroke(
+                xml,
+                &format!("line c{}", a.colour),
+                (x, y - 4.0),
+                (x + 18.0, y - 4.0),
+            );
+            let angle = a.vector[1].atan2(a.vector[0]).to_degrees();
+            let text = format!(
+                "{}: {} {} at {angle:.1}°",
+                a.name,
+                significant(norm(a.vector)),
+                self.unit
+            );
+            xml.tag("text")
+                .set("class", "small")
+                .num("x", x + 24.0)
+                .num("y", y)
+                .text(&text);
+            y += LINE;
+        }
+        let share = panel.gap() / panel.longest().max(1e-300);
+        let text = format!("closes to {share:.0e} of the longest");
+        xml.tag("text")
+            .set("class", "small soft")
+            .num("x", x + 24.0)
+            .num("y", y)
+            .text(&text);
+    }
+
+    /// One vector a line.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let panels = self.rows.iter().flatten();
+        let rows = panels.flat_map(|p| {
+            p.arrows.iter().map(|a| {
+                vec![
+                    p.title.clone(),
+                    a.name.clone(),
+                    format!("{:?}", a.vector[0]),
+                    format!("{:?}", a.vector[1]),
+                ]
+            })
+        });
+        csv::table(&["plan", "vector", "x", "y"], rows)
+    }
+}
+
+fn bounds(points: &[Point]) -> Rect {
+    let around = |p: &Point| Rect::around(*p, 0.0, 0.0);
+    let all = points.iter().map(around).reduce(|a, b| a.with(&b));
+    all.unwrap_or(Rect::around([0.0; 2], 0.0, 0.0))
+}
+
+fn plan(xml: &mut crate::svg::xml::Xml, panel: &Panel, is: &Rect, room: &Rect, by: f64) {
+    let to = |p: Point| add(room.middle(), scale(sub(p, is.middle()), by));
+    let corners: Vec<Point> = panel.corners().into_iter().map(to).collect();
+    for (a, ends) in panel.arrows.iter().zip(corners.windows(2)) {
+        let (from, to) = (ends[0], ends[1]);
+        let (along, long) = (unit(sub(to, from)), norm(sub(to, from)));
+        if long < 0.5 {
+            continue;
+        }
+        let barb = HEAD.min(long);
+        let neck = sub(to, scale(along, barb));
+        let aside = scale([-along[1], along[0]], barb / 3.0);
+        stroke(
+            xml,
+            &format!("line c{}", a.colour),
+            (from[0], from[1]),
+            (neck[0], neck[1]),
+        );
+        let corners = [to, add(neck, aside), sub(neck, aside)];
+        let points = corners
+            .map(|p| format!("{:.2},{:.2}", p[0], p[1]))
+            .join(" ");
+        xml.tag("polygon")
+            .set("class", &format!("f{}", a.colour))
+            .set("points", &points)
+            .close();
+        if long >= 24.0 {
+            let middle = scale(add(from, to), 0.5);
+            // To the left of its way, so that two that go to and fro have their names apart.
+            let normal = [along[1], -along[0]];
+            let at = add(middle, scale(normal, 8.0));
+            let anchor = match normal[0] {
+                x if x > 0.3 => "start",
+                x if x < -0.3 => "end",
+                _ => "middle",
+            };
+            xml.tag("text")
+                .set("class", "small halo")
+                .num("x", at[0])
+                .num("y", at[1] + 4.0)
+                .set("text-anchor", anchor)
+                .text(&a.name);
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! Mirror images: whether the joints that a file pairs are each other's images in one plane, and by how much they are not.
+
+use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
+use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::expr::Expr;
+use crate::geom::scalars::Scalars;
+use crate::geom::vector::{cross, dot, length, real};
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::Residue;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Frame, JointId, Mechanism, Mode};
+use std::fmt;
+
+/// How far the image of a joint is from the joint it is paired with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Miss {
+    /// Distance of their points; for a joint that is the same all along its axis, of the axes. In the file's unit.
+    pub distance: f64,
+    /// Angle between their axes, in radians.
+    pub angle: f64,
+}
+
+impl fmt::Display for Miss {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let angle = self.angle.to_degrees();
+        match (self.distance, angle) {
+            (d, a) if a == 0.0 => write!(f, "{d:.3e}"),
+            (d, a) => write!(f, "{d:.3e} and {a:.3e}°"),
+        }
+    }
+}
+
+/// A plane by two points that are images of each other.
+#[derive(Debug, Clone)]
+pub struct Plane {
+    one: [Expr; 3],
+    other: [Expr; 3],
+}
+
+impl Plane {
+    /// The planes that a pair of joints may be images in: midway between their points, or where these are one, across a
+    /// direction of the first joint.
+    fn candidates(one: &Frame, other: &Frame) -> Vec<Plane> {
+        let [p, q] = [&one.point, &other.point];
+        if real(p) != real(q) {
+            return vec![Plane {
+                one: p.clone(),
+                other: q.clone(),
+            }];
+        }
+        let (z, x) = (&one.axis, &one.reference);
+        let y = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &z[i] * &x[j] - &z[j] * &x[i]);
+        let across = |n: &[Expr; 3]| Plane {
+            one: [0, 1, 2].map(|i| &p[i] - &n[i]),
+            other: [0, 1, 2].map(|i| &p[i] + &n[i]),
+        };
+        vec![across(z), across(x), across(&y)]
+    }
+
+    /// The plane in which most of the pairs are images, with how far each pair is off in it; `None` without pairs.
+    #[must_use]
+    pub fn of_pairs(
+        mechanism: &Mechanism,
+        pairs: &[(JointId, JointId)],
+    ) -> Option<(Plane, Vec<Miss>)> {
+        let joint = |j: JointId| &mechanism.joints[j];
+        let pair = |&(a, b): &(JointId, JointId)| (&joint(a).frame, &joint(b).frame);
+        let planes = pairs.iter().map(pair);
+        let planes = planes.flat_map(|(a, b)| Plane::candidates(a, b));
+        let judged = planes.map(|plane| {
+            let miss = |&(a, b): &(JointId, JointId)| {
+                plane.miss((&joint(a).frame, &joint(a).joint_type), &joint(b).frame)
+            };
+            let misses: Vec<Miss> = pairs.iter().map(miss).collect();
+            (plane, misses)
+        });
+        // The median miss: one wrong pair must not choose the plane.
+        let typical = |misses: &[Miss]| {
+            let mut all: Vec<f64> = misses.iter().map(|m| m.distance + m.angle).collect();
+            all.sort_by(f64::total_cmp);
+            all[all.len() / 2]
+        };
+        judged.min_by(|a, b| typical(&a.1).total_cmp(&typical(&b.1)))
+    }
+
+    /// How far the image of a joint is from a place.
+    #[must_use]
+    pub fn miss(&self, (from, of): (&Frame, &JointType), to: &Frame) -> Miss {
+        let (a, b) = (real(&self.one), real(&self.other));
+        let n = [0, 1, 2].map(|i| b[i] - a[i]);
+        let nn = dot(n, n);
+        let reflect = |v: [f64; 3]| {
+            let by = 2.0 * dot(v, n) / nn;
+            [0, 1, 2].map(|i| v[i] - by * n[i])
+        };
+        let middle = [0, 1, 2].map(|i| (a[i] + b[i]) / 2.0);
+        let p = real(&from.point);
+        let image = reflect([0, 1, 2].map(|i| p[i] - middle[i]));
+        let q = real(&to.point);
+        let off = [0, 1, 2].map(|i| image[i] + middle[i] - q[i]);
+        let (axis, own) = (reflect(real(&from.axis)), real(&to.axis));
+        let sine = length(cross(axis, own));
+        let angle = match of {
+            JointType::Spherical | JointType::Fixed => 0.0,
+            _ => sine.atan2(dot(axis, own).abs()),
+        };
+        let distance = match of {
+            JointType::Prismatic => 0.0,
+            JointType::Revolute | JointType::Cylindrical | JointType::Helical => {
+                length(cross(off, own)) / length(own)
+            }
+            _ => length(off),
+        };
+        Miss { distance, angle }
+    }
+
+    /// Whether the image of a joint allows exactly the motions of another.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    pub fn carries(
+        &self,
+        exact: &ExactField,
+        mode: &Mode,
+        (frame, of): (&Frame, &JointType),
+        (to, other): (&Frame, &JointType),
+    ) -> Result<bool, ExactError> {
+        let f = exact.field();
+        let (a, b) = (exact.eval3(&self.one)?, exact.eval3(&self.other)?);
+        let n = [0, 1, 2].map(|i| f.sub(b[i], a[i]));
+        let scale = f.inv(exact.dot(n, n));
+        let reflect = |v: [Residue; 3]| {
+            let by = f.mul(scale, exact.dot(v, n));
+            let by = f.add(by, by);
+            [0, 1, 2].map(|i| f.sub(v[i], f.mul(by, n[i])))
+        };
+        // The image of the origin.
+        let sum = [0, 1, 2].map(|i| f.add(a[i], b[i]));
+        let far = f.mul(scale, exact.dot(sum, n));
+        let shift = n.map(|x| f.mul(far, x));
+        // A turn about u is one about -u in the mirror; the body point at the origin is the image of that at `shift`.
+        let image = |[w0, w1, w2, v0, v1, v2]: [Residue; 6]| {
+            let (w, v) = (reflect([w0, w1, w2]), reflect([v0, v1, v2]));
+            let arm = exact.cross(w, shift);
+            let w = w.map(|x| f.sub(0, x));
+            [
+                w[0],
+                w[1],
+                w[2],
+                f.add(v[0], arm[0]),
+                f.add(v[1], arm[1]),
+                f.add(v[2], arm[2]),
+            ]
+        };
+        let space = MotionSpace::new(exact, mode)?;
+        let values = FrameValues::new(exact, frame)?.within(&space, of.freedoms());
+        let (mut images, mut own) = (Echelon::new(f), Echelon::new(f));
+        for &freedom in of.freedoms() {
+            let twist = values.twist(exact, freedom);
+            if space.components(exact, &twist).is_none() {
+                continue;
+            }
+            match space.components(exact, &image(twist)) {
+                Some(t) => images.insert(&t),
+                None => return Ok(false),
+            };
+        }
+        for (_, t) in joint_twists(exact, &space, to, other)? {
+            own.insert(&t);
+        }
+        Ok(images.reduced() == own.reduced())
+    }
+}

@@ -1,0 +1,247 @@
+//! The cam that feeds a swing: its profile from the swing and the spring, and what its electromagnet does.
+//!
+//! The follower's roller goes in and out on a line through the disc's axis. While the disc swings from one groove to the next
+//! the electromagnet first holds the follower lifted; let go where the push begins, it is pressed on the flank by its spring
+//! and falls by the stroke S up to the groove. The flank is such that the spring gives the disc an even moment, as the
+//! simulation has it: what the spring has given at the turn φ is the same part of its energy as φ is of the flank.
+
+use crate::drive::programme::{Event, Run};
+use crate::drive::torsion::CamSpring;
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// A cam on a disc. SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cam {
+    /// φ0. `[rad]`
+    pub half_swing: f64,
+    /// Where the flank begins, from the middle of the swing. `[rad]`
+    pub from: f64,
+    /// S. `[m]`
+    pub stroke: f64,
+    /// ψ0.
+    pub mounting: f64,
+    /// From the axis to the roller's centre where the follower is lifted. `[m]`
+    pub radius: f64,
+    /// Of the roller. `[m]`
+    pub roller: f64,
+}
+
+/// A point of the roller's path, by the turn from the middle between two grooves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProfilePoint {
+    /// The turn. `[rad]`
+    pub turn: f64,
+    /// How far the follower has fallen. `[m]`
+    pub fall: f64,
+    /// The roller's centre. `[m]`
+    pub pitch: [f64; 2],
+}
+
+/// The profile round a disc.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Profile {
+    /// In order of the turn, `grooves` times the points of one swing, the first of each in a groove.
+    pub points: Vec<ProfilePoint>,
+    /// What the roller rolls on, by the angle round the axis: no point of it nearer to any place of the roller than its radius.
+    /// The roller's own round in the grooves. `[m]`
+    pub outline: Vec<[f64; 2]>,
+    /// Angles of the grooves on the disc. `[rad]`
+    pub grooves: Vec<f64>,
+    /// Whether a whole number of swings makes a turn, so that stepwise rotation finds grooves for ever.
+    pub closes: bool,
+    /// Whether swings either way are fed.
+    pub both_ways: bool,
+    /// Greatest angle between the flank's normal and the follower's way; a right angle where the spring ends without force. `[rad]`
+    pub pressure_angle: f64,
+    /// Least radius of curvature of the roller's path where it bulges outwards, at most that of the lifted path. A larger
+    /// roller would cut the flank away. `[m]`
+    pub least_curvature: f64,
+}
+
+impl Cam {
+    /// Part of the flank at a turn from the middle of the swing.
+    fn part(&self, turn: f64) -> f64 {
+        ((turn - self.from) / (self.half_swing - self.from)).clamp(0.0, 1.0)
+    }
+
+    /// How far the follower has fallen at a turn from the middle of a swing. `[m]`
+    ///
+    /// Energy: (1 + ψ0)² - (1 + ψ0 - x/S)² = q (1 + 2ψ0), at the part q of the flank.
+    #[must_use]
+    pub fn fall(&self, turn: f64) -> f64 {
+        let (whole, psi) = (1.0 + 2.0 * self.mounting, 1.0 + self.mounting);
+        self.stroke * (psi - (psi * psi - self.part(turn) * whole).max(0.0).sqrt())
+    }
+
+    /// How fast it falls, by the turn `[m/rad]`; without bound at the end of a spring that ends without force.
+    #[must_use]
+    pub fn slope(&self, turn: f64) -> f64 {
+        if turn < self.from {
+            return 0.0;
+        }
+        let (whole, psi) = (1.0 + 2.0 * self.mounting, 1.0 + self.mounting);
+        let left = (psi * psi - self.part(turn) * whole).max(0.0).sqrt();
+        self.stroke * whole / (2.0 * left * (self.half_swing - self.from))
+    }
+
+    /// The profile, `per_swing` points from groove to groove.
+    ///
+    /// # Sources
+    /// `[Klyuchkovskyi 1999]`: a cam with grooves on each disc, a spring-loaded roller follower; the law of the flank is left open
+    /// there, and is that of an even moment here.
+    #[must_use]
+    pub fn profile(&self, per_swing: u32) -> Profile {
+        let swings = TAU / (2.0 * self.half_swing);
+        let closes = (swings - swings.round()).abs() < 1e-9 * swings;
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "at most a few thousand swings a turn, see the reader"
+        )]
+        let count = if closes {
+            swings.round()
+        } else {
+            swings.floor()
+        }
+        .max(1.0) as u32;
+        // A flank that begins before the middle leaves no room for one the other way.
+        let both_ways = self.from >= 0.0;
+        let (mut points, mut touched, mut pressure_angle) = (Vec::new(), Vec::new(), 0.0f64);
+        let mut least_curvature = self.radius;
+        for swing in 0..count {
+            for i in 0..per_swing {
+                let turn = self.half_swing * (2.0 * f64::from(i) / f64::from(per_swing) - 1.0);
+                let in_groove = i == 0;
+                let flank = if both_ways || in_groove {
+                    turn.abs()
+                } else {
+                    turn
+                };
+                let (fall, slope) = (self.fall(flank), self.slope(flank));
+                let way = if both_ways { turn.signum() } else { 1.0 };
+                let (r, dr) = (self.radius - fall, -slope * way);
+                let angle = self.half_swing * (1.0 + 2.0 * f64::from(swing)) + turn;
+                let (s, c) = angle.sin_cos();
+                let pitch = [r * c, r * s];
+                points.push(ProfilePoint { turn, fall, pitch });
+                if in_groove {
+                    touched.extend(self.round(pitch));
+                    continue;
+                }
+                // One way only, the lifted part begins beside the roller in the groove: a wall, which the roller is lifted over.
+                let beside = (self.roller / (self.radius - self.stroke)).min(1.0).asin();
+                if !both_ways && turn < self.from && self.half_swing + turn <= 1.05 * beside {
+                    continue;
+                }
+                let long = r.hypot(dr);
+                let normal = [(r * c + dr * s) / long, (r * s - dr * c) / long];
+                touched.push([0, 1].map(|k| pitch[k] - self.roller * normal[k]));
+                pressure_angle = pressure_angle.max((slope / r).atan());
+                least_curvature = least_curvature.min(self.curvature(flank, r, dr));
+            }
+        }
+        // Where the roller's path has a corner outwards, flanks beyond their crossing would be cut away.
+        let clear = |q: &[f64; 2]| {
+            let far = |p: &ProfilePoint| (p.pitch[0] - q[0]).hypot(p.pitch[1] - q[1]);
+            points.iter().all(|p| far(p) >= self.roller * (1.0 - 1e-6))
+        };
+        let mut outline: Vec<[f64; 2]> = touched.into_iter().filter(clear).collect();
+        let angle = |q: &[f64; 2]| q[1].atan2(q[0]);
+        outline.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+        let last = self.half_swing;
+        let end = (self.slope(last) / (self.radius - self.stroke)).atan();
+        Profile {
+            points,
+            outline,
+            grooves: (0..count)
+                .map(|n| 2.0 * self.half_swing * f64::from(n))
+                .collect(),
+            closes,
+            both_ways,
+            pressure_angle: if self.mounting > 0.0 {
+                pressure_angle.max(end)
+            } else {
+                FRAC_PI_2
+            },
+            least_curvature,
+        }
+    }
+
+    /// The roller in a groove, the half of it towards the axis.
+    fn round(&self, [x, y]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> + use<> {
+        let (inwards, roller) = ((-y).atan2(-x), self.roller);
+        (0..=48).map(move |k| {
+            let (s, c) = (inwards + FRAC_PI_2 * (f64::from(k) / 24.0 - 1.0)).sin_cos();
+            [x + roller * c, y + roller * s]
+        })
+    }
+
+    /// Radius of curvature of the roller's path where it bulges outwards; without bound elsewhere.
+    fn curvature(&self, flank: f64, r: f64, dr: f64) -> f64 {
+        let step = 1e-5 * self.half_swing;
+        let bend = if flank <= self.from + step || flank >= self.half_swing - step {
+            0.0
+        } else {
+            -(self.slope(flank + step) - self.slope(flank - step)) / (2.0 * step)
+        };
+        let above = r * r + 2.0 * dr * dr - r * bend;
+        if above > 0.0 {
+            (r * r + dr * dr).powf(1.5) / above
+        } else {
+            f64::INFINITY
+        }
+    }
+}
+
+/// A time in which the electromagnet of a disc is on. `[s]`
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pulse {
+    /// 0 or 1.
+    pub disc: usize,
+    /// At the release.
+    pub on: f64,
+    /// Where the push begins, or where the swing ends before it.
+    pub off: f64,
+}
+
+/// What the electromagnets do in a programme.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Magnet {
+    /// In order.
+    pub pulses: Vec<Pulse>,
+    /// Against the spring when the roller leaves its groove, ψ0 c S. `[N]`
+    pub first_force: f64,
+    /// Against it when lifted, (1 + ψ0) c S; held until the pulse ends. `[N]`
+    pub last_force: f64,
+    /// Work against the spring a swing, by (13). `[J]`
+    pub energy_per_swing: f64,
+    /// That of all pulses over the time of the programme. `[W]`
+    pub mean_power: f64,
+}
+
+/// The electromagnets of a run with this spring.
+#[must_use]
+pub fn magnet(run: &Run, spring: &CamSpring) -> Magnet {
+    let swings = run.steps.iter().filter_map(|s| match &s.event {
+        Event::Swing { disc, swing } => Some((s, *disc, swing)),
+        Event::Dwell => None,
+    });
+    let pulses: Vec<Pulse> = swings
+        .map(|(s, disc, swing)| Pulse {
+            disc,
+            on: s.start,
+            off: s.start + swing.push_begins.unwrap_or(swing.duration),
+        })
+        .collect();
+    let time: f64 = run.steps.iter().map(|s| s.duration).sum();
+    let force = |deformation: f64| spring.rate * spring.stroke * deformation;
+    #[allow(clippy::cast_precision_loss, reason = "at most 10,000 steps")]
+    let work = spring.energy() * pulses.len() as f64;
+    Magnet {
+        first_force: force(spring.mounting),
+        last_force: force(1.0 + spring.mounting),
+        energy_per_swing: spring.energy(),
+        mean_power: if time > 0.0 { work / time } else { 0.0 },
+        pulses,
+    }
+}

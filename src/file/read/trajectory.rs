@@ -1,0 +1,118 @@
+//! A motion of a gripper as CSV: one step a line.
+
+use crate::model::grip::MotionStep;
+use thiserror::Error;
+
+/// Most steps.
+const MOST: usize = 100_000;
+
+/// The columns: the first three are needed, the three of gravity go together.
+const COLUMNS: [&str; 8] = ["ax", "ay", "az", "gx", "gy", "gz", "time", "diameter"];
+
+/// Why a table is no motion.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum TrajectoryError {
+    /// The first line.
+    #[error(
+        "{file}:1: {what}; columns are ax, ay, az in m/s², and if wanted gx, gy, gz in m/s², time in s, diameter"
+    )]
+    Head {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        what: String,
+    },
+    /// A line.
+    #[error("{file}:{line}: {what}")]
+    Line {
+        /// The file.
+        file: String,
+        /// From 1.
+        line: usize,
+        /// What is wrong.
+        what: String,
+    },
+    /// No step or too many.
+    #[error("{file}: {count} steps; give 1 to {MOST}")]
+    Count {
+        /// The file.
+        file: String,
+        /// How many.
+        count: usize,
+    },
+}
+
+/// Reads a motion; accelerations in m/s² in the gripper's axes, diameters in `unit` metres.
+///
+/// # Errors
+/// [`TrajectoryError`].
+pub fn trajectory(file: &str, bytes: &[u8], unit: f64) -> Result<Vec<MotionStep>, TrajectoryError> {
+    let mut reader = csv::ReaderBuilder::new()
+        .trim(csv::Trim::All)
+        .comment(Some(b'#'))
+        .from_reader(bytes);
+    let head = |what: String| TrajectoryError::Head {
+        file: file.to_owned(),
+        what,
+    };
+    let names = reader.headers().map_err(|e| head(e.to_string()))?.clone();
+    if let Some(unknown) = names.iter().find(|n| !COLUMNS.contains(n)) {
+        return Err(head(format!("unknown column {unknown:?}")));
+    }
+    let place = COLUMNS.map(|c| names.iter().position(|n| n == c));
+    let [ax, ay, az, gx, gy, gz, time, diameter] = place;
+    let (Some(ax), Some(ay), Some(az)) = (ax, ay, az) else {
+        return Err(head("ax, ay and az are needed".to_owned()));
+    };
+    let gravity = match (gx, gy, gz) {
+        (Some(x), Some(y), Some(z)) => Some([x, y, z]),
+        (None, None, None) => None,
+        _ => return Err(head("gx, gy and gz go together".to_owned())),
+    };
+    let mut out = Vec::new();
+    for (i, record) in reader.records().enumerate() {
+        let at = |line: usize, what: String| TrajectoryError::Line {
+            file: file.to_owned(),
+            line,
+            what,
+        };
+        let record = record.map_err(|e| at(i + 2, e.to_string()))?;
+        let line = record
+            .position()
+            .map_or(i + 2, |p| usize::try_from(p.line()).unwrap_or(i + 2));
+        let number = |column: usize, least: f64| {
+            let text = record.get(column).unwrap_or("");
+            let found = text
+                .parse::<f64>()
+                .ok()
+                .filter(|x| (least..=1e6).contains(x));
+            let name = names.get(column).unwrap_or("");
+            found.ok_or_else(|| {
+                at(
+                    line,
+                    format!("{name} is {text:?}; give a number of at most 1e6 in size"),
+                )
+            })
+        };
+        let vector = |[x, y, z]: [usize; 3]| -> Result<[f64; 3], TrajectoryError> {
+            Ok([number(x, -1e6)?, number(y, -1e6)?, number(z, -1e6)?])
+        };
+        out.push(MotionStep {
+            time: time.map(|c| number(c, -1e6)).transpose()?,
+            diameter: diameter
+                .map(|c| number(c, 1e-9))
+                .transpose()?
+                .map(|d| d * unit),
+            gravity: gravity.map(vector).transpose()?,
+            acceleration: vector([ax, ay, az])?,
+        });
+    }
+    if !(1..=MOST).contains(&out.len()) {
+        return Err(TrajectoryError::Count {
+            file: file.to_owned(),
+            count: out.len(),
+        });
+    }
+    Ok(out)
+}

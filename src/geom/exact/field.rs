@@ -1,0 +1,61 @@
+//! One homomorphism from the numbers of expressions into a prime field.
+
+use super::eval::Target;
+use super::radical::Radical;
+use crate::linalg::modp::{Field, Residue};
+use num_rational::BigRational;
+use std::collections::BTreeMap;
+
+/// A homomorphism from the number field of some expressions into F_p.
+#[derive(Debug, Clone)]
+pub struct ExactField {
+    pub(super) field: Field,
+    /// N
+    pub(super) order: u64,
+    /// A primitive N-th root of unity.
+    pub(super) zeta: Residue,
+    pub(super) roots: BTreeMap<u64, Residue>,
+    pub(super) radicals: BTreeMap<BigRational, Radical>,
+    /// Radicands of the nested roots with the root chosen.
+    pub(super) nested: Vec<(Residue, Residue)>,
+}
+
+impl Target for ExactField {
+    type Number = Residue;
+
+    fn rational(&self, r: &BigRational) -> Option<Residue> {
+        self.field.from_rational(r)
+    }
+    fn sum(&self, a: &Residue, b: &Residue) -> Residue {
+        self.field.add(*a, *b)
+    }
+    fn difference(&self, a: &Residue, b: &Residue) -> Residue {
+        self.field.sub(*a, *b)
+    }
+    fn product(&self, a: &Residue, b: &Residue) -> Residue {
+        self.field.mul(*a, *b)
+    }
+    fn inverse(&self, a: &Residue) -> Option<Residue> {
+        (*a != 0).then(|| self.field.inv(*a))
+    }
+    fn twice_cos_sin(&self, k: u64, n: u64) -> Option<[Residue; 2]> {
+        if !self.order.is_multiple_of(n) {
+            return None;
+        }
+        let f = self.field;
+        let z = f.pow(self.zeta, self.order / n * k);
+        let w = f.inv(z);
+        let inverse_i = f.pow(self.zeta, self.order / 4 * 3);
+        Some([f.add(z, w), f.mul(f.sub(z, w), inverse_i)])
+    }
+    fn prime_root(&self, q: u64) -> Option<Residue> {
+        self.roots.get(&q).copied()
+    }
+    fn nested_root(&self, radicand: &Residue) -> Option<Residue> {
+        let mut known = self.nested.iter();
+        known.find(|(a, _)| a == radicand).map(|&(_, root)| root)
+    }
+    fn radicals(&self) -> &BTreeMap<BigRational, Radical> {
+        &self.radicals
+    }
+}

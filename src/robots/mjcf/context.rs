@@ -1,0 +1,125 @@
+//! What the sections of an MJCF file share: settings, default classes and sites.
+
+use crate::file::problem::ImportError;
+use crate::geom::rigid::{Motion, towards};
+use crate::geom::vector::{X, Y, Z, cross, dot, length, scale, sub};
+use crate::robots::mjcf::defaults::Defaults;
+use crate::robots::problem::RobotProblem;
+use crate::robots::xml::Element;
+use std::collections::BTreeMap;
+
+/// What `<compiler>` sets.
+#[derive(Debug, Clone)]
+pub(super) struct Compiler {
+    /// Radians in the file's unit of angle.
+    pub(super) angle: f64,
+    eulerseq: String,
+}
+
+/// What the sections of a file share.
+#[derive(Debug)]
+pub(super) struct Context<'a> {
+    pub(super) compiler: Compiler,
+    pub(crate) defaults: Defaults<'a>,
+    /// Sites by name: the link and the place on it.
+    pub(crate) sites: BTreeMap<String, (usize, Motion)>,
+}
+
+pub(super) fn compiler(root: Element<'_>) -> Result<Compiler, ImportError> {
+    let degree = std::f64::consts::PI / 180.0;
+    let mut out = Compiler {
+        angle: degree,
+        eulerseq: "xyz".to_owned(),
+    };
+    for c in root.named("compiler") {
+        match c.attribute("angle") {
+            None => {}
+            Some("radian") => out.angle = 1.0,
+            Some("degree") => out.angle = degree,
+            Some(other) => return Err(c.unknown_word("angle", other, "radian, degree")),
+        }
+        if let Some(seq) = c.attribute("eulerseq") {
+            if seq.chars().count() != 3 || !seq.chars().all(|c| "xyzXYZ".contains(c)) {
+                return Err(c.unknown_word("eulerseq", seq, "three of x, y, z, X, Y, Z"));
+            }
+            seq.clone_into(&mut out.eulerseq);
+        }
+        if c.attribute("coordinate") == Some("global") {
+            return Err(c.unsupported(
+                "global coordinates",
+                "save the model with MuJoCo 2.3 or later",
+            ));
+        }
+    }
+    Ok(out)
+}
+
+impl Compiler {
+    /// The place that `pos` and one of the five ways to give an orientation stand for.
+    pub(super) fn place(&self, e: Element<'_>) -> Result<Motion, ImportError> {
+        let at = e.vector("pos", [0.0; 3])?;
+        let zero = |name: &str| {
+            e.fail(
+                Some(name),
+                RobotProblem::BadValue {
+                    element: e.label(),
+                    what: name.to_owned(),
+                    found: e.attribute(name).unwrap_or("").to_owned(),
+                    want: "give a direction or quaternion that is not zero".to_owned(),
+                },
+            )
+        };
+        let ways = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
+        let given: Vec<&str> = ways
+            .into_iter()
+            .filter(|w| e.attribute(w).is_some())
+            .collect();
+        if given.len() > 1 {
+            let why = format!("it has two orientations, {}", given.join(" and "));
+            return Err(e.unsupported(&why, "keep one"));
+        }
+        let mut pose = Motion::shift(at);
+        if let Some(q) = e.numbers::<4>("quat")? {
+            if q.iter().all(|x| x.abs() < 1e-9) {
+                return Err(zero("quat"));
+            }
+            pose = Motion::quaternion(at, q);
+        } else if let Some([x, y, z, angle]) = e.numbers::<4>("axisangle")? {
+            if length([x, y, z]) < 1e-9 {
+                return Err(zero("axisangle"));
+            }
+            pose = pose.then(&Motion::turn([x, y, z], angle * self.angle));
+        } else if let Some([a, b, c, d, f, g]) = e.numbers::<6>("xyaxes")? {
+            let x = towards([a, b, c]);
+            let y = sub([d, f, g], scale(x, dot(x, [d, f, g])));
+            if length([a, b, c]) < 1e-9 || length(y) < 1e-9 {
+                return Err(zero("xyaxes"));
+            }
+            let (y, z) = (towards(y), cross(x, towards(y)));
+            pose.rotation = [0, 1, 2].map(|i| [x[i], y[i], z[i]]);
+        } else if let Some(z) = e.numbers::<3>("zaxis")? {
+            if length(z) < 1e-9 {
+                return Err(zero("zaxis"));
+            }
+            pose = pose.then(&Motion::z_to(z));
+        } else if let Some(angles) = e.numbers::<3>("euler")? {
+            let mut turn = Motion::IDENTITY;
+            for (axis, angle) in self.eulerseq.chars().zip(angles) {
+                let about = match axis.to_ascii_lowercase() {
+                    'x' => X,
+                    'y' => Y,
+                    _ => Z,
+                };
+                let step = Motion::turn(about, angle * self.angle);
+                // Small letters turn with the frame, capitals about the fixed axes.
+                turn = if axis.is_lowercase() {
+                    turn.then(&step)
+                } else {
+                    step.then(&turn)
+                };
+            }
+            pose = pose.then(&turn);
+        }
+        Ok(pose)
+    }
+}

@@ -1,0 +1,92 @@
+//! A mechanism made ready for a search: the one that is meant, and what is said where its coordinates are rounded.
+
+use crate::model::mechanism::Mechanism;
+use crate::model::rounded::Rounded;
+use crate::rank::settled::Settled;
+use crate::rank::verdict::Verdict;
+
+/// What to do about rounded coordinates.
+pub(super) const CURE: &str = "write roots or expressions such as sqrt(3)/2, give more digits, or snap them with --snap TOLERANCE";
+
+/// Why a geometry looks rounded, with the verdicts on its states.
+pub type LooksRounded = (Rounded, Vec<Verdict>);
+
+/// A mechanism made ready for a search.
+#[derive(Debug)]
+pub struct Prepared {
+    /// The one that is searched: as meant, and with the options that the request leaves.
+    pub mechanism: Mechanism,
+    pub(super) settled: Settled,
+}
+
+/// Tells what was moved, and what was not.
+pub(super) fn tell_moved(settled: &Settled, tell: &mut dyn FnMut(String)) {
+    let m = &settled.mechanism;
+    for moved in &settled.moved {
+        tell(format!("snapped: {}", moved.words(m)));
+    }
+    for one in &settled.refused {
+        let (id, far) = (&m.joints[one.joint].id, one.far(m));
+        tell(format!(
+            "not snapped: joint {id} would have to move by {far}"
+        ));
+    }
+}
+
+impl Prepared {
+    /// Why the geometry looks rounded, where that may matter; whether the file is to be taken as written, and snapped, is
+    /// asked. Where the mechanism that is meant is not there for exact arithmetic the search is refused, unless the file is
+    /// to be taken as written.
+    pub(super) fn rounded(
+        &self,
+        (as_written, snapped): (bool, bool),
+        tell: &mut dyn FnMut(String),
+    ) -> Result<Option<LooksRounded>, String> {
+        let Prepared { mechanism, settled } = self;
+        let name = &mechanism.name;
+        let why = settled.verdicts.iter().find_map(|v| v.rounded.clone());
+        let told = |why: Option<Rounded>| why.map(|w| (w, settled.verdicts.clone()));
+        let Some((v, has)) = settled.open.map(|(i, has)| (&settled.verdicts[i], has)) else {
+            let measured = |w: &Rounded| w.digits.is_some();
+            let meant = settled.verdicts.iter().all(Verdict::is_as_written);
+            if let (Some(w), true, false) = (why.as_ref().filter(|w| measured(w)), meant, snapped) {
+                tell(format!(
+                    "warning: the coordinates of {name} look measured ({w}). Exact and tolerant ranks agree on it as it \
+                     is, but the search takes every digit at its word; {CURE}"
+                ));
+            }
+            return Ok(told(why.filter(|w| measured(w) || !meant)));
+        };
+        let looks = why.as_ref().map_or_else(
+            || {
+                format!(
+                    "the mechanism {name} is not the same to within {:.0e}",
+                    v.tolerance
+                )
+            },
+            |w| format!("the coordinates of {name} look rounded ({w}), and that matters"),
+        );
+        let [of, near] = [has, v.at_least()].map(|rank| v.figures(rank));
+        let n = v.numeric.unwrap_or_default();
+        let written = if snapped && has != v.as_written {
+            "snapped"
+        } else {
+            "as written"
+        };
+        let likely = if v.is_decided() {
+            "is meant to have"
+        } else {
+            "may be meant to have"
+        };
+        let differ = format!(
+            "{looks}: {written}, state {} has W = {}, σ = {}; to within {:.0e} it {likely} W = {}, σ = {} (smallest singular \
+             value kept {:.1e}, largest dropped {:.1e}). Exact ranks take rounding errors for real misalignments",
+            v.state, of.0, of.1, v.tolerance, near.0, near.1, n.kept, n.dropped
+        );
+        if !as_written {
+            return Err(differ);
+        }
+        tell(format!("warning: {differ}; {CURE}"));
+        Ok(told(why))
+    }
+}

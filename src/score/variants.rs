@@ -1,0 +1,156 @@
+//! The variants of an outcome, one by one.
+
+use crate::score::outcome::Outcome;
+use crate::score::request::{Check, List};
+use crate::score::variant::Variant;
+use crate::search::best::Assignment;
+use crate::search::certify::{CHECKED, Certified, Summary};
+use crate::search::over_stroke::Stroke;
+use itertools::Itertools;
+use std::fmt;
+
+impl Outcome {
+    /// The variants asked for, one by one: the best in order, all, or a sample. No more than a thousand are held at a time,
+    /// and second opinions are had in parallel.
+    #[must_use]
+    pub fn variants(&self) -> Variants<'_> {
+        self.variants_unless(&|| false)
+    }
+
+    /// The same until `cancelled`.
+    #[must_use]
+    pub fn variants_unless<'o>(&'o self, cancelled: &'o dyn Fn() -> bool) -> Variants<'o> {
+        let request = &self.request;
+        let wanted = match request.list {
+            List::Top(k) => k,
+            List::All | List::Sample(_) => usize::MAX / 4,
+            List::Nothing => 0,
+        };
+        let unranked = |v: Assignment| (v, None);
+        let source: Box<dyn Iterator<Item = (Assignment, Option<usize>)>> =
+            match (&self.diagrams, &self.ranking, request.list) {
+                (None, ..) | (.., List::Nothing) => Box::new(std::iter::empty()),
+                (Some(d), _, List::Sample(n)) => {
+                    let drawn = self.search.sample(d, n, request.seed);
+                    Box::new(drawn.into_iter().map(unranked))
+                }
+                (_, Some(ranked), _) => {
+                    let list = ranked.list.iter().enumerate();
+                    Box::new(list.map(|(place, r)| (r.variant.clone(), Some(place))))
+                }
+                (Some(d), None, _) => {
+                    // Lucky variants make room for others.
+                    let enough = if request.generic_only && wanted > 0 {
+                        wanted.saturating_mul(100).max(CHECKED)
+                    } else {
+                        wanted
+                    };
+                    Box::new(self.search.cheapest(d, enough).map(unranked))
+                }
+            };
+        Variants {
+            outcome: self,
+            cancelled,
+            source,
+            opinions: request.check == Check::Full,
+            stroke: self.stroke.as_ref(),
+            ready: Vec::new().into_iter(),
+            room: wanted,
+            summary: Summary::default(),
+            interrupted: false,
+        }
+    }
+}
+
+/// The variants of an outcome, one by one.
+pub struct Variants<'o> {
+    outcome: &'o Outcome,
+    cancelled: &'o dyn Fn() -> bool,
+    /// Variants, with their places in the ranking where there is one.
+    source: Box<dyn Iterator<Item = (Assignment, Option<usize>)> + 'o>,
+    /// Whether second opinions are wanted of those to come.
+    opinions: bool,
+    /// The poses that those to come are looked at in.
+    stroke: Option<&'o Stroke>,
+    /// Looked at, and not given yet.
+    ready: std::vec::IntoIter<(Certified, Option<usize>)>,
+    /// How many more may be given.
+    room: usize,
+    summary: Summary,
+    interrupted: bool,
+}
+
+impl fmt::Debug for Variants<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Variants")
+            .field("summary", &self.summary)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Variants<'_> {
+    /// What second opinions and other poses say of those given so far.
+    #[must_use]
+    pub fn summary(&self) -> Summary {
+        self.summary
+    }
+
+    /// Whether the giving was cancelled.
+    #[must_use]
+    pub fn interrupted(&self) -> bool {
+        self.interrupted
+    }
+
+    /// The next with its opinions: variants are gathered first, so that they are analysed in parallel.
+    fn certified(&mut self) -> Option<(Certified, Option<usize>)> {
+        if let Some(next) = self.ready.next() {
+            return Some(next);
+        }
+        if !self.opinions && self.stroke.is_none() {
+            let (variant, place) = self.source.next()?;
+            return Some((Certified::unasked(variant), place));
+        }
+        let generic = self.outcome.request.generic_only;
+        let size = if generic {
+            self.room.clamp(16, CHECKED)
+        } else {
+            CHECKED
+        };
+        let (block, places): (Vec<_>, Vec<_>) = self.source.by_ref().take(size).unzip();
+        let search = &self.outcome.search;
+        let certified = search.certify(block, self.opinions, self.stroke);
+        self.ready = certified.into_iter().zip(places).collect_vec().into_iter();
+        // Nothing is left out unseen, so a list of generic variants is looked at to its end.
+        if !generic {
+            (self.opinions, self.stroke) = (false, None);
+        }
+        self.ready.next()
+    }
+}
+
+impl<'o> Iterator for Variants<'o> {
+    type Item = Variant<'o>;
+
+    fn next(&mut self) -> Option<Variant<'o>> {
+        while self.room > 0 {
+            if (self.cancelled)() {
+                self.interrupted = true;
+                return None;
+            }
+            let (certified, place) = self.certified()?;
+            if self.outcome.request.generic_only && certified.lucky() {
+                self.summary.dropped += 1;
+                continue;
+            }
+            self.room -= 1;
+            self.summary.add(&certified);
+            return Some(Variant {
+                outcome: self.outcome,
+                position: self.summary.given,
+                certified,
+                place,
+            });
+        }
+        None
+    }
+}

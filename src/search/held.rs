@@ -1,0 +1,94 @@
+//! Whether a body that a state adds is held: no motion moves it against all the links that may hold it.
+//!
+//! The motions of a mechanism form a space, and those in which the body moves with one given link a subspace of it. A space
+//! is not the union of smaller ones, so if each of the links is left behind by some motion, one motion leaves all of them
+//! behind. The body is held, then, exactly where it moves with one and the same link in every motion; between the pads of
+//! two unloading joints it turns about the line through their centres, with neither jaw.
+
+use crate::closure::matrix::Closure;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
+use crate::redundancy::motion::{motions, twist};
+
+/// A body to be held, with the links that may hold it.
+pub type Grasp = (LinkId, Vec<LinkId>);
+
+/// The joints that a state has and the free one has not.
+fn added(mechanism: &Mechanism, state: StateId) -> Vec<JointId> {
+    let free: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
+    let all = mechanism.joints_in(state);
+    all.filter(|j| !free.contains(j)).collect()
+}
+
+/// Whether a link has a joint in the free state.
+#[must_use]
+pub fn is_free(mechanism: &Mechanism, link: LinkId) -> bool {
+    let mut free = mechanism.joints_in(StateId::FREE);
+    link == mechanism.frame() || free.any(|j| mechanism.joints[j].links.contains(&link))
+}
+
+/// The links of the free mechanism that a body hangs on in a state: over joints that the state adds, and other bodies that
+/// it adds.
+fn jaws(mechanism: &Mechanism, state: StateId, body: LinkId) -> Vec<LinkId> {
+    let added = added(mechanism, state);
+    let (mut bodies, mut jaws) = (vec![body], Vec::new());
+    let mut next = 0;
+    while let Some(&at) = bodies.get(next) {
+        next += 1;
+        for &j in &added {
+            let [a, b] = mechanism.joints[j].links;
+            let Some(other) = [(a, b), (b, a)].into_iter().find(|x| x.0 == at) else {
+                continue;
+            };
+            if is_free(mechanism, other.1) {
+                jaws.push(other.1);
+            } else if !bodies.contains(&other.1) {
+                bodies.push(other.1);
+            }
+        }
+    }
+    jaws.sort_unstable();
+    jaws.dedup();
+    jaws.retain(|l| *l != body);
+    jaws
+}
+
+/// What is to be held in a state: each link that the file calls an object, where `objects` are asked for, and each that the
+/// search is to hold, if the state joins it to the mechanism.
+#[must_use]
+pub fn grasps(mechanism: &Mechanism, state: StateId, objects: bool) -> Vec<Grasp> {
+    let wanted = |l: &LinkId| {
+        let object = objects && mechanism.links[*l].role == Role::Object;
+        object || mechanism.search.hold.contains(l) && !is_free(mechanism, *l)
+    };
+    let links = mechanism.link_ids().filter(wanted);
+    let each = links.map(|l| (l, jaws(mechanism, state, l)));
+    each.filter(|(_, jaws)| !jaws.is_empty()).collect()
+}
+
+/// The bodies that a motion moves against all the links that may hold them.
+///
+/// # Errors
+/// Where a coordinate has no value in the field.
+///
+/// # Complexity
+/// One elimination of J of the state.
+pub fn loose(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    state: StateId,
+    grasps: &[Grasp],
+) -> Result<Vec<LinkId>, ExactError> {
+    let closure = Closure::new(exact, mechanism, state)?;
+    let kernel = motions(exact, &closure);
+    let twists = |l: LinkId| -> Vec<_> {
+        let motion = closure.link_motion(exact, mechanism, l);
+        kernel.iter().map(|k| twist(exact, &motion, k)).collect()
+    };
+    let held = |(body, jaws): &Grasp| {
+        let own = twists(*body);
+        jaws.iter().any(|&j| twists(j) == own)
+    };
+    let loose = grasps.iter().filter(|g| !held(g));
+    Ok(loose.map(|(body, _)| *body).collect())
+}

@@ -1,0 +1,151 @@
+//! The force plans of the four-link group: of the whole, then of links 4, 7 and 6, each by the δ-point method and by the
+//! equilibrium of all links.
+
+use crate::statics::contour_group::pose::GroupReactions;
+use crate::statics::contour_group::solutions::GroupSolutions;
+use crate::statics::kinetostatics::Source;
+use crate::statics::pose::{length, minus, quarter};
+
+/// A force of a plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanForce {
+    /// Its name in the letters of the paper: "R46τ", "G4".
+    pub name: String,
+    /// `[N]`
+    pub force: [f64; 2],
+    /// Where it comes from.
+    pub kind: PlanKind,
+}
+
+/// Where a force of a plan comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlanKind {
+    /// A load.
+    Load(Source),
+    /// A reaction across its line to δ or along its rod, found from moments.
+    Tangential,
+    /// A reaction that the plan finds, or a whole one.
+    Reaction,
+}
+
+/// The forces on a link or group, which add up to nothing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Of what: "group", "link 4".
+    pub of: &'static str,
+    /// In the order they are drawn.
+    pub forces: Vec<PlanForce>,
+}
+
+/// Places of the links in the loads, with their letters.
+const LINKS: [&str; 4] = ["4", "6", "7", "10"];
+
+fn loads(g: &GroupSolutions, links: &[usize]) -> Vec<PlanForce> {
+    let own = g.pose.loads.iter().filter(|l| links.contains(&l.body));
+    let named = own.filter(|l| l.force != [0.0; 2]).map(|l| PlanForce {
+        name: match l.source {
+            Source::Gravity => format!("G{}", LINKS[l.body]),
+            Source::Inertia => format!("Fи{}", LINKS[l.body]),
+            Source::External => format!("P{}", LINKS[l.body]),
+        },
+        force: l.force,
+        kind: PlanKind::Load(l.source),
+    });
+    named.collect()
+}
+
+fn reaction(name: &str, force: [f64; 2]) -> PlanForce {
+    PlanForce {
+        name: name.to_owned(),
+        force,
+        kind: PlanKind::Reaction,
+    }
+}
+
+/// A reaction as its part across a line, `tangential` along a quarter turn of the direction from `from` to `to`, and the rest.
+fn parts(
+    name: &str,
+    whole: [f64; 2],
+    tangential: f64,
+    from: [f64; 2],
+    to: [f64; 2],
+) -> [PlanForce; 2] {
+    let along = minus(to, from);
+    let across = quarter(along).map(|c| c / length(along) * tangential);
+    let mut first = reaction(&format!("{name}τ"), across);
+    first.kind = PlanKind::Tangential;
+    [first, reaction(&format!("{name}n"), minus(whole, across))]
+}
+
+fn plans(g: &GroupSolutions, r: &GroupReactions, split: bool) -> [Plan; 4] {
+    let (pose, steps) = (&g.pose, &g.steps);
+    let guide = pose.normal().map(|c| c * r.guide);
+    let split = |name: &str, whole, tangential, from, to| match split {
+        true => parts(name, whole, tangential, from, to).to_vec(),
+        false => vec![reaction(name, whole)],
+    };
+    let at_d = || split("R34", r.d, steps.r34_tangential, steps.delta, pose.d);
+    let at_f = |sign: f64, name| {
+        split(
+            name,
+            r.f.map(|x| sign * x),
+            sign * steps.r46_tangential,
+            pose.m,
+            pose.f,
+        )
+    };
+    let at_k = |sign: f64, name| {
+        split(
+            name,
+            r.k.map(|x| sign * x),
+            sign * steps.r47_tangential,
+            pose.l,
+            pose.k,
+        )
+    };
+    let plan = |of, links: &[usize], more: Vec<Vec<PlanForce>>| Plan {
+        of,
+        forces: loads(g, links)
+            .into_iter()
+            .chain(more.into_iter().flatten())
+            .collect(),
+    };
+    [
+        plan(
+            "group",
+            &[0, 1, 2, 3],
+            vec![at_d(), vec![reaction("R0/10", guide)]],
+        ),
+        plan(
+            "link 4",
+            &[0],
+            vec![
+                vec![reaction("R34", r.d)],
+                at_f(-1.0, "R64"),
+                at_k(-1.0, "R74"),
+            ],
+        ),
+        plan(
+            "link 7",
+            &[2],
+            vec![at_k(1.0, "R47"), vec![reaction("R10/7", r.l)]],
+        ),
+        plan(
+            "link 6",
+            &[1],
+            vec![at_f(1.0, "R46"), vec![reaction("R10/6", r.m)]],
+        ),
+    ]
+}
+
+/// The plans by the δ-point method beside those of the full solve; `None` where the full solve has no solution.
+///
+/// # Sources
+/// `[Bychkov, Dvornikov & Zhukov 2018]`: the plan of the group gives R34n and R0/10, those of the links the rest. Forces are
+/// summed; the couples of inertia are no part of a force plan.
+#[must_use]
+pub fn force_plans(g: &GroupSolutions) -> Option<Vec<[Plan; 2]>> {
+    let (full, _) = g.equilibrium?;
+    let (delta, full) = (plans(g, &g.delta, true), plans(g, &full, false));
+    Some(delta.into_iter().zip(full).map(|(a, b)| [a, b]).collect())
+}

@@ -1,0 +1,192 @@
+//! Contacts of a clamped object as they act: faces that push, hold by friction, and never pull.
+//!
+//! The equations know a contact as a joint, which pulls as well as pushes. [`contacts`] says which joints are faces and
+//! which way they push; [`Contact::force`] reads what a solution asks of one, and whether a face can do it.
+
+use crate::geom::vector::{add_scaled, dot, sub};
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
+use crate::statics::reactions::geometry::{Geometry, Six, about};
+use crate::statics::reactions::unsolved::Unsolved;
+
+/// How contacts are solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Contacts {
+    /// As the joints they are in the file, which may pull.
+    AsJoints,
+    /// As faces, which push, with friction within its cone and the pressure within the face where these are stated.
+    Pushing,
+}
+
+/// A face of a jaw on an object.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// The joint; z of its frame is the face's normal.
+    pub joint: JointId,
+    /// What z of the joint's reaction is multiplied by to be a push on the object.
+    push: f64,
+    /// Coefficient of friction, where stated.
+    pub friction: Option<f64>,
+    /// Radius of the face over the geometry's size, where stated.
+    pub radius: Option<f64>,
+}
+
+/// What a solution asks of a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Touch {
+    /// What a face can do, as far as it is stated.
+    Pushes,
+    /// Nothing.
+    Idle,
+    /// To pull.
+    Pulls,
+    /// More friction than its pressure gives.
+    Slips,
+    /// Pressure beyond the face.
+    Tilts,
+}
+
+/// The force of a face on the object.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactForce {
+    /// The joint.
+    pub joint: JointId,
+    /// Along the normal, negative where it pulls `[N]`.
+    pub normal: f64,
+    /// Along the face `[N]`.
+    pub along: f64,
+    /// Moment along the face: that of the normal force where the pressure has its centre aside `[N·m]`.
+    pub tilting: f64,
+    /// Coefficient of friction, where stated.
+    pub friction: Option<f64>,
+    /// Radius of the face `[m]`, where stated.
+    pub radius: Option<f64>,
+    /// Whether a face can do that.
+    pub touch: Touch,
+}
+
+/// Forces below this fraction of the greatest reaction are none.
+const NOTHING: f64 = 1e-7;
+
+/// The object that a joint is a face on, where it is one.
+#[must_use]
+pub fn object_at(m: &Mechanism, joint: JointId) -> Option<LinkId> {
+    let joint = &m.joints[joint];
+    let face = matches!(
+        joint.joint_type,
+        JointType::Fixed
+            | JointType::Planar
+            | JointType::CylinderOnPlane
+            | JointType::SphereOnPlane
+    );
+    let objects: Vec<LinkId> = joint
+        .links
+        .into_iter()
+        .filter(|&l| m.links[l].role == Role::Object)
+        .collect();
+    match objects[..] {
+        [object] if face => Some(object),
+        _ => None,
+    }
+}
+
+/// The faces of a state. A face pushes towards the object: the side on which the middle of all its contacts lies, else its
+/// mass centre, else that away from the jaw's other joints.
+///
+/// # Errors
+/// [`Unsolved::Side`] where none of these tells.
+pub fn contacts(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Contact>, Unsolved> {
+    let faces = geometry
+        .joints
+        .iter()
+        .filter_map(|&j| Some((j, object_at(m, j)?)));
+    let one = |(joint, object): (JointId, LinkId)| {
+        let at_object = |j: &&JointId| m.joints[**j].links.contains(&object);
+        let jaw = m.joints[joint].links.into_iter().find(|&l| l != object);
+        let at_jaw =
+            |j: &&JointId| **j != joint && jaw.is_some_and(|l| m.joints[**j].links.contains(&l));
+        let (point, normal) = (geometry.points[joint], geometry.axes[joint][2]);
+        let along = |p: [f64; 3]| dot(normal, sub(p, point));
+        let middle = |of: &dyn Fn(&&JointId) -> bool| {
+            let all: Vec<JointId> = geometry.joints.iter().filter(of).copied().collect();
+            #[allow(clippy::cast_precision_loss, reason = "a count of joints")]
+            let share = 1.0 / all.len().max(1) as f64;
+            let sum = all
+                .iter()
+                .fold([0.0; 3], |s, &j| add_scaled(s, share, geometry.points[j]));
+            if all.is_empty() { 0.0 } else { along(sum) }
+        };
+        let centre = m.links[object].mass.as_ref().map_or(0.0, |x| {
+            along(geometry.of_file([0, 1, 2].map(|i| x.centre[i].to_f64())))
+        });
+        let sides = [middle(&at_object), centre, -middle(&at_jaw)];
+        let side = sides
+            .into_iter()
+            .find(|s| s.abs() > 1e-6)
+            .ok_or_else(|| Unsolved::Side {
+                joint: m.joints[joint].id.clone(),
+                object: m.links[object].id.clone(),
+            })?;
+        let second = m.joints[joint].links[1] == object;
+        let face = m.loads.faces.iter().find(|f| f.joint == joint);
+        Ok(Contact {
+            joint,
+            push: side.signum() * if second { 1.0 } else { -1.0 },
+            friction: face.and_then(|f| f.friction),
+            radius: face
+                .and_then(|f| f.radius)
+                .map(|r| r * geometry.metres / geometry.size),
+        })
+    };
+    faces.map(one).collect()
+}
+
+impl Contact {
+    /// (moments; forces) at the contact along x, y, z of its frame, z a push where positive, x and y up to one sign.
+    pub(crate) fn own(&self, geometry: &Geometry, wrenches: &[Six]) -> Six {
+        let w = about(&wrenches[self.joint], geometry.points[self.joint]);
+        let axes = geometry.axes[self.joint];
+        let along = |v: [f64; 3]| axes.map(|a| dot(a, v) * self.push);
+        let ([a, b, c], [d, e, f]) = (along([w[0], w[1], w[2]]), along([w[3], w[4], w[5]]));
+        [a, b, c, d, e, f]
+    }
+
+    /// What a solution asks of the contact.
+    #[must_use]
+    pub fn force(&self, geometry: &Geometry, wrenches: &[Six]) -> ContactForce {
+        let w = self.own(geometry, wrenches);
+        let all = geometry
+            .joints
+            .iter()
+            .flat_map(|&j| about(&wrenches[j], geometry.points[j]));
+        let least = NOTHING * all.fold(0.0, |a: f64, x| a.max(x.abs()));
+        let (normal, along, tilting) = (w[5], w[3].hypot(w[4]), w[0].hypot(w[1]));
+        let beyond =
+            |value: f64, limit: Option<f64>| limit.is_some_and(|l| value > l * normal + least);
+        let touch = if w.iter().all(|x| x.abs() <= least) {
+            Touch::Idle
+        } else if normal < -least {
+            Touch::Pulls
+        } else if beyond(along, self.friction) || beyond(w[2].abs(), self.torsion()) {
+            Touch::Slips
+        } else if beyond(tilting, self.radius) {
+            Touch::Tilts
+        } else {
+            Touch::Pushes
+        };
+        ContactForce {
+            joint: self.joint,
+            normal,
+            along,
+            tilting: tilting * geometry.size,
+            friction: self.friction,
+            radius: self.radius.map(|r| r * geometry.size),
+            touch,
+        }
+    }
+
+    /// Greatest moment about the normal over the normal force: that of even pressure on a round face, 2/3 μ r.
+    pub(crate) fn torsion(&self) -> Option<f64> {
+        Some(2.0 / 3.0 * self.friction? * self.radius?)
+    }
+}

@@ -1,0 +1,90 @@
+//! Force plans of the four-link groups, drawn where forces from outside load them most.
+
+use crate::chart::{Arrow, Panel, Polygons};
+use crate::format::number::figure;
+use crate::statics::contour_group::force_plan::{Plan, PlanForce, PlanKind, force_plans};
+use crate::statics::cycle::Moment;
+use crate::statics::kinetostatics::Source;
+use crate::view::prefix::prefix;
+use crate::view::statics::Statics;
+
+/// The drawing of each group, with the name of its file.
+#[must_use]
+pub fn plans(s: &Statics<'_>) -> Vec<(String, Polygons)> {
+    let groups = 0..s.found.contour_groups.len();
+    groups.filter_map(|i| plan(s, i)).collect()
+}
+
+fn plan(s: &Statics<'_>, i: usize) -> Option<(String, Polygons)> {
+    let (index, letters) = &s.found.contour_groups[i];
+    let outside = |x: &&Moment| -> f64 {
+        let own = x.groups.get(i).into_iter().flat_map(|g| &g.pose.loads);
+        let forces = own.filter(|l| l.source == Source::External);
+        forces.map(|l| l.force[0].hypot(l.force[1])).sum()
+    };
+    let solved = s.found.moments.iter().filter(|x| x.groups.len() > i);
+    // Of equal loads the first.
+    let heaviest = solved
+        .rev()
+        .max_by(|a, b| outside(a).total_cmp(&outside(b)))?;
+    let pairs = force_plans(&heaviest.groups[i])?;
+    let sizes = pairs.iter().flatten().flat_map(|p| &p.forces);
+    let (unit, prefix) = prefix(
+        sizes
+            .map(|f| f.force[0].hypot(f.force[1]))
+            .fold(0.0, f64::max),
+    );
+    let panel = |p: Plan, by: &str| Panel {
+        title: format!("{}, {by}", p.of),
+        arrows: p.forces.iter().map(|f| arrow(f, unit)).collect(),
+    };
+    let rows = pairs.into_iter().map(|[delta, full]| {
+        [
+            panel(delta, "δ-point method"),
+            panel(full, "equilibrium of all links"),
+        ]
+    });
+    let rows = rows.collect();
+    let name = s.groups[*index].name();
+    let m = &s.found.linkage.mechanism;
+    let places = [
+        letters.ternary,
+        letters.rods[0],
+        letters.rods[1],
+        letters.slider,
+    ];
+    let places = ["4", "6", "7", "10"]
+        .iter()
+        .zip(places.map(|b| &m.bodies[b].name));
+    let places: Vec<String> = places
+        .map(|(letter, name)| format!("{letter} = {name}"))
+        .collect();
+    Some((
+        format!("force-plan-{name}"),
+        Polygons {
+            title: format!("{}: force plans of group {name}", s.mechanism),
+            subtitle: format!(
+                "At {} {}, where forces from outside load it most; links {}.",
+                figure(s.shown(heaviest.instant.drive)),
+                s.unit(),
+                places.join(", ")
+            ),
+            unit: format!("{prefix}N"),
+            rows,
+        },
+    ))
+}
+
+fn arrow(f: &PlanForce, unit: f64) -> Arrow {
+    Arrow {
+        name: f.name.clone(),
+        vector: f.force.map(|x| x / unit),
+        colour: match f.kind {
+            PlanKind::Load(Source::External) => 5,
+            PlanKind::Load(Source::Gravity) => 2,
+            PlanKind::Load(Source::Inertia) => 4,
+            PlanKind::Tangential => 1,
+            PlanKind::Reaction => 0,
+        },
+    }
+}

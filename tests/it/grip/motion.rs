@@ -1,0 +1,105 @@
+//! The clamping force along a motion.
+
+use crate::common::{json, near, ozols, text};
+use serde_json::Value;
+use std::fs;
+
+fn number(v: &Value) -> f64 {
+    v.as_f64().unwrap()
+}
+
+fn along(table: &str, more: &[&str]) -> (Option<i32>, String, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("lift.csv");
+    fs::write(&path, table).unwrap();
+    let args = [
+        &["grip", "lever-gripper", "--motion", path.to_str().unwrap()],
+        more,
+    ]
+    .concat();
+    let o = ozols(&args).output().unwrap();
+    (o.status.code(), text(&o.stdout), text(&o.stderr))
+}
+
+/// Each step takes what the gripper takes in a case of that acceleration alone.
+#[test]
+fn every_step_has_its_own_least_force() {
+    let table = "time,ax,ay,az,diameter\n0,0,0,0,40\n0.5,5,0,-2,40\n1.0,0,-9,0,50\n1.5,0,0,0,30\n";
+    let (code, said, errors) = along(table, &["--format", "json"]);
+    assert_eq!(code, Some(0), "{errors}");
+    let value: Value = serde_json::from_str(&said).unwrap();
+    let steps = value["motion"]["steps"].as_array().unwrap();
+    assert_eq!(steps.len(), 4);
+    // The hardest case of the file is harder than any of these at its diameter.
+    for step in steps {
+        let rows = value["diameters"].as_array().unwrap();
+        let same = |r: &&Value| (number(&r["diameter"]) - number(&step["diameter"])).abs() < 1e-9;
+        let load = &rows.iter().find(same).unwrap()["load"];
+        assert_eq!(step["verdict"], "can hold");
+        assert!(number(&step["drive_moment_per_lever"]) < number(&load["drive_moment_per_lever"]));
+        assert!(number(&step["lower_bound"]) <= number(&step["drive_moment_per_lever"]));
+        // One drive of both levers: force over moment is that of the diameter, whatever the case.
+        assert!(number(&step["drive_effort"]) > 0.0);
+    }
+    // Falling at nearly g takes nearly nothing; rest of a larger part takes more than of a smaller one.
+    let moment = |i: usize| number(&steps[i]["drive_moment_per_lever"]);
+    assert!(moment(2) < 0.2 * moment(0) && moment(3) < moment(0));
+    // The step alone, as the one case of a file.
+    let file = json(&["grip", "lever-gripper", "--format", "json"]);
+    assert!(file.get("motion").is_none());
+    let shown =
+        String::from_utf8(ozols(&["show", "lever-gripper"]).output().unwrap().stdout).unwrap();
+    let alone = shown.replace("any_acceleration = 5", "accelerations = [[5, 0, -2]]");
+    assert_ne!(shown, alone);
+    let (_, said, errors) =
+        crate::common::run_on("grip", "alone.toml", &alone, &["--format", "json"]);
+    let alone: Value = serde_json::from_str(&said).expect(&errors);
+    let rows = alone["diameters"].as_array().unwrap();
+    let row = rows
+        .iter()
+        .find(|r| (number(&r["diameter"]) - 0.04).abs() < 1e-9)
+        .unwrap();
+    near(
+        number(&row["load"]["drive_moment_per_lever"]),
+        moment(1),
+        1e-9,
+    );
+    near(
+        number(&row["load"]["drive_effort"]),
+        number(&steps[1]["drive_effort"]),
+        1e-7,
+    );
+}
+
+/// The gripper turned over: gravity comes with the step, and the text tells the range of forces.
+#[test]
+fn attitudes_come_with_the_motion() {
+    let table = "ax,ay,az,gx,gy,gz\n0,0,0,0,-9.81,0\n0,0,0,0,0,-9.81\n";
+    let (code, said, errors) = along(table, &[]);
+    assert_eq!(code, Some(0), "{errors}");
+    assert!(
+        said.contains("Along the motion, 2 steps: can hold at every step, with"),
+        "{said}"
+    );
+    let (_, said, _) = along(table, &["--format", "json"]);
+    let value: Value = serde_json::from_str(&said).unwrap();
+    let moment = |i: usize| number(&value["motion"]["steps"][i]["drive_moment_per_lever"]);
+    // Along the part friction alone holds: harder by much.
+    assert!(moment(1) > 1.5 * moment(0), "{} {}", moment(1), moment(0));
+}
+
+#[test]
+fn tables_that_are_no_motion_are_refused_by_line() {
+    for (table, part) in [
+        ("ax,ay\n0,0\n", "lift.csv:1: ax, ay and az are needed"),
+        ("ax,ay,az,speed\n0,0,0,1\n", "unknown column \"speed\""),
+        ("ax,ay,az,gx\n0,0,0,1\n", "gx, gy and gz go together"),
+        ("ax,ay,az\n0,0,0\n0,fast,0\n", "lift.csv:3: ay is \"fast\""),
+        ("ax,ay,az\n", "0 steps"),
+        ("ax,ay,az,diameter\n0,0,0,-3\n", "diameter is \"-3\""),
+    ] {
+        let (code, said, errors) = along(table, &[]);
+        assert_eq!((code, said.as_str()), (Some(2), ""), "{table}");
+        assert!(errors.contains(part), "{table}: {errors}");
+    }
+}

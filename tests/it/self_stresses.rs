@@ -1,0 +1,182 @@
+//! What self-stresses do to each joint: directions, moments, shares, harm, in the plane and in space.
+
+use crate::common::{json, near, out, run_on};
+use serde_json::Value;
+
+/// A bar on two slides along x, at x = 0 and x = 2: size ℓ = 1, the root mean square distance of the joints.
+const SLIDES: &str = r#"
+name = "two-slides"
+mode = "planar"
+[[link]]
+id = "0"
+role = "frame"
+[[link]]
+id = "1"
+role = "output"
+[[joint]]
+id = "left"
+links = ["0", "1"]
+type = "prismatic"
+point = [0, 0, 0]
+axis = [1, 0, 0]
+[[joint]]
+id = "right"
+links = ["0", "1"]
+type = "prismatic"
+point = [2, 0, 0]
+axis = [1, 0, 0]
+"#;
+
+fn analysed(content: &str, more: &[&str]) -> Value {
+    let (code, said, errors) = run_on(
+        "analyze",
+        "m.toml",
+        content,
+        &[more, &["--format", "json"]].concat(),
+    );
+    assert_eq!(code, Some(0), "{errors}");
+    serde_json::from_str(&said).unwrap()
+}
+
+fn joint<'a>(stress: &'a Value, name: &str) -> &'a Value {
+    let all = stress["joints"].as_array().unwrap();
+    all.iter().find(|j| j["joint"] == name).unwrap()
+}
+
+/// By hand: slides along x press across it; the force that is no moment at the left is one of 2 at the right.
+#[test]
+fn a_plane_has_its_directions_and_moments_at_the_joints() {
+    let found = analysed(SLIDES, &[]);
+    let stresses = found["states"][0]["self_stresses"].as_array().unwrap();
+    assert_eq!(stresses.len(), 2);
+    let across: Vec<&Value> = stresses
+        .iter()
+        .filter(|s| joint(s, "left")["forces"] == serde_json::json!(["y"]))
+        .collect();
+    let couple: Vec<&Value> = stresses
+        .iter()
+        .filter(|s| joint(s, "left")["forces"] == serde_json::json!([]))
+        .collect();
+    let ([across], [couple]) = (&across[..], &couple[..]) else {
+        panic!("{stresses:?}")
+    };
+    assert_eq!(joint(across, "left")["moments"], serde_json::json!([]));
+    assert_eq!(joint(across, "right")["moments"], serde_json::json!(["z"]));
+    assert_eq!(joint(across, "right")["forces"], serde_json::json!(["y"]));
+    assert_eq!(joint(couple, "right")["moments"], serde_json::json!(["z"]));
+    // |f|² + |m|²/ℓ²: 1 on the left, 1 + 4 on the right.
+    for (stress, left, right) in [(across, 1.0 / 6.0, 5.0 / 6.0), (couple, 0.5, 0.5)] {
+        near(
+            joint(stress, "left")["share"].as_f64().unwrap(),
+            left,
+            1e-12,
+        );
+        near(
+            joint(stress, "right")["share"].as_f64().unwrap(),
+            right,
+            1e-12,
+        );
+    }
+    let (_, text, _) = run_on("analyze", "m.toml", SLIDES, &[]);
+    assert!(text.contains("right 83 %, left 17 %"), "{text}");
+    assert!(!text.contains("force along x"), "{text}");
+}
+
+/// The same in the plane of x and z, and off the origin: names follow the plane, shares do not change.
+#[test]
+fn planes_may_lie_anywhere() {
+    let tilted = SLIDES
+        .replace(
+            "mode = \"planar\"",
+            "mode = \"planar\"\nplane_normal = [0, 1, 0]",
+        )
+        .replace("point = [0, 0, 0]", "point = [10, 3, 7]")
+        .replace("point = [2, 0, 0]", "point = [12, 3, 7]");
+    let found = analysed(&tilted, &[]);
+    for stress in found["states"][0]["self_stresses"].as_array().unwrap() {
+        for j in stress["joints"].as_array().unwrap() {
+            assert!(
+                j["forces"] == serde_json::json!(["z"]) || j["forces"] == serde_json::json!([]),
+                "{j}"
+            );
+            assert!(
+                j["moments"] == serde_json::json!(["y"]) || j["moments"] == serde_json::json!([]),
+                "{j}"
+            );
+        }
+    }
+}
+
+/// In its plane the clamped gripper has two external constraints: friction along the faces, which does no harm, and the
+/// parallel faces, which do.
+#[test]
+fn harm_is_judged_in_the_plane_too() {
+    let found = json(&[
+        "analyze",
+        "gripper-10",
+        "--planar",
+        "--state",
+        "clamped",
+        "--format",
+        "json",
+    ]);
+    let stresses = found["states"][0]["self_stresses"].as_array().unwrap();
+    let verdicts: Vec<&str> = stresses
+        .iter()
+        .map(|s| s["verdict"].as_str().unwrap())
+        .collect();
+    assert_eq!(verdicts, ["harmless", "harmful"], "{stresses:?}");
+    let at_pad = joint(&stresses[0], "4-a");
+    assert_eq!(
+        (&at_pad["forces"], &at_pad["moments"]),
+        (&serde_json::json!(["x"]), &serde_json::json!([]))
+    );
+    assert_eq!(
+        joint(&stresses[1], "4-a")["moments"],
+        serde_json::json!(["z"])
+    );
+}
+
+/// The plane leaves out the slider's turn about its axis, and so does the count in it.
+#[test]
+fn planar_counting_counts_what_moves_in_the_plane() {
+    let planar = [
+        "analyze",
+        "gripper-10",
+        "--planar",
+        "--state",
+        "free",
+        "--format",
+        "json",
+        "--method",
+    ];
+    let counted = json(&[&planar[..], &["count-planar"]].concat());
+    assert_eq!(counted["states"][0]["mobility"], 1, "{counted}");
+    let modular = json(&[&planar[..], &["modular"]].concat());
+    assert_eq!(modular["states"][0]["mobility"], 1);
+}
+
+/// Every joint of every self-stress is listed with its share, and the shares add up; the text lists the same joints.
+#[test]
+fn shares_of_a_self_stress_add_up() {
+    for name in [
+        "gripper-10",
+        "gripper-10-loaded",
+        "four-bar",
+        "bennett",
+        "delta-parallelograms",
+        "sarrus",
+    ] {
+        let found = json(&["analyze", name, "--format", "json"]);
+        let text = out(&["analyze", name]);
+        for state in found["states"].as_array().unwrap() {
+            for stress in state["self_stresses"].as_array().unwrap() {
+                let joints = stress["joints"].as_array().unwrap();
+                let sum: f64 = joints.iter().map(|j| j["share"].as_f64().unwrap()).sum();
+                near(sum, 1.0, 1e-9);
+            }
+        }
+        assert!(text.contains("borne by"), "{text}");
+        assert!(!text.contains("carried at"), "{text}");
+    }
+}

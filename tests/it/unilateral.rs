@@ -1,0 +1,286 @@
+//! Clamped objects: forces that stand for them, contacts that would pull, contacts that only push.
+
+use crate::common::{changed, json, near, out, run_on};
+use serde_json::Value;
+
+fn number(v: &Value) -> f64 {
+    v.as_f64().unwrap()
+}
+
+fn statics(content: &str, more: &[&str]) -> (Option<i32>, String, String) {
+    run_on("statics", "clamp.toml", content, more)
+}
+
+fn solved(content: &str, more: &[&str]) -> Value {
+    let (code, said, errors) = statics(content, &[more, &["--format", "json"]].concat());
+    assert_eq!(code, Some(0), "{errors}{said}");
+    serde_json::from_str(&said).unwrap()
+}
+
+fn contact<'a>(v: &'a Value, name: &str) -> &'a Value {
+    let all = v["contacts"].as_array().unwrap();
+    all.iter().find(|c| c["contact"] == name).unwrap()
+}
+
+/// A part of 1 kg between two faces of the frame, along y above and below it; gravity as asked for.
+fn between(gravity: &str) -> String {
+    format!(
+        r#"
+name = "vice"
+[[link]]
+id = "0"
+role = "frame"
+[[link]]
+id = "handle"
+role = "output"
+[[link]]
+id = "part"
+role = "object"
+mass = 1
+centre = [0, 0, 0]
+[[joint]]
+id = "hinge"
+links = ["0", "handle"]
+type = "revolute"
+point = [0, 0.3, 0]
+axis = [0, 0, 1]
+drive = true
+[[joint]]
+id = "above"
+links = ["0", "part"]
+type = "fixed"
+point = [0, 0.1, 0]
+axis = [0, 1, 0]
+state = "clamped"
+[[joint]]
+id = "below"
+links = ["part", "0"]
+type = "fixed"
+point = [0, -0.1, 0]
+axis = [0, 1, 0]
+state = "clamped"
+[workload]
+gravity = {gravity}
+[[workload.contact]]
+joint = "above"
+friction = 0.2
+[[workload.contact]]
+joint = "below"
+friction = 0.2
+"#
+    )
+}
+
+/// By hand: as joints two faces share the weight, the upper one by pulling; as faces the lower one bears it all.
+#[test]
+fn a_part_that_lies_is_borne_from_below() {
+    let content = between("[0, -9.81, 0]");
+    let joints = solved(&content, &["--state", "clamped"]);
+    assert_eq!(contact(&joints, "above")["touch"], "pulls");
+    near(number(&contact(&joints, "above")["normal"]), -4.905, 1e-9);
+    let (code, said, _) = statics(&content, &["--state", "clamped"]);
+    assert_eq!(code, Some(0));
+    let line = said
+        .lines()
+        .find(|l| l.starts_with("NOT AS CONTACTS ACT"))
+        .unwrap();
+    assert!(line.contains("above would pull with 4.905 N"), "{line}");
+    let faces = solved(&content, &["--state", "clamped", "--unilateral"]);
+    assert_eq!(faces["choice"], "pushing");
+    near(number(&contact(&faces, "below")["normal"]), 9.81, 1e-5);
+    near(number(&contact(&faces, "above")["normal"]), 0.0, 1e-5);
+}
+
+/// By hand: a weight along the faces needs N = G/2μ on each of two, and the least that does is of minimum norm.
+#[test]
+fn a_part_that_hangs_needs_its_pressure() {
+    let content = between("[0, 0, -9.81]");
+    let joints = solved(&content, &["--state", "clamped"]);
+    assert_eq!(contact(&joints, "above")["touch"], "slips");
+    let faces = solved(&content, &["--state", "clamped", "--unilateral"]);
+    for name in ["above", "below"] {
+        let c = contact(&faces, name);
+        assert_eq!(c["touch"], "pushes", "{c}");
+        near(number(&c["normal"]), 9.81 / 2.0 / 0.2, 1e-4);
+        near(number(&c["along_face"]), 9.81 / 2.0, 1e-4);
+    }
+    // Without a coefficient there is as much friction as it takes, and nothing to press for.
+    let free = content.replace("friction = 0.2", "radius = 1");
+    let faces = solved(&free, &["--state", "clamped", "--unilateral"]);
+    assert!(number(&contact(&faces, "above")["normal"]).abs() < 1e-6);
+}
+
+/// One face above, nothing below: it cannot hold, and no reactions are given.
+#[test]
+fn what_slips_off_is_told_and_not_solved() {
+    let content = between("[0, -9.81, 0]");
+    let start = content.find("[[joint]]\nid = \"below\"").unwrap();
+    let end = content.find("[workload]").unwrap();
+    let content = format!("{}{}", &content[..start], &content[end..]);
+    let content = changed(
+        &content,
+        "[[workload.contact]]\njoint = \"below\"\nfriction = 0.2\n",
+        "",
+    );
+    let (code, said, errors) = statics(&content, &["--state", "clamped", "--unilateral"]);
+    assert_eq!((code, errors.as_str()), (Some(1), ""));
+    assert!(said.contains("slips, lifts off or tilts"), "{said}");
+    // As a joint the face is the only support, and the report says that the part is not held.
+    let (_, said, _) = statics(&content, &["--state", "clamped"]);
+    assert!(said.contains("so the object is not held"), "{said}");
+}
+
+/// The weight aside of a face of 10 mm radius tips the part off it; a face of 60 mm bears it.
+#[test]
+fn pressure_stays_on_the_face() {
+    let content = between("[0, -9.81, 0]");
+    let content = changed(&content, "centre = [0, 0, 0]", "centre = [0.05, 0, 0]");
+    let with = |radius: &str| {
+        content.replace(
+            "friction = 0.2",
+            &format!("friction = 0.2\nradius = {radius}"),
+        )
+    };
+    let faces = solved(&with("0.06"), &["--state", "clamped", "--unilateral"]);
+    let c = contact(&faces, "below");
+    assert!(
+        number(&c["tilting"]) <= 0.06 * number(&c["normal"]) * (1.0 + 1e-6),
+        "{c}"
+    );
+    // Tilted on a small face, the part is wedged between both: each presses more than the weight alone.
+    let wedged = solved(&with("0.01"), &["--state", "clamped", "--unilateral"]);
+    for name in ["above", "below"] {
+        let c = contact(&wedged, name);
+        assert!(
+            number(&c["tilting"]) <= 0.01 * number(&c["normal"]) * (1.0 + 1e-6),
+            "{c}"
+        );
+        assert!(number(&c["normal"]) > 1.0, "{c}");
+    }
+    assert!(number(&contact(&wedged, "below")["normal"]) > 9.81);
+}
+
+/// The built-in gripper: with the forces that stand for the part left in the clamped state, its pads pulled with 54 N.
+#[test]
+fn the_gripper_no_longer_pulls_at_its_part() {
+    let text = out(&["show", "gripper-10-loaded"]);
+    let doubled = text.replace("state = \"free\"\n\n", "\n");
+    assert_ne!(text, doubled);
+    let (_, said, _) = statics(&doubled, &["--state", "clamped"]);
+    assert!(
+        said.contains("NOT AS CONTACTS ACT: 4-a would pull with 53.96 N"),
+        "{said}"
+    );
+    let clamped = json(&[
+        "statics",
+        "gripper-10-loaded",
+        "--state",
+        "clamped",
+        "--format",
+        "json",
+    ]);
+    for name in ["4-a", "a-8"] {
+        assert_ne!(contact(&clamped, name)["touch"], "pulls");
+    }
+    let faces = json(&[
+        "statics",
+        "gripper-10-loaded",
+        "--state",
+        "clamped",
+        "--unilateral",
+        "--format",
+        "json",
+    ]);
+    let mut part = [0.0, 0.0, -9.81];
+    for (name, sign) in [("4-a", 1.0), ("a-8", -1.0)] {
+        let c = contact(&faces, name);
+        assert_eq!(c["touch"], "pushes");
+        let (normal, along) = (number(&c["normal"]), number(&c["along_face"]));
+        assert!(
+            along <= 0.2 * normal * (1.0 + 1e-6) && normal >= 9.81 / 2.0 / 0.2 * (1.0 - 1e-6),
+            "{c}"
+        );
+        let all = faces["reactions"].as_array().unwrap();
+        let r = all.iter().find(|r| r["joint"] == name).unwrap();
+        (0..3).for_each(|i| part[i] += sign * number(&r["global_force"][i]));
+    }
+    // The part is in equilibrium; the free state still bears the forces that stand for it.
+    part.iter().for_each(|x| near(*x, 0.0, 1e-9));
+    let free = out(&["statics", "gripper-10-loaded"]);
+    assert!(
+        free.contains("Drive 0-1 holds tz: force -53.333 N"),
+        "{free}"
+    );
+}
+
+/// In one piece with the free state's twin: where every contact pushes already, both ways agree.
+#[test]
+fn contacts_that_push_anyway_change_nothing() {
+    let content = between("[0, -9.81, 0]");
+    let pressed = content.replace(
+        "[workload]\n",
+        "[workload]\n[[workload.force]]\nlink = \"part\"\npoint = [0, 0.05, 0]\nforce = [0, -20, 0]\nstate = [\"clamped\"]\n",
+    );
+    let pressed = changed(
+        &pressed,
+        "[workload]\n[[workload.force]]",
+        "[[workload.force]]",
+    );
+    let pressed = changed(
+        &pressed,
+        "state = [\"clamped\"]\n",
+        "state = [\"clamped\"]\n[workload]\n",
+    );
+    let start = pressed.find("[[joint]]\nid = \"above\"").unwrap();
+    let end = pressed.find("[[joint]]\nid = \"below\"").unwrap();
+    let pressed = format!("{}{}", &pressed[..start], &pressed[end..]);
+    let pressed = changed(
+        &pressed,
+        "[[workload.contact]]\njoint = \"above\"\nfriction = 0.2\n",
+        "",
+    );
+    let [a, b] = [
+        &["--state", "clamped"][..],
+        &["--state", "clamped", "--unilateral"],
+    ]
+    .map(|more| solved(&pressed, more));
+    assert_eq!(a["reactions"], b["reactions"]);
+    near(number(&contact(&b, "below")["normal"]), 29.81, 1e-9);
+}
+
+#[test]
+fn words_that_are_no_states_or_contacts_are_refused() {
+    let content = between("[0, -9.81, 0]");
+    for (from, to, part) in [
+        (
+            "joint = \"below\"\nfriction",
+            "joint = \"side\"\nfriction",
+            "unknown joint \"side\"",
+        ),
+        ("friction = 0.2", "friction = -1", "a number from 0 to 10"),
+        ("friction = 0.2", "radius = 0", "a number above 0"),
+        (
+            "[[workload.contact]]",
+            "[[workload.force]]\nlink = \"part\"\npoint = [0, 0, 0]\nforce = [1, 0, 0]\nstate = \"closed\"\n[[workload.contact]]",
+            "unknown state \"closed\"",
+        ),
+    ] {
+        let (code, _, errors) = statics(&changed(&content, from, to), &["--state", "clamped"]);
+        assert_eq!(code, Some(2), "{to}");
+        assert!(errors.contains(part), "{to}: {errors}");
+    }
+    let (code, _, errors) = statics(&out(&["show", "four-bar"]), &["--unilateral"]);
+    assert_eq!(code, Some(2));
+    assert!(
+        errors.contains("--unilateral is for contacts with an object"),
+        "{errors}"
+    );
+}
+
+/// What a file says of states and contacts, its export says again.
+#[test]
+fn states_of_forces_and_contacts_are_exported() {
+    let again = out(&["export", "gripper-10-loaded", "--to", "toml"]);
+    assert_eq!(again.matches("[[workload.contact]]").count(), 2, "{again}");
+    assert_eq!(again.matches("state = [\"free\"]").count(), 4);
+}
