@@ -23,10 +23,11 @@ pub struct Miss {
 impl fmt::Display for Miss {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let angle = self.angle.to_degrees();
-        match (self.distance, angle) {
-            (d, a) if a == 0.0 => write!(f, "{d:.3e}"),
-            (d, a) => write!(f, "{d:.3e} and {a:.3e}°"),
+        write!(f, "{:.3e}", self.distance)?;
+        if angle != 0.0 {
+            write!(f, " and {angle:.3e}°")?;
         }
+        Ok(())
     }
 }
 

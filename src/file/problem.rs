@@ -145,14 +145,12 @@ pub enum ProblemKind {
     #[error("joint \"{joint}\" is in more than one mirror pair; pair each joint once")]
     RepeatedMirror { joint: String },
     #[error(
-        "joints \"{first}\" and \"{second}\" are no mirror images: in the plane that suits most pairs the image of \"{first}\" is {distance} {unit} and {angle}° from \"{second}\"; correct their points and axes, or remove the pair"
+        "joints \"{first}\" and \"{second}\" are no mirror images: in the plane that suits most pairs the image of \"{first}\" is {off} from \"{second}\"; correct their points and axes, or remove the pair"
     )]
     NoMirrorImage {
         first: String,
         second: String,
-        distance: String,
-        unit: &'static str,
-        angle: String,
+        off: String,
     },
     #[error("cost {value} must be a finite number from 0 to 1e6")]
     BadCost { value: String },

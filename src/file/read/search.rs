@@ -34,9 +34,12 @@ fn images(mechanism: &Mechanism, pairs: &[(JointId, JointId)], at: &[Step], out:
                 ProblemKind::NoMirrorImage {
                     first,
                     second,
-                    distance: brief(miss.distance),
-                    unit: mechanism.length_unit.symbol,
-                    angle: brief(miss.angle.to_degrees()),
+                    off: format!(
+                        "{} {} and {}°",
+                        brief(miss.distance),
+                        mechanism.length_unit.symbol,
+                        brief(miss.angle.to_degrees())
+                    ),
                 },
             );
         }
