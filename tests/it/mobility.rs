@@ -370,6 +370,7 @@ proptest! {
         let before = decide(&m, StateId::FREE, None).unwrap();
         let after = decide(&as_measured(&m, seed, 1e-13, 1.0), StateId::FREE, None).unwrap();
         prop_assert_eq!(before.verdict.rank(), after.verdict.rank());
-        prop_assert_eq!(before.finite.mobility, after.finite.mobility);
+        // Coordinates off by rounding may leave open what exact ones decide, and never say otherwise.
+        prop_assert!(after.finite.could_be(i64::try_from(before.finite.mobility).unwrap()), "{:?} {:?}", before.finite, after.finite);
     }
 }

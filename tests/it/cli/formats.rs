@@ -136,10 +136,19 @@ fn csv_columns() {
         ]
     );
     assert_eq!(lines[0][6..18], joints);
-    assert_eq!(lines[0][18..], ["conditioning", "agree", "lucky"]);
+    assert_eq!(
+        lines[0][18..],
+        [
+            "conditioning",
+            "agree",
+            "lucky",
+            "external_harmful",
+            "redundant_by_contour"
+        ]
+    );
     assert_eq!(lines.len(), 11);
     for l in &lines[1..] {
-        assert_eq!((l.len(), l[19]), (21, "true"));
+        assert_eq!((l.len(), l[19]), (23, "true"));
         let changed = l[6..18].iter().filter(|t| **t != "revolute").count();
         assert_eq!(l[5], changed.to_string());
     }

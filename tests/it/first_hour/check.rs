@@ -32,7 +32,7 @@ fn check_says_what_a_file_describes() {
         "15 joints: 12 revolute, 2 fixed, 1 cylindrical; driven at 0-1",
         "2 states: free with 4 contours, clamped with 5 contours",
         "12 joints with 7 options, 1 place for an unloading joint, 6 mirror pairs; 13,841,287,201 choices",
-        "workload: gravity, 9 links with mass, 4 forces, ranking by peak-moment",
+        "workload: gravity, 10 links with mass, 4 forces, ranking by peak-moment",
     ] {
         assert!(said.contains(part), "{part}: {said}");
     }

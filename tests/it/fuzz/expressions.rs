@@ -43,6 +43,14 @@ fn formed() -> impl Strategy<Value = String> {
     })
 }
 
+/// A number too small for a double was read, and written as a fraction that is not.
+#[test]
+fn numbers_too_small_for_a_double_are_refused() {
+    read("1e-92^9");
+    assert!("1e-92^9".parse::<Expr>().is_err());
+    assert!("1e-300".parse::<Expr>().is_ok());
+}
+
 proptest! {
     #![proptest_config(runs(1024))]
     #[test]

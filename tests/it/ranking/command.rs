@@ -14,7 +14,7 @@ fn the_command_changes_the_order_and_says_why() {
     let v = json(&["search", "gripper-10-loaded", "--format", "json"]);
     let ranking = &v["ranking"];
     assert_eq!(ranking["order"], "weighted");
-    assert_eq!(ranking["pool"], 1000);
+    assert_eq!(ranking["pool"], 20_000);
     assert!(ranking["proven"].is_boolean());
     let first = &v["variants"][0];
     assert!(first["scores"]["peak-force"].as_f64().unwrap() > 0.0);
@@ -40,7 +40,7 @@ fn the_command_changes_the_order_and_says_why() {
     let heads = csv.lines().next().unwrap();
     assert!(
         heads.ends_with(
-            "by_cost,peak_force,peak_moment,singular_ratio,output_error,idle,total,front"
+            "by_cost,peak_force,peak_moment,singular_ratio,output_error,idle,total,front,external_harmful,redundant_by_contour"
         )
     );
     assert!(
