@@ -379,8 +379,8 @@ fn couplings_have_mirror_images() {
         TURN,
         "[search]\noptions = [\"cylindrical\"]\nmirror = [[\"a\", \"b\"]]\n",
     )
-    // Mirror images move alike, or neither is held.
-    .replace("role = \"output\"", "");
+    // Mirror images are both kept.
+    .replace("id = \"1\"\n", "id = \"1\"\nrole = \"output\"\n");
     let with = |ratio: &str| {
         mechanism(&text.replacen("[search]", &(coupled("a", "b", ratio) + "[search]"), 1))
     };

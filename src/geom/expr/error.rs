@@ -114,7 +114,7 @@ pub enum ExprError {
     },
     /// The value exceeds the range of `f64`.
     #[error(
-        "the value at byte {at} exceeds the range of floating-point numbers; choose other units"
+        "the value at byte {at} is out of range for floating-point numbers; choose other units"
     )]
     NotFinite {
         /// Byte offset.
