@@ -182,13 +182,13 @@ role = "output"
 id = "LF"
 links = ["0", "arm"]
 type = "revolute"
-point = [151.23, 0.01, 12.04]
+point = [151.23, 0.00, 12.04]
 axis = [0.99998, 0.00001, 0.00632]
 [[joint]]
 id = "LR"
 links = ["0", "arm"]
 type = "revolute"
-point = [-149.85, -0.01, 10.12]
+point = [-149.85, 0.00, 10.14]
 axis = [0.99998, -0.00002, 0.00635]
 [[joint]]
 id = "ball"
