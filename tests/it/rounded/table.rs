@@ -33,6 +33,7 @@ impl Worth {
 
 /// What is said of the cases turned and rounded, one of every `part` of them unless all are asked for: how often it is worth
 /// what, by decimals, and what is wrong.
+#[allow(clippy::print_stdout, reason = "the table is what it is run for")]
 fn judged(
     part: usize,
     say: impl Fn(&Mechanism, &Case) -> (Worth, String) + Sync,
