@@ -2,16 +2,17 @@
 //!
 //! ```
 //! use ozols::file::text::mechanism_from_str;
+//! use ozols::model::mechanism::StateId;
 //! use ozols::rank::certificate::{certify, matrix, number_field};
 //! use ozols::verify;
 //!
 //! let text = ozols::builtin::text("gripper-10").expect("it is built in");
 //! let gripper = mechanism_from_str("gripper-10.toml", text)?;
-//! let certificate = certify(&gripper, 0)?;
+//! let certificate = certify(&gripper, StateId::FREE)?;
 //!
 //! // Whoever doubts it needs only the file and the certificate.
-//! let field = number_field(&gripper, 0)?;
-//! let j = matrix(&field, &gripper, 0)?;
+//! let field = number_field(&gripper, StateId::FREE)?;
+//! let j = matrix(&field, &gripper, StateId::FREE)?;
 //! assert_eq!(verify::check(&j, &certificate)?, 13);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -82,7 +82,7 @@ pub(crate) fn is_for_space(error: &PlanarStaticsError) -> bool {
 /// use ozols::statics::solve::{Answer, Model, solve};
 ///
 /// let text = ozols::builtin::text("parallel-shears").expect("it is built in");
-/// let shears = ozols::file::text::mechanism_from_str(text)?;
+/// let shears = ozols::file::text::mechanism_from_str("parallel-shears.toml", text)?;
 /// let Answer::Planar(found) = solve(&shears, StateId::FREE, None, Model::Either)? else {
 ///     panic!("the shears are planar")
 /// };
