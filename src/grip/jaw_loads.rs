@@ -142,9 +142,9 @@ pub fn grip_of(m: &Mechanism, state: StateId) -> Option<(&GripSpec, [JointId; 4]
     let Transmission::Joints(levers) = spec.transmission else {
         return None;
     };
-    let states = m.joints[contacts[0]].states.as_ref();
-    let there = states.is_none_or(|s| s.contains(&state));
-    there.then_some((spec, contacts, levers))
+    m.joints[contacts[0]]
+        .is_in(state)
+        .then_some((spec, contacts, levers))
 }
 
 /// The mechanism without the joints of a link: they are in no state, and ids stay as they are.

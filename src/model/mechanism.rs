@@ -82,6 +82,19 @@ pub struct Joint {
     pub unloading: Vec<JointOption>,
 }
 
+impl Joint {
+    /// Whether it is present in a state.
+    #[must_use]
+    pub fn is_in(&self, state: StateId) -> bool {
+        self.states.as_ref().is_none_or(|s| s.contains(&state))
+    }
+
+    /// What a search may put here or insert here.
+    pub fn offered(&self) -> impl Iterator<Item = &JointOption> {
+        self.options.iter().chain(&self.unloading)
+    }
+}
+
 /// Whether motions are spatial or confined to a plane.
 #[derive(Debug, Clone)]
 pub enum Mode {
@@ -228,20 +241,19 @@ impl Mechanism {
 
     /// The joints present in a state, in file order.
     pub fn joints_in(&self, state: StateId) -> impl Iterator<Item = JointId> + '_ {
-        self.joint_ids().filter(move |&j| {
-            self.joints[j]
-                .states
-                .as_ref()
-                .is_none_or(|s| s.contains(&state))
-        })
+        self.joint_ids()
+            .filter(move |&j| self.joints[j].is_in(state))
+    }
+
+    /// The joints that a state has and the free one has not, in file order.
+    pub fn joints_added_in(&self, state: StateId) -> impl Iterator<Item = JointId> + '_ {
+        let only_here = |j: &JointId| !self.joints[*j].is_in(StateId::FREE);
+        self.joints_in(state).filter(only_here)
     }
 
     /// The couplings of a state, those whose joints are present in it, in file order.
     pub fn couplings_in(&self, state: StateId) -> impl Iterator<Item = &Coupling> + '_ {
-        let present = move |j: JointId| {
-            let states = self.joints[j].states.as_ref();
-            states.is_none_or(|s| s.contains(&state))
-        };
+        let present = move |j: JointId| self.joints[j].is_in(state);
         self.couplings
             .iter()
             .filter(move |c| c.ends.iter().all(|e| present(e.joint)))

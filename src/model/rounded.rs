@@ -134,7 +134,7 @@ pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
     for joint in &mechanism.joints {
         seen.see_frame(&joint.frame, &|| format!("joint {}", joint.id));
         // Options mostly share the joint's place; only what is their own counts.
-        for o in joint.options.iter().chain(&joint.unloading) {
+        for o in joint.offered() {
             let own = |a: &[Expr; 3], b: &[Expr; 3]| real(a) != real(b);
             if own(&o.frame.point, &joint.frame.point)
                 || own(&o.frame.axis, &joint.frame.axis)

@@ -37,9 +37,9 @@ pub(super) fn external(
     let rank = modular::rank(exact, closure);
     let own: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
     let all: Vec<JointId> = mechanism.joints_in(closure.state).collect();
-    let added = || all.iter().filter(|j| !own.contains(j));
+    let added = || mechanism.joints_added_in(closure.state);
     let of_joints: i64 = added()
-        .map(|&j| int(closure.dim) - int(freedoms_of(closure, j)))
+        .map(|j| int(closure.dim) - int(freedoms_of(closure, j)))
         .sum();
     let left_out = own.iter().filter(|j| !all.contains(j));
     let of_joints = of_joints

@@ -7,7 +7,7 @@ use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::{Echelon, relations, transpose};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::borne::{Faces, Shares};
 use crate::redundancy::joint_wrench::JointWrenches;
 use itertools::Itertools;
@@ -86,11 +86,7 @@ pub fn self_stresses(
 ) -> Result<Vec<SelfStress>, ExactError> {
     let f = exact.field();
     let stresses = stress_basis(exact, closure);
-    let own: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
-    let added: Vec<JointId> = mechanism
-        .joints_in(closure.state)
-        .filter(|j| !own.contains(j))
-        .collect();
+    let added: Vec<JointId> = mechanism.joints_added_in(closure.state).collect();
     let wrenches = JointWrenches::new(exact, mechanism, closure)?;
     let wrench = |stress: &[Residue], j: JointId| wrenches.at(stress, j);
     let needs_contacts =

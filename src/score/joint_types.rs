@@ -1,6 +1,6 @@
 //! What joint types bear and how much play they have.
 
-use crate::model::mechanism::{JointOption, Mechanism};
+use crate::model::mechanism::{Joint, JointOption, Mechanism};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -48,7 +48,7 @@ impl JointTypes {
                 None => mechanism
                     .joints
                     .iter()
-                    .flat_map(|j| j.options.iter().chain(&j.unloading))
+                    .flat_map(Joint::offered)
                     .find(|x| x.name == o.name)
                     .and_then(|x| all.by_name.get(x.joint_type.name()).copied()),
             };

@@ -113,11 +113,7 @@ impl Request {
                         names: names.join(","),
                     });
                 }
-                ([], Some(state)) => {
-                    let free = mechanism.joints_in(StateId::FREE).collect_vec();
-                    let all = mechanism.joints_in(state);
-                    all.filter(|j| !free.contains(j)).collect()
-                }
+                ([], Some(state)) => mechanism.joints_added_in(state).collect(),
                 (named, _) => {
                     let id = |joint: &String| {
                         let id = mechanism.joint(joint);

@@ -69,10 +69,8 @@ impl Matrices {
         };
         // Couplings by index, those of the free state and those of the searched one.
         let of = |s: StateId| -> Vec<usize> {
-            let present = |&q: &usize| {
-                let states = &mechanism.joints[mechanism.couplings[q].ends[0].joint].states;
-                states.as_ref().is_none_or(|of| of.contains(&s))
-            };
+            let present =
+                |&q: &usize| mechanism.joints[mechanism.couplings[q].ends[0].joint].is_in(s);
             (0..mechanism.couplings.len()).filter(present).collect()
         };
         let (coupled, all_coupled) = (of(StateId::FREE), of(state));

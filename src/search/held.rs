@@ -13,13 +13,6 @@ use crate::redundancy::motion::{motions, twist};
 /// A body to be held, with the links that may hold it.
 pub type Grasp = (LinkId, Vec<LinkId>);
 
-/// The joints that a state has and the free one has not.
-fn added(mechanism: &Mechanism, state: StateId) -> Vec<JointId> {
-    let free: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
-    let all = mechanism.joints_in(state);
-    all.filter(|j| !free.contains(j)).collect()
-}
-
 /// Whether a link has a joint in the free state.
 #[must_use]
 pub fn is_free(mechanism: &Mechanism, link: LinkId) -> bool {
@@ -30,7 +23,7 @@ pub fn is_free(mechanism: &Mechanism, link: LinkId) -> bool {
 /// The links of the free mechanism that a body hangs on in a state: over joints that the state adds, and other bodies that
 /// it adds.
 fn jaws(mechanism: &Mechanism, state: StateId, body: LinkId) -> Vec<LinkId> {
-    let added = added(mechanism, state);
+    let added: Vec<JointId> = mechanism.joints_added_in(state).collect();
     let (mut bodies, mut jaws) = (vec![body], Vec::new());
     let mut next = 0;
     while let Some(&at) = bodies.get(next) {

@@ -81,12 +81,8 @@ impl Space {
     ) -> Result<Space, ExactError> {
         let motion = MotionSpace::new(exact, &mechanism.mode)?;
         let free: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
-        let added = state
-            .into_iter()
-            .flat_map(|s| mechanism.joints_in(s))
-            .filter(|j| !free.contains(j));
-        let present: Option<Vec<JointId>> = state.map(|s| mechanism.joints_in(s).collect());
-        let alone = |j: &JointId| present.as_ref().is_some_and(|p| !p.contains(j));
+        let added = state.into_iter().flat_map(|s| mechanism.joints_added_in(s));
+        let alone = |j: &JointId| state.is_some_and(|s| !mechanism.joints[*j].is_in(s));
         let mut groups: Vec<(Vec<JointId>, bool)> = Vec::new();
         for (j, external) in free
             .iter()

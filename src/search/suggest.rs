@@ -74,11 +74,10 @@ pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestio
     let closure = Closure::new(exact, mechanism, state)?;
     let stresses = stress_basis(exact, &closure);
     let costs = CostTable::new(&mechanism.search.costs);
-    let free: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
-    let joints: Vec<JointId> = mechanism
-        .joints_in(state)
-        .filter(|j| state == StateId::FREE || !free.contains(j))
-        .collect();
+    let joints: Vec<JointId> = match state {
+        StateId::FREE => mechanism.joints_in(state).collect(),
+        _ => mechanism.joints_added_in(state).collect(),
+    };
     let offered = |j: &JointId| {
         let joint = &mechanism.joints[*j];
         !changes(joint, &present(joint), state, false).is_empty()

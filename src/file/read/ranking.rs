@@ -6,7 +6,7 @@ use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::{cost, index, key};
 use crate::file::schema::MechanismFile;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::mechanism::{Joint, Mechanism, StateId};
 use crate::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term, TypeOverride};
 use itertools::Itertools;
 
@@ -173,10 +173,7 @@ pub(crate) fn joint_types(
     let root = [Step::Key("joint_types".to_owned())];
     let (mut found, mut costs) = (Vec::new(), Vec::new());
     let offered = |name: &str| {
-        let mut all = mechanism
-            .joints
-            .iter()
-            .flat_map(|j| j.options.iter().chain(&j.unloading));
+        let mut all = mechanism.joints.iter().flat_map(Joint::offered);
         all.any(|o| o.name == name)
     };
     for (name, entry) in &file.joint_types {
