@@ -1,21 +1,23 @@
 //! One mechanism for several states: what a search, which is exact, takes for the one that is meant.
 
 use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::rounded::looks_rounded;
 use crate::rank::method::NoAnswer;
 use crate::rank::snap::relation::{Moved, Reach};
 use crate::rank::snap::{size, snap};
 use crate::rank::verdict::{Verdict, rank_of, reach, verdict};
 
 /// The mechanism that is meant, for exact arithmetic.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Settled {
-    /// It: snapped where that is what is meant or asked for, as written otherwise.
-    pub mechanism: Mechanism,
+    /// It, where it was snapped because that is what is meant or asked for; none where it is as written.
+    pub snapped: Option<Mechanism>,
     /// What was moved.
     pub moved: Vec<Moved>,
     /// What would have had to move further than is asked for, and was not.
     pub refused: Vec<Moved>,
-    /// The verdicts on the states.
+    /// The verdicts on the states; none where every digit is exact and no tolerance is asked for, so that there is nothing to
+    /// decide.
     pub verdicts: Vec<Verdict>,
     /// The first of them that the mechanism does not have the rank of, with the rank it has.
     pub open: Option<(usize, usize)>,
@@ -33,15 +35,12 @@ pub fn settle(
     states: &[StateId],
     tolerance: Option<f64>,
 ) -> Result<Settled, NoAnswer> {
+    let mut out = Settled::default();
+    if tolerance.is_none() && looks_rounded(mechanism).is_none() {
+        return Ok(out);
+    }
     let each = |&s: &StateId| verdict(mechanism, s, tolerance);
-    let verdicts: Vec<Verdict> = states.iter().map(each).collect::<Result<_, _>>()?;
-    let mut out = Settled {
-        mechanism: mechanism.clone(),
-        moved: Vec::new(),
-        refused: Vec::new(),
-        verdicts,
-        open: None,
-    };
+    out.verdicts = states.iter().map(each).collect::<Result<_, _>>()?;
     let within = match (tolerance, out.verdicts.iter().all(Verdict::is_as_written)) {
         (Some(t), _) => Some(Reach::relative(t, size(mechanism))),
         (None, true) => None,
@@ -67,7 +66,7 @@ pub fn settle(
     }
     // What was asked for is done; what the digits say, only where it is right.
     if tolerance.is_some() || out.open.is_none() {
-        out.mechanism = snapped.mechanism;
+        out.snapped = Some(snapped.mechanism);
         out.moved = snapped.moved;
         out.refused = snapped.refused;
     }

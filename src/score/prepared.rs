@@ -20,8 +20,7 @@ pub struct Prepared {
 }
 
 /// Tells what was moved, and what was not.
-pub(super) fn tell_moved(settled: &Settled, tell: &mut dyn FnMut(String)) {
-    let m = &settled.mechanism;
+pub(super) fn tell_moved(m: &Mechanism, settled: &Settled, tell: &mut dyn FnMut(String)) {
     for moved in &settled.moved {
         tell(format!("snapped: {}", moved.words(m)));
     }

@@ -296,8 +296,8 @@ impl Request {
         let mut settled = settle(&mechanism, &states, self.tolerance()?)?;
         let mut out = mechanism;
         if !self.as_written || self.snap.is_some() {
-            out.clone_from(&settled.mechanism);
-            tell_moved(&settled, tell);
+            tell_moved(&out, &settled, tell);
+            out = settled.snapped.take().unwrap_or(out);
         } else if let Some(i) = settled.verdicts.iter().position(|v| !v.is_as_written()) {
             settled
                 .open
@@ -321,8 +321,8 @@ impl Request {
         tell: &mut dyn FnMut(String),
     ) -> Result<Mechanism, RequestError> {
         let settled = settle(mechanism, &[], self.tolerance()?)?;
-        tell_moved(&settled, tell);
-        Ok(settled.mechanism)
+        tell_moved(mechanism, &settled, tell);
+        Ok(settled.snapped.unwrap_or_else(|| mechanism.clone()))
     }
 
     /// The tolerance of `--snap`, where one is asked for.
