@@ -20,3 +20,4 @@ pub mod search_text;
 pub mod statics;
 pub mod stroke;
 pub mod suggestions;
+pub mod variant_data;

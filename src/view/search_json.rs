@@ -3,7 +3,8 @@
 use crate::score::outcome::Outcome;
 use crate::score::variants::Variants;
 use crate::search::relax::{Hopeless, Relaxation};
-use crate::view::search_data::{NoneData, SearchData, TailData, VariantData};
+use crate::view::search_data::{NoneData, SearchData, TailData};
+use crate::view::variant_data::VariantData;
 use num_bigint::BigUint;
 use num_traits::Zero;
 use std::io::{self, Write};
