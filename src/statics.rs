@@ -6,6 +6,7 @@
 
 pub mod assur;
 pub mod assur_class;
+pub(crate) mod cone_programme;
 pub mod contour_group;
 pub mod cycle;
 mod dense;

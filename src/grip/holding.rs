@@ -7,11 +7,9 @@
 use crate::geom::vector::cross;
 use crate::grip::contact::Pose;
 use crate::model::grip::LeverDrive;
-use clarabel::algebra::CscMatrix;
-use clarabel::solver::{
-    DefaultSettings, DefaultSolution, DefaultSolver, IPSolver, SolverStatus, SupportedConeT,
-    SupportedConeT::{NonnegativeConeT, SecondOrderConeT, ZeroConeT},
-};
+use crate::statics::cone_programme::ConeProgramme;
+use clarabel::solver::SolverStatus;
+use clarabel::solver::SupportedConeT::{NonnegativeConeT, SecondOrderConeT, ZeroConeT};
 use thiserror::Error;
 
 /// A vector in the gripper's axes, see [`crate::grip::contact`].
@@ -156,9 +154,7 @@ struct Programme<'a> {
     directions: [[Spatial; 3]; 4],
     /// Components in use: three with friction, one without.
     used: usize,
-    rows: Vec<Vec<(usize, f64)>>,
-    right: Vec<f64>,
-    cones: Vec<SupportedConeT<f64>>,
+    cones: ConeProgramme,
 }
 
 /// The drive moment among the variables, after three components for each of four contacts.
@@ -175,9 +171,7 @@ impl<'a> Programme<'a> {
                 [flat(c.normal), flat(c.tangent), [0.0, 0.0, 1.0]]
             }),
             used: if friction > 0.0 { 3 } else { 1 },
-            rows: Vec::new(),
-            right: Vec::new(),
-            cones: Vec::new(),
+            cones: ConeProgramme::default(),
         }
     }
 
@@ -188,8 +182,7 @@ impl<'a> Programme<'a> {
     }
 
     fn row(&mut self, row: impl IntoIterator<Item = (usize, f64)>, right: f64) {
-        self.rows.push(row.into_iter().collect());
-        self.right.push(right);
+        self.cones.row(row, right);
     }
 
     fn from(&self, origin: [f64; 2], contact: usize) -> Spatial {
@@ -255,8 +248,7 @@ impl<'a> Programme<'a> {
         for v in (0..DRIVE).filter(|v| v % 3 >= used) {
             self.row([(v, 1.0)], 0.0);
         }
-        self.cones.push(ZeroConeT(self.rows.len()));
-        let equations = self.rows.len();
+        self.cones.within(ZeroConeT);
         self.row([(DRIVE, -1.0)], 0.0);
         match levers {
             LeverDrive::Coupled => {
@@ -275,48 +267,16 @@ impl<'a> Programme<'a> {
         if friction == 0.0 {
             (0..4).for_each(|c| self.row([(3 * c, -1.0)], 0.0));
         }
-        self.cones
-            .push(NonnegativeConeT(self.rows.len() - equations));
+        self.cones.within(NonnegativeConeT);
         if friction > 0.0 {
             for c in 0..4 {
                 self.row([(3 * c, -friction)], 0.0);
                 self.row([(3 * c + 1, -1.0)], 0.0);
                 self.row([(3 * c + 2, -1.0)], 0.0);
-                self.cones.push(SecondOrderConeT(3));
+                self.cones.within(SecondOrderConeT);
             }
         }
         self
-    }
-
-    fn solve(&self) -> Result<DefaultSolution<f64>, HoldingError> {
-        let columns = DRIVE + 1;
-        let (mut i, mut j, mut v) = (Vec::new(), Vec::new(), Vec::new());
-        for (r, row) in self.rows.iter().enumerate() {
-            for &(c, x) in row {
-                i.push(r);
-                j.push(c);
-                v.push(x);
-            }
-        }
-        let matrix = CscMatrix::new_from_triplets(self.rows.len(), columns, i, j, v);
-        let mut objective = vec![0.0; columns];
-        objective[DRIVE] = 1.0;
-        let settings = DefaultSettings {
-            verbose: false,
-            ..DefaultSettings::default()
-        };
-        let quadratic = CscMatrix::zeros((columns, columns));
-        let mut solver = DefaultSolver::new(
-            &quadratic,
-            &objective,
-            &matrix,
-            &self.right,
-            &self.cones,
-            settings,
-        )
-        .map_err(|e| HoldingError::Solver(e.to_string()))?;
-        solver.solve();
-        Ok(solver.solution)
     }
 }
 
@@ -368,7 +328,10 @@ pub fn hold(
         }));
     }
     let programme = programme.write(load, unit, friction, levers);
-    let s = programme.solve()?;
+    let mut objective = [0.0; DRIVE + 1];
+    objective[DRIVE] = 1.0;
+    let s = programme.cones.solve(&[], &objective);
+    let s = s.map_err(HoldingError::Solver)?;
     match s.status {
         SolverStatus::Solved | SolverStatus::AlmostSolved => {
             let forces = [0, 1, 2, 3].map(|c| {

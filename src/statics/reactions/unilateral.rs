@@ -4,55 +4,37 @@
 //! multiples. They are found by a second-order cone programme: a normal force is not negative, friction lies in its round
 //! cone, and the pressure has its centre on the face.
 
+use crate::statics::cone_programme::{ConeProgramme, Row};
 use crate::statics::reactions::contact::{Contact, Touch};
 use crate::statics::reactions::geometry::{Geometry, Six, about};
 use crate::statics::reactions::unsolved::Unsolved;
-use clarabel::algebra::CscMatrix;
-use clarabel::solver::{
-    DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT,
-    SupportedConeT::{NonnegativeConeT, SecondOrderConeT},
-};
+use clarabel::solver::SolverStatus;
+use clarabel::solver::SupportedConeT::{NonnegativeConeT, SecondOrderConeT};
 
-/// Rows `value = first + Σ xᵢ stressᵢ`, each value by its cone.
-struct Rows {
-    columns: usize,
-    rows: Vec<Vec<f64>>,
-    right: Vec<f64>,
-    cones: Vec<SupportedConeT<f64>>,
-}
-
-impl Rows {
-    /// A value by the number of the wrenches: 0 for the particular solution, then the self-stresses.
-    fn push(&mut self, value: impl Fn(usize) -> f64) {
-        self.right.push(value(0));
-        self.rows
-            .push((1..=self.columns).map(|i| -value(i)).collect());
-    }
-}
-
-fn rows(geometry: &Geometry, contacts: &[Contact], all: &[&[Six]]) -> Rows {
-    let mut out = Rows {
-        columns: all.len() - 1,
-        rows: Vec::new(),
-        right: Vec::new(),
-        cones: Vec::new(),
-    };
+/// The cones of the contacts. Each value is that of the particular solution, the first of `all`, plus Σ xᵢ times that of
+/// self-stress i.
+fn cones(geometry: &Geometry, contacts: &[Contact], all: &[&[Six]]) -> ConeProgramme {
+    let mut out = ConeProgramme::default();
     for contact in contacts {
         let own: Vec<Six> = all.iter().map(|w| contact.own(geometry, w)).collect();
         let [tilt, turn, along, normal] = [0, 2, 3, 5];
-        out.push(|i| own[i][normal]);
-        out.cones.push(NonnegativeConeT(1));
+        let value = |of: &dyn Fn(&Six) -> f64, out: &mut ConeProgramme| {
+            let stresses = own[1..].iter().enumerate();
+            out.row(stresses.map(|(i, w)| (i, -of(w))), of(&own[0]));
+        };
+        value(&|w| w[normal], &mut out);
+        out.within(NonnegativeConeT);
         for (limit, from) in [(contact.friction, along), (contact.radius, tilt)] {
             let Some(limit) = limit else { continue };
-            out.push(|i| limit * own[i][normal]);
-            out.push(|i| own[i][from]);
-            out.push(|i| own[i][from + 1]);
-            out.cones.push(SecondOrderConeT(3));
+            value(&|w| limit * w[normal], &mut out);
+            value(&|w| w[from], &mut out);
+            value(&|w| w[from + 1], &mut out);
+            out.within(SecondOrderConeT);
         }
         if let Some(limit) = contact.torsion() {
-            out.push(|i| limit * own[i][normal] - own[i][turn]);
-            out.push(|i| limit * own[i][normal] + own[i][turn]);
-            out.cones.push(NonnegativeConeT(2));
+            value(&|w| limit * w[normal] - w[turn], &mut out);
+            value(&|w| limit * w[normal] + w[turn], &mut out);
+            out.within(NonnegativeConeT);
         }
     }
     out
@@ -90,7 +72,6 @@ pub(crate) fn pushing(
     let all: Vec<&[Six]> = std::iter::once(&particular[..])
         .chain(stresses.iter().map(|s| &s[..]))
         .collect();
-    let rows = rows(geometry, contacts, &all);
     let flat = |w: &[Six]| -> Vec<f64> {
         let each = geometry.joints.iter();
         each.flat_map(|&j| about(&w[j], geometry.points[j]))
@@ -100,43 +81,24 @@ pub(crate) fn pushing(
         return Err(Unsolved::Loose);
     };
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-    let n = stressed.len();
-    let (mut at, mut entries) = ((Vec::new(), Vec::new()), Vec::new());
-    for c in 0..n {
-        for r in 0..=c {
-            at.0.push(r);
-            at.1.push(c);
-            entries.push(product(&stressed[r], &stressed[c]));
-        }
-    }
-    let square = CscMatrix::new_from_triplets(n, n, at.0, at.1, entries);
-    let linear: Vec<f64> = stressed.iter().map(|s| product(s, first)).collect();
-    let (mut at, mut entries) = ((Vec::new(), Vec::new()), Vec::new());
-    for (r, row) in rows.rows.iter().enumerate() {
-        for (c, &x) in row.iter().enumerate().filter(|(_, x)| **x != 0.0) {
-            at.0.push(r);
-            at.1.push(c);
-            entries.push(x);
-        }
-    }
-    let cones = CscMatrix::new_from_triplets(rows.rows.len(), n, at.0, at.1, entries);
-    let settings = DefaultSettings {
-        verbose: false,
-        ..DefaultSettings::default()
+    let row = |r: usize| {
+        let columns = r..stressed.len();
+        let entries = columns.map(|c| (c, product(&stressed[r], &stressed[c])));
+        entries.collect()
     };
-    let failed = |why: String| Unsolved::Programme(why);
-    let mut solver =
-        DefaultSolver::new(&square, &linear, &cones, &rows.right, &rows.cones, settings)
-            .map_err(|e| failed(e.to_string()))?;
-    solver.solve();
-    match solver.solution.status {
+    let square: Vec<Row> = (0..stressed.len()).map(row).collect();
+    let linear: Vec<f64> = stressed.iter().map(|s| product(s, first)).collect();
+    let solution = cones(geometry, contacts, &all)
+        .solve(&square, &linear)
+        .map_err(Unsolved::Programme)?;
+    match solution.status {
         SolverStatus::Solved | SolverStatus::AlmostSolved => {}
         SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {
             return Err(Unsolved::Loose);
         }
-        other => return Err(failed(format!("{other:?}"))),
+        other => return Err(Unsolved::Programme(format!("{other:?}"))),
     }
-    for (x, stress) in solver.solution.x.iter().zip(stresses) {
+    for (x, stress) in solution.x.iter().zip(stresses) {
         for (w, s) in wrenches.iter_mut().flatten().zip(stress.iter().flatten()) {
             *w += x * scale * s;
         }
@@ -144,6 +106,8 @@ pub(crate) fn pushing(
     // What the solver calls solved must be so by the measure that contacts are judged with.
     match allowed(wrenches) {
         true => Ok(()),
-        false => Err(failed("contacts beyond their cones".to_owned())),
+        false => Err(Unsolved::Programme(
+            "contacts beyond their cones".to_owned(),
+        )),
     }
 }

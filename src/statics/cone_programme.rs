@@ -1,0 +1,70 @@
+//! Quadratic programmes over second-order cones, as contacts with friction make them.
+
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{DefaultSettings, DefaultSolution, DefaultSolver, IPSolver, SupportedConeT};
+
+/// A row of a sparse matrix: (column, entry).
+pub(crate) type Row = Vec<(usize, f64)>;
+
+/// Minimise ½ xᵀP x + qᵀx subject to `row · x + s = right`, with the slacks s of each group of rows in a cone.
+#[derive(Debug, Default)]
+pub(crate) struct ConeProgramme {
+    rows: Vec<Row>,
+    right: Vec<f64>,
+    cones: Vec<SupportedConeT<f64>>,
+    /// Rows that are in a cone already.
+    grouped: usize,
+}
+
+impl ConeProgramme {
+    /// One more row.
+    pub(crate) fn row(&mut self, row: impl IntoIterator<Item = (usize, f64)>, right: f64) {
+        self.rows.push(row.into_iter().collect());
+        self.right.push(right);
+    }
+
+    /// Puts the slacks of the rows since the last cone into one.
+    pub(crate) fn within(&mut self, cone: impl Fn(usize) -> SupportedConeT<f64>) {
+        self.cones.push(cone(self.rows.len() - self.grouped));
+        self.grouped = self.rows.len();
+    }
+
+    /// What the solver finds for the upper triangle of P by rows, and q.
+    ///
+    /// # Errors
+    /// Where the solver refuses the programme, in its words.
+    pub(crate) fn solve(
+        &self,
+        quadratic: &[Row],
+        linear: &[f64],
+    ) -> Result<DefaultSolution<f64>, String> {
+        let columns = linear.len();
+        let settings = DefaultSettings {
+            verbose: false,
+            ..DefaultSettings::default()
+        };
+        let mut solver = DefaultSolver::new(
+            &matrix(quadratic, columns, columns),
+            linear,
+            &matrix(&self.rows, self.rows.len(), columns),
+            &self.right,
+            &self.cones,
+            settings,
+        )
+        .map_err(|e| e.to_string())?;
+        solver.solve();
+        Ok(solver.solution)
+    }
+}
+
+fn matrix(list: &[Row], rows: usize, columns: usize) -> CscMatrix<f64> {
+    let (mut i, mut j, mut v) = (Vec::new(), Vec::new(), Vec::new());
+    for (r, row) in list.iter().enumerate() {
+        for &(c, x) in row {
+            i.push(r);
+            j.push(c);
+            v.push(x);
+        }
+    }
+    CscMatrix::new_from_triplets(rows, columns, i, j, v)
+}
