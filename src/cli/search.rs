@@ -84,7 +84,10 @@ pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
         Method::Brute => Watch::idle(),
     };
     let outcome = watch.run(mechanism, &request)?;
-    let (eased, why) = (outcome.relaxations()?, outcome.hopeless()?);
+    let (eased, why) = match a.format {
+        SearchFormat::Text | SearchFormat::Json => (outcome.relaxations()?, outcome.hopeless()?),
+        SearchFormat::Jsonl | SearchFormat::Csv => Default::default(),
+    };
     let none = (&eased[..], &why);
     output::to(a.output.as_deref(), |out| {
         let cancelled = || watch.cancelled();

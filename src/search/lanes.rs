@@ -99,12 +99,13 @@ pub(super) fn ways(
         })
         .map(|(.., j)| j)
         .collect();
-    let mut lanes = Vec::new();
-    lanes.extend((!alone.is_empty()).then_some(Lane::Free));
-    lanes.push(Lane::State);
-    lanes.extend((0..faces.len()).map(Lane::Friction));
-    let state = usize::from(!alone.is_empty());
-    let mut order = Vec::new();
+    let free = (!alone.is_empty()).then_some(Lane::Free);
+    let lanes: Vec<Lane> = free
+        .into_iter()
+        .chain([Lane::State])
+        .chain((0..faces.len()).map(Lane::Friction))
+        .collect();
+    let state = usize::from(free.is_some());
     let mut list: Vec<(usize, usize, JointId, usize)> = Vec::new();
     for (variables, lanes) in [(alone, 0..state), (added, state..lanes.len())] {
         for &v in variables {
@@ -113,7 +114,8 @@ pub(super) fn ways(
             }
         }
     }
-    order.extend(list.iter().map(|&(.., joint, lane)| At { joint, lane }));
+    let at = |&(.., joint, lane): &(usize, usize, JointId, usize)| At { joint, lane };
+    let order: Vec<At> = list.iter().map(at).collect();
     let n = mechanism.links.len();
     let copy = |l: LinkId, lane: usize| LinkId::new(lane * n + l.index());
     let mut components: Vec<Vec<LinkId>> = Vec::new();

@@ -1,11 +1,9 @@
 //! What happens in each layer of a diagram: a variable with the moves of its joints, and what is tested after them.
 
 use crate::linalg::modp::Residue;
-use crate::search::lanes::Held;
-use crate::search::lanes::Move;
+use crate::search::lanes::{Held, Move};
 use crate::search::lookahead::Lookahead;
-use crate::search::plan::Plan;
-use crate::search::plan::Step;
+use crate::search::plan::{Plan, Step};
 use crate::search::space::Space;
 
 /// Folds away how exactly a finished kept link goes wrong.
