@@ -1,6 +1,7 @@
 //! Mirror images: whether the joints that a file pairs are each other's images in one plane, and by how much they are not.
 
 use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
+use crate::format::number::brief;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::expr::Expr;
 use crate::geom::scalars::Scalars;
@@ -9,7 +10,6 @@ use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, Mechanism, Mode};
-use std::fmt;
 
 /// How far the image of a joint is from the joint it is paired with.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,14 +20,32 @@ pub struct Miss {
     pub angle: f64,
 }
 
-impl fmt::Display for Miss {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let angle = self.angle.to_degrees();
-        write!(f, "{:.3e}", self.distance)?;
-        if angle != 0.0 {
-            write!(f, " and {angle:.3e}°")?;
+/// The vector product of two directions.
+fn across(u: &[Expr; 3], v: &[Expr; 3]) -> [Expr; 3] {
+    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &u[i] * &v[j] - &u[j] * &v[i])
+}
+
+impl Miss {
+    /// Distance and angle as one number, to compare planes by.
+    fn size(&self) -> f64 {
+        self.distance + self.angle
+    }
+
+    /// "2.062 cm and 0.5°"; `unit` is the file's.
+    #[must_use]
+    pub fn words(&self, unit: &str) -> String {
+        let number = |x: f64| {
+            if x < 1e-3 {
+                format!("{x:.3e}")
+            } else {
+                brief(x)
+            }
+        };
+        let distance = format!("{} {unit}", number(self.distance));
+        match self.angle.to_degrees() {
+            0.0 => distance,
+            angle => format!("{distance} and {}°", number(angle)),
         }
-        Ok(())
     }
 }
 
@@ -40,8 +58,8 @@ pub struct Plane {
 
 impl Plane {
     /// The planes that a pair of joints may be images in: midway between their points, or where these are one, across a
-    /// direction of the first joint.
-    fn candidates(one: &Frame, other: &Frame) -> Vec<Plane> {
+    /// direction of the first joint, between the two axes, or through a third point that is its own image.
+    fn candidates((one, other): (&Frame, &Frame), own: &[&[Expr; 3]]) -> Vec<Plane> {
         let [p, q] = [&one.point, &other.point];
         if real(p) != real(q) {
             return vec![Plane {
@@ -49,39 +67,50 @@ impl Plane {
                 other: q.clone(),
             }];
         }
-        let (z, x) = (&one.axis, &one.reference);
-        let y = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &z[i] * &x[j] - &z[j] * &x[i]);
-        let across = |n: &[Expr; 3]| Plane {
-            one: [0, 1, 2].map(|i| &p[i] - &n[i]),
+        let [z, x, w] = [&one.axis, &one.reference, &other.axis];
+        let between = |u: &[Expr; 3], v: &[Expr; 3]| [0, 1, 2].map(|i| &u[i] - &v[i]);
+        let sum = [0, 1, 2].map(|i| &z[i] + &w[i]);
+        let mut normals = vec![z.clone(), x.clone(), across(z, x), between(z, w), sum];
+        normals.extend(own.iter().map(|o| across(z, &between(o, p))));
+        normals.retain(|n| length(real(n)) > 0.0);
+        let plane = |n: &[Expr; 3]| Plane {
+            one: between(p, n),
             other: [0, 1, 2].map(|i| &p[i] + &n[i]),
         };
-        vec![across(z), across(x), across(&y)]
+        normals.iter().map(plane).collect()
     }
 
-    /// The plane in which most of the pairs are images, with how far each pair is off in it; `None` without pairs.
+    /// The planes the pairs may be images in, the likeliest first, each with how far every pair is off in it: those that
+    /// the pairs themselves suggest, judged by most of the pairs, and where these agree, by all joints.
     #[must_use]
     pub fn of_pairs(
         mechanism: &Mechanism,
         pairs: &[(JointId, JointId)],
-    ) -> Option<(Plane, Vec<Miss>)> {
-        let joint = |j: JointId| &mechanism.joints[j];
-        let pair = |&(a, b): &(JointId, JointId)| (&joint(a).frame, &joint(b).frame);
-        let planes = pairs.iter().map(pair);
-        let planes = planes.flat_map(|(a, b)| Plane::candidates(a, b));
+    ) -> Vec<(Plane, Vec<Miss>)> {
+        let frame = |j: JointId| &mechanism.joints[j].frame;
+        let at_one_point = |&&(a, b): &&_| real(&frame(a).point) == real(&frame(b).point);
+        let own: Vec<_> = pairs.iter().filter(at_one_point).collect();
+        let own: Vec<_> = own.iter().map(|p| &frame(p.0).point).collect();
+        let planes = pairs
+            .iter()
+            .flat_map(|&(a, b)| Plane::candidates((frame(a), frame(b)), &own));
+        let paired = |j: JointId| pairs.iter().any(|&(a, b)| j == a || j == b);
+        let alone: Vec<JointId> = mechanism.joint_ids().filter(|&j| !paired(j)).collect();
         let judged = planes.map(|plane| {
-            let miss = |&(a, b): &(JointId, JointId)| {
-                plane.miss((&joint(a).frame, &joint(a).joint_type), &joint(b).frame)
-            };
-            let misses: Vec<Miss> = pairs.iter().map(miss).collect();
-            (plane, misses)
+            let miss =
+                |a: JointId, b| plane.miss((frame(a), &mechanism.joints[a].joint_type), frame(b));
+            let misses: Vec<Miss> = pairs.iter().map(|&(a, b)| miss(a, b)).collect();
+            let mut off: Vec<f64> = misses.iter().map(Miss::size).collect();
+            off.sort_by(f64::total_cmp);
+            // The median first: one wrong pair must not choose the plane.
+            let all =
+                off.iter().sum::<f64>() + alone.iter().map(|&j| miss(j, j).size()).sum::<f64>();
+            let key = (off[off.len() / 2], all);
+            (key, (plane, misses))
         });
-        // The median miss: one wrong pair must not choose the plane.
-        let typical = |misses: &[Miss]| {
-            let mut all: Vec<f64> = misses.iter().map(|m| m.distance + m.angle).collect();
-            all.sort_by(f64::total_cmp);
-            all[all.len() / 2]
-        };
-        judged.min_by(|a, b| typical(&a.1).total_cmp(&typical(&b.1)))
+        let mut judged: Vec<_> = judged.collect();
+        judged.sort_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        judged.into_iter().map(|(_, plane)| plane).collect()
     }
 
     /// How far the image of a joint is from a place.

@@ -1,11 +1,11 @@
 //! Whether the mirror pairs of a file carry the mechanism over to itself, so that a variant and its image have the same
 //! figures: links and joints, each with its options, exactly.
 
-use crate::closure::mirror::{Miss, Plane};
+use crate::closure::mirror::Plane;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::model::coupling::{CoupledFreedom, Coupling};
 use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{Joint, JointId, JointOption, LinkId, Mechanism, StateId};
+use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism, StateId};
 use itertools::Itertools;
 use thiserror::Error;
 
@@ -59,7 +59,7 @@ pub enum MirrorError {
     },
     /// Joints that are not each other's images.
     #[error(
-        "{option} of joint {first} has its mirror image {miss} {unit} from that of joint {second}, and counts of images need exact ones; correct the points and axes, or search without symmetry"
+        "{option} of joint {first} has its mirror image {off} from that of joint {second}, and counts of images need exact ones; correct the points and axes, or search without symmetry"
     )]
     Off {
         /// One joint.
@@ -69,9 +69,7 @@ pub enum MirrorError {
         /// What is put there.
         option: String,
         /// How far it is off.
-        miss: Miss,
-        /// The file's unit.
-        unit: &'static str,
+        off: String,
     },
     /// The geometry has no image in the field.
     #[error(transparent)]
@@ -95,11 +93,11 @@ pub(super) fn check(
     mechanism: &Mechanism,
     state: Option<StateId>,
 ) -> Result<(), MirrorError> {
-    let Some((plane, _)) = Plane::of_pairs(mechanism, &mechanism.search.mirror) else {
+    if mechanism.search.mirror.is_empty() {
         return Err(MirrorError::NoPairs {
             mechanism: mechanism.name.clone(),
         });
-    };
+    }
     let states = std::iter::once(StateId::FREE).chain(state);
     let joints = states
         .flat_map(|s| mechanism.joints_in(s))
@@ -107,11 +105,8 @@ pub(super) fn check(
         .collect_vec();
     for &j in &joints {
         let (a, b) = (&mechanism.joints[j], &mechanism.joints[image(mechanism, j)]);
-        let offers = |j: &Joint| {
-            let all = j.options.iter().chain(&j.unloading);
-            all.map(|o| (o.name.clone(), o.cost_milli)).collect_vec()
-        };
-        if offers(a) != offers(b) {
+        let offer = |o: &JointOption| (o.name.clone(), o.cost_milli);
+        if !a.offered().map(offer).eq(b.offered().map(offer)) {
             return Err(MirrorError::UnlikeOptions {
                 first: a.id.clone(),
                 second: b.id.clone(),
@@ -119,10 +114,41 @@ pub(super) fn check(
         }
     }
     links(mechanism, &joints)?;
-    for &j in &joints {
+    images(exact, mechanism, &joints)?;
+    match mechanism.couplings.iter().find(|c| !coupled(mechanism, c)) {
+        Some(c) => Err(MirrorError::UnlikeCoupling {
+            coupling: c.name(mechanism),
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses joints that are not each other's images, option by option, in any of the planes they may be images in.
+fn images(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    joints: &[JointId],
+) -> Result<(), MirrorError> {
+    let mut off = None;
+    for (plane, _) in Plane::of_pairs(mechanism, &mechanism.search.mirror) {
+        match in_plane(exact, mechanism, joints, &plane) {
+            // What is off in the likeliest plane is what a person wants to hear of.
+            Err(e @ MirrorError::Off { .. }) => off = off.or(Some(e)),
+            other => return other,
+        }
+    }
+    off.map_or(Ok(()), Err)
+}
+
+fn in_plane(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    joints: &[JointId],
+    plane: &Plane,
+) -> Result<(), MirrorError> {
+    for &j in joints {
         let (a, b) = (&mechanism.joints[j], &mechanism.joints[image(mechanism, j)]);
-        let offered = |j: &Joint| j.options.iter().chain(&j.unloading).cloned().collect_vec();
-        for (one, other) in offered(a).iter().zip(&offered(b)) {
+        for (one, other) in a.offered().zip(b.offered()) {
             let motion = |o: &JointOption| match o.joint_type {
                 // A face: what friction leaves free.
                 JointType::Fixed => JointType::Custom(vec![Freedom::Tz, Freedom::Rx, Freedom::Ry]),
@@ -135,18 +161,14 @@ pub(super) fn check(
                     first: a.id.clone(),
                     second: b.id.clone(),
                     option: one.name.clone(),
-                    miss: plane.miss((&one.frame, &one.joint_type), &other.frame),
-                    unit: mechanism.length_unit.symbol,
+                    off: plane
+                        .miss((&one.frame, &one.joint_type), &other.frame)
+                        .words(mechanism.length_unit.symbol),
                 });
             }
         }
     }
-    match mechanism.couplings.iter().find(|c| !coupled(mechanism, c)) {
-        Some(c) => Err(MirrorError::UnlikeCoupling {
-            coupling: c.name(mechanism),
-        }),
-        None => Ok(()),
-    }
+    Ok(())
 }
 
 /// Refuses pairs that do not carry links over to links: the frame is its own image, and what joins two links joins their

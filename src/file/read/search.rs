@@ -7,7 +7,6 @@ use crate::file::problem::ProblemKind;
 use crate::file::read::names::{joint_by_id, link_by_id};
 use crate::file::read::resolve::{cost, index, key};
 use crate::file::schema::MechanismFile;
-use crate::format::number::brief;
 use crate::geom::extent::diagonal;
 use crate::geom::vector::real;
 use crate::model::joint_type::JointType;
@@ -21,12 +20,13 @@ const NO_IMAGE: f64 = 1e-3;
 
 /// Tells pairs that are no mirror images.
 fn images(mechanism: &Mechanism, pairs: &[(JointId, JointId)], at: &[Step], out: &mut Findings) {
-    let Some((_, misses)) = Plane::of_pairs(mechanism, pairs) else {
+    let planes = Plane::of_pairs(mechanism, pairs);
+    let Some((_, misses)) = planes.first() else {
         return;
     };
     let points = mechanism.joints.iter().map(|j| real(&j.frame.point));
     let size = diagonal(points.collect_vec().iter().copied());
-    for (i, (&(a, b), miss)) in pairs.iter().zip(&misses).enumerate() {
+    for (i, (&(a, b), miss)) in pairs.iter().zip(misses).enumerate() {
         if miss.angle > NO_IMAGE || miss.distance > NO_IMAGE * size {
             let [first, second] = [a, b].map(|j| mechanism.joints[j].id.clone());
             out.add(
@@ -34,12 +34,7 @@ fn images(mechanism: &Mechanism, pairs: &[(JointId, JointId)], at: &[Step], out:
                 ProblemKind::NoMirrorImage {
                     first,
                     second,
-                    off: format!(
-                        "{} {} and {}°",
-                        brief(miss.distance),
-                        mechanism.length_unit.symbol,
-                        brief(miss.angle.to_degrees())
-                    ),
+                    off: miss.words(mechanism.length_unit.symbol),
                 },
             );
         }

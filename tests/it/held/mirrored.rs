@@ -3,6 +3,9 @@
 use super::{file, searched};
 use crate::common::{changed, count, run};
 use ozols::builtin;
+use ozols::file::text::mechanism_from_str;
+use ozols::redundancy::analysis::exact_field;
+use ozols::search::conditions::{Conditions, Search, Symmetry};
 
 fn gripper() -> String {
     builtin::text("gripper-10").unwrap().to_owned()
@@ -86,4 +89,42 @@ fn orbits_of_the_clamped_gripper() {
     let (all, own) = (admissible(&[]), admissible(&["--symmetric"]));
     assert_eq!(2 * admissible(&["--one-per-orbit"]), all + own);
     assert!(all > 0);
+}
+
+/// Both pairs stand on the mirror plane, so their points alone do not say which plane it is: across x = 3 they are images
+/// too, but there the slider, which has no partner, is not its own.
+#[test]
+fn joints_without_a_partner_and_skew_axes_say_which_plane_it_is() {
+    for (axis, image) in [
+        ([0, 0, 1], [0, 0, 1]),
+        ([1, 2, -1], [1, -2, -1]),
+        ([0, 1, 0], [0, -1, 0]),
+    ] {
+        let mut text = String::from(
+            "name = \"on the plane\"\n[search]\nmirror = [[\"u0\", \"l0\"], [\"u1\", \"l1\"]]\n",
+        );
+        for (link, role) in [
+            ("f", "role = \"frame\""),
+            ("s", ""),
+            ("u", "role = \"output\""),
+            ("l", "role = \"output\""),
+        ] {
+            text += &format!("[[link]]\nid = \"{link}\"\n{role}\n");
+        }
+        text += "[[joint]]\nid = \"middle\"\nlinks = [\"f\", \"s\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [1, 0, 0]\noptions = [\"cylindrical\"]\n";
+        for (side, axis) in [("u", axis), ("l", image)] {
+            for (i, ends) in [["s", side], [side, "f"]].iter().enumerate() {
+                text += &format!(
+                    "[[joint]]\nid = \"{side}{i}\"\nlinks = {ends:?}\ntype = \"revolute\"\npoint = [3, 0, {i}]\naxis = {axis:?}\noptions = [\"spherical\"]\n"
+                );
+            }
+        }
+        let m = mechanism_from_str("on-the-plane.toml", &text).unwrap();
+        let conditions = Conditions {
+            symmetry: Symmetry::SymmetricOnly,
+            ..Conditions::default()
+        };
+        let search = Search::new(exact_field(&m, 0).unwrap(), &m, conditions);
+        assert!(search.is_ok(), "{axis:?}: {:?}", search.err());
+    }
 }
