@@ -1,12 +1,11 @@
 //! The twin of the diagram: look at every variant. Kept for checking and for the comparison of speed.
 
-use crate::closure::contour::contour_basis;
-use crate::closure::tree::path_from_frame;
-use crate::geom::exact::ExactField;
 use crate::linalg::modp::{Field, Residue};
-use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
-use crate::search::space::Space;
+use crate::search::conditions::Search;
+use crate::search::counts::Counts;
 use crate::search::tally::{Key, Steps};
+use crate::search::written_out::WrittenOut;
+use num_bigint::BigUint;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -21,125 +20,45 @@ pub struct Seen {
     pub motion: usize,
 }
 
-/// The closure matrices of all variants at once: every choice's columns, written out.
+/// The closure matrices of all variants at once, over a prime field.
 #[derive(Debug)]
 pub struct Matrices {
     field: Field,
-    free_rows: usize,
-    kept_rows: usize,
-    state_rows: usize,
-    /// `columns[variable][choice]`: full columns (free contours and couplings, kept links, the state's own contours and
-    /// couplings).
-    columns: Vec<Vec<Vec<Vec<Residue>>>>,
+    all: WrittenOut<Residue>,
 }
 
 impl Matrices {
-    /// Writes the columns of a space out; `kept` are the links whose motion matters.
+    /// Writes the columns of a search's space out.
     #[must_use]
-    pub fn new(
-        exact: &ExactField,
-        mechanism: &Mechanism,
-        space: &Space,
-        kept: &[LinkId],
-    ) -> Matrices {
-        let (f, d) = (exact.field(), space.dim);
-        let free = contour_basis(mechanism, StateId::FREE);
-        let state: StateId = space.state.unwrap_or(StateId::FREE);
-        let all = contour_basis(mechanism, state);
-        let paths: Vec<Vec<(JointId, bool)>> = kept
-            .iter()
-            .map(|&l| path_from_frame(mechanism, StateId::FREE, l))
-            .collect();
-        let signs = |j: JointId| {
-            let contours = free.iter().map(move |c| c.direction(j));
-            let links = paths
-                .iter()
-                .map(move |p| p.iter().find(|(q, _)| *q == j).map(|(_, s)| *s));
-            let added = all[free.len()..].iter().map(move |c| c.direction(j));
-            contours.chain(links).chain(added).collect::<Vec<_>>()
-        };
-        // Couplings by index, those of the free state and those that the state adds.
-        let present = |q: usize, s: StateId| {
-            let states = &mechanism.joints[mechanism.couplings[q].ends[0].joint].states;
-            states.as_ref().is_none_or(|of| of.contains(&s))
-        };
-        let all_couplings = 0..mechanism.couplings.len();
-        let coupled: Vec<usize> = all_couplings
-            .clone()
-            .filter(|&q| present(q, StateId::FREE))
-            .collect();
-        let adds = |q: &usize| present(*q, state) && !present(*q, StateId::FREE);
-        let added_couplings: Vec<usize> = all_couplings.filter(adds).collect();
-        let column = |j: JointId, signs: &[Option<bool>], twist: &[Residue]| {
-            let mut blocks = signs.iter().map(|sign| {
-                let mut block = vec![0; d];
-                if let Some(plus) = sign {
-                    f.accumulate(&mut block, &twist[..d], *plus);
-                }
-                block
-            });
-            let rates = |list: &[usize]| -> Vec<Residue> {
-                let at = |q: usize| mechanism.couplings_of(j).position(|(c, _)| c == q);
-                let entry = |&q: &usize| at(q).map_or(0, |i| twist[d + i]);
-                list.iter().map(entry).collect()
-            };
-            let mut out = blocks
-                .by_ref()
-                .take(free.len())
-                .flatten()
-                .collect::<Vec<_>>();
-            out.extend(rates(&coupled));
-            out.extend(blocks.flatten());
-            out.extend(rates(&added_couplings));
-            out
-        };
-        let columns = space
-            .variables
-            .iter()
-            .map(|v| {
-                let signs: Vec<_> = v.joints.iter().map(|&j| (j, signs(j))).collect();
-                let of_choice = |spans: &[Vec<Vec<Residue>>]| {
-                    spans
-                        .iter()
-                        .zip(&signs)
-                        .flat_map(|(span, (j, s))| span.iter().map(|t| column(*j, s, t)))
-                        .collect()
-                };
-                v.choices.iter().map(|c| of_choice(&c.spans)).collect()
-            })
+    pub fn new(search: &Search) -> Matrices {
+        let variables = search.space.variables.iter();
+        let spans: Vec<_> = variables
+            .map(|v| v.choices.iter().map(|c| c.spans.clone()).collect())
             .collect();
         Matrices {
-            field: f,
-            free_rows: free.len() * d + coupled.len(),
-            kept_rows: kept.len() * d,
-            state_rows: (all.len() - free.len()) * d + added_couplings.len(),
-            columns,
+            field: search.field().field(),
+            all: WrittenOut::new(search.field(), search, &spans),
         }
     }
 
     /// Looks at one variant.
     #[must_use]
     pub fn look(&self, choices: &[usize]) -> Seen {
-        let chosen = || {
-            choices
-                .iter()
-                .enumerate()
-                .flat_map(|(v, &c)| &self.columns[v][c])
-        };
-        let kept_end = self.free_rows + self.kept_rows;
+        let [free, kept, state] = self.all.rows;
+        let chosen = || self.all.chosen(choices);
         let pivots = eliminate(
             self.field,
-            chosen().map(|c| c[..kept_end].to_vec()).collect(),
+            chosen().map(|c| c[..free + kept].to_vec()).collect(),
         );
-        let rank = pivots.iter().filter(|&&p| p < self.free_rows).count();
+        let rank = pivots.iter().filter(|&&p| p < free).count();
         let mut external = 0;
-        if self.state_rows > 0 {
-            let without_kept = |c: &Vec<Residue>| [&c[..self.free_rows], &c[kept_end..]].concat();
+        if state > 0 {
+            let without_kept = |c: &Vec<Residue>| [&c[..free], &c[free + kept..]].concat();
             let whole = eliminate(self.field, chosen().map(without_kept).collect()).len();
-            external = self.state_rows - (whole - rank);
+            external = state - (whole - rank);
         }
         Seen {
-            internal: u32::try_from(self.free_rows - rank).unwrap_or(u32::MAX),
+            internal: u32::try_from(free - rank).unwrap_or(u32::MAX),
             external: u32::try_from(external).unwrap_or(u32::MAX),
             motion: pivots.len() - rank,
         }
@@ -224,4 +143,40 @@ pub fn count(
             }
             a
         })
+}
+
+impl Search {
+    /// The properties of a variant, from its choices and its redundant constraints.
+    #[must_use]
+    pub fn key(&self, choices: &[usize], internal: u32, external: u32) -> Key {
+        let keys = self.steps.keys.iter().zip(choices);
+        let sum: u128 = keys.map(|(keys, &c)| keys[c].0).sum();
+        Key(sum + Key::new(0, 0, 0, internal, external).0)
+    }
+
+    /// Whether a variant that is like this is determinate, and if so whether it is admissible but for W and changes, which
+    /// [`Search::wanted`] knows.
+    #[must_use]
+    pub fn class(&self, seen: Seen) -> Option<bool> {
+        let (keep, state) = (self.conditions.keep_output, self.conditions.state);
+        let admissible = (!keep || seen.motion == self.kept.1.len())
+            && state.is_none_or(|(_, most)| seen.external <= most);
+        (seen.internal <= self.conditions.max_redundant).then_some(admissible)
+    }
+
+    /// Counts by looking at every variant: (determinate, admissible).
+    #[must_use]
+    pub fn brute(&self) -> (Counts, Counts) {
+        let matrices = Matrices::new(self);
+        let class = |seen| self.class(seen);
+        let (mut all, mut good) = (Counts::default(), Counts::default());
+        for ((key, admissible), n) in count(&matrices, &self.steps, class) {
+            let n = BigUint::from(n);
+            all.add(self.mobility(key), key, &n);
+            if admissible && self.wanted(key) {
+                good.add(self.mobility(key), key, &n);
+            }
+        }
+        (all, good)
+    }
 }

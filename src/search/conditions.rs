@@ -8,10 +8,8 @@ use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::redundancy::motion::joint_motion;
 use crate::search::best::{self, Assignment, Cheapest};
-use crate::search::brute::{self, Matrices};
 use crate::search::building::Diagrams;
 use crate::search::cost::CostTable;
-use crate::search::counts::Counts;
 use crate::search::diagram::Diagram;
 use crate::search::space::Space;
 use crate::search::tally::{Key, Kinds, Steps, Tally};
@@ -299,31 +297,6 @@ impl Search {
             let tally: Tally<BigUint> = Tally::new(diagram, &keys, None);
             best::sample(diagram, &self.steps, &keys, &tally, count, seed, wanted)
         }
-    }
-
-    /// Counts by looking at every variant: (determinate, admissible).
-    #[must_use]
-    pub fn brute(&self) -> (Counts, Counts) {
-        let matrices = Matrices::new(&self.exact, &self.mechanism, &self.space, &self.kept.0);
-        let admissible = |seen: brute::Seen| {
-            (!self.conditions.keep_output || seen.motion == self.kept.1.len())
-                && self
-                    .conditions
-                    .state
-                    .is_none_or(|(_, e)| seen.external <= e)
-        };
-        let class = |seen: brute::Seen| {
-            (seen.internal <= self.conditions.max_redundant).then(|| admissible(seen))
-        };
-        let (mut all, mut good) = (Counts::default(), Counts::default());
-        for ((key, admissible), count) in brute::count(&matrices, &self.steps, class) {
-            let count = BigUint::from(count);
-            all.add(self.mobility(key), key, &count);
-            if admissible && self.wanted(key) {
-                good.add(self.mobility(key), key, &count);
-            }
-        }
-        (all, good)
     }
 }
 

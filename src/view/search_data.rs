@@ -219,6 +219,8 @@ pub struct TailData {
     variants_dropped: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     relaxations: Option<Vec<EasedData>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seconds: Option<f64>,
 }
 
 #[derive(Debug, Serialize)]
@@ -236,9 +238,14 @@ enum Bound {
 }
 
 impl TailData {
-    /// `complete` unless the giving was interrupted; `eased` where nothing was found.
+    /// `complete` unless the giving was interrupted; `eased` where nothing was found; `seconds` is how long all of it took.
     #[must_use]
-    pub fn new(summary: &Summary, complete: bool, eased: Option<&[(Relaxation, BigUint)]>) -> Self {
+    pub fn new(
+        summary: &Summary,
+        complete: bool,
+        eased: Option<&[(Relaxation, BigUint)]>,
+        seconds: Option<f64>,
+    ) -> Self {
         let one = |(how, n): &(Relaxation, BigUint)| {
             let (condition, to) = condition(*how);
             EasedData {
@@ -256,6 +263,7 @@ impl TailData {
             variants_lucky: summary.lucky,
             variants_dropped: summary.dropped,
             relaxations: eased.map(|list| list.iter().map(one).collect()),
+            seconds,
         }
     }
 }

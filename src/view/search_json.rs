@@ -7,7 +7,8 @@ use num_bigint::BigUint;
 use num_traits::Zero;
 use std::io::{self, Write};
 
-/// Writes an outcome with its variants as one value; `eased` is told where there is none.
+/// Writes an outcome with its variants as one value; `eased` is told where there is none, `seconds` where somebody has a
+/// clock, asked once all else is written. No other key differs between runs.
 ///
 /// # Errors
 /// Those of the writer.
@@ -16,6 +17,7 @@ pub fn write(
     outcome: &Outcome,
     mut variants: Variants<'_>,
     eased: &[(Relaxation, BigUint)],
+    seconds: Option<&dyn Fn() -> f64>,
 ) -> io::Result<()> {
     // Variants stream: the closing brace of the header waits for them.
     let text = serde_json::to_string_pretty(&SearchData::new(outcome))?;
@@ -27,7 +29,8 @@ pub fn write(
         serde_json::to_writer(&mut *out, &VariantData::new(outcome, &v))?;
     }
     let eased = outcome.admissible.total.is_zero().then_some(eased);
-    let tail = TailData::new(&variants.summary(), !variants.interrupted(), eased);
+    let seconds = seconds.map(|s| s());
+    let tail = TailData::new(&variants.summary(), !variants.interrupted(), eased, seconds);
     let text = serde_json::to_string_pretty(&tail)?;
     let rest = text.strip_prefix("{\n").unwrap_or(&text);
     writeln!(out, "\n  ],\n{rest}")

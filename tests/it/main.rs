@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod adding;
+mod bench;
 mod catalogs;
 mod certificates;
 mod certify;
