@@ -20,6 +20,7 @@ use crate::score::request::{Check, List, Method, Request};
 use crate::score::run::RunError;
 use crate::search::approximate::Approximate;
 use crate::search::brute::Matrices;
+use crate::search::diagram::Stop;
 use record::{Record, Trial};
 use truth::{Truth, listed};
 use way::Way;
@@ -76,8 +77,8 @@ pub fn trial(
     let mut records = Vec::with_capacity(ways.len());
     for (n, &way) in ways.iter().enumerate() {
         progress(way, n, ways.len());
-        records.push(match way {
-            Way::Brute | Way::Float(_) => by_looking(&truth, way, watch)?,
+        records.extend(match way {
+            Way::Brute | Way::Float(_) => Some(by_looking(&truth, way, watch)?),
             _ => by_diagram(&truth, way, (mechanism, &way.request(&base)), watch)?,
         });
     }
@@ -93,24 +94,27 @@ pub fn trial(
     })
 }
 
-/// A search by the diagram.
+/// A search by the diagram; `None` where a budget of nodes cuts nothing, for every layer may have a few hundred.
 fn by_diagram(
     truth: &Truth,
     way: Way,
     (mechanism, request): (&Mechanism, &Request),
     watch: Stopwatch,
-) -> Result<Record, RunError> {
+) -> Result<Option<Record>, RunError> {
     let (found, time) = watch.time(|| listed(mechanism, request));
     let (outcome, list) = found?;
+    if matches!(way, Way::Nodes(_)) && outcome.stop == Stop::Exhausted {
+        return Ok(None);
+    }
     let judge = |choices: &[usize]| looked::by_diagram(&outcome, choices);
-    Ok(Record {
+    Ok(Some(Record {
         way,
         time,
         by_proportion: false,
         counts: truth.counts_right(&looked::cells_of_counts(&outcome)),
         best: truth.best_right(&list),
         variants: truth.variants_right(&looked::judge_all(&truth.looked, judge)),
-    })
+    }))
 }
 
 /// A search by looking at each variant, over the first prime or in floating point.

@@ -4,6 +4,7 @@ use super::args::Args;
 use super::progress::Bar;
 use super::request::Which;
 use super::{Done, load, machine, output};
+use crate::accuracy::searching::way::Way;
 use crate::accuracy::searching::{Effort, MECHANISMS, pictures, table, trial};
 use crate::accuracy::timing::Stopwatch;
 use crate::score::request::{List, Request};
@@ -23,7 +24,7 @@ enum BenchFormat {
 
 #[derive(Debug, ClapArgs)]
 pub(super) struct Bench {
-    /// Paths or names of built-in mechanisms; some built-in ones by default.
+    /// Paths or names of built-in mechanisms; six built-in ones by default.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     files: Vec<String>,
     /// How many of the best are compared.
@@ -86,7 +87,7 @@ pub(super) fn run(args: &Args, a: &Bench) -> anyhow::Result<Done> {
     let mut bar = Bar::new(args.quiet);
     let mut trials = Vec::new();
     for m in &mechanisms {
-        let progress = &mut |way: crate::accuracy::searching::way::Way, done, of| {
+        let progress = &mut |way: Way, done, of| {
             bar.step(&format!("{}: {way}", m.name), done, of);
         };
         let found = trial(m, &request, effort, watch, progress);

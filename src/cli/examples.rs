@@ -99,9 +99,9 @@ Examples:
 
 pub(super) const BENCH: &str = "\
 Examples:
-  ozols bench --quick                                every way of searching some built-in mechanisms
-  ozols bench --quick four-bar --max-mobility 1      one of your own, under the conditions of ozols search
-  ozols bench --quick -o bench                       with charts and a page: open bench/index.html";
+  ozols bench --quick lever-gripper                  every way of searching, pools of its ranking among them
+  ozols bench --quick four-bar --max-mobility 1      under the conditions of ozols search
+  ozols bench --quick four-bar -o bench              with charts and a page: open bench/index.html";
 
 pub(super) const CHECK: &str = "\
 Warnings are no failure; only a file that cannot be used ends with exit code 2.

@@ -14,7 +14,7 @@ use serde_json::Value;
 use std::time::Duration;
 
 const EFFORT: Effort = Effort {
-    looked: 1_000,
+    looked: 400,
     pool: 2_000,
 };
 
@@ -44,7 +44,7 @@ const CHECKS: [Check; 3] = [Check::None, Check::Prime, Check::Full];
 
 #[test]
 fn exact_ways_are_right_and_cut_ones_are_not() {
-    for name in ["two-bennetts", "3-rrr-planar", "geared-gripper", "gripper-10"] {
+    for name in ["four-bar", "3-rrr-planar", "geared-gripper", "gripper-10"] {
         let t = built_in(name);
         for way in CHECKS.map(Way::Diagram).into_iter().chain([Way::Brute]) {
             let r = of(&t, way);
@@ -56,11 +56,14 @@ fn exact_ways_are_right_and_cut_ones_are_not() {
             assert_eq!(r.best.map(is_right), gives.then_some(true), "{name}, {way}");
             assert_eq!(r.by_proportion, way == Way::Brute && !t.whole);
         }
+        // A small diagram is not cut: every layer may have a few hundred nodes.
         let cut = t.records.iter().filter(|r| matches!(r.way, Way::Nodes(_)));
-        let shares: Vec<f64> = cut.map(|r| r.counts.unwrap().percent()).collect();
-        assert_eq!(shares.len(), 3);
-        assert!(shares.is_sorted_by(|a, b| a >= b), "{name}: {shares:?}");
-        assert!(shares[2] < 50.0, "{name}: {shares:?}");
+        let cut: Vec<_> = cut.collect();
+        assert_eq!(cut.is_empty(), name != "gripper-10", "{name}");
+        for r in cut {
+            assert!(!is_right(r.counts.unwrap()), "{}", r.way);
+            assert!(!is_right(r.variants), "{}", r.way);
+        }
     }
 }
 
@@ -70,21 +73,11 @@ fn the_truth_is_what_is_known() {
     let t = built_in("gripper-10");
     let known = [6_340_592_477_u64, 25_761_436].map(BigUint::from);
     assert_eq!(t.found, Some(known));
-    assert!(!t.whole && t.looked == 1_000 && t.ranked.is_none());
-    let whole = Effort {
-        looked: 4_096,
-        ..EFFORT
-    };
-    let request = Request {
-        options: vec!["revolute".to_owned(), "spherical".to_owned()],
-        ..Request::default()
-    };
-    let t = tried(&Mechanism::builtin("gripper-10").unwrap(), &request, whole);
+    assert!(!t.whole && t.looked == 400 && t.ranked.is_none());
+    let t = built_in("goldberg-5r");
     let counts = json(&[
         "search",
-        "gripper-10",
-        "--options",
-        "revolute,spherical",
+        "goldberg-5r",
         "--method",
         "brute",
         "--format",
@@ -98,21 +91,15 @@ fn the_truth_is_what_is_known() {
 /// so.
 #[test]
 fn floating_point_is_wrong_about_a_hair() {
-    let shown = out(&["show", "two-bennetts"]);
-    let m = mechanism_from_str("two-bennetts.toml", &shown).unwrap();
-    let joint = m.joints.iter().position(|j| !j.options.is_empty()).unwrap();
-    let mut off = m.clone();
-    let point = &mut off.joints.iter_mut().nth(joint).unwrap().frame.point;
+    let shown = out(&["show", "bennett"]);
+    let mut off = mechanism_from_str("bennett.toml", &shown).unwrap();
+    let point = &mut off.joints.iter_mut().next().unwrap().frame.point;
     point[0] = &point[0] + &ozols::accuracy::stability::change::power_of_ten(-20);
     let request = Request {
         as_written: true,
         ..Request::default()
     };
-    let effort = Effort {
-        looked: 5_000,
-        ..EFFORT
-    };
-    let t = tried(&off, &request, effort);
+    let t = tried(&off, &request, EFFORT);
     assert!(is_right(of(&t, Way::Diagram(Check::None)).variants));
     assert!(is_right(of(&t, Way::Brute).variants));
     for e in Elimination::ALL {
@@ -149,14 +136,17 @@ fn pictures_show_every_way_and_the_machine() {
         system: "wood".to_owned(),
         optimised: true,
     };
-    let trials = [built_in("two-bennetts"), built_in("lever-gripper")];
+    let trials = [built_in("four-bar"), built_in("lever-gripper")];
     let files = pictures::files(&trials, &machine);
     assert_eq!(files, pictures::files(&trials, &machine));
     let svgs: Vec<_> = files.iter().filter(|f| f.0.ends_with(".svg")).collect();
     assert_eq!(svgs.len(), 4);
     for (name, svg) in svgs {
         roxmltree::Document::parse(svg).unwrap_or_else(|e| panic!("{name}: {e}"));
-        assert!(svg.contains("Abacus, 2 of 3 cores, 4 GB, wood; ozols"), "{name}");
+        assert!(
+            svg.contains("Abacus, 2 of 3 cores, 4 GB, wood; ozols"),
+            "{name}"
+        );
         assert!(svg.contains("full check"), "{name}");
     }
     assert_eq!(files.last().unwrap().0, "index.html");
@@ -202,12 +192,20 @@ fn conditions_are_those_of_a_search_and_bad_ones_are_refused() {
     assert_eq!(bench["mechanisms"][0]["admissible"], search["admissible"]);
     for (bad, said) in [
         (&["nosuch"][..], "neither a file nor a built-in mechanism"),
-        (&["four-bar", "--repeat", "0"], "--repeat must be at least 1"),
-        (&["four-bar", "--looked", "0"], "--looked must be at least 1"),
+        (
+            &["four-bar", "--repeat", "0"],
+            "--repeat must be at least 1",
+        ),
+        (
+            &["four-bar", "--looked", "0"],
+            "--looked must be at least 1",
+        ),
         (&["gripper-10", "--one-per-orbit"], "--one-per-orbit"),
         (&["four-bar", "--options", "ball"], "no joint of four-bar"),
     ] {
-        let o = ozols(&[&["bench", "--quick"], bad].concat()).output().unwrap();
+        let o = ozols(&[&["bench", "--quick"], bad].concat())
+            .output()
+            .unwrap();
         assert_eq!(o.status.code(), Some(2), "{bad:?}");
         assert!(text(&o.stderr).contains(said), "{}", text(&o.stderr));
     }

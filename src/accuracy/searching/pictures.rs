@@ -5,7 +5,7 @@ use super::table;
 use super::way::Way;
 use crate::accuracy::timing::Machine;
 use crate::chart::{Axis, Chart, Scale, Series, Style, page};
-use crate::format::number::duration;
+use crate::format::number::{duration, grouped};
 use crate::format::phrase::list;
 
 /// Records with a share, by time; those that are right more often than any before them.
@@ -123,12 +123,13 @@ pub fn best(trial: &Trial, machine: &Machine) -> Option<Chart> {
 #[must_use]
 pub fn ranking(trial: &Trial) -> Option<String> {
     let (pool, proven) = trial.ranked?;
+    let pool = grouped(&pool.to_string());
     let sure = match proven {
-        true => "which no other variant can enter",
-        false => "which is not proven: a larger pool may have better ones",
+        true => "the best of all",
+        false => "and a larger pool may have better ones",
     };
     Some(format!(
-        "The best are judged by a ranking of the {pool} cheapest, {sure}."
+        "The best are judged by a ranking of the {pool} cheapest variants, {sure}."
     ))
 }
 
@@ -136,9 +137,10 @@ pub fn ranking(trial: &Trial) -> Option<String> {
 #[must_use]
 pub fn wrong(trial: &Trial) -> String {
     let judged = trial.records.iter().filter_map(|r| {
-        let (wrong, of) = (r.variants.of - r.variants.right, r.variants.of);
+        let Share { right, of } = r.variants;
         let by_itself = matches!(r.way, Way::Brute | Way::Float(_));
-        (by_itself && wrong > 0).then(|| format!("{} on {wrong} of {of} variants", r.way))
+        let [wrong, all] = [of - right, of].map(|n| grouped(&n.to_string()));
+        (by_itself && right < of).then(|| format!("{} on {wrong} of {all} variants", r.way))
     });
     let counted = trial.records.iter().filter_map(|r| {
         let counts = r.counts.filter(|c| c.right < c.of)?;

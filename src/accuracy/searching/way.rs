@@ -25,7 +25,7 @@ pub(super) fn all(nodes: usize, pool: Option<usize>) -> Vec<Way> {
     let mut ways = [Check::None, Check::Prime, Check::Full]
         .map(Way::Diagram)
         .to_vec();
-    ways.extend([2, 4, 16].map(|part| Way::Nodes((nodes / part).max(1))));
+    ways.extend([3, 2, 1].map(|quarters| Way::Nodes((nodes * quarters / 4).max(1))));
     let pools = [10, 100, 1000, 10_000].into_iter();
     ways.extend(
         pools
