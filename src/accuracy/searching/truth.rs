@@ -5,7 +5,7 @@ use super::record::Share;
 use crate::model::mechanism::Mechanism;
 use crate::rank::field::exact_field;
 use crate::score::outcome::Outcome;
-use crate::score::request::{List, Request};
+use crate::score::request::Request;
 use crate::score::run::{RunError, run};
 use crate::search::best::Assignment;
 use crate::search::brute::Matrices;
@@ -61,15 +61,12 @@ impl Truth {
     pub(super) fn new(
         outcome: &Outcome,
         mechanism: &Mechanism,
-        request: &Request,
+        (request, top): (&Request, usize),
         effort: Effort,
     ) -> Result<Truth, RunError> {
         let search = over(&outcome.search, PRIME)?;
         let matrices = Matrices::new(&search);
         let judge = |choices: &[usize]| looked::judged(&search, choices, matrices.look(choices));
-        let List::Top(top) = request.list else {
-            unreachable!("a trial asks for the best")
-        };
         let (looked, diagrams) = match looked::every(&search, effort.looked) {
             Some(all) => (all, None),
             None => {
