@@ -1,6 +1,6 @@
 //! Ways of searching: which answers of theirs are right.
 
-use crate::common::{count, json, out, ozols, text};
+use crate::common::{changed, count, json, out, ozols, text};
 use num_bigint::BigUint;
 use ozols::Mechanism;
 use ozols::accuracy::searching::record::{Record, Trial};
@@ -123,11 +123,9 @@ fn floating_point_looks_at_the_same_matrices() {
 /// so.
 #[test]
 fn floating_point_is_wrong_about_a_hair() {
-    let shown = out(&["show", "bennett"]);
-    let mut off = mechanism_from_str("bennett.toml", &shown).unwrap();
-    let joint = off.joint("1-2").unwrap();
-    let point = &mut off.joints[joint].frame.point;
-    point[0] = &point[0] + &ozols::accuracy::stability::change::power_of_ten(-20);
+    let hair = "point = [\"20 + 1e-20\", 40, -20]";
+    let text = changed(&out(&["show", "bennett"]), "point = [20, 40, -20]", hair);
+    let off = mechanism_from_str("bennett.toml", &text).unwrap();
     let request = Request {
         as_written: true,
         ..Request::default()
