@@ -3,6 +3,7 @@
 mod accuracy;
 mod analyze;
 mod args;
+mod bench;
 mod charts;
 mod check;
 mod clamped;
@@ -16,12 +17,12 @@ mod grip;
 mod import;
 mod list;
 mod load;
+mod machine;
 mod man;
 mod near;
 mod new;
 mod output;
 mod progress;
-
 mod report;
 mod request;
 mod search;
@@ -72,6 +73,7 @@ pub fn run() -> ExitCode {
         args::Command::Report(a) => report::run(&args, a),
         args::Command::Export(a) => export::run(&args, a),
         args::Command::Accuracy(a) => accuracy::run(&args, a),
+        args::Command::Bench(a) => bench::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::New(a) => new::run(&args, a),
         args::Command::List(a) => list::run(a),

@@ -221,6 +221,8 @@ pub struct TailData<'a> {
     variants_dropped: usize,
     #[serde(flatten)]
     none: Option<NoneData<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seconds: Option<f64>,
 }
 
 /// Where there is no variant: what easing would leave, and what stands in the way of all.
@@ -272,9 +274,14 @@ enum Bound {
 }
 
 impl<'a> TailData<'a> {
-    /// `complete` unless the giving was interrupted.
+    /// `complete` unless the giving was interrupted; `seconds` is how long all of it took.
     #[must_use]
-    pub fn new(summary: &Summary, complete: bool, none: Option<NoneData<'a>>) -> Self {
+    pub fn new(
+        summary: &Summary,
+        complete: bool,
+        none: Option<NoneData<'a>>,
+        seconds: Option<f64>,
+    ) -> Self {
         TailData {
             variants_complete: complete,
             variants_checked: summary.checked,
@@ -284,6 +291,7 @@ impl<'a> TailData<'a> {
             variants_lucky: summary.lucky,
             variants_dropped: summary.dropped,
             none,
+            seconds,
         }
     }
 }

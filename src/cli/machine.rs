@@ -1,0 +1,39 @@
+//! What times are taken by and measured on.
+
+use crate::accuracy::timing::Machine;
+use std::sync::LazyLock;
+use std::time::{Duration, Instant};
+
+/// The time since the first call.
+pub(super) fn clock() -> Duration {
+    static BEGUN: LazyLock<Instant> = LazyLock::new(Instant::now);
+    BEGUN.elapsed()
+}
+
+/// The value of a line such as `model name : AMD EPYC` of a file of the system.
+fn value(file: &str, key: &str) -> Option<String> {
+    let text = std::fs::read_to_string(file).ok()?;
+    let line = text.lines().find(|l| l.starts_with(key))?;
+    Some(line.split_once(':')?.1.trim().to_owned())
+}
+
+/// This machine, as far as its system tells.
+pub(super) fn machine() -> Machine {
+    let architecture = std::env::consts::ARCH;
+    let named = ["model name", "Hardware", "cpu model"];
+    let processor = named
+        .iter()
+        .find_map(|key| value("/proc/cpuinfo", key))
+        .or_else(|| std::env::var("PROCESSOR_IDENTIFIER").ok());
+    let kilobytes =
+        value("/proc/meminfo", "MemTotal").and_then(|v| v.split(' ').next()?.parse::<u64>().ok());
+    let threads = rayon::current_num_threads();
+    Machine {
+        processor: processor.unwrap_or_else(|| format!("{architecture} processor")),
+        threads,
+        cores: std::thread::available_parallelism().map_or(threads, usize::from),
+        memory: kilobytes.map(|k| 1024 * k),
+        system: format!("{} {architecture}", std::env::consts::OS),
+        optimised: !cfg!(debug_assertions),
+    }
+}
