@@ -4,6 +4,7 @@ mod accuracy;
 mod analyze;
 mod args;
 mod bench;
+mod catalog;
 mod charts;
 mod check;
 mod clamped;
@@ -74,6 +75,7 @@ pub fn run() -> ExitCode {
         args::Command::Export(a) => export::run(&args, a),
         args::Command::Accuracy(a) => accuracy::run(&args, a),
         args::Command::Bench(a) => bench::run(&args, a),
+        args::Command::Catalog(a) => catalog::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::New(a) => new::run(&args, a),
         args::Command::List(a) => list::run(a),

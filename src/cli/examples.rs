@@ -103,6 +103,13 @@ Examples:
   ozols bench --quick four-bar --max-mobility 1      under the conditions of ozols search
   ozols bench --quick four-bar -o bench              with charts and a page: open bench/index.html";
 
+pub(super) const CATALOG: &str = "\
+Examples:
+  ozols catalog count                                chains and grippers of 4, 6 and 8 links
+  ozols catalog count --links 10 --format json       those of ten links, for programs
+  ozols catalog chains --links 6                     the chains of Watt and Stephenson
+  ozols catalog chains --links 7 --mobility 2        those with two inputs";
+
 pub(super) const CHECK: &str = "\
 Warnings are no failure; only a file that cannot be used ends with exit code 2.
 

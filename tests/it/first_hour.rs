@@ -22,6 +22,7 @@ const COMMANDS: [&str; 20] = [
     "export",
     "accuracy",
     "bench",
+    "catalog",
     "new",
     "check",
     "list",
