@@ -7,6 +7,7 @@
 
 pub mod best;
 pub mod brute;
+mod budget;
 pub mod building;
 pub mod certify;
 pub mod conditions;

@@ -6,6 +6,7 @@ use crate::score::request::List;
 use crate::score::variant::{Variant, in_words};
 use crate::score::variants::Variants;
 use crate::search::certify::{NEARLY_SINGULAR, Opinion, Second, Summary};
+use crate::search::diagram::Stop;
 use crate::search::primes::Verdict;
 use crate::search::relax::{Hopeless, Relaxation};
 use crate::view::conditions::{hopeless, in_state};
@@ -70,8 +71,16 @@ pub fn write(
             .map(|l| format!("\n  {l}"));
         writeln!(out, "{}", fit(&notes.collect::<String>(), width))?;
     }
-    if given.interrupted() {
-        writeln!(out, "\n  interrupted after {} variants", summary.given)?;
+    match given.cut_short() {
+        Some(Stop::Interrupted) => {
+            writeln!(out, "\n  interrupted after {} variants", summary.given)?;
+        }
+        Some(_) => writeln!(
+            out,
+            "\n  {} variants given: more of them take more memory than --memory allows",
+            summary.given
+        )?,
+        None => {}
     }
     // Numbers of a sample, or of a list with some left out, mean nothing to other commands.
     let steps = match outcome.request.generic_only {
@@ -130,7 +139,12 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
     if !more.is_empty() {
         let _ = writeln!(
             out,
-            "  {least}{} with {condition}, whatever else they do",
+            "  {}{} with {condition}, whatever else they do",
+            if outcome.is_determinate_exact() {
+                ""
+            } else {
+                "at least "
+            },
             big(&outcome.determinate.total)
         );
     }
