@@ -1,14 +1,18 @@
 //! How right and how fast each method is, and where its numbers fail.
 //!
 //! The [`survey`] asks every method of [`crate::rank::method`] about every built-in mechanism; [`stability`] moves
-//! geometry, size, scale, noise and tolerance until answers turn wrong. Verdicts are the same on every run; only times
-//! differ.
+//! geometry, size, scale, noise and tolerance until answers turn wrong; [`searching`] compares the ways of searching.
+//! Verdicts are the same on every run; only times differ.
 
+pub mod cases;
 pub mod folder;
 pub mod lattice;
 pub mod pictures;
+pub mod searching;
 pub mod stability;
 pub mod survey;
+pub mod timing;
+pub mod tuned;
 
 use crate::rank::method::{Answer, NoAnswer, Quantity};
 

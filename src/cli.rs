@@ -3,6 +3,7 @@
 mod accuracy;
 mod analyze;
 mod args;
+mod bench;
 mod charts;
 mod check;
 mod clamped;
@@ -19,6 +20,7 @@ mod list;
 mod load;
 mod machine;
 mod man;
+mod memory;
 mod near;
 mod new;
 mod output;
@@ -74,6 +76,7 @@ pub fn run() -> ExitCode {
         args::Command::Report(a) => report::run(&args, a),
         args::Command::Export(a) => export::run(&args, a),
         args::Command::Accuracy(a) => accuracy::run(&args, a),
+        args::Command::Bench(a) => bench::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::New(a) => new::run(&args, a),
         args::Command::List(a) => list::run(a),

@@ -5,6 +5,7 @@
 //! spent so far. Different choices with the same node have the same futures, so a space of 10^10 variants folds into
 //! some thousand nodes and is counted without visiting any variant.
 
+pub mod approximate;
 pub mod best;
 pub mod brute;
 mod budget;
@@ -31,3 +32,4 @@ pub mod stage;
 pub mod suggest;
 pub mod tally;
 mod transition;
+pub mod written_out;

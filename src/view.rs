@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod analysis;
+pub mod bench;
 pub mod conditions;
 pub mod drive;
 pub mod grip;

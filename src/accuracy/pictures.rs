@@ -2,8 +2,10 @@
 
 use super::Verdict;
 use super::survey::{Case, Reply, Standing, Survey};
-use crate::chart::{Axis, Cell, Chart, Kind, Matrix, Scale, Series, Style};
-use crate::format::number::{duration, signed};
+use super::timing::{Machine, quantile};
+use super::tuned::Tuned;
+use crate::chart::{Axis, Bands, Cell, Chart, Kind, Matrix, Scale, Series, Style};
+use crate::format::number::{duration, scientific, signed};
 use crate::format::phrase::list;
 use crate::rank::method::MobilityMethod;
 use crate::rank::registry;
@@ -34,9 +36,18 @@ fn percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
 }
 
-/// Share of right answers against median time of an answer.
+/// The name of a method at its best tolerance; none where that is no better than its default.
 #[must_use]
-pub fn share_time(survey: &Survey) -> Chart {
+pub fn tuned_name(tuned: &Tuned) -> Option<String> {
+    let better = tuned.right > tuned.right_by_default;
+    let name = registry::ALL[tuned.method].name();
+    better.then(|| format!("{name} at {}", scientific(tuned.tolerance)))
+}
+
+/// Share of right answers against median time of an answer; floating-point methods at their default tolerance, and at
+/// their best where that is another. The tolerance does not change their time.
+#[must_use]
+pub fn share_time(survey: &Survey, machine: &Machine) -> Chart {
     let standings: Vec<Standing> = (0..registry::ALL.len())
         .map(|m| survey.standing(m))
         .collect();
@@ -59,9 +70,19 @@ pub fn share_time(survey: &Survey) -> Chart {
         points: vec![(s.seconds, 100.0 * s.share)],
         style: Style::Points,
     }));
+    #[allow(clippy::cast_precision_loss, reason = "counts are small")]
+    series.extend(survey.tuned.iter().filter_map(|t| {
+        let share = t.right as f64 / survey.cases.len().max(1) as f64;
+        Some(Series {
+            name: tuned_name(t)?,
+            points: vec![(standings[t.method].seconds, 100.0 * share)],
+            style: Style::Points,
+        })
+    }));
+    let sentence = share_sentence(survey, &standings, &front);
     Chart {
         title: "Accuracy against speed".to_owned(),
-        subtitle: share_sentence(survey, &standings, &front),
+        subtitle: format!("{sentence} {}. On {machine}.", repeated(survey)),
         x: Axis {
             label: "median time of an answer, s".to_owned(),
             scale: Scale::Log,
@@ -75,6 +96,86 @@ pub fn share_time(survey: &Survey) -> Chart {
         },
         series,
     }
+}
+
+/// How often answers were timed, and how far their times spread.
+#[must_use]
+pub fn repeated(survey: &Survey) -> String {
+    let times = || survey.replies.iter().flatten().map(|r| r.time);
+    let most = times().map(|t| t.repeats).max().unwrap_or(0);
+    let spread: Vec<f64> = times()
+        .filter(|t| t.repeats > 1 && t.median > 0.0)
+        .map(|t| (t.most - t.least) / t.median)
+        .collect();
+    match most {
+        0 | 1 => "Each answer was timed once".to_owned(),
+        n => format!(
+            "Answers were timed {n} times, slow ones fewer; the longest time of an answer is typically {} above the \
+             shortest",
+            percent(quantile(&spread, 0.5))
+        ),
+    }
+}
+
+/// What each method answers: right, right at the pose only, wrong, or nothing since it does not apply.
+#[must_use]
+pub fn answers(survey: &Survey) -> Bands {
+    #[allow(clippy::cast_precision_loss, reason = "counts are small")]
+    let bar = |right: usize, pose: usize, wrong: usize| {
+        let ends = [
+            0,
+            right,
+            right + pose,
+            right + pose + wrong,
+            survey.cases.len(),
+        ];
+        let kinds = [Kind::Good, Kind::Warn, Kind::Bad, Kind::None];
+        let bands = ends.windows(2).zip(kinds).filter(|(e, _)| e[0] < e[1]);
+        bands
+            .map(|(e, kind)| (e[0] as f64, e[1] as f64, kind))
+            .collect()
+    };
+    let mut rows = Vec::new();
+    for (n, method) in registry::ALL.iter().enumerate() {
+        let s = survey.standing(n);
+        rows.push((method.name().to_owned(), bar(s.right, s.pose, s.wrong())));
+        let tuned = survey.tuned.iter().find(|t| t.method == n);
+        if let Some((t, name)) = tuned.and_then(|t| Some((t, tuned_name(t)?))) {
+            rows.push((name, bar(t.right, t.pose, s.applies - t.right - t.pose)));
+        }
+    }
+    Bands {
+        title: "Right, wrong, or not applicable".to_owned(),
+        subtitle: format!(
+            "Of {} cases each method is right about so many; in doubt: right at the pose of the file, which is not the \
+             finite mobility; no verdict: the method does not apply. {}",
+            survey.cases.len(),
+            tolerances(survey)
+        ),
+        x: Axis {
+            label: "cases".to_owned(),
+            scale: Scale::Linear,
+        },
+        rows,
+    }
+}
+
+/// The best and the default tolerance of each floating-point method, in words.
+#[must_use]
+pub fn tolerances(survey: &Survey) -> String {
+    let one = |t: &Tuned| {
+        let (name, right) = (registry::ALL[t.method].name(), t.right);
+        let default = scientific(t.default);
+        match tuned_name(t) {
+            Some(best) => format!(
+                "{best} ({right}; {} at {default}, its default)",
+                t.right_by_default
+            ),
+            None => format!("{name} at its default of {default} ({right})"),
+        }
+    };
+    let all: Vec<String> = survey.tuned.iter().map(one).collect();
+    format!("Floating point is right most often with {}.", list(&all))
 }
 
 fn share_sentence(survey: &Survey, standings: &[Standing], front: &[usize]) -> String {

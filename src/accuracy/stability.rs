@@ -10,6 +10,7 @@ pub mod sweep;
 mod tolerance;
 
 use super::survey::Case;
+use super::timing::Clock;
 use crate::chart::{Bands, Chart};
 use crate::file::problem::ImportError;
 
@@ -64,6 +65,8 @@ pub struct Effort {
     pub quick: bool,
     /// Seed of the noise.
     pub seed: u64,
+    /// What times are taken by.
+    pub clock: Clock,
 }
 
 /// Is told the study under way, the steps done and their number.

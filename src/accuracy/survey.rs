@@ -1,71 +1,16 @@
 //! Every method on every built-in mechanism.
 
-use super::{Truth, Verdict};
-use crate::builtin;
+use super::Verdict;
+pub use super::cases::{Case, cases};
+use super::timing::{Stopwatch, Timing, quantile};
+use super::tuned::{Tuned, tuned};
 use crate::file::problem::ImportError;
-use crate::file::text::mechanism_from_str;
 use crate::format::csv;
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
 use crate::rank::registry;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::hint::black_box;
-use std::time::{Duration, Instant};
-
-/// A slow answer is not timed again once its timing has taken so long.
-const PATIENCE: Duration = Duration::from_millis(200);
-
-/// A state of a mechanism with its true figures.
-#[derive(Debug, Clone)]
-pub struct Case {
-    /// The mechanism.
-    pub mechanism: Mechanism,
-    /// The state.
-    pub state: StateId,
-    /// The figures that the catalogue states.
-    pub truth: Truth,
-}
-
-impl Case {
-    /// The mechanism's name, with the state's where it is not the free one.
-    #[must_use]
-    pub fn name(&self) -> String {
-        match self.state {
-            StateId::FREE => self.mechanism.name.clone(),
-            s => format!("{}, {}", self.mechanism.name, self.mechanism.states[s]),
-        }
-    }
-}
-
-/// Every state of a built-in mechanism whose mobilities the catalogue states, by name.
-///
-/// # Errors
-/// Where a built-in file is not valid.
-pub fn cases() -> Result<Vec<Case>, ImportError> {
-    let mut cases = Vec::new();
-    for name in builtin::names() {
-        let text = builtin::text(name).unwrap_or_default();
-        let mechanism = mechanism_from_str(&format!("{name}.toml"), text)?;
-        for (state, named) in mechanism.states_with_ids() {
-            let stated = mechanism.expected.iter().find(|e| e.state == *named);
-            let Some((Some(instantaneous), Some(finite))) =
-                stated.map(|e| (e.mobility, e.finite_mobility))
-            else {
-                continue;
-            };
-            cases.push(Case {
-                mechanism: mechanism.clone(),
-                state,
-                truth: Truth {
-                    instantaneous,
-                    finite,
-                },
-            });
-        }
-    }
-    Ok(cases)
-}
 
 /// What a method said of a case.
 #[derive(Debug, Clone)]
@@ -74,8 +19,8 @@ pub struct Reply {
     pub answer: Result<Answer, NoAnswer>,
     /// What it is worth.
     pub verdict: Verdict,
-    /// Median time from the parsed mechanism to the answer.
-    pub seconds: f64,
+    /// Time from the parsed mechanism to the answer.
+    pub time: Timing,
 }
 
 /// A method's record over all cases.
@@ -91,6 +36,16 @@ pub struct Standing {
     pub share: f64,
     /// Median time of an answer over the cases it answers.
     pub seconds: f64,
+    /// The times between which the answers of the middle half of those cases lie.
+    pub middle_half: [f64; 2],
+}
+
+impl Standing {
+    /// Cases it answers wrongly, for the pose too.
+    #[must_use]
+    pub fn wrong(&self) -> usize {
+        self.applies - self.right - self.pose
+    }
 }
 
 /// Every method on every case.
@@ -100,29 +55,8 @@ pub struct Survey {
     pub cases: Vec<Case>,
     /// What each method of [`registry::ALL`] said, case by case.
     pub replies: Vec<Vec<Reply>>,
-}
-
-/// The middle of some numbers; the mean of the middle two where their number is even, 0 of none.
-#[must_use]
-pub fn median(mut of: Vec<f64>) -> f64 {
-    of.sort_by(f64::total_cmp);
-    match of.len() {
-        0 => 0.0,
-        n if n % 2 == 1 => of[n / 2],
-        n => f64::midpoint(of[n / 2 - 1], of[n / 2]),
-    }
-}
-
-/// Median time of up to `repeat` answers, at least one.
-pub fn time(method: &dyn MobilityMethod, m: &Mechanism, state: StateId, repeat: usize) -> f64 {
-    let begun = Instant::now();
-    let mut times = Vec::new();
-    while times.len() < repeat.max(1) && (times.is_empty() || begun.elapsed() < PATIENCE) {
-        let start = Instant::now();
-        let _ = black_box(method.answer(black_box(m), state));
-        times.push(start.elapsed().as_secs_f64());
-    }
-    median(times)
+    /// The floating-point methods at their best tolerances.
+    pub tuned: Vec<Tuned>,
 }
 
 impl Survey {
@@ -133,7 +67,7 @@ impl Survey {
     /// # Errors
     /// Where a built-in file is not valid.
     pub fn new(
-        repeat: usize,
+        watch: Stopwatch,
         progress: &mut dyn FnMut(usize, usize),
     ) -> Result<Survey, ImportError> {
         let cases = cases()?;
@@ -152,12 +86,18 @@ impl Survey {
             let reply = |(method, answer): (&&dyn MobilityMethod, _)| Reply {
                 verdict: Verdict::on(&answer, case.truth),
                 answer,
-                seconds: time(*method, &case.mechanism, case.state, repeat),
+                time: watch
+                    .time(|| black_box(*method).answer(&case.mechanism, case.state))
+                    .1,
             };
             replies.push(registry::ALL.iter().zip(answers).map(reply).collect());
         }
         progress(cases.len(), cases.len());
-        Ok(Survey { cases, replies })
+        Ok(Survey {
+            tuned: tuned(&cases),
+            cases,
+            replies,
+        })
     }
 
     /// The replies of the `m`th method with their cases.
@@ -174,17 +114,18 @@ impl Survey {
     pub fn standing(&self, m: usize) -> Standing {
         let count = |of: &dyn Fn(&Reply) -> bool| self.of_method(m).filter(|(_, r)| of(r)).count();
         let right = count(&|r| r.verdict == Verdict::Right);
+        let times: Vec<f64> = self
+            .of_method(m)
+            .filter(|(_, r)| r.verdict != Verdict::Silent)
+            .map(|(_, r)| r.time.median)
+            .collect();
         Standing {
             applies: count(&|r| r.verdict != Verdict::Silent),
             right,
             pose: count(&|r| matches!(r.verdict, Verdict::Pose(_))),
             share: right as f64 / self.cases.len().max(1) as f64,
-            seconds: median(
-                self.of_method(m)
-                    .filter(|(_, r)| r.verdict != Verdict::Silent)
-                    .map(|(_, r)| r.seconds)
-                    .collect(),
-            ),
+            seconds: quantile(&times, 0.5),
+            middle_half: [0.25, 0.75].map(|at| quantile(&times, at)),
         }
     }
 
@@ -205,7 +146,10 @@ impl Survey {
                     verdict: reply.verdict.word(),
                     error: answer.map(|a| a.mobility - case.truth.finite),
                     reason: reply.answer.as_ref().err().map(ToString::to_string),
-                    median_seconds: format!("{:.3e}", reply.seconds),
+                    median_seconds: seconds(reply.time.median),
+                    least_seconds: seconds(reply.time.least),
+                    most_seconds: seconds(reply.time.most),
+                    repeats: reply.time.repeats,
                 }
             };
             registry::ALL
@@ -221,6 +165,7 @@ impl Survey {
     pub(crate) fn methods_csv(&self) -> String {
         csv::records(registry::ALL.iter().enumerate().map(|(n, method)| {
             let s = self.standing(n);
+            let best = self.tuned.iter().find(|t| t.method == n);
             #[allow(clippy::cast_precision_loss, reason = "counts are small")]
             let answered = s.right as f64 / s.applies.max(1) as f64;
             MethodRow {
@@ -233,9 +178,15 @@ impl Survey {
                 applies_to: s.applies,
                 right: s.right,
                 right_at_the_pose_only: s.pose,
+                wrong: s.wrong(),
+                does_not_apply: self.cases.len() - s.applies,
+                best_tolerance: best.map(|t| format!("{:.0e}", t.tolerance)),
+                right_at_best_tolerance: best.map(|t| t.right),
                 share_of_all: format!("{:.4}", s.share),
                 share_of_answered: format!("{answered:.4}"),
-                median_seconds: format!("{:.3e}", s.seconds),
+                median_seconds: seconds(s.seconds),
+                lower_quartile_seconds: seconds(s.middle_half[0]),
+                upper_quartile_seconds: seconds(s.middle_half[1]),
             }
         }))
     }
@@ -256,6 +207,9 @@ struct ReplyRow {
     error: Option<i64>,
     reason: Option<String>,
     median_seconds: String,
+    least_seconds: String,
+    most_seconds: String,
+    repeats: usize,
 }
 
 /// A line of the table of methods.
@@ -270,9 +224,19 @@ struct MethodRow {
     applies_to: usize,
     right: usize,
     right_at_the_pose_only: usize,
+    wrong: usize,
+    does_not_apply: usize,
+    best_tolerance: Option<String>,
+    right_at_best_tolerance: Option<usize>,
     share_of_all: String,
     share_of_answered: String,
     median_seconds: String,
+    lower_quartile_seconds: String,
+    upper_quartile_seconds: String,
+}
+
+fn seconds(x: f64) -> String {
+    format!("{x:.3e}")
 }
 
 fn quantity(q: Quantity) -> &'static str {

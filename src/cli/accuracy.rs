@@ -2,10 +2,11 @@
 
 use super::args::Args;
 use super::progress::Bar;
-use super::{Done, output};
+use super::{Done, machine, output};
 use crate::accuracy::folder;
 use crate::accuracy::stability::{self, Effort};
 use crate::accuracy::survey::Survey;
+use crate::accuracy::timing::Stopwatch;
 use crate::view::accuracy::summary;
 use crate::view::next::{self, Step};
 use anyhow::{Context, ensure};
@@ -34,18 +35,21 @@ pub(super) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
             .with_context(|| format!("cannot make the folder {}", folder.display()))?;
     }
     let mut bar = Bar::new(args.quiet);
-    let survey = Survey::new(repeat, &mut |done, of| {
+    let clock = machine::clock;
+    let machine = machine::machine();
+    let survey = Survey::new(Stopwatch { clock, repeat }, &mut |done, of| {
         bar.step("timing the methods", done, of);
     })?;
     if let Some(folder) = &a.output {
         let effort = Effort {
             quick: a.quick,
             seed: args.seed,
+            clock,
         };
         let studies = stability::all(&survey.cases, effort, &mut |what, done, of| {
             bar.step(what, done, of);
         })?;
-        for (name, text) in folder::files(&survey, &studies) {
+        for (name, text) in folder::files(&survey, &studies, &machine) {
             output::to(Some(&folder.join(&name)), |out| {
                 out.write_all(text.as_bytes())?;
                 Ok(Done::Found)
@@ -55,7 +59,7 @@ pub(super) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
         let sentences = studies
             .iter()
             .map(|s| (s.title.as_str(), s.sentence.as_str()));
-        let text = summary(&survey, sentences, output::width(None));
+        let text = summary(&survey, sentences, &machine, output::width(None));
         return output::to(None, |out| {
             writeln!(
                 out,
@@ -67,7 +71,7 @@ pub(super) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
     }
     bar.clear();
     output::to(None, |out| {
-        let text = summary(&survey, [], output::width(None));
+        let text = summary(&survey, [], &machine, output::width(None));
         let charts = Step {
             command: "ozols accuracy -o accuracy".to_owned(),
             gives: "the same as charts, and where each method's numbers fail".to_owned(),

@@ -1,8 +1,8 @@
 //! The arguments, as data.
 
 use super::{
-    accuracy, analyze, check, completions, draw, drive, examples, explain, export, grip, import,
-    list, man, new, report, search, statics, verify,
+    accuracy, analyze, bench, check, completions, draw, drive, examples, explain, export, grip,
+    import, list, man, new, report, search, statics, verify,
 };
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum, ValueHint};
 
@@ -68,6 +68,9 @@ pub(super) enum Command {
     /// How right and how fast each method is on every built-in mechanism, and where its numbers fail.
     #[command(after_help = examples::ACCURACY)]
     Accuracy(accuracy::Accuracy),
+    /// How right and how fast each way of searching is: diagram, brute force, floating point, budgets, pools.
+    #[command(after_help = examples::BENCH)]
+    Bench(bench::Bench),
     /// Write a commented mechanism file to start from.
     #[command(after_help = examples::NEW)]
     New(new::New),

@@ -98,6 +98,12 @@ Examples:
   ozols accuracy --quick -o accuracy                 with charts and a page: open accuracy/index.html
   ozols accuracy -o accuracy                         the same with more repeats: a minute or two";
 
+pub(super) const BENCH: &str = "\
+Examples:
+  ozols bench --quick lever-gripper                  every way of searching, pools of its ranking among them
+  ozols bench --quick four-bar --max-mobility 1      under the conditions of ozols search
+  ozols bench --quick four-bar -o bench              with charts and a page: open bench/index.html";
+
 pub(super) const CHECK: &str = "\
 Warnings are no failure; only a file that cannot be used ends with exit code 2.
 

@@ -3,7 +3,8 @@
 use super::args::{Args, File};
 use super::progress::Watch;
 use super::request::Checked;
-use super::{Done, interrupt, load, output};
+use super::{Done, interrupt, load, machine, output};
+use crate::format::number::duration;
 use crate::score::request::{List, Method, Request};
 use crate::view::{search_csv, search_json, search_text};
 use clap::{Args as ClapArgs, ValueEnum};
@@ -77,6 +78,8 @@ impl Search {
 }
 
 pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
+    let begun = machine::clock();
+    let seconds = || (machine::clock() - begun).as_secs_f64();
     let mechanism = load::mechanism(&a.file.file)?;
     let request = a.request(args.seed)?;
     let outcome = Watch::new(args.quiet).run(mechanism, &request)?;
@@ -85,14 +88,16 @@ pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
         SearchFormat::Jsonl | SearchFormat::Csv => Default::default(),
     };
     let none = (&eased[..], &why);
-    output::to(a.output.as_deref(), |out| {
+    let done = output::to(a.output.as_deref(), |out| {
         let variants = outcome.variants_unless(&interrupt::pending);
         match a.format {
             SearchFormat::Text => {
                 let width = output::width(a.output.as_deref());
                 search_text::write(out, &outcome, variants, none, &a.file.file, width)?;
             }
-            SearchFormat::Json => search_json::write(out, &outcome, variants, none)?,
+            SearchFormat::Json => {
+                search_json::write(out, &outcome, variants, none, Some(&seconds))?;
+            }
             SearchFormat::Jsonl => search_json::write_lines(out, &outcome, variants)?,
             SearchFormat::Csv => search_csv::write(out, &outcome, variants)?,
         }
@@ -101,5 +106,10 @@ pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
         } else {
             Done::Found
         })
-    })
+    })?;
+    // The output itself is the same every time.
+    if a.format == SearchFormat::Text && !args.quiet {
+        output::note(&format!("Searched in {}.\n", duration(seconds())));
+    }
+    Ok(done)
 }

@@ -135,13 +135,18 @@ pub(crate) fn cost(milli: i64) -> String {
     trimmed(&text).to_owned()
 }
 
-/// A time in the unit that suits it: 4.2 µs.
+/// A time in the unit that suits it: 4.2 µs, 30 h.
 pub(crate) fn duration(seconds: f64) -> String {
+    const HOUR: f64 = 3600.0;
     let (value, unit) = match seconds {
         s if s < 1e-6 => (s * 1e9, "ns"),
         s if s < 1e-3 => (s * 1e6, "µs"),
         s if s < 1.0 => (s * 1e3, "ms"),
-        s => (s, "s"),
+        s if s < 120.0 => (s, "s"),
+        s if s < 2.0 * HOUR => (s / 60.0, "min"),
+        s if s < 48.0 * HOUR => (s / HOUR, "h"),
+        s if s < 17_532.0 * HOUR => (s / (24.0 * HOUR), "days"),
+        s => (s / (8766.0 * HOUR), "years"),
     };
     let decimals = usize::from(value < 9.95);
     format!("{value:.decimals$} {unit}")
@@ -160,6 +165,21 @@ pub(crate) fn minus(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn long_times_are_told_as_people_do() {
+        let told = [4.2e-6, 0.5, 119.0, 7000.0, 90_000.0, 8.6e5, 8e7].map(duration);
+        let said = [
+            "4.2 µs",
+            "500 ms",
+            "119 s",
+            "117 min",
+            "25 h",
+            "10 days",
+            "2.5 years",
+        ];
+        assert_eq!(told, said);
+    }
 
     #[test]
     fn every_style_is_as_its_table_says() {

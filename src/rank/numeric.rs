@@ -7,7 +7,7 @@ use super::scaled::{as_it_stands, rank_of_values, scaled};
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
-use ozols_dense::{Format, singular_values};
+use ozols_dense::{Format, Matrix, singular_values};
 use thiserror::Error;
 
 /// Values below this fraction of the largest count as zero in double precision unless the caller says otherwise.
@@ -75,14 +75,24 @@ impl Elimination {
     /// # Complexity
     /// O(6k · f · min(6k, f)).
     pub fn rank(self, closure: &Closure<f64>, tolerance: f64) -> Result<NumericRank, NumericError> {
+        let matrix = match self {
+            Elimination::Svd => scaled(closure),
+            _ => as_it_stands(closure),
+        };
+        self.rank_of(&matrix, tolerance)
+    }
+
+    /// The rank of any matrix, taken as it is.
+    ///
+    /// # Errors
+    /// Where the singular values fail.
+    pub fn rank_of(self, matrix: &Matrix, tolerance: f64) -> Result<NumericRank, NumericError> {
         let values = match self {
-            Elimination::Lu32 => Format::Single.pivots(&as_it_stands(closure)),
-            Elimination::Lu => Format::Double.pivots(&as_it_stands(closure)),
-            Elimination::Qr32 => Format::Single.qr_diagonal(&as_it_stands(closure)),
-            Elimination::Qr => Format::Double.qr_diagonal(&as_it_stands(closure)),
-            Elimination::Svd => {
-                singular_values(&scaled(closure)).ok_or(NumericError::NoConvergence)?
-            }
+            Elimination::Lu32 => Format::Single.pivots(matrix),
+            Elimination::Lu => Format::Double.pivots(matrix),
+            Elimination::Qr32 => Format::Single.qr_diagonal(matrix),
+            Elimination::Qr => Format::Double.qr_diagonal(matrix),
+            Elimination::Svd => singular_values(matrix).ok_or(NumericError::NoConvergence)?,
         };
         Ok(rank_of_values(values, tolerance))
     }

@@ -16,6 +16,8 @@ pub fn as_it_stands(closure: &Closure<f64>) -> Matrix {
 pub struct Scaling {
     /// The point that twists are taken about, in space.
     middle: Option<[f64; 3]>,
+    /// Components of a twist.
+    components: usize,
     /// Lengths are divided by this.
     length: f64,
     /// Columns are then divided by these.
@@ -34,6 +36,7 @@ impl Scaling {
                 .extent
                 .filter(|_| closure.dim == 6)
                 .map(|e| e.middle),
+            components: closure.dim,
             length: closure.extent.map_or(1.0, |e| e.length),
             columns: Vec::new(),
         };
@@ -82,6 +85,17 @@ impl Scaling {
         let turns = t.len() / 2;
         t[turns..].iter_mut().for_each(|x| *x /= self.length);
         t
+    }
+
+    /// Scales a twist of any joint, with the numbers behind it, to unit length.
+    pub fn unit(&self, column: &mut [f64]) {
+        // Six components, or the three of a plane; entries of couplings come after them.
+        let twist = self.length_of(&column[..self.components]);
+        let size = twist.iter().map(|x| x * x).sum::<f64>().sqrt();
+        column[..twist.len()].copy_from_slice(&twist);
+        if size > 0.0 {
+            column.iter_mut().for_each(|x| *x /= size);
+        }
     }
 
     /// A twist of column `c`, scaled as J is.

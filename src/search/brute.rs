@@ -1,18 +1,16 @@
 //! The twin of the diagram: look at every variant. Kept for checking and for the comparison of speed.
 
-use crate::closure::contour::contour_basis;
 use crate::closure::matrix::Closure;
-use crate::closure::tree::path_from_frame;
-use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::exact::ExactError;
 use crate::linalg::modp::{Field, Residue};
-use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::model::mechanism::JointId;
 use crate::redundancy::stress::{SelfStress, Verdict, self_stresses};
 use crate::search::conditions::Search;
 use crate::search::counts::Counts;
 use crate::search::held::loose;
-use crate::search::space::Space;
 use crate::search::spent::Redundancy;
 use crate::search::tally::Key;
+use crate::search::written_out::{Layout, WrittenOut};
 use num_bigint::BigUint;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -28,107 +26,55 @@ pub struct Seen {
     pub motion: usize,
 }
 
-/// The closure matrices of all variants at once: every choice's columns, written out.
+impl Seen {
+    /// What ranks say: of the free state's rows, of those with the kept links' motion, and of the searched state's.
+    pub(super) fn of_ranks(
+        [free, _, state]: [usize; 3],
+        [rank, with_kept]: [usize; 2],
+        of_state: Option<usize>,
+    ) -> Seen {
+        let int = |x: usize| i32::try_from(x).unwrap_or(i32::MAX);
+        Seen {
+            internal: u32::try_from(free - rank).unwrap_or(u32::MAX),
+            external: of_state.map_or(0, |r| int(state - r) - int(free - rank)),
+            motion: with_kept.saturating_sub(rank),
+        }
+    }
+}
+
+/// The closure matrices of all variants at once, over a prime field.
 #[derive(Debug)]
 pub struct Matrices {
     field: Field,
-    free_rows: usize,
-    kept_rows: usize,
-    state_rows: usize,
-    /// `columns[variable][choice]`: full columns (contours and couplings of the free state, kept links, contours and couplings
-    /// of the searched one).
-    columns: Vec<Vec<Vec<Vec<Residue>>>>,
+    all: WrittenOut<Residue>,
     /// For each joint without a choice, the columns of every motion.
     whole: Vec<(JointId, Vec<Vec<Residue>>)>,
 }
 
 impl Matrices {
-    /// Writes the columns of a space out; `kept` are the links whose motion matters.
+    /// Writes the columns of a search's space out.
     #[must_use]
-    pub fn new(
-        exact: &ExactField,
-        mechanism: &Mechanism,
-        space: &Space,
-        kept: &[LinkId],
-    ) -> Matrices {
-        let (f, d) = (exact.field(), space.dim);
-        let free = contour_basis(mechanism, StateId::FREE);
-        let state: StateId = space.state.unwrap_or(StateId::FREE);
-        let all = contour_basis(mechanism, state);
-        let paths: Vec<Vec<(JointId, bool)>> = kept
+    pub fn new(search: &Search) -> Matrices {
+        let (f, variables) = (search.field().field(), &search.space.variables);
+        let spans: Vec<_> = variables
             .iter()
-            .map(|&l| path_from_frame(mechanism, StateId::FREE, l))
+            .map(|v| v.choices.iter().map(|c| c.spans.clone()).collect())
             .collect();
-        let signs = |j: JointId| {
-            let contours = free.iter().map(move |c| c.direction(j));
-            let links = paths
-                .iter()
-                .map(move |p| p.iter().find(|(q, _)| *q == j).map(|(_, s)| *s));
-            let added = all.iter().map(move |c| c.direction(j));
-            contours.chain(links).chain(added).collect::<Vec<_>>()
-        };
-        // Couplings by index, those of the free state and those of the searched one.
-        let of = |s: StateId| -> Vec<usize> {
-            let present =
-                |&q: &usize| mechanism.joints[mechanism.couplings[q].ends[0].joint].is_in(s);
-            (0..mechanism.couplings.len()).filter(present).collect()
-        };
-        let (coupled, all_coupled) = (of(StateId::FREE), of(state));
-        let column = |j: JointId, signs: &[Option<bool>], twist: &[Residue]| {
-            let mut blocks = signs.iter().map(|sign| {
-                let mut block = vec![0; d];
-                if let Some(plus) = sign {
-                    f.accumulate(&mut block, &twist[..d], *plus);
-                }
-                block
-            });
-            let rates = |list: &[usize]| -> Vec<Residue> {
-                let at = |q: usize| mechanism.couplings_of(j).position(|(c, _)| c == q);
-                let entry = |&q: &usize| at(q).map_or(0, |i| twist[d + i]);
-                list.iter().map(entry).collect()
-            };
-            let mut out = blocks
-                .by_ref()
-                .take(free.len())
-                .flatten()
-                .collect::<Vec<_>>();
-            out.extend(rates(&coupled));
-            out.extend(blocks.flatten());
-            out.extend(rates(&all_coupled));
-            out
-        };
-        let columns = space
-            .variables
-            .iter()
-            .map(|v| {
-                let signs: Vec<_> = v.joints.iter().map(|&j| (j, signs(j))).collect();
-                let of_choice = |spans: &[Vec<Vec<Residue>>]| {
-                    spans
-                        .iter()
-                        .zip(&signs)
-                        .flat_map(|(span, (j, s))| span.iter().map(|t| column(*j, s, t)))
-                        .collect()
-                };
-                v.choices.iter().map(|c| of_choice(&c.spans)).collect()
-            })
-            .collect();
-        let fixed = space.variables.iter().filter(|v| v.choices.len() == 1);
+        let layout = Layout::new(search);
+        let fixed = variables.iter().filter(|v| v.choices.len() == 1);
         let whole = fixed.flat_map(|v| &v.joints).map(|&j| {
-            let rates = mechanism.couplings_of(j).count();
-            let every = (0..d).map(|c| {
-                let mut twist = vec![0; d + rates];
+            let rates = search.mechanism.couplings_of(j).count();
+            let every = (0..search.space.dim).map(|c| {
+                let mut twist = vec![0; search.space.dim + rates];
                 twist[c] = f.one();
-                column(j, &signs(j), &twist)
+                layout.column(search.field(), j, &twist)
             });
             (j, every.collect())
         });
         Matrices {
-            whole: whole.collect(),
             field: f,
-            free_rows: free.len() * d + coupled.len(),
-            kept_rows: kept.len() * d,
-            state_rows: space.state.map_or(0, |_| all.len() * d + all_coupled.len()),
-            columns,
+            whole: whole.collect(),
+            all: WrittenOut::new(search.field(), search, &layout, &spans),
         }
     }
 
@@ -136,49 +82,32 @@ impl Matrices {
     /// options allows, and the joints without a choice that would remove some of them.
     #[must_use]
     pub fn freest(&self) -> (usize, Vec<JointId>) {
-        let within = |c: &Vec<Residue>| c[..self.free_rows].to_vec();
-        let all: Vec<Vec<Residue>> = self
-            .columns
-            .iter()
-            .flatten()
-            .flatten()
-            .map(within)
-            .collect();
+        let free = self.all.rows[0];
+        let within = |c: &Vec<Residue>| c[..free].to_vec();
+        let all: Vec<Vec<Residue>> = self.all.columns().map(within).collect();
         let rank = eliminate(self.field, all.clone()).len();
         let loaded = self.whole.iter().filter(|(_, columns)| {
             let more = columns.iter().map(within);
             eliminate(self.field, all.iter().cloned().chain(more).collect()).len() > rank
         });
-        (self.free_rows - rank, loaded.map(|(j, _)| *j).collect())
+        (free - rank, loaded.map(|(j, _)| *j).collect())
     }
 
     /// Looks at one variant.
     #[must_use]
     pub fn look(&self, choices: &[usize]) -> Seen {
-        let chosen = || {
-            choices
-                .iter()
-                .enumerate()
-                .flat_map(|(v, &c)| &self.columns[v][c])
+        let [free, kept, state] = self.all.rows;
+        let rows = |from: usize, to: usize| -> Vec<Vec<Residue>> {
+            let chosen = self.all.chosen(choices);
+            chosen.map(|c| c[from..to].to_vec()).collect()
         };
-        let kept_end = self.free_rows + self.kept_rows;
-        let pivots = eliminate(
-            self.field,
-            chosen().map(|c| c[..kept_end].to_vec()).collect(),
-        );
-        let rank = pivots.iter().filter(|&&p| p < self.free_rows).count();
-        let int = |x: usize| i32::try_from(x).unwrap_or(i32::MAX);
-        let mut external = 0;
-        if self.state_rows > 0 {
-            let of_state = |c: &Vec<Residue>| c[kept_end..].to_vec();
-            let whole = eliminate(self.field, chosen().map(of_state).collect()).len();
-            external = int(self.state_rows - whole) - int(self.free_rows - rank);
-        }
-        Seen {
-            internal: u32::try_from(self.free_rows - rank).unwrap_or(u32::MAX),
-            external,
-            motion: pivots.len() - rank,
-        }
+        let pivots = eliminate(self.field, rows(0, free + kept));
+        let rank = pivots.iter().filter(|&&p| p < free).count();
+        let of_state = match state {
+            0 => None,
+            _ => Some(eliminate(self.field, rows(free + kept, free + kept + state)).len()),
+        };
+        Seen::of_ranks(self.all.rows, [rank, pivots.len()], of_state)
     }
 }
 
@@ -217,7 +146,7 @@ impl Search {
     /// One elimination a variant, in parallel over the choices of the first variables, and with a state some more for those
     /// that meet the other conditions.
     pub fn brute(&self) -> Result<(Counts, Counts), ExactError> {
-        let matrices = Matrices::new(&self.exact, &self.mechanism, &self.space, &self.kept.0);
+        let matrices = Matrices::new(self);
         let (mut all, mut good) = (Counts::default(), Counts::default());
         for ((key, admissible), count) in self.count(&matrices)? {
             let count = BigUint::from(count);
@@ -251,10 +180,7 @@ impl Search {
                 (*c, rest) = (rest % r, rest / r);
             }
             loop {
-                if let Some((redundancy, admissible)) = self.look(matrices, &choices)? {
-                    let chosen = choices.iter().enumerate();
-                    let sum: u128 = chosen.map(|(v, &c)| steps.keys[v][c].0).sum();
-                    let key = Key(sum + steps.redundancy(redundancy).0);
+                if let Some((key, admissible)) = self.judge(&choices, matrices.look(&choices))? {
                     *counts.entry((key, admissible)).or_insert(0) += 1;
                 }
                 let Some(v) = (head..radix.len()).find(|&v| choices[v] + 1 < radix[v]) else {
@@ -276,13 +202,21 @@ impl Search {
             .try_reduce(BTreeMap::new, merge)
     }
 
-    /// A variant's redundancy, and whether it is admissible; `None` where it has too much within.
-    fn look(
-        &self,
-        matrices: &Matrices,
-        choices: &[usize],
-    ) -> Result<Option<(Redundancy, bool)>, ExactError> {
-        let seen = matrices.look(choices);
+    /// The properties of a variant, from its choices and its redundant constraints.
+    #[must_use]
+    pub fn key(&self, choices: &[usize], redundancy: Redundancy) -> Key {
+        let keys = self.steps.keys.iter().zip(choices);
+        let sum: u128 = keys.map(|(keys, &c)| keys[c].0).sum();
+        Key(sum + self.steps.redundancy(redundancy).0)
+    }
+
+    /// The properties of a variant of which this was seen, and whether it is admissible but for W and changes, which
+    /// [`Search::wanted`] knows; `None` where it is not determinate. What the searched state makes of it is asked of the
+    /// mechanism that the variant is.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    pub fn judge(&self, choices: &[usize], seen: Seen) -> Result<Option<(Key, bool)>, ExactError> {
         if seen.internal > self.conditions.max_redundant {
             return Ok(None);
         }
@@ -304,6 +238,6 @@ impl Search {
                 && !beyond(found.harmful.into(), s.max_harmful)
                 && loose(&self.exact, &realized, s.state, &self.grasps)?.is_empty();
         }
-        Ok(Some((found, good)))
+        Ok(Some((self.key(choices, found), good)))
     }
 }

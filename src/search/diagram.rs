@@ -89,6 +89,20 @@ pub struct Diagram {
     pub largest_layer: usize,
 }
 
+impl Diagram {
+    /// Where the choices for the variables lead: the redundant constraints of a variant that the diagram has,
+    /// `None` for one that it has not.
+    #[must_use]
+    pub fn end(&self, choices: &[usize]) -> Option<Redundancy> {
+        let mut node = 0;
+        for layer in &self.layers {
+            let to = layer.edges[node * layer.choices + choices[layer.variable]];
+            node = (to != DEAD).then_some(to as usize)?;
+        }
+        self.terminals.get(node).copied()
+    }
+}
+
 /// The nodes of a layer while it is being built.
 struct Nodes {
     /// Redundancy so far.

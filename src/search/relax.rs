@@ -54,7 +54,7 @@ impl Search {
     /// Where a coordinate has no value in the field.
     pub fn hopeless(&self) -> Result<Hopeless, ExactError> {
         let m = &*self.mechanism;
-        let (least, unchanged) = Matrices::new(&self.exact, m, &self.space, &[]).freest();
+        let (least, unchanged) = Matrices::new(self).freest();
         let most = usize::try_from(self.conditions.max_redundant).unwrap_or(usize::MAX);
         let closure = Closure::new(&self.exact, m, StateId::FREE)?;
         let kernel = motions(&self.exact, &closure);

@@ -3,6 +3,7 @@
 use crate::closure::coupling::{coefficient, length_ratio};
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::scalars::Scalars;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::{Freedom, JointType};
@@ -155,29 +156,22 @@ fn choices(
     costs: &CostTable,
 ) -> Result<Vec<Choice>, ExactError> {
     let joint = &mechanism.joints[id];
-    let twists = |o: &JointOption| joint_twists(exact, motion, &o.frame, &o.joint_type);
-    let rates = mechanism.couplings_of(id).count();
     let mut out = Vec::new();
     // The present joint is offered always.
     let offered =
         |(i, o): &(usize, &JointOption)| *i == 0 || o.state.is_none_or(|s| state == Some(s));
+    let rates = mechanism.couplings_of(id).count();
     let unloading = joint.unloading.iter().enumerate();
     let unloading = unloading.filter(|(_, o)| o.state.is_none_or(|s| state == Some(s)));
     for unloading in std::iter::once(None).chain(unloading.map(|(u, _)| Some(u))) {
         for (i, option) in joint.options.iter().enumerate().filter(offered) {
-            let mut columns = twists(option)?
-                .into_iter()
-                .map(|(f, t)| with_rates(exact, mechanism, id, option, f, t))
-                .collect::<Result<Vec<Vec<Residue>>, _>>()?;
-            // W is the free state's: a contact is absent there, its unloading joint is not.
-            let absent = if external { columns.len() } else { 0 };
             let inserted = unloading.map(|u| &joint.unloading[u]);
-            if let Some(u) = inserted {
-                columns.extend(twists(u)?.into_iter().map(|(_, mut t)| {
-                    t.resize(t.len() + rates, 0);
-                    t
-                }));
-            }
+            let columns = columns(exact, motion, mechanism, id, (option, inserted))?;
+            // W is the free state's: a contact is absent there, its unloading joint is not.
+            let absent = match external {
+                true => joint_twists(exact, motion, &option.frame, &option.joint_type)?.len(),
+                false => 0,
+            };
             let freedoms = u32::try_from(columns.len() - absent).unwrap_or(u32::MAX);
             let span = |more: &[Freedom]| -> Result<Vec<Vec<Residue>>, ExactError> {
                 let freed = JointType::Custom(more.to_vec());
@@ -212,27 +206,53 @@ fn choices(
     Ok(out)
 }
 
+/// The twists of an option and of an unloading joint in series with it, one a freedom, each with the joint's entry in the row
+/// of every coupling it is in behind it.
+///
+/// # Errors
+/// Where a coordinate has no value in the number system.
+pub(super) fn columns<S: Scalars>(
+    s: &S,
+    motion: &MotionSpace<S::Number>,
+    mechanism: &Mechanism,
+    joint: JointId,
+    (option, inserted): (&JointOption, Option<&JointOption>),
+) -> Result<Vec<Vec<S::Number>>, ExactError> {
+    let twists = |o: &JointOption| joint_twists(s, motion, &o.frame, &o.joint_type);
+    let mut columns = twists(option)?
+        .into_iter()
+        .map(|(f, t)| with_rates(s, mechanism, joint, option, f, t))
+        .collect::<Result<Vec<_>, _>>()?;
+    if let Some(u) = inserted {
+        let rates = mechanism.couplings_of(joint).count();
+        columns.extend(twists(u)?.into_iter().map(|(_, mut t)| {
+            t.resize(t.len() + rates, S::Number::default());
+            t
+        }));
+    }
+    Ok(columns)
+}
+
 /// A twist of an option with its entries in the rows of the joint's couplings behind it.
-fn with_rates(
-    exact: &ExactField,
+fn with_rates<S: Scalars>(
+    s: &S,
     mechanism: &Mechanism,
     joint: JointId,
     option: &JointOption,
     freedom: Freedom,
-    mut twist: Vec<Residue>,
-) -> Result<Vec<Residue>, ExactError> {
+    mut twist: Vec<S::Number>,
+) -> Result<Vec<S::Number>, ExactError> {
     let present = &mechanism.joints[joint].frame;
     for (q, end) in mechanism.couplings_of(joint) {
         let coupling = &mechanism.couplings[q];
         if coupling.ends[end].freedom != freedom {
-            twist.push(0);
+            twist.push(S::Number::default());
             continue;
         }
         // An option may have its axis written in another length.
-        let mut entry = exact.eval(&length_ratio((&option.frame, freedom), (present, freedom)))?;
+        let mut entry = s.eval(&length_ratio((&option.frame, freedom), (present, freedom)))?;
         if end == 0 {
-            let first = exact.eval(&coefficient(mechanism, coupling))?;
-            entry = exact.field().mul(entry, first);
+            entry = s.mul(entry, s.eval(&coefficient(mechanism, coupling))?);
         }
         twist.push(entry);
     }

@@ -1,18 +1,21 @@
 //! A survey of the methods for people.
 
 use crate::accuracy::Verdict;
+use crate::accuracy::pictures::{repeated, tolerances, tuned_name};
 use crate::accuracy::survey::{Case, Survey};
+use crate::accuracy::timing::Machine;
 use crate::format::number::{duration, signed};
 use crate::rank::registry;
 use crate::view::layout::{fit, table};
 use std::cmp::Reverse;
 use std::fmt::Write;
 
-/// A table of the methods, then a paragraph for each chart.
+/// A table of the methods, on what machine it was made, then a paragraph for each chart.
 #[must_use]
 pub fn summary<'a>(
     survey: &Survey,
     sentences: impl IntoIterator<Item = (&'a str, &'a str)>,
+    machine: &Machine,
     width: Option<u16>,
 ) -> String {
     let cases = survey.cases.len();
@@ -23,21 +26,37 @@ pub fn summary<'a>(
         "wrong",
         "n/a",
         "median time",
+        "middle half",
         "what fails, and why",
     ];
-    let rows = (0..registry::ALL.len()).map(|m| {
+    let count = |n: usize| if n == 0 { String::new() } else { n.to_string() };
+    let mut rows = Vec::new();
+    for (m, method) in registry::ALL.iter().enumerate() {
         let s = survey.standing(m);
-        let count = |n: usize| if n == 0 { String::new() } else { n.to_string() };
-        vec![
-            registry::ALL[m].name().to_owned(),
-            s.right.to_string(),
-            count(s.pose),
-            count(s.applies - s.right - s.pose),
-            count(cases - s.applies),
-            duration(s.seconds),
+        let row = |name: String, right: usize, pose: usize, why: String| {
+            let [from, to] = s.middle_half.map(duration);
+            vec![
+                name,
+                right.to_string(),
+                count(pose),
+                count(s.applies - right - pose),
+                count(cases - s.applies),
+                duration(s.seconds),
+                format!("{from} to {to}"),
+                why,
+            ]
+        };
+        rows.push(row(
+            method.name().to_owned(),
+            s.right,
+            s.pose,
             failures(survey, m),
-        ]
-    });
+        ));
+        let tuned = survey.tuned.iter().find(|t| t.method == m);
+        if let Some((t, name)) = tuned.and_then(|t| Some((t, tuned_name(t)?))) {
+            rows.push(row(name, t.right, t.pose, "its best tolerance".to_owned()));
+        }
+    }
     let standing = |name: &str| {
         let m = registry::ALL.iter().position(|x| x.name() == name)?;
         Some(survey.standing(m).right)
@@ -50,7 +69,13 @@ pub fn summary<'a>(
             ": the automatic choice is right on {auto}, the counting formula on {count}"
         );
     }
-    let _ = write!(out, "\n\n{}\n", table(&heads, rows.collect(), width));
+    let _ = write!(out, "\n\n{}\n", table(&heads, rows, width));
+    let _ = write!(
+        out,
+        "\n{} {}. On {machine}.\n",
+        tolerances(survey),
+        repeated(survey)
+    );
     for (title, sentence) in sentences {
         // Writing to a string cannot fail.
         let _ = write!(out, "\n{title}: {sentence}\n");

@@ -234,6 +234,8 @@ pub struct TailData<'a> {
     variants_dropped: usize,
     #[serde(flatten)]
     none: Option<NoneData<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seconds: Option<f64>,
 }
 
 /// Where there is no variant: what easing would leave, and what stands in the way of all.
@@ -285,9 +287,9 @@ enum Bound {
 }
 
 impl<'a> TailData<'a> {
-    /// Of variants that were given, as far as it went.
+    /// Of variants that were given, as far as it went; `seconds` is how long all of it took.
     #[must_use]
-    pub fn new(variants: &Variants<'_>, none: Option<NoneData<'a>>) -> Self {
+    pub fn new(variants: &Variants<'_>, none: Option<NoneData<'a>>, seconds: Option<f64>) -> Self {
         let summary = variants.summary();
         let stop = variants.cut_short();
         TailData {
@@ -300,6 +302,7 @@ impl<'a> TailData<'a> {
             variants_lucky: summary.lucky,
             variants_dropped: summary.dropped,
             none,
+            seconds,
         }
     }
 }

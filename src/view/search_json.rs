@@ -11,7 +11,8 @@ use num_traits::Zero;
 use serde_json::json;
 use std::io::{self, Write};
 
-/// Writes an outcome with its variants as one value; `eased` is told where there is none.
+/// Writes an outcome with its variants as one value; `eased` is told where there is none, `seconds` where somebody has a
+/// clock, asked once all else is written. No other key differs between runs.
 ///
 /// # Errors
 /// Those of the writer.
@@ -20,6 +21,7 @@ pub fn write(
     outcome: &Outcome,
     mut variants: Variants<'_>,
     (eased, why): (&[(Relaxation, BigUint)], &Hopeless),
+    seconds: Option<&dyn Fn() -> f64>,
 ) -> io::Result<()> {
     // Variants stream: the closing brace of the header waits for them.
     let text = serde_json::to_string_pretty(&SearchData::new(outcome))?;
@@ -33,7 +35,8 @@ pub fn write(
     let m = &outcome.search.mechanism;
     let none = outcome.admissible.total.is_zero();
     let none = none.then(|| NoneData::new(m, eased, why));
-    let tail = TailData::new(&variants, none);
+    let seconds = seconds.map(|s| s());
+    let tail = TailData::new(&variants, none, seconds);
     let text = serde_json::to_string_pretty(&tail)?;
     let rest = text.strip_prefix("{\n").unwrap_or(&text);
     writeln!(out, "\n  ],\n{rest}")

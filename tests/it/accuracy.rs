@@ -2,10 +2,23 @@
 
 use ozols::accuracy::Verdict;
 use ozols::accuracy::survey::{Reply, Survey, cases};
+use ozols::accuracy::timing::Stopwatch;
+use ozols::accuracy::tuned::tolerances;
+use ozols::closure::matrix::Closure;
+use ozols::geom::scalars::Reals;
+use ozols::rank::numeric::Elimination;
 use ozols::rank::registry;
 use std::sync::LazyLock;
+use std::time::Duration;
 
-static SURVEY: LazyLock<Survey> = LazyLock::new(|| Survey::new(1, &mut |_, _| {}).unwrap());
+static SURVEY: LazyLock<Survey> = LazyLock::new(|| {
+    // Verdicts do not depend on the clock, so one that stands still will do.
+    let watch = Stopwatch {
+        clock: || Duration::ZERO,
+        repeat: 1,
+    };
+    Survey::new(watch, &mut |_, _| {}).unwrap()
+});
 
 fn index(name: &str) -> usize {
     registry::ALL.iter().position(|m| m.name() == name).unwrap()
@@ -53,6 +66,52 @@ fn each_naive_formula_fails_where_it_is_known_to() {
     }
 }
 
+/// Cases in which one decomposition after another, of each J anew, finds the finite mobility at a tolerance.
+fn right_at(method: Elimination, tolerance: f64) -> usize {
+    let right = |case: &&ozols::accuracy::survey::Case| {
+        let closure = Closure::new(&Reals, &case.mechanism, case.state).unwrap();
+        let rank = method.rank(&closure, tolerance).map(|r| r.rank);
+        rank.is_ok_and(|r| {
+            i64::try_from(closure.columns.len() - r).is_ok_and(|w| w == case.truth.finite)
+        })
+    };
+    SURVEY.cases.iter().filter(right).count()
+}
+
+#[test]
+fn no_tolerance_does_better_than_the_best() {
+    assert_eq!(SURVEY.tuned.len(), Elimination::ALL.len());
+    for (tuned, method) in SURVEY.tuned.iter().zip(Elimination::ALL) {
+        assert_eq!(Elimination::of(registry::ALL[tuned.method]), Some(method));
+        assert_eq!(right_at(method, tuned.tolerance), tuned.right);
+        assert_eq!(
+            right_at(method, method.default_tolerance()),
+            tuned.right_by_default
+        );
+        let most = tolerances(1).into_iter().map(|t| right_at(method, t)).max();
+        assert_eq!(most.unwrap().max(tuned.right_by_default), tuned.right);
+    }
+    // A coarse tolerance suits single precision least: 1e-6 finds what 1e-4 takes for zero.
+    let single = SURVEY.tuned[0];
+    assert!(single.right >= single.right_by_default + 10, "{single:?}");
+}
+
+#[test]
+fn a_picture_parts_what_is_wrong_from_what_does_not_apply() {
+    let answers = ozols::accuracy::pictures::answers(&SURVEY);
+    let ends = |name: &str| -> Vec<f64> {
+        let row = answers.rows.iter().find(|r| r.0 == name).unwrap();
+        row.1.iter().map(|band| band.1 - band.0).collect()
+    };
+    for (m, method) in registry::ALL.iter().enumerate() {
+        let s = SURVEY.standing(m);
+        let counts = [s.right, s.pose, s.wrong(), SURVEY.cases.len() - s.applies];
+        let counts = counts.into_iter().filter(|n| *n > 0).map(|n| n as f64);
+        assert_eq!(ends(method.name()), counts.collect::<Vec<_>>());
+    }
+    assert!(answers.rows.iter().any(|r| r.0.starts_with("lu32 at ")));
+}
+
 /// Rows of a CSV text, the heads first.
 fn rows(csv: &str) -> Vec<Vec<String>> {
     let mut rows = vec![vec![String::new()]];
@@ -82,6 +141,7 @@ fn run(args: &[&str]) -> String {
 fn verdicts(folder: &std::path::Path) -> Vec<(String, String)> {
     let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
     let mut out: Vec<(String, String)> = [
+        "answers.svg",
         "matrix.svg",
         "stability-distance.csv",
         "stability-scale.csv",
@@ -92,7 +152,8 @@ fn verdicts(folder: &std::path::Path) -> Vec<(String, String)> {
     .map(|n| (n.to_owned(), read(n)))
     .into();
     let survey = rows(&read("survey.csv"));
-    let timeless: Vec<_> = survey.iter().map(|r| r[..r.len() - 1].join("|")).collect();
+    // Three times and how often they were taken.
+    let timeless: Vec<_> = survey.iter().map(|r| r[..r.len() - 4].join("|")).collect();
     out.push(("survey.csv".to_owned(), timeless.join("\n")));
     out
 }
@@ -177,10 +238,17 @@ fn without_a_folder_there_is_a_verdict_a_table_and_the_next_step() {
         .success();
     let text = String::from_utf8(out.get_output().stdout.clone()).unwrap();
     let lines: Vec<&str> = text.lines().collect();
-    let table = 2 + registry::ALL.len();
-    assert_eq!(lines.len(), 2 + table + 4, "{text}");
+    let tuned = lines.iter().filter(|l| l.contains("its best tolerance"));
+    let table = 2 + registry::ALL.len() + tuned.count();
+    assert_eq!(lines.len(), 2 + table + 6, "{text}");
+    // A time says nothing without the machine.
+    let cores = std::thread::available_parallelism().unwrap();
+    let machine = lines[2 + table + 1];
+    assert!(machine.contains(&format!("of {cores} cores")), "{machine}");
+    assert!(machine.contains(concat!("ozols ", env!("CARGO_PKG_VERSION"))));
+    assert!(machine.contains("timed once"), "{machine}");
     assert!(lines[0].contains("cases of known mobility: the automatic choice is right on"));
     assert!(lines[2].trim_start().starts_with("method"), "{text}");
-    assert_eq!(lines[2 + table + 2].trim(), "ozols accuracy -o accuracy");
+    assert_eq!(lines[2 + table + 4].trim(), "ozols accuracy -o accuracy");
     assert_eq!(std::fs::read_dir(&here).unwrap().count(), 0);
 }

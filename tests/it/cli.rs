@@ -61,7 +61,7 @@ fn exit_code_0_done() {
 
 #[test]
 fn exit_code_1_nothing_found() {
-    let o = run(&["search", "gripper-10", "--max-mobility", "0"]);
+    let o = run(&["search", "gripper-10", "--max-mobility", "0", "--quiet"]);
     assert_eq!((o.status.code(), text(&o.stderr).as_str()), (Some(1), ""));
     assert!(text(&o.stdout).contains("13,841,287,201 variants"));
 }

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 19] = [
+const COMMANDS: [&str; 20] = [
     "report",
     "analyze",
     "search",
@@ -21,6 +21,7 @@ const COMMANDS: [&str; 19] = [
     "draw",
     "export",
     "accuracy",
+    "bench",
     "new",
     "check",
     "list",

@@ -1,6 +1,6 @@
 //! The library by its front door: what a program gets is what the command writes.
 
-use crate::common::ozols;
+use crate::common::{ozols, text, timeless};
 use ozols::model::ranking::Term;
 use ozols::score::request::{Check, JointOptions, List, Method};
 use ozols::score::run::{Event, run};
@@ -19,14 +19,14 @@ fn json(outcome: &Outcome) -> String {
     let mut out = Vec::new();
     let eased = outcome.relaxations().unwrap();
     let why = outcome.hopeless().unwrap();
-    search_json::write(&mut out, outcome, outcome.variants(), (&eased, &why)).unwrap();
+    search_json::write(&mut out, outcome, outcome.variants(), (&eased, &why), None).unwrap();
     String::from_utf8(out).unwrap()
 }
 
 fn printed(name: &str, flags: &str) -> String {
     let mut args = vec!["search", name, "--format", "json"];
     args.extend(flags.split_whitespace());
-    String::from_utf8(ozols(&args).output().unwrap().stdout).unwrap()
+    timeless(&text(&ozols(&args).output().unwrap().stdout))
 }
 
 #[test]

@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod adding;
+mod bench;
 mod cam;
 mod catalogs;
 mod certificates;

@@ -201,7 +201,7 @@ fn the_figures_of_the_ten_link_gripper() {
     assert_eq!(all["external"]["redundant"], 2);
 }
 
-/// The same bytes for any number of threads.
+/// The same for any number of threads, but for the time it takes.
 #[test]
 fn threads_do_not_matter() {
     let run = |threads: &str, format: &str| {
@@ -215,11 +215,7 @@ fn threads_do_not_matter() {
             "--format",
             format,
         ];
-        Command::new(env!("CARGO_BIN_EXE_ozols"))
-            .args(args)
-            .output()
-            .unwrap()
-            .stdout
+        crate::common::out(&args)
     };
     for format in ["text", "json", "csv", "jsonl"] {
         let one = run("1", format);

@@ -3,7 +3,7 @@
 use super::sweep::{Tally, bands};
 use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::lattice::{self, Kind as Shape};
-use crate::accuracy::survey::{median, time};
+use crate::accuracy::timing::{Stopwatch, quantile};
 use crate::accuracy::{Truth, Verdict};
 use crate::chart::{Axis, Bands, Chart, Kind, Scale, Series, Style};
 use crate::closure::matrix::Closure;
@@ -15,7 +15,7 @@ use crate::rank::field::field_of;
 use crate::rank::method::{Answer, MobilityMethod, NoAnswer};
 use crate::rank::{modular, registry};
 use serde::Serialize;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 const SIZES: [usize; 10] = [1, 2, 3, 5, 10, 20, 35, 60, 100, 200];
 /// A method that takes longer is not asked about larger ones of the same shape.
@@ -89,7 +89,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
                     record.skipped += 1;
                     continue;
                 }
-                let (answer, seconds) = ask(*method, &m);
+                let (answer, seconds) = ask(*method, &m, effort);
                 slow[i] = seconds > limit.as_secs_f64();
                 let verdict = Verdict::on(&answer, truth);
                 if verdict != Verdict::Silent {
@@ -126,14 +126,21 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
 }
 
 /// The answer and its time; short times are the median of several.
-fn ask(method: &dyn MobilityMethod, m: &Mechanism) -> (Result<Answer, NoAnswer>, f64) {
-    let begun = Instant::now();
-    let answer = method.answer(m, StateId::FREE);
-    let first = begun.elapsed().as_secs_f64();
-    if first > 0.05 {
-        return (answer, first);
+fn ask(
+    method: &dyn MobilityMethod,
+    m: &Mechanism,
+    effort: Effort,
+) -> (Result<Answer, NoAnswer>, f64) {
+    let watch = |repeat| Stopwatch {
+        clock: effort.clock,
+        repeat,
+    };
+    let (answer, once) = watch(1).time(|| method.answer(m, StateId::FREE));
+    if once.median > 0.05 {
+        return (answer, once.median);
     }
-    (answer, time(method, m, StateId::FREE, 5))
+    let (answer, time) = watch(5).time(|| method.answer(m, StateId::FREE));
+    (answer, time.median)
 }
 
 fn points(sizes: &[usize], records: &[Record]) -> Vec<(f64, f64)> {
@@ -141,7 +148,7 @@ fn points(sizes: &[usize], records: &[Record]) -> Vec<(f64, f64)> {
         // Of all shapes, or of none: a median over fewer would jump.
         let whole = !r.times.is_empty() && r.skipped == 0;
         #[allow(clippy::cast_precision_loss, reason = "sizes are small")]
-        whole.then(|| (k as f64, median(r.times.clone())))
+        whole.then(|| (k as f64, quantile(&r.times, 0.5)))
     };
     sizes.iter().zip(records).filter_map(of).collect()
 }

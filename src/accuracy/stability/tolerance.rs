@@ -4,6 +4,7 @@ use super::change::{Noise, shaken};
 use super::sweep::{Sweep, Tally};
 use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::survey::Case;
+use crate::accuracy::tuned::tolerances;
 use crate::closure::matrix::Closure;
 use crate::format::number::scientific;
 use crate::format::phrase::list;
@@ -63,12 +64,7 @@ fn tally(cases: &[Case], effort: Effort, level: f64, tolerances: &[f64]) -> Vec<
 
 /// Runs the study.
 pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
-    // Half decades, or decades.
-    let step = if effort.quick { 2 } else { 1 };
-    let tolerances: Vec<f64> = (-30..=-6)
-        .step_by(step)
-        .map(|half| 10f64.powf(f64::from(half) / 2.0))
-        .collect();
+    let tolerances = tolerances(if effort.quick { 2 } else { 1 });
     let mut found: Vec<Vec<Vec<Tally>>> = Vec::new();
     for (n, &level) in LEVELS.iter().enumerate() {
         progress("tolerance", n, LEVELS.len());

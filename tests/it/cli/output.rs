@@ -1,7 +1,7 @@
 //! Files written, standard input and output, closed pipes.
 
 use super::{four_bar, refused};
-use crate::common::{json, out, ozols, text};
+use crate::common::{json, out, ozols, text, timeless};
 use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
@@ -37,7 +37,8 @@ fn output_file_is_whole() {
         &["analyze", "four-bar"],
     ] {
         assert_eq!(out(&[args, &["-o", file]].concat()), "");
-        assert_eq!(fs::read_to_string(&path).unwrap(), out(args), "{args:?}");
+        let written = timeless(&fs::read_to_string(&path).unwrap());
+        assert_eq!(written, out(args), "{args:?}");
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
@@ -136,4 +137,29 @@ fn output_through_a_symbolic_link() {
         fs::read_to_string(&real).unwrap(),
         out(&["analyze", "four-bar"])
     );
+}
+
+// Time.
+
+#[test]
+fn a_search_says_how_long_it_took() {
+    let o = ozols(&["search", "four-bar", "--format", "json"])
+        .output()
+        .unwrap();
+    let whole = text(&o.stdout);
+    let v: Value = serde_json::from_str(&whole).unwrap();
+    let seconds = v["seconds"].as_f64().unwrap();
+    assert!(seconds > 0.0 && seconds < 600.0, "{seconds}");
+    // It is the last key, so that all before it is the same every time.
+    let last = whole.lines().rev().nth(1).unwrap();
+    assert!(last.starts_with("  \"seconds\": "), "{last}");
+    assert_eq!(text(&o.stderr), "");
+
+    let said = |args: &[&str]| text(&ozols(args).output().unwrap().stderr);
+    let line = said(&["search", "four-bar"]);
+    assert!(line.starts_with("Searched in ") && line.lines().count() == 1);
+    assert_eq!(said(&["search", "four-bar", "--quiet"]), "");
+    for format in ["csv", "jsonl"] {
+        assert_eq!(said(&["search", "four-bar", "--format", format]), "");
+    }
 }

@@ -1,0 +1,132 @@
+//! Variants looked at one by one, and what follows for counts and for the best of them.
+
+use crate::geom::exact::ExactError;
+use crate::score::outcome::Outcome;
+use crate::search::best::Assignment;
+use crate::search::brute::Seen;
+use crate::search::conditions::Search;
+use crate::search::space::Variable;
+use crate::search::tally::Key;
+use num_bigint::BigUint;
+use num_traits::ToPrimitive;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// What a way says of one variant that it takes for determinate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Judged {
+    /// Its properties.
+    pub(super) key: Key,
+    /// Whether it meets every condition.
+    pub(super) admissible: bool,
+}
+
+/// Counts by whether all conditions are asked for, W, and number of changes.
+pub(super) type Cells = BTreeMap<(bool, i64, u32), BigUint>;
+
+/// Cost, W and number of changes: what the order of a list goes by.
+pub(super) type Properties = (u64, i64, u32);
+
+/// The judgement that follows from what was seen of a variant; `None` where it is not determinate.
+pub(super) fn judged(
+    search: &Search,
+    choices: &[usize],
+    seen: Seen,
+) -> Result<Option<Judged>, ExactError> {
+    let judged = search.judge(choices, seen)?;
+    Ok(judged.map(|(key, good)| Judged {
+        key,
+        admissible: good && search.wanted(key),
+    }))
+}
+
+/// The judgement of a search's diagrams; `None` where the variant is not in that of the determinate ones.
+pub(super) fn by_diagram(outcome: &Outcome, choices: &[usize]) -> Option<Judged> {
+    let (search, diagrams) = (&outcome.search, outcome.diagrams.as_ref()?);
+    let key = |redundancy| search.key(choices, redundancy);
+    let admissible = diagrams.admissible.end(choices).map(key);
+    let key = match admissible {
+        // The determinate ones' diagram does not ask what the state makes of a variant.
+        Some(key) => key,
+        None => diagrams.determinate.end(choices).map(key)?,
+    };
+    let admissible = admissible.is_some_and(|k| search.wanted(k));
+    Some(Judged { key, admissible })
+}
+
+/// Judges variants in parallel.
+pub(super) fn judge_all<E: Send>(
+    variants: &[Vec<usize>],
+    judge: impl Fn(&[usize]) -> Result<Option<Judged>, E> + Sync,
+) -> Result<Vec<Option<Judged>>, E> {
+    variants.par_iter().map(|v| judge(v)).collect()
+}
+
+/// Every variant of a space, the choices of the first variable changing fastest; `None` where there are more than `most`.
+pub(super) fn every(search: &Search, most: usize) -> Option<Vec<Vec<usize>>> {
+    let size = search.size().to_usize().filter(|n| *n <= most)?;
+    let variables = &search.space.variables;
+    let variant = |mut n: usize| {
+        let digit = |v: &Variable| {
+            let choice = n % v.choices.len();
+            n /= v.choices.len();
+            choice
+        };
+        variables.iter().map(digit).collect()
+    };
+    Some((0..size).map(variant).collect())
+}
+
+/// How many times as many variants a space has as were looked at.
+pub(super) fn ratio(size: &BigUint, looked: usize) -> f64 {
+    #[allow(clippy::cast_precision_loss, reason = "counts are small")]
+    let looked = looked.max(1) as f64;
+    size.to_f64().unwrap_or(f64::INFINITY) / looked
+}
+
+/// Counts of judged variants.
+pub(super) fn cells(search: &Search, judged: &[Option<Judged>]) -> Cells {
+    let mut cells = Cells::new();
+    for j in judged.iter().flatten() {
+        let (w, changes) = (search.mobility(j.key), j.key.changes());
+        *cells.entry((false, w, changes)).or_default() += 1u8;
+        if j.admissible {
+            *cells.entry((true, w, changes)).or_default() += 1u8;
+        }
+    }
+    cells
+}
+
+/// Counts of an outcome.
+pub(super) fn cells_of_counts(outcome: &Outcome) -> Cells {
+    let both = [(false, &outcome.determinate), (true, &outcome.admissible)];
+    let all = both.into_iter().flat_map(|(all, counts)| {
+        let cells = counts.by_mobility_and_changes.iter();
+        cells.map(move |(&(w, c), n)| ((all, w, c), n.clone()))
+    });
+    all.collect()
+}
+
+pub(super) fn properties(search: &Search, key: Key) -> Properties {
+    (key.cost(), search.mobility(key), key.changes())
+}
+
+/// The cheapest admissible ones of judged variants, as the program orders them but for ties.
+pub(super) fn cheapest(
+    search: &Search,
+    variants: &[Vec<usize>],
+    judged: &[Option<Judged>],
+    top: usize,
+) -> Vec<Assignment> {
+    let admissible = variants.iter().zip(judged).filter_map(|(choices, j)| {
+        let key = j.filter(|j| j.admissible)?.key;
+        Some((properties(search, key), choices, key))
+    });
+    let mut all: Vec<_> = admissible.collect();
+    all.sort_by_key(|(p, ..)| *p);
+    let assignment = |(_, choices, key): (Properties, &Vec<usize>, Key)| Assignment {
+        choices: choices.clone(),
+        key,
+    };
+    all.into_iter().take(top).map(assignment).collect()
+}

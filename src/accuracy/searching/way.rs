@@ -1,0 +1,80 @@
+//! The ways of searching.
+
+use crate::rank::method::MobilityMethod;
+use crate::rank::numeric::Elimination;
+use crate::score::request::{Check, Request};
+use std::fmt;
+
+/// A way of searching.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// The whole diagram, checked in some way.
+    Diagram(Check),
+    /// The diagram cut down to so many nodes.
+    Nodes(usize),
+    /// A ranking of so many of the cheapest variants, on the diagram.
+    Pool(usize),
+    /// Brute force modulo a prime.
+    Brute,
+    /// Brute force in floating point, at the default tolerance.
+    Float(Elimination),
+}
+
+/// The ways there are with a diagram of so many nodes; `pool` is the largest of a ranking, where there is one.
+pub(super) fn all(nodes: usize, pool: Option<usize>) -> Vec<Way> {
+    let mut ways = [Check::None, Check::Prime, Check::Full]
+        .map(Way::Diagram)
+        .to_vec();
+    ways.extend([3, 2, 1].map(|quarters| Way::Nodes((nodes * quarters / 4).max(1))));
+    let pools = [10, 100, 1000, 10_000].into_iter();
+    ways.extend(
+        pools
+            .filter(|p| pool.is_some_and(|most| *p < most))
+            .map(Way::Pool),
+    );
+    ways.push(Way::Brute);
+    ways.extend(Elimination::ALL.map(Way::Float));
+    ways
+}
+
+impl Way {
+    /// A request searched this way.
+    pub(super) fn request(self, base: &Request) -> Request {
+        let mut request = base.clone();
+        match self {
+            Way::Diagram(check) => request.check = check,
+            Way::Nodes(nodes) => request.nodes = nodes,
+            Way::Pool(pool) => request.pool = pool,
+            Way::Brute | Way::Float(_) => {}
+        }
+        request
+    }
+
+    /// What it is, in a sentence's part.
+    #[must_use]
+    pub fn about(self) -> &'static str {
+        match self {
+            Way::Diagram(Check::None) => "the diagram over one prime, --check none",
+            Way::Diagram(Check::Prime) => "over two primes, --check prime",
+            Way::Diagram(Check::Full) => "and each of the best by singular values, --check full",
+            Way::Nodes(_) => "one prime, with a budget of --nodes",
+            Way::Pool(_) => "one prime, with a --pool to rank",
+            Way::Brute => "every variant, modulo a prime",
+            Way::Float(_) => "every variant, by floating-point ranks",
+        }
+    }
+}
+
+impl fmt::Display for Way {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Way::Diagram(Check::None) => write!(f, "one prime"),
+            Way::Diagram(Check::Prime) => write!(f, "two primes"),
+            Way::Diagram(Check::Full) => write!(f, "full check"),
+            Way::Nodes(n) => write!(f, "{n} nodes"),
+            Way::Pool(n) => write!(f, "pool of {n}"),
+            Way::Brute => write!(f, "brute force"),
+            Way::Float(e) => write!(f, "brute force, {}", e.name()),
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! How long something takes: on which machine, by which clock, how often, and how far the times spread.
+//!
+//! The clock is the caller's, so that nothing here reads one by itself.
+
+use std::fmt;
+use std::hint::black_box;
+use std::time::Duration;
+
+/// Something slow is not repeated again once its timing has taken so long.
+const PATIENCE: Duration = Duration::from_millis(200);
+
+/// The time since some moment, never less than before.
+pub type Clock = fn() -> Duration;
+
+/// What times are measured on: a figure of speed says nothing without it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Machine {
+    /// The processor's name, or that of its kind.
+    pub processor: String,
+    /// Threads used.
+    pub threads: usize,
+    /// Processors there are.
+    pub cores: usize,
+    /// Bytes of memory, where the system tells.
+    pub memory: Option<u64>,
+    /// The operating system.
+    pub system: String,
+    /// Whether the program was compiled for speed.
+    pub optimised: bool,
+}
+
+impl Machine {
+    /// The program's version.
+    pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+}
+
+impl fmt::Display for Machine {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}, {} of {} cores",
+            self.processor, self.threads, self.cores
+        )?;
+        if let Some(bytes) = self.memory {
+            write!(f, ", {} GB", (bytes + 500_000_000) / 1_000_000_000)?;
+        }
+        write!(f, ", {}; ozols {}", self.system, Machine::VERSION)?;
+        if self.optimised {
+            return Ok(());
+        }
+        write!(
+            f,
+            ", a development build, whose times are no measure of the program"
+        )
+    }
+}
+
+/// Times of one thing, in seconds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Timing {
+    /// The middle of them.
+    pub median: f64,
+    /// The shortest.
+    pub least: f64,
+    /// The longest.
+    pub most: f64,
+    /// How many there are.
+    pub repeats: usize,
+}
+
+impl Timing {
+    /// Of some times, at least one.
+    #[must_use]
+    pub fn of(times: &[f64]) -> Timing {
+        let [least, median, most] = [0.0, 0.5, 1.0].map(|at| quantile(times, at));
+        Timing {
+            median,
+            least,
+            most,
+            repeats: times.len(),
+        }
+    }
+
+    /// Of something so many times as long.
+    #[must_use]
+    pub fn scaled(self, by: f64) -> Timing {
+        Timing {
+            median: self.median * by,
+            least: self.least * by,
+            most: self.most * by,
+            ..self
+        }
+    }
+
+    /// Of something that takes so many seconds more.
+    #[must_use]
+    pub fn plus(self, seconds: f64) -> Timing {
+        Timing {
+            median: self.median + seconds,
+            least: self.least + seconds,
+            most: self.most + seconds,
+            ..self
+        }
+    }
+}
+
+/// How times are taken.
+#[derive(Debug, Clone, Copy)]
+pub struct Stopwatch {
+    /// The clock.
+    pub clock: Clock,
+    /// How often something is done at most; once at least.
+    pub repeat: usize,
+}
+
+impl Stopwatch {
+    /// Does something up to `repeat` times: what came of it last, and how long each took.
+    pub fn time<T>(&self, mut f: impl FnMut() -> T) -> (T, Timing) {
+        let begun = (self.clock)();
+        let mut times = Vec::new();
+        loop {
+            let start = (self.clock)();
+            let found = black_box(f());
+            let end = (self.clock)();
+            times.push((end - start).as_secs_f64());
+            if times.len() >= self.repeat || end - begun >= PATIENCE {
+                return (found, Timing::of(&times));
+            }
+        }
+    }
+}
+
+/// The value below which a share of some numbers lies, between neighbours in proportion; 0 of none.
+#[must_use]
+#[allow(
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "counts are small"
+)]
+pub fn quantile(of: &[f64], share: f64) -> f64 {
+    let mut of = of.to_vec();
+    of.sort_by(f64::total_cmp);
+    let Some(last) = of.len().checked_sub(1) else {
+        return 0.0;
+    };
+    let at = share * last as f64;
+    let (low, part) = (at.floor() as usize, at.fract());
+    of[low] + part * (of[(low + 1).min(last)] - of[low])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicU64, Ordering};
+
+    #[test]
+    fn quantiles_lie_between_neighbours() {
+        let at = |share| quantile(&[4.0, 1.0, 3.0, 2.0], share);
+        assert_eq!([0.0, 0.25, 0.5, 1.0].map(at), [1.0, 1.75, 2.5, 4.0]);
+        assert_eq!((quantile(&[], 0.5), quantile(&[7.0], 0.9)), (0.0, 7.0));
+    }
+
+    #[test]
+    fn something_slow_is_not_repeated() {
+        static NOW: AtomicU64 = AtomicU64::new(0);
+        fn clock() -> Duration {
+            Duration::from_millis(NOW.fetch_add(10, Ordering::Relaxed))
+        }
+        let watch = |repeat| Stopwatch { clock, repeat }.time(|| ()).1;
+        assert_eq!(watch(5).repeats, 5);
+        assert_eq!(watch(0).repeats, 1);
+        // Each repeat takes two readings of the clock, 20 ms.
+        let many = watch(1000);
+        assert_eq!((many.repeats, many.least, many.most), (10, 0.01, 0.01));
+    }
+}

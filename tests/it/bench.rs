@@ -1,0 +1,255 @@
+//! Ways of searching: which answers of theirs are right.
+
+use crate::common::{changed, count, json, out, ozols, text};
+use num_bigint::BigUint;
+use ozols::Mechanism;
+use ozols::accuracy::searching::record::{Record, Trial};
+use ozols::accuracy::searching::way::Way;
+use ozols::accuracy::searching::{Effort, MECHANISMS, pictures, trial};
+use ozols::accuracy::timing::{Machine, Stopwatch};
+use ozols::file::text::mechanism_from_str;
+use ozols::rank::numeric::Elimination;
+use ozols::score::request::{Check, List, Request};
+use ozols::search::approximate::Approximate;
+use serde_json::Value;
+use std::time::Duration;
+
+const EFFORT: Effort = Effort {
+    looked: 400,
+    pool: 2_000,
+};
+
+/// A trial by a clock that stands still: verdicts do not depend on it.
+fn tried(mechanism: &Mechanism, request: &Request, effort: Effort) -> Trial {
+    let watch = Stopwatch {
+        clock: || Duration::ZERO,
+        repeat: 1,
+    };
+    trial(mechanism, request, effort, watch, &mut |_, _, _| {}).unwrap()
+}
+
+fn built_in(name: &str) -> Trial {
+    let m = Mechanism::builtin(name).unwrap();
+    tried(&m, &Request::default(), EFFORT)
+}
+
+fn of(trial: &Trial, way: Way) -> &Record {
+    trial.records.iter().find(|r| r.way == way).unwrap()
+}
+
+fn is_right(share: ozols::accuracy::searching::record::Share) -> bool {
+    share.right == share.of
+}
+
+const CHECKS: [Check; 3] = [Check::None, Check::Prime, Check::Full];
+
+#[test]
+fn exact_ways_are_right_and_cut_ones_are_not() {
+    for name in ["four-bar", "3-rrr-planar", "geared-gripper", "gripper-10"] {
+        let t = built_in(name);
+        for way in CHECKS.map(Way::Diagram).into_iter().chain([Way::Brute]) {
+            let r = of(&t, way);
+            assert!(is_right(r.variants), "{name}, {way}");
+            assert!(is_right(r.answers()), "{name}, {way}");
+            // Brute force over a sample gives no counts and names no best.
+            let gives = matches!(way, Way::Diagram(_)) || t.whole;
+            assert_eq!(r.counts.is_some(), gives, "{name}, {way}");
+            assert_eq!(r.best.map(is_right), gives.then_some(true), "{name}, {way}");
+            assert_eq!(r.by_proportion, way == Way::Brute && !t.whole);
+        }
+        // A small diagram is not cut: every layer may have a few hundred nodes.
+        let cut = t.records.iter().filter(|r| matches!(r.way, Way::Nodes(_)));
+        let cut: Vec<_> = cut.collect();
+        assert_eq!(cut.is_empty(), name != "gripper-10", "{name}");
+        for r in cut {
+            assert!(!is_right(r.counts.unwrap()), "{}", r.way);
+            assert!(!is_right(r.variants), "{}", r.way);
+        }
+    }
+}
+
+/// The whole of gripper-10 is known: [Pogrebnyak 2018] and a brute force run once.
+#[test]
+fn the_truth_is_what_is_known() {
+    let t = built_in("gripper-10");
+    let known = [6_340_592_477_u64, 25_761_436].map(BigUint::from);
+    assert_eq!(t.found, Some(known));
+    assert!(!t.whole && t.looked == 400 && t.ranked.is_none());
+    let t = built_in("goldberg-5r");
+    let counts = json(&[
+        "search",
+        "goldberg-5r",
+        "--method",
+        "brute",
+        "--format",
+        "json",
+    ]);
+    let known = ["determinate", "admissible"].map(|k| BigUint::from(count(&counts[k])));
+    assert_eq!((t.whole, t.found), (true, Some(known)));
+}
+
+/// Coupled joints, the plane, and contacts with unloading joints: double precision finds what each variant, built as a
+/// mechanism of its own, has.
+#[test]
+fn floating_point_looks_at_the_same_matrices() {
+    let clamped = Request {
+        max_external: Some(2),
+        ..Request::default()
+    };
+    for (name, request) in [
+        ("geared-gripper", Request::default()),
+        ("3-rrr-planar", Request::default()),
+        ("gripper-10-unloaded", clamped),
+    ] {
+        let m = Mechanism::builtin(name).unwrap();
+        let outcome = ozols::search(&m, &request).unwrap();
+        let search = &outcome.search;
+        let drawn = search.sample(outcome.diagrams.as_ref().unwrap(), 7);
+        let drawn: Vec<_> = drawn.take(40).collect();
+        for e in [Elimination::Lu, Elimination::Qr, Elimination::Svd] {
+            let all = Approximate::new(search, e, e.default_tolerance()).unwrap();
+            for c in search.certify(drawn.clone(), true, None, &|| false) {
+                let seen = all.look(&c.variant.choices).unwrap();
+                let opinion = c.second.opinion().unwrap();
+                let by_itself = (i64::from(seen.internal), seen.motion);
+                assert_eq!(by_itself, (opinion.redundant, opinion.output.unwrap()));
+                let external = opinion.external.unwrap_or(0);
+                assert_eq!(i64::from(seen.external), external, "{name}, {e:?}");
+            }
+        }
+    }
+}
+
+/// A mechanism with one coordinate a hair off: exact ranks see it, ranks in floating point do not, and the chart must say
+/// so.
+#[test]
+fn floating_point_is_wrong_about_a_hair() {
+    let hair = "point = [\"20 + 1e-20\", 40, -20]";
+    let text = changed(&out(&["show", "bennett"]), "point = [20, 40, -20]", hair);
+    let off = mechanism_from_str("bennett.toml", &text).unwrap();
+    let request = Request {
+        as_written: true,
+        ..Request::default()
+    };
+    let t = tried(&off, &request, EFFORT);
+    assert!(is_right(of(&t, Way::Diagram(Check::None)).variants));
+    assert!(is_right(of(&t, Way::Brute).variants));
+    for e in Elimination::ALL {
+        let r = of(&t, Way::Float(e));
+        assert!(r.variants.right < r.variants.of, "{e:?}");
+        assert!(!is_right(r.counts.unwrap()), "{e:?}");
+    }
+    let said = pictures::wrong(&t);
+    assert!(said.contains("brute force, svd on "), "{said}");
+}
+
+#[test]
+fn a_small_pool_may_miss_the_best() {
+    let t = built_in("gripper-10-loaded");
+    let (pool, _) = t.ranked.unwrap();
+    assert_eq!(pool, 2_000);
+    let shares: Vec<usize> = [10, 100, 1000]
+        .map(|n| of(&t, Way::Pool(n)).best.unwrap().right)
+        .into();
+    assert!(shares.is_sorted() && shares[0] < 10, "{shares:?}");
+    // Brute force ranks nothing.
+    assert!(of(&t, Way::Brute).best.is_none());
+    let small = built_in("lever-gripper");
+    assert_eq!(small.ranked, Some((305, true)), "all were scored");
+}
+
+#[test]
+fn pictures_show_every_way_and_the_machine() {
+    let machine = Machine {
+        processor: "Abacus".to_owned(),
+        threads: 2,
+        cores: 3,
+        memory: Some(4_000_000_000),
+        system: "wood".to_owned(),
+        optimised: true,
+    };
+    let trials = [built_in("four-bar"), built_in("lever-gripper")];
+    let files = pictures::files(&trials, &machine);
+    assert_eq!(files, pictures::files(&trials, &machine));
+    let svgs: Vec<_> = files.iter().filter(|f| f.0.ends_with(".svg")).collect();
+    assert_eq!(svgs.len(), 4);
+    for (name, svg) in svgs {
+        roxmltree::Document::parse(svg).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert!(
+            svg.contains("Abacus, 2 of 3 cores, 4 GB, wood; ozols"),
+            "{name}"
+        );
+        assert!(svg.contains("full check"), "{name}");
+    }
+    assert_eq!(files.last().unwrap().0, "index.html");
+    let rows = trials.iter().map(|t| t.records.len()).sum::<usize>();
+    assert_eq!(files[0].1.lines().count(), 1 + rows);
+}
+
+#[test]
+fn the_command_says_the_same_in_every_format() {
+    let args = ["bench", "four-bar", "--quick", "--top", "3"];
+    let v = json(&[&args[..], &["--format", "json"]].concat());
+    let machine = &v["machine"];
+    assert_eq!(machine["version"], env!("CARGO_PKG_VERSION"));
+    assert!(machine["cores"].as_u64().unwrap() > 0);
+    assert!(!machine["processor"].as_str().unwrap().is_empty());
+    let four_bar = &v["mechanisms"][0];
+    assert_eq!(four_bar["determinate"], "34");
+    assert_eq!(four_bar["all_looked_at"], true);
+    let csv = out(&[&args[..], &["--format", "csv"]].concat());
+    let ways = v["ways"].as_array().unwrap();
+    assert_eq!(csv.lines().count(), 1 + ways.len());
+    let said = out(&args);
+    for way in ways {
+        let name = way["way"].as_str().unwrap();
+        assert!(csv.contains(name) && said.contains(name), "{name}");
+        assert!(way["variants_right"].as_u64() <= way["variants"].as_u64());
+    }
+    assert!(said.contains("four-bar: 64 variants, 34 determinate, 14 admissible"));
+
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path().join("bench");
+    let said = out(&[&args[..], &["-o", at.to_str().unwrap()]].concat());
+    assert!(said.trim_end().ends_with("open it in a browser."));
+    let names = std::fs::read_dir(&at).unwrap();
+    assert_eq!(names.count(), 4);
+}
+
+#[test]
+fn conditions_are_those_of_a_search_and_bad_ones_are_refused() {
+    let args = ["four-bar", "--max-mobility", "1", "--max-changes", "3"];
+    let search = json(&[&["search"], &args[..], &["--count", "--format", "json"]].concat());
+    let bench: Value = json(&[&["bench", "--quick"], &args[..], &["--format", "json"]].concat());
+    assert_eq!(bench["mechanisms"][0]["admissible"], search["admissible"]);
+    for (bad, said) in [
+        (&["nosuch"][..], "neither a file nor a built-in mechanism"),
+        (
+            &["four-bar", "--repeat", "0"],
+            "--repeat must be at least 1",
+        ),
+        (
+            &["four-bar", "--looked", "0"],
+            "--looked must be at least 1",
+        ),
+        (&["gripper-10", "--one-per-orbit"], "--one-per-orbit"),
+        (&["four-bar", "--options", "ball"], "no joint of four-bar"),
+    ] {
+        let o = ozols(&[&["bench", "--quick"], bad].concat())
+            .output()
+            .unwrap();
+        assert_eq!(o.status.code(), Some(2), "{bad:?}");
+        assert!(text(&o.stderr).contains(said), "{}", text(&o.stderr));
+    }
+    let list = List::Top(3);
+    let top = tried(
+        &Mechanism::builtin("four-bar").unwrap(),
+        &Request {
+            list,
+            ..Request::default()
+        },
+        EFFORT,
+    );
+    assert_eq!(of(&top, Way::Brute).best.unwrap().of, 3);
+    assert!(MECHANISMS.len() >= 4 && MECHANISMS.contains(&"gripper-10"));
+}
