@@ -94,7 +94,9 @@ pub(super) fn working(quiet: bool) {
         let mut shown = locked();
         if shown.0 == began {
             let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-            bar.set_message("working");
+            let style = ProgressStyle::with_template("{elapsed_precise} {spinner} working");
+            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
+            bar.set_elapsed(Duration::from_secs(1));
             bar.enable_steady_tick(Duration::from_millis(100));
             shown.1 = Some(bar);
         }
@@ -150,6 +152,7 @@ impl Bar {
 
     /// Shows how far a run of known length has come.
     pub(super) fn step(&mut self, what: &str, done: usize, of: usize) {
+        rest();
         if !self.wanted || self.begun.elapsed() < Duration::from_secs(1) {
             return;
         }

@@ -6,7 +6,6 @@ use crate::score::request::List;
 use crate::score::variant::{Variant, in_words};
 use crate::score::variants::Variants;
 use crate::search::certify::{NEARLY_SINGULAR, Opinion, Second, Summary};
-use crate::search::diagram::Stop;
 use crate::search::primes::Verdict;
 use crate::search::relax::{Hopeless, Relaxation};
 use crate::view::conditions::{hopeless, in_state};
@@ -71,16 +70,9 @@ pub fn write(
             .map(|l| format!("\n  {l}"));
         writeln!(out, "{}", fit(&notes.collect::<String>(), width))?;
     }
-    match given.cut_short() {
-        Some(Stop::Interrupted) => {
-            writeln!(out, "\n  interrupted after {} variants", summary.given)?;
-        }
-        Some(_) => writeln!(
-            out,
-            "\n  {} variants given: more of them take more memory than --memory allows",
-            summary.given
-        )?,
-        None => {}
+    if let Some(stop) = given.cut_short() {
+        let (why, given) = (stop.word(), summary.given);
+        writeln!(out, "\n  stopped early ({why}) after {given} variants")?;
     }
     // Numbers of a sample, or of a list with some left out, mean nothing to other commands.
     let steps = match outcome.request.generic_only {
@@ -95,10 +87,9 @@ pub fn write(
 fn counts(outcome: &Outcome, width: Option<u16>) -> String {
     let mut out = String::new();
     let big = |n: &BigUint| grouped(&n.to_string());
-    let (least, conditions) = (
-        if outcome.is_exact() { "" } else { "at least " },
-        &outcome.search.conditions,
-    );
+    let at_least = |exact: bool| if exact { "" } else { "at least " };
+    let least = at_least(outcome.is_exact());
+    let conditions = &outcome.search.conditions;
     let condition = if conditions.max_redundant == 0 {
         "σ = 0".to_owned()
     } else {
@@ -140,11 +131,7 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
         let _ = writeln!(
             out,
             "  {}{} with {condition}, whatever else they do",
-            if outcome.is_determinate_exact() {
-                ""
-            } else {
-                "at least "
-            },
+            at_least(outcome.is_determinate_exact()),
             big(&outcome.determinate.total)
         );
     }
