@@ -24,6 +24,7 @@ pub(super) fn best(
     if matches!(whole.stop, Stop::Exhausted | Stop::Interrupted) {
         return whole;
     }
+    let why = whole.stop;
     let rungs = || std::iter::successors(Some(LEAST), |n| n.checked_mul(10));
     let mut best: Option<(BigUint, Diagram)> = None;
     for nodes in rungs().take_while(|&n| n < limits.nodes) {
@@ -45,7 +46,7 @@ pub(super) fn best(
         best = better(best, whole, worth);
     }
     let (_, found) = best.expect("one was taken");
-    found
+    Diagram { stop: why, ..found }
 }
 
 /// The better of what was found and a diagram; the first of equals.
