@@ -8,6 +8,7 @@
 pub mod approximate;
 pub mod best;
 pub mod brute;
+mod budget;
 pub mod building;
 pub mod certify;
 pub mod conditions;

@@ -15,7 +15,8 @@ Examples:
   ozols import robot.urdf -o robot.toml        a mechanism file of a robot description
 Each command has its own: `ozols search --help`.
 
-Exit codes: 0 done; 1 nothing found, a certificate rejected or a stroke not finished; 2 bad input or failure.";
+Exit codes: 0 done; 1 nothing found, a certificate rejected or a stroke not finished; 2 bad input or failure;
+130, 143 or 129 interrupted by Ctrl-C, SIGTERM or SIGHUP.";
 
 pub(super) const ANALYZE: &str = "\
 Examples:

@@ -36,6 +36,8 @@ pub enum Stop {
     Exhausted,
     /// The node budget cut layers down to their cheapest nodes: counts are lower bounds.
     NodeBudget,
+    /// What may be held of memory did, in the same way.
+    Memory,
     /// The caller asked to end: layers were cut down, counts are lower bounds.
     Interrupted,
 }
@@ -53,6 +55,7 @@ impl Stop {
         match self {
             Stop::Exhausted => "exhausted",
             Stop::NodeBudget => "node-budget",
+            Stop::Memory => "memory",
             Stop::Interrupted => "interrupted",
         }
     }
@@ -134,6 +137,11 @@ impl Nodes {
         self.spent.len()
     }
 
+    /// Bytes of the nodes, with the table that finds them while they are gathered.
+    fn bytes(&self) -> usize {
+        size_of::<Residue>() * self.data.len() + NODE * self.len()
+    }
+
     fn matrix(&self, i: usize) -> &[Residue] {
         &self.data[self.start[i]..self.start[i + 1]]
     }
@@ -154,7 +162,7 @@ impl Nodes {
 ///
 /// # Complexity
 /// O(nodes · choices · d²w) field operations for matrices of d rows and w columns; memory is the edges of all layers
-/// and the matrices of two, both bounded by `limits.nodes`.
+/// and the matrices of two, both bounded by `limits.nodes` and `limits.bytes`.
 pub fn build(
     exact: &ExactField,
     space: &Space,
@@ -165,18 +173,22 @@ pub fn build(
 ) -> Diagram {
     let mut nodes = Nodes::root();
     let mut layers = Vec::with_capacity(stages.len());
-    let (mut total, mut largest, mut stop) = (1, 1, Stop::Exhausted);
+    let (mut total, mut largest, mut stop, mut held) = (1, 1, Stop::Exhausted, 0);
     for (done, stage) in stages.iter().enumerate() {
         let choices = &space.variables[stage.variable].choices;
         let mut merge = Merge {
             room: limits.nodes.saturating_sub(total).max(CUT),
+            bytes: limits.bytes.saturating_sub(held + nodes.bytes()),
             stop,
             table: HashTable::new(),
             next: Nodes::empty(),
             edges: Vec::with_capacity(nodes.len() * choices.len()),
         };
-        for batch in (0..nodes.len()).step_by(BATCH) {
-            let batch = batch..(batch + BATCH).min(nodes.len());
+        // Children that are not merged yet may take an eighth of the memory; one is about as large as its parent.
+        let each = nodes.bytes() / nodes.len().max(1) * choices.len();
+        let size = (limits.bytes / 8 / each.max(1)).clamp(CUT, BATCH);
+        for batch in (0..nodes.len()).step_by(size) {
+            let batch = batch..(batch + size).min(nodes.len());
             for part in expand(exact.field(), space, stage, limits, &nodes, batch) {
                 merge.take(&part, &nodes, |choice| choices[choice].cost_milli);
             }
@@ -208,6 +220,11 @@ pub fn build(
             Stop::NodeBudget => {
                 (limits.nodes.saturating_sub(total) / (stages.len() - done)).max(CUT)
             }
+            Stop::Memory => {
+                let each = next.bytes() / next.len().max(1) + size_of::<u32>() * choices.len();
+                let left = limits.bytes.saturating_sub(held) / (stages.len() - done);
+                (left / each).max(CUT)
+            }
             Stop::Interrupted => CUT,
         };
         if next.len() > keep {
@@ -215,6 +232,7 @@ pub fn build(
         }
         total += next.len();
         largest = largest.max(next.len());
+        held += size_of::<u32>() * edges.len();
         layers.push(Layer {
             variable: stage.variable,
             nodes: nodes.len(),
@@ -234,8 +252,10 @@ pub fn build(
 
 /// Nodes a layer keeps at least, however small the budget, so that a search always reaches the end.
 const CUT: usize = 256;
-/// Nodes expanded before their children are merged, which bounds the memory of unmerged children.
+/// Nodes expanded at most before their children are merged.
 const BATCH: usize = 1 << 14;
+/// Bytes of a node besides its matrix: what was spent, where the matrix starts, the least cost, and its place in the table.
+const NODE: usize = size_of::<Spent>() + 3 * size_of::<u64>() + 2 * size_of::<(u64, u32)>();
 /// Fewer children than this are not worth waking threads for.
 const PARALLEL: usize = 1024;
 
@@ -286,6 +306,8 @@ fn expand(
 struct Merge {
     /// New nodes allowed.
     room: usize,
+    /// Bytes that they and the edges may take.
+    bytes: usize,
     stop: Stop,
     table: HashTable<(u64, u32)>,
     next: Nodes,
@@ -310,10 +332,11 @@ impl Merge {
             let index = match self.table.entry(hash, same, |&(h, _)| h) {
                 hashbrown::hash_table::Entry::Occupied(o) => o.get().1,
                 hashbrown::hash_table::Entry::Vacant(v) => {
-                    if next.len() >= self.room {
-                        if self.stop == Stop::Exhausted {
-                            self.stop = Stop::NodeBudget;
-                        }
+                    let taken = next.bytes() + size_of::<u32>() * self.edges.len();
+                    let full = taken >= self.bytes && next.len() >= CUT;
+                    if full || next.len() >= self.room {
+                        let why = if full { Stop::Memory } else { Stop::NodeBudget };
+                        self.stop = self.stop.or(why);
                         self.edges.push(DEAD);
                         continue;
                     }
