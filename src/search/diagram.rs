@@ -4,13 +4,13 @@
 //! hash table. One transition costs a few hundred multiplications.
 
 use crate::geom::exact::ExactField;
-use crate::linalg::modp::{Field, Residue};
+use crate::linalg::modp::Field;
 use crate::search::lookahead::Lookahead;
+use crate::search::merge::{Merge, Nodes};
 use crate::search::space::Space;
 use crate::search::spent::{Limits, Redundancy, Spent};
 use crate::search::stage::Stage;
 use crate::search::transition::{Children, Worker};
-use hashbrown::HashTable;
 use rayon::prelude::*;
 
 /// A missing edge: the choice leads nowhere admissible.
@@ -100,52 +100,6 @@ impl Diagram {
     }
 }
 
-/// The nodes of a layer while it is being built.
-struct Nodes {
-    /// Redundancy so far.
-    spent: Vec<Spent>,
-    /// Start of each node's matrix in `data`; one more at the end.
-    start: Vec<usize>,
-    data: Vec<Residue>,
-    /// Least cost of a way to the node.
-    least: Vec<i64>,
-}
-
-impl Nodes {
-    fn root() -> Self {
-        Nodes {
-            spent: vec![Spent::default()],
-            start: vec![0, 0],
-            data: Vec::new(),
-            least: vec![0],
-        }
-    }
-
-    fn empty() -> Self {
-        Nodes {
-            spent: Vec::new(),
-            start: vec![0],
-            data: Vec::new(),
-            least: Vec::new(),
-        }
-    }
-
-    fn len(&self) -> usize {
-        self.spent.len()
-    }
-
-    fn matrix(&self, i: usize) -> &[Residue] {
-        &self.data[self.start[i]..self.start[i + 1]]
-    }
-
-    fn push(&mut self, spent: Spent, matrix: &[Residue], least: i64) {
-        self.spent.push(spent);
-        self.data.extend_from_slice(matrix);
-        self.start.push(self.data.len());
-        self.least.push(least);
-    }
-}
-
 /// Builds the diagram of a space along given stages.
 ///
 /// `cancelled` is asked between batches of nodes; once it says yes the remaining layers are cut to a few nodes, so that
@@ -168,13 +122,8 @@ pub fn build(
     let (mut total, mut largest, mut stop) = (1, 1, Stop::Exhausted);
     for (done, stage) in stages.iter().enumerate() {
         let choices = &space.variables[stage.variable].choices;
-        let mut merge = Merge {
-            room: limits.nodes.saturating_sub(total).max(CUT),
-            stop,
-            table: HashTable::new(),
-            next: Nodes::empty(),
-            edges: Vec::with_capacity(nodes.len() * choices.len()),
-        };
+        let room = limits.nodes.saturating_sub(total).max(CUT);
+        let mut merge = Merge::new(room, stop, nodes.len() * choices.len());
         for batch in (0..nodes.len()).step_by(BATCH) {
             let batch = batch..(batch + BATCH).min(nodes.len());
             for part in expand(exact.field(), space, stage, limits, &nodes, batch) {
@@ -280,54 +229,6 @@ fn expand(
         .into_par_iter()
         .map(|s| some(s..(s + chunk).min(range.end)))
         .collect()
-}
-
-/// A layer being put together.
-struct Merge {
-    /// New nodes allowed.
-    room: usize,
-    stop: Stop,
-    table: HashTable<(u64, u32)>,
-    next: Nodes,
-    edges: Vec<u32>,
-}
-
-impl Merge {
-    fn take(&mut self, part: &Children, parents: &Nodes, cost: impl Fn(usize) -> i64) {
-        let choices = part.choices;
-        for child in &part.found {
-            let Some((hash, ref spent, start, end)) = *child else {
-                self.edges.push(DEAD);
-                continue;
-            };
-            let matrix = &part.data[start..end];
-            let at = self.edges.len();
-            let least = parents.least[at / choices] + cost(at % choices);
-            let next = &mut self.next;
-            let same = |&(h, i): &(u64, u32)| {
-                h == hash && next.spent[i as usize] == *spent && next.matrix(i as usize) == matrix
-            };
-            let index = match self.table.entry(hash, same, |&(h, _)| h) {
-                hashbrown::hash_table::Entry::Occupied(o) => o.get().1,
-                hashbrown::hash_table::Entry::Vacant(v) => {
-                    if next.len() >= self.room {
-                        if self.stop == Stop::Exhausted {
-                            self.stop = Stop::NodeBudget;
-                        }
-                        self.edges.push(DEAD);
-                        continue;
-                    }
-                    let index = u32::try_from(next.len()).expect("the node budget is below 2^32");
-                    v.insert((hash, index));
-                    next.push(spent.clone(), matrix, least);
-                    index
-                }
-            };
-            let known = &mut self.next.least[index as usize];
-            *known = (*known).min(least);
-            self.edges.push(index);
-        }
-    }
 }
 
 /// The nodes of a layer that pass a test, ascending.
