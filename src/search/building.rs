@@ -13,6 +13,15 @@ use crate::search::plan::{At, plan};
 use crate::search::spent::Limits;
 use crate::search::stage::{self, Collapse, Stage};
 
+/// The orders in which diagrams take the variables.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Orders {
+    /// Those of the free state, for the determinate variants.
+    pub determinate: Vec<usize>,
+    /// Those that the free state and the searched one have in common, for the admissible variants.
+    pub common: Vec<usize>,
+}
+
 /// Diagrams of one search.
 #[derive(Debug)]
 pub struct Diagrams {
@@ -38,9 +47,56 @@ fn is_way(joined: &Move) -> bool {
 }
 
 impl Search {
+    /// Finds the orders of both diagrams; they do not depend on the prime, and a twin over another may be given them.
+    #[must_use]
+    pub fn orders(&self) -> Orders {
+        let order = |variables: &[usize], pinned: &[LinkId]| {
+            variable_order(
+                &self.exact,
+                &self.mechanism,
+                &self.space,
+                variables,
+                pinned,
+                self.conditions.max_redundant,
+            )
+        };
+        let variables = 0..self.space.variables.len();
+        let free: Vec<usize> = variables
+            .filter(|&v| !self.space.variables[v].external)
+            .collect();
+        let determinate = order(&free, &[]);
+        let both: Vec<usize> = free
+            .into_iter()
+            .filter(|&v| !self.space.variables[v].alone)
+            .collect();
+        let common = match self.one_diagram() {
+            true => determinate.clone(),
+            false => order(&both, &[self.mechanism.frame()]),
+        };
+        Orders {
+            determinate,
+            common,
+        }
+    }
+
+    /// Whether nothing is asked of variants but what makes them determinate.
+    fn one_diagram(&self) -> bool {
+        !self.conditions.keep_output && self.conditions.state.is_none()
+    }
+
     /// Builds both diagrams.
     pub fn build(
         &self,
+        cancelled: &(dyn Fn() -> bool + Sync),
+        progress: &mut (dyn FnMut(Progress) + Send),
+    ) -> Diagrams {
+        self.build_in(&self.orders(), cancelled, progress)
+    }
+
+    /// Builds both diagrams in given orders.
+    pub fn build_in(
+        &self,
+        orders: &Orders,
         cancelled: &(dyn Fn() -> bool + Sync),
         progress: &mut (dyn FnMut(Progress) + Send),
     ) -> Diagrams {
@@ -56,7 +112,7 @@ impl Search {
         let all = 0..self.space.variables.len();
         let (free, added): (Vec<usize>, Vec<usize>) =
             all.partition(|&v| !self.space.variables[v].external);
-        let order = variable_order(&self.mechanism, &self.space, &free, &[]);
+        let order = orders.determinate.clone();
         let at = |order: &[usize]| -> Vec<At> {
             let joints = order.iter().flat_map(|&v| &self.space.variables[v].joints);
             joints.map(|&joint| At { joint, lane: 0 }).collect()
@@ -85,15 +141,15 @@ impl Search {
             )
         };
         let determinate = whole(false, &stages, &limits);
-        if !self.conditions.keep_output && state.is_none() {
+        if self.one_diagram() {
             return Diagrams {
                 admissible: determinate.clone(),
                 determinate,
                 order,
             };
         }
-        let (alone, both): (Vec<usize>, Vec<usize>) =
-            free.iter().partition(|&&v| self.space.variables[v].alone);
+        let is_alone = |v: &usize| self.space.variables[*v].alone;
+        let alone: Vec<usize> = free.iter().copied().filter(is_alone).collect();
         let mut pinned = vec![self.mechanism.frame()];
         pinned.extend(self.kept.0.iter().filter(|_| self.conditions.keep_output));
         let later = at(&alone).into_iter().chain(at(&added));
@@ -101,7 +157,7 @@ impl Search {
         pinned.sort_unstable();
         pinned.dedup();
         let frame = self.mechanism.frame();
-        let mut order = variable_order(&self.mechanism, &self.space, &both, &[frame]);
+        let mut order = orders.common.clone();
         let first = plan(&self.mechanism, &at(&order), &pinned, &[]);
         let mut stages = stage::stages(&self.space, &order, &first);
         let mut limits = limits;

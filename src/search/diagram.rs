@@ -4,17 +4,16 @@
 //! hash table. One transition costs a few hundred multiplications.
 
 use crate::geom::exact::ExactField;
-use crate::linalg::modp::{Field, Residue};
+use crate::linalg::modp::Field;
 use crate::search::lookahead::Lookahead;
+pub use crate::search::merge::DEAD;
+use crate::search::merge::{CUT, Merge, Nodes};
 use crate::search::space::Space;
 use crate::search::spent::{Limits, Redundancy, Spent};
 use crate::search::stage::Stage;
+pub use crate::search::stop::Stop;
 use crate::search::transition::{Children, Worker};
-use hashbrown::HashTable;
 use rayon::prelude::*;
-
-/// A missing edge: the choice leads nowhere admissible.
-pub const DEAD: u32 = u32::MAX;
 
 /// Building progress, for whoever shows it.
 #[derive(Debug, Clone, Copy)]
@@ -27,38 +26,6 @@ pub struct Progress {
     pub nodes: usize,
     /// Nodes of the present layer.
     pub layer: usize,
-}
-
-/// Why building ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stop {
-    /// Everything was looked at: counts are exact.
-    Exhausted,
-    /// The node budget cut layers down to their cheapest nodes: counts are lower bounds.
-    NodeBudget,
-    /// What may be held of memory did, in the same way.
-    Memory,
-    /// The caller asked to end: layers were cut down, counts are lower bounds.
-    Interrupted,
-}
-
-impl Stop {
-    /// The first of two reasons that is one.
-    #[must_use]
-    pub fn or(self, other: Stop) -> Stop {
-        if self == Stop::Exhausted { other } else { self }
-    }
-
-    /// The word for programs.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Stop::Exhausted => "exhausted",
-            Stop::NodeBudget => "node-budget",
-            Stop::Memory => "memory",
-            Stop::Interrupted => "interrupted",
-        }
-    }
 }
 
 /// Edges of one layer: `edges[node * choices + choice]`, an index into the next layer or [`DEAD`].
@@ -103,57 +70,6 @@ impl Diagram {
     }
 }
 
-/// The nodes of a layer while it is being built.
-struct Nodes {
-    /// Redundancy so far.
-    spent: Vec<Spent>,
-    /// Start of each node's matrix in `data`; one more at the end.
-    start: Vec<usize>,
-    data: Vec<Residue>,
-    /// Least cost of a way to the node.
-    least: Vec<i64>,
-}
-
-impl Nodes {
-    fn root() -> Self {
-        Nodes {
-            spent: vec![Spent::default()],
-            start: vec![0, 0],
-            data: Vec::new(),
-            least: vec![0],
-        }
-    }
-
-    fn empty() -> Self {
-        Nodes {
-            spent: Vec::new(),
-            start: vec![0],
-            data: Vec::new(),
-            least: Vec::new(),
-        }
-    }
-
-    fn len(&self) -> usize {
-        self.spent.len()
-    }
-
-    /// Bytes of the nodes, with the table that finds them while they are gathered.
-    fn bytes(&self) -> usize {
-        size_of::<Residue>() * self.data.len() + NODE * self.len()
-    }
-
-    fn matrix(&self, i: usize) -> &[Residue] {
-        &self.data[self.start[i]..self.start[i + 1]]
-    }
-
-    fn push(&mut self, spent: Spent, matrix: &[Residue], least: i64) {
-        self.spent.push(spent);
-        self.data.extend_from_slice(matrix);
-        self.start.push(self.data.len());
-        self.least.push(least);
-    }
-}
-
 /// Builds the diagram of a space along given stages.
 ///
 /// `cancelled` is asked between batches of nodes; once it says yes the remaining layers are cut to a few nodes, so that
@@ -176,14 +92,9 @@ pub fn build(
     let (mut total, mut largest, mut stop, mut held) = (1, 1, Stop::Exhausted, 0);
     for (done, stage) in stages.iter().enumerate() {
         let choices = &space.variables[stage.variable].choices;
-        let mut merge = Merge {
-            room: limits.nodes.saturating_sub(total).max(CUT),
-            bytes: limits.bytes.saturating_sub(held + nodes.bytes()),
-            stop,
-            table: HashTable::new(),
-            next: Nodes::empty(),
-            edges: Vec::with_capacity(nodes.len() * choices.len()),
-        };
+        let room = limits.nodes.saturating_sub(total).max(CUT);
+        let bytes = limits.bytes.saturating_sub(held + nodes.bytes());
+        let mut merge = Merge::new((room, bytes), stop, nodes.len() * choices.len());
         // Children that are not merged yet may take an eighth of the memory; one is about as large as its parent.
         let each = nodes.bytes() / nodes.len().max(1) * choices.len();
         let size = (limits.bytes / 8 / each.max(1)).clamp(CUT, BATCH);
@@ -194,7 +105,7 @@ pub fn build(
             }
             if cancelled() && merge.stop != Stop::Interrupted {
                 merge.stop = Stop::Interrupted;
-                merge.room = merge.room.min(CUT);
+                merge.cut();
             }
             progress(Progress {
                 done,
@@ -250,12 +161,8 @@ pub fn build(
     }
 }
 
-/// Nodes a layer keeps at least, however small the budget, so that a search always reaches the end.
-const CUT: usize = 256;
 /// Nodes expanded at most before their children are merged.
 const BATCH: usize = 1 << 14;
-/// Bytes of a node besides its matrix: what was spent, where the matrix starts, the least cost, and its place in the table.
-const NODE: usize = size_of::<Spent>() + 3 * size_of::<u64>() + 2 * size_of::<(u64, u32)>();
 /// Fewer children than this are not worth waking threads for.
 const PARALLEL: usize = 1024;
 
@@ -300,57 +207,6 @@ fn expand(
         .into_par_iter()
         .map(|s| some(s..(s + chunk).min(range.end)))
         .collect()
-}
-
-/// A layer being put together.
-struct Merge {
-    /// New nodes allowed.
-    room: usize,
-    /// Bytes that they and the edges may take.
-    bytes: usize,
-    stop: Stop,
-    table: HashTable<(u64, u32)>,
-    next: Nodes,
-    edges: Vec<u32>,
-}
-
-impl Merge {
-    fn take(&mut self, part: &Children, parents: &Nodes, cost: impl Fn(usize) -> i64) {
-        let choices = part.choices;
-        for child in &part.found {
-            let Some((hash, ref spent, start, end)) = *child else {
-                self.edges.push(DEAD);
-                continue;
-            };
-            let matrix = &part.data[start..end];
-            let at = self.edges.len();
-            let least = parents.least[at / choices] + cost(at % choices);
-            let next = &mut self.next;
-            let same = |&(h, i): &(u64, u32)| {
-                h == hash && next.spent[i as usize] == *spent && next.matrix(i as usize) == matrix
-            };
-            let index = match self.table.entry(hash, same, |&(h, _)| h) {
-                hashbrown::hash_table::Entry::Occupied(o) => o.get().1,
-                hashbrown::hash_table::Entry::Vacant(v) => {
-                    let taken = next.bytes() + size_of::<u32>() * self.edges.len();
-                    let full = taken >= self.bytes && next.len() >= CUT;
-                    if full || next.len() >= self.room {
-                        let why = if full { Stop::Memory } else { Stop::NodeBudget };
-                        self.stop = self.stop.or(why);
-                        self.edges.push(DEAD);
-                        continue;
-                    }
-                    let index = u32::try_from(next.len()).expect("the node budget is below 2^32");
-                    v.insert((hash, index));
-                    next.push(spent.clone(), matrix, least);
-                    index
-                }
-            };
-            let known = &mut self.next.least[index as usize];
-            *known = (*known).min(least);
-            self.edges.push(index);
-        }
-    }
 }
 
 /// The nodes of a layer that pass a test, ascending.

@@ -76,25 +76,67 @@ fn plus(a: &Combination, sign: i8, b: &Combination) -> Combination {
     out
 }
 
-/// Makes the steps for joints in a given order. Links in `pinned` stay live to the end of the plan; `later` are joints
-/// that a following plan adds, whose links stay live as well. `start` are the live links (component by component, root
-/// first) of the node the plan starts from.
+/// Makes the steps for joints in a given order. Links in `pinned` stay live to the end of the plan. `start` are the live
+/// links (component by component, root first) of the node the plan starts from.
 ///
 /// # Panics
 /// Never for joints of the mechanism.
 #[must_use]
 pub fn plan(mechanism: &Mechanism, order: &[At], pinned: &[LinkId], start: &[Vec<LinkId>]) -> Plan {
-    let (count, frame) = (mechanism.links.len(), mechanism.frame());
-    let ends = |at: &At| {
-        let links = mechanism.joints[at.joint].links;
-        links.map(|l| LinkId::new(at.lane * count + l.index()))
-    };
-    let is_frame = |l: &LinkId| l.index() % count == frame.index();
-    let mut components: Vec<Vec<LinkId>> = start.to_vec();
-    let mut pending: Vec<usize> = Vec::new();
-    let mut steps = Vec::with_capacity(order.len());
-    for (at, joined) in order.iter().enumerate() {
-        let (joint, [u, v]) = (joined.joint, ends(joined));
+    let mut planner = Planner::new(mechanism, order, pinned, start);
+    Plan {
+        steps: order.iter().map(|&joined| planner.add(joined)).collect(),
+    }
+}
+
+/// A plan while its order is being found: what the joints added so far have joined.
+#[derive(Debug, Clone)]
+pub(super) struct Planner<'m> {
+    mechanism: &'m Mechanism,
+    /// By link, the joints to come, and one more for a link that is pinned.
+    left: BTreeMap<LinkId, usize>,
+    /// Live links, component by component, root first.
+    components: Vec<Vec<LinkId>>,
+    pending: Vec<usize>,
+}
+
+impl<'m> Planner<'m> {
+    /// A planner for these joints, in an order that [`Planner::add`] is told; the rest as in [`plan`].
+    pub(super) fn new(
+        mechanism: &'m Mechanism,
+        joints: &[At],
+        pinned: &[LinkId],
+        start: &[Vec<LinkId>],
+    ) -> Self {
+        let mut left = BTreeMap::new();
+        let ends = joints.iter().flat_map(|at| ends(mechanism, at));
+        for l in ends.chain(pinned.iter().copied()) {
+            *left.entry(l).or_insert(0) += 1;
+        }
+        Planner {
+            mechanism,
+            left,
+            components: start.to_vec(),
+            pending: Vec::new(),
+        }
+    }
+
+    /// Whether a link is live: joined already, with joints to come or pinned.
+    pub(super) fn is_live(&self, link: LinkId) -> bool {
+        self.components.iter().any(|c| c.contains(&link))
+    }
+
+    /// Adds a joint.
+    ///
+    /// # Panics
+    /// Never for joints of the mechanism.
+    pub(super) fn add(&mut self, joined: At) -> Step {
+        let mechanism = self.mechanism;
+        let (count, frame) = (mechanism.links.len(), mechanism.frame());
+        let is_frame = |l: &LinkId| l.index() % count == frame.index();
+        let mut components = std::mem::take(&mut self.components);
+        let pending = std::mem::take(&mut self.pending);
+        let (joint, [u, v]) = (joined.joint, ends(mechanism, &joined));
         // Every live link's twist relative to its root, in the old coordinates.
         let mut relative: BTreeMap<LinkId, Combination> = BTreeMap::new();
         let mut next = 0;
@@ -153,9 +195,11 @@ pub fn plan(mechanism: &Mechanism, order: &[At], pinned: &[LinkId], start: &[Vec
             components[a].extend(moved);
             components.remove(b);
         }
-        let coupled = couple(mechanism, *joined, &mut waiting, &mut rows);
-        let live =
-            |l: &LinkId| pinned.contains(l) || order[at + 1..].iter().any(|j| ends(j).contains(l));
+        let coupled = couple(mechanism, joined, &mut waiting, &mut rows);
+        for l in ends(mechanism, &joined) {
+            self.left.entry(l).and_modify(|n| *n -= 1);
+        }
+        let live = |l: &LinkId| self.left.get(l).is_some_and(|n| *n > 0);
         for c in &mut components {
             if let Some(i) = c.iter().position(is_frame) {
                 c.swap(0, i);
@@ -172,7 +216,7 @@ pub fn plan(mechanism: &Mechanism, order: &[At], pinned: &[LinkId], start: &[Vec
             }
         }
         rows.extend(waiting.iter().map(|(_, rate)| rate.clone()));
-        pending = waiting.iter().map(|(q, _)| *q).collect();
+        let pending: Vec<usize> = waiting.iter().map(|(q, _)| *q).collect();
         let (mut blocks, mut from_joint, mut rates) = (Vec::new(), Vec::new(), Vec::new());
         for (new, row) in rows.iter().enumerate() {
             for (source, sign) in row {
@@ -183,7 +227,9 @@ pub fn plan(mechanism: &Mechanism, order: &[At], pinned: &[LinkId], start: &[Vec
                 }
             }
         }
-        steps.push(Step {
+        self.components = components;
+        self.pending.clone_from(&pending);
+        Step {
             joint,
             closing,
             coupled,
@@ -193,10 +239,15 @@ pub fn plan(mechanism: &Mechanism, order: &[At], pinned: &[LinkId], start: &[Vec
             old_width: next,
             width: rows.len(),
             live: names,
-            pending: pending.clone(),
-        });
+            pending,
+        }
     }
-    Plan { steps }
+}
+
+/// The links a joint is between, in its copy.
+fn ends(mechanism: &Mechanism, at: &At) -> [LinkId; 2] {
+    let links = mechanism.joints[at.joint].links;
+    links.map(|l| LinkId::new(at.lane * mechanism.links.len() + l.index()))
 }
 
 /// Adds a joint's rates to its couplings: pending ones are closed, their gaps go to `rows`, and new ones begin to wait.

@@ -70,9 +70,10 @@ pub fn build_both(
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> (Diagrams, Diagrams) {
     let [first, second] = searches;
+    let orders = first.orders();
     rayon::join(
-        || first.build(cancelled, progress),
-        || second.build(cancelled, &mut |_| {}),
+        || first.build_in(&orders, cancelled, progress),
+        || second.build_in(&orders, cancelled, &mut |_| {}),
     )
 }
 

@@ -29,6 +29,7 @@ mod holding;
 mod layering;
 mod library;
 mod mobility;
+mod order;
 mod png;
 mod programmes;
 mod published;

@@ -1,0 +1,136 @@
+//! A layer of the diagram being put together: equal children become one node.
+
+use crate::linalg::modp::Residue;
+use crate::search::spent::Spent;
+use crate::search::stop::Stop;
+use crate::search::transition::Children;
+use hashbrown::HashTable;
+
+/// A missing edge: the choice leads nowhere admissible.
+pub const DEAD: u32 = u32::MAX;
+
+/// Nodes a layer keeps at least, however small the budget, so that a search always reaches the end.
+pub(super) const CUT: usize = 256;
+
+/// Bytes of a node besides its matrix: what was spent, where the matrix starts, the least cost, and its place in the table.
+const NODE: usize = size_of::<Spent>() + 3 * size_of::<u64>() + 2 * size_of::<(u64, u32)>();
+
+/// The nodes of a layer while it is being built.
+pub(super) struct Nodes {
+    /// Redundancy so far.
+    pub(super) spent: Vec<Spent>,
+    /// Start of each node's matrix in `data`; one more at the end.
+    start: Vec<usize>,
+    data: Vec<Residue>,
+    /// Least cost of a way to the node.
+    pub(super) least: Vec<i64>,
+}
+
+impl Nodes {
+    pub(super) fn root() -> Self {
+        Nodes {
+            spent: vec![Spent::default()],
+            start: vec![0, 0],
+            data: Vec::new(),
+            least: vec![0],
+        }
+    }
+
+    pub(super) fn empty() -> Self {
+        Nodes {
+            spent: Vec::new(),
+            start: vec![0],
+            data: Vec::new(),
+            least: Vec::new(),
+        }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.spent.len()
+    }
+
+    /// Bytes of the nodes, with the table that finds them while they are gathered.
+    pub(super) fn bytes(&self) -> usize {
+        size_of::<Residue>() * self.data.len() + NODE * self.len()
+    }
+
+    pub(super) fn matrix(&self, i: usize) -> &[Residue] {
+        &self.data[self.start[i]..self.start[i + 1]]
+    }
+
+    pub(super) fn push(&mut self, spent: Spent, matrix: &[Residue], least: i64) {
+        self.spent.push(spent);
+        self.data.extend_from_slice(matrix);
+        self.start.push(self.data.len());
+        self.least.push(least);
+    }
+}
+
+/// A layer being put together.
+pub(super) struct Merge {
+    /// New nodes allowed.
+    room: usize,
+    /// Bytes that they and the edges may take.
+    bytes: usize,
+    pub(super) stop: Stop,
+    table: HashTable<(u64, u32)>,
+    pub(super) next: Nodes,
+    pub(super) edges: Vec<u32>,
+}
+
+impl Merge {
+    /// A layer that takes so many nodes and bytes, and whose edges are about as many as `edges`.
+    pub(super) fn new((room, bytes): (usize, usize), stop: Stop, edges: usize) -> Self {
+        Merge {
+            room,
+            bytes,
+            stop,
+            table: HashTable::new(),
+            next: Nodes::empty(),
+            edges: Vec::with_capacity(edges),
+        }
+    }
+
+    /// Takes few more nodes.
+    pub(super) fn cut(&mut self) {
+        self.room = self.room.min(CUT);
+    }
+
+    /// Takes the children of some nodes, those of the nodes before them having been taken.
+    pub(super) fn take(&mut self, part: &Children, parents: &Nodes, cost: impl Fn(usize) -> i64) {
+        let choices = part.choices;
+        for child in &part.found {
+            let Some((hash, ref spent, start, end)) = *child else {
+                self.edges.push(DEAD);
+                continue;
+            };
+            let matrix = &part.data[start..end];
+            let at = self.edges.len();
+            let least = parents.least[at / choices] + cost(at % choices);
+            let next = &mut self.next;
+            let same = |&(h, i): &(u64, u32)| {
+                h == hash && next.spent[i as usize] == *spent && next.matrix(i as usize) == matrix
+            };
+            let index = match self.table.entry(hash, same, |&(h, _)| h) {
+                hashbrown::hash_table::Entry::Occupied(o) => o.get().1,
+                hashbrown::hash_table::Entry::Vacant(v) => {
+                    let taken = next.bytes() + size_of::<u32>() * self.edges.len();
+                    let full = taken >= self.bytes && next.len() >= CUT;
+                    if full || next.len() >= self.room {
+                        let why = if full { Stop::Memory } else { Stop::NodeBudget };
+                        self.stop = self.stop.or(why);
+                        self.edges.push(DEAD);
+                        continue;
+                    }
+                    let index = u32::try_from(next.len()).expect("the node budget is below 2^32");
+                    v.insert((hash, index));
+                    next.push(spent.clone(), matrix, least);
+                    index
+                }
+            };
+            let known = &mut self.next.least[index as usize];
+            *known = (*known).min(least);
+            self.edges.push(index);
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! Trials of an order: its layers, measured on a space of two choices a variable.
+//!
+//! A layer's nodes depend on the set of variables chosen so far and not on their order, so a trial is grown variable by
+//! variable and never repeated. The number of nodes with the present joint and the freest one alone says well how many
+//! there are with all choices: two or three in the one for tens and thousands in the other.
+
+use crate::geom::exact::ExactField;
+use crate::model::mechanism::{LinkId, Mechanism};
+use crate::search::diagram::Stop;
+use crate::search::lanes::Move;
+use crate::search::merge::{Merge, Nodes};
+use crate::search::plan::{At, Planner};
+use crate::search::space::{Choice, Space};
+use crate::search::spent::Limits;
+use crate::search::stage::Stage;
+use crate::search::transition::{Children, Worker};
+use std::rc::Rc;
+
+/// Nodes of a layer that are looked at.
+const WIDEST: usize = 256;
+
+/// What trials of one search have in common.
+pub(super) struct Trials<'m> {
+    mechanism: &'m Mechanism,
+    pub(super) space: Space,
+    limits: Limits,
+    worker: Worker,
+}
+
+/// An order, as far as it has come.
+#[derive(Clone)]
+pub(super) struct Trial<'m> {
+    /// The variables so far.
+    pub(super) order: Vec<usize>,
+    /// The work so far: the squares of the layers' widths.
+    pub(super) work: u64,
+    /// What is joined so far.
+    pub(super) planner: Planner<'m>,
+    nodes: Rc<Nodes>,
+}
+
+impl<'m> Trials<'m> {
+    /// Trials of orders of these variables; links in `pinned` stay live to the end.
+    pub(super) fn new(
+        exact: &ExactField,
+        mechanism: &'m Mechanism,
+        space: &Space,
+        variables: &[usize],
+        pinned: &[LinkId],
+        internal: u32,
+    ) -> (Self, Trial<'m>) {
+        let mut space = space.clone();
+        for v in &mut space.variables {
+            let freest = (v.choices.iter().enumerate())
+                .max_by_key(|(i, c)| (c.freedoms, std::cmp::Reverse(*i)));
+            let kept: Vec<Choice> = match freest {
+                Some((i, freest)) if i > 0 => vec![v.choices[0].clone(), freest.clone()],
+                _ => v.choices.drain(..).take(1).collect(),
+            };
+            v.choices = kept;
+        }
+        let joints = variables.iter().flat_map(|&v| &space.variables[v].joints);
+        let at: Vec<At> = joints.map(|&joint| At { joint, lane: 0 }).collect();
+        let trial = Trial {
+            order: Vec::new(),
+            work: 0,
+            planner: Planner::new(mechanism, &at, pinned, &[]),
+            nodes: Rc::new(Nodes::root()),
+        };
+        let limits = Limits {
+            internal,
+            external: None,
+            harmful: None,
+            nodes: WIDEST,
+            bytes: usize::MAX,
+        };
+        let worker = Worker::new(exact.field(), space.dim);
+        (
+            Trials {
+                mechanism,
+                space,
+                limits,
+                worker,
+            },
+            trial,
+        )
+    }
+
+    /// Adds a variable to an order.
+    pub(super) fn add(&mut self, trial: &mut Trial<'m>, variable: usize) {
+        let of = &self.space.variables[variable];
+        let joints = of.joints.iter().enumerate();
+        let moves =
+            joints.map(|(i, &joint)| Move::common(i, trial.planner.add(At { joint, lane: 0 })));
+        let stage = Stage::plain(variable, moves.collect());
+        let mut children = Children {
+            choices: of.choices.len(),
+            found: Vec::new(),
+            data: Vec::new(),
+        };
+        for i in 0..trial.nodes.len() {
+            let (matrix, spent) = (trial.nodes.matrix(i), &trial.nodes.spent[i]);
+            self.worker.children(
+                &self.space,
+                &stage,
+                matrix,
+                spent,
+                &self.limits,
+                &mut children,
+            );
+        }
+        let mut merge = Merge::new((WIDEST, usize::MAX), Stop::Exhausted, children.found.len());
+        merge.take(&children, &trial.nodes, |_| 0);
+        let width = merge.next.len() as u64;
+        trial.work += width * width;
+        trial.order.push(variable);
+        trial.nodes = Rc::new(merge.next);
+    }
+
+    /// The links a joint of a variable is between, for each of its joints.
+    pub(super) fn joined(&self, variable: usize) -> impl Iterator<Item = [LinkId; 2]> + '_ {
+        let joints = self.space.variables[variable].joints.iter();
+        joints.map(|&j| self.mechanism.joints[j].links)
+    }
+}
