@@ -33,6 +33,7 @@ mod statics;
 mod stroke;
 mod variant;
 mod verify;
+mod working;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -93,7 +94,7 @@ pub fn run() -> ExitCode {
 
 /// The exit code, after what went wrong is said.
 fn finish(result: anyhow::Result<Done>) -> ExitCode {
-    progress::rest();
+    working::rest();
     let interrupted = |code| interrupt::exit_code().unwrap_or(code);
     match result {
         Ok(Done::Found) => interrupted(ExitCode::SUCCESS),
@@ -111,7 +112,7 @@ const THREADS: usize = 1024;
 
 fn prepare(args: &args::Args) -> anyhow::Result<()> {
     interrupt::listen()?;
-    progress::working(args.quiet);
+    working::show(args.quiet);
     if let Some(threads) = args.threads {
         anyhow::ensure!(
             (1..=THREADS).contains(&threads),

@@ -1,7 +1,6 @@
 //! A kinematic chain as a graph.
 
 use crate::chains::canonical::{Canonical, Weighted, canonical};
-use crate::chains::graph6;
 
 /// Most links of a chain: sets of links are the bits of a word, and tables of all of them are made.
 pub const MOST_LINKS: usize = 20;
@@ -108,11 +107,5 @@ impl Chain {
         let chain = Chain::new(n, joints);
         let renumbered = canonical(&graph.renumbered(&order));
         (chain, renumbered.automorphisms)
-    }
-
-    /// The chain's name for ever: graph6 of its canonical numbering.
-    #[must_use]
-    pub fn code(&self) -> String {
-        graph6::write(&self.canonical().0)
     }
 }

@@ -48,6 +48,12 @@ pub fn write(chain: &Chain) -> String {
         .collect()
 }
 
+/// A chain's name for ever: the text of its canonical numbering.
+#[must_use]
+pub fn code(chain: &Chain) -> String {
+    write(&chain.canonical().0)
+}
+
 /// The chain of a text.
 ///
 /// # Errors

@@ -1,7 +1,7 @@
 //! What Ctrl-C, SIGTERM and SIGHUP do: a search ends early with what it has, anything else ends at once. Either way the
 //! program says so, leaves no temporary file, and its exit code is 128 and the signal's number.
 
-use super::{output, progress};
+use super::{output, working};
 use anyhow::Context;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
@@ -61,7 +61,7 @@ fn heard(signal: u8) {
         ));
         return;
     }
-    progress::rest();
+    working::rest();
     output::abandon();
     output::note(&format!("interrupted by {name}\n"));
     std::process::exit(code(signal));

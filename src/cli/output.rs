@@ -1,6 +1,6 @@
 //! Data to standard output or, whole or not at all, to a file; complaints to standard error.
 
-use super::progress;
+use super::working;
 use crate::api;
 use crate::file::problem::ImportError;
 use anyhow::Context;
@@ -27,7 +27,7 @@ struct Standard(std::io::StdoutLock<'static>);
 
 impl Write for Standard {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        progress::rest();
+        working::rest();
         self.0.write(bytes)
     }
     fn flush(&mut self) -> std::io::Result<()> {
@@ -130,7 +130,7 @@ pub(super) fn is_broken_pipe(e: &anyhow::Error) -> bool {
 
 /// Says something on standard error; a closed one is no failure.
 pub(super) fn note(text: &str) {
-    progress::rest();
+    working::rest();
     let _ = write!(std::io::stderr().lock(), "{text}");
 }
 

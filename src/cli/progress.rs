@@ -1,6 +1,6 @@
 //! What is shown of a run that takes longer than a second, on a terminal only.
 
-use super::{interrupt, output};
+use super::{interrupt, output, working};
 use crate::model::mechanism::Mechanism;
 use crate::score::outcome::Outcome;
 use crate::score::prepared::LooksRounded;
@@ -10,7 +10,7 @@ use crate::search::conditions::Conditions;
 use crate::search::diagram::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Says what a search noticed.
@@ -62,13 +62,13 @@ impl Watch {
         search(&interrupt::pending, &mut |event| match event {
             Event::Note(text) => note(text),
             Event::Building(p) => {
-                rest();
+                working::rest();
                 interrupt::be_patient();
                 bar.show(p);
             }
             Event::Built => {
                 bar.clear();
-                working(*quiet);
+                working::show(*quiet);
                 // What was found so far is still given, unless it is a list without end; another signal stops the giving.
                 if request.list != List::All {
                     interrupt::answered();
@@ -76,44 +76,6 @@ impl Watch {
             }
         })
     }
-}
-
-/// What is shown of work of unknown length: how often it began or ended, and the bar.
-static WORKING: Mutex<(u64, Option<ProgressBar>)> = Mutex::new((0, None));
-
-/// From a second on, says on a terminal that work goes on, until [`rest`].
-pub(super) fn working(quiet: bool) {
-    if quiet || !std::io::stderr().is_terminal() {
-        return;
-    }
-    let mut shown = locked();
-    shown.0 += 1;
-    let began = shown.0;
-    std::thread::spawn(move || {
-        std::thread::sleep(Duration::from_secs(1));
-        let mut shown = locked();
-        if shown.0 == began {
-            let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-            let style = ProgressStyle::with_template("{elapsed_precise} {spinner} working");
-            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
-            bar.set_elapsed(Duration::from_secs(1));
-            bar.enable_steady_tick(Duration::from_millis(100));
-            shown.1 = Some(bar);
-        }
-    });
-}
-
-/// Takes away what [`working`] shows: something is written.
-pub(super) fn rest() {
-    let mut shown = locked();
-    shown.0 += 1;
-    if let Some(bar) = shown.1.take() {
-        bar.finish_and_clear();
-    }
-}
-
-fn locked() -> MutexGuard<'static, (u64, Option<ProgressBar>)> {
-    WORKING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Shows how far a run has come.
@@ -152,7 +114,7 @@ impl Bar {
 
     /// Shows how far a run of known length has come.
     pub(super) fn step(&mut self, what: &str, done: usize, of: usize) {
-        rest();
+        working::rest();
         if !self.wanted || self.begun.elapsed() < Duration::from_secs(1) {
             return;
         }

@@ -152,7 +152,7 @@ fn the_chains_are_those_that_trying_every_graph_finds() {
         let slow = by_trying(links, mobility);
         let slow: BTreeSet<String> = slow
             .into_iter()
-            .map(|joints| Chain::new(links, joints).code())
+            .map(|joints| graph6::code(&Chain::new(links, joints)))
             .collect();
         let fast = chains(links, mobility).unwrap();
         assert!(
@@ -179,7 +179,7 @@ fn names_stay() {
     assert_eq!(names(7, 2), ["F`Aio", "Fo@Xo", "FoDPW"]);
     assert_eq!(names(8, 1)[..3], ["G?Bcro", "G?qaho", "G?r@pg"]);
     let gripper = graph6::read("I?BDA_g}?").unwrap();
-    assert_eq!(gripper.code(), "IQ?CQGKKw");
+    assert_eq!(graph6::code(&gripper), "IQ?CQGKKw");
 }
 
 /// [Pogrebnyak 2018]: the gripper is one of the structures that move in mirror places, of ten links and all of them needed.
@@ -196,7 +196,8 @@ fn the_ten_link_gripper_is_among_the_structures() {
     let links: Vec<usize> = (0..m.links.len()).filter(|&l| used(l)).collect();
     let place = |l: usize| links.iter().position(|&x| x == l).unwrap();
     let chain = Chain::new(links.len(), joints.map(|[u, v]| (place(u), place(v))));
-    assert_eq!(chain.code(), graph6::read("I?BDA_g}?").unwrap().code());
+    let known = graph6::read("I?BDA_g}?").unwrap();
+    assert_eq!(graph6::code(&chain), graph6::code(&known));
 
     let frame = place(m.frame().index());
     let driven = m
@@ -257,7 +258,7 @@ proptest! {
         let chain = Chain::new(links, joints.iter().copied());
         let place = (0..links).sorted_by_key(|&i| (mixed(i, order), i)).collect_vec();
         let other = Chain::new(links, joints.iter().map(|&(u, v)| (place[u], place[v])));
-        prop_assert_eq!(chain.code(), other.code());
+        prop_assert_eq!(graph6::code(&chain), graph6::code(&other));
         let (canonical, automorphisms) = chain.canonical();
         let slow: BTreeSet<_> = all_automorphisms(&canonical).into_iter().collect();
         let count = automorphisms.len();
