@@ -5,6 +5,7 @@
 
 use crate::geom::exact::ExactField;
 use crate::linalg::modp::Field;
+use crate::search::growth::{Grown, grown};
 use crate::search::lookahead::Lookahead;
 use crate::search::merge::{Merge, Nodes};
 use crate::search::space::Space;
@@ -124,9 +125,17 @@ pub fn build(
         let choices = &space.variables[stage.variable].choices;
         let room = limits.nodes.saturating_sub(total).max(CUT);
         let mut merge = Merge::new(room, stop, nodes.len() * choices.len());
+        let growth = grown(exact.field(), space, stage);
         for batch in (0..nodes.len()).step_by(BATCH) {
             let batch = batch..(batch + BATCH).min(nodes.len());
-            for part in expand(exact.field(), space, stage, limits, &nodes, batch) {
+            for part in expand(
+                exact.field(),
+                space,
+                (stage, &growth),
+                limits,
+                &nodes,
+                batch,
+            ) {
                 merge.take(&part, &nodes, |choice| choices[choice].cost_milli);
             }
             if cancelled() && merge.stop != Stop::Interrupted {
@@ -192,7 +201,7 @@ const PARALLEL: usize = 1024;
 fn expand(
     field: Field,
     space: &Space,
-    stage: &Stage,
+    (stage, growth): (&Stage, &[Grown]),
     limits: &Limits,
     nodes: &Nodes,
     range: std::ops::Range<usize>,
@@ -208,7 +217,7 @@ fn expand(
         for i in range {
             worker.children(
                 space,
-                stage,
+                (stage, growth),
                 nodes.matrix(i),
                 &nodes.spent[i],
                 limits,

@@ -188,7 +188,7 @@ impl<C: Count> Tally<C> {
     /// `bound(layer, node)` is the largest cost of interest.
     ///
     /// # Complexity
-    /// O(edges · table size · log), with table sizes given by the kinds told apart.
+    /// O(edges · table size + nodes · table size · log), with table sizes given by the kinds told apart.
     #[must_use]
     pub fn new(diagram: &Diagram, steps: &Steps, bound: Option<&[Vec<u64>]>) -> Tally<C> {
         let last = diagram
@@ -196,35 +196,57 @@ impl<C: Count> Tally<C> {
             .iter()
             .map(|&r| vec![(steps.redundancy(r), C::one())]);
         let mut tables: Vec<Vec<Vec<(Key, C)>>> = vec![last.collect()];
+        // The keys of the layer below, and of each entry of its tables the place of its key among them.
+        let mut known: Vec<Key> = tables[0].iter().flatten().map(|(k, _)| *k).collect();
+        known.sort_unstable();
+        known.dedup();
+        let place = |(k, _): &(Key, C)| known.partition_point(|x| x < k);
+        let mut places: Vec<Vec<usize>> = tables[0]
+            .iter()
+            .map(|t| t.iter().map(place).collect())
+            .collect();
         for (l, layer) in diagram.layers.iter().enumerate().rev() {
             let below = tables.last().expect("there is a last layer");
-            let keys = &steps.keys[layer.variable];
-            let mut here = Vec::with_capacity(layer.nodes);
-            let mut gathered: Vec<(Key, &C)> = Vec::new();
+            let shifts = Shifts::new(&known, &steps.keys[layer.variable]);
+            let mut sums: Vec<Option<C>> = vec![None; shifts.keys.len()];
+            let mut met: Vec<usize> = Vec::new();
+            let (mut here, mut at) = (Vec::new(), Vec::new());
             for node in 0..layer.nodes {
                 let limit = bound.map_or(u64::MAX, |b| b[l][node]);
-                gathered.clear();
-                for (choice, &to) in layer.edges[node * layer.choices..(node + 1) * layer.choices]
-                    .iter()
-                    .enumerate()
-                {
-                    if to != DEAD {
-                        let edge = keys[choice].0;
-                        let table = below[to as usize].iter().map(|(k, c)| (Key(k.0 + edge), c));
-                        gathered.extend(table.take_while(|(k, _)| k.cost() <= limit));
+                let edges = &layer.edges[node * layer.choices..(node + 1) * layer.choices];
+                for (shift, &to) in shifts.of_choice.iter().zip(edges) {
+                    if to == DEAD {
+                        continue;
+                    }
+                    let entries = below[to as usize].iter().zip(&places[to as usize]);
+                    for ((_, count), &from) in entries {
+                        let to = shifts.to[*shift][from];
+                        if shifts.keys[to].cost() > limit {
+                            break;
+                        }
+                        match &mut sums[to] {
+                            Some(sum) => *sum += count,
+                            none => {
+                                *none = Some(count.clone());
+                                met.push(to);
+                            }
+                        }
                     }
                 }
-                gathered.sort_unstable_by_key(|(k, _)| *k);
-                let mut table: Vec<(Key, C)> = Vec::new();
-                for (k, c) in &gathered {
-                    match table.last_mut() {
-                        Some((known, sum)) if known == k => *sum += c,
-                        _ => table.push((*k, (*c).clone())),
-                    }
+                // Few are sorted, many found by looking through all.
+                if met.len() * 8 < sums.len() {
+                    met.sort_unstable();
+                } else {
+                    met.clear();
+                    met.extend((0..sums.len()).filter(|&i| sums[i].is_some()));
                 }
-                here.push(table);
+                let entry = |&to: &usize| Some((shifts.keys[to], sums[to].take()?));
+                here.push(met.iter().filter_map(entry).collect());
+                at.push(met.clone());
+                met.clear();
             }
             tables.push(here);
+            (known, places) = (shifts.keys, at);
         }
         tables.reverse();
         Tally { tables }
@@ -237,5 +259,35 @@ impl<C: Count> Tally<C> {
             .first()
             .and_then(|l| l.first())
             .map_or(&[], Vec::as_slice)
+    }
+}
+
+/// How the keys of a layer's completions come from those of the layer below.
+struct Shifts {
+    /// All keys, ascending.
+    keys: Vec<Key>,
+    /// Of each choice, which of the different shifts is its own.
+    of_choice: Vec<usize>,
+    /// `to[shift][key below]`, a place in `keys`.
+    to: Vec<Vec<usize>>,
+}
+
+impl Shifts {
+    fn new(below: &[Key], choices: &[Key]) -> Shifts {
+        let mut different = choices.to_vec();
+        different.sort_unstable();
+        different.dedup();
+        let shifted = |by: Key| below.iter().map(move |k| Key(k.0 + by.0));
+        let mut keys: Vec<Key> = different.iter().flat_map(|&by| shifted(by)).collect();
+        keys.sort_unstable();
+        keys.dedup();
+        let place = |k: Key| keys.partition_point(|x| *x < k);
+        let to = different.iter().map(|&by| shifted(by).map(place).collect());
+        let of_choice = choices.iter().map(|c| different.partition_point(|x| x < c));
+        Shifts {
+            of_choice: of_choice.collect(),
+            to: to.collect(),
+            keys,
+        }
     }
 }
