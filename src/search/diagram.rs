@@ -1,7 +1,7 @@
 //! The span diagram: variants folded into the motion spaces their parts leave.
 //!
 //! Nodes are kept as reduced row echelon forms over a prime field, which are canonical, so equal spaces meet in one
-//! hash table. One transition costs a few hundred multiplications.
+//! hash table.
 
 use crate::geom::exact::ExactField;
 use crate::linalg::modp::Field;
