@@ -98,6 +98,10 @@ pub(crate) fn bytes(path: &Path, limit: usize) -> Result<Vec<u8>, Error> {
 }
 
 fn bytes_of(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
+    // To open a pipe without a writer waits for ever.
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(io::Error::other("it is not a file"));
+    }
     let mut bytes = Vec::new();
     std::fs::File::open(path)?
         .take(limit as u64 + 1)

@@ -4,6 +4,7 @@ mod accuracy;
 mod analyze;
 mod args;
 mod bench;
+mod catalog;
 mod charts;
 mod check;
 mod clamped;
@@ -15,10 +16,12 @@ mod explain;
 mod export;
 mod grip;
 mod import;
+mod interrupt;
 mod list;
 mod load;
 mod machine;
 mod man;
+mod memory;
 mod near;
 mod new;
 mod output;
@@ -43,7 +46,8 @@ enum Done {
     Nothing,
 }
 
-/// Runs the program. Exit codes: 0 done, 1 nothing found or a certificate rejected, 2 bad input or failure.
+/// Runs the program. Exit codes: 0 done, 1 nothing found or a certificate rejected, 2 bad input or failure, 130 interrupted by
+/// Ctrl-C, 143 by SIGTERM and 129 by SIGHUP.
 #[must_use]
 pub fn run() -> ExitCode {
     let args = match args::Args::try_parse() {
@@ -74,6 +78,7 @@ pub fn run() -> ExitCode {
         args::Command::Export(a) => export::run(&args, a),
         args::Command::Accuracy(a) => accuracy::run(&args, a),
         args::Command::Bench(a) => bench::run(&args, a),
+        args::Command::Catalog(a) => catalog::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::New(a) => new::run(&args, a),
         args::Command::List(a) => list::run(a),
@@ -88,10 +93,12 @@ pub fn run() -> ExitCode {
 
 /// The exit code, after what went wrong is said.
 fn finish(result: anyhow::Result<Done>) -> ExitCode {
+    progress::rest();
+    let interrupted = |code| interrupt::exit_code().unwrap_or(code);
     match result {
-        Ok(Done::Found) => ExitCode::SUCCESS,
-        Ok(Done::Nothing) => ExitCode::from(1),
-        Err(e) if output::is_broken_pipe(&e) => ExitCode::SUCCESS,
+        Ok(Done::Found) => interrupted(ExitCode::SUCCESS),
+        Ok(Done::Nothing) => interrupted(ExitCode::from(1)),
+        Err(e) if output::is_broken_pipe(&e) => interrupted(ExitCode::SUCCESS),
         Err(e) => {
             output::complain(&e);
             ExitCode::from(2)
@@ -99,9 +106,17 @@ fn finish(result: anyhow::Result<Done>) -> ExitCode {
     }
 }
 
+/// Most threads: each takes some memory, and more of them than processors are of no use.
+const THREADS: usize = 1024;
+
 fn prepare(args: &args::Args) -> anyhow::Result<()> {
+    interrupt::listen()?;
+    progress::working(args.quiet);
     if let Some(threads) = args.threads {
-        anyhow::ensure!(threads > 0, "--threads must be at least 1");
+        anyhow::ensure!(
+            (1..=THREADS).contains(&threads),
+            "--threads must be from 1 to {THREADS}"
+        );
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build_global()?;

@@ -1,6 +1,7 @@
 //! Mechanism files: one schema for TOML and JSON, read into a validated mechanism with every problem pointed at, written
 //! back, looked over, and made into templates.
 
+mod controls;
 pub mod findings;
 pub mod lint;
 pub mod locate;

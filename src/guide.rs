@@ -2,7 +2,8 @@
 //!
 //! Start with [`first_hour`]. Then one chapter for each system: [`structure`] (redundant constraints and the search for
 //! redesigns), [`grip`], [`kinetostatics`], [`drive`]; and one each for [`ranking`] under a workload, [`mobility`] where
-//! formulas and numbers fail, [`robots`] (import and export), and [`speed`]. For programs: [`rust`]. Who carries the program
+//! formulas and numbers fail, [`robots`] (import and export), [`catalog`] (structures
+//! that nobody has drawn yet), and [`speed`]. For programs: [`rust`]. Who carries the program
 //! on reads [`architecture`] and [`adding`]; what changed is in the [`changelog`].
 //!
 //! Every block that begins with `$ ozols` is run by the tests (`tests/it/documents.rs`); `...` stands for lines left out.
@@ -30,6 +31,9 @@ pub mod mobility {}
 
 #[doc = include_str!("guide/robots.md")]
 pub mod robots {}
+
+#[doc = include_str!("guide/catalog.md")]
+pub mod catalog {}
 
 #[doc = include_str!("guide/speed.md")]
 pub mod speed {}

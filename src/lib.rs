@@ -59,6 +59,7 @@ pub use score::variant::Variant;
 pub mod accuracy;
 mod api;
 pub mod builtin;
+pub mod chains;
 pub mod chart;
 #[cfg(feature = "cli")]
 pub mod cli;

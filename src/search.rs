@@ -8,6 +8,7 @@
 pub mod approximate;
 pub mod best;
 pub mod brute;
+mod budget;
 pub mod building;
 mod canonical;
 pub mod certify;
@@ -31,6 +32,7 @@ pub mod relax;
 pub mod space;
 pub mod spent;
 pub mod stage;
+mod stop;
 pub mod suggest;
 pub mod tally;
 mod transition;

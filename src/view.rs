@@ -3,6 +3,7 @@
 pub mod accuracy;
 pub mod analysis;
 pub mod bench;
+pub mod catalog;
 pub mod conditions;
 pub mod drive;
 pub mod grip;

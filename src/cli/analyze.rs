@@ -183,6 +183,12 @@ fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> any
             method.name()
         );
     }
+    if a.certificate.is_some() {
+        bail!(
+            "--method {} counts and finds no rank, so that there is no certificate of one; use auto, or leave --certificate out",
+            method.name()
+        );
+    }
     let answers = states
         .iter()
         .map(|&s| Ok((s, method.answer(mechanism, s)?)))

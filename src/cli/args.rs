@@ -1,8 +1,8 @@
 //! The arguments, as data.
 
 use super::{
-    accuracy, analyze, bench, check, completions, draw, drive, examples, explain, export, grip,
-    import, list, man, new, report, search, statics, verify,
+    accuracy, analyze, bench, catalog, check, completions, draw, drive, examples, explain, export,
+    grip, import, list, man, new, report, search, statics, verify,
 };
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum, ValueHint};
 
@@ -71,6 +71,9 @@ pub(super) enum Command {
     /// How right and how fast each way of searching is: diagram, brute force, floating point, budgets, pools.
     #[command(after_help = examples::BENCH)]
     Bench(bench::Bench),
+    /// The structures that a mechanism can have, before it is drawn: chains, and grippers made of them.
+    #[command(after_help = examples::CATALOG)]
+    Catalog(catalog::Catalog),
     /// Write a commented mechanism file to start from.
     #[command(after_help = examples::NEW)]
     New(new::New),

@@ -126,7 +126,9 @@ fn png(drawing: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
     let picture = draw::png::png(drawing, size)?;
     if !picture.missing.is_empty() {
         let missing: String = picture.missing.iter().collect();
-        eprintln!("warning: no font of this machine has {missing}; they are missing in the PNG");
+        output::note(&format!(
+            "warning: no font of this machine has {missing}; they are missing in the PNG\n"
+        ));
     }
     Ok(picture.png)
 }

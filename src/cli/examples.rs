@@ -15,7 +15,8 @@ Examples:
   ozols import robot.urdf -o robot.toml        a mechanism file of a robot description
 Each command has its own: `ozols search --help`.
 
-Exit codes: 0 done; 1 nothing found, a certificate rejected or a stroke not finished; 2 bad input or failure.";
+Exit codes: 0 done; 1 nothing found, a certificate rejected or a stroke not finished; 2 bad input or failure;
+130, 143 or 129 interrupted by Ctrl-C, SIGTERM or SIGHUP.";
 
 pub(super) const ANALYZE: &str = "\
 Examples:
@@ -102,6 +103,13 @@ Examples:
   ozols bench --quick lever-gripper                  every way of searching, pools of its ranking among them
   ozols bench --quick four-bar --max-mobility 1      under the conditions of ozols search
   ozols bench --quick four-bar -o bench              with charts and a page: open bench/index.html";
+
+pub(super) const CATALOG: &str = "\
+Examples:
+  ozols catalog count                                chains and grippers of 4, 6 and 8 links
+  ozols catalog count --links 10 --format json       those of ten links, for programs
+  ozols catalog chains --links 6                     the chains of Watt and Stephenson
+  ozols catalog chains --links 7 --mobility 2        those with two inputs";
 
 pub(super) const CHECK: &str = "\
 Warnings are no failure; only a file that cannot be used ends with exit code 2.

@@ -3,11 +3,14 @@
 use super::near;
 use crate::api;
 use crate::builtin;
+use crate::closure::coupling::in_plane;
 use crate::file::text::{MAX_BYTES, mechanism_from_bytes};
 use crate::geom::expr::Expr;
+use crate::model::coupling::Coupling;
 use crate::model::mechanism::{Mechanism, Mode};
 use crate::robots;
 use anyhow::bail;
+use itertools::Itertools;
 use std::io::Read;
 
 /// Reads the mechanism that an argument names. A file wins over a built-in mechanism of the same name.
@@ -58,11 +61,26 @@ fn imported(file: &str) -> anyhow::Result<Option<robots::Imported>> {
     Ok(Some(imported))
 }
 
-/// Models a mechanism in the plane of x and y.
+/// Models a mechanism in the plane of x and y. A coupling of a freedom that leads out of it has nothing to couple there, and is
+/// left out, which is said.
 pub(super) fn put_in_plane(mechanism: &mut Mechanism) {
     mechanism.mode = Mode::Planar {
         normal: [0, 0, 1].map(Expr::from),
     };
+    let all = std::mem::take(&mut mechanism.couplings);
+    let stays = |c: &Coupling| {
+        c.ends
+            .iter()
+            .all(|e| in_plane(mechanism, e.joint, e.freedom))
+    };
+    let (kept, left): (Vec<Coupling>, Vec<Coupling>) = all.into_iter().partition(stays);
+    if !left.is_empty() {
+        let names = left.iter().map(|c| c.name(mechanism)).join(", ");
+        super::output::note(&format!(
+            "note: --planar leaves out what couples freedoms out of the plane: {names}\n"
+        ));
+    }
+    mechanism.couplings = kept;
 }
 
 /// The message for a name that is neither a file nor built in.

@@ -1,18 +1,52 @@
 //! Data to standard output or, whole or not at all, to a file; complaints to standard error.
 
+use super::progress;
 use crate::api;
 use crate::file::problem::ImportError;
 use anyhow::Context;
 use std::io::{BufWriter, IsTerminal, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Runs `write` on standard output, or on a file that appears under its name only once it is complete.
+/// The temporary file that is being written, to be removed where the program ends in between.
+static BESIDE: Mutex<Option<PathBuf>> = Mutex::new(None);
+
+/// Removes the temporary file that is being written, if one is.
+pub(super) fn abandon() {
+    if let Some(path) = beside().take() {
+        let _ = std::fs::remove_file(path);
+    }
+}
+
+fn beside() -> MutexGuard<'static, Option<PathBuf>> {
+    BESIDE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Standard output, on which nothing is drawn over what is written.
+struct Standard(std::io::StdoutLock<'static>);
+
+impl Write for Standard {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        progress::rest();
+        self.0.write(bytes)
+    }
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.0.flush()
+    }
+}
+
+/// The file to write to, if it is not standard output.
+fn file(path: Option<&Path>) -> Option<&Path> {
+    path.filter(|p| *p != Path::new("-"))
+}
+
+/// Runs `write` on standard output, which is also `-`, or on a file that appears under its name only once it is complete.
 pub(super) fn to(
     path: Option<&Path>,
     write: impl FnOnce(&mut dyn Write) -> anyhow::Result<super::Done>,
 ) -> anyhow::Result<super::Done> {
-    let Some(path) = path else {
-        let mut out = BufWriter::new(std::io::stdout().lock());
+    let Some(path) = file(path) else {
+        let mut out = BufWriter::new(Standard(std::io::stdout().lock()));
         let done = write(&mut out)?;
         out.flush()?;
         return Ok(done);
@@ -20,7 +54,8 @@ pub(super) fn to(
     let whole = || format!("cannot write {}", path.display());
     // A link is followed, so that its target gets the data; a device or pipe has no beside and is written to directly.
     let path = &std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
-    if path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir()) {
+    let old = path.metadata().ok();
+    if old.as_ref().is_some_and(|m| !m.is_file() && !m.is_dir()) {
         let file = std::fs::OpenOptions::new()
             .write(true)
             .open(path)
@@ -34,24 +69,37 @@ pub(super) fn to(
         .parent()
         .filter(|p| !p.as_os_str().is_empty())
         .unwrap_or(Path::new("."));
-    let mut beside = tempfile::NamedTempFile::new_in(folder).with_context(whole)?;
+    let mut temporary = {
+        let mut beside = beside();
+        let temporary = ordinary().tempfile_in(folder).with_context(whole)?;
+        *beside = Some(temporary.path().to_path_buf());
+        temporary
+    };
     let done = {
-        let mut out = BufWriter::new(beside.as_file_mut());
+        let mut out = BufWriter::new(temporary.as_file_mut());
         let done = write(&mut out)?;
         out.flush().with_context(whole)?;
         done
     };
+    if let Some(old) = old {
+        let file = temporary.as_file();
+        file.set_permissions(old.permissions())
+            .with_context(whole)?;
+    }
+    temporary.persist(path).with_context(whole)?;
+    *beside() = None;
+    Ok(done)
+}
+
+/// Makes temporary files that may be read by whom the umask lets: they become results.
+fn ordinary() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // Temporary files are private; results are ordinary files.
-        beside
-            .as_file()
-            .set_permissions(std::fs::Permissions::from_mode(0o644))
-            .with_context(whole)?;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    beside.persist(path).with_context(whole)?;
-    Ok(done)
+    builder
 }
 
 /// A value as JSON for people to read and programs to parse.
@@ -61,7 +109,7 @@ pub(super) fn json(out: &mut dyn Write, value: &impl serde::Serialize) -> anyhow
 
 /// Width of the terminal that standard output is, if it is one.
 pub(super) fn width(path: Option<&Path>) -> Option<u16> {
-    (path.is_none() && std::io::stdout().is_terminal())
+    (file(path).is_none() && std::io::stdout().is_terminal())
         .then(|| console::Term::stdout().size().1.max(40))
 }
 
@@ -82,6 +130,7 @@ pub(super) fn is_broken_pipe(e: &anyhow::Error) -> bool {
 
 /// Says something on standard error; a closed one is no failure.
 pub(super) fn note(text: &str) {
+    progress::rest();
     let _ = write!(std::io::stderr().lock(), "{text}");
 }
 

@@ -1,18 +1,16 @@
-//! What is shown of a run that takes longer than a second, on a terminal only, and its end by Ctrl-C.
+//! What is shown of a run that takes longer than a second, on a terminal only.
 
-use super::output;
+use super::{interrupt, output};
 use crate::model::mechanism::Mechanism;
 use crate::score::outcome::Outcome;
 use crate::score::prepared::LooksRounded;
-use crate::score::request::Request;
+use crate::score::request::{List, Request};
 use crate::score::run::{self, Event, RunError, ShouldCancel, Tell};
 use crate::search::conditions::Conditions;
 use crate::search::diagram::Progress;
-use anyhow::Context;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Says what a search noticed.
@@ -20,41 +18,16 @@ pub(super) fn note(text: String) {
     output::note(&format!("{text}\n"));
 }
 
-/// Watches a search: shows how far it has come, and ends it at Ctrl-C.
+/// Watches a search: shows how far it has come, and ends it early at a signal.
 pub(super) struct Watch {
-    stop: Arc<AtomicBool>,
     bar: Bar,
+    quiet: bool,
 }
 
 impl Watch {
-    /// A watch that hears Ctrl-C.
-    pub(super) fn new(quiet: bool) -> anyhow::Result<Watch> {
-        let watch = Watch {
-            bar: Bar::new(quiet),
-            ..Watch::idle()
-        };
-        let flag = watch.stop.clone();
-        // A second Ctrl-C ends the program at once.
-        ctrlc::set_handler(move || {
-            if flag.swap(true, Ordering::SeqCst) {
-                std::process::exit(130);
-            }
-        })
-        .context("cannot watch for Ctrl-C")?;
-        Ok(watch)
-    }
-
-    /// One that shows nothing and leaves Ctrl-C alone.
-    pub(super) fn idle() -> Watch {
-        Watch {
-            stop: Arc::default(),
-            bar: Bar::new(true),
-        }
-    }
-
-    /// Whether Ctrl-C was pressed.
-    pub(super) fn cancelled(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
+    pub(super) fn new(quiet: bool) -> Watch {
+        let bar = Bar::new(quiet);
+        Watch { bar, quiet }
     }
 
     /// Searches a mechanism.
@@ -63,7 +36,9 @@ impl Watch {
         mechanism: Mechanism,
         request: &Request,
     ) -> Result<Outcome, RunError> {
-        self.over(|cancel, tell| run::run(mechanism, request, cancel, tell))
+        self.over(request, |cancel, tell| {
+            run::run(mechanism, request, cancel, tell)
+        })
     }
 
     /// Searches one that is prepared.
@@ -73,21 +48,72 @@ impl Watch {
         conditions: (Conditions, Option<LooksRounded>),
         request: &Request,
     ) -> Result<Outcome, RunError> {
-        self.over(|cancel, tell| run::answer(mechanism, conditions, request, cancel, tell))
+        self.over(request, |cancel, tell| {
+            run::answer(mechanism, conditions, request, cancel, tell)
+        })
     }
 
-    fn over<T>(&mut self, search: impl FnOnce(ShouldCancel<'_>, Tell<'_>) -> T) -> T {
-        let Watch { stop, bar } = self;
-        search(&|| stop.load(Ordering::Relaxed), &mut |event| match event {
+    fn over<T>(
+        &mut self,
+        request: &Request,
+        search: impl FnOnce(ShouldCancel<'_>, Tell<'_>) -> T,
+    ) -> T {
+        let Watch { bar, quiet } = self;
+        search(&interrupt::pending, &mut |event| match event {
             Event::Note(text) => note(text),
-            Event::Building(p) => bar.show(p),
+            Event::Building(p) => {
+                rest();
+                interrupt::be_patient();
+                bar.show(p);
+            }
             Event::Built => {
                 bar.clear();
-                // What was found so far is still given; another Ctrl-C stops the giving.
-                stop.store(false, Ordering::SeqCst);
+                working(*quiet);
+                // What was found so far is still given, unless it is a list without end; another signal stops the giving.
+                if request.list != List::All {
+                    interrupt::answered();
+                }
             }
         })
     }
+}
+
+/// What is shown of work of unknown length: how often it began or ended, and the bar.
+static WORKING: Mutex<(u64, Option<ProgressBar>)> = Mutex::new((0, None));
+
+/// From a second on, says on a terminal that work goes on, until [`rest`].
+pub(super) fn working(quiet: bool) {
+    if quiet || !std::io::stderr().is_terminal() {
+        return;
+    }
+    let mut shown = locked();
+    shown.0 += 1;
+    let began = shown.0;
+    std::thread::spawn(move || {
+        std::thread::sleep(Duration::from_secs(1));
+        let mut shown = locked();
+        if shown.0 == began {
+            let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+            let style = ProgressStyle::with_template("{elapsed_precise} {spinner} working");
+            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
+            bar.set_elapsed(Duration::from_secs(1));
+            bar.enable_steady_tick(Duration::from_millis(100));
+            shown.1 = Some(bar);
+        }
+    });
+}
+
+/// Takes away what [`working`] shows: something is written.
+pub(super) fn rest() {
+    let mut shown = locked();
+    shown.0 += 1;
+    if let Some(bar) = shown.1.take() {
+        bar.finish_and_clear();
+    }
+}
+
+fn locked() -> MutexGuard<'static, (u64, Option<ProgressBar>)> {
+    WORKING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Shows how far a run has come.
@@ -126,6 +152,7 @@ impl Bar {
 
     /// Shows how far a run of known length has come.
     pub(super) fn step(&mut self, what: &str, done: usize, of: usize) {
+        rest();
         if !self.wanted || self.begun.elapsed() < Duration::from_secs(1) {
             return;
         }

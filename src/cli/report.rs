@@ -3,7 +3,7 @@
 use super::args::{Args, File};
 use super::progress::{Watch, note};
 use super::request::Checked;
-use super::{Done, load, output};
+use super::{Done, interrupt, load, output};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::page::{Commands, Page, Redesigns, html};
 use crate::redundancy::analysis::{Method, analyse};
@@ -68,10 +68,9 @@ pub(super) fn run(args: &Args, a: &Report) -> anyhow::Result<Done> {
         Ok(conditions) => conditions,
         Err(why) => return write(Err(format!("{why}."))),
     };
-    let mut watch = Watch::new(args.quiet)?;
+    let mut watch = Watch::new(args.quiet);
     let outcome = watch.answer(mechanism.clone(), conditions, &request)?;
-    let cancelled = || watch.cancelled();
-    let mut given = outcome.variants_unless(&cancelled);
+    let mut given = outcome.variants_unless(&interrupt::pending);
     let variants = given.by_ref().collect();
     write(Ok(Redesigns {
         found: &outcome,

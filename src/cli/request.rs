@@ -1,5 +1,6 @@
 //! What is asked of a search, in arguments: the same for every command that searches.
 
+use super::memory;
 use crate::model::ranking::Term;
 use crate::score::request::{self, Inserts, JointOptions, POOL, Request};
 use crate::search::conditions::Symmetry;
@@ -82,6 +83,10 @@ pub(super) struct Which {
     /// Node budget of each diagram, about 1 KB of memory a node (twice that with a check).
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     nodes: usize,
+    /// Memory that a search may hold, in bytes or such as 500M or 2G; by default a quarter of the machine's. Where it does not
+    /// suffice, counts are lower bounds, as with --nodes.
+    #[arg(long, value_name = "BYTES", value_parser = memory::bytes)]
+    memory: Option<usize>,
 }
 
 /// Which variants, the state meant, and how they are checked.
@@ -151,6 +156,7 @@ impl Which {
             as_written: self.as_written,
             snap: self.snap,
             nodes: self.nodes,
+            memory: self.memory.unwrap_or_else(memory::quarter),
             rank: self
                 .rank
                 .iter()

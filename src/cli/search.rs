@@ -3,7 +3,7 @@
 use super::args::{Args, File};
 use super::progress::Watch;
 use super::request::Checked;
-use super::{Done, load, machine, output};
+use super::{Done, interrupt, load, machine, output};
 use crate::format::number::duration;
 use crate::score::request::{List, Method, Request};
 use crate::view::{search_csv, search_json, search_text};
@@ -82,19 +82,14 @@ pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
     let seconds = || (machine::clock() - begun).as_secs_f64();
     let mechanism = load::mechanism(&a.file.file)?;
     let request = a.request(args.seed)?;
-    let mut watch = match request.method {
-        Method::Diagram => Watch::new(args.quiet)?,
-        Method::Brute => Watch::idle(),
-    };
-    let outcome = watch.run(mechanism, &request)?;
+    let outcome = Watch::new(args.quiet).run(mechanism, &request)?;
     let (eased, why) = match a.format {
         SearchFormat::Text | SearchFormat::Json => (outcome.relaxations()?, outcome.hopeless()?),
         SearchFormat::Jsonl | SearchFormat::Csv => Default::default(),
     };
     let none = (&eased[..], &why);
     let done = output::to(a.output.as_deref(), |out| {
-        let cancelled = || watch.cancelled();
-        let variants = outcome.variants_unless(&cancelled);
+        let variants = outcome.variants_unless(&interrupt::pending);
         match a.format {
             SearchFormat::Text => {
                 let width = output::width(a.output.as_deref());

@@ -4,7 +4,9 @@
 //! length in radians or length units. A coupling is about rates, and its row takes the lengths out again:
 //! s_b - ratio·(|a|/|b|)·s_a = 0 for speeds s on axes a and b.
 
+use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::expr::Expr;
+use crate::geom::scalars::Reals;
 use crate::model::coupling::Coupling;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Frame, JointId, Mechanism, StateId};
@@ -71,4 +73,13 @@ pub fn coefficients(mechanism: &Mechanism, state: StateId) -> Vec<Expr> {
         .couplings_in(state)
         .map(|c| coefficient(mechanism, c))
         .collect()
+}
+
+/// Whether the mechanism's mode keeps a freedom: a plane leaves out what leads out of it.
+#[must_use]
+pub fn in_plane(mechanism: &Mechanism, joint: JointId, freedom: Freedom) -> bool {
+    let joint = &mechanism.joints[joint];
+    let twists = MotionSpace::new(&Reals, &mechanism.mode)
+        .and_then(|space| joint_twists(&Reals, &space, &joint.frame, &joint.joint_type));
+    twists.is_ok_and(|all| all.iter().any(|(f, _)| *f == freedom))
 }

@@ -27,6 +27,8 @@ pub enum ProblemKind {
     Duplicate { what: &'static str, id: String },
     #[error("an id must have 1 to 64 characters and no control characters, not {id:?}")]
     BadId { id: String },
+    #[error("{key} holds the control character {found}; remove it")]
+    Control { key: String, found: String },
     #[error("unknown link \"{id}\"; known links: {known}")]
     UnknownLink { id: String, known: String },
     #[error("unknown joint \"{id}\"; known joints: {known}")]
@@ -154,6 +156,15 @@ pub enum ProblemKind {
     },
     #[error("cost {value} must be a finite number from 0 to 1e6")]
     BadCost { value: String },
+    #[error(
+        "the closure matrix of state {state} would have {rows} rows and {columns} columns, more than {limit} entries; leave out what does not matter, or make independent parts files of their own"
+    )]
+    TooEntangled {
+        state: String,
+        rows: usize,
+        columns: usize,
+        limit: usize,
+    },
     #[error("the file has {count} {what}, more than the {limit} allowed")]
     TooMany {
         what: &'static str,

@@ -19,6 +19,7 @@ pub(crate) mod quantity;
 pub mod ranking;
 pub(crate) mod resolve;
 mod search;
+mod size;
 pub mod trajectory;
 mod unit;
 pub mod workload;
@@ -43,6 +44,7 @@ use limits::LIMITS;
 use links::links;
 use mode::mode;
 use search::search;
+use size::size;
 
 /// Builds a mechanism.
 ///
@@ -89,6 +91,9 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
         expected: Vec::new(),
     };
     connected(&mechanism, &mut out);
+    if !size(&mechanism, &mut out) {
+        return Err(out.told());
+    }
     couplings(file, &mut mechanism, &mut out);
     mechanism.contours = contours(file, &mechanism, &mut out);
     mechanism.search = search(file, &mechanism, &mut out);

@@ -1,5 +1,6 @@
 //! Reading a mechanism from text.
 
+use crate::file::controls::controls;
 use crate::file::findings::Finding;
 use crate::file::locate::Document;
 use crate::file::problem::{ImportError, Problem, ProblemKind};
@@ -69,7 +70,18 @@ pub(crate) fn read<T>(
         from_toml(text)
     };
     let file = file.map_err(|p| fail(vec![p]))?;
-    make(&file).map_err(|found| {
+    // Written out they are no TOML and no JSON: only what is escaped can hold any.
+    let controls = if text.contains('\\') {
+        controls(&file)
+    } else {
+        Vec::new()
+    };
+    let made = if controls.is_empty() {
+        make(&file)
+    } else {
+        Err(controls)
+    };
+    made.map_err(|found| {
         let document = Document::new(text, is_json(name));
         let mut problems: Vec<Problem> = found
             .into_iter()

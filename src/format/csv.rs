@@ -1,18 +1,29 @@
 //! Comma-separated values as RFC 4180 has them, with bare line feeds.
 
 use serde::Serialize;
+use std::borrow::Cow;
+
+/// A cell that no spreadsheet takes for a formula: words that begin like one get an apostrophe before them, numbers stay.
+pub(crate) fn cell(text: &str) -> Cow<'_, str> {
+    let formula = text.len() > 1 && text.starts_with(['=', '+', '-', '@']);
+    if formula && text.parse::<f64>().is_err() {
+        return Cow::Owned(format!("'{text}"));
+    }
+    Cow::Borrowed(text)
+}
 
 /// A table with the heads of its columns, as text. What is too long to be held as a whole is written row by row with
-/// [`csv::Writer`], whose defaults these are.
+/// [`csv::Writer`], whose defaults these are, and [`cell`].
 pub(crate) fn table<Row, Cell>(heads: &[&str], rows: impl IntoIterator<Item = Row>) -> String
 where
     Row: IntoIterator<Item = Cell>,
-    Cell: AsRef<[u8]>,
+    Cell: AsRef<str>,
 {
     let mut out = csv::Writer::from_writer(Vec::new());
-    let mut written = out.write_record(heads);
+    let mut written = out.write_record(heads.iter().map(|h| cell(h).into_owned()));
     for row in rows {
-        written = written.and_then(|()| out.write_record(row));
+        let cells = row.into_iter().map(|c| cell(c.as_ref()).into_owned());
+        written = written.and_then(|()| out.write_record(cells));
     }
     text(written, out)
 }
@@ -37,6 +48,20 @@ fn text(written: csv::Result<()>, out: csv::Writer<Vec<u8>>) -> String {
 #[cfg(test)]
 mod tests {
     use super::table;
+
+    #[test]
+    fn no_word_is_taken_for_a_formula() {
+        let rows = [
+            ["=HYPERLINK(1)", "-1.5e-3"],
+            ["@a", "-"],
+            ["+b", "-inf"],
+            ["-c", "x=1"],
+        ];
+        assert_eq!(
+            table(&["=a", "b"], rows),
+            "'=a,b\n'=HYPERLINK(1),-1.5e-3\n'@a,-\n'+b,-inf\n'-c,x=1\n"
+        );
+    }
 
     #[test]
     fn cells_with_commas_quotes_and_line_ends_are_quoted() {

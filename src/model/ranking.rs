@@ -51,6 +51,20 @@ impl Term {
         }
     }
 
+    /// The head of its column in a list of variants; `None` where such a list has the column anyway.
+    #[must_use]
+    pub fn heading(self) -> Option<&'static str> {
+        match self {
+            Term::PeakForce => Some("force"),
+            Term::PeakMoment => Some("moment"),
+            Term::Conditioning => Some("cond. held"),
+            Term::OutputError => Some("error, mm"),
+            Term::Changes => Some("changed"),
+            Term::Idle => Some("idle"),
+            Term::Cost | Term::Harmful => None,
+        }
+    }
+
     /// The term a word names.
     #[must_use]
     pub fn from_name(word: &str) -> Option<Term> {

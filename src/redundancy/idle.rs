@@ -3,7 +3,7 @@
 use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactField;
 use crate::geom::scalars::Scalars;
-use crate::linalg::echelon::relations;
+use crate::linalg::echelon::{Echelon, relations};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::redundancy::motion::{Speeds, twist};
@@ -22,7 +22,7 @@ pub struct Idle {
 /// A basis of the motions that leave the outputs at rest: motions of one link alone first, then what is left.
 ///
 /// # Complexity
-/// O(n · W · f) for the twists of n links, and one elimination per link, O(n · W² · n).
+/// O(n · f) twists for n links; an elimination of each link's own columns, and one of W motions.
 #[must_use]
 pub fn idle_motions(
     exact: &ExactField,
@@ -44,53 +44,39 @@ pub fn idle_motions(
         .iter()
         .map(|&l| closure.link_motion(exact, mechanism, l))
         .collect();
-    // What each link does under each of the kernel's motions.
-    let moves: Vec<Vec<Vec<Residue>>> = motion
-        .iter()
-        .map(|m| kernel.iter().map(|k| twist(exact, m, k)).collect())
-        .collect();
-    // Motions (as combinations of the kernel's) under which the given links rest.
-    let resting = |rest: &dyn Fn(LinkId) -> bool| -> Vec<Speeds> {
-        let images: Vec<Vec<Residue>> = kernel
-            .iter()
-            .enumerate()
-            .map(|(k, _)| {
-                let parts = links.iter().zip(&moves).filter(|(l, _)| rest(**l));
-                let mut image: Vec<Residue> = parts.flat_map(|(_, m)| m[k].clone()).collect();
-                image.push(0);
-                image
-            })
-            .collect();
-        let combine = |combination: Vec<Residue>| {
-            let mut out = vec![0; closure.columns.len()];
-            for (&a, k) in combination.iter().zip(kernel).filter(|(a, _)| **a != 0) {
-                out.iter_mut()
-                    .zip(k)
-                    .for_each(|(o, &x)| *o = f.add(*o, f.mul(a, x)));
-            }
-            out
-        };
-        relations(f, &images).into_iter().map(combine).collect()
-    };
-    let all = resting(&|l| outputs.contains(&l));
-    let mut span = crate::linalg::echelon::Echelon::new(f);
+    // What every column closes, and couples.
+    let mut rows = closure.dense(exact);
+    rows.iter_mut().for_each(|r| r.push(0));
+    let all = resting(
+        exact,
+        closure,
+        kernel,
+        &moves_of(exact, &links, &motion, outputs, kernel),
+    );
+    let mut span = Echelon::new(f);
     let mut found = Vec::new();
-    for &l in links.iter().filter(|l| !outputs.contains(l)) {
-        for speeds in resting(&|other| other != l) {
+    for (at, &l) in links.iter().enumerate() {
+        if outputs.contains(&l) {
+            continue;
+        }
+        let joints: Vec<JointId> = mechanism
+            .joints_in(closure.state)
+            .filter(|&j| mechanism.joints[j].links.contains(&l))
+            .collect();
+        for speeds in alone(
+            exact,
+            closure,
+            (&links, &motion),
+            &rows,
+            (mechanism, l, &joints),
+        ) {
             if span.insert(&speeds) {
-                let at = links.iter().position(|&x| x == l).unwrap_or(0);
                 let own = twist(exact, &motion[at], &speeds);
-                let through = mechanism
-                    .joints_in(closure.state)
-                    .filter(|&j| {
-                        mechanism.joints[j].links.contains(&l)
-                            && rests_at(exact, mechanism, j, &own)
-                    })
-                    .collect();
+                let rests = |j: &JointId| rests_at(exact, mechanism, *j, &own);
                 let turns = own.len() == 6 && own[..3].iter().any(|&x| x != 0);
                 found.push(Idle {
                     links: vec![l],
-                    through,
+                    through: joints.iter().copied().filter(rests).collect(),
                     turns,
                 });
             }
@@ -110,6 +96,88 @@ pub fn idle_motions(
         }
     }
     found
+}
+
+/// Motions of one link alone: only its own joints move then, and its neighbours rest; what lies behind them does so with them.
+fn alone(
+    exact: &ExactField,
+    closure: &Closure<Residue>,
+    (links, motion): (&[LinkId], &[Vec<Vec<Residue>>]),
+    rows: &[Vec<Residue>],
+    (mechanism, link, joints): (&Mechanism, LinkId, &[JointId]),
+) -> Vec<Speeds> {
+    let mut neighbours: Vec<LinkId> = joints
+        .iter()
+        .flat_map(|&j| mechanism.joints[j].links)
+        .filter(|&l| l != link)
+        .collect();
+    neighbours.sort_unstable();
+    neighbours.dedup();
+    let columns: Vec<usize> = (0..closure.columns.len())
+        .filter(|&c| joints.contains(&closure.columns[c].joint))
+        .collect();
+    let image = |&c: &usize| {
+        let mut image = rows[c].clone();
+        for l in &neighbours {
+            if let Some(at) = links.iter().position(|x| x == l) {
+                image.extend(&motion[at][c]);
+            }
+        }
+        image
+    };
+    let images: Vec<Vec<Residue>> = columns.iter().map(image).collect();
+    let whole = |few: Vec<Residue>| {
+        let mut speeds = vec![0; closure.columns.len()];
+        columns
+            .iter()
+            .zip(few)
+            .for_each(|(&c, speed)| speeds[c] = speed);
+        speeds
+    };
+    relations(exact.field(), &images)
+        .into_iter()
+        .map(whole)
+        .collect()
+}
+
+/// What some links do under each of a kernel's motions: their twists one after the other, and a zero.
+fn moves_of(
+    exact: &ExactField,
+    links: &[LinkId],
+    motion: &[Vec<Vec<Residue>>],
+    of: &[LinkId],
+    kernel: &[Speeds],
+) -> Vec<Vec<Residue>> {
+    let some: Vec<_> = links
+        .iter()
+        .zip(motion)
+        .filter(|(l, _)| of.contains(l))
+        .collect();
+    let image = |speeds: &Speeds| {
+        let twists = some.iter().flat_map(|(_, m)| twist(exact, m, speeds));
+        twists.chain([0]).collect()
+    };
+    kernel.iter().map(image).collect()
+}
+
+/// The motions of a kernel under which what they do, their images, vanishes.
+fn resting(
+    exact: &ExactField,
+    closure: &Closure<Residue>,
+    kernel: &[Speeds],
+    images: &[Vec<Residue>],
+) -> Vec<Speeds> {
+    let f = exact.field();
+    let combine = |combination: Vec<Residue>| {
+        let mut out = vec![0; closure.columns.len()];
+        for (&a, k) in combination.iter().zip(kernel).filter(|(a, _)| **a != 0) {
+            out.iter_mut()
+                .zip(k)
+                .for_each(|(o, &x)| *o = f.add(*o, f.mul(a, x)));
+        }
+        out
+    };
+    relations(f, images).into_iter().map(combine).collect()
 }
 
 /// Whether a twist leaves a joint's point at rest: v + ω × p = 0.

@@ -71,6 +71,95 @@ pub fn stress_basis(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Vec<R
     stresses
 }
 
+/// The self-stresses of a state, those that load none of the joints it adds apart from the others.
+struct Stresses<'a> {
+    wrenches: JointWrenches<'a, ExactField>,
+    internal: Vec<Vec<Residue>>,
+    /// Friction at the contacts first.
+    external: Vec<Vec<Residue>>,
+    /// The added joints that are faces.
+    faces: Vec<JointId>,
+    /// The face that moments are judged at.
+    reference: Option<JointId>,
+}
+
+impl<'a> Stresses<'a> {
+    fn new(
+        exact: &'a ExactField,
+        mechanism: &'a Mechanism,
+        closure: &'a Closure<Residue>,
+    ) -> Result<Stresses<'a>, ExactError> {
+        let wrenches = JointWrenches::new(exact, mechanism, closure)?;
+        let added: Vec<JointId> = mechanism.joints_added_in(closure.state).collect();
+        let at_added = |s: &[Residue]| -> Vec<Residue> {
+            added.iter().flat_map(|&j| wrenches.at(s, j)).collect()
+        };
+        let (internal, external) =
+            first_those_without(exact, stress_basis(exact, closure), &at_added);
+        let faces: Vec<JointId> = added
+            .iter()
+            .copied()
+            .filter(|&j| mechanism.joints[j].joint_type == JointType::Fixed)
+            .collect();
+        let mut out = Stresses {
+            wrenches,
+            internal,
+            external,
+            faces,
+            reference: None,
+        };
+        // Forces along two faces apart are a couple that one of them must take up as a shift of pressure, so moments are
+        // judged at one face: the one that shows most friction.
+        let friction = |reference: Option<JointId>| {
+            let harm = |s: &Vec<Residue>| out.harm_at(s, reference);
+            let images: Vec<Vec<Residue>> = out.external.iter().map(harm).collect();
+            relations(exact.field(), &images).len()
+        };
+        let faces = out.faces.iter().copied().rev();
+        out.reference = faces.max_by_key(|&j| friction(Some(j)));
+        if !out.faces.is_empty() {
+            let stresses = std::mem::take(&mut out.external);
+            let (friction, harmful) = first_those_without(exact, stresses, &|s| out.harm(s));
+            out.external = [friction, harmful].concat();
+        }
+        Ok(out)
+    }
+
+    fn harm_at(&self, s: &[Residue], reference: Option<JointId>) -> Vec<Residue> {
+        let part = |&j: &JointId| self.wrenches.harm(s, j, Some(j) == reference);
+        self.faces.iter().flat_map(part).collect()
+    }
+
+    fn harm(&self, s: &[Residue]) -> Vec<Residue> {
+        self.harm_at(s, self.reference)
+    }
+
+    /// Whether an external stress is friction alone.
+    fn is_friction(&self, s: &[Residue]) -> bool {
+        !self.faces.is_empty() && self.harm(s).iter().all(|&x| x == 0)
+    }
+}
+
+/// How many self-stresses load the joints that a state adds with more than friction.
+///
+/// # Errors
+/// Where a coordinate has no value in the field.
+///
+/// # Complexity
+/// One elimination of J, O((6k)² f), and a few of the stresses.
+pub fn harmful_count(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+) -> Result<usize, ExactError> {
+    let stresses = Stresses::new(exact, mechanism, closure)?;
+    let harmful = stresses
+        .external
+        .iter()
+        .filter(|s| !stresses.is_friction(s));
+    Ok(harmful.count())
+}
+
 /// A sparse basis of the self-stresses of a state: those of the free state's contours first, then those that need the
 /// additional ones; among the latter, friction at the contacts first.
 ///
@@ -84,41 +173,12 @@ pub fn self_stresses(
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
 ) -> Result<Vec<SelfStress>, ExactError> {
-    let f = exact.field();
-    let stresses = stress_basis(exact, closure);
-    let added: Vec<JointId> = mechanism.joints_added_in(closure.state).collect();
-    let wrenches = JointWrenches::new(exact, mechanism, closure)?;
-    let wrench = |stress: &[Residue], j: JointId| wrenches.at(stress, j);
-    let needs_contacts =
-        |s: &[Residue]| added.iter().any(|&j| wrench(s, j).iter().any(|&x| x != 0));
-    let (external, internal): (Vec<_>, Vec<_>) =
-        stresses.into_iter().partition(|s| needs_contacts(s));
-    let faces: Vec<JointId> = added
-        .iter()
-        .copied()
-        .filter(|&j| mechanism.joints[j].joint_type == JointType::Fixed)
-        .collect();
-    // Forces along two faces apart are a couple that one of them must take up as a shift of pressure, so moments are
-    // judged at one face: the one that shows most friction.
-    let harm_at = |s: &[Residue], reference: Option<JointId>| -> Vec<Residue> {
-        let part = |&j: &JointId| wrenches.harm(s, j, Some(j) == reference);
-        faces.iter().flat_map(part).collect()
-    };
-    let friction = |reference: Option<JointId>| {
-        let images: Vec<Vec<Residue>> = external.iter().map(|s| harm_at(s, reference)).collect();
-        relations(f, &images).len()
-    };
-    let reference = faces
-        .iter()
-        .copied()
-        .rev()
-        .max_by_key(|&j| friction(Some(j)));
-    let harm = |s: &[Residue]| harm_at(s, reference);
-    let external = friction_first(exact, external, &harm);
+    let stresses = Stresses::new(exact, mechanism, closure)?;
+    let wrenches = &stresses.wrenches;
     let mut shares = Shares::new(mechanism, closure)?;
     let at_faces = Faces {
-        joints: &faces,
-        reference,
+        joints: &stresses.faces,
+        reference: stresses.reference,
     };
     let mut describe = |s: &Vec<Residue>, is_external: bool| {
         let contours = (0..closure.contours.len())
@@ -131,10 +191,10 @@ pub fn self_stresses(
         let couplings = (0..closure.couplings.len())
             .filter(|q| s[closure.contour_rows() + q] != 0)
             .collect();
-        let friction = is_external && !faces.is_empty() && harm(s).iter().all(|&x| x == 0);
+        let friction = is_external && stresses.is_friction(s);
         let borne = shares.of(s, friction.then_some(at_faces));
         let joints = mechanism.joints_in(closure.state).filter_map(|j| {
-            let w = wrench(s, j);
+            let w = wrenches.at(s, j);
             let nonzero = |v: [Residue; 3]| v.map(|x| x != 0);
             w.iter().any(|&x| x != 0).then(|| JointWrench {
                 joint: j,
@@ -155,43 +215,42 @@ pub fn self_stresses(
             },
         }
     };
-    let internal = internal.iter().map(|s| (s, false));
-    let all = internal.chain(external.iter().map(|s| (s, true)));
+    let internal = stresses.internal.iter().map(|s| (s, false));
+    let all = internal.chain(stresses.external.iter().map(|s| (s, true)));
     Ok(all
         .map(|(s, is_external)| describe(s, is_external))
         .collect())
 }
 
-/// A basis of the same space that begins with a basis of the stresses without harm.
-fn friction_first(
+/// A basis of the stresses of which a linear `part` is zero, and what makes it one of all of them: stresses that are in the
+/// list as they stand, where they can be.
+fn first_those_without(
     exact: &ExactField,
     stresses: Vec<Vec<Residue>>,
-    harm: &dyn Fn(&[Residue]) -> Vec<Residue>,
-) -> Vec<Vec<Residue>> {
+    part: &dyn Fn(&[Residue]) -> Vec<Residue>,
+) -> (Vec<Vec<Residue>>, Vec<Vec<Residue>>) {
     let f = exact.field();
-    let images: Vec<Vec<Residue>> = stresses.iter().map(|s| harm(s)).collect();
-    if images.iter().all(Vec::is_empty) {
-        return stresses;
+    let (mut with, mut without) = (Vec::new(), Vec::new());
+    for s in stresses {
+        let image = part(&s);
+        match image.iter().all(|&x| x == 0) {
+            true => without.push(s),
+            false => with.push((s, image)),
+        }
+    }
+    let (with, images): (Vec<_>, Vec<_>) = with.into_iter().unzip();
+    for combination in relations(f, &images) {
+        let mut sum = vec![0; with[0].len()];
+        for (&a, s) in combination.iter().zip(&with).filter(|(a, _)| **a != 0) {
+            let terms = sum.iter_mut().zip(s);
+            terms.for_each(|(o, &x)| *o = f.add(*o, f.mul(a, x)));
+        }
+        without.push(sum);
     }
     let mut span = Echelon::new(f);
-    let mut out = Vec::new();
-    let harmless = relations(f, &images).into_iter().map(|combination| {
-        let mut sum = vec![0; stresses[0].len()];
-        for (&a, s) in combination.iter().zip(&stresses).filter(|(a, _)| **a != 0) {
-            sum.iter_mut()
-                .zip(s)
-                .for_each(|(o, &x)| *o = f.add(*o, f.mul(a, x)));
-        }
-        sum
+    without.iter().for_each(|s| {
+        span.insert(s);
     });
-    for s in harmless
-        .collect_vec()
-        .into_iter()
-        .chain(stresses.iter().cloned())
-    {
-        if span.insert(&s) {
-            out.push(s);
-        }
-    }
-    out
+    let rest = with.into_iter().filter(|s| span.insert(s)).collect();
+    (without, rest)
 }

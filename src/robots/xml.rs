@@ -114,7 +114,18 @@ fn xml_problem(message: impl ToString) -> RobotProblem {
     }
 }
 
+/// Refuses control characters, which terminals would obey, but for those that lay out the text.
+fn no_control(text: &str, layout: &[char]) -> Result<(), Located> {
+    let found = text.char_indices();
+    let mut found = found.filter(|(_, c)| c.is_control() && !layout.contains(c));
+    found.next().map_or(Ok(()), |(at, c)| {
+        let message = format!("the control character {} is there", c.escape_unicode());
+        Err((xml_problem(message), at))
+    })
+}
+
 fn parse(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Located> {
+    no_control(text, &['\t', '\n', '\r'])?;
     let mut reader = Reader::from_str(text);
     let (mut open, mut root): (Vec<usize>, Option<usize>) = (Vec::new(), None);
     let mut attributes = 0;
@@ -161,6 +172,7 @@ fn parse(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Loca
                 let plain = quick_xml::escape::unescape(&word)
                     .map_err(|e| (xml_problem(e), before))?
                     .into_owned();
+                no_control(&plain, &[]).map_err(|(problem, _)| (problem, before))?;
                 put(&plain, &open, nodes);
             }
             Event::DocType(t) if t.contains("<!ENTITY") => {
@@ -205,6 +217,7 @@ fn node(
             .normalized_value(quick_xml::XmlVersion::Implicit1_0)
             .map_err(|e| (xml_problem(e), span.start))?
             .into_owned();
+        no_control(&value, &[]).map_err(|(problem, _)| (problem, span.start))?;
         if attributes.len() >= MAX_ATTRIBUTES.0 {
             let what = "attributes of one element";
             return Err((

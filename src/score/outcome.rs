@@ -30,6 +30,8 @@ pub struct Outcome {
     pub diagrams: Option<Diagrams>,
     /// Why the search ended.
     pub stop: Stop,
+    /// Why the search for the determinate variants ended, which come first.
+    pub determinate_stop: Stop,
     /// What a second prime says; `None` where none was asked.
     pub check: Option<PrimeCheck>,
     /// Why the geometry looks measured, with the verdicts on the mechanism as it is; `None` where it looks exact.
@@ -55,6 +57,7 @@ impl Outcome {
             admissible,
             diagrams: None,
             stop: Stop::Exhausted,
+            determinate_stop: Stop::Exhausted,
             check: None,
             measured,
             stroke: None,
@@ -68,17 +71,24 @@ impl Outcome {
         self.stop == Stop::Exhausted
     }
 
-    /// Counts of the admissible variants by cost in thousandths; none of orbits, and none by brute force.
+    /// Whether the determinate variants are counted exactly, however the rest ended.
+    #[must_use]
+    pub fn is_determinate_exact(&self) -> bool {
+        self.determinate_stop == Stop::Exhausted
+    }
+
+    /// Counts of the admissible variants by cost in thousandths; none of orbits, and none by brute force. `None`
+    /// where they would take more than the memory there is.
     ///
     /// # Complexity
     /// One more tally of the diagram.
     #[must_use]
-    pub fn admissible_by_cost(&self) -> BTreeMap<i64, BigUint> {
+    pub fn admissible_by_cost(&self) -> Option<BTreeMap<i64, BigUint>> {
         match &self.diagrams {
             Some(d) if self.request.symmetry != Symmetry::OnePerOrbit => {
                 self.search.counts_by_cost(&d.admissible)
             }
-            _ => BTreeMap::new(),
+            _ => Some(BTreeMap::new()),
         }
     }
 

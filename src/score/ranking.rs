@@ -54,6 +54,8 @@ pub struct RankedPool {
     pub proven: bool,
     /// Why it is proven, or is not.
     pub proof: &'static str,
+    /// Whether scoring was cancelled.
+    pub interrupted: bool,
     /// What is missing to a proof, where the order is by a weighted sum in which cost counts.
     pub missing: Option<Missing>,
     /// The cheapest that could be scored, as a measure for the others.
@@ -195,6 +197,7 @@ impl<'e, 's> Ranker<'e, 's> {
                 open: 0,
                 proven: false,
                 proof: "dearer variants were not looked at",
+                interrupted: false,
                 missing: None,
                 cheapest: None,
                 poses: evaluator.cases.list.len(),

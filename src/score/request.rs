@@ -118,6 +118,8 @@ pub struct Request {
     pub snap: Option<f64>,
     /// Node budget of each diagram.
     pub nodes: usize,
+    /// Bytes that the search, its counts, its lists and its ranking may hold, so far as they grow with what is found.
+    pub memory: usize,
     /// Terms to rank by with their weights, in place of the file's.
     pub rank: Vec<(Term, f64)>,
     /// How many of the cheapest variants a ranking scores.
@@ -156,6 +158,7 @@ impl Default for Request {
             as_written: false,
             snap: None,
             nodes: Conditions::default().nodes,
+            memory: Conditions::default().memory,
             rank: Vec::new(),
             pool: POOL,
             list: List::Top(10),
@@ -396,6 +399,7 @@ impl Request {
             keep_output: !self.allow_output_change,
             symmetry: self.symmetry,
             nodes: self.nodes.clamp(1, u32::MAX as usize / 2),
+            memory: self.memory,
             tolerance,
         };
         Ok((conditions, rounded))

@@ -7,7 +7,7 @@ use crate::redundancy::analysis::exact_field;
 use crate::score::evaluate::{Evaluator, ScoreError};
 use crate::score::outcome::Outcome;
 use crate::score::prepared::LooksRounded;
-use crate::score::ranking::{RankedPool, Ranker};
+use crate::score::ranking::{Ranked, RankedPool, Ranker};
 use crate::score::request::{Check, List, Method, Request, RequestError};
 use crate::search::building::Diagrams;
 use crate::search::conditions::{Conditions, Search, SearchError, Symmetry};
@@ -151,31 +151,38 @@ pub fn answer(
         }
     };
     tell(Event::Built);
-    let mut stop = diagrams.stop();
+    let mut stops = [diagrams.determinate.stop, diagrams.admissible.stop];
     let mut counts = (
         search.counts(&diagrams.determinate, false),
         search.counts(&diagrams.admissible, true),
     );
+    if counts.0.only_total || counts.1.only_total {
+        tell(Event::Note(
+            "note: counts by mobility, changes and the like would take more than the memory allowed (--memory); totals alone are given"
+                .to_owned(),
+        ));
+    }
     if request.symmetry == Symmetry::OnePerOrbit {
-        (counts, stop) = orbits((&search, twin.as_ref()), counts, stop, should_cancel)?;
+        (counts, stops) = orbits((&search, twin.as_ref()), counts, stops, should_cancel)?;
     }
     let poses = match request.poses {
         0 if request.generic_only => POSES,
         n => n,
     };
     let stroke = (poses > 0)
-        .then(|| search.stroke(poses, request.seed))
+        .then(|| search.stroke(poses, request.seed, should_cancel))
         .transpose()?;
-    if stroke.as_ref().is_some_and(|s| s.reached() == 0) {
+    if stroke.as_ref().is_some_and(|s| s.reached() == 0) && !should_cancel() {
         tell(Event::Note(format!(
             "warning: no other pose of {} could be reached: it has no motion to follow from this one",
             search.mechanism.name
         )));
     }
-    let ranking = ranked(&search, &diagrams, request)?;
+    let ranking = ranked(&search, &diagrams, request, should_cancel)?;
     Ok(Outcome {
         diagrams: Some(diagrams),
-        stop,
+        stop: stops[0].or(stops[1]),
+        determinate_stop: stops[0],
         check,
         stroke,
         ranking,
@@ -187,19 +194,21 @@ pub fn answer(
 fn orbits(
     (search, twin): (&Search, Option<&Search>),
     all: (Counts, Counts),
-    stop: Stop,
+    stops: [Stop; 2],
     should_cancel: ShouldCancel<'_>,
-) -> Result<((Counts, Counts), Stop), RunError> {
+) -> Result<((Counts, Counts), [Stop; 2]), RunError> {
     let of = |s: &Search| s.orbits(all.clone(), should_cancel);
     let (first, second) = rayon::join(|| of(search), || twin.map(of).transpose());
     let (first, second) = (first?, second?);
-    let stop = stop.or(first.1);
+    let stops = [0, 1].map(|i| stops[i].or(first.1[i]));
+    let ended = |stops: &[Stop; 2]| stops.contains(&Stop::Interrupted);
     if let (Some(twin), Some(second)) = (twin, &second)
-        && stop.or(second.1) != Stop::Interrupted
+        && !ended(&stops)
+        && !ended(&second.1)
     {
         primes::compare_counts([search, twin], [&first.0, &second.0])?;
     }
-    Ok((first.0, stop))
+    Ok((first.0, stops))
 }
 
 /// Scores the cheapest variants and puts the best in order, where that was asked for.
@@ -207,6 +216,7 @@ fn ranked(
     search: &Search,
     diagrams: &Diagrams,
     request: &Request,
+    should_cancel: ShouldCancel<'_>,
 ) -> Result<Option<RankedPool>, RunError> {
     let List::Top(top) = request.list else {
         return Ok(None);
@@ -227,22 +237,28 @@ fn ranked(
                 why,
             }
         })?;
-    let mut ranker = Ranker::new(&evaluator, &ranking, request.pool, standing);
+    // What may be kept of a variant: its scores, and its choices beside an allocation's own.
+    let each = size_of::<Ranked>() + 32 + size_of::<usize>() * search.space.variables.len();
+    let pool = request.pool.min(search.conditions.memory / 4 / each).max(1);
+    let mut ranker = Ranker::new(&evaluator, &ranking, pool, standing.min(pool));
     let mut given = 0;
-    for v in search.cheapest(diagrams, request.pool + 1) {
+    for v in search.cheapest(diagrams, pool + 1) {
         given += 1;
-        if ranker.take(v).is_break() {
+        if should_cancel() || ranker.take(v).is_break() {
             break;
         }
     }
-    let exhausted = diagrams.stop() == Stop::Exhausted;
-    let mut out = ranker.finish(exhausted && given <= request.pool);
-    if !exhausted {
+    let interrupted = should_cancel();
+    let exhausted = diagrams.stop() == Stop::Exhausted && !interrupted;
+    let mut out = ranker.finish(exhausted && given <= pool);
+    if interrupted && !out.proven {
+        (out.interrupted, out.proof, out.missing) = (true, "the ranking was interrupted", None);
+    } else if !exhausted {
         (out.proven, out.proof, out.missing) = (false, "the search stopped early", None);
     }
     if let Some(missing) = &mut out.missing {
         let by_cost = search.counts_by_cost(&diagrams.admissible);
-        missing.cheaper = Some(by_cost.range(..missing.settled_at).map(|(_, n)| n).sum());
+        missing.cheaper = by_cost.map(|all| all.range(..missing.settled_at).map(|(_, n)| n).sum());
     }
     Ok(Some(out))
 }

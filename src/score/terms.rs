@@ -76,6 +76,16 @@ impl Scores {
         }
     }
 
+    /// The figure as it stands in a list: what is measured to four decimals, lengths in millimetres.
+    #[must_use]
+    pub fn cell(&self, term: Term) -> String {
+        match term {
+            Term::OutputError => format!("{:.4}", 1e3 * self.output_error),
+            Term::Changes | Term::Idle | Term::Harmful => self.value(term).to_string(),
+            _ => format!("{:.4}", self.value(term)),
+        }
+    }
+
     /// What a term adds to a weighted sum, smaller being better: the figure, for conditioning minus its decimal logarithm,
     /// for the output error millimetres. What is measured counts to eleven digits: mirror images score alike, and
     /// rounding must not put one before the other.

@@ -2,11 +2,15 @@
 
 use crate::score::outcome::Outcome;
 use crate::score::request::{Check, List};
+use crate::score::run::ShouldCancel;
 use crate::score::variant::Variant;
 use crate::search::best::Assignment;
 use crate::search::certify::{CHECKED, Certified, Summary};
+use crate::search::conditions::Symmetry;
+use crate::search::diagram::Stop;
 use crate::search::over_stroke::Stroke;
 use itertools::Itertools;
+use num_traits::Zero;
 use std::fmt;
 
 impl Outcome {
@@ -19,7 +23,7 @@ impl Outcome {
 
     /// The same until `cancelled`.
     #[must_use]
-    pub fn variants_unless<'o>(&'o self, cancelled: &'o dyn Fn() -> bool) -> Variants<'o> {
+    pub fn variants_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
         let request = &self.request;
         let wanted = match request.list {
             List::Top(k) => k,
@@ -31,8 +35,8 @@ impl Outcome {
             match (&self.diagrams, &self.ranking, request.list) {
                 (None, ..) | (.., List::Nothing) => Box::new(std::iter::empty()),
                 (Some(d), _, List::Sample(n)) => {
-                    let drawn = self.search.sample(d, n, request.seed);
-                    Box::new(drawn.into_iter().map(unranked))
+                    let drawn = self.search.sample(d, request.seed);
+                    Box::new(drawn.take(n).map(unranked))
                 }
                 (_, Some(ranked), _) => {
                     let list = ranked.list.iter().enumerate();
@@ -58,6 +62,7 @@ impl Outcome {
             room: wanted,
             summary: Summary::default(),
             interrupted: false,
+            short: false,
         }
     }
 }
@@ -65,7 +70,7 @@ impl Outcome {
 /// The variants of an outcome, one by one.
 pub struct Variants<'o> {
     outcome: &'o Outcome,
-    cancelled: &'o dyn Fn() -> bool,
+    cancelled: ShouldCancel<'o>,
     /// Variants, with their places in the ranking where there is one.
     source: Box<dyn Iterator<Item = (Assignment, Option<usize>)> + 'o>,
     /// Whether second opinions are wanted of those to come.
@@ -78,6 +83,7 @@ pub struct Variants<'o> {
     room: usize,
     summary: Summary,
     interrupted: bool,
+    short: bool,
 }
 
 impl fmt::Debug for Variants<'_> {
@@ -101,6 +107,38 @@ impl Variants<'_> {
         self.interrupted
     }
 
+    /// Why the giving ended early, so far as it goes: it or the ranking was interrupted, or it would have taken more than the
+    /// memory there is.
+    #[must_use]
+    pub fn cut_short(&self) -> Option<Stop> {
+        let ranking = self.outcome.ranking.as_ref();
+        if self.interrupted || ranking.is_some_and(|r| r.interrupted) {
+            return Some(Stop::Interrupted);
+        }
+        self.short.then_some(Stop::Memory)
+    }
+
+    /// Why this is not all that was asked for: the giving, or else the search.
+    #[must_use]
+    pub fn stop(&self) -> Stop {
+        self.cut_short().unwrap_or(self.outcome.stop)
+    }
+
+    /// Whether fewer came than there are, though none was left out on purpose.
+    fn is_short(&self) -> bool {
+        let (o, given) = (self.outcome, self.summary.given);
+        let due = match o.request.list {
+            List::Sample(n) if !o.admissible.total.is_zero() => n.into(),
+            List::Top(k) if o.ranking.is_none() => o.admissible.total.clone().min(k.into()),
+            List::All => o.admissible.total.clone(),
+            _ => return false,
+        };
+        // Brute force gives none, and orbits of a list cut short are not counted one by one.
+        let counted =
+            o.diagrams.is_some() && (o.is_exact() || o.request.symmetry != Symmetry::OnePerOrbit);
+        counted && !o.request.generic_only && due > given.into()
+    }
+
     /// The next with its opinions: variants are gathered first, so that they are analysed in parallel.
     fn certified(&mut self) -> Option<(Certified, Option<usize>)> {
         if let Some(next) = self.ready.next() {
@@ -118,7 +156,7 @@ impl Variants<'_> {
         };
         let (block, places): (Vec<_>, Vec<_>) = self.source.by_ref().take(size).unzip();
         let search = &self.outcome.search;
-        let certified = search.certify(block, self.opinions, self.stroke);
+        let certified = search.certify(block, self.opinions, self.stroke, self.cancelled);
         self.ready = certified.into_iter().zip(places).collect_vec().into_iter();
         // Nothing is left out unseen, so a list of generic variants is looked at to its end.
         if !generic {
@@ -137,7 +175,11 @@ impl<'o> Iterator for Variants<'o> {
                 self.interrupted = true;
                 return None;
             }
-            let (certified, place) = self.certified()?;
+            let Some((certified, place)) = self.certified() else {
+                self.interrupted = (self.cancelled)();
+                self.short = self.is_short();
+                return None;
+            };
             if self.outcome.request.generic_only && certified.lucky() {
                 self.summary.dropped += 1;
                 continue;

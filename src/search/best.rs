@@ -48,8 +48,9 @@ impl<'d, C: Count> Cheapest<'d, C> {
         top: usize,
         wanted: impl Fn(Key) -> bool,
         rank: impl Fn(Key) -> R,
+        bytes: usize,
     ) -> Self {
-        let (tally, mut keys) = enough(diagram, steps, top, wanted);
+        let (tally, mut keys) = enough(diagram, steps, top, wanted, bytes);
         keys.sort_by_key(|&k| (k.cost(), rank(k), k));
         Cheapest {
             diagram,
@@ -108,16 +109,19 @@ impl<C: Count> Iterator for Cheapest<'_, C> {
     }
 }
 
-/// A tally of the cheapest variants, `top` of them at least where there are so many, with their keys.
+/// A tally of the cheapest variants, `top` of them at least where there are so many, with their keys; fewer where their tables
+/// would take more than some bytes.
 fn enough<C: Count>(
     diagram: &Diagram,
     steps: &Steps,
     top: usize,
     wanted: impl Fn(Key) -> bool,
+    bytes: usize,
 ) -> (Tally<C>, Vec<Key>) {
     let least = least_costs(diagram, steps);
+    let mut found = (Tally { tables: Vec::new() }, Vec::new());
     let Some(floor) = least.completion[0][0] else {
-        return (Tally::new(diagram, steps, None), Vec::new());
+        return found;
     };
     let chosen = steps.keys.iter().flatten().map(|k| k.cost()).max();
     let ends = diagram.terminals.iter();
@@ -135,8 +139,10 @@ fn enough<C: Count>(
                     .collect()
             })
             .collect();
-        let tally: Tally<C> = Tally::new(diagram, steps, Some(&bound));
-        let found: Vec<Key> = tally
+        let Some(tally) = Tally::<C>::new(diagram, steps, Some(&bound), bytes) else {
+            return found;
+        };
+        let keys: Vec<Key> = tally
             .totals()
             .iter()
             .map(|(k, _)| *k)
@@ -148,8 +154,9 @@ fn enough<C: Count>(
             .filter(|(k, _)| wanted(*k))
             .map(|(_, c)| c.big())
             .sum();
+        found = (tally, keys);
         if count >= BigUint::from(top) || limit >= ceiling {
-            return (tally, found);
+            return found;
         }
         slack = if slack == 0 { 1 } else { slack * 2 };
     }
@@ -211,33 +218,56 @@ fn least_costs(diagram: &Diagram, steps: &Steps) -> Least {
     Least { prefix, completion }
 }
 
-/// Draws `count` variants whose key passes `wanted`, independently, each with the same chance.
-///
-/// `told` are the steps the tally was made with; the variants' own keys are made from `steps`.
-pub fn sample<C: Count>(
-    diagram: &Diagram,
-    steps: &Steps,
-    told: &Steps,
-    tally: &Tally<C>,
-    count: usize,
-    seed: u64,
-    wanted: impl Fn(Key) -> bool,
-) -> Vec<Assignment> {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let totals: Vec<(Key, BigUint)> = tally
-        .totals()
-        .iter()
-        .filter(|(k, _)| wanted(*k))
-        .map(|(k, c)| (*k, c.big()))
-        .collect();
-    let all: BigUint = totals.iter().map(|(_, c)| c).sum();
-    if all.is_zero() {
-        return Vec::new();
+/// Variants whose key passes a test, drawn without end, independently, each with the same chance.
+#[derive(Debug)]
+pub struct Sample<'d, C> {
+    diagram: &'d Diagram,
+    steps: &'d Steps,
+    /// The steps the tally was made with; the variants' own keys are made from `steps`.
+    told: Steps,
+    tally: Tally<C>,
+    /// What there is to draw from, by key, and how much in all.
+    totals: Vec<(Key, BigUint)>,
+    all: BigUint,
+    random: ChaCha8Rng,
+}
+
+impl<'d, C: Count> Sample<'d, C> {
+    /// Makes ready to draw; `told` are the steps the tally was made with.
+    pub fn new(
+        diagram: &'d Diagram,
+        steps: &'d Steps,
+        (told, tally): (Steps, Tally<C>),
+        seed: u64,
+        wanted: impl Fn(Key) -> bool,
+    ) -> Self {
+        let counts = tally.totals().iter().filter(|(k, _)| wanted(*k));
+        let totals: Vec<(Key, BigUint)> = counts.map(|(k, c)| (*k, c.big())).collect();
+        let all = totals.iter().map(|(_, c)| c).sum();
+        let random = ChaCha8Rng::seed_from_u64(seed);
+        Sample {
+            diagram,
+            steps,
+            told,
+            tally,
+            totals,
+            all,
+            random,
+        }
     }
-    let mut draw = || {
-        let mut ticket = below(&mut random, &all);
-        let mut key = totals[0].0;
-        for (k, c) in &totals {
+}
+
+impl<C: Count> Iterator for Sample<'_, C> {
+    type Item = Assignment;
+
+    fn next(&mut self) -> Option<Assignment> {
+        if self.all.is_zero() {
+            return None;
+        }
+        let (diagram, steps) = (self.diagram, self.steps);
+        let mut ticket = below(&mut self.random, &self.all);
+        let mut key = self.totals[0].0;
+        for (k, c) in &self.totals {
             if ticket < *c {
                 key = *k;
                 break;
@@ -247,7 +277,7 @@ pub fn sample<C: Count>(
         let mut choices = vec![0; steps.keys.len()];
         let (mut node, mut whole) = (0usize, 0u128);
         for (l, layer) in diagram.layers.iter().enumerate() {
-            for (choice, edge) in told.keys[layer.variable].iter().enumerate() {
+            for (choice, edge) in self.told.keys[layer.variable].iter().enumerate() {
                 let to = layer.edges[node * layer.choices + choice];
                 let Some(rest) = key.0.checked_sub(edge.0).map(Key) else {
                     continue;
@@ -255,7 +285,7 @@ pub fn sample<C: Count>(
                 if to == DEAD {
                     continue;
                 }
-                let table = &tally.tables[l + 1][to as usize];
+                let table = &self.tally.tables[l + 1][to as usize];
                 let Ok(i) = table.binary_search_by_key(&rest, |(k, _)| *k) else {
                     continue;
                 };
@@ -270,12 +300,11 @@ pub fn sample<C: Count>(
             }
         }
         whole += steps.redundancy(diagram.terminals[node]).0;
-        Assignment {
+        Some(Assignment {
             choices,
             key: Key(whole),
-        }
-    };
-    (0..count).map(|_| draw()).collect()
+        })
+    }
 }
 
 /// A number below `n`, each with the same chance.

@@ -4,7 +4,7 @@ use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactError;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::JointId;
-use crate::redundancy::stress::{SelfStress, Verdict, self_stresses};
+use crate::redundancy::stress::harmful_count;
 use crate::search::conditions::Search;
 use crate::search::counts::Counts;
 use crate::search::held::loose;
@@ -229,10 +229,8 @@ impl Search {
         if let Some(s) = self.conditions.state.filter(|_| good) {
             let realized = self.realize(choices);
             let closure = Closure::new(&self.exact, &realized, s.state)?;
-            let stresses = self_stresses(&self.exact, &realized, &closure)?;
-            let harmful = |t: &&SelfStress| t.external && t.verdict == Verdict::Harmful;
-            found.harmful =
-                u32::try_from(stresses.iter().filter(harmful).count()).unwrap_or(u32::MAX);
+            let harmful = harmful_count(&self.exact, &realized, &closure)?;
+            found.harmful = u32::try_from(harmful).unwrap_or(u32::MAX);
             let beyond = |x: i64, limit: Option<u32>| limit.is_some_and(|l| x > i64::from(l));
             good = !beyond(seen.external.into(), s.max_external)
                 && !beyond(found.harmful.into(), s.max_harmful)

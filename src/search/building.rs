@@ -3,6 +3,7 @@
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId};
+use crate::search::budget;
 use crate::search::conditions::Search;
 use crate::search::diagram::{self, Diagram, Progress, Stop};
 use crate::search::lanes::{Lane, Move, ways};
@@ -105,6 +106,8 @@ impl Search {
             external: None,
             harmful: None,
             nodes: self.conditions.nodes,
+            // Two primes with two diagrams each take half, and what is counted on them the rest.
+            bytes: self.conditions.memory / 8,
         };
         let all = 0..self.space.variables.len();
         let (free, added): (Vec<usize>, Vec<usize>) =
@@ -129,7 +132,15 @@ impl Search {
                     progress,
                 )
             };
-        let determinate = build(&stages, &limits, progress);
+        // What is cut down is worth the variants it counts.
+        let mut whole = |filter: bool, stages: &[Stage], limits: &Limits| {
+            budget::best(
+                limits,
+                &mut |limits| build(stages, limits, progress),
+                &|d| self.total(d, filter),
+            )
+        };
+        let determinate = whole(false, &stages, &limits);
         if self.one_diagram() {
             return Diagrams {
                 admissible: determinate.clone(),
@@ -178,7 +189,7 @@ impl Search {
         if self.conditions.keep_output {
             self.look_ahead(&mut stages[..free.len()], alone.is_empty());
         }
-        let admissible = build(&stages, &limits, progress);
+        let admissible = whole(true, &stages, &limits);
         order.extend(alone);
         order.extend(added);
         Diagrams {

@@ -141,7 +141,8 @@ struct Shape {
 }
 
 impl Search {
-    /// Analyses some variants by singular values, and in the poses of a stroke where one is given, in parallel.
+    /// Analyses some variants by singular values, and in the poses of a stroke where one is given, in parallel; the first
+    /// of them alone where `cancelled`.
     ///
     /// # Complexity
     /// Two or three decompositions of a 6k x f matrix a variant, and about two more for each pose.
@@ -151,6 +152,7 @@ impl Search {
         variants: Vec<Assignment>,
         opinions: bool,
         stroke: Option<&Stroke>,
+        cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Vec<Certified> {
         let mut shapes: BTreeMap<Vec<bool>, Shape> = BTreeMap::new();
         for v in variants.iter().filter(|_| opinions) {
@@ -174,7 +176,10 @@ impl Search {
                 stroke,
             }
         };
-        variants.into_par_iter().with_min_len(4).map(one).collect()
+        let unless = |v| (!cancelled()).then(|| one(v));
+        let all = variants.into_par_iter().with_min_len(4).map(unless);
+        let all: Vec<Option<Certified>> = all.collect();
+        all.into_iter().map_while(|c| c).collect()
     }
 
     /// At which variables an unloading joint is inserted.

@@ -11,6 +11,7 @@ use crate::search::held::{Grasp, grasps, is_free, loose};
 use crate::search::mirror::{self, MirrorError};
 use crate::search::space::Space;
 use crate::search::tally::{Key, Steps};
+use itertools::Itertools;
 use num_bigint::BigUint;
 use std::sync::Arc;
 use thiserror::Error;
@@ -70,6 +71,8 @@ pub struct Conditions {
     pub symmetry: Symmetry,
     /// Node budget of each diagram.
     pub nodes: usize,
+    /// Bytes that the search and what is counted on it may hold.
+    pub memory: usize,
     /// Second opinions take singular values below this fraction of the largest for zero.
     pub tolerance: f64,
 }
@@ -84,6 +87,7 @@ impl Default for Conditions {
             keep_output: true,
             symmetry: Symmetry::All,
             nodes: 1_000_000,
+            memory: 4 << 30,
             tolerance: DEFAULT_TOLERANCE,
         }
     }
@@ -99,7 +103,19 @@ pub enum SearchError {
     /// Symmetry of a mechanism that is not its own mirror image.
     #[error(transparent)]
     Mirror(#[from] MirrorError),
+    /// Chains that close nowhere.
+    #[error(
+        "{open} joints are in no contour, more than the {OPEN} that a search takes: nothing there is redundant whatever is \
+         chosen, so leave such chains out"
+    )]
+    Open {
+        /// How many.
+        open: usize,
+    },
 }
+
+/// Most joints that are in no contour: each is one more link that moves by itself, and every step looks at all of them.
+const OPEN: usize = 200;
 
 /// A search made ready: space, costs, and the diagram of the admissible variants.
 #[derive(Debug)]
@@ -155,8 +171,17 @@ impl Search {
         kept.sort_unstable();
         kept.dedup();
         let present = joint_motion(&exact, &mechanism, StateId::FREE, &kept)?;
-        let rows = space.dim * contour_basis(&mechanism, StateId::FREE).len()
-            + mechanism.couplings_in(StateId::FREE).count();
+        let contours = contour_basis(&mechanism, StateId::FREE);
+        let closed = contours
+            .iter()
+            .flat_map(|c| &c.joints)
+            .map(|(j, _)| j)
+            .unique();
+        let open = mechanism.joints_in(StateId::FREE).count() - closed.count();
+        if open > OPEN {
+            return Err(SearchError::Open { open });
+        }
+        let rows = space.dim * contours.len() + mechanism.couplings_in(StateId::FREE).count();
         let rows = i64::try_from(rows).unwrap_or(i64::MAX);
         let searched = conditions.state.iter();
         let grasps = searched.flat_map(|s| grasps(&mechanism, s.state, s.hold_objects));

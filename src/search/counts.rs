@@ -2,7 +2,7 @@
 
 use crate::search::conditions::{Conditions, Search, SearchError, Symmetry};
 use crate::search::diagram::{Diagram, Stop};
-use crate::search::tally::{Count, Key, Kinds, Tally};
+use crate::search::tally::{Count, Key, Kinds, totals};
 use num_bigint::BigUint;
 use num_traits::Zero;
 use std::collections::BTreeMap;
@@ -23,6 +23,8 @@ pub struct Counts {
     pub by_redundant: BTreeMap<u32, BigUint>,
     /// By freedoms f.
     pub by_freedoms: BTreeMap<u32, BigUint>,
+    /// Whether the total alone is there, since the rest would take more than the memory there is.
+    pub only_total: bool,
 }
 
 impl fmt::Display for Counts {
@@ -81,37 +83,64 @@ impl Search {
     }
 
     fn count_with<C: Count>(&self, diagram: &Diagram, filter: bool) -> Counts {
-        let kinds = Kinds {
+        let all = Kinds {
             freedoms: true,
             changes: true,
             cost: false,
         };
-        let tally: Tally<C> = Tally::new(diagram, &self.steps.only(kinds), None);
+        let room = self.conditions.memory / 4;
+        let wanted = |key: &Key| !filter || self.wanted(*key);
         let mut counts = Counts::default();
-        for (key, count) in tally.totals() {
-            if !filter || self.wanted(*key) {
+        if let Some(totals) = totals::<C>(diagram, &self.steps.only(all), room) {
+            for (key, count) in totals.iter().filter(|(k, _)| wanted(k)) {
                 counts.add(self.mobility(*key), *key, &count.big());
             }
+            return counts;
         }
+        counts.only_total = true;
+        counts.total = self.total(diagram, filter);
         counts
     }
 
-    /// Counts by cost in thousandths of the variants of a diagram that meet every condition.
+    /// How many variants a diagram has; `filter` applies the conditions on mobility and changes too. None that the memory there
+    /// is does not suffice to count.
+    pub(super) fn total(&self, diagram: &Diagram, filter: bool) -> BigUint {
+        fn with<C: Count>(s: &Search, diagram: &Diagram, filter: bool) -> BigUint {
+            let needed = Kinds {
+                freedoms: filter && s.conditions.max_mobility.is_some(),
+                changes: filter && s.conditions.max_changes.is_some(),
+                cost: false,
+            };
+            let steps = s.steps.only(needed);
+            let totals = totals::<C>(diagram, &steps, s.conditions.memory / 4);
+            let wanted = |key: &Key| !filter || s.wanted(*key);
+            let all = totals.iter().flatten().filter(|(k, _)| wanted(k));
+            all.map(|(_, c)| c.big()).sum()
+        }
+        if self.fits() {
+            with::<u128>(self, diagram, filter)
+        } else {
+            with::<BigUint>(self, diagram, filter)
+        }
+    }
+
+    /// Counts by cost in thousandths of the variants of a diagram that meet every condition; `None` where they would take
+    /// more than the memory there is.
     #[must_use]
-    pub fn counts_by_cost(&self, diagram: &Diagram) -> BTreeMap<i64, BigUint> {
-        fn with<C: Count>(s: &Search, diagram: &Diagram) -> BTreeMap<i64, BigUint> {
+    pub fn counts_by_cost(&self, diagram: &Diagram) -> Option<BTreeMap<i64, BigUint>> {
+        fn with<C: Count>(s: &Search, diagram: &Diagram) -> Option<BTreeMap<i64, BigUint>> {
             let kinds = Kinds {
                 freedoms: s.conditions.max_mobility.is_some(),
                 changes: s.conditions.max_changes.is_some(),
                 cost: true,
             };
-            let tally: Tally<C> = Tally::new(diagram, &s.steps.only(kinds), None);
+            let totals = totals::<C>(diagram, &s.steps.only(kinds), s.conditions.memory / 4)?;
             let mut out = BTreeMap::new();
-            for (key, count) in tally.totals().iter().filter(|(k, _)| s.wanted(*k)) {
+            for (key, count) in totals.iter().filter(|(k, _)| s.wanted(*k)) {
                 *out.entry(s.steps.milli(key.cost()))
                     .or_insert_with(BigUint::zero) += count.big();
             }
-            out
+            Some(out)
         }
         if self.fits() {
             with::<u128>(self, diagram)
@@ -128,7 +157,7 @@ impl Search {
         &self,
         all: (Counts, Counts),
         cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Result<((Counts, Counts), Stop), SearchError> {
+    ) -> Result<((Counts, Counts), [Stop; 2]), SearchError> {
         let conditions = Conditions {
             symmetry: Symmetry::SymmetricOnly,
             ..self.conditions.clone()
@@ -139,6 +168,7 @@ impl Search {
             .0
             .orbits(&symmetric.counts(&diagrams.determinate, false));
         let admissible = all.1.orbits(&symmetric.counts(&diagrams.admissible, true));
-        Ok(((determinate, admissible), diagrams.stop()))
+        let stops = [diagrams.determinate.stop, diagrams.admissible.stop];
+        Ok(((determinate, admissible), stops))
     }
 }

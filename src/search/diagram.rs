@@ -7,15 +7,14 @@ use crate::geom::exact::ExactField;
 use crate::linalg::modp::Field;
 use crate::search::growth::{Grown, grown};
 use crate::search::lookahead::Lookahead;
-use crate::search::merge::{Merge, Nodes};
+pub use crate::search::merge::DEAD;
+use crate::search::merge::{CUT, Merge, Nodes};
 use crate::search::space::Space;
 use crate::search::spent::{Limits, Redundancy, Spent};
 use crate::search::stage::Stage;
+pub use crate::search::stop::Stop;
 use crate::search::transition::{Children, Worker};
 use rayon::prelude::*;
-
-/// A missing edge: the choice leads nowhere admissible.
-pub const DEAD: u32 = u32::MAX;
 
 /// Building progress, for whoever shows it.
 #[derive(Debug, Clone, Copy)]
@@ -28,35 +27,6 @@ pub struct Progress {
     pub nodes: usize,
     /// Nodes of the present layer.
     pub layer: usize,
-}
-
-/// Why building ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stop {
-    /// Everything was looked at: counts are exact.
-    Exhausted,
-    /// The node budget cut layers down to their cheapest nodes: counts are lower bounds.
-    NodeBudget,
-    /// The caller asked to end: layers were cut down, counts are lower bounds.
-    Interrupted,
-}
-
-impl Stop {
-    /// The first of two reasons that is one.
-    #[must_use]
-    pub fn or(self, other: Stop) -> Stop {
-        if self == Stop::Exhausted { other } else { self }
-    }
-
-    /// The word for programs.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Stop::Exhausted => "exhausted",
-            Stop::NodeBudget => "node-budget",
-            Stop::Interrupted => "interrupted",
-        }
-    }
 }
 
 /// Edges of one layer: `edges[node * choices + choice]`, an index into the next layer or [`DEAD`].
@@ -109,7 +79,7 @@ impl Diagram {
 ///
 /// # Complexity
 /// O(nodes · choices · d²w) field operations for matrices of d rows and w columns; memory is the edges of all layers
-/// and the matrices of two, both bounded by `limits.nodes`.
+/// and the matrices of two, both bounded by `limits.nodes` and `limits.bytes`.
 pub fn build(
     exact: &ExactField,
     space: &Space,
@@ -120,14 +90,18 @@ pub fn build(
 ) -> Diagram {
     let mut nodes = Nodes::root();
     let mut layers = Vec::with_capacity(stages.len());
-    let (mut total, mut largest, mut stop) = (1, 1, Stop::Exhausted);
+    let (mut total, mut largest, mut stop, mut held) = (1, 1, Stop::Exhausted, 0);
     for (done, stage) in stages.iter().enumerate() {
         let choices = &space.variables[stage.variable].choices;
         let room = limits.nodes.saturating_sub(total).max(CUT);
-        let mut merge = Merge::new(room, stop, nodes.len() * choices.len());
+        let bytes = limits.bytes.saturating_sub(held + nodes.bytes());
+        let mut merge = Merge::new((room, bytes), stop, nodes.len() * choices.len());
         let growth = grown(exact.field(), space, stage);
-        for batch in (0..nodes.len()).step_by(BATCH) {
-            let batch = batch..(batch + BATCH).min(nodes.len());
+        // Children that are not merged yet may take an eighth of the memory; one is about as large as its parent.
+        let each = nodes.bytes() / nodes.len().max(1) * choices.len();
+        let size = (limits.bytes / 8 / each.max(1)).clamp(CUT, BATCH);
+        for batch in (0..nodes.len()).step_by(size) {
+            let batch = batch..(batch + size).min(nodes.len());
             for part in expand(
                 exact.field(),
                 space,
@@ -140,7 +114,7 @@ pub fn build(
             }
             if cancelled() && merge.stop != Stop::Interrupted {
                 merge.stop = Stop::Interrupted;
-                merge.room = merge.room.min(CUT);
+                merge.cut();
             }
             progress(Progress {
                 done,
@@ -166,6 +140,11 @@ pub fn build(
             Stop::NodeBudget => {
                 (limits.nodes.saturating_sub(total) / (stages.len() - done)).max(CUT)
             }
+            Stop::Memory => {
+                let each = next.bytes() / next.len().max(1) + size_of::<u32>() * choices.len();
+                let left = limits.bytes.saturating_sub(held) / (stages.len() - done);
+                (left / each).max(CUT)
+            }
             Stop::Interrupted => CUT,
         };
         if next.len() > keep {
@@ -173,6 +152,7 @@ pub fn build(
         }
         total += next.len();
         largest = largest.max(next.len());
+        held += size_of::<u32>() * edges.len();
         layers.push(Layer {
             variable: stage.variable,
             nodes: nodes.len(),
@@ -190,9 +170,7 @@ pub fn build(
     }
 }
 
-/// Nodes a layer keeps at least, however small the budget, so that a search always reaches the end.
-const CUT: usize = 256;
-/// Nodes expanded before their children are merged, which bounds the memory of unmerged children.
+/// Nodes expanded at most before their children are merged.
 const BATCH: usize = 1 << 14;
 /// Fewer children than this are not worth waking threads for.
 const PARALLEL: usize = 1024;

@@ -1,10 +1,10 @@
 //! The admissible variants of a finished diagram: the cheapest in order, or some at random.
 
-use crate::search::best::{self, Assignment, Cheapest};
+use crate::search::best::{Assignment, Cheapest, Sample};
 use crate::search::building::Diagrams;
 use crate::search::conditions::{Search, Symmetry};
 use crate::search::diagram::Diagram;
-use crate::search::tally::{Key, Kinds, Tally};
+use crate::search::tally::{Count, Key, Kinds, Tally};
 use num_bigint::BigUint;
 
 impl Search {
@@ -38,6 +38,7 @@ impl Search {
                 top,
                 wanted,
                 rank,
+                self.conditions.memory / 4,
             ))
         } else {
             Box::new(Cheapest::<BigUint>::new(
@@ -46,27 +47,39 @@ impl Search {
                 top,
                 wanted,
                 rank,
+                self.conditions.memory / 4,
             ))
         }
     }
 
-    /// Draws admissible variants, each with the same chance.
-    #[must_use]
-    pub fn sample(&self, diagrams: &Diagrams, count: usize, seed: u64) -> Vec<Assignment> {
+    /// Draws admissible variants without end, each with the same chance; none where what it takes to draw is more than the
+    /// memory there is.
+    pub fn sample<'a>(
+        &'a self,
+        diagrams: &'a Diagrams,
+        seed: u64,
+    ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+        if self.fits() {
+            self.sample_with::<u128>(&diagrams.admissible, seed)
+        } else {
+            self.sample_with::<BigUint>(&diagrams.admissible, seed)
+        }
+    }
+
+    fn sample_with<'a, C: Count + 'a>(
+        &'a self,
+        diagram: &'a Diagram,
+        seed: u64,
+    ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
         let kinds = Kinds {
             freedoms: self.conditions.max_mobility.is_some(),
             changes: self.conditions.max_changes.is_some(),
             cost: false,
         };
         let keys = self.steps.only(kinds);
-        let diagram = &diagrams.admissible;
+        let tally = Tally::<C>::new(diagram, &keys, None, self.conditions.memory / 4);
         let wanted = |k: Key| self.wanted(k);
-        if self.fits() {
-            let tally: Tally<u128> = Tally::new(diagram, &keys, None);
-            best::sample(diagram, &self.steps, &keys, &tally, count, seed, wanted)
-        } else {
-            let tally: Tally<BigUint> = Tally::new(diagram, &keys, None);
-            best::sample(diagram, &self.steps, &keys, &tally, count, seed, wanted)
-        }
+        let drawn = tally.map(|t| Sample::new(diagram, &self.steps, (keys, t), seed, wanted));
+        Box::new(drawn.into_iter().flatten())
     }
 }

@@ -1,10 +1,19 @@
 //! A layer of the diagram being put together: equal children become one node.
 
 use crate::linalg::modp::Residue;
-use crate::search::diagram::{DEAD, Stop};
 use crate::search::spent::Spent;
+use crate::search::stop::Stop;
 use crate::search::transition::Children;
 use hashbrown::HashTable;
+
+/// A missing edge: the choice leads nowhere admissible.
+pub const DEAD: u32 = u32::MAX;
+
+/// Nodes a layer keeps at least, however small the budget, so that a search always reaches the end.
+pub(super) const CUT: usize = 256;
+
+/// Bytes of a node besides its matrix: what was spent, where the matrix starts, the least cost, and its place in the table.
+const NODE: usize = size_of::<Spent>() + 3 * size_of::<u64>() + 2 * size_of::<(u64, u32)>();
 
 /// The nodes of a layer while it is being built.
 pub(super) struct Nodes {
@@ -40,6 +49,11 @@ impl Nodes {
         self.spent.len()
     }
 
+    /// Bytes of the nodes, with the table that finds them while they are gathered.
+    pub(super) fn bytes(&self) -> usize {
+        size_of::<Residue>() * self.data.len() + NODE * self.len()
+    }
+
     pub(super) fn matrix(&self, i: usize) -> &[Residue] {
         &self.data[self.start[i]..self.start[i + 1]]
     }
@@ -55,7 +69,9 @@ impl Nodes {
 /// A layer being put together.
 pub(super) struct Merge {
     /// New nodes allowed.
-    pub(super) room: usize,
+    room: usize,
+    /// Bytes that they and the edges may take.
+    bytes: usize,
     pub(super) stop: Stop,
     table: HashTable<(u64, u32)>,
     pub(super) next: Nodes,
@@ -63,15 +79,21 @@ pub(super) struct Merge {
 }
 
 impl Merge {
-    /// A layer that takes `room` nodes, and whose edges are about as many as `edges`.
-    pub(super) fn new(room: usize, stop: Stop, edges: usize) -> Self {
+    /// A layer that takes so many nodes and bytes, and whose edges are about as many as `edges`.
+    pub(super) fn new((room, bytes): (usize, usize), stop: Stop, edges: usize) -> Self {
         Merge {
             room,
+            bytes,
             stop,
             table: HashTable::new(),
             next: Nodes::empty(),
             edges: Vec::with_capacity(edges),
         }
+    }
+
+    /// Takes few more nodes.
+    pub(super) fn cut(&mut self) {
+        self.room = self.room.min(CUT);
     }
 
     /// Takes the children of some nodes, those of the nodes before them having been taken.
@@ -92,10 +114,11 @@ impl Merge {
             let index = match self.table.entry(hash, same, |&(h, _)| h) {
                 hashbrown::hash_table::Entry::Occupied(o) => o.get().1,
                 hashbrown::hash_table::Entry::Vacant(v) => {
-                    if next.len() >= self.room {
-                        if self.stop == Stop::Exhausted {
-                            self.stop = Stop::NodeBudget;
-                        }
+                    let taken = next.bytes() + size_of::<u32>() * self.edges.len();
+                    let full = taken >= self.bytes && next.len() >= CUT;
+                    if full || next.len() >= self.room {
+                        let why = if full { Stop::Memory } else { Stop::NodeBudget };
+                        self.stop = self.stop.or(why);
                         self.edges.push(DEAD);
                         continue;
                     }

@@ -79,19 +79,27 @@ impl OverStroke {
 
 impl Search {
     /// Reaches `count` generic poses along the present motion of the free state, both ways from the file's pose, as far
-    /// as it has one.
+    /// as it has one, and until `cancelled`.
     ///
     /// # Errors
     /// Where a coordinate has no value.
     ///
     /// # Complexity
     /// Some closings of O((6k)² f) a pose.
-    pub fn stroke(&self, count: usize, seed: u64) -> Result<Stroke, ExactError> {
+    pub fn stroke(
+        &self,
+        count: usize,
+        seed: u64,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Stroke, ExactError> {
         let pose = Pose::of_file(&self.mechanism, StateId::FREE)?;
         let span = motions(&pose);
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut poses = Vec::new();
         for i in 0..if span.ncols() == 0 { 0 } else { count } {
+            if cancelled() {
+                break;
+            }
             let weights: Vec<f64> = (0..span.ncols())
                 .map(|_| f64::from(random.next_u32()) / f64::from(u32::MAX) - 0.5)
                 .collect();

@@ -13,6 +13,8 @@ pub struct Limits {
     pub harmful: Option<u32>,
     /// Nodes in all.
     pub nodes: usize,
+    /// Bytes held at a time, nodes and edges.
+    pub bytes: usize,
 }
 
 /// Redundant constraints so far.

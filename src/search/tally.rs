@@ -13,6 +13,10 @@ pub trait Count: Clone + Send + Sync + for<'a> AddAssign<&'a Self> {
     fn one() -> Self;
     /// As a number of any size.
     fn big(&self) -> BigUint;
+    /// Bytes held besides the number itself.
+    fn beside(&self) -> usize {
+        0
+    }
 }
 
 impl Count for u128 {
@@ -30,6 +34,10 @@ impl Count for BigUint {
     }
     fn big(&self) -> BigUint {
         self.clone()
+    }
+    fn beside(&self) -> usize {
+        // Digits, and what an allocation takes.
+        usize::try_from(self.bits() / 8).unwrap_or(usize::MAX / 4) + 32
     }
 }
 
@@ -176,80 +184,39 @@ impl Steps {
     }
 }
 
+/// Completions of a node by key, keys ascending.
+type Table<C> = Vec<(Key, C)>;
+
 /// For every node, its completions by key, keys ascending.
 #[derive(Debug, Clone)]
 pub struct Tally<C> {
     /// `tables[layer][node]`; the last layer holds the terminals.
-    pub tables: Vec<Vec<Vec<(Key, C)>>>,
+    pub tables: Vec<Vec<Table<C>>>,
 }
 
 impl<C: Count> Tally<C> {
     /// Counts backwards from the terminals. With a `bound` per node, completions whose cost exceeds it are left out:
-    /// `bound(layer, node)` is the largest cost of interest.
+    /// `bound(layer, node)` is the largest cost of interest. `None` where the tables would take more than some bytes.
     ///
     /// # Complexity
-    /// O(edges · table size + nodes · table size · log), with table sizes given by the kinds told apart.
+    /// O(edges · table size · log), with table sizes given by the kinds told apart.
     #[must_use]
-    pub fn new(diagram: &Diagram, steps: &Steps, bound: Option<&[Vec<u64>]>) -> Tally<C> {
-        let last = diagram
-            .terminals
-            .iter()
-            .map(|&r| vec![(steps.redundancy(r), C::one())]);
-        let mut tables: Vec<Vec<Vec<(Key, C)>>> = vec![last.collect()];
-        // The keys of the layer below, and of each entry of its tables the place of its key among them.
-        let mut known: Vec<Key> = tables[0].iter().flatten().map(|(k, _)| *k).collect();
-        known.sort_unstable();
-        known.dedup();
-        let place = |(k, _): &(Key, C)| known.partition_point(|x| x < k);
-        let mut places: Vec<Vec<usize>> = tables[0]
-            .iter()
-            .map(|t| t.iter().map(place).collect())
-            .collect();
-        for (l, layer) in diagram.layers.iter().enumerate().rev() {
+    pub fn new(
+        diagram: &Diagram,
+        steps: &Steps,
+        bound: Option<&[Vec<u64>]>,
+        bytes: usize,
+    ) -> Option<Tally<C>> {
+        let mut left = bytes;
+        let mut tables: Vec<Vec<Table<C>>> = vec![terminals(diagram, steps)];
+        for l in (0..diagram.layers.len()).rev() {
             let below = tables.last().expect("there is a last layer");
-            let shifts = Shifts::new(&known, &steps.keys[layer.variable]);
-            let mut sums: Vec<Option<C>> = vec![None; shifts.keys.len()];
-            let mut met: Vec<usize> = Vec::new();
-            let (mut here, mut at) = (Vec::new(), Vec::new());
-            for node in 0..layer.nodes {
-                let limit = bound.map_or(u64::MAX, |b| b[l][node]);
-                let edges = &layer.edges[node * layer.choices..(node + 1) * layer.choices];
-                for (shift, &to) in shifts.of_choice.iter().zip(edges) {
-                    if to == DEAD {
-                        continue;
-                    }
-                    let entries = below[to as usize].iter().zip(&places[to as usize]);
-                    for ((_, count), &from) in entries {
-                        let to = shifts.to[*shift][from];
-                        if shifts.keys[to].cost() > limit {
-                            break;
-                        }
-                        match &mut sums[to] {
-                            Some(sum) => *sum += count,
-                            none => {
-                                *none = Some(count.clone());
-                                met.push(to);
-                            }
-                        }
-                    }
-                }
-                // Few are sorted, many found by looking through all.
-                if met.len() * 8 < sums.len() {
-                    met.sort_unstable();
-                } else {
-                    met.clear();
-                    met.extend((0..sums.len()).filter(|&i| sums[i].is_some()));
-                }
-                let entry = |&to: &usize| Some((shifts.keys[to], sums[to].take()?));
-                here.push(met.iter().filter_map(entry).collect());
-                at.push(met.clone());
-                met.clear();
-            }
-            tables.push(here);
-            (known, places) = (shifts.keys, at);
+            let here = layer(diagram, steps, (l, bound.map(|b| &b[l][..])), below, left)?;
+            left = left.saturating_sub(here.1);
+            tables.push(here.0);
         }
         tables.reverse();
-        Tally { tables }
+        Some(Tally { tables })
     }
 
     /// Counts of whole variants by key.
@@ -262,32 +229,67 @@ impl<C: Count> Tally<C> {
     }
 }
 
-/// How the keys of a layer's completions come from those of the layer below.
-struct Shifts {
-    /// All keys, ascending.
-    keys: Vec<Key>,
-    /// Of each choice, which of the different shifts is its own.
-    of_choice: Vec<usize>,
-    /// `to[shift][key below]`, a place in `keys`.
-    to: Vec<Vec<usize>>,
+/// Counts of whole variants by key, with no more than two layers' tables held at a time; `None` where even these would take
+/// more than some bytes.
+///
+/// # Complexity
+/// As [`Tally::new`].
+#[must_use]
+pub fn totals<C: Count>(diagram: &Diagram, steps: &Steps, bytes: usize) -> Option<Table<C>> {
+    let mut below = (terminals(diagram, steps), 0);
+    for l in (0..diagram.layers.len()).rev() {
+        let left = bytes.saturating_sub(below.1);
+        below = layer(diagram, steps, (l, None), &below.0, left)?;
+    }
+    Some(below.0.into_iter().next().unwrap_or_default())
 }
 
-impl Shifts {
-    fn new(below: &[Key], choices: &[Key]) -> Shifts {
-        let mut different = choices.to_vec();
-        different.sort_unstable();
-        different.dedup();
-        let shifted = |by: Key| below.iter().map(move |k| Key(k.0 + by.0));
-        let mut keys: Vec<Key> = different.iter().flat_map(|&by| shifted(by)).collect();
-        keys.sort_unstable();
-        keys.dedup();
-        let place = |k: Key| keys.partition_point(|x| *x < k);
-        let to = different.iter().map(|&by| shifted(by).map(place).collect());
-        let of_choice = choices.iter().map(|c| different.partition_point(|x| x < c));
-        Shifts {
-            of_choice: of_choice.collect(),
-            to: to.collect(),
-            keys,
+fn terminals<C: Count>(diagram: &Diagram, steps: &Steps) -> Vec<Table<C>> {
+    let ends = diagram.terminals.iter();
+    ends.map(|&r| vec![(steps.redundancy(r), C::one())])
+        .collect()
+}
+
+/// The tables of layer `l` from those of the one below, with the bytes they take; `None` where these are too many.
+fn layer<C: Count>(
+    diagram: &Diagram,
+    steps: &Steps,
+    (l, bound): (usize, Option<&[u64]>),
+    below: &[Table<C>],
+    bytes: usize,
+) -> Option<(Vec<Table<C>>, usize)> {
+    let layer = &diagram.layers[l];
+    let keys = &steps.keys[layer.variable];
+    let mut here = Vec::with_capacity(layer.nodes);
+    let mut gathered: Vec<(Key, &C)> = Vec::new();
+    let mut used = 0;
+    for node in 0..layer.nodes {
+        let limit = bound.map_or(u64::MAX, |b| b[node]);
+        gathered.clear();
+        for (choice, &to) in layer.edges[node * layer.choices..(node + 1) * layer.choices]
+            .iter()
+            .enumerate()
+        {
+            if to != DEAD {
+                let edge = keys[choice].0;
+                let table = below[to as usize].iter().map(|(k, c)| (Key(k.0 + edge), c));
+                gathered.extend(table.take_while(|(k, _)| k.cost() <= limit));
+            }
         }
+        gathered.sort_unstable_by_key(|(k, _)| *k);
+        let mut table: Table<C> = Vec::new();
+        for (k, c) in &gathered {
+            match table.last_mut() {
+                Some((known, sum)) if known == k => *sum += c,
+                _ => table.push((*k, (*c).clone())),
+            }
+        }
+        used += table.capacity() * size_of::<(Key, C)>();
+        used += table.iter().map(|(_, c)| c.beside()).sum::<usize>();
+        if used > bytes {
+            return None;
+        }
+        here.push(table);
     }
+    Some((here, used))
 }

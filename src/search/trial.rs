@@ -75,6 +75,7 @@ impl<'m> Trials<'m> {
             external: None,
             harmful: None,
             nodes: WIDEST,
+            bytes: usize::MAX,
         };
         let worker = Worker::new(exact.field(), space.dim);
         (
@@ -112,7 +113,7 @@ impl<'m> Trials<'m> {
                 &mut children,
             );
         }
-        let mut merge = Merge::new(WIDEST, Stop::Exhausted, children.found.len());
+        let mut merge = Merge::new((WIDEST, usize::MAX), Stop::Exhausted, children.found.len());
         merge.take(&children, &trial.nodes, |_| 0);
         let width = merge.next.len() as u64;
         trial.work += width * width;

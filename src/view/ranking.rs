@@ -127,19 +127,8 @@ pub fn reasons<'a>(m: &'a Mechanism, p: &'a RankedPool) -> impl Iterator<Item = 
 /// Heads of the columns of a list.
 #[must_use]
 pub fn columns(p: &RankedPool) -> Vec<&'static str> {
-    let terms = p.ranking.terms.iter().map(|(t, _)| *t);
-    let mut out: Vec<&str> = terms
-        // Those have columns of their own.
-        .filter(|t| !matches!(t, Term::Cost | Term::Harmful))
-        .map(|t| match t {
-            Term::PeakForce => "force",
-            Term::PeakMoment => "moment",
-            Term::Conditioning => "cond. held",
-            Term::OutputError => "error, mm",
-            Term::Changes => "changed",
-            Term::Cost | Term::Idle | Term::Harmful => t.name(),
-        })
-        .collect();
+    let terms = p.ranking.terms.iter();
+    let mut out: Vec<&str> = terms.filter_map(|(t, _)| t.heading()).collect();
     match p.ranking.order {
         Order::Weighted => out.push("score"),
         Order::Pareto => out.push("front"),
@@ -153,13 +142,8 @@ pub fn columns(p: &RankedPool) -> Vec<&'static str> {
 pub fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
     let terms = p.ranking.terms.iter().map(|(t, _)| *t);
     let mut out: Vec<String> = terms
-        // Those have columns of their own.
-        .filter(|t| !matches!(t, Term::Cost | Term::Harmful))
-        .map(|t| match t {
-            Term::OutputError => format!("{:.4}", 1e3 * r.scores.output_error),
-            Term::Changes | Term::Idle | Term::Harmful => r.scores.value(t).to_string(),
-            _ => format!("{:.4}", r.scores.value(t)),
-        })
+        .filter(|t| t.heading().is_some())
+        .map(|t| r.scores.cell(t))
         .collect();
     match p.ranking.order {
         Order::Weighted => out.push(r.total.map_or(String::new(), |x| format!("{x:.4}"))),

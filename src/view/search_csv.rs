@@ -1,11 +1,13 @@
 //! The variants of a search as CSV, one a line, a column for each joint that has a choice.
 
+use crate::format::csv::cell;
 use crate::format::number::cost;
 use crate::model::mechanism::JointId;
 use crate::score::outcome::Outcome;
 use crate::score::variant::Variant;
 use crate::score::variants::Variants;
 use crate::search::conditions::Search;
+use crate::search::diagram::Stop;
 use crate::search::over_stroke::OverStroke;
 use crate::search::space::choice_name;
 use itertools::Itertools;
@@ -36,11 +38,25 @@ const SCORES: [&str; 8] = [
     "front",
 ];
 
-/// Writes the variants as they come.
+/// Writes the variants as they come, and a comment at the end where they are not all that was asked for.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> io::Result<()> {
+pub fn write(out: &mut dyn Write, outcome: &Outcome, mut variants: Variants<'_>) -> io::Result<()> {
+    rows(out, outcome, &mut variants)?;
+    if variants.stop() != Stop::Exhausted {
+        let (given, of) = (variants.summary().given, &outcome.admissible);
+        let least = if outcome.is_exact() { "" } else { "at least " };
+        let why = variants.stop().word();
+        writeln!(
+            out,
+            "# stopped early ({why}): {given} of {least}{of} admissible variants given"
+        )?;
+    }
+    Ok(())
+}
+
+fn rows(out: &mut dyn Write, outcome: &Outcome, variants: &mut Variants<'_>) -> io::Result<()> {
     let mut out = csv::Writer::from_writer(out);
     let search = &outcome.search;
     let joints = columns(search);
@@ -48,7 +64,7 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> 
     row.extend(
         joints
             .iter()
-            .map(|&(_, j)| search.mechanism.joints[j].id.clone()),
+            .map(|&(_, j)| cell(&search.mechanism.joints[j].id).into_owned()),
     );
     row.extend(OPINIONS.map(str::to_owned));
     if outcome.ranking.is_some() {
@@ -69,7 +85,7 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> 
         let choices = &v.assignment().choices;
         row.extend(joints.iter().map(|&(variable, j)| {
             let choice = &search.space.variables[variable].choices[choices[variable]];
-            choice_name(&search.mechanism, j, choice)
+            cell(&choice_name(&search.mechanism, j, choice)).into_owned()
         }));
         let opinion = v.second().opinion();
         row.extend([
@@ -92,7 +108,7 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, variants: Variants<'_>) -> 
                 None => Default::default(),
             });
         }
-        row.extend([told(v.external_harmful()), contours(&v)]);
+        row.extend([told(v.external_harmful()), cell(&contours(&v)).into_owned()]);
         out.write_record(&row).map_err(of_writer)?;
     }
     out.flush()

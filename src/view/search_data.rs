@@ -5,9 +5,9 @@ use crate::model::mechanism::{JointId, Mechanism};
 use crate::rank::verdict::Verdict;
 use crate::score::outcome::Outcome;
 use crate::score::prepared::LooksRounded;
+use crate::score::variants::Variants;
 use crate::search::building::Diagrams;
-use crate::search::certify::Summary;
-use crate::search::diagram::Diagram;
+use crate::search::diagram::{Diagram, Stop};
 use crate::search::relax::{Hopeless, Relaxation};
 use crate::view::ranking::RankingData;
 use num_bigint::BigUint;
@@ -54,6 +54,7 @@ pub struct SearchData<'a> {
     mechanism: &'a str,
     space: String,
     determinate: String,
+    determinate_exact: bool,
     by_mobility: By<'a, i64>,
     by_mobility_and_changes: ByBoth<'a>,
     by_redundant: By<'a, u32>,
@@ -77,6 +78,9 @@ pub struct SearchData<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     ranking: Option<RankingData<'a>>,
     exact: bool,
+    /// Counts that would take more than the memory allowed.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    left_out: Vec<&'static str>,
 }
 
 #[derive(Debug, Serialize)]
@@ -141,12 +145,18 @@ impl<'a> SearchData<'a> {
                 nodes: diagram.map(|d| d.nodes),
             }
         };
+        let by_cost = outcome.admissible_by_cost();
+        let left_out = [
+            (determinate.only_total || admissible.only_total).then_some("counts by kind"),
+            by_cost.is_none().then_some("counts by cost"),
+        ];
         let (first, second) = (sizes(|d| &d.determinate), sizes(|d| &d.admissible));
         let mechanism = &outcome.search.mechanism;
         SearchData {
             mechanism: &mechanism.name,
             space: outcome.search.size().to_string(),
             determinate: determinate.to_string(),
+            determinate_exact: outcome.is_determinate_exact(),
             by_mobility: By(&determinate.by_mobility),
             by_mobility_and_changes: ByBoth(&determinate.by_mobility_and_changes),
             by_redundant: By(&determinate.by_redundant),
@@ -158,7 +168,7 @@ impl<'a> SearchData<'a> {
             admissible_by_redundant: By(&admissible.by_redundant),
             admissible_by_changes: By(&admissible.by_changes),
             admissible_by_freedoms: By(&admissible.by_freedoms),
-            admissible_by_cost: ByCost(outcome.admissible_by_cost()),
+            admissible_by_cost: ByCost(by_cost.unwrap_or_default()),
             largest_layer: first.largest_layer.max(second.largest_layer),
             nodes: first.nodes.zip(second.nodes).map(|(a, b)| a + b),
             determinate_diagram: first,
@@ -178,6 +188,7 @@ impl<'a> SearchData<'a> {
                 .as_ref()
                 .map(|p| RankingData::new(mechanism, p)),
             exact: outcome.is_exact(),
+            left_out: left_out.into_iter().flatten().collect(),
         }
     }
 }
@@ -213,6 +224,8 @@ impl<'a> Measured<'a> {
 #[derive(Debug, Serialize)]
 pub struct TailData<'a> {
     variants_complete: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    variants_stop: Option<&'static str>,
     variants_checked: usize,
     variants_disagreeing: usize,
     variants_check_failed: usize,
@@ -274,16 +287,14 @@ enum Bound {
 }
 
 impl<'a> TailData<'a> {
-    /// `complete` unless the giving was interrupted; `seconds` is how long all of it took.
+    /// Of variants that were given, as far as it went; `seconds` is how long all of it took.
     #[must_use]
-    pub fn new(
-        summary: &Summary,
-        complete: bool,
-        none: Option<NoneData<'a>>,
-        seconds: Option<f64>,
-    ) -> Self {
+    pub fn new(variants: &Variants<'_>, none: Option<NoneData<'a>>, seconds: Option<f64>) -> Self {
+        let summary = variants.summary();
+        let stop = variants.cut_short();
         TailData {
-            variants_complete: complete,
+            variants_complete: stop.is_none(),
+            variants_stop: stop.map(Stop::word),
             variants_checked: summary.checked,
             variants_disagreeing: summary.disagreeing,
             variants_check_failed: summary.failed,

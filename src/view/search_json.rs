@@ -2,11 +2,13 @@
 
 use crate::score::outcome::Outcome;
 use crate::score::variants::Variants;
+use crate::search::diagram::Stop;
 use crate::search::relax::{Hopeless, Relaxation};
 use crate::view::search_data::{NoneData, SearchData, TailData};
 use crate::view::variant_data::VariantData;
 use num_bigint::BigUint;
 use num_traits::Zero;
+use serde_json::json;
 use std::io::{self, Write};
 
 /// Writes an outcome with its variants as one value; `eased` is told where there is none, `seconds` where somebody has a
@@ -34,24 +36,33 @@ pub fn write(
     let none = outcome.admissible.total.is_zero();
     let none = none.then(|| NoneData::new(m, eased, why));
     let seconds = seconds.map(|s| s());
-    let tail = TailData::new(&variants.summary(), !variants.interrupted(), none, seconds);
+    let tail = TailData::new(&variants, none, seconds);
     let text = serde_json::to_string_pretty(&tail)?;
     let rest = text.strip_prefix("{\n").unwrap_or(&text);
     writeln!(out, "\n  ],\n{rest}")
 }
 
-/// Writes the variants, one a line.
+/// Writes the variants, one a line, and a last line that says why where they are not all that was asked for.
 ///
 /// # Errors
 /// Those of the writer.
 pub fn write_lines(
     out: &mut dyn Write,
     outcome: &Outcome,
-    variants: Variants<'_>,
+    mut variants: Variants<'_>,
 ) -> io::Result<()> {
-    for v in variants {
+    for v in variants.by_ref() {
         serde_json::to_writer(&mut *out, &VariantData::new(outcome, &v))?;
         writeln!(out)?;
+    }
+    if variants.stop() != Stop::Exhausted {
+        let end = json!({
+            "stop": variants.stop().word(),
+            "given": variants.summary().given,
+            "admissible": outcome.admissible.to_string(),
+            "admissible_exact": outcome.is_exact(),
+        });
+        writeln!(out, "{end}")?;
     }
     Ok(())
 }

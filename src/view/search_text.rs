@@ -70,8 +70,9 @@ pub fn write(
             .map(|l| format!("\n  {l}"));
         writeln!(out, "{}", fit(&notes.collect::<String>(), width))?;
     }
-    if given.interrupted() {
-        writeln!(out, "\n  interrupted after {} variants", summary.given)?;
+    if let Some(stop) = given.cut_short() {
+        let (why, given) = (stop.word(), summary.given);
+        writeln!(out, "\n  stopped early ({why}) after {given} variants")?;
     }
     // Numbers of a sample, or of a list with some left out, mean nothing to other commands.
     let steps = match outcome.request.generic_only {
@@ -86,10 +87,9 @@ pub fn write(
 fn counts(outcome: &Outcome, width: Option<u16>) -> String {
     let mut out = String::new();
     let big = |n: &BigUint| grouped(&n.to_string());
-    let (least, conditions) = (
-        if outcome.is_exact() { "" } else { "at least " },
-        &outcome.search.conditions,
-    );
+    let at_least = |exact: bool| if exact { "" } else { "at least " };
+    let least = at_least(outcome.is_exact());
+    let conditions = &outcome.search.conditions;
     let condition = if conditions.max_redundant == 0 {
         "σ = 0".to_owned()
     } else {
@@ -130,7 +130,8 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
     if !more.is_empty() {
         let _ = writeln!(
             out,
-            "  {least}{} with {condition}, whatever else they do",
+            "  {}{} with {condition}, whatever else they do",
+            at_least(outcome.is_determinate_exact()),
             big(&outcome.determinate.total)
         );
     }

@@ -1,5 +1,6 @@
 //! The page "How to add": its files exist, and its lists are the only ones.
 
+use ozols::model::ranking::Term;
 use ozols::rank::registry;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -53,6 +54,39 @@ fn elsewhere(word: &str, homes: &[&str]) -> Vec<String> {
         })
         .map(|(name, _)| name)
         .collect()
+}
+
+/// A new ranking term meets the compiler in the three files of the page, and in no other.
+#[test]
+fn ranking_terms_are_listed_in_their_three_files() {
+    let mut all = Vec::new();
+    sources(&root().join("src"), &mut all);
+    let mut exhaustive: Vec<String> = Vec::new();
+    for f in &all {
+        let text = fs::read_to_string(f).unwrap();
+        let named = |t: &Term| text.contains(&format!("Term::{t:?}"));
+        if Term::ALL.iter().all(named) {
+            exhaustive.push(f.strip_prefix(root()).unwrap().display().to_string());
+        }
+    }
+    exhaustive.sort();
+    let of_the_page = [
+        "src/model/ranking.rs",
+        "src/score/lower_bound.rs",
+        "src/score/terms.rs",
+    ];
+    assert_eq!(exhaustive, of_the_page);
+    assert!(of_the_page.iter().all(|f| PAGE.contains(f)));
+    for term in Term::ALL {
+        // "cost" and the like are words of other tables, too.
+        if term.name().contains('-') {
+            assert_eq!(
+                elsewhere(term.name(), &["src/model/ranking.rs"]),
+                [""; 0],
+                "{term:?}"
+            );
+        }
+    }
 }
 
 #[test]

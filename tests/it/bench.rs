@@ -104,10 +104,11 @@ fn floating_point_looks_at_the_same_matrices() {
         let m = Mechanism::builtin(name).unwrap();
         let outcome = ozols::search(&m, &request).unwrap();
         let search = &outcome.search;
-        let drawn = search.sample(outcome.diagrams.as_ref().unwrap(), 40, 7);
+        let drawn = search.sample(outcome.diagrams.as_ref().unwrap(), 7);
+        let drawn: Vec<_> = drawn.take(40).collect();
         for e in [Elimination::Lu, Elimination::Qr, Elimination::Svd] {
             let all = Approximate::new(search, e, e.default_tolerance()).unwrap();
-            for c in search.certify(drawn.clone(), true, None) {
+            for c in search.certify(drawn.clone(), true, None, &|| false) {
                 let seen = all.look(&c.variant.choices).unwrap();
                 let opinion = c.second.opinion().unwrap();
                 let by_itself = (i64::from(seen.internal), seen.motion);

@@ -1,9 +1,13 @@
 //! The program as its users meet it: exit codes, messages, formats, repeatability.
 
 mod bad_files;
+mod bounds;
 mod formats;
+#[cfg(unix)]
+mod interrupt;
 mod other_files;
 mod output;
+mod small;
 
 use crate::common::{count, out, run, text};
 use serde_json::Value;

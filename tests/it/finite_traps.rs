@@ -83,3 +83,25 @@ fn idle_spins_are_finite_motions() {
         assert!(found.mobility >= idle, "{name}: {found:?}, {idle} idle");
     }
 }
+
+/// Rods between two balls spin whatever the rest does: the finite mobility is never less than there are idle spins. Once it
+/// was found to be 0 after 24 seconds, beside six of them.
+#[test]
+fn idle_spins_stay_beside_what_else_moves() {
+    let text = builtin::text("wren-platform").unwrap();
+    for (point, flipped) in [
+        ("[150, 0, 180]", "[150, 0, -180]"),
+        ("[90, 120, 180]", "[90, 120, -180]"),
+        ("[90, 120, 0]", "[90, -120, 0]"),
+        ("[120, -90, 180]", "[-120, -90, 180]"),
+    ] {
+        let m = mechanism_from_str("x.toml", &text.replacen(point, flipped, 1)).unwrap();
+        let state = &ozols::analyze(&m).unwrap()[0];
+        assert_eq!(state.idle.len(), 6, "{flipped}");
+        assert!(
+            state.finite.mobility >= 6,
+            "{flipped}: {}",
+            state.finite.figure()
+        );
+    }
+}

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 20] = [
+const COMMANDS: [&str; 21] = [
     "report",
     "analyze",
     "search",
@@ -22,6 +22,7 @@ const COMMANDS: [&str; 20] = [
     "export",
     "accuracy",
     "bench",
+    "catalog",
     "new",
     "check",
     "list",

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const LAYERS: [&[&str]; 18] = [
     &["format"],
     &["linalg", "terms", "guide", "builtin"],
-    &["geom", "verify"],
+    &["geom", "verify", "chains"],
     &["svg"],
     &["chart"],
     &["model"],

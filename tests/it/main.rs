@@ -8,6 +8,7 @@ mod cam;
 mod catalogs;
 mod certificates;
 mod certify;
+mod chains;
 mod clamped;
 mod cli;
 mod common;

@@ -38,7 +38,8 @@ fn cheapest(s: &Search, n: usize) -> Vec<Assignment> {
 }
 
 fn sampled(s: &Search, n: usize) -> Vec<Assignment> {
-    s.sample(&s.build(&|| false, &mut |_| {}), n, 7)
+    let diagrams = s.build(&|| false, &mut |_| {});
+    s.sample(&diagrams, 7).take(n).collect()
 }
 
 fn near(a: f64, b: f64, tolerance: f64) -> bool {

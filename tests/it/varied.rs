@@ -173,7 +173,7 @@ fn searched(
         }
         choices.push(of_joints);
     }
-    for c in search.certify(list, true, None) {
+    for c in search.certify(list, true, None, &|| false) {
         let agree = c.second.opinion().is_some_and(|o| o.agree);
         prop_assert!(agree, "{:?}", c);
     }

@@ -73,7 +73,8 @@ impl Truth {
             None => {
                 let diagrams = search.build(&|| false, &mut |_| {});
                 let mut some = drawn(&search, effort.looked.div_ceil(2), request.seed);
-                let good = search.sample(&diagrams, effort.looked / 2, request.seed);
+                let good = search.sample(&diagrams, request.seed);
+                let good: Vec<_> = good.take(effort.looked / 2).collect();
                 some.extend(good.into_iter().map(|a| a.choices));
                 (some, Some(diagrams))
             }

@@ -1,6 +1,6 @@
 //! Couplings of joints from their entries.
 
-use crate::closure::coupling::{coefficient, length_ratio};
+use crate::closure::coupling::{coefficient, in_plane, length_ratio};
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::file::findings::Findings;
 use crate::file::locate::Step;
@@ -134,15 +134,6 @@ fn freedom_of(
 fn definite(t: &JointType, freedom: Freedom) -> bool {
     let turns = [Freedom::Rx, Freedom::Ry, Freedom::Rz];
     !turns.contains(&freedom) || !turns.iter().all(|f| t.freedoms().contains(f))
-}
-
-/// Whether planar mode keeps a freedom.
-fn in_plane(mechanism: &Mechanism, joint: JointId, freedom: Freedom) -> bool {
-    use crate::geom::scalars::Reals;
-    let joint = &mechanism.joints[joint];
-    let twists = MotionSpace::new(&Reals, &mechanism.mode)
-        .and_then(|space| joint_twists(&Reals, &space, &joint.frame, &joint.joint_type));
-    twists.is_ok_and(|all| all.iter().any(|(f, _)| *f == freedom))
 }
 
 /// Takes options away that lack the coupled freedom, or have it about another axis. In a joint's own list that is a

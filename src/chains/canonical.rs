@@ -1,0 +1,179 @@
+//! A numbering of a graph's vertices that does not depend on the one it came with, and its automorphisms.
+//!
+//! Vertices are told apart by how many neighbours of which kind they have, again and again; where that leaves some alike,
+//! one of them is set apart and the telling goes on, for each of them in turn. Of the numberings so found, the one whose
+//! matrix is the greatest counts, and all that give this matrix differ by automorphisms [McKay 1981, without his pruning:
+//! chains have few automorphisms].
+
+/// A graph with weighted edges; 0 is no edge.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Weighted {
+    vertices: usize,
+    weight: Vec<u8>,
+}
+
+impl Weighted {
+    /// A graph without edges.
+    #[must_use]
+    pub fn new(vertices: usize) -> Weighted {
+        Weighted {
+            vertices,
+            weight: vec![0; vertices * vertices],
+        }
+    }
+
+    /// Number of vertices.
+    #[must_use]
+    pub fn vertices(&self) -> usize {
+        self.vertices
+    }
+
+    /// The weight of an edge.
+    #[must_use]
+    pub fn weight(&self, u: usize, v: usize) -> u8 {
+        self.weight[u * self.vertices + v]
+    }
+
+    /// Sets the weight of an edge.
+    pub fn set(&mut self, u: usize, v: usize, weight: u8) {
+        self.weight[u * self.vertices + v] = weight;
+        self.weight[v * self.vertices + u] = weight;
+    }
+
+    /// The sum of the weights at a vertex.
+    #[must_use]
+    pub fn degree(&self, v: usize) -> usize {
+        self.row(v).iter().map(|&w| usize::from(w)).sum()
+    }
+
+    fn row(&self, v: usize) -> &[u8] {
+        &self.weight[v * self.vertices..(v + 1) * self.vertices]
+    }
+
+    /// The same graph with its vertices in another order.
+    #[must_use]
+    pub fn renumbered(&self, order: &[usize]) -> Weighted {
+        let pairs = order
+            .iter()
+            .flat_map(|&u| order.iter().map(move |&v| (u, v)));
+        Weighted {
+            vertices: order.len(),
+            weight: pairs.map(|(u, v)| self.weight(u, v)).collect(),
+        }
+    }
+}
+
+/// A canonical numbering and the automorphisms.
+#[derive(Debug, Clone)]
+pub struct Canonical {
+    /// The graph so numbered: equal for two graphs exactly where they are isomorphic.
+    pub graph: Weighted,
+    /// Which vertex stands at each place.
+    pub order: Vec<usize>,
+    /// Every automorphism as the images of the vertices, the identity among them.
+    pub automorphisms: Vec<Vec<usize>>,
+}
+
+/// Numbers a graph.
+///
+/// # Complexity
+/// One refinement for each leaf of the search; at least as many leaves as automorphisms.
+#[must_use]
+pub fn canonical(graph: &Weighted) -> Canonical {
+    let mut search = Search {
+        graph,
+        best: None,
+        equal: Vec::new(),
+    };
+    let mut cells = vec![0; graph.vertices];
+    search.refine(&mut cells);
+    search.descend(&cells);
+    let identity = || (0..graph.vertices).collect();
+    let (matrix, order) = search.best.unwrap_or_else(|| (graph.clone(), identity()));
+    let onto = |other: &Vec<usize>| {
+        let mut image = vec![0; order.len()];
+        for (&from, &to) in order.iter().zip(other) {
+            image[from] = to;
+        }
+        image
+    };
+    Canonical {
+        automorphisms: search.equal.iter().map(onto).collect(),
+        graph: matrix,
+        order,
+    }
+}
+
+struct Search<'a> {
+    graph: &'a Weighted,
+    best: Option<(Weighted, Vec<usize>)>,
+    /// The numberings that give the best matrix.
+    equal: Vec<Vec<usize>>,
+}
+
+impl Search<'_> {
+    /// Tells vertices of one cell apart by the cells of their neighbours until that changes nothing. A cell's number is the
+    /// place of its first vertex.
+    fn refine(&self, cells: &mut Vec<usize>) {
+        let n = self.graph.vertices;
+        let mut keys: Vec<(usize, Vec<(usize, u8)>, usize)> = Vec::with_capacity(n);
+        let mut count = 0;
+        loop {
+            keys.clear();
+            for v in 0..n {
+                let near = self.graph.row(v).iter().zip(&*cells);
+                let mut near: Vec<_> = near
+                    .filter(|(w, _)| **w > 0)
+                    .map(|(&w, &c)| (c, w))
+                    .collect();
+                near.sort_unstable();
+                keys.push((cells[v], near, v));
+            }
+            keys.sort_unstable();
+            let (mut cell, mut found) = (0, 0);
+            for (i, key) in keys.iter().enumerate() {
+                if i == 0 || (keys[i - 1].0, &keys[i - 1].1) != (key.0, &key.1) {
+                    (cell, found) = (i, found + 1);
+                }
+                cells[key.2] = cell;
+            }
+            if found == count {
+                return;
+            }
+            count = found;
+        }
+    }
+
+    fn descend(&mut self, cells: &[usize]) {
+        let n = cells.len();
+        let size = |c: usize| cells.iter().filter(|x| **x == c).count();
+        let Some(cell) = (0..n).find(|&c| size(c) > 1) else {
+            self.leaf(cells);
+            return;
+        };
+        for v in (0..n).filter(|&v| cells[v] == cell) {
+            let mut apart = cells.to_vec();
+            for (u, c) in apart.iter_mut().enumerate() {
+                *c += usize::from(cells[u] == cell && u != v);
+            }
+            self.refine(&mut apart);
+            self.descend(&apart);
+        }
+    }
+
+    fn leaf(&mut self, cells: &[usize]) {
+        let mut order = vec![0; cells.len()];
+        for (v, &place) in cells.iter().enumerate() {
+            order[place] = v;
+        }
+        let matrix = self.graph.renumbered(&order);
+        match &self.best {
+            Some((best, _)) if *best > matrix => {}
+            Some((best, _)) if *best == matrix => self.equal.push(order),
+            _ => {
+                self.equal = vec![order.clone()];
+                self.best = Some((matrix, order));
+            }
+        }
+    }
+}

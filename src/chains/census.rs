@@ -1,0 +1,127 @@
+//! How many chains there are, and in how many ways their links make grippers.
+
+use crate::chains::chain::Chain;
+use crate::chains::enumerate::{ChainsError, chains};
+use crate::chains::layout_symmetry::{Symmetry, works};
+use crate::chains::roles::Subject;
+use rayon::prelude::*;
+use std::ops::AddAssign;
+
+/// Counts over all chains of a number of links, everything up to automorphism.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Census {
+    /// Chains.
+    pub chains: u64,
+    /// Choices of a frame.
+    pub frames: u64,
+    /// Choices of an input joint.
+    pub inputs: u64,
+    /// Choices of a frame and of a driver joined to it.
+    pub drives: u64,
+    /// Grippers, where they were asked for.
+    pub grippers: Option<Grippers>,
+}
+
+/// Counts of choices of frame, driver and jaws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Grippers {
+    /// With two jaws.
+    pub two_jaws: u64,
+    /// Of these, those of which no smaller moving part holds all roles. The rest counts such alone.
+    pub essential: u64,
+    /// By how many jaws are joined to the frame: none, one, both.
+    pub jaws_at_frame: [u64; 3],
+    /// Those that make a truss with a part hinged to both jaws.
+    pub truss: u64,
+    /// Those with an automorphism of order two that keeps frame and driver and swaps the jaws.
+    pub symmetric: u64,
+    /// Those that move in mirror-symmetric places with a sliding input.
+    pub mirror: u64,
+    /// Those that move in places symmetric by half a turn with a turning input.
+    pub half_turn: u64,
+    /// With three jaws, essential or not.
+    pub three_jaws: u64,
+}
+
+impl AddAssign for Grippers {
+    fn add_assign(&mut self, o: Grippers) {
+        self.two_jaws += o.two_jaws;
+        self.essential += o.essential;
+        let both = self.jaws_at_frame.iter_mut().zip(o.jaws_at_frame);
+        both.for_each(|(a, b)| *a += b);
+        self.truss += o.truss;
+        self.symmetric += o.symmetric;
+        self.mirror += o.mirror;
+        self.half_turn += o.half_turn;
+        self.three_jaws += o.three_jaws;
+    }
+}
+
+impl AddAssign for Census {
+    fn add_assign(&mut self, o: Census) {
+        self.chains += o.chains;
+        self.frames += o.frames;
+        self.inputs += o.inputs;
+        self.drives += o.drives;
+        if let Some(more) = o.grippers {
+            *self.grippers.get_or_insert_default() += more;
+        }
+    }
+}
+
+impl Grippers {
+    /// Of one chain.
+    ///
+    /// # Complexity
+    /// A step for each choice of roles, and an elimination for each symmetric one.
+    #[must_use]
+    pub fn of(subject: &Subject<'_>) -> Grippers {
+        let mut out = Grippers::default();
+        for roles in subject.grippers(2) {
+            out.two_jaws += 1;
+            if !subject.is_essential(&roles) {
+                continue;
+            }
+            out.essential += 1;
+            out.jaws_at_frame[subject.jaws_at_frame(&roles)] += 1;
+            out.truss += u64::from(subject.is_truss(&roles));
+            if subject.swaps(&roles).next().is_some() {
+                out.symmetric += 1;
+                out.mirror += u64::from(works(subject, &roles, Symmetry::Mirror));
+                out.half_turn += u64::from(works(subject, &roles, Symmetry::HalfTurn));
+            }
+        }
+        out.three_jaws = subject.grippers(3).len() as u64;
+        out
+    }
+}
+
+impl Census {
+    /// Of one chain.
+    #[must_use]
+    pub fn of(chain: &Chain, grippers: bool) -> Census {
+        let (chain, automorphisms) = chain.canonical();
+        let subject = Subject::new(&chain, &automorphisms);
+        Census {
+            chains: 1,
+            frames: subject.frames().len() as u64,
+            inputs: subject.inputs().len() as u64,
+            drives: subject.drives().len() as u64,
+            grippers: grippers.then(|| Grippers::of(&subject)),
+        }
+    }
+}
+
+/// Counts over all chains of so many links and this mobility; grippers are counted of chains with a mobility of 1.
+///
+/// # Errors
+/// As [`chains`].
+pub fn census(links: usize, mobility: usize, grippers: bool) -> Result<Census, ChainsError> {
+    let sum = |mut a: Census, b: Census| {
+        a += b;
+        a
+    };
+    let each = |c: &Chain| Census::of(c, grippers && mobility == 1);
+    let all = chains(links, mobility)?;
+    Ok(all.par_iter().map(each).reduce(Census::default, sum))
+}

@@ -1,0 +1,111 @@
+//! All kinematic chains of a number of links and a mobility, each once.
+//!
+//! A chain is a contracted graph whose edges are strings of joints. Of each contracted graph the ways to share out the
+//! joints are found once up to its symmetries, so that no two chains are isomorphic and none needs to be compared.
+
+use crate::chains::chain::Chain;
+use crate::chains::contracted::contracted_graphs;
+use crate::chains::strings::Strings;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
+use thiserror::Error;
+
+/// Links and mobility of which there are no chains to be listed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum ChainsError {
+    /// The number of joints would not be whole.
+    #[error(
+        "no chain of {links} links has the mobility {mobility}: 3(n - 1) - 2e is {} then",
+        if links % 2 == 0 { "odd" } else { "even" }
+    )]
+    Parity {
+        /// Links.
+        links: usize,
+        /// Mobility.
+        mobility: usize,
+    },
+    /// Beyond what can be done.
+    #[error(
+        "chains of {links} links and mobility {mobility} are not listed: take 4 to 18 links and a mobility of 1 to 6"
+    )]
+    Range {
+        /// Links.
+        links: usize,
+        /// Mobility.
+        mobility: usize,
+    },
+}
+
+/// Calls `visit` with every chain of so many links and this mobility, in no particular order and from several threads.
+///
+/// Without multiple joints; no part is rigid; and no link holds the chain together alone, so that its mobility is not the
+/// sum of two parts' (with a mobility of 1 none does).
+///
+/// # Errors
+/// Where there are none, or too many.
+///
+/// # Complexity
+/// Some microseconds a chain; memory for the contracted graphs alone.
+pub fn visit_chains(
+    links: usize,
+    mobility: usize,
+    visit: &(impl Fn(&Chain) + Sync),
+) -> Result<(), ChainsError> {
+    if !(4..=18).contains(&links) || !(1..=6).contains(&mobility) {
+        return Err(ChainsError::Range { links, mobility });
+    }
+    if (3 * (links - 1)) % 2 != mobility % 2 {
+        return Err(ChainsError::Parity { links, mobility });
+    }
+    let Some(twice) = (3 * (links - 1)).checked_sub(mobility) else {
+        return Ok(());
+    };
+    let joints = twice / 2;
+    // A chain hangs together, and a string has three joints more than it takes away from the mobility at most.
+    let Some(loops) = (joints + 1).checked_sub(links).filter(|l| *l > 0) else {
+        return Ok(());
+    };
+    if loops == 1 {
+        let ring = (0..links).map(|v| (v, (v + 1) % links));
+        visit(&Chain::new(links, ring));
+        return Ok(());
+    }
+    let most = u8::try_from(mobility + 2).unwrap_or(u8::MAX);
+    contracted_graphs(loops).par_iter().for_each(|graph| {
+        let strings = Strings::new(graph);
+        strings.share(joints, most, &mut |shared| {
+            visit(&Chain::of_strings(graph.vertices(), &strings.ends, shared));
+        });
+    });
+    Ok(())
+}
+
+/// Every chain in canonical numbering, in the order of their codes.
+///
+/// # Errors
+/// As [`visit_chains`].
+pub fn chains(links: usize, mobility: usize) -> Result<Vec<Chain>, ChainsError> {
+    let all = std::sync::Mutex::new(Vec::new());
+    visit_chains(links, mobility, &|chain| {
+        let chain = chain.canonical().0;
+        if let Ok(mut all) = all.lock() {
+            all.push(chain);
+        }
+    })?;
+    let mut all = all.into_inner().unwrap_or_default();
+    all.par_sort_by_cached_key(crate::chains::graph6::write);
+    Ok(all)
+}
+
+/// How many chains there are.
+///
+/// # Errors
+/// As [`visit_chains`].
+pub fn count_chains(links: usize, mobility: usize) -> Result<u64, ChainsError> {
+    let count = AtomicU64::new(0);
+    visit_chains(links, mobility, &|_| {
+        count.fetch_add(1, Ordering::Relaxed);
+    })?;
+    Ok(count.into_inner())
+}

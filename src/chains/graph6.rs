@@ -1,0 +1,78 @@
+//! Chains in graph6, the usual text of small graphs: the number of vertices and the columns of the upper half of the
+//! adjacency matrix, six bits a character.
+
+use crate::chains::chain::{Chain, MOST_LINKS};
+use thiserror::Error;
+
+/// Characters stand for their code less this.
+const FIRST: u8 = 63;
+
+/// Why a text is no chain.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum Graph6Error {
+    /// A character that graph6 does not use.
+    #[error("{0:?} is no character of graph6, which has those from ? to ~")]
+    Character(char),
+    /// Too many vertices, or none.
+    #[error("chains have 1 to {MOST_LINKS} links, and this is a graph of {0}")]
+    Links(usize),
+    /// Another number of characters than the number of vertices asks for.
+    #[error(
+        "a graph of {links} vertices has {wanted} characters in graph6, and this text has {found}"
+    )]
+    Length {
+        /// Vertices.
+        links: usize,
+        /// Characters wanted.
+        wanted: usize,
+        /// Characters found.
+        found: usize,
+    },
+}
+
+/// The text of a chain, numbered as it is.
+#[must_use]
+pub fn write(chain: &Chain) -> String {
+    let n = chain.links();
+    let bits: Vec<bool> = (0..n)
+        .flat_map(|v| (0..v).map(move |u| chain.joined(u, v)))
+        .collect();
+    let six = |group: &[bool]| {
+        let value = |at: usize| u8::from(group.get(at).copied().unwrap_or(false)) << (5 - at);
+        char::from(FIRST + (0..6).map(value).sum::<u8>())
+    };
+    let head = char::from(FIRST + u8::try_from(n).unwrap_or(0));
+    std::iter::once(head)
+        .chain(bits.chunks(6).map(six))
+        .collect()
+}
+
+/// The chain of a text.
+///
+/// # Errors
+/// Where it is not graph6, or of another size than chains have.
+pub fn read(text: &str) -> Result<Chain, Graph6Error> {
+    let wrong = text.chars().find(|c| !('?'..='~').contains(c));
+    if let Some(c) = wrong {
+        return Err(Graph6Error::Character(c));
+    }
+    let mut values = text.bytes().map(|b| b - FIRST);
+    let n = usize::from(values.next().unwrap_or(0));
+    if n == 0 || n > MOST_LINKS {
+        return Err(Graph6Error::Links(n));
+    }
+    let pairs: Vec<(usize, usize)> = (0..n).flat_map(|v| (0..v).map(move |u| (u, v))).collect();
+    let wanted = 1 + pairs.len().div_ceil(6);
+    if text.len() != wanted {
+        let found = text.len();
+        return Err(Graph6Error::Length {
+            links: n,
+            wanted,
+            found,
+        });
+    }
+    let bits = values.flat_map(|x| (0..6).map(move |at| x >> (5 - at) & 1 == 1));
+    let joints = pairs.into_iter().zip(bits).filter(|(_, joined)| *joined);
+    Ok(Chain::new(n, joints.map(|(pair, _)| pair)))
+}

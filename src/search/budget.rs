@@ -1,0 +1,63 @@
+//! What a search that comes to its bounds still counts: more with more nodes and more memory, never less.
+//!
+//! A diagram cut down to a budget keeps the cheapest nodes of each layer, and a larger budget, spent in the early layers, may
+//! keep others that lead to fewer variants. So the search is made again within each smaller power of ten, and the best of
+//! them stands: a larger budget has all the searches of a smaller one, and more.
+
+use crate::search::diagram::{Diagram, Stop};
+use crate::search::spent::Limits;
+use num_bigint::BigUint;
+
+/// The smallest budget that is tried.
+const LEAST: usize = 100;
+
+/// A whole diagram, or the best of those within budgets of powers of ten, by what it is `worth`.
+///
+/// # Complexity
+/// A ninth more than the largest of them where the budget is a power of ten, and the worth of each.
+pub(super) fn best(
+    limits: &Limits,
+    build: &mut dyn FnMut(&Limits) -> Diagram,
+    worth: &dyn Fn(&Diagram) -> BigUint,
+) -> Diagram {
+    let whole = build(limits);
+    if matches!(whole.stop, Stop::Exhausted | Stop::Interrupted) {
+        return whole;
+    }
+    let why = whole.stop;
+    let rungs = || std::iter::successors(Some(LEAST), |n| n.checked_mul(10));
+    let mut best: Option<(BigUint, Diagram)> = None;
+    for nodes in rungs().take_while(|&n| n < limits.nodes) {
+        let limits = Limits {
+            nodes,
+            ..limits.clone()
+        };
+        let diagram = build(&limits);
+        if diagram.stop == Stop::Interrupted {
+            return diagram;
+        }
+        // Where memory cuts depends on how much there is: with more of it there would not be the same diagram.
+        if diagram.stop != Stop::Memory {
+            best = better(best, diagram, worth);
+        }
+    }
+    let is_rung = rungs().take_while(|&n| n <= limits.nodes).last() == Some(limits.nodes);
+    if best.is_none() || (is_rung && whole.stop == Stop::NodeBudget) {
+        best = better(best, whole, worth);
+    }
+    let (_, found) = best.expect("one was taken");
+    Diagram { stop: why, ..found }
+}
+
+/// The better of what was found and a diagram; the first of equals.
+fn better(
+    best: Option<(BigUint, Diagram)>,
+    diagram: Diagram,
+    worth: &dyn Fn(&Diagram) -> BigUint,
+) -> Option<(BigUint, Diagram)> {
+    let worth = worth(&diagram);
+    match best {
+        Some((most, known)) if worth <= most => Some((most, known)),
+        _ => Some((worth, diagram)),
+    }
+}

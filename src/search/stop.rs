@@ -1,0 +1,33 @@
+//! Why building a diagram ended.
+
+/// Why building ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stop {
+    /// Everything was looked at: counts are exact.
+    Exhausted,
+    /// The node budget cut layers down to their cheapest nodes: counts are lower bounds.
+    NodeBudget,
+    /// What may be held of memory did, in the same way.
+    Memory,
+    /// The caller asked to end: layers were cut down, counts are lower bounds.
+    Interrupted,
+}
+
+impl Stop {
+    /// The first of two reasons that is one.
+    #[must_use]
+    pub fn or(self, other: Stop) -> Stop {
+        if self == Stop::Exhausted { other } else { self }
+    }
+
+    /// The word for programs.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Stop::Exhausted => "exhausted",
+            Stop::NodeBudget => "node-budget",
+            Stop::Memory => "memory",
+            Stop::Interrupted => "interrupted",
+        }
+    }
+}

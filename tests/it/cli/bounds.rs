@@ -1,0 +1,195 @@
+//! Budgets of nodes, memory and threads, and files that are too large: an honest stop or a message, never an abort.
+
+use super::refused;
+use crate::common::{ozols, run, text};
+use num_bigint::BigUint;
+use serde_json::Value;
+use std::fmt::Write;
+use std::io::{BufRead, BufReader};
+use std::process::{Command, Stdio};
+
+/// A file of links `0` to `n`, the last the output, and these joints between links, hinges along z at odd places.
+fn file(n: usize, joints: &[(usize, usize)]) -> String {
+    let mut out =
+        "name = \"many\"\n[search]\noptions = [\"revolute\", \"cylindrical\", \"spherical\"]\n"
+            .to_owned();
+    for i in 0..=n {
+        let role = match i {
+            0 => "role = \"frame\"",
+            _ if i == n => "role = \"output\"",
+            _ => "",
+        };
+        write!(out, "[[link]]\nid = \"{i}\"\n{role}\n").unwrap();
+    }
+    for (i, (a, b)) in joints.iter().enumerate() {
+        let (x, y) = (i * 37 % 101, i * i * 17 % 89);
+        write!(
+            out,
+            "[[joint]]\nid = \"j{i}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = [{x}, {y}, 0]\naxis = [0, 0, 1]\n"
+        )
+        .unwrap();
+    }
+    out
+}
+
+/// A ladder of contours that each share two links with the one before.
+fn ladder(contours: usize) -> String {
+    let mut joints = Vec::new();
+    let (mut left, mut right, mut next) = (0, 0, 1);
+    for _ in 0..contours {
+        let (a, b) = (next, next + 1);
+        joints.extend([(left, a), (right, b), (a, b)]);
+        (left, right, next) = (a, b, next + 2);
+    }
+    file(next - 1, &joints)
+}
+
+fn found(text: &str, more: &[&str]) -> Value {
+    let args = [&["search", "-", "--count", "--format", "json"], more].concat();
+    let o = ozols(&args).write_stdin(text).output().unwrap();
+    assert!(
+        matches!(o.status.code(), Some(0 | 1)),
+        "{}",
+        self::text(&o.stderr)
+    );
+    serde_json::from_slice(&o.stdout).unwrap()
+}
+
+fn number(v: &Value) -> BigUint {
+    v.as_str().unwrap().parse().unwrap()
+}
+
+/// Once wrong: 3.8e40 with 1,000 nodes, and 2.3e36 with 100,000.
+#[test]
+fn a_larger_budget_never_gives_a_worse_bound() {
+    let ladder = ladder(12);
+    for budgets in [
+        [
+            "--nodes=100",
+            "--nodes=700",
+            "--nodes=1000",
+            "--nodes=20000",
+        ],
+        ["--memory=1M", "--memory=2M", "--memory=8M", "--memory=40M"],
+    ] {
+        let mut before = [BigUint::ZERO, BigUint::ZERO];
+        let mut stopped = false;
+        for budget in budgets {
+            let v = found(&ladder, &[budget]);
+            let now = [number(&v["determinate"]), number(&v["admissible"])];
+            assert!(
+                now >= before && now[1] >= before[1],
+                "{budget}: {now:?} after {before:?}"
+            );
+            stopped |= v["exact"] == false;
+            before = now;
+        }
+        assert!(stopped, "{budgets:?}: nothing was bounded");
+    }
+}
+
+#[test]
+fn what_finished_within_the_memory_stays_exact() {
+    let whole = found(&ladder(6), &[]);
+    assert_eq!(
+        (&whole["stop"], &whole["exact"]),
+        (&"exhausted".into(), &true.into())
+    );
+    let mut words = Vec::new();
+    for memory in ["1M", "2M", "4M", "8M", "16M", "32M"] {
+        let v = found(&ladder(6), &["--memory", memory]);
+        let (all, some) = (number(&whole["determinate"]), number(&v["determinate"]));
+        assert!(some <= all, "{memory}");
+        assert_eq!(v["determinate_exact"] == true, some == all, "{memory}");
+        words.push(v["stop"].as_str().unwrap().to_owned());
+    }
+    assert!(words.contains(&"memory".to_owned()), "{words:?}");
+}
+
+/// Once an abort at 3 GB with one node.
+#[cfg(target_os = "linux")]
+#[test]
+fn tallies_stay_within_the_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("x.toml"), ladder(20)).unwrap();
+    let command = format!(
+        "ulimit -v 1000000; exec '{}' search x.toml --nodes 1 --count --threads 2 --format json",
+        env!("CARGO_BIN_EXE_ozols")
+    );
+    let o = Command::new("sh")
+        .args(["-c", &command])
+        .current_dir(&folder)
+        .output()
+        .unwrap();
+    assert!(
+        matches!(o.status.code(), Some(0 | 1)),
+        "{:?} {}",
+        o.status,
+        text(&o.stderr)
+    );
+    let v: Value = serde_json::from_slice(&o.stdout).unwrap();
+    assert_eq!(v["exact"], false);
+}
+
+/// Once an abort: all of the sample was drawn before any of it was given.
+#[test]
+fn a_sample_of_any_size_is_given_one_by_one() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_ozols"))
+        .args(["search", "four-bar", "--format", "csv", "--check", "none"])
+        .args(["--sample", "1000000000000"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    assert_eq!(lines.take(5000).filter(Result::is_ok).count(), 5000);
+    assert!(child.wait().unwrap().success());
+}
+
+#[test]
+fn budgets_that_are_none_are_refused() {
+    for (args, words) in [
+        (
+            &["--threads", "100000"][..],
+            "--threads must be from 1 to 1024",
+        ),
+        (&["--threads", "0"], "--threads must be from 1"),
+        (&["--memory", "12"], "such as 500M or 2G"),
+        (&["--memory", "much"], "such as 500M or 2G"),
+    ] {
+        refused(&[&["search", "four-bar"], args].concat(), &[words]);
+    }
+    let (one, other) = (["--memory", "1.5G"], ["--memory", "1536MiB"]);
+    let count = |m: [&str; 2]| run(&["search", "four-bar", "--count", m[0], m[1]]).stdout;
+    assert_eq!(count(one), count(other));
+}
+
+/// Once an abort at 4 GB.
+#[test]
+fn a_mechanism_too_entangled_is_refused_at_once() {
+    let joints = vec![(0, 1); 3999];
+    let o = ozols(&["analyze", "-"])
+        .write_stdin(file(1, &joints))
+        .output()
+        .unwrap();
+    let said = text(&o.stderr);
+    assert_eq!(o.status.code(), Some(2), "{said}");
+    assert!(said.contains("23988 rows and 3999 columns"), "{said}");
+}
+
+/// Once two minutes.
+#[test]
+fn a_long_open_chain_is_analysed_and_its_search_refused() {
+    let joints: Vec<_> = (0..300).map(|i| (i, i + 1)).collect();
+    let chain = file(300, &joints);
+    let o = ozols(&["analyze", "-", "--format", "json"])
+        .write_stdin(chain.clone())
+        .timeout(std::time::Duration::from_secs(60))
+        .output()
+        .unwrap();
+    let v: Value = serde_json::from_slice(&o.stdout).unwrap();
+    assert_eq!(v["states"][0]["mobility"], 300);
+    let o = ozols(&["search", "-"]).write_stdin(chain).output().unwrap();
+    let said = text(&o.stderr);
+    assert_eq!(o.status.code(), Some(2), "{said}");
+    assert!(said.contains("300 joints are in no contour"), "{said}");
+}

@@ -1,0 +1,229 @@
+//! Signals: what is said, what is left, and the exit code.
+
+use crate::common::{ozols, text};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// The exit codes of signals by name.
+const SIGNALS: [(&str, i32); 3] = [("INT", 130), ("TERM", 143), ("HUP", 129)];
+
+/// Options that take brute force minutes.
+const MANY: &str = "revolute,cylindrical,universal,spherical";
+
+/// Starts a command in a folder.
+fn start(folder: &Path, args: &[&str]) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_ozols"))
+        .args(args)
+        .current_dir(folder)
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+fn send(child: &Child, signal: &str) {
+    let status = Command::new("kill")
+        .args([&format!("-{signal}"), &child.id().to_string()])
+        .status();
+    assert!(status.unwrap().success());
+}
+
+/// Sends a signal once `ready`, and gives what the command leaves.
+fn interrupted(mut child: Child, signal: &str, mut ready: impl FnMut() -> bool) -> Output {
+    let begun = Instant::now();
+    while !ready() {
+        let ended = child.try_wait().unwrap();
+        assert!(
+            ended.is_none() && begun.elapsed() < Duration::from_secs(60),
+            "ended before it could be interrupted, or never came that far"
+        );
+        sleep(Duration::from_millis(5));
+    }
+    send(&child, signal);
+    child.wait_with_output().unwrap()
+}
+
+/// Bytes of the temporary file that a command is writing.
+fn written(folder: &Path) -> u64 {
+    let files = fs::read_dir(folder).unwrap().filter_map(Result::ok);
+    files
+        .filter(|f| f.file_name().to_string_lossy().starts_with(".tmp"))
+        .filter_map(|f| Some(f.metadata().ok()?.len()))
+        .sum()
+}
+
+/// Once wrong: code 0, not a word, and 102,736 of 25,761,436 rows under the final name.
+#[test]
+fn a_list_that_is_cut_short_says_so_at_its_end() {
+    for (signal, code) in SIGNALS {
+        for format in ["csv", "jsonl", "json"] {
+            let folder = tempfile::tempdir().unwrap();
+            let folder = folder.path();
+            let args = [
+                "search",
+                "gripper-10",
+                "--all",
+                "--check",
+                "prime",
+                "--format",
+                format,
+                "-o",
+                "list",
+            ];
+            let child = start(folder, &args);
+            let o = interrupted(child, signal, || written(folder) > 100_000);
+            assert_eq!(o.status.code(), Some(code), "{signal} {format}");
+            assert!(text(&o.stderr).contains("interrupted by"), "{signal}");
+            assert_eq!(fs::read_dir(folder).unwrap().count(), 1, "{signal}");
+            let list = fs::read_to_string(folder.join("list")).unwrap();
+            let last = list.lines().last().unwrap();
+            match format {
+                "csv" => {
+                    let given = list.lines().count() - 2;
+                    let end = format!(
+                        "# stopped early (interrupted): {given} of 25761436 admissible variants given"
+                    );
+                    assert_eq!(last, end);
+                }
+                "jsonl" => {
+                    let end: Value = serde_json::from_str(last).unwrap();
+                    assert_eq!(end["stop"], "interrupted");
+                    assert_eq!(end["given"], list.lines().count() - 1);
+                    assert_eq!(end["admissible"], "25761436");
+                }
+                _ => {
+                    let whole: Value = serde_json::from_str(&list).unwrap();
+                    assert_eq!(whole["variants_stop"], "interrupted");
+                    assert_eq!(whole["variants_complete"], false);
+                    // The counts were finished before, and are what they are.
+                    assert_eq!(whole["stop"], "exhausted");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_whole_list_has_no_such_end() {
+    for format in ["csv", "jsonl", "json"] {
+        let list = crate::common::out(&["search", "four-bar", "--all", "--format", format]);
+        assert!(!list.contains("stop\":\"") && !list.contains("# stopped"));
+        assert!(!list.contains("variants_stop"));
+    }
+}
+
+/// A list cut to the node budget is no whole list either.
+#[test]
+fn a_list_of_a_bounded_search_says_so_at_its_end() {
+    let args = ["search", "gripper-10", "--nodes", "50", "--top", "2"];
+    let csv = crate::common::out(&[&args[..], &["--format", "csv"]].concat());
+    let last = csv.lines().last().unwrap();
+    assert!(last.starts_with("# stopped early (node-budget): 2 of at least"));
+}
+
+/// Work that has nothing to give before its end ends at once, and leaves nothing.
+#[test]
+fn whatever_takes_long_ends_at_once() {
+    for args in [
+        &["analyze", "delta", "--stroke", "0:20deg:9999", "-o", "x"][..],
+        &[
+            "search",
+            "gripper-10",
+            "--method",
+            "brute",
+            "--options",
+            MANY,
+            "-o",
+            "x",
+        ],
+        &["accuracy", "-o", "x"],
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let begun = Instant::now();
+        let child = start(folder.path(), args);
+        let ready = || begun.elapsed() > Duration::from_millis(400);
+        let mut sent = Instant::now();
+        let o = interrupted(child, "INT", || {
+            sent = Instant::now();
+            ready()
+        });
+        assert_eq!(o.status.code(), Some(130), "{args:?} {}", text(&o.stderr));
+        assert_eq!(text(&o.stderr), "interrupted by Ctrl-C\n", "{args:?}");
+        assert!(sent.elapsed() < Duration::from_secs(2), "{args:?}");
+        assert_eq!(written(folder.path()), 0);
+        assert!(!folder.path().join("x").is_file());
+    }
+}
+
+/// A ranking gives the best of what it scored, and poses what was looked at.
+#[test]
+fn a_ranking_and_poses_end_with_what_they_have() {
+    let folder = tempfile::tempdir().unwrap();
+    for args in [
+        &[
+            "search",
+            "gripper-10-loaded",
+            "--pool",
+            "100000000",
+            "--rank",
+            "peak-force,conditioning",
+            "--check",
+            "none",
+            "--format",
+            "json",
+        ][..],
+        &[
+            "search",
+            "gripper-10",
+            "--poses",
+            "9000",
+            "--top",
+            "1000",
+            "--format",
+            "json",
+        ],
+    ] {
+        let begun = Instant::now();
+        let child = start(folder.path(), args);
+        let o = interrupted(child, "INT", || {
+            begun.elapsed() > Duration::from_millis(3000)
+        });
+        assert_eq!(o.status.code(), Some(130), "{args:?} {}", text(&o.stderr));
+        let found: Value = serde_json::from_slice(&o.stdout).unwrap();
+        assert_eq!(found["variants_stop"], "interrupted", "{args:?}");
+    }
+}
+
+/// nohup.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_ignored_hangup_stays_ignored() {
+    let folder = tempfile::tempdir().unwrap();
+    let command = format!(
+        "trap '' HUP; exec '{}' search gripper-10 --method brute --options {MANY}",
+        env!("CARGO_BIN_EXE_ozols")
+    );
+    let mut child = Command::new("sh")
+        .args(["-c", &command])
+        .current_dir(&folder)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    sleep(Duration::from_millis(300));
+    send(&child, "HUP");
+    sleep(Duration::from_millis(300));
+    assert!(child.try_wait().unwrap().is_none());
+    send(&child, "TERM");
+    assert_eq!(child.wait().unwrap().code(), Some(143));
+}
+
+#[test]
+fn no_signal_no_such_code() {
+    assert_eq!(ozols(&["list"]).output().unwrap().status.code(), Some(0));
+}

@@ -1,0 +1,220 @@
+//! Names, tables, files and pipes that are not as one expects.
+
+use super::refused;
+use crate::common::{changed, out, ozols, run, text};
+use std::fs;
+
+/// ESC colours a terminal and worse, CR hides what came before, NUL ends strings of other programs.
+#[test]
+fn control_characters_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("x.toml");
+    let shown = out(&["show", "four-bar"]);
+    for (from, to, key) in [
+        (
+            "name = \"four-bar\"",
+            "name = \"four\\u001b[31mbar\"",
+            "name",
+        ),
+        ("name = \"four-bar\"", "name = \"four\\rbar\"", "name"),
+        ("description = \"", "description = \"\\u0000", "description"),
+        ("O. G. Ozols", "O.\\u009b Ozols", "sources"),
+    ] {
+        fs::write(&file, changed(&shown, from, to)).unwrap();
+        let words = format!("{key} holds the control character");
+        refused(&["analyze", file.to_str().unwrap()], &[&words]);
+    }
+    let json = folder.path().join("x.json");
+    let shown = out(&["export", "four-bar", "--to", "json"]);
+    fs::write(&json, changed(&shown, "\"four-bar\"", "\"a\\u001b\"")).unwrap();
+    refused(
+        &["analyze", json.to_str().unwrap()],
+        &["name holds the control character \\u{1b}"],
+    );
+    let urdf = folder.path().join("x.urdf");
+    for name in ["a\u{1b}[31m", "a&#13;b"] {
+        fs::write(
+            &urdf,
+            format!("<robot name=\"{name}\"><link name=\"b\"/></robot>"),
+        )
+        .unwrap();
+        refused(&["analyze", urdf.to_str().unwrap()], &["control character"]);
+    }
+}
+
+/// Prose may have several lines.
+#[test]
+fn a_description_of_two_lines_is_taken() {
+    let shown = out(&["show", "four-bar"]);
+    let two = changed(&shown, "description = \"", "description = \"one\\n\\ttwo ");
+    let o = ozols(&["check", "-"]).write_stdin(two).output().unwrap();
+    assert_eq!(o.status.code(), Some(0), "{}", text(&o.stderr));
+}
+
+/// A spreadsheet would run them.
+#[test]
+fn names_like_formulas_are_neutralised_in_csv() {
+    let shown = out(&["show", "four-bar"]).replace("\"2-3\"", "\"=2+3\"");
+    let search = ["search", "-", "--top", "3", "--format", "csv"];
+    let o = ozols(&search).write_stdin(shown).output().unwrap();
+    let (csv, said) = (text(&o.stdout), text(&o.stderr));
+    assert!(
+        csv.contains(",'=2+3,") && !csv.contains(",=2+3"),
+        "{csv}{said}"
+    );
+}
+
+/// Once wrong: 10 names over 9 values.
+#[test]
+fn every_row_of_csv_has_as_many_cells_as_the_head() {
+    for more in [
+        &["--allow-output-change"][..],
+        &["--allow-output-change", "--rank", "cost,changes"],
+        &["--max-external", "2"],
+        &["--sample", "4"],
+        &["--check", "none"],
+    ] {
+        let name = if more.contains(&"--max-external") {
+            "gripper-10"
+        } else {
+            "four-bar"
+        };
+        let args = [&["search", name, "--format", "csv"], more].concat();
+        let o = run(&args);
+        let csv = text(&o.stdout);
+        let mut rows = csv::Reader::from_reader(csv.as_bytes());
+        let width = rows.headers().unwrap().len();
+        let rows: Vec<_> = rows.records().map(|r| r.unwrap().len()).collect();
+        assert!(
+            !rows.is_empty() && rows.iter().all(|&n| n == width),
+            "{args:?}"
+        );
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_written_file_has_the_mode_it_had_or_the_umask() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let mode = |name: &str| {
+        let path = folder.path().join(name);
+        fs::metadata(path).unwrap().permissions().mode() & 0o777
+    };
+    let old = folder.path().join("old");
+    fs::write(&old, "").unwrap();
+    for kept in [0o600, 0o664, 0o755] {
+        fs::set_permissions(&old, fs::Permissions::from_mode(kept)).unwrap();
+        out(&["analyze", "four-bar", "-o", old.to_str().unwrap()]);
+        assert_eq!(mode("old"), kept);
+    }
+    for (umask, expected) in [("077", 0o600), ("002", 0o664), ("022", 0o644)] {
+        let command = format!(
+            "umask {umask}; exec '{}' analyze four-bar -o new{umask}",
+            env!("CARGO_BIN_EXE_ozols")
+        );
+        let status = std::process::Command::new("sh")
+            .args(["-c", &command])
+            .current_dir(&folder)
+            .status();
+        assert!(status.unwrap().success());
+        assert_eq!(mode(&format!("new{umask}")), expected);
+    }
+}
+
+#[test]
+fn a_dash_is_standard_output() {
+    let folder = tempfile::tempdir().unwrap();
+    for args in [
+        &["search", "four-bar", "--format", "csv"][..],
+        &["analyze", "four-bar"],
+        &["export", "four-bar", "--to", "urdf"],
+    ] {
+        let mut command = ozols(&[args, &["-o", "-"]].concat());
+        let o = command.current_dir(&folder).output().unwrap();
+        assert_eq!(text(&o.stdout), out(args));
+    }
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
+}
+
+/// Once accepted in silence, and no file written.
+#[test]
+fn a_counting_method_has_no_certificate() {
+    refused(
+        &[
+            "analyze",
+            "four-bar",
+            "--method",
+            "count",
+            "--certificate",
+            "c",
+        ],
+        &["--method count", "no certificate"],
+    );
+}
+
+/// Once the program waited for a writer that never came.
+#[cfg(unix)]
+#[test]
+fn an_included_pipe_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = std::process::Command::new("mkfifo")
+        .arg(folder.path().join("pipe"))
+        .status();
+    assert!(made.unwrap().success());
+    let file = folder.path().join("x.xml");
+    fs::write(
+        &file,
+        "<mujoco><include file=\"pipe\"/><worldbody/></mujoco>",
+    )
+    .unwrap();
+    refused(
+        &["import", file.to_str().unwrap()],
+        &["pipe", "it is not a file"],
+    );
+}
+
+/// Once a panic: what is said of an import goes to a standard error that nobody reads.
+#[cfg(unix)]
+#[test]
+fn a_closed_standard_error_is_no_failure() {
+    let robot = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/tests/data/robots/robotiq_2f85_v4/2f85.nomesh.xml"
+    );
+    for redirect in ["2>&-", "2>/dev/full"] {
+        let command = format!(
+            "'{}' export '{robot}' --to urdf {redirect} >/dev/null",
+            env!("CARGO_BIN_EXE_ozols")
+        );
+        let status = std::process::Command::new("sh")
+            .args(["-c", &command])
+            .status();
+        assert_eq!(status.unwrap().code(), Some(0), "{redirect}");
+    }
+}
+
+/// Once a panic: in a plane a coupling of freedoms that lead out of it had no row, and its share was looked for there.
+#[test]
+fn couplings_out_of_the_plane_are_left_out_and_said() {
+    let shown = out(&["show", "four-bar"]);
+    let tilted = changed(
+        &shown,
+        "point = [0, 0, 0]\naxis = [0, 0, 1]",
+        "point = [0, 0, 0]\naxis = [1, 0, 0]",
+    );
+    let coupled = format!("{tilted}\n[[coupling]]\njoints = [\"0-1\", \"3-0\"]\nratio = 2\n");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("x.toml");
+    fs::write(&file, coupled).unwrap();
+    for more in [&[][..], &["--method", "svd"], &["--method", "count"]] {
+        let args = [&["analyze", file.to_str().unwrap(), "--planar"], more].concat();
+        let o = run(&args);
+        let said = text(&o.stderr);
+        assert_eq!(o.status.code(), Some(0), "{args:?} {said}");
+        assert!(
+            said.contains("--planar leaves out what couples") && said.contains("0-1"),
+            "{said}"
+        );
+    }
+}
