@@ -4,6 +4,7 @@
 pub mod analysis;
 pub mod borne;
 pub mod external;
+pub mod figures;
 pub mod idle;
 mod joint_wrench;
 pub mod measured;

@@ -16,6 +16,7 @@ pub mod conditions;
 pub mod cost;
 pub mod counts;
 pub mod diagram;
+mod growth;
 pub mod held;
 pub mod lanes;
 pub mod listing;

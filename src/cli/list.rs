@@ -3,7 +3,7 @@
 use super::{Done, near, output};
 use crate::builtin;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::redundancy::analysis::{Method, analyse};
+use crate::redundancy::figures::figures;
 use crate::view::layout::table;
 use anyhow::Context;
 use clap::Args as ClapArgs;
@@ -78,12 +78,10 @@ pub(super) fn run(a: &List) -> anyhow::Result<Done> {
 
 /// A row for each state.
 fn rows_of(name: &str, m: &Mechanism) -> anyhow::Result<Vec<Vec<String>>> {
-    let states: Vec<StateId> = m.state_ids().collect();
-    let analysed = analyse(m, &states, Method::Modular)
-        .with_context(|| format!("built-in mechanism {name}"))?;
-    let row = |(i, s): (usize, crate::redundancy::analysis::StateAnalysis)| {
+    let row = |(i, state): (usize, StateId)| {
+        let s = figures(m, state).with_context(|| format!("built-in mechanism {name}"))?;
         let first = if i == 0 { name } else { "" };
-        let mut row = vec![first.to_owned(), s.state];
+        let mut row = vec![first.to_owned(), m.states[state].clone()];
         row.extend(
             [
                 s.links,
@@ -95,9 +93,9 @@ fn rows_of(name: &str, m: &Mechanism) -> anyhow::Result<Vec<Vec<String>>> {
             ]
             .map(|n| n.to_string()),
         );
-        row
+        Ok(row)
     };
-    Ok(analysed.into_iter().enumerate().map(row).collect())
+    m.state_ids().enumerate().map(row).collect()
 }
 
 fn measure(line: &str) -> usize {

@@ -286,9 +286,6 @@ impl Search {
                 .collect();
             present.insert(&part);
         }
-        (!blocks.is_empty()).then(|| Collapse {
-            blocks,
-            present: present.reduced(),
-        })
+        (!blocks.is_empty()).then(|| Collapse::new(&blocks, dim, present.reduced()))
     }
 }

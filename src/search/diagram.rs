@@ -1,10 +1,11 @@
 //! The span diagram: variants folded into the motion spaces their parts leave.
 //!
 //! Nodes are kept as reduced row echelon forms over a prime field, which are canonical, so equal spaces meet in one
-//! hash table. One transition costs a few hundred multiplications.
+//! hash table.
 
 use crate::geom::exact::ExactField;
 use crate::linalg::modp::Field;
+use crate::search::growth::{Grown, grown};
 use crate::search::lookahead::Lookahead;
 pub use crate::search::merge::DEAD;
 use crate::search::merge::{CUT, Merge, Nodes};
@@ -95,12 +96,20 @@ pub fn build(
         let room = limits.nodes.saturating_sub(total).max(CUT);
         let bytes = limits.bytes.saturating_sub(held + nodes.bytes());
         let mut merge = Merge::new((room, bytes), stop, nodes.len() * choices.len());
+        let growth = grown(exact.field(), space, stage);
         // Children that are not merged yet may take an eighth of the memory; one is about as large as its parent.
         let each = nodes.bytes() / nodes.len().max(1) * choices.len();
         let size = (limits.bytes / 8 / each.max(1)).clamp(CUT, BATCH);
         for batch in (0..nodes.len()).step_by(size) {
             let batch = batch..(batch + size).min(nodes.len());
-            for part in expand(exact.field(), space, stage, limits, &nodes, batch) {
+            for part in expand(
+                exact.field(),
+                space,
+                (stage, &growth),
+                limits,
+                &nodes,
+                batch,
+            ) {
                 merge.take(&part, &nodes, |choice| choices[choice].cost_milli);
             }
             if cancelled() && merge.stop != Stop::Interrupted {
@@ -170,7 +179,7 @@ const PARALLEL: usize = 1024;
 fn expand(
     field: Field,
     space: &Space,
-    stage: &Stage,
+    (stage, growth): (&Stage, &[Grown]),
     limits: &Limits,
     nodes: &Nodes,
     range: std::ops::Range<usize>,
@@ -186,7 +195,7 @@ fn expand(
         for i in range {
             worker.children(
                 space,
-                stage,
+                (stage, growth),
                 nodes.matrix(i),
                 &nodes.spent[i],
                 limits,

@@ -9,6 +9,7 @@
 //! of its own of which only the first number is used. The second joint closes it, as a joint closes a contour, with a gap
 //! of one number.
 
+use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use std::collections::BTreeMap;
 
@@ -46,6 +47,24 @@ pub struct Step {
     pub live: Vec<(LinkId, LinkId)>,
     /// Couplings that are pending after the step; their blocks come after those of the links.
     pub pending: Vec<usize>,
+}
+
+impl Step {
+    /// The row that a twist of the joint, with its entries for couplings behind it, becomes.
+    pub(super) fn image(&self, f: Field, d: usize, twist: &[Residue]) -> Vec<Residue> {
+        let mut row = vec![0; self.width * d];
+        for &(new, plus) in &self.twist {
+            f.accumulate(&mut row[new * d..(new + 1) * d], &twist[..d], plus);
+        }
+        for &(new, rate, plus) in &self.rates {
+            f.accumulate(
+                &mut row[new * d..=new * d],
+                &twist[d + rate..=d + rate],
+                plus,
+            );
+        }
+        row
+    }
 }
 
 /// A joint in one of several copies of the mechanism's links and couplings, which are numbered on: link `l` of copy `lane`

@@ -14,10 +14,30 @@ use crate::search::space::Space;
 /// counts is which motions of the live links do so. Nodes that differ in nothing else become equal.
 #[derive(Debug, Clone)]
 pub struct Collapse {
-    /// Blocks that hold the finished links' twists relative to the frame.
-    pub blocks: Vec<usize>,
-    /// Reduced basis of their present motions, in the coordinates of the blocks in that order.
-    pub present: Vec<Vec<Residue>>,
+    /// Coordinates of the finished links' twists relative to the frame.
+    pub(super) places: Vec<usize>,
+    /// Reduced basis of their present motions, in those coordinates in that order.
+    pub(super) present: Vec<Vec<Residue>>,
+    /// The pivots of the basis, and the other coordinates.
+    pub(super) fixed: Vec<usize>,
+    pub(super) open: Vec<usize>,
+}
+
+impl Collapse {
+    /// Of the links in these blocks of `dim` coordinates, with a reduced basis of their present motions.
+    #[must_use]
+    pub fn new(blocks: &[usize], dim: usize, present: Vec<Vec<Residue>>) -> Collapse {
+        let places: Vec<usize> = blocks.iter().flat_map(|b| b * dim..(b + 1) * dim).collect();
+        let pivot = |row: &Vec<Residue>| row.iter().position(|&x| x != 0);
+        let fixed: Vec<usize> = present.iter().filter_map(pivot).collect();
+        let open = (0..places.len()).filter(|i| !fixed.contains(i)).collect();
+        Collapse {
+            places,
+            present,
+            fixed,
+            open,
+        }
+    }
 }
 
 /// A variable of the diagram with the steps its joints take.

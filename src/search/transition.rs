@@ -3,6 +3,7 @@
 //! Everything here works on flat scratch space that a thread keeps, in a field with a memory of inverses.
 
 use crate::linalg::modp::{Field, Residue};
+use crate::search::growth::Grown;
 use crate::search::lanes::{Held, Lane};
 use crate::search::lookahead::Lookahead;
 use crate::search::plan::Step;
@@ -58,8 +59,10 @@ impl Rows {
         }
         let at = self.pivots.partition_point(|&p| p < pivot);
         self.pivots.insert(at, pivot);
-        self.data
-            .splice(at * width..at * width, vector.iter().copied());
+        let (start, end) = (at * width, self.data.len());
+        self.data.resize(end + width, 0);
+        self.data.copy_within(start..end, start + width);
+        self.data[start..start + width].copy_from_slice(vector);
     }
 }
 
@@ -89,7 +92,12 @@ pub(super) struct Worker {
     work: Rows,
     /// Images of a node's rows under a lookahead.
     kept: Rows,
+    /// Motions that go wrong, without their wrong twists.
+    rest: Rows,
+    /// The node carried over the stage's one joint, for each of its choices.
+    grown: Vec<Rows>,
     vector: Vec<Residue>,
+    twist: Vec<Residue>,
 }
 
 impl Worker {
@@ -103,7 +111,10 @@ impl Worker {
             base: Rows::default(),
             work: Rows::default(),
             kept: Rows::default(),
+            rest: Rows::default(),
+            grown: Vec::new(),
             vector: Vec::new(),
+            twist: Vec::new(),
         }
     }
 
@@ -125,26 +136,32 @@ impl Worker {
         }
     }
 
-    /// Ends a step: adds the joint's twists and drops the gaps. The result is in `work`; returns the redundancy.
-    fn finish(&mut self, step: &Step, span: &[Vec<Residue>]) -> u32 {
-        let (f, d) = (self.arithmetic.field, self.dim);
+    /// Adds a joint's twists to the rows in `base`; the result is in `work`.
+    fn join(&mut self, step: &Step, span: &[Vec<Residue>]) {
         self.work.clone_from(&self.base);
         for twist in span {
-            self.vector.clear();
-            self.vector.resize(step.width * d, 0);
-            for &(new, plus) in &step.twist {
-                f.accumulate(&mut self.vector[new * d..(new + 1) * d], &twist[..d], plus);
-            }
-            for &(new, rate, plus) in &step.rates {
-                f.accumulate(
-                    &mut self.vector[new * d..=new * d],
-                    &twist[d + rate..=d + rate],
-                    plus,
-                );
-            }
-            self.work.insert(&mut self.arithmetic, &mut self.vector);
+            let mut row = step.image(self.arithmetic.field, self.dim, twist);
+            self.work.insert(&mut self.arithmetic, &mut row);
         }
-        let gaps = usize::from(step.closing) + step.coupled;
+    }
+
+    /// Carries the rows in `base` over a stage's one joint, for each of its choices.
+    fn grow(&mut self, growth: &[Grown]) {
+        self.grown.resize(growth.len(), Rows::default());
+        for g in growth {
+            let mut rows = std::mem::take(&mut self.grown[g.choice]);
+            rows.clone_from(g.from.map_or(&self.base, |from| &self.grown[from]));
+            for row in &g.more {
+                self.vector.clone_from(row);
+                rows.insert(&mut self.arithmetic, &mut self.vector);
+            }
+            self.grown[g.choice] = rows;
+        }
+    }
+
+    /// Ends a step: drops the gaps of `work`; returns the redundancy.
+    fn close(&mut self, step: &Step) -> u32 {
+        let (d, gaps) = (self.dim, usize::from(step.closing) + step.coupled);
         if gaps == 0 {
             return 0;
         }
@@ -167,11 +184,11 @@ impl Worker {
         u32::try_from(directions - bridged).expect("few directions")
     }
 
-    /// All children of a node, in order of choices.
+    /// All children of a node, in order of choices. `growth` is the stage's, see [`crate::search::growth`].
     pub(super) fn children(
         &mut self,
         space: &Space,
-        stage: &Stage,
+        (stage, growth): (&Stage, &[Grown]),
         matrix: &[Residue],
         spent: &Spent,
         limits: &Limits,
@@ -194,7 +211,8 @@ impl Worker {
             self.begin(&first.step, matrix);
         }
         let base = (!rest.is_empty()).then(|| self.base.clone());
-        for choice in choices {
+        self.grow(growth);
+        for (number, choice) in choices.iter().enumerate() {
             if let Some(base) = &base {
                 self.base.clone_from(base);
             }
@@ -205,7 +223,11 @@ impl Worker {
                     self.begin(&joined.step, &old);
                 }
                 let span = joined.span(choice);
-                let redundant = self.finish(&joined.step, span.unwrap_or_default());
+                match self.grown.get(number) {
+                    Some(rows) if !growth.is_empty() => self.work.clone_from(rows),
+                    _ => self.join(&joined.step, span.unwrap_or_default()),
+                }
+                let redundant = self.close(&joined.step);
                 match (span, joined.lane) {
                     (None, Lane::Friction(face)) => now.rule_out(face),
                     (_, lane) => now.add(lane, redundant),
@@ -250,37 +272,39 @@ impl Worker {
 
     /// Brings `work` into the form that [`Collapse`] describes.
     fn collapse(&mut self, collapse: &Collapse) {
-        let (f, d, width) = (self.arithmetic.field, self.dim, self.work.width);
-        let places: Vec<usize> = collapse
-            .blocks
-            .iter()
-            .flat_map(|b| b * d..(b + 1) * d)
-            .collect();
-        let pivot = |row: &[Residue]| row.iter().position(|&x| x != 0);
-        let fixed: Vec<usize> = collapse.present.iter().filter_map(|r| pivot(r)).collect();
-        let open: Vec<usize> = (0..places.len()).filter(|i| !fixed.contains(i)).collect();
-        // Rows with what is wrong about them in front.
-        self.kept.clear(open.len() + width);
-        let mut right = true;
+        let (f, width) = (self.arithmetic.field, self.work.width);
+        let Collapse {
+            places,
+            present,
+            fixed,
+            open,
+        } = collapse;
+        // What is wrong about each row.
+        let size = places.len();
+        self.twist.clear();
         for row in self.work.data.chunks_exact(width.max(1)) {
-            let mut twist: Vec<Residue> = places.iter().map(|&p| row[p]).collect();
-            for (known, &p) in collapse.present.iter().zip(&fixed) {
+            let start = self.twist.len();
+            self.twist.extend(places.iter().map(|&p| row[p]));
+            let twist = &mut self.twist[start..];
+            for (known, &p) in present.iter().zip(fixed) {
                 f.subtract_multiple(&mut twist[p..], &known[p..]);
             }
-            right &= twist.iter().all(|&x| x == 0);
+        }
+        if self.twist.iter().all(|&x| x == 0) {
+            return;
+        }
+        // Rows with that in front.
+        self.kept.clear(open.len() + width);
+        let rows = self.work.data.chunks_exact(width.max(1));
+        for (row, twist) in rows.zip(self.twist.chunks_exact(size)) {
             self.vector.clear();
             self.vector.extend(open.iter().map(|&i| twist[i]));
             self.vector.extend_from_slice(row);
             self.kept.insert(&mut self.arithmetic, &mut self.vector);
         }
-        if right {
-            return;
-        }
         let wrong = self.kept.pivots.partition_point(|&p| p < open.len());
         // The motions that go wrong, without their wrong twists, modulo those that do not.
-        let mut rest = Rows::default();
-        rest.clear(width);
-        let mut number = 0;
+        self.rest.clear(width);
         self.work.clear(width);
         for row in self.kept.data.chunks_exact(self.kept.width).skip(wrong) {
             self.vector.clear();
@@ -291,17 +315,16 @@ impl Worker {
             self.vector.clear();
             self.vector.extend_from_slice(&row[open.len()..]);
             places.iter().for_each(|&p| self.vector[p] = 0);
-            rest.insert(&mut self.arithmetic, &mut self.vector);
+            self.rest.insert(&mut self.arithmetic, &mut self.vector);
         }
         // Each goes wrong in a way of its own; so do motions of the finished links alone.
         for i in 0..wrong {
             self.vector.clear();
-            match rest.data.chunks_exact(width).nth(i) {
+            match self.rest.data.chunks_exact(width).nth(i) {
                 Some(row) => self.vector.extend_from_slice(row),
                 None => self.vector.resize(width, 0),
             }
-            self.vector[places[open[number]]] = f.one();
-            number += 1;
+            self.vector[places[open[i]]] = f.one();
             self.work.insert(&mut self.arithmetic, &mut self.vector);
         }
     }

@@ -5,8 +5,10 @@
 //! there are with all choices: two or three in the one for tens and thousands in the other.
 
 use crate::geom::exact::ExactField;
+use crate::linalg::modp::Field;
 use crate::model::mechanism::{LinkId, Mechanism};
 use crate::search::diagram::Stop;
+use crate::search::growth::grown;
 use crate::search::lanes::Move;
 use crate::search::merge::{Merge, Nodes};
 use crate::search::plan::{At, Planner};
@@ -23,6 +25,7 @@ const WIDEST: usize = 256;
 pub(super) struct Trials<'m> {
     mechanism: &'m Mechanism,
     pub(super) space: Space,
+    field: Field,
     limits: Limits,
     worker: Worker,
 }
@@ -79,6 +82,7 @@ impl<'m> Trials<'m> {
             Trials {
                 mechanism,
                 space,
+                field: exact.field(),
                 limits,
                 worker,
             },
@@ -98,13 +102,13 @@ impl<'m> Trials<'m> {
             found: Vec::new(),
             data: Vec::new(),
         };
+        let growth = grown(self.field, &self.space, &stage);
         for i in 0..trial.nodes.len() {
-            let (matrix, spent) = (trial.nodes.matrix(i), &trial.nodes.spent[i]);
             self.worker.children(
                 &self.space,
-                &stage,
-                matrix,
-                spent,
+                (&stage, &growth),
+                trial.nodes.matrix(i),
+                &trial.nodes.spent[i],
                 &self.limits,
                 &mut children,
             );

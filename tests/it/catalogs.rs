@@ -4,6 +4,7 @@ use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Elimination, Method, analyse};
+use ozols::redundancy::figures::{Figures, figures};
 
 #[test]
 fn every_built_in_mechanism_has_the_figures_it_states() {
@@ -33,6 +34,21 @@ fn every_built_in_mechanism_has_the_figures_it_states() {
         for method in [Method::Modular, Method::Numeric(Elimination::Svd, 1e-9)] {
             let states: Vec<StateId> = m.state_ids().collect();
             for s in analyse(&m, &states, method).unwrap() {
+                let state = m.state(&s.state).unwrap();
+                let of_analysis = Figures {
+                    links: s.links,
+                    joints: s.joints,
+                    contours: s.contours,
+                    freedoms: s.freedoms,
+                    mobility: s.mobility,
+                    redundant: s.redundant,
+                };
+                assert_eq!(
+                    figures(&m, state).unwrap(),
+                    of_analysis,
+                    "{name} {}",
+                    s.state
+                );
                 // σ = W + 6k - f holds identically, p = n + k - 1 for a connected mechanism.
                 assert_eq!(
                     s.redundant + s.freedoms,
