@@ -44,7 +44,8 @@ fn judged(
         Err(_) => (part, 0),
     };
     let cases = cases();
-    let of = |d| (0..cases.len()).flat_map(move |c| (first..first + 3).map(move |turn| (d, c, turn)));
+    let of =
+        |d| (0..cases.len()).flat_map(move |c| (first..first + 3).map(move |turn| (d, c, turn)));
     let all: Vec<(usize, usize, u64)> =
         (4..=16).flat_map(of).skip(part / 2).step_by(part).collect();
     let found: Vec<(usize, Worth, String)> = all
