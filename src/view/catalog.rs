@@ -77,11 +77,13 @@ impl CensusData {
 }
 
 const LEGEND: &str = "\
-All up to isomorphism. Drive: a frame, and a driver joined to it. Jaws are neither. Essential: no smaller moving part holds \
-frame, driver and jaws. Truss: with a part hinged to both jaws nothing moves any more, and no smaller part is rigid. Graph \
-symmetric: swapping the jaws can be undone by swapping them again, frame and driver in place. Mirror, half turn: in places \
-so symmetric, otherwise generic (drawn at random modulo a prime), there is one motion; input and jaws move, and the jaws \
-against each other.
+All up to isomorphism.
+Drive: a frame, and a driver joined to it. Jaws are neither.
+Essential: no smaller moving part holds frame, driver and jaws.
+Truss: with a part hinged to both jaws nothing moves any more, and no smaller part is rigid.
+Graph symmetric: swapping the jaws twice changes nothing, frame and driver in place.
+Mirror, half turn: in places so symmetric, otherwise generic (drawn at random modulo a prime), there is one motion; input
+and jaws move, and the jaws against each other.
 ";
 
 /// A table, a column for each number of links.

@@ -77,7 +77,10 @@ fn exit_code_2_bad_arguments() {
     ] {
         refused(args, &[]);
     }
-    refused(&["list", "--threads", "0"], &["--threads", "at least 1"]);
+    refused(
+        &["list", "--threads", "0"],
+        &["--threads", "from 1 to 1024"],
+    );
     refused(
         &["analyze", "four-bar", "--method", "svd", "--tolerance", "2"],
         &["--tolerance"],

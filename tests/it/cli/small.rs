@@ -207,7 +207,7 @@ fn couplings_out_of_the_plane_are_left_out_and_said() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("x.toml");
     fs::write(&file, coupled).unwrap();
-    for more in [&[][..], &["--method", "svd"], &["--method", "count"]] {
+    for more in [&[][..], &["--method", "svd"], &["--method", "count-planar"]] {
         let args = [&["analyze", file.to_str().unwrap(), "--planar"], more].concat();
         let o = run(&args);
         let said = text(&o.stderr);
