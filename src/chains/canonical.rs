@@ -104,6 +104,9 @@ pub fn canonical(graph: &Weighted) -> Canonical {
     }
 }
 
+/// A vertex's cell, the cells and weights of its neighbours, and the vertex.
+type Key = (usize, Vec<(usize, u8)>, usize);
+
 struct Search<'a> {
     graph: &'a Weighted,
     best: Option<(Weighted, Vec<usize>)>,
@@ -116,7 +119,7 @@ impl Search<'_> {
     /// place of its first vertex.
     fn refine(&self, cells: &mut Vec<usize>) {
         let n = self.graph.vertices;
-        let mut keys: Vec<(usize, Vec<(usize, u8)>, usize)> = Vec::with_capacity(n);
+        let mut keys: Vec<Key> = Vec::with_capacity(n);
         let mut count = 0;
         loop {
             keys.clear();
