@@ -42,6 +42,7 @@
 //! - `[Bychkov, Dvornikov & Zhukov 2018]` I. V. Bychkov, L. T. Dvornikov, I. A. Zhukov, the kinetostatic analysis of the
 //!   four-link group of Assur with a closed loop on the example of the mechanism of metallurgical parallel shears (in
 //!   Russian), 2018, No 4, p. 32-37, DOI 10.26730/1999-4125-2018-4-32-37.
+//! - `[McKay 1981]` B. D. McKay, "Practical graph isomorphism", Congressus Numerantium 30, 1981.
 //! - `[Horton 1987]` J. D. Horton, "A polynomial-time algorithm to find the shortest cycle basis of a graph", SIAM J.
 //!   Comput. 16, 1987.
 //! - `[Pavlenko & Godunko 2010]` I. I. Pavlenko, M. O. Godunko, transmission relations of the force arms of clamping levers

@@ -2,8 +2,8 @@
 //!
 //! Vertices are told apart by how many neighbours of which kind they have, again and again; where that leaves some alike,
 //! one of them is set apart and the telling goes on, for each of them in turn. Of the numberings so found, the one whose
-//! matrix is the greatest counts, and all that give this matrix differ by automorphisms [McKay 1981, without his pruning:
-//! chains have few automorphisms].
+//! matrix is the greatest counts, and all that give this matrix differ by automorphisms (`[McKay 1981]`, without his
+//! pruning: chains have few automorphisms).
 
 /// A graph with weighted edges; 0 is no edge.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
