@@ -43,7 +43,7 @@ pub type Progress<'a> = &'a mut dyn FnMut(Way, usize, usize);
 /// and counted, the ways decide, but for the number of the best.
 ///
 /// # Errors
-/// As [`run`].
+/// As [`crate::score::run::run`].
 ///
 /// # Complexity
 /// Some searches, and six looks at each of [`Effort::looked`] variants.
