@@ -139,6 +139,10 @@ impl Finite {
     #[must_use]
     pub fn describe(&self) -> String {
         let line = match self.how {
+            How::Rigid if self.mobility > 0 => {
+                "joints in no contour and idle spins move as they like, nothing else does even instantaneously"
+                    .to_owned()
+            }
             How::Rigid => "nothing moves even instantaneously".to_owned(),
             How::Submersion { dimension } => format!(
                 "J has the full rank {dimension} of the groups its contours move in, so this pose is a regular one"
@@ -184,6 +188,7 @@ impl Finite {
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self.how {
+            How::Rigid if self.mobility > 0 => "free",
             How::Rigid => "rigid",
             How::Submersion { .. } => "submersion",
             How::Stopped { order: 2, .. } => "second-order",

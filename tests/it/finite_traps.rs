@@ -3,6 +3,7 @@
 #[path = "traps/all.rs"]
 mod all;
 
+use crate::common::run_on;
 use ozols::builtin;
 use ozols::closure::matrix::Closure;
 use ozols::file::text::mechanism_from_str;
@@ -104,4 +105,35 @@ fn idle_spins_stay_beside_what_else_moves() {
             state.finite.figure()
         );
     }
+}
+
+/// A triangle of bars stands, and a pendulum hangs beside it.
+#[test]
+fn what_swings_beside_a_rigid_part_does_not_make_it_say_that_nothing_moves() {
+    let mut text = String::from("name = \"beside\"\n");
+    for (link, role) in [
+        ("f", "role = \"frame\""),
+        ("a", ""),
+        ("b", "role = \"output\""),
+        ("p", "role = \"output\""),
+    ] {
+        text += &format!("[[link]]\nid = \"{link}\"\n{role}\n");
+    }
+    for (id, ends, point) in [
+        ("fa", ["f", "a"], [0, 0, 0]),
+        ("ab", ["a", "b"], [1, 2, 0]),
+        ("bf", ["b", "f"], [3, 0, 0]),
+        ("hang", ["f", "p"], [7, 0, 0]),
+    ] {
+        text += &format!(
+            "[[joint]]\nid = \"{id}\"\nlinks = {ends:?}\ntype = \"revolute\"\npoint = {point:?}\naxis = [0, 0, 1]\n"
+        );
+    }
+    let (code, said, _) = run_on("analyze", "beside.toml", &text, &[]);
+    assert_eq!(code, Some(0));
+    assert!(
+        said.contains("finite mobility 1: joints in no contour"),
+        "{said}"
+    );
+    assert!(!said.contains("1: nothing moves"), "{said}");
 }
