@@ -107,7 +107,7 @@ fn idle_spins_stay_beside_what_else_moves() {
     }
 }
 
-/// A triangle of bars stands, and a pendulum hangs beside it.
+/// A triangle of bars stands with one more across it, and a pendulum hangs beside it.
 #[test]
 fn what_swings_beside_a_rigid_part_does_not_make_it_say_that_nothing_moves() {
     let mut text = String::from("name = \"beside\"\n");
@@ -115,6 +115,7 @@ fn what_swings_beside_a_rigid_part_does_not_make_it_say_that_nothing_moves() {
         ("f", "role = \"frame\""),
         ("a", ""),
         ("b", "role = \"output\""),
+        ("c", ""),
         ("p", "role = \"output\""),
     ] {
         text += &format!("[[link]]\nid = \"{link}\"\n{role}\n");
@@ -123,6 +124,8 @@ fn what_swings_beside_a_rigid_part_does_not_make_it_say_that_nothing_moves() {
         ("fa", ["f", "a"], [0, 0, 0]),
         ("ab", ["a", "b"], [1, 2, 0]),
         ("bf", ["b", "f"], [3, 0, 0]),
+        ("ac", ["a", "c"], [1, 1, 0]),
+        ("cb", ["c", "b"], [2, -1, 0]),
         ("hang", ["f", "p"], [7, 0, 0]),
     ] {
         text += &format!(
