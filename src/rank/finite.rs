@@ -13,8 +13,8 @@ use crate::motion::pose::Pose;
 const LARGEST: usize = 30_000_000;
 /// Work of all closings together.
 const WORK: usize = 5_000_000_000;
-/// Relative errors of coordinates above which poses that are shaky to the third or fourth order close like motions.
-const COARSE: f64 = 5e-8;
+/// Relative errors of coordinates above which shaky poses close like motions: Wren's platform did with eight decimals.
+const COARSE: f64 = 2e-9;
 /// Closings at most.
 const CLOSINGS: usize = 1_000;
 
