@@ -41,7 +41,7 @@ impl Approximate {
             let joint = &mechanism.joints[j];
             let option = &joint.options[choice.option];
             let inserted = choice.unloading.map(|u| &joint.unloading[u]);
-            let mut columns = columns(&Reals, &motion, mechanism, j, (option, inserted))?;
+            let mut columns = columns(&Reals, &motion, mechanism, j, (option, inserted))?.concat();
             if let Some(scaling) = &scaling {
                 columns.iter_mut().for_each(|c| scaling.unit(c));
             }

@@ -102,14 +102,23 @@ impl Search {
         counts
     }
 
+    /// What must be told apart to know whether a variant meets the conditions on mobility and changes.
+    pub(super) fn limited(&self) -> Kinds {
+        Kinds {
+            freedoms: self.conditions.max_mobility.is_some(),
+            changes: self.conditions.max_changes.is_some(),
+            cost: false,
+        }
+    }
+
     /// How many variants a diagram has; `filter` applies the conditions on mobility and changes too. None that the memory there
     /// is does not suffice to count.
     pub(super) fn total(&self, diagram: &Diagram, filter: bool) -> BigUint {
         fn with<C: Count>(s: &Search, diagram: &Diagram, filter: bool) -> BigUint {
-            let needed = Kinds {
-                freedoms: filter && s.conditions.max_mobility.is_some(),
-                changes: filter && s.conditions.max_changes.is_some(),
-                cost: false,
+            let needed = if filter {
+                s.limited()
+            } else {
+                Kinds::default()
             };
             let steps = s.steps.only(needed);
             let totals = totals::<C>(diagram, &steps, s.conditions.memory / 4);
@@ -130,9 +139,8 @@ impl Search {
     pub fn counts_by_cost(&self, diagram: &Diagram) -> Option<BTreeMap<i64, BigUint>> {
         fn with<C: Count>(s: &Search, diagram: &Diagram) -> Option<BTreeMap<i64, BigUint>> {
             let kinds = Kinds {
-                freedoms: s.conditions.max_mobility.is_some(),
-                changes: s.conditions.max_changes.is_some(),
                 cost: true,
+                ..s.limited()
             };
             let totals = totals::<C>(diagram, &s.steps.only(kinds), s.conditions.memory / 4)?;
             let mut out = BTreeMap::new();

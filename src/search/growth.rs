@@ -49,10 +49,15 @@ pub(super) fn grown(field: Field, space: &Space, stage: &Stage) -> Vec<Grown> {
             known.insert(t);
         });
         let new = span(choice).iter().filter(|t| known.insert(t));
+        let image = |t: &Vec<Residue>| {
+            let mut row = Vec::new();
+            only.step.image(field, space.dim, t, &mut row);
+            row
+        };
         out.push(Grown {
             choice,
             from,
-            more: new.map(|t| only.step.image(field, space.dim, t)).collect(),
+            more: new.map(image).collect(),
         });
     }
     out

@@ -4,7 +4,7 @@ use crate::search::best::{Assignment, Cheapest, Sample};
 use crate::search::building::Diagrams;
 use crate::search::conditions::{Search, Symmetry};
 use crate::search::diagram::Diagram;
-use crate::search::tally::{Count, Key, Kinds, Tally};
+use crate::search::tally::{Count, Key, Tally};
 use num_bigint::BigUint;
 
 impl Search {
@@ -71,12 +71,7 @@ impl Search {
         diagram: &'a Diagram,
         seed: u64,
     ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-        let kinds = Kinds {
-            freedoms: self.conditions.max_mobility.is_some(),
-            changes: self.conditions.max_changes.is_some(),
-            cost: false,
-        };
-        let keys = self.steps.only(kinds);
+        let keys = self.steps.only(self.limited());
         let tally = Tally::<C>::new(diagram, &keys, None, self.conditions.memory / 4);
         let wanted = |k: Key| self.wanted(k);
         let drawn = tally.map(|t| Sample::new(diagram, &self.steps, (keys, t), seed, wanted));

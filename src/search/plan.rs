@@ -50,9 +50,10 @@ pub struct Step {
 }
 
 impl Step {
-    /// The row that a twist of the joint, with its entries for couplings behind it, becomes.
-    pub(super) fn image(&self, f: Field, d: usize, twist: &[Residue]) -> Vec<Residue> {
-        let mut row = vec![0; self.width * d];
+    /// Writes the row that a twist of the joint, with its entries for couplings behind it, becomes.
+    pub(super) fn image(&self, f: Field, d: usize, twist: &[Residue], row: &mut Vec<Residue>) {
+        row.clear();
+        row.resize(self.width * d, 0);
         for &(new, plus) in &self.twist {
             f.accumulate(&mut row[new * d..(new + 1) * d], &twist[..d], plus);
         }
@@ -63,7 +64,6 @@ impl Step {
                 plus,
             );
         }
-        row
     }
 }
 

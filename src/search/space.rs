@@ -10,7 +10,6 @@ use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
 use crate::search::cost::CostTable;
 use num_bigint::BigUint;
-use std::collections::BTreeSet;
 
 /// What a choice puts at the joints of its variable.
 #[derive(Debug, Clone)]
@@ -52,8 +51,6 @@ pub struct Variable {
     pub external: bool,
     /// Whether the joints are absent from the searched state.
     pub alone: bool,
-    /// How many different motions the choices allow: an unloading joint may allow what another option does.
-    pub motions: usize,
 }
 
 /// Everything a search chooses from.
@@ -121,9 +118,7 @@ impl Space {
                     a.cost_milli += b.cost_milli;
                 }
             }
-            let motions: BTreeSet<_> = merged.iter().map(|c| &c.spans).collect();
             variables.push(Variable {
-                motions: motions.len(),
                 alone: joints.iter().any(alone),
                 joints,
                 choices: merged,
@@ -166,12 +161,10 @@ fn choices(
     for unloading in std::iter::once(None).chain(unloading.map(|(u, _)| Some(u))) {
         for (i, option) in joint.options.iter().enumerate().filter(offered) {
             let inserted = unloading.map(|u| &joint.unloading[u]);
-            let columns = columns(exact, motion, mechanism, id, (option, inserted))?;
+            let [mut columns, added] = columns(exact, motion, mechanism, id, (option, inserted))?;
             // W is the free state's: a contact is absent there, its unloading joint is not.
-            let absent = match external {
-                true => joint_twists(exact, motion, &option.frame, &option.joint_type)?.len(),
-                false => 0,
-            };
+            let absent = if external { columns.len() } else { 0 };
+            columns.extend(added);
             let freedoms = u32::try_from(columns.len() - absent).unwrap_or(u32::MAX);
             let span = |more: &[Freedom]| -> Result<Vec<Vec<Residue>>, ExactError> {
                 let freed = JointType::Custom(more.to_vec());
@@ -206,8 +199,8 @@ fn choices(
     Ok(out)
 }
 
-/// The twists of an option and of an unloading joint in series with it, one a freedom, each with the joint's entry in the row
-/// of every coupling it is in behind it.
+/// The twists of an option, and those of an unloading joint in series with it, one a freedom, each with the joint's entry in
+/// the row of every coupling it is in behind it.
 ///
 /// # Errors
 /// Where a coordinate has no value in the number system.
@@ -217,20 +210,19 @@ pub(super) fn columns<S: Scalars>(
     mechanism: &Mechanism,
     joint: JointId,
     (option, inserted): (&JointOption, Option<&JointOption>),
-) -> Result<Vec<Vec<S::Number>>, ExactError> {
+) -> Result<[Vec<Vec<S::Number>>; 2], ExactError> {
     let twists = |o: &JointOption| joint_twists(s, motion, &o.frame, &o.joint_type);
-    let mut columns = twists(option)?
+    let own = twists(option)?
         .into_iter()
         .map(|(f, t)| with_rates(s, mechanism, joint, option, f, t))
         .collect::<Result<Vec<_>, _>>()?;
-    if let Some(u) = inserted {
-        let rates = mechanism.couplings_of(joint).count();
-        columns.extend(twists(u)?.into_iter().map(|(_, mut t)| {
-            t.resize(t.len() + rates, S::Number::default());
-            t
-        }));
-    }
-    Ok(columns)
+    let rates = mechanism.couplings_of(joint).count();
+    let added = inserted.map_or_else(|| Ok(Vec::new()), twists)?;
+    let added = added.into_iter().map(|(_, mut t)| {
+        t.resize(t.len() + rates, S::Number::default());
+        t
+    });
+    Ok([own, added.collect()])
 }
 
 /// A twist of an option with its entries in the rows of the joint's couplings behind it.

@@ -140,8 +140,8 @@ impl Worker {
     fn join(&mut self, step: &Step, span: &[Vec<Residue>]) {
         self.work.clone_from(&self.base);
         for twist in span {
-            let mut row = step.image(self.arithmetic.field, self.dim, twist);
-            self.work.insert(&mut self.arithmetic, &mut row);
+            step.image(self.arithmetic.field, self.dim, twist, &mut self.vector);
+            self.work.insert(&mut self.arithmetic, &mut self.vector);
         }
     }
 
