@@ -3,9 +3,9 @@
 use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
 use crate::format::number::brief;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::geom::expr::Expr;
+use crate::geom::exact_vector::{ExactVector, cross, sub};
 use crate::geom::scalars::Scalars;
-use crate::geom::vector::{cross, dot, length, real};
+use crate::geom::vector::{self, dot, length, real};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::JointType;
@@ -18,11 +18,6 @@ pub struct Miss {
     pub distance: f64,
     /// Angle between their axes, in radians.
     pub angle: f64,
-}
-
-/// The vector product of two directions.
-fn across(u: &[Expr; 3], v: &[Expr; 3]) -> [Expr; 3] {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &u[i] * &v[j] - &u[j] * &v[i])
 }
 
 impl Miss {
@@ -52,14 +47,14 @@ impl Miss {
 /// A plane by two points that are images of each other.
 #[derive(Debug, Clone)]
 pub struct Plane {
-    one: [Expr; 3],
-    other: [Expr; 3],
+    one: ExactVector,
+    other: ExactVector,
 }
 
 impl Plane {
     /// The planes that a pair of joints may be images in: midway between their points, or where these are one, across a
     /// direction of the first joint, between the two axes, or through a third point that is its own image.
-    fn candidates((one, other): (&Frame, &Frame), own: &[&[Expr; 3]]) -> Vec<Plane> {
+    fn candidates((one, other): (&Frame, &Frame), own: &[&ExactVector]) -> Vec<Plane> {
         let [p, q] = [&one.point, &other.point];
         if real(p) != real(q) {
             return vec![Plane {
@@ -68,14 +63,13 @@ impl Plane {
             }];
         }
         let [z, x, w] = [&one.axis, &one.reference, &other.axis];
-        let between = |u: &[Expr; 3], v: &[Expr; 3]| [0, 1, 2].map(|i| &u[i] - &v[i]);
-        let sum = [0, 1, 2].map(|i| &z[i] + &w[i]);
-        let mut normals = vec![z.clone(), x.clone(), across(z, x), between(z, w), sum];
-        normals.extend(own.iter().map(|o| across(z, &between(o, p))));
+        let sum = |u: &ExactVector, v: &ExactVector| [0, 1, 2].map(|i| &u[i] + &v[i]);
+        let mut normals = vec![z.clone(), x.clone(), cross(z, x), sub(z, w), sum(z, w)];
+        normals.extend(own.iter().map(|o| cross(z, &sub(o, p))));
         normals.retain(|n| length(real(n)) > 0.0);
-        let plane = |n: &[Expr; 3]| Plane {
-            one: between(p, n),
-            other: [0, 1, 2].map(|i| &p[i] + &n[i]),
+        let plane = |n: &ExactVector| Plane {
+            one: sub(p, n),
+            other: sum(p, n),
         };
         normals.iter().map(plane).collect()
     }
@@ -88,9 +82,10 @@ impl Plane {
         pairs: &[(JointId, JointId)],
     ) -> Vec<(Plane, Vec<Miss>)> {
         let frame = |j: JointId| &mechanism.joints[j].frame;
-        let at_one_point = |&&(a, b): &&_| real(&frame(a).point) == real(&frame(b).point);
-        let own: Vec<_> = pairs.iter().filter(at_one_point).collect();
-        let own: Vec<_> = own.iter().map(|p| &frame(p.0).point).collect();
+        let point = |j: JointId| &frame(j).point;
+        let at_one_point = |&&(a, b): &&_| real(point(a)) == real(point(b));
+        let own = pairs.iter().filter(at_one_point);
+        let own: Vec<_> = own.map(|p| point(p.0)).collect();
         let planes = pairs
             .iter()
             .flat_map(|&(a, b)| Plane::candidates((frame(a), frame(b)), &own));
@@ -129,7 +124,7 @@ impl Plane {
         let q = real(&to.point);
         let off = [0, 1, 2].map(|i| image[i] + middle[i] - q[i]);
         let (axis, own) = (reflect(real(&from.axis)), real(&to.axis));
-        let sine = length(cross(axis, own));
+        let sine = length(vector::cross(axis, own));
         let angle = match of {
             JointType::Spherical | JointType::Fixed => 0.0,
             _ => sine.atan2(dot(axis, own).abs()),
@@ -137,7 +132,7 @@ impl Plane {
         let distance = match of {
             JointType::Prismatic => 0.0,
             JointType::Revolute | JointType::Cylindrical | JointType::Helical => {
-                length(cross(off, own)) / length(own)
+                length(vector::cross(off, own)) / length(own)
             }
             _ => length(off),
         };

@@ -151,6 +151,18 @@ pub fn relations(field: Field, vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
     found
 }
 
+/// The sum of some vectors of one length, each times its factor; nothing where there are no vectors.
+#[must_use]
+pub fn combination(field: Field, vectors: &[Vec<Residue>], factors: &[Residue]) -> Vec<Residue> {
+    let mut out = vec![0; vectors.first().map_or(0, Vec::len)];
+    for (v, &a) in vectors.iter().zip(factors).filter(|(_, a)| **a != 0) {
+        for (o, &x) in out.iter_mut().zip(v) {
+            *o = field.add(*o, field.mul(a, x));
+        }
+    }
+    out
+}
+
 /// The transpose of a list of equally long vectors.
 #[must_use]
 pub fn transpose(vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {

@@ -3,7 +3,7 @@
 use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactField;
 use crate::geom::scalars::Scalars;
-use crate::linalg::echelon::{Echelon, relations};
+use crate::linalg::echelon::{Echelon, combination, relations};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::redundancy::motion::{Speeds, twist};
@@ -47,12 +47,18 @@ pub fn idle_motions(
     // What every column closes, and couples.
     let mut rows = closure.dense(exact);
     rows.iter_mut().for_each(|r| r.push(0));
-    let all = resting(
-        exact,
-        closure,
-        kernel,
-        &moves_of(exact, &links, &motion, outputs, kernel),
-    );
+    // What the outputs do under each motion, and the motions under which all of them rest.
+    let moved = |speeds: &Speeds| {
+        let outputs = links
+            .iter()
+            .zip(&motion)
+            .filter(|(l, _)| outputs.contains(l));
+        let twists = outputs.flat_map(|(_, m)| twist(exact, m, speeds));
+        twists.chain([0]).collect()
+    };
+    let images: Vec<Vec<Residue>> = kernel.iter().map(moved).collect();
+    let all = relations(f, &images);
+    let all = all.iter().map(|factors| combination(f, kernel, factors));
     let mut span = Echelon::new(f);
     let mut found = Vec::new();
     for (at, &l) in links.iter().enumerate() {
@@ -138,46 +144,6 @@ fn alone(
         .into_iter()
         .map(whole)
         .collect()
-}
-
-/// What some links do under each of a kernel's motions: their twists one after the other, and a zero.
-fn moves_of(
-    exact: &ExactField,
-    links: &[LinkId],
-    motion: &[Vec<Vec<Residue>>],
-    of: &[LinkId],
-    kernel: &[Speeds],
-) -> Vec<Vec<Residue>> {
-    let some: Vec<_> = links
-        .iter()
-        .zip(motion)
-        .filter(|(l, _)| of.contains(l))
-        .collect();
-    let image = |speeds: &Speeds| {
-        let twists = some.iter().flat_map(|(_, m)| twist(exact, m, speeds));
-        twists.chain([0]).collect()
-    };
-    kernel.iter().map(image).collect()
-}
-
-/// The motions of a kernel under which what they do, their images, vanishes.
-fn resting(
-    exact: &ExactField,
-    closure: &Closure<Residue>,
-    kernel: &[Speeds],
-    images: &[Vec<Residue>],
-) -> Vec<Speeds> {
-    let f = exact.field();
-    let combine = |combination: Vec<Residue>| {
-        let mut out = vec![0; closure.columns.len()];
-        for (&a, k) in combination.iter().zip(kernel).filter(|(a, _)| **a != 0) {
-            out.iter_mut()
-                .zip(k)
-                .for_each(|(o, &x)| *o = f.add(*o, f.mul(a, x)));
-        }
-        out
-    };
-    relations(f, images).into_iter().map(combine).collect()
 }
 
 /// Whether a twist leaves a joint's point at rest: v + ω × p = 0.

@@ -24,14 +24,7 @@ pub fn motions(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Speeds> {
 /// The twist of a link under a motion.
 #[must_use]
 pub fn twist(exact: &ExactField, link_motion: &[Vec<Residue>], speeds: &[Residue]) -> Vec<Residue> {
-    let f = exact.field();
-    let mut out = vec![0; link_motion.first().map_or(0, Vec::len)];
-    for (column, &speed) in link_motion.iter().zip(speeds).filter(|(_, s)| **s != 0) {
-        for (o, &t) in out.iter_mut().zip(column) {
-            *o = f.add(*o, f.mul(speed, t));
-        }
-    }
-    out
+    echelon::combination(exact.field(), link_motion, speeds)
 }
 
 /// The joint motion of some links in a state: the span of their twists, one after the other, reduced.

@@ -4,7 +4,7 @@
 
 use crate::closure::matrix::Closure;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::linalg::echelon::{Echelon, relations, transpose};
+use crate::linalg::echelon::{Echelon, combination, relations, transpose};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Mechanism};
@@ -239,14 +239,12 @@ fn first_those_without(
         }
     }
     let (with, images): (Vec<_>, Vec<_>) = with.into_iter().unzip();
-    for combination in relations(f, &images) {
-        let mut sum = vec![0; with[0].len()];
-        for (&a, s) in combination.iter().zip(&with).filter(|(a, _)| **a != 0) {
-            let terms = sum.iter_mut().zip(s);
-            terms.for_each(|(o, &x)| *o = f.add(*o, f.mul(a, x)));
-        }
-        without.push(sum);
-    }
+    let vanishing = relations(f, &images);
+    without.extend(
+        vanishing
+            .iter()
+            .map(|factors| combination(f, &with, factors)),
+    );
     let mut span = Echelon::new(f);
     without.iter().for_each(|s| {
         span.insert(s);
