@@ -1,11 +1,11 @@
 //! How many chains there are, and in how many ways their links make grippers.
 
 use crate::chains::chain::Chain;
-use crate::chains::enumerate::{ChainsError, chains};
+use crate::chains::enumerate::{ChainsError, visit_chains};
 use crate::chains::layout_symmetry::{Symmetry, works};
 use crate::chains::roles::Subject;
-use rayon::prelude::*;
 use std::ops::AddAssign;
+use std::sync::{Mutex, PoisonError};
 
 /// Counts over all chains of a number of links, everything up to automorphism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -101,13 +101,18 @@ impl Census {
     #[must_use]
     pub fn of(chain: &Chain, grippers: bool) -> Census {
         let (chain, automorphisms) = chain.canonical();
-        let subject = Subject::new(&chain, &automorphisms);
+        Census::of_subject(&Subject::new(&chain, &automorphisms), grippers)
+    }
+
+    /// Of one chain whose automorphisms are known.
+    #[must_use]
+    pub fn of_subject(subject: &Subject<'_>, grippers: bool) -> Census {
         Census {
             chains: 1,
             frames: subject.frames().len() as u64,
             inputs: subject.inputs().len() as u64,
             drives: subject.drives().len() as u64,
-            grippers: grippers.then(|| Grippers::of(&subject)),
+            grippers: grippers.then(|| Grippers::of(subject)),
         }
     }
 }
@@ -115,13 +120,12 @@ impl Census {
 /// Counts over all chains of so many links and this mobility; grippers are counted of chains with a mobility of 1.
 ///
 /// # Errors
-/// As [`chains`].
+/// As [`visit_chains`].
 pub fn census(links: usize, mobility: usize, grippers: bool) -> Result<Census, ChainsError> {
-    let sum = |mut a: Census, b: Census| {
-        a += b;
-        a
-    };
-    let each = |c: &Chain| Census::of(c, grippers && mobility == 1);
-    let all = chains(links, mobility)?;
-    Ok(all.par_iter().map(each).reduce(Census::default, sum))
+    let all = Mutex::new(Census::default());
+    visit_chains(links, mobility, &|chain| {
+        let one = Census::of(chain, grippers && mobility == 1);
+        *all.lock().unwrap_or_else(PoisonError::into_inner) += one;
+    })?;
+    Ok(all.into_inner().unwrap_or_else(PoisonError::into_inner))
 }

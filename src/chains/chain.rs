@@ -100,12 +100,18 @@ impl Chain {
         self.joints()
             .into_iter()
             .for_each(|(u, v)| graph.set(u, v, 1));
-        let Canonical { order, .. } = canonical(&graph);
+        let Canonical {
+            order,
+            automorphisms,
+            ..
+        } = canonical(&graph);
         let mut place = vec![0; n];
         order.iter().enumerate().for_each(|(at, &v)| place[v] = at);
         let joints = self.joints().into_iter().map(|(u, v)| (place[u], place[v]));
-        let chain = Chain::new(n, joints);
-        let renumbered = canonical(&graph.renumbered(&order));
-        (chain, renumbered.automorphisms)
+        let renumbered = |a: &Vec<usize>| order.iter().map(|&v| place[a[v]]).collect();
+        (
+            Chain::new(n, joints),
+            automorphisms.iter().map(renumbered).collect(),
+        )
     }
 }

@@ -5,9 +5,11 @@
 
 use crate::chains::chain::Chain;
 use crate::chains::contracted::contracted_graphs;
+use crate::chains::graph6;
 use crate::chains::strings::Strings;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
 
 /// Links and mobility of which there are no chains to be listed.
@@ -86,15 +88,15 @@ pub fn visit_chains(
 /// # Errors
 /// As [`visit_chains`].
 pub fn chains(links: usize, mobility: usize) -> Result<Vec<Chain>, ChainsError> {
-    let all = std::sync::Mutex::new(Vec::new());
+    let all = Mutex::new(Vec::new());
     visit_chains(links, mobility, &|chain| {
         let chain = chain.canonical().0;
-        if let Ok(mut all) = all.lock() {
-            all.push(chain);
-        }
+        all.lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .push(chain);
     })?;
-    let mut all = all.into_inner().unwrap_or_default();
-    all.par_sort_by_cached_key(crate::chains::graph6::write);
+    let mut all = all.into_inner().unwrap_or_else(PoisonError::into_inner);
+    all.par_sort_by_cached_key(graph6::write);
     Ok(all)
 }
 

@@ -2,6 +2,7 @@
 
 use crate::chains::chain::Chain;
 use itertools::Itertools;
+use std::cell::OnceCell;
 
 /// A chain with its automorphisms, and its smaller moving parts.
 #[derive(Debug, Clone)]
@@ -10,8 +11,8 @@ pub struct Subject<'a> {
     pub chain: &'a Chain,
     /// Its automorphisms as the images of the links, the identity among them.
     pub automorphisms: &'a [Vec<usize>],
-    /// Parts of mobility 1, as bits, without the whole.
-    moving_parts: Vec<u32>,
+    /// Parts of mobility 1, as bits, without the whole; looked for when grippers are asked about.
+    moving_parts: OnceCell<Vec<u32>>,
 }
 
 /// Frame, driver and jaws of a gripper.
@@ -41,18 +42,21 @@ impl Roles {
 }
 
 impl<'a> Subject<'a> {
-    /// Looks at a chain.
-    ///
-    /// # Complexity
-    /// One step for each set of links.
+    /// A chain to be looked at.
     #[must_use]
     pub fn new(chain: &'a Chain, automorphisms: &'a [Vec<usize>]) -> Subject<'a> {
-        let moving = |&part: &u32| chain.mobility_of(part) == 1 && part.count_ones() > 2;
         Subject {
             chain,
             automorphisms,
-            moving_parts: (0..chain.all()).filter(moving).collect(),
+            moving_parts: OnceCell::new(),
         }
+    }
+
+    /// One step for each set of links, the first time.
+    fn moving_parts(&self) -> &[u32] {
+        let moving = |&part: &u32| self.chain.mobility_of(part) == 1 && part.count_ones() > 2;
+        self.moving_parts
+            .get_or_init(|| (0..self.chain.all()).filter(moving).collect())
     }
 
     /// How many of some things there are up to automorphism.
@@ -113,7 +117,7 @@ impl<'a> Subject<'a> {
     #[must_use]
     pub fn is_essential(&self, roles: &Roles) -> bool {
         let links = roles.links();
-        self.moving_parts.iter().all(|part| part & links != links)
+        self.moving_parts().iter().all(|part| part & links != links)
     }
 
     /// Whether the part, hinged to both jaws, makes a truss of the whole and of nothing less.
@@ -122,7 +126,7 @@ impl<'a> Subject<'a> {
         let jaws = roles.jaws.iter().fold(0, |bits, &l| bits | 1 << l);
         let (a, b) = (roles.jaws[0], roles.jaws[1]);
         let both = |part: &u32| part & jaws == jaws;
-        !self.chain.joined(a, b) && !self.moving_parts.iter().any(both)
+        !self.chain.joined(a, b) && !self.moving_parts().iter().any(both)
     }
 
     /// How many of the jaws are joined to the frame; the others float.

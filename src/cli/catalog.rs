@@ -4,13 +4,13 @@ use super::args::Args;
 use super::progress::Bar;
 use super::{Done, output};
 use crate::chains::census::census;
-use crate::chains::enumerate::chains;
-use crate::view::catalog::{
-    CensusData, ChainData, census_csv, census_text, chains_csv, chains_text,
-};
+use crate::chains::enumerate::{ChainsError, chains};
+use crate::format::csv::records;
+use crate::view::catalog::{CensusData, ChainData, census_text, chains_text};
 use anyhow::ensure;
 use clap::{Args as ClapArgs, Subcommand, ValueEnum, ValueHint};
 use rayon::prelude::*;
+use serde::Serialize;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
@@ -46,6 +46,25 @@ struct Common {
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     output: Option<PathBuf>,
+}
+
+impl Common {
+    /// Writes what was found, one row each, or as `text` for a terminal of some width.
+    fn give<T: Serialize>(
+        &self,
+        all: &[T],
+        text: impl Fn(&[T], Option<u16>) -> String,
+    ) -> anyhow::Result<Done> {
+        let path = self.output.as_deref();
+        output::to(path, |out| {
+            match self.format {
+                CatalogFormat::Text => write!(out, "{}", text(all, output::width(path)))?,
+                CatalogFormat::Json => output::json(out, &all)?,
+                CatalogFormat::Csv => write!(out, "{}", records(all))?,
+            }
+            Ok(Done::Found)
+        })
+    }
 }
 
 #[derive(Debug, ClapArgs)]
@@ -97,15 +116,16 @@ pub(super) fn run(args: &Args, a: &Catalog) -> anyhow::Result<Done> {
 fn count(args: &Args, a: &Count) -> anyhow::Result<Done> {
     let w = a.common.mobility;
     ensure!((1..=6).contains(&w), "--mobility must be 1 to 6");
-    // Every other number of links has no whole number of joints.
-    let whole = |n: &usize| (3 * (n - 1)) % 2 == w % 2 && 3 * (n - 1) >= w;
-    let sizes: Vec<usize> = a.links.clone().filter(whole).collect();
     let mut bar = Bar::new(args.quiet);
     let mut all = Vec::new();
-    for (i, &n) in sizes.iter().enumerate() {
-        bar.step(&format!("{n} links"), i, sizes.len());
-        let found = census(n, w, n <= MOST_OF_GRIPPERS)?;
-        all.push(CensusData::new(n, w, &found));
+    for (i, n) in a.links.clone().enumerate() {
+        bar.step(&format!("{n} links"), i, a.links.clone().count());
+        match census(n, w, n <= MOST_OF_GRIPPERS) {
+            Ok(found) => all.push(CensusData::new(n, w, &found)),
+            // Every other number of links has no whole number of joints.
+            Err(ChainsError::Parity { .. }) => {}
+            Err(e) => return Err(e.into()),
+        }
     }
     bar.clear();
     if all.is_empty() {
@@ -114,17 +134,7 @@ fn count(args: &Args, a: &Count) -> anyhow::Result<Done> {
         ));
         return Ok(Done::Nothing);
     }
-    output::to(a.common.output.as_deref(), |out| {
-        match a.common.format {
-            CatalogFormat::Text => {
-                let width = output::width(a.common.output.as_deref());
-                write!(out, "{}", census_text(&all, width))?;
-            }
-            CatalogFormat::Json => output::json(out, &all)?,
-            CatalogFormat::Csv => write!(out, "{}", census_csv(&all))?,
-        }
-        Ok(Done::Found)
-    })
+    a.common.give(&all, census_text)
 }
 
 fn list(a: &Chains) -> anyhow::Result<Done> {
@@ -135,15 +145,5 @@ fn list(a: &Chains) -> anyhow::Result<Done> {
     );
     let found = chains(a.links, a.common.mobility)?;
     let all: Vec<ChainData> = found.par_iter().map(ChainData::new).collect();
-    output::to(a.common.output.as_deref(), |out| {
-        match a.common.format {
-            CatalogFormat::Text => {
-                let width = output::width(a.common.output.as_deref());
-                write!(out, "{}", chains_text(&all, width))?;
-            }
-            CatalogFormat::Json => output::json(out, &all)?,
-            CatalogFormat::Csv => write!(out, "{}", chains_csv(&all))?,
-        }
-        Ok(Done::Found)
-    })
+    a.common.give(&all, chains_text)
 }

@@ -3,7 +3,7 @@
 use crate::chains::census::Census;
 use crate::chains::chain::Chain;
 use crate::chains::graph6;
-use crate::format::csv::records;
+use crate::chains::roles::Subject;
 use crate::format::number::grouped;
 use crate::view::layout::{fit, table};
 use itertools::Itertools;
@@ -106,12 +106,6 @@ pub fn census_text(all: &[CensusData], width: Option<u16>) -> String {
     )
 }
 
-/// One row a number of links.
-#[must_use]
-pub fn census_csv(all: &[CensusData]) -> String {
-    records(all)
-}
-
 /// One chain: the keys are a stable contract, in this order.
 #[derive(Debug, Clone, Serialize)]
 pub struct ChainData {
@@ -133,7 +127,8 @@ impl ChainData {
     pub fn new(chain: &Chain) -> ChainData {
         let degrees = chain.neighbours.iter().map(|x| x.count_ones()).counts();
         let some = degrees.into_iter().sorted();
-        let c = Census::of(chain, false);
+        let automorphisms = chain.canonical().1;
+        let c = Census::of_subject(&Subject::new(chain, &automorphisms), false);
         ChainData {
             code: graph6::write(chain),
             links: chain.links(),
@@ -142,7 +137,7 @@ impl ChainData {
             assortment: some
                 .map(|(joints, links)| format!("{links}x{joints}"))
                 .join(" "),
-            automorphisms: chain.canonical().1.len(),
+            automorphisms: automorphisms.len(),
             frames: c.frames,
             inputs: c.inputs,
             drives: c.drives,
@@ -175,10 +170,4 @@ pub fn chains_text(all: &[ChainData], width: Option<u16>) -> String {
     let rows = all.iter().map(row).collect();
     let note = "Chain: graph6 of the canonical numbering. Links: 4x2 are four with two joints.\n";
     format!("{}\n\n{}", table(&heads, rows, width), fit(note, width))
-}
-
-/// One row a chain.
-#[must_use]
-pub fn chains_csv(all: &[ChainData]) -> String {
-    records(all)
 }
