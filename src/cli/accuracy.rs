@@ -49,12 +49,8 @@ pub(super) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
         let studies = stability::all(&survey.cases, effort, &mut |what, done, of| {
             bar.step(what, done, of);
         })?;
-        for (name, text) in folder::files(&survey, &studies, &machine) {
-            output::to(Some(&folder.join(&name)), |out| {
-                out.write_all(text.as_bytes())?;
-                Ok(Done::Found)
-            })?;
-        }
+        let files = folder::files(&survey, &studies, &machine);
+        output::files(folder, files)?;
         bar.clear();
         let sentences = studies
             .iter()

@@ -96,12 +96,7 @@ pub(super) fn run(args: &Args, a: &Bench) -> anyhow::Result<Done> {
     bar.clear();
     let machine = machine::machine();
     if let Some(folder) = &a.output {
-        for (name, text) in pictures::files(&trials, &machine) {
-            output::to(Some(&folder.join(&name)), |out| {
-                out.write_all(text.as_bytes())?;
-                Ok(Done::Found)
-            })?;
-        }
+        output::files(folder, pictures::files(&trials, &machine))?;
     }
     output::to(None, |out| {
         match a.format {

@@ -64,11 +64,11 @@ fn heard(signal: u8) {
     working::rest();
     output::abandon();
     output::note(&format!("interrupted by {name}\n"));
-    std::process::exit(code(signal));
+    std::process::exit(code(signal).into());
 }
 
-fn code(signal: u8) -> i32 {
-    128 + i32::from(signal)
+fn code(signal: u8) -> u8 {
+    128 + signal
 }
 
 /// From now on the first signal is left to whoever asks [`pending`].
@@ -90,6 +90,6 @@ pub(super) fn answered() {
 pub(super) fn exit_code() -> Option<ExitCode> {
     match FIRST.load(Ordering::SeqCst) {
         0 => None,
-        signal => Some(ExitCode::from(128 + signal)),
+        signal => Some(ExitCode::from(code(signal))),
     }
 }

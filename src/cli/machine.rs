@@ -17,6 +17,12 @@ fn value(file: &str, key: &str) -> Option<String> {
     Some(line.split_once(':')?.1.trim().to_owned())
 }
 
+/// Bytes of memory.
+pub(super) fn memory() -> Option<u64> {
+    let kilobytes = value("/proc/meminfo", "MemTotal")?;
+    Some(1024 * kilobytes.split(' ').next()?.parse::<u64>().ok()?)
+}
+
 /// This machine, as far as its system tells.
 pub(super) fn machine() -> Machine {
     let architecture = std::env::consts::ARCH;
@@ -25,14 +31,12 @@ pub(super) fn machine() -> Machine {
         .iter()
         .find_map(|key| value("/proc/cpuinfo", key))
         .or_else(|| std::env::var("PROCESSOR_IDENTIFIER").ok());
-    let kilobytes =
-        value("/proc/meminfo", "MemTotal").and_then(|v| v.split(' ').next()?.parse::<u64>().ok());
     let threads = rayon::current_num_threads();
     Machine {
         processor: processor.unwrap_or_else(|| format!("{architecture} processor")),
         threads,
         cores: std::thread::available_parallelism().map_or(threads, usize::from),
-        memory: kilobytes.map(|k| 1024 * k),
+        memory: memory(),
         system: format!("{} {architecture}", std::env::consts::OS),
         optimised: !cfg!(debug_assertions),
     }

@@ -1,13 +1,13 @@
 //! How much memory there is, and sizes of memory as words.
 
+use super::machine;
 use crate::score::request::Request;
 use std::fs::read_to_string;
 
 /// A quarter of the memory that the machine has, or that this process may have of it; what the library takes by default where
 /// that is not told.
 pub(super) fn quarter() -> usize {
-    let machine = read_to_string("/proc/meminfo").unwrap_or_default();
-    let machine = after(&machine, "MemTotal:").map(|kilobytes| kilobytes.saturating_mul(1024));
+    let machine = machine::memory().and_then(|bytes| usize::try_from(bytes).ok());
     let process = read_to_string("/proc/self/limits").unwrap_or_default();
     let process = after(&process, "Max address space");
     let group = [

@@ -91,6 +91,20 @@ pub(super) fn to(
     Ok(done)
 }
 
+/// Writes files, by name and content, to a folder.
+pub(super) fn files(
+    folder: &Path,
+    files: impl IntoIterator<Item = (String, String)>,
+) -> anyhow::Result<()> {
+    for (name, text) in files {
+        to(Some(&folder.join(&name)), |out| {
+            out.write_all(text.as_bytes())?;
+            Ok(super::Done::Found)
+        })?;
+    }
+    Ok(())
+}
+
 /// Makes temporary files that may be read by whom the umask lets: they become results.
 fn ordinary() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
