@@ -7,6 +7,7 @@
 pub mod cases;
 pub mod folder;
 pub mod lattice;
+mod pareto;
 pub mod pictures;
 pub mod searching;
 pub mod stability;

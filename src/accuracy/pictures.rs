@@ -1,6 +1,7 @@
 //! The survey as pictures.
 
 use super::Verdict;
+use super::pareto::front;
 use super::survey::{Case, Reply, Standing, Survey};
 use super::timing::{Machine, quantile};
 use super::tuned::Tuned;
@@ -13,23 +14,13 @@ use crate::rank::registry;
 /// The methods that no other one beats in both share and time, the fastest first.
 #[must_use]
 pub fn pareto(standings: &[Standing]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..standings.len())
-        .filter(|&m| standings[m].applies > 0)
-        .collect();
-    let better = |&a: &usize, &b: &usize| {
-        let (a, b) = (&standings[a], &standings[b]);
-        a.seconds
-            .total_cmp(&b.seconds)
-            .then(b.share.total_cmp(&a.share))
+    // One that never applies is right in no share.
+    let share = |s: &Standing| match s.applies {
+        0 => f64::NEG_INFINITY,
+        _ => s.share,
     };
-    order.sort_by(better);
-    let mut best = f64::NEG_INFINITY;
-    order.retain(|&m| {
-        let ahead = standings[m].share > best;
-        best = best.max(standings[m].share);
-        ahead
-    });
-    order
+    let points: Vec<_> = standings.iter().map(|s| (s.seconds, share(s))).collect();
+    front(&points)
 }
 
 fn percent(share: f64) -> String {

@@ -3,26 +3,11 @@
 use super::record::{Record, Share, Trial};
 use super::table;
 use super::way::Way;
+use crate::accuracy::pareto::front;
 use crate::accuracy::timing::Machine;
 use crate::chart::{Axis, Chart, Scale, Series, Style, page};
 use crate::format::number::{duration, grouped};
 use crate::format::phrase::list;
-
-/// Records with a share, by time; those that are right more often than any before them.
-fn front<'a>(records: &[(&'a Record, Share)]) -> Vec<(&'a Record, Share)> {
-    let mut order = records.to_vec();
-    order.sort_by(|(a, s), (b, t)| {
-        let faster = a.time.median.total_cmp(&b.time.median);
-        faster.then(t.percent().total_cmp(&s.percent()))
-    });
-    let mut best = f64::NEG_INFINITY;
-    order.retain(|(_, s)| {
-        let ahead = s.percent() > best;
-        best = best.max(s.percent());
-        ahead
-    });
-    order
-}
 
 fn chart(
     title: String,
@@ -30,7 +15,11 @@ fn chart(
     records: &[(&Record, Share)],
     machine: &Machine,
 ) -> Chart {
-    let front = front(records);
+    let points: Vec<_> = records
+        .iter()
+        .map(|(r, s)| (r.time.median, s.percent()))
+        .collect();
+    let front: Vec<_> = front(&points).into_iter().map(|i| records[i]).collect();
     // Nothing is right before the fastest.
     let first = front.first().map(|(r, _)| (r.time.median, 0.0));
     let rest = front.iter().map(|(r, s)| (r.time.median, s.percent()));
