@@ -71,7 +71,6 @@ fn nodes_do_not_depend_on_how_the_file_lists_links_and_joints() {
 }
 
 #[test]
-#[ignore = "ten orders of every built-in mechanism: a minute"]
 fn nodes_do_not_depend_on_ten_other_orders() {
     shuffle(10);
 }
