@@ -17,7 +17,7 @@ use crate::score::request::{Check, List, Request};
 use crate::score::run::{RunError, run};
 use crate::score::terms::Scores;
 use crate::score::variant::{changes, in_words};
-use crate::search::ideas::Added;
+use crate::search::ideas;
 use crate::synthesis::figures::{Figures, figures};
 use crate::synthesis::layout::{Layout, NoLayout, layout};
 use crate::synthesis::mechanism::mechanism_file;
@@ -129,7 +129,7 @@ pub fn request(spec: &Spec) -> Request {
 /// A search for places, and one of the variants.
 pub fn row(subject: &Subject<'_>, structure: &Structure, spec: &Spec) -> Result<Row, RowError> {
     let laid = match layout(subject, structure, &spec.limits(), spec.seed) {
-        Ok(layout) => Ok(lay(structure, layout, spec)?),
+        Ok(layout) => lay(structure, layout, spec)?,
         Err(why) => Err(why),
     };
     Ok(Row {
@@ -149,22 +149,29 @@ fn mechanism(structure: &Structure, file: &MechanismFile) -> Result<Mechanism, R
     })
 }
 
-fn lay(structure: &Structure, layout: Layout, spec: &Spec) -> Result<Laid, RowError> {
+fn lay(
+    structure: &Structure,
+    layout: Layout,
+    spec: &Spec,
+) -> Result<Result<Laid, NoLayout>, RowError> {
     let file = mechanism_file(structure, &layout, &spec.options()?);
     let built = mechanism(structure, &file)?;
     let figures = figures(structure, &layout, &built)?;
     let method = Method::Auto { tolerance: None };
     let as_built = analyse(&built, &[StateId::FREE], method)?.swap_remove(0);
+    if !as_built.finite.is_proven() || as_built.finite.figure() != "1" {
+        return Ok(Err(NoLayout::NotRegular));
+    }
     let outcome = run(built, &request(spec), &|| false, &mut |_| {})?;
     let ideas = match &outcome.diagrams {
-        Some(d) if spec.ideas > 0 => outcome.search.ideas(d, spec.ideas)?,
+        Some(d) if spec.ideas > 0 => outcome.search.ideas(d, spec.ideas),
         _ => Vec::new(),
     };
     let search = &outcome.search;
     let evaluator = Evaluator::in_states(search, ClearanceSum::Worst, &[]).ok();
     let mut scratch = Scratch::default();
     let ideas = ideas.into_iter().map(|idea| IdeaRow {
-        adds: in_short(search.mechanism.as_ref(), &idea.added),
+        adds: ideas::in_words(&search.mechanism, &idea.added),
         changes: in_words(search, &changes(search, &idea.first)),
         cost_milli: search.steps.milli(idea.first.key.cost()),
         change_count: idea.first.key.changes(),
@@ -179,7 +186,7 @@ fn lay(structure: &Structure, layout: Layout, spec: &Spec) -> Result<Laid, RowEr
         structure: structure.name(),
         why: e.to_string(),
     })?;
-    Ok(Laid {
+    Ok(Ok(Laid {
         layout,
         figures,
         file: text,
@@ -188,20 +195,7 @@ fn lay(structure: &Structure, layout: Layout, spec: &Spec) -> Result<Laid, RowEr
         counts: outcome.determinate.by_mobility_and_changes.clone(),
         exact: outcome.is_exact(),
         ideas,
-    })
-}
-
-/// What an idea adds, in words: "turn about x at 2 of frame.jaw-a, jaw-a.link-4".
-fn in_short(m: &Mechanism, added: &[Added]) -> String {
-    let one = |a: &Added| {
-        let joints = a.joints.iter().map(|&j| m.joints[j].id.as_str()).join(", ");
-        match (usize::from(a.times), a.joints.len()) {
-            (1, 1) => format!("{} at {joints}", a.freedom),
-            (n, 1) => format!("{n} × {} at {joints}", a.freedom),
-            (n, _) => format!("{} at {n} of {joints}", a.freedom),
-        }
-    };
-    added.iter().map(one).join("; ")
+    }))
 }
 
 impl Row {

@@ -432,7 +432,7 @@ fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<(
         end(f.ends[1]),
         number(laid.as_built.0),
         number(laid.as_built.1),
-        laid.finite.describe(),
+        format!("{}, proven", laid.finite.figure()),
         count(&laid.determinate(None)),
         count(&laid.determinate(Some(1))),
         if laid.exact { "exact" } else { "at least" },

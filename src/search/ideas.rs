@@ -5,10 +5,7 @@
 //! all of them exactly when they do in any basis.
 
 use crate::closure::contour::contour_basis;
-use crate::closure::twist::FrameValues;
-use crate::geom::exact::ExactError;
-use crate::geom::scalars::Reals;
-use crate::geom::vector::unit;
+use crate::geom::vector::{across, cross, real, unit};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
 use crate::search::best::Assignment;
@@ -41,6 +38,23 @@ pub struct Idea {
     pub added: Vec<Added>,
     /// How many there are, those included that a mirror image of the mechanism makes of them.
     pub variants: BigUint,
+}
+
+/// What is added in words, joints in series after each other: "turn about x, turn about y at a/b/c".
+#[must_use]
+pub fn in_words(m: &Mechanism, added: &[Added]) -> String {
+    let groups = added.iter().chunk_by(|a| &a.joints);
+    let mut out = Vec::new();
+    for (joints, here) in &groups {
+        let one = |a: &Added| match a.times {
+            1 => a.freedom.clone(),
+            n => format!("{n} × {}", a.freedom),
+        };
+        let freedoms = here.map(one).join(", ");
+        let joints = joints.iter().map(|&j| m.joints[j].id.as_str()).join("/");
+        out.push(format!("{freedoms} at {joints}"));
+    }
+    out.join("; ")
 }
 
 /// How often each freedom is added to each group of joints.
@@ -112,21 +126,23 @@ fn series(m: &Mechanism, state: StateId) -> BTreeMap<JointId, Vec<JointId>> {
 }
 
 /// The freedoms of an option in words, by their directions.
-fn freedoms(option: &JointOption) -> Result<Vec<String>, ExactError> {
-    let frame = FrameValues::new(&Reals, &option.frame)?;
+fn freedoms(option: &JointOption) -> Vec<String> {
+    let z = unit(real(&option.frame.axis));
+    let x = unit(across(real(&option.frame.reference), z));
+    let y = cross(z, x);
     let word = |f: &Freedom| {
         let (what, axis) = match f {
-            Freedom::Rx => ("turn about", 0),
-            Freedom::Ry => ("turn about", 1),
-            Freedom::Rz => ("turn about", 2),
-            Freedom::Tx => ("slide along", 0),
-            Freedom::Ty => ("slide along", 1),
-            Freedom::Tz => ("slide along", 2),
-            Freedom::Screw => ("screw about", 2),
+            Freedom::Rx => ("turn about", x),
+            Freedom::Ry => ("turn about", y),
+            Freedom::Rz => ("turn about", z),
+            Freedom::Tx => ("slide along", x),
+            Freedom::Ty => ("slide along", y),
+            Freedom::Tz => ("slide along", z),
+            Freedom::Screw => ("screw about", z),
         };
-        format!("{what} {}", direction(unit(frame.axes[axis])))
+        format!("{what} {}", direction(axis))
     };
-    Ok(option.joint_type.freedoms().iter().map(word).collect())
+    option.joint_type.freedoms().iter().map(word).collect()
 }
 
 /// A direction in words, either way along it.
@@ -146,21 +162,21 @@ fn direction(d: [f64; 3]) -> String {
 
 /// What an option adds to what is there: freedoms by their directions, or the option itself where its freedoms do not
 /// contain the present ones one by one.
-fn added(present: &JointOption, option: &JointOption) -> Result<Vec<String>, ExactError> {
-    let mut all = freedoms(option)?;
-    for f in freedoms(present)? {
+fn added(present: &JointOption, option: &JointOption) -> Vec<String> {
+    let mut all = freedoms(option);
+    for f in freedoms(present) {
         match all.iter().position(|a| *a == f) {
             Some(i) => {
                 all.remove(i);
             }
-            None => return Ok(vec![option.name.clone()]),
+            None => return vec![option.name.clone()],
         }
     }
-    Ok(all)
+    all
 }
 
 impl Search {
-    fn patterns(&self) -> Result<Patterns, ExactError> {
+    fn patterns(&self) -> Patterns {
         let m = &self.mechanism;
         let state = self.conditions.state.map_or(StateId::FREE, |s| s.state);
         let mut series = series(m, state);
@@ -177,9 +193,9 @@ impl Search {
                 let mut here = Vec::new();
                 for &j in &v.joints {
                     let joint = &m.joints[j];
-                    let mut words = added(&joint.options[0], &joint.options[choice.option])?;
+                    let mut words = added(&joint.options[0], &joint.options[choice.option]);
                     if let Some(u) = choice.unloading {
-                        words.extend(freedoms(&joint.unloading[u])?);
+                        words.extend(freedoms(&joint.unloading[u]));
                     }
                     here.extend(words.into_iter().map(|w| (series[&j].clone(), w)));
                 }
@@ -217,23 +233,20 @@ impl Search {
         let mirrored = symmetric
             .then(|| items.iter().map(image).collect())
             .flatten();
-        Ok(Patterns {
+        Patterns {
             items,
             of,
             mirrored,
-        })
+        }
     }
 
     /// The first ideas among the admissible variants, in the order of [`Search::cheapest`]; `top` of them at most.
     ///
-    /// # Errors
-    /// Where a direction has no value.
-    ///
     /// # Complexity
     /// Of the variants up to the last idea's cost only as much of each as differs in its pattern; then for each idea a
     /// pass over the part of the diagram that it uses.
-    pub fn ideas(&self, diagrams: &Diagrams, top: usize) -> Result<Vec<Idea>, ExactError> {
-        let patterns = self.patterns()?;
+    pub fn ideas(&self, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
+        let patterns = self.patterns();
         let order: Vec<usize> = diagrams
             .admissible
             .layers
@@ -269,10 +282,34 @@ impl Search {
                     added: patterns.added(&pattern),
                     variants: self.variants_of(diagrams, &patterns, &pattern),
                 };
-                return Ok(found.into_iter().map(idea).collect());
+                return found.into_iter().map(idea).collect();
             }
             at_least = at_least.saturating_mul(64);
         }
+    }
+
+    /// The first of each idea in a list of variants, with its place in the list.
+    pub fn first_of_each<'a>(
+        &self,
+        list: impl Iterator<Item = &'a Assignment>,
+        diagrams: &Diagrams,
+    ) -> Vec<(usize, Idea)> {
+        let patterns = self.patterns();
+        let mut seen = BTreeSet::new();
+        let mut out = Vec::new();
+        for (place, v) in list.enumerate() {
+            let pattern = patterns.sum(v.choices.iter().copied().enumerate());
+            let image = patterns.image(&pattern);
+            if seen.insert(pattern.clone().min(image)) {
+                let idea = Idea {
+                    first: v.clone(),
+                    added: patterns.added(&pattern),
+                    variants: self.variants_of(diagrams, &patterns, &pattern),
+                };
+                out.push((place, idea));
+            }
+        }
+        out
     }
 
     /// How many admissible variants have a pattern, or its mirror image.

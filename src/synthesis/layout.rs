@@ -48,6 +48,9 @@ pub enum NoLayout {
     /// The parallelograms of the jaws ask for what the symmetry does not give.
     #[error("the parallelograms do not go with the symmetry")]
     Parallelograms,
+    /// The pose is not proven to be a regular one of mobility 1.
+    #[error("the places found are not proven to leave one finite motion")]
+    NotRegular,
     /// No places were found that keep the limits; those of the best are told.
     #[error(
         "no places found within the limits: the best have links of 1 : {ratio:.1}, a transmission angle of \

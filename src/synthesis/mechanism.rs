@@ -1,6 +1,6 @@
 //! A layout as a mechanism file: hinges square to the plane, the driver's joint, the outputs, and a workload.
 
-use crate::chains::layout_symmetry::Input;
+use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::file::schema::{
     Coordinate, ForceEntry, JointEntry, LinkEntry, MechanismFile, OptionEntry, SearchEntry,
     WorkloadEntry,
@@ -99,11 +99,15 @@ pub fn mechanism_file(
         joint: joints.collect(),
         search: SearchEntry {
             options: options.to_vec(),
-            mirror: layout
-                .images
-                .iter()
-                .map(|&(a, b)| [joint_name(a), joint_name(b)])
-                .collect(),
+            mirror: match structure.form.symmetry {
+                Symmetry::Mirror => layout
+                    .images
+                    .iter()
+                    .map(|&(a, b)| [joint_name(a), joint_name(b)])
+                    .collect(),
+                // Half a turn is no mirror image.
+                Symmetry::Generic | Symmetry::HalfTurn => Vec::new(),
+            },
             ..SearchEntry::default()
         },
         workload: WorkloadEntry {
