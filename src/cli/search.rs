@@ -46,6 +46,9 @@ pub(super) struct Search {
     /// Counts only.
     #[arg(long, conflicts_with = "rank")]
     count: bool,
+    /// Find the best without counting all: as fast as a search for a cost, however many variants there are.
+    #[arg(long, conflicts_with_all = ["all", "sample", "count"])]
+    no_count: bool,
     #[command(flatten)]
     checked: Checked,
     /// Diagram, or brute force for checking.
@@ -72,6 +75,7 @@ impl Search {
                 SearchMethod::Diagram => Method::Diagram,
                 SearchMethod::Brute => Method::Brute,
             },
+            counted: !self.no_count,
             ..self.checked.request(seed)?
         })
     }

@@ -9,6 +9,7 @@ use crate::search::growth::{Grown, grown};
 use crate::search::lookahead::Lookahead;
 pub use crate::search::merge::DEAD;
 use crate::search::merge::{CUT, Merge, Nodes};
+use crate::search::missing::Ceiling;
 use crate::search::space::Space;
 use crate::search::spent::{Limits, Redundancy, Spent};
 use crate::search::stage::Stage;
@@ -71,7 +72,7 @@ impl Diagram {
     }
 }
 
-/// Builds the diagram of a space along given stages.
+/// Builds the diagram of a space along given stages; under a ceiling, all of it that variants within the ceiling need.
 ///
 /// `cancelled` is asked between batches of nodes; once it says yes the remaining layers are cut to a few nodes, so that
 /// what was found can still be completed. The result does not depend on the number of threads: children are computed in
@@ -80,11 +81,11 @@ impl Diagram {
 /// # Complexity
 /// O(nodes · choices · d²w) field operations for matrices of d rows and w columns; memory is the edges of all layers
 /// and the matrices of two, both bounded by `limits.nodes` and `limits.bytes`.
-pub fn build(
+pub(super) fn build(
     exact: &ExactField,
     space: &Space,
     stages: &[Stage],
-    limits: &Limits,
+    (limits, mut ceiling): (&Limits, Option<&mut Ceiling<'_>>),
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
@@ -110,7 +111,15 @@ pub fn build(
                 &nodes,
                 batch,
             ) {
-                merge.take(&part, &nodes, |choice| choices[choice].cost_milli);
+                merge.take(
+                    &part,
+                    &nodes,
+                    |choice| choices[choice].cost_milli,
+                    |spent, size, least| {
+                        let ceiling = ceiling.as_mut();
+                        ceiling.is_some_and(|c| c.is_above(done + 1, spent, size, least))
+                    },
+                );
             }
             if cancelled() && merge.stop != Stop::Interrupted {
                 merge.stop = Stop::Interrupted;
@@ -137,7 +146,7 @@ pub fn build(
         let keep = match stop {
             Stop::Exhausted => usize::MAX,
             // Share what is left of the budget among the layers to come.
-            Stop::NodeBudget => {
+            Stop::NodeBudget | Stop::NotCounted => {
                 (limits.nodes.saturating_sub(total) / (stages.len() - done)).max(CUT)
             }
             Stop::Memory => {
@@ -176,7 +185,7 @@ const BATCH: usize = 1 << 14;
 const PARALLEL: usize = 1024;
 
 /// The children of some nodes, in parallel, in order.
-fn expand(
+pub(super) fn expand(
     field: Field,
     space: &Space,
     (stage, growth): (&Stage, &[Grown]),
@@ -219,7 +228,7 @@ fn expand(
 }
 
 /// The nodes of a layer that pass a test, ascending.
-fn passing(field: Field, dim: usize, test: &Lookahead, nodes: &Nodes) -> Vec<usize> {
+pub(super) fn passing(field: Field, dim: usize, test: &Lookahead, nodes: &Nodes) -> Vec<usize> {
     let chunk = if nodes.len() < PARALLEL {
         nodes.len().max(1)
     } else {
@@ -252,7 +261,7 @@ fn cut(nodes: &Nodes, keep: usize, edges: &mut [u32]) -> Nodes {
 }
 
 /// Keeps the nodes listed, ascending, and renames the edges that lead to them.
-fn retain(nodes: &Nodes, kept: &[usize], edges: &mut [u32]) -> Nodes {
+pub(super) fn retain(nodes: &Nodes, kept: &[usize], edges: &mut [u32]) -> Nodes {
     let mut renamed = vec![DEAD; nodes.len()];
     let mut out = Nodes::empty();
     for &i in kept {

@@ -4,6 +4,7 @@ use crate::search::best::{Assignment, Cheapest, Sample};
 use crate::search::building::Diagrams;
 use crate::search::conditions::{Search, Symmetry};
 use crate::search::diagram::Diagram;
+use crate::search::proven::UpTo;
 use crate::search::tally::{Count, Key, Tally};
 use num_bigint::BigUint;
 
@@ -16,38 +17,54 @@ impl Search {
         top: usize,
     ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
         if self.conditions.symmetry != Symmetry::OnePerOrbit {
-            return self.in_order(&diagrams.admissible, top);
+            return self.in_order(diagrams, top);
         }
         // At most every other variant is dropped, so twice as many always suffice.
-        let all = self.in_order(&diagrams.admissible, top.saturating_mul(2));
+        let all = self.in_order(diagrams, top.saturating_mul(2));
         let first_of_orbit = |v: &Assignment| self.mirrored(&v.choices) >= v.choices;
         Box::new(all.filter(first_of_orbit).take(top))
     }
 
+    /// Those up to the cost to which all are known, and then the dearer ones that happen to be known.
     fn in_order<'a>(
+        &'a self,
+        diagrams: &'a Diagrams,
+        top: usize,
+    ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+        let all = &diagrams.admissible;
+        let Some(UpTo {
+            diagram,
+            cost_milli,
+        }) = &diagrams.cheapest
+        else {
+            return self.between(all, top, (i64::MIN, i64::MAX));
+        };
+        let first = self.between(diagram, top, (i64::MIN, *cost_milli));
+        let dearer = std::iter::once_with(move || {
+            self.between(all, top, (cost_milli.saturating_add(1), i64::MAX))
+        });
+        Box::new(first.chain(dearer.flatten()).take(top))
+    }
+
+    /// The variants of a diagram with costs in thousandths from one to another.
+    fn between<'a>(
         &'a self,
         diagram: &'a Diagram,
         top: usize,
+        (least, most): (i64, i64),
     ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
         let rank = |k: Key| (self.mobility(k), k.changes());
-        let wanted = |k: Key| self.wanted(k);
+        let costs = |k: Key| (least..=most).contains(&self.steps.milli(k.cost()));
+        let wanted = |k: Key| self.wanted(k) && costs(k);
+        let (steps, room) = (&self.steps, self.conditions.memory / 4);
+        let range = (top, self.steps.above(most));
         if self.fits() {
             Box::new(Cheapest::<u128>::new(
-                diagram,
-                &self.steps,
-                top,
-                wanted,
-                rank,
-                self.conditions.memory / 4,
+                diagram, steps, range, wanted, rank, room,
             ))
         } else {
             Box::new(Cheapest::<BigUint>::new(
-                diagram,
-                &self.steps,
-                top,
-                wanted,
-                rank,
-                self.conditions.memory / 4,
+                diagram, steps, range, wanted, rank, room,
             ))
         }
     }

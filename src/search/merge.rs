@@ -96,8 +96,15 @@ impl Merge {
         self.room = self.room.min(CUT);
     }
 
-    /// Takes the children of some nodes, those of the nodes before them having been taken.
-    pub(super) fn take(&mut self, part: &Children, parents: &Nodes, cost: impl Fn(usize) -> i64) {
+    /// Takes the children of some nodes, those of the nodes before them having been taken, but for those that are out of
+    /// the question: said of what a child has spent, the size of its matrix, and the least cost of this way to it.
+    pub(super) fn take(
+        &mut self,
+        part: &Children,
+        parents: &Nodes,
+        cost: impl Fn(usize) -> i64,
+        mut out: impl FnMut(&Spent, usize, i64) -> bool,
+    ) {
         let choices = part.choices;
         for child in &part.found {
             let Some((hash, ref spent, start, end)) = *child else {
@@ -106,7 +113,12 @@ impl Merge {
             };
             let matrix = &part.data[start..end];
             let at = self.edges.len();
-            let least = parents.least[at / choices] + cost(at % choices);
+            let parent = at / choices;
+            let least = parents.least[parent] + cost(at % choices);
+            if out(spent, matrix.len(), least) {
+                self.edges.push(DEAD);
+                continue;
+            }
             let next = &mut self.next;
             let same = |&(h, i): &(u64, u32)| {
                 h == hash && next.spent[i as usize] == *spent && next.matrix(i as usize) == matrix

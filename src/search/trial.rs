@@ -114,7 +114,7 @@ impl<'m> Trials<'m> {
             );
         }
         let mut merge = Merge::new((WIDEST, usize::MAX), Stop::Exhausted, children.found.len());
-        merge.take(&children, &trial.nodes, |_| 0);
+        merge.take(&children, &trial.nodes, |_| 0, |_, _, _| false);
         let width = merge.next.len() as u64;
         trial.work += width * width;
         trial.order.push(variable);

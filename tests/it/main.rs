@@ -4,6 +4,7 @@
 mod accuracy;
 mod adding;
 mod bench;
+mod beyond_budget;
 mod cam;
 mod catalogs;
 mod certificates;
