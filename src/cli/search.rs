@@ -3,7 +3,7 @@
 use super::args::{Args, File};
 use super::progress::Watch;
 use super::request::Checked;
-use super::{Done, interrupt, load, machine, output};
+use super::{Done, interrupt, load, machine, memory, output};
 use crate::format::number::duration;
 use crate::score::request::{List, Method, Request};
 use crate::view::{search_csv, search_json, search_text};
@@ -113,7 +113,11 @@ pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
     })?;
     // The output itself is the same every time.
     if a.format == SearchFormat::Text && !args.quiet {
-        output::note(&format!("Searched in {}.\n", duration(seconds())));
+        let allowed = memory::words(request.memory as u64);
+        let held = machine::peak().map_or(String::new(), |peak| {
+            format!(", {} of memory ({allowed} allowed)", memory::words(peak))
+        });
+        output::note(&format!("Searched in {}{held}.\n", duration(seconds())));
     }
     Ok(done)
 }

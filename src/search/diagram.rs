@@ -196,11 +196,7 @@ pub(super) fn expand(
     let choices = space.variables[stage.variable].choices.len();
     let some = |range: std::ops::Range<usize>| {
         let mut worker = Worker::new(field, space.dim);
-        let mut out = Children {
-            choices,
-            found: Vec::with_capacity(range.len() * choices),
-            data: Vec::new(),
-        };
+        let mut out = Children::new(choices);
         for i in range {
             worker.children(
                 space,

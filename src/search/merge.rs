@@ -5,6 +5,7 @@ use crate::search::spent::Spent;
 use crate::search::stop::Stop;
 use crate::search::transition::Children;
 use hashbrown::HashTable;
+use std::collections::TryReserveError;
 
 /// A missing edge: the choice leads nowhere admissible.
 pub const DEAD: u32 = u32::MAX;
@@ -58,6 +59,14 @@ impl Nodes {
         &self.data[self.start[i]..self.start[i + 1]]
     }
 
+    /// Makes room for a node whose matrix has so many numbers.
+    fn reserve(&mut self, numbers: usize) -> Result<(), TryReserveError> {
+        self.spent.try_reserve(1)?;
+        self.start.try_reserve(1)?;
+        self.least.try_reserve(1)?;
+        self.data.try_reserve(numbers)
+    }
+
     pub(super) fn push(&mut self, spent: Spent, matrix: &[Residue], least: i64) {
         self.spent.push(spent);
         self.data.extend_from_slice(matrix);
@@ -106,6 +115,9 @@ impl Merge {
         mut out: impl FnMut(&Spent, usize, i64) -> bool,
     ) {
         let choices = part.choices;
+        if part.short {
+            self.stop = self.stop.or(Stop::Memory);
+        }
         for child in &part.found {
             let Some((hash, ref spent, start, end)) = *child else {
                 self.edges.push(DEAD);
@@ -120,6 +132,9 @@ impl Merge {
                 continue;
             }
             let next = &mut self.next;
+            // The system may have less memory than is allowed.
+            let refused = next.reserve(matrix.len()).is_err()
+                || self.table.try_reserve(1, |&(h, _)| h).is_err();
             let same = |&(h, i): &(u64, u32)| {
                 h == hash && next.spent[i as usize] == *spent && next.matrix(i as usize) == matrix
             };
@@ -127,7 +142,7 @@ impl Merge {
                 hashbrown::hash_table::Entry::Occupied(o) => o.get().1,
                 hashbrown::hash_table::Entry::Vacant(v) => {
                     let taken = next.bytes() + size_of::<u32>() * self.edges.len();
-                    let full = taken >= self.bytes && next.len() >= CUT;
+                    let full = refused || taken >= self.bytes && next.len() >= CUT;
                     if full || next.len() >= self.room {
                         let why = if full { Stop::Memory } else { Stop::NodeBudget };
                         self.stop = self.stop.or(why);

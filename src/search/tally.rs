@@ -292,8 +292,8 @@ struct Shifts {
 }
 
 impl Shifts {
-    /// Of the keys below and the choices' own; `None` where they would take more than some bytes.
-    fn new(below: &[Key], choices: &[Key], bytes: usize) -> Option<Shifts> {
+    /// Of the keys below and the choices' own, those of no more than a cost; `None` where they would take more than some bytes.
+    fn new(below: &[Key], choices: &[Key], most: u64, bytes: usize) -> Option<Shifts> {
         let mut different = choices.to_vec();
         different.sort_unstable();
         different.dedup();
@@ -301,10 +301,12 @@ impl Shifts {
             return None;
         }
         let shifted = |by: Key| below.iter().map(move |k| Key(k.0 + by.0));
-        let mut keys: Vec<Key> = different.iter().flat_map(|&by| shifted(by)).collect();
-        keys.sort_unstable();
+        let within = |by: Key| shifted(by).take_while(|k| k.cost() <= most);
+        let mut keys: Vec<Key> = different.iter().flat_map(|&by| within(by)).collect();
+        // These are a few ascending lists, one after another, which this sort merges.
+        keys.sort();
         keys.dedup();
-        // Both ascend.
+        // Both ascend; what costs too much comes after all.
         let places = |by: Key| {
             let mut at = 0;
             let place = |k: Key| {
@@ -332,7 +334,9 @@ fn layer<C: Count>(
     bytes: usize,
 ) -> Option<(Vec<Table<C>>, Numbers, usize)> {
     let layer = &diagram.layers[l];
-    let shifts = Shifts::new(&numbers.keys, &steps.keys[layer.variable], bytes)?;
+    let most = bound.and_then(|b| b.iter().copied().max());
+    let choices = &steps.keys[layer.variable];
+    let shifts = Shifts::new(&numbers.keys, choices, most.unwrap_or(u64::MAX), bytes)?;
     let mut sums: Vec<Option<C>> = vec![None; shifts.keys.len()];
     let mut met: Vec<u32> = Vec::new();
     let (mut here, mut places) = (Vec::with_capacity(layer.nodes), Vec::new());
@@ -348,7 +352,11 @@ fn layer<C: Count>(
             let entries = below[to as usize].iter().zip(&numbers.places[to as usize]);
             for ((_, count), &from) in entries {
                 let to = shift[from as usize];
-                if shifts.keys[to as usize].cost() > limit {
+                if shifts
+                    .keys
+                    .get(to as usize)
+                    .is_none_or(|k| k.cost() > limit)
+                {
                     break;
                 }
                 match &mut sums[to as usize] {
@@ -369,7 +377,9 @@ fn layer<C: Count>(
             met.extend(all.map(|(i, _)| number(i)));
         }
         let entry = |&to: &u32| Some((shifts.keys[to as usize], sums[to as usize].take()?));
-        let table: Table<C> = met.iter().filter_map(entry).collect();
+        let mut table: Table<C> = Vec::new();
+        table.try_reserve_exact(met.len()).ok()?;
+        table.extend(met.iter().filter_map(entry));
         used += table.capacity() * (size_of::<(Key, C)>() + size_of::<u32>());
         used += table.iter().map(|(_, c)| c.beside()).sum::<usize>();
         if used > bytes {

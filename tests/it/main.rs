@@ -29,6 +29,7 @@ mod held;
 mod holding;
 mod layering;
 mod library;
+mod licences;
 mod mobility;
 mod order;
 mod png;
