@@ -92,15 +92,16 @@ pub(super) fn build(
     let mut nodes = Nodes::root();
     let mut layers = Vec::with_capacity(stages.len());
     let (mut total, mut largest, mut stop, mut held) = (1, 1, Stop::Exhausted, 0);
+    let mut allowed = limits.bytes;
     for (done, stage) in stages.iter().enumerate() {
         let choices = &space.variables[stage.variable].choices;
         let room = limits.nodes.saturating_sub(total).max(CUT);
-        let bytes = limits.bytes.saturating_sub(held + nodes.bytes());
+        let bytes = allowed.saturating_sub(held + nodes.bytes());
         let mut merge = Merge::new((room, bytes), stop, nodes.len() * choices.len());
         let growth = grown(exact.field(), space, stage);
         // Children that are not merged yet may take an eighth of the memory; one is about as large as its parent.
         let each = nodes.bytes() / nodes.len().max(1) * choices.len();
-        let size = (limits.bytes / 8 / each.max(1)).clamp(CUT, BATCH);
+        let size = (allowed / 8 / each.max(1)).clamp(CUT, BATCH);
         for batch in (0..nodes.len()).step_by(size) {
             let batch = batch..(batch + size).min(nodes.len());
             for part in expand(
@@ -134,11 +135,17 @@ pub(super) fn build(
         }
         let Merge {
             stop: now,
+            refused,
             mut next,
             mut edges,
             ..
         } = merge;
         stop = now;
+        if refused {
+            // There is less than is allowed: no more than half of what is held by now.
+            let now = held + nodes.bytes() + next.bytes() + size_of::<u32>() * edges.len();
+            allowed = allowed.min(now / 2);
+        }
         if let Some(test) = &stage.lookahead {
             let passed = passing(exact.field(), space.dim, test, &next);
             next = retain(&next, &passed, &mut edges);
@@ -151,7 +158,7 @@ pub(super) fn build(
             }
             Stop::Memory => {
                 let each = next.bytes() / next.len().max(1) + size_of::<u32>() * choices.len();
-                let left = limits.bytes.saturating_sub(held) / (stages.len() - done);
+                let left = allowed.saturating_sub(held) / (stages.len() - done);
                 (left / each).max(CUT)
             }
             Stop::Interrupted => CUT,

@@ -82,6 +82,8 @@ pub(super) struct Merge {
     /// Bytes that they and the edges may take.
     bytes: usize,
     pub(super) stop: Stop,
+    /// Whether the system had no more memory, however much is allowed.
+    pub(super) refused: bool,
     table: HashTable<(u64, u32)>,
     pub(super) next: Nodes,
     pub(super) edges: Vec<u32>,
@@ -94,6 +96,7 @@ impl Merge {
             room,
             bytes,
             stop,
+            refused: false,
             table: HashTable::new(),
             next: Nodes::empty(),
             edges: Vec::with_capacity(edges),
@@ -116,6 +119,7 @@ impl Merge {
     ) {
         let choices = part.choices;
         if part.short {
+            self.refused = true;
             self.stop = self.stop.or(Stop::Memory);
         }
         for child in &part.found {
@@ -132,9 +136,9 @@ impl Merge {
                 continue;
             }
             let next = &mut self.next;
-            // The system may have less memory than is allowed.
             let refused = next.reserve(matrix.len()).is_err()
                 || self.table.try_reserve(1, |&(h, _)| h).is_err();
+            self.refused |= refused;
             let same = |&(h, i): &(u64, u32)| {
                 h == hash && next.spent[i as usize] == *spent && next.matrix(i as usize) == matrix
             };
