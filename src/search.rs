@@ -19,6 +19,7 @@ pub mod diagram;
 pub mod estimate;
 mod growth;
 pub mod held;
+pub mod ideas;
 pub mod lanes;
 pub mod listing;
 pub mod lookahead;

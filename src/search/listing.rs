@@ -1,12 +1,17 @@
 //! The admissible variants of a finished diagram: the cheapest in order, or some at random.
 
-use crate::search::best::{Assignment, Cheapest, Sample};
+use crate::search::best::{Assignment, Cheapest, Enter, Sample};
 use crate::search::building::Diagrams;
 use crate::search::conditions::{Search, Symmetry};
 use crate::search::diagram::Diagram;
 use crate::search::proven::UpTo;
 use crate::search::tally::{Count, Key, Tally};
 use num_bigint::BigUint;
+
+/// Refuses nothing.
+fn every<'a>() -> Enter<'a> {
+    Box::new(|_, _, _, _| true)
+}
 
 impl Search {
     /// The admissible variants, cheapest first, then by W, then by changes, then in the order of the diagram's variables;
@@ -37,21 +42,33 @@ impl Search {
             cost_milli,
         }) = &diagrams.cheapest
         else {
-            return self.between(all, top, (i64::MIN, i64::MAX));
+            return self.between(all, top, (i64::MIN, i64::MAX), every());
         };
-        let first = self.between(diagram, top, (i64::MIN, *cost_milli));
+        let first = self.between(diagram, top, (i64::MIN, *cost_milli), every());
         let dearer = std::iter::once_with(move || {
-            self.between(all, top, (cost_milli.saturating_add(1), i64::MAX))
+            self.between(all, top, (cost_milli.saturating_add(1), i64::MAX), every())
         });
         Box::new(first.chain(dearer.flatten()).take(top))
     }
 
-    /// The variants of a diagram with costs in thousandths from one to another.
+    /// The admissible variants of a diagram in order, but for those whose beginnings `enter` refuses.
+    pub(super) fn distinct<'a>(
+        &'a self,
+        diagram: &'a Diagram,
+        top: usize,
+        enter: Enter<'a>,
+    ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+        self.between(diagram, top, (i64::MIN, i64::MAX), enter)
+    }
+
+    /// The variants of a diagram with costs in thousandths from one to another, but for those whose beginnings `enter`
+    /// refuses.
     fn between<'a>(
         &'a self,
         diagram: &'a Diagram,
         top: usize,
         (least, most): (i64, i64),
+        enter: Enter<'a>,
     ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
         let rank = |k: Key| (self.mobility(k), k.changes());
         let costs = |k: Key| (least..=most).contains(&self.steps.milli(k.cost()));
@@ -60,11 +77,11 @@ impl Search {
         let range = (top, self.steps.above(most));
         if self.fits() {
             Box::new(Cheapest::<u128>::new(
-                diagram, steps, range, wanted, rank, room,
+                diagram, steps, range, wanted, rank, room, enter,
             ))
         } else {
             Box::new(Cheapest::<BigUint>::new(
-                diagram, steps, range, wanted, rank, room,
+                diagram, steps, range, wanted, rank, room, enter,
             ))
         }
     }
