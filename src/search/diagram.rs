@@ -148,7 +148,7 @@ pub(super) fn build(
         }
         if let Some(test) = &stage.lookahead {
             let passed = passing(exact.field(), space.dim, test, &next);
-            next = retain(&next, &passed, &mut edges);
+            retain(&mut next, &passed, &mut edges);
         }
         let keep = match stop {
             Stop::Exhausted => usize::MAX,
@@ -164,7 +164,7 @@ pub(super) fn build(
             Stop::Interrupted => CUT,
         };
         if next.len() > keep {
-            next = cut(&next, keep, &mut edges);
+            cut(&mut next, keep, &mut edges);
         }
         total += next.len();
         largest = largest.max(next.len());
@@ -255,25 +255,23 @@ pub(super) fn passing(field: Field, dim: usize, test: &Lookahead, nodes: &Nodes)
 }
 
 /// Keeps the cheapest nodes of a layer, first come first kept among equals.
-fn cut(nodes: &Nodes, keep: usize, edges: &mut [u32]) -> Nodes {
+fn cut(nodes: &mut Nodes, keep: usize, edges: &mut [u32]) {
     let mut by_cost: Vec<usize> = (0..nodes.len()).collect();
     by_cost.sort_by_key(|&i| (nodes.least[i], i));
     by_cost.truncate(keep);
     by_cost.sort_unstable();
-    retain(nodes, &by_cost, edges)
+    retain(nodes, &by_cost, edges);
 }
 
 /// Keeps the nodes listed, ascending, and renames the edges that lead to them.
-pub(super) fn retain(nodes: &Nodes, kept: &[usize], edges: &mut [u32]) -> Nodes {
+pub(super) fn retain(nodes: &mut Nodes, kept: &[usize], edges: &mut [u32]) {
     let mut renamed = vec![DEAD; nodes.len()];
-    let mut out = Nodes::empty();
-    for &i in kept {
-        renamed[i] = u32::try_from(out.len()).expect("fewer than before");
-        out.push(nodes.spent[i].clone(), nodes.matrix(i), nodes.least[i]);
+    for (to, &from) in kept.iter().enumerate() {
+        renamed[from] = u32::try_from(to).expect("fewer than before");
     }
+    nodes.retain(kept);
     edges
         .iter_mut()
         .filter(|e| **e != DEAD)
         .for_each(|e| *e = renamed[*e as usize]);
-    out
 }

@@ -117,7 +117,7 @@ impl Search {
             let (mut next, mut edges) = (merge.next, merge.edges);
             if let Some(test) = &stage.lookahead {
                 let passed = passing(field, space.dim, test, &next);
-                next = retain(&next, &passed, &mut edges);
+                retain(&mut next, &passed, &mut edges);
             }
             let mut carried = vec![BTreeMap::new(); next.len()];
             for (e, &to) in edges.iter().enumerate().filter(|(_, to)| **to != DEAD) {
@@ -135,7 +135,7 @@ impl Search {
             let sizes: Vec<f64> = carried.iter().enumerate().map(size).collect();
             let drawn = draw(&sizes, keep, &mut random);
             let kept: Vec<usize> = drawn.iter().map(|(i, _)| *i).collect();
-            next = retain(&next, &kept, &mut edges);
+            retain(&mut next, &kept, &mut edges);
             ways = drawn
                 .into_iter()
                 .map(|(i, chance)| {

@@ -67,6 +67,24 @@ impl Nodes {
         self.data.try_reserve(numbers)
     }
 
+    /// Keeps the nodes listed, ascending, within the memory that they have.
+    pub(super) fn retain(&mut self, kept: &[usize]) {
+        let mut end = 0;
+        for (to, &from) in kept.iter().enumerate() {
+            let matrix = self.start[from]..self.start[from + 1];
+            self.spent.swap(to, from);
+            self.least[to] = self.least[from];
+            self.start[to] = end;
+            end += matrix.len();
+            self.data.copy_within(matrix.clone(), end - matrix.len());
+        }
+        self.spent.truncate(kept.len());
+        self.least.truncate(kept.len());
+        self.start.truncate(kept.len());
+        self.start.push(end);
+        self.data.truncate(end);
+    }
+
     pub(super) fn push(&mut self, spent: Spent, matrix: &[Residue], least: i64) {
         self.spent.push(spent);
         self.data.extend_from_slice(matrix);
