@@ -62,8 +62,13 @@ fn licence_expressions_are_read() {
 
 #[test]
 fn every_dependency_may_be_handed_out() {
+    // Those of other machines need not be here.
+    let told = Command::new("rustc").arg("-vV").output().unwrap();
+    let told = String::from_utf8(told.stdout).unwrap();
+    let host = told.lines().find_map(|l| l.strip_prefix("host: ")).unwrap();
     let o = Command::new(env!("CARGO"))
         .args(["metadata", "--format-version", "1", "--locked", "--offline"])
+        .args(["--filter-platform", host])
         .args([
             "--manifest-path",
             concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"),
