@@ -131,32 +131,6 @@ fn tallies_stay_within_the_memory() {
     assert_eq!(v["exact"], false);
 }
 
-/// The system has less than is allowed: once an abort.
-#[cfg(target_os = "linux")]
-#[test]
-fn memory_that_the_system_refuses_ends_a_search_as_a_bound_does() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("x.toml"), ladder(14)).unwrap();
-    let command = format!(
-        "ulimit -v 300000; exec '{}' search x.toml --nodes 2000000 --memory 100G --count --threads 1 --check none --format json",
-        env!("CARGO_BIN_EXE_ozols")
-    );
-    let o = Command::new("sh")
-        .args(["-c", &command])
-        .current_dir(&folder)
-        .output()
-        .unwrap();
-    assert_eq!(
-        o.status.code(),
-        Some(0),
-        "{:?} {}",
-        o.status,
-        text(&o.stderr)
-    );
-    let v: Value = serde_json::from_slice(&o.stdout).unwrap();
-    assert_eq!((&v["exact"], &v["stop"]), (&false.into(), &"memory".into()));
-}
-
 #[cfg(target_os = "linux")]
 #[test]
 fn a_search_says_how_much_memory_it_took_of_what_it_may() {
