@@ -6,6 +6,7 @@ pub mod bench;
 pub mod catalog;
 pub mod conditions;
 pub mod drive;
+pub mod early;
 pub mod grip;
 pub mod idle;
 pub mod layout;

@@ -19,7 +19,17 @@ fn value(file: &str, key: &str) -> Option<String> {
 
 /// Bytes of memory.
 pub(super) fn memory() -> Option<u64> {
-    let kilobytes = value("/proc/meminfo", "MemTotal")?;
+    bytes("/proc/meminfo", "MemTotal")
+}
+
+/// The most bytes that this process has held so far.
+pub(super) fn peak() -> Option<u64> {
+    bytes("/proc/self/status", "VmHWM")
+}
+
+/// A number of kilobytes of a file of the system.
+fn bytes(file: &str, key: &str) -> Option<u64> {
+    let kilobytes = value(file, key)?;
     Some(1024 * kilobytes.split(' ').next()?.parse::<u64>().ok()?)
 }
 

@@ -26,6 +26,16 @@ fn after(text: &str, head: &str) -> Option<usize> {
     line.split_whitespace().next()?.parse().ok()
 }
 
+/// "48 MiB", "3.9 GiB".
+pub(super) fn words(bytes: u64) -> String {
+    #[allow(clippy::cast_precision_loss, reason = "told with two digits or three")]
+    let mib = bytes as f64 / f64::from(1 << 20);
+    match mib {
+        m if m < 1000.0 => format!("{m:.0} MiB"),
+        m => format!("{:.1} GiB", m / 1024.0),
+    }
+}
+
 /// Bytes: a number, or one with k, M, G or T behind it (powers of 1024), and B or iB behind that.
 pub(super) fn bytes(word: &str) -> Result<usize, String> {
     let plain = word.trim_end_matches(['b', 'B']).trim_end_matches('i');

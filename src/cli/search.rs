@@ -3,7 +3,7 @@
 use super::args::{Args, File};
 use super::progress::Watch;
 use super::request::Checked;
-use super::{Done, interrupt, load, machine, output};
+use super::{Done, interrupt, load, machine, memory, output};
 use crate::format::number::duration;
 use crate::score::request::{List, Method, Request};
 use crate::view::{search_csv, search_json, search_text};
@@ -46,6 +46,9 @@ pub(super) struct Search {
     /// Counts only.
     #[arg(long, conflicts_with = "rank")]
     count: bool,
+    /// Find the best without counting all: as fast as a search for a cost, however many variants there are.
+    #[arg(long, conflicts_with_all = ["all", "sample", "count"])]
+    no_count: bool,
     #[command(flatten)]
     checked: Checked,
     /// Diagram, or brute force for checking.
@@ -72,6 +75,7 @@ impl Search {
                 SearchMethod::Diagram => Method::Diagram,
                 SearchMethod::Brute => Method::Brute,
             },
+            counted: !self.no_count,
             ..self.checked.request(seed)?
         })
     }
@@ -109,7 +113,11 @@ pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
     })?;
     // The output itself is the same every time.
     if a.format == SearchFormat::Text && !args.quiet {
-        output::note(&format!("Searched in {}.\n", duration(seconds())));
+        let allowed = memory::words(request.memory as u64);
+        let held = machine::peak().map_or(String::new(), |peak| {
+            format!(", {} of memory ({allowed} allowed)", memory::words(peak))
+        });
+        output::note(&format!("Searched in {}{held}.\n", duration(seconds())));
     }
     Ok(done)
 }

@@ -3,7 +3,7 @@
 use super::{Page, Redesigns};
 use crate::search::primes::{PrimeCheck, Verdict};
 use crate::view::analysis::{Analysis, LeftOut, State};
-use crate::view::search_text;
+use crate::view::{early, search_text};
 use maud::{Markup, html};
 
 pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
@@ -50,14 +50,9 @@ fn search(r: &Redesigns<'_>) -> Vec<String> {
         Some(_) => lines.push("Not checked by a second prime: interrupted".to_owned()),
         None => lines.push("One prime, without a second opinion".to_owned()),
     }
-    if found.is_exact() {
-        lines.push("Every variant was counted; none was left out".to_owned());
-    } else {
-        lines.push(format!(
-            "Stopped early ({}): counts are lower bounds, variants are valid but may not be the cheapest",
-            found.stop.word()
-        ));
-    }
+    let early = early::stopped(found);
+    lines.push(early.unwrap_or_else(|| "Every variant was counted; none was left out".to_owned()));
+    lines.extend(early::estimated(found));
     if let Some((why, verdicts)) = &found.measured {
         let written = verdicts.iter().all(|v| v.is_as_written());
         let searched = if written {

@@ -7,6 +7,7 @@ use crate::search::building::Diagrams;
 use crate::search::conditions::{Search, SearchError, Symmetry};
 use crate::search::counts::Counts;
 use crate::search::diagram::Stop;
+use crate::search::estimate::Estimate;
 use crate::search::over_stroke::Stroke;
 use crate::search::primes::PrimeCheck;
 use crate::search::relax::{Hopeless, Relaxation};
@@ -75,6 +76,19 @@ impl Outcome {
     #[must_use]
     pub fn is_determinate_exact(&self) -> bool {
         self.determinate_stop == Stop::Exhausted
+    }
+
+    /// The cost in thousandths up to which every admissible variant is known, however the search ended; `None` where of no
+    /// cost it can be said.
+    #[must_use]
+    pub fn known_up_to(&self) -> Option<i64> {
+        self.diagrams.as_ref()?.known_up_to()
+    }
+
+    /// About how many determinate and admissible variants there are, where the search ended early.
+    #[must_use]
+    pub fn estimates(&self) -> [Option<Estimate>; 2] {
+        self.diagrams.as_ref().map_or([None; 2], |d| d.estimates)
     }
 
     /// Counts of the admissible variants by cost in thousandths; none of orbits, and none by brute force. `None`

@@ -116,6 +116,8 @@ pub struct Request {
     /// Make axes exactly parallel, square, coaxial or concurrent that are so to within this (radians, and fractions of the
     /// mechanism's size), in place of what the digits allow.
     pub snap: Option<f64>,
+    /// Whether variants are counted, or no more of the diagram is built than the best need.
+    pub counted: bool,
     /// Node budget of each diagram.
     pub nodes: usize,
     /// Bytes that the search, its counts, its lists and its ranking may hold, so far as they grow with what is found.
@@ -157,6 +159,7 @@ impl Default for Request {
             allow: Vec::new(),
             forbid: Vec::new(),
             symmetry: Symmetry::All,
+            counted: true,
             as_written: false,
             snap: None,
             nodes: Conditions::default().nodes,
@@ -401,6 +404,9 @@ impl Request {
             max_changes: self.max_changes,
             keep_output: !self.allow_output_change,
             symmetry: self.symmetry,
+            counted: self.counted,
+            cheapest: self.cheapest(&prepared.mechanism)?,
+            estimate: (self.symmetry != Symmetry::OnePerOrbit).then_some(self.seed),
             nodes: self.nodes.clamp(1, u32::MAX as usize / 2),
             memory: self.memory,
             tolerance,

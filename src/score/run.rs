@@ -110,7 +110,10 @@ pub fn answer(
 ) -> Result<Outcome, RunError> {
     let over = |nth: usize| -> Result<Search, RunError> {
         let field = exact_field(&mechanism, nth)?;
-        Ok(Search::new(field, mechanism.clone(), conditions.clone())?)
+        let mut conditions = conditions.clone();
+        // The twin proves counts, and an estimate is none.
+        conditions.estimate = conditions.estimate.filter(|_| nth == 0);
+        Ok(Search::new(field, mechanism.clone(), conditions)?)
     };
     if request.method == Method::Brute {
         let search = over(0)?;
@@ -156,6 +159,15 @@ pub fn answer(
         search.counts(&diagrams.determinate, false),
         search.counts(&diagrams.admissible, true),
     );
+    // What is cut down elsewhere may have none of the cheapest.
+    if let Some(best) = &diagrams.cheapest {
+        let known = search.counts(&best.diagram, true);
+        for few in [&mut counts.0, &mut counts.1] {
+            if few.total < known.total {
+                few.clone_from(&known);
+            }
+        }
+    }
     if counts.0.only_total || counts.1.only_total {
         tell(Event::Note(
             "note: counts by mobility, changes and the like would take more than the memory allowed (--memory); totals alone are given"
@@ -241,9 +253,11 @@ fn ranked(
     let each = size_of::<Ranked>() + 32 + size_of::<usize>() * search.space.variables.len();
     let pool = request.pool.min(search.conditions.memory / 4 / each).max(1);
     let mut ranker = Ranker::new(&evaluator, &ranking, pool, standing.min(pool));
-    let mut given = 0;
+    let known = diagrams.known_up_to();
+    let (mut given, mut doubtful) = (0, known.is_none());
     for v in search.cheapest(diagrams, pool + 1) {
         given += 1;
+        doubtful |= known.is_none_or(|k| search.steps.milli(v.key.cost()) > k);
         if should_cancel() || ranker.take(v).is_break() {
             break;
         }
@@ -253,10 +267,10 @@ fn ranked(
     let mut out = ranker.finish(exhausted && given <= pool);
     if interrupted && !out.proven {
         (out.interrupted, out.proof, out.missing) = (true, "the ranking was interrupted", None);
-    } else if !exhausted {
+    } else if doubtful {
         (out.proven, out.proof, out.missing) = (false, "the search stopped early", None);
     }
-    if let Some(missing) = &mut out.missing {
+    if let Some(missing) = out.missing.as_mut().filter(|_| exhausted) {
         let by_cost = search.counts_by_cost(&diagrams.admissible);
         missing.cheaper = by_cost.map(|all| all.range(..missing.settled_at).map(|(_, n)| n).sum());
     }

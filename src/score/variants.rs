@@ -1,7 +1,8 @@
 //! The variants of an outcome, one by one.
 
+use crate::model::mechanism::Mechanism;
 use crate::score::outcome::Outcome;
-use crate::score::request::{Check, List};
+use crate::score::request::{Check, List, Request, RequestError};
 use crate::score::run::ShouldCancel;
 use crate::score::variant::Variant;
 use crate::search::best::Assignment;
@@ -13,6 +14,30 @@ use crate::search::over_stroke::Stroke;
 use itertools::Itertools;
 use num_traits::Zero;
 use std::fmt;
+
+impl Request {
+    /// How many of the cheapest variants are looked at, to give the list that is asked for; 0 where it takes all, or none.
+    pub(super) fn cheapest(&self, mechanism: &Mechanism) -> Result<usize, RequestError> {
+        let List::Top(top) = self.list else {
+            return Ok(0);
+        };
+        let looked = match self.ranking(mechanism)? {
+            Some(_) => self.pool.saturating_add(1),
+            None => self.listed(top),
+        };
+        // Of a variant and its mirror image one is dropped.
+        let images = usize::from(self.symmetry == Symmetry::OnePerOrbit) + 1;
+        Ok(looked.saturating_mul(images))
+    }
+
+    /// How many of the cheapest are looked at to give `top` of them: lucky ones make room for others.
+    fn listed(&self, top: usize) -> usize {
+        match self.generic_only && top > 0 {
+            true => top.saturating_mul(100).max(CHECKED),
+            false => top,
+        }
+    }
+}
 
 impl Outcome {
     /// The variants asked for, one by one: the best in order, all, or a sample. No more than a thousand are held at a time,
@@ -65,15 +90,15 @@ impl Outcome {
                     Box::new(list.map(|(place, r)| (r.variant.clone(), Some(place))))
                 }
                 (Some(d), None, _) => {
-                    // Lucky variants make room for others.
-                    let enough = if request.generic_only && wanted > 0 {
-                        wanted.saturating_mul(100).max(CHECKED)
-                    } else {
-                        wanted
-                    };
+                    let enough = request.listed(wanted);
                     Box::new(self.search.cheapest(d, enough).map(unranked))
                 }
             };
+        let by_cost = self.ranking.is_none() && !matches!(request.list, List::Sample(_));
+        let summary = Summary {
+            proven: (by_cost && !self.is_exact()).then_some(0),
+            ..Summary::default()
+        };
         Variants {
             outcome: self,
             cancelled,
@@ -83,7 +108,7 @@ impl Outcome {
             ready: Vec::new().into_iter(),
             ideas,
             room: wanted,
-            summary: Summary::default(),
+            summary,
             interrupted: false,
             short: false,
         }
@@ -217,6 +242,19 @@ impl<'o> Iterator for Variants<'o> {
             }
             self.room -= 1;
             self.summary.add(&certified);
+            let cost = self
+                .outcome
+                .search
+                .steps
+                .milli(certified.variant.key.cost());
+            if let Some(n) = &mut self.summary.proven
+                && self
+                    .outcome
+                    .known_up_to()
+                    .is_some_and(|known| cost <= known)
+            {
+                *n += 1;
+            }
             return Some(Variant {
                 outcome: self.outcome,
                 position: self.summary.given,

@@ -55,18 +55,18 @@ impl<C: Count> fmt::Debug for Cheapest<'_, C> {
 }
 
 impl<'d, C: Count> Cheapest<'d, C> {
-    /// The first `top` variants whose key passes `wanted`; those of equal cost in the order of `rank`. Of those that begin
-    /// alike none is given where `enter` refuses the beginning.
+    /// The first `top` variants whose key passes `wanted`, as it does for no cost above `ceiling`; those of equal cost in the
+    /// order of `rank`. Of those that begin alike none is given where `enter` refuses the beginning.
     pub fn new<R: Ord>(
         diagram: &'d Diagram,
         steps: &'d Steps,
-        top: usize,
+        (top, ceiling): (usize, u64),
         wanted: impl Fn(Key) -> bool,
         rank: impl Fn(Key) -> R,
         bytes: usize,
         enter: Enter<'d>,
     ) -> Self {
-        let (tally, mut keys) = enough(diagram, steps, top, wanted, bytes);
+        let (tally, mut keys) = enough(diagram, steps, (top, ceiling), wanted, bytes);
         keys.sort_by_key(|&k| (k.cost(), rank(k), k));
         Cheapest {
             diagram,
@@ -133,7 +133,7 @@ impl<C: Count> Iterator for Cheapest<'_, C> {
 fn enough<C: Count>(
     diagram: &Diagram,
     steps: &Steps,
-    top: usize,
+    (top, ceiling): (usize, u64),
     wanted: impl Fn(Key) -> bool,
     bytes: usize,
 ) -> (Tally<C>, Vec<Key>) {
@@ -145,7 +145,7 @@ fn enough<C: Count>(
     let chosen = steps.keys.iter().flatten().map(|k| k.cost()).max();
     let ends = diagram.terminals.iter();
     let end = ends.map(|&r| steps.redundancy(r).cost()).max();
-    let ceiling = chosen.unwrap_or(0) * steps.keys.len() as u64 + end.unwrap_or(0);
+    let ceiling = ceiling.min(chosen.unwrap_or(0) * steps.keys.len() as u64 + end.unwrap_or(0));
     let mut slack = 0;
     loop {
         let limit = floor.saturating_add(slack).min(ceiling);

@@ -1,20 +1,23 @@
 //! What a search that comes to its bounds still counts: more with more nodes and more memory, never less.
 //!
 //! A diagram cut down to a budget keeps the cheapest nodes of each layer, and a larger budget, spent in the early layers, may
-//! keep others that lead to fewer variants. So the search is made again within each smaller power of ten, and the best of
-//! them stands: a larger budget has all the searches of a smaller one, and more.
+//! keep others that lead to fewer variants. So the search is made again within each smaller round budget (1, 2 or 5 times a power of
+//! ten), and the best of them stands: a larger budget has all the searches of a smaller one, and more.
 
 use crate::search::diagram::{Diagram, Stop};
 use crate::search::spent::Limits;
 use num_bigint::BigUint;
 
-/// The smallest budget that is tried.
-const LEAST: usize = 100;
+/// Round budgets, the smallest that is tried first.
+fn rungs() -> impl Iterator<Item = usize> {
+    let tens = std::iter::successors(Some(100usize), |n| n.checked_mul(10));
+    tens.flat_map(|n| [1, 2, 5].into_iter().filter_map(move |k| n.checked_mul(k)))
+}
 
-/// A whole diagram, or the best of those within budgets of powers of ten, by what it is `worth`.
+/// A whole diagram, or the best of those within round budgets, by what it is `worth`.
 ///
 /// # Complexity
-/// A ninth more than the largest of them where the budget is a power of ten, and the worth of each.
+/// Twice the largest of them, and the worth of each.
 pub(super) fn best(
     limits: &Limits,
     build: &mut dyn FnMut(&Limits) -> Diagram,
@@ -25,7 +28,6 @@ pub(super) fn best(
         return whole;
     }
     let why = whole.stop;
-    let rungs = || std::iter::successors(Some(LEAST), |n| n.checked_mul(10));
     let mut best: Option<(BigUint, Diagram)> = None;
     for nodes in rungs().take_while(|&n| n < limits.nodes) {
         let limits = Limits {
@@ -36,12 +38,16 @@ pub(super) fn best(
         if diagram.stop == Stop::Interrupted {
             return diagram;
         }
-        // Where memory cuts depends on how much there is: with more of it there would not be the same diagram.
-        if diagram.stop != Stop::Memory {
-            best = better(best, diagram, worth);
+        // Where memory cuts depends on how much there is: with more of it there would not be the same diagram. A larger budget
+        // comes to the same.
+        if diagram.stop == Stop::Memory {
+            break;
         }
+        best = better(best, diagram, worth);
     }
-    let is_rung = rungs().take_while(|&n| n <= limits.nodes).last() == Some(limits.nodes);
+    let is_rung = rungs()
+        .take_while(|&n| n <= limits.nodes)
+        .any(|n| n == limits.nodes);
     if best.is_none() || (is_rung && whole.stop == Stop::NodeBudget) {
         best = better(best, whole, worth);
     }

@@ -6,12 +6,17 @@ use crate::model::mechanism::{JointId, LinkId};
 use crate::search::budget;
 use crate::search::conditions::Search;
 use crate::search::diagram::{self, Diagram, Progress, Stop};
+use crate::search::estimate::Estimate;
 use crate::search::lanes::{Lane, Move, ways};
 use crate::search::lookahead::lookahead;
+use crate::search::missing::{Ceiling, Missing};
 use crate::search::order::variable_order;
 use crate::search::plan::{At, plan};
+use crate::search::proven::UpTo;
 use crate::search::spent::Limits;
 use crate::search::stage::{self, Collapse, Stage};
+use num_bigint::BigUint;
+use num_traits::Zero;
 
 /// The orders in which diagrams take the variables.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -29,6 +34,10 @@ pub struct Diagrams {
     pub determinate: Diagram,
     /// Of those that meet every condition that does not depend on counts of changes and mobility.
     pub admissible: Diagram,
+    /// The cheapest of the admissible ones, where they are wanted and that diagram is not whole.
+    pub cheapest: Option<UpTo>,
+    /// About how many determinate and admissible variants there are, where their diagrams are cut down and a seed is given.
+    pub estimates: [Option<Estimate>; 2],
     /// The variables in the order the admissible diagram takes them.
     pub order: Vec<usize>,
 }
@@ -39,6 +48,32 @@ impl Diagrams {
     pub fn stop(&self) -> Stop {
         self.determinate.stop.or(self.admissible.stop)
     }
+
+    /// The cost in thousandths up to which every admissible variant is known; `None` where of none it can be said.
+    #[must_use]
+    pub fn known_up_to(&self) -> Option<i64> {
+        let whole = self.admissible.stop == Stop::Exhausted;
+        let bounded = self.cheapest.as_ref().map(|c| c.cost_milli);
+        if whole { Some(i64::MAX) } else { bounded }
+    }
+}
+
+/// Stages of a diagram, and its limits.
+type Question<'a> = (&'a [Stage], &'a Limits);
+/// Builds a diagram, under a ceiling or not.
+type Build<'a> = &'a mut dyn FnMut(Question<'_>, Option<&mut Ceiling<'_>>) -> Diagram;
+
+/// The stages and limits of both diagrams; of one where both are the same.
+struct Laid {
+    determinate: (Vec<Stage>, Limits),
+    admissible: Option<(Vec<Stage>, Limits)>,
+    /// The variables in the order of the admissible diagram.
+    order: Vec<usize>,
+}
+
+/// Whether a diagram is cut down to its limits.
+fn is_cut(stop: Stop) -> bool {
+    matches!(stop, Stop::NodeBudget | Stop::Memory)
 }
 
 /// Whether a joint comes after the common ones.
@@ -100,6 +135,64 @@ impl Search {
         cancelled: &(dyn Fn() -> bool + Sync),
         progress: &mut (dyn FnMut(Progress) + Send),
     ) -> Diagrams {
+        let laid = self.laid(orders);
+        let mut build = |(stages, limits): Question<'_>, ceiling: Option<&mut Ceiling<'_>>| {
+            let (exact, space) = (&self.exact, &self.space);
+            let within = (limits, ceiling);
+            diagram::build(exact, space, stages, within, cancelled, progress)
+        };
+        let first = (&laid.determinate.0[..], &laid.determinate.1);
+        let determinate = self.whole(first, false, &mut build);
+        let second = laid.admissible.as_ref().map(|(s, l)| (&s[..], l));
+        let admissible = match second {
+            Some(second) => self.whole(second, true, &mut build),
+            None => determinate.clone(),
+        };
+        let mut out = Diagrams {
+            determinate,
+            admissible,
+            cheapest: None,
+            estimates: [None; 2],
+            order: laid.order,
+        };
+        let second = second.unwrap_or(first);
+        let kept = if self.conditions.keep_output {
+            self.kept.1.len()
+        } else {
+            0
+        };
+        self.prove(&mut out, second, kept, &mut build);
+        let estimate = |(stages, limits): Question<'_>, end, stop, filter| {
+            let seed = self.conditions.estimate.filter(|_| is_cut(stop))?;
+            let missing = Missing::new(&self.space, stages, limits, end);
+            self.estimate((stages, limits), &missing, (seed, filter), cancelled)
+        };
+        out.estimates = [
+            estimate(first, 0, out.determinate.stop, false),
+            estimate(second, kept, out.admissible.stop, true),
+        ];
+        out
+    }
+
+    /// The diagram of a question, or where it does not fit the limits the best of those cut down, which are worth the variants
+    /// they count; `filter` applies the conditions on mobility and changes to these.
+    fn whole(&self, (stages, limits): Question<'_>, filter: bool, build: Build<'_>) -> Diagram {
+        let build = &mut |limits: &Limits| build((stages, limits), None);
+        if self.conditions.counted {
+            return budget::best(limits, build, &|d| self.total(d, filter));
+        }
+        let mut few = build(&Limits {
+            nodes: 1,
+            ..limits.clone()
+        });
+        if few.stop != Stop::Interrupted {
+            few.stop = Stop::NotCounted;
+        }
+        few
+    }
+
+    /// Lays out the stages of both diagrams.
+    fn laid(&self, orders: &Orders) -> Laid {
         let state = self.conditions.state.as_ref();
         let limits = Limits {
             internal: self.conditions.max_redundant,
@@ -121,30 +214,11 @@ impl Search {
         let whole = plan(&self.mechanism, &at(&order), &[], &[]);
         let mut stages = stage::stages(&self.space, &order, &whole);
         stages.extend(idle);
-        let build =
-            |stages: &[Stage], limits: &Limits, progress: &mut (dyn FnMut(Progress) + Send)| {
-                diagram::build(
-                    &self.exact,
-                    &self.space,
-                    stages,
-                    limits,
-                    cancelled,
-                    progress,
-                )
-            };
-        // What is cut down is worth the variants it counts.
-        let mut whole = |filter: bool, stages: &[Stage], limits: &Limits| {
-            budget::best(
-                limits,
-                &mut |limits| build(stages, limits, progress),
-                &|d| self.total(d, filter),
-            )
-        };
-        let determinate = whole(false, &stages, &limits);
+        let determinate = (stages, limits.clone());
         if self.one_diagram() {
-            return Diagrams {
-                admissible: determinate.clone(),
+            return Laid {
                 determinate,
+                admissible: None,
                 order,
             };
         }
@@ -189,13 +263,40 @@ impl Search {
         if self.conditions.keep_output {
             self.look_ahead(&mut stages[..free.len()], alone.is_empty());
         }
-        let admissible = whole(true, &stages, &limits);
         order.extend(alone);
         order.extend(added);
-        Diagrams {
+        Laid {
             determinate,
-            admissible,
+            admissible: Some((stages, limits)),
             order,
+        }
+    }
+
+    /// Finds the cheapest admissible variants where they are wanted and not all are known; `end` is the least dimension of
+    /// the last nodes.
+    fn prove(&self, out: &mut Diagrams, question: Question<'_>, end: usize, build: Build<'_>) {
+        let most = BigUint::from(self.conditions.cheapest);
+        let known = matches!(out.admissible.stop, Stop::Exhausted | Stop::Interrupted);
+        if known || most.is_zero() {
+            return;
+        }
+        let missing = Missing::new(&self.space, question.0, question.1, end);
+        if missing.root().is_none() {
+            // There is none, by dimensions alone.
+            out.admissible.stop = Stop::Exhausted;
+            return;
+        }
+        let known = self.cost_of(&out.admissible, &most).flatten();
+        let build = &mut |ceiling: &mut Ceiling<'_>| build(question, Some(ceiling));
+        let proof = self.up_to(&missing, (&most, known), build);
+        match proof.up_to {
+            // Nothing had to be left out: what has no completion by dimensions made the diagram too large.
+            Some(all) if all.cost_milli == i64::MAX => out.admissible = all.diagram,
+            up_to => out.cheapest = up_to,
+        }
+        // Where it was cancelled depends on the clock, so that there is nothing to compare with a twin.
+        if proof.stop == Stop::Interrupted {
+            out.admissible.stop = Stop::Interrupted;
         }
     }
 

@@ -108,6 +108,8 @@ pub struct Summary {
     pub lucky: usize,
     /// Lucky ones left out.
     pub dropped: usize,
+    /// How many of them, the first, are proven to be the cheapest; `None` where all are, or the list is not by cost.
+    pub proven: Option<usize>,
 }
 
 impl Summary {

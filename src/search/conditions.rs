@@ -69,6 +69,12 @@ pub struct Conditions {
     pub keep_output: bool,
     /// Mirror symmetry.
     pub symmetry: Symmetry,
+    /// Whether variants are counted; where they are not, the diagrams of all are cut down at once.
+    pub counted: bool,
+    /// How many of the cheapest are to be found even where the diagram of all does not fit the budgets.
+    pub cheapest: usize,
+    /// The seed of estimates, where counts that do not fit the budgets are estimated.
+    pub estimate: Option<u64>,
     /// Node budget of each diagram.
     pub nodes: usize,
     /// Bytes that the search and what is counted on it may hold.
@@ -86,6 +92,9 @@ impl Default for Conditions {
             max_changes: None,
             keep_output: true,
             symmetry: Symmetry::All,
+            counted: true,
+            cheapest: 0,
+            estimate: None,
             nodes: 1_000_000,
             memory: 4 << 30,
             tolerance: DEFAULT_TOLERANCE,

@@ -168,6 +168,8 @@ impl Search {
     ) -> Result<((Counts, Counts), [Stop; 2]), SearchError> {
         let conditions = Conditions {
             symmetry: Symmetry::SymmetricOnly,
+            cheapest: 0,
+            estimate: None,
             ..self.conditions.clone()
         };
         let symmetric = Search::new(self.exact.clone(), self.mechanism.clone(), conditions)?;

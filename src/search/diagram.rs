@@ -9,6 +9,7 @@ use crate::search::growth::{Grown, grown};
 use crate::search::lookahead::Lookahead;
 pub use crate::search::merge::DEAD;
 use crate::search::merge::{CUT, Merge, Nodes};
+use crate::search::missing::Ceiling;
 use crate::search::space::Space;
 use crate::search::spent::{Limits, Redundancy, Spent};
 use crate::search::stage::Stage;
@@ -71,7 +72,7 @@ impl Diagram {
     }
 }
 
-/// Builds the diagram of a space along given stages.
+/// Builds the diagram of a space along given stages; under a ceiling, all of it that variants within the ceiling need.
 ///
 /// `cancelled` is asked between batches of nodes; once it says yes the remaining layers are cut to a few nodes, so that
 /// what was found can still be completed. The result does not depend on the number of threads: children are computed in
@@ -80,26 +81,27 @@ impl Diagram {
 /// # Complexity
 /// O(nodes · choices · d²w) field operations for matrices of d rows and w columns; memory is the edges of all layers
 /// and the matrices of two, both bounded by `limits.nodes` and `limits.bytes`.
-pub fn build(
+pub(super) fn build(
     exact: &ExactField,
     space: &Space,
     stages: &[Stage],
-    limits: &Limits,
+    (limits, mut ceiling): (&Limits, Option<&mut Ceiling<'_>>),
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
     let mut nodes = Nodes::root();
     let mut layers = Vec::with_capacity(stages.len());
     let (mut total, mut largest, mut stop, mut held) = (1, 1, Stop::Exhausted, 0);
+    let mut allowed = limits.bytes;
     for (done, stage) in stages.iter().enumerate() {
         let choices = &space.variables[stage.variable].choices;
         let room = limits.nodes.saturating_sub(total).max(CUT);
-        let bytes = limits.bytes.saturating_sub(held + nodes.bytes());
+        let bytes = allowed.saturating_sub(held + nodes.bytes());
         let mut merge = Merge::new((room, bytes), stop, nodes.len() * choices.len());
         let growth = grown(exact.field(), space, stage);
         // Children that are not merged yet may take an eighth of the memory; one is about as large as its parent.
         let each = nodes.bytes() / nodes.len().max(1) * choices.len();
-        let size = (limits.bytes / 8 / each.max(1)).clamp(CUT, BATCH);
+        let size = (allowed / 8 / each.max(1)).clamp(CUT, BATCH);
         for batch in (0..nodes.len()).step_by(size) {
             let batch = batch..(batch + size).min(nodes.len());
             for part in expand(
@@ -110,7 +112,15 @@ pub fn build(
                 &nodes,
                 batch,
             ) {
-                merge.take(&part, &nodes, |choice| choices[choice].cost_milli);
+                merge.take(
+                    &part,
+                    &nodes,
+                    |choice| choices[choice].cost_milli,
+                    |spent, size, least| {
+                        let ceiling = ceiling.as_mut();
+                        ceiling.is_some_and(|c| c.is_above(done + 1, spent, size, least))
+                    },
+                );
             }
             if cancelled() && merge.stop != Stop::Interrupted {
                 merge.stop = Stop::Interrupted;
@@ -125,30 +135,36 @@ pub fn build(
         }
         let Merge {
             stop: now,
+            refused,
             mut next,
             mut edges,
             ..
         } = merge;
         stop = now;
+        if refused {
+            // There is less than is allowed: no more than half of what is held by now.
+            let now = held + nodes.bytes() + next.bytes() + size_of::<u32>() * edges.len();
+            allowed = allowed.min(now / 2);
+        }
         if let Some(test) = &stage.lookahead {
             let passed = passing(exact.field(), space.dim, test, &next);
-            next = retain(&next, &passed, &mut edges);
+            retain(&mut next, &passed, &mut edges);
         }
         let keep = match stop {
             Stop::Exhausted => usize::MAX,
             // Share what is left of the budget among the layers to come.
-            Stop::NodeBudget => {
+            Stop::NodeBudget | Stop::NotCounted => {
                 (limits.nodes.saturating_sub(total) / (stages.len() - done)).max(CUT)
             }
             Stop::Memory => {
                 let each = next.bytes() / next.len().max(1) + size_of::<u32>() * choices.len();
-                let left = limits.bytes.saturating_sub(held) / (stages.len() - done);
+                let left = allowed.saturating_sub(held) / (stages.len() - done);
                 (left / each).max(CUT)
             }
             Stop::Interrupted => CUT,
         };
         if next.len() > keep {
-            next = cut(&next, keep, &mut edges);
+            cut(&mut next, keep, &mut edges);
         }
         total += next.len();
         largest = largest.max(next.len());
@@ -176,7 +192,7 @@ const BATCH: usize = 1 << 14;
 const PARALLEL: usize = 1024;
 
 /// The children of some nodes, in parallel, in order.
-fn expand(
+pub(super) fn expand(
     field: Field,
     space: &Space,
     (stage, growth): (&Stage, &[Grown]),
@@ -187,11 +203,7 @@ fn expand(
     let choices = space.variables[stage.variable].choices.len();
     let some = |range: std::ops::Range<usize>| {
         let mut worker = Worker::new(field, space.dim);
-        let mut out = Children {
-            choices,
-            found: Vec::with_capacity(range.len() * choices),
-            data: Vec::new(),
-        };
+        let mut out = Children::new(choices);
         for i in range {
             worker.children(
                 space,
@@ -219,7 +231,7 @@ fn expand(
 }
 
 /// The nodes of a layer that pass a test, ascending.
-fn passing(field: Field, dim: usize, test: &Lookahead, nodes: &Nodes) -> Vec<usize> {
+pub(super) fn passing(field: Field, dim: usize, test: &Lookahead, nodes: &Nodes) -> Vec<usize> {
     let chunk = if nodes.len() < PARALLEL {
         nodes.len().max(1)
     } else {
@@ -243,25 +255,23 @@ fn passing(field: Field, dim: usize, test: &Lookahead, nodes: &Nodes) -> Vec<usi
 }
 
 /// Keeps the cheapest nodes of a layer, first come first kept among equals.
-fn cut(nodes: &Nodes, keep: usize, edges: &mut [u32]) -> Nodes {
+fn cut(nodes: &mut Nodes, keep: usize, edges: &mut [u32]) {
     let mut by_cost: Vec<usize> = (0..nodes.len()).collect();
     by_cost.sort_by_key(|&i| (nodes.least[i], i));
     by_cost.truncate(keep);
     by_cost.sort_unstable();
-    retain(nodes, &by_cost, edges)
+    retain(nodes, &by_cost, edges);
 }
 
 /// Keeps the nodes listed, ascending, and renames the edges that lead to them.
-fn retain(nodes: &Nodes, kept: &[usize], edges: &mut [u32]) -> Nodes {
+pub(super) fn retain(nodes: &mut Nodes, kept: &[usize], edges: &mut [u32]) {
     let mut renamed = vec![DEAD; nodes.len()];
-    let mut out = Nodes::empty();
-    for &i in kept {
-        renamed[i] = u32::try_from(out.len()).expect("fewer than before");
-        out.push(nodes.spent[i].clone(), nodes.matrix(i), nodes.least[i]);
+    for (to, &from) in kept.iter().enumerate() {
+        renamed[from] = u32::try_from(to).expect("fewer than before");
     }
+    nodes.retain(kept);
     edges
         .iter_mut()
         .filter(|e| **e != DEAD)
         .for_each(|e| *e = renamed[*e as usize]);
-    out
 }

@@ -4,8 +4,14 @@ use crate::search::best::{Assignment, Cheapest, Enter, Sample};
 use crate::search::building::Diagrams;
 use crate::search::conditions::{Search, Symmetry};
 use crate::search::diagram::Diagram;
+use crate::search::proven::UpTo;
 use crate::search::tally::{Count, Key, Tally};
 use num_bigint::BigUint;
+
+/// Refuses nothing.
+fn every<'a>() -> Enter<'a> {
+    Box::new(|_, _, _, _| true)
+}
 
 impl Search {
     /// The admissible variants, cheapest first, then by W, then by changes, then in the order of the diagram's variables;
@@ -16,20 +22,33 @@ impl Search {
         top: usize,
     ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
         if self.conditions.symmetry != Symmetry::OnePerOrbit {
-            return self.in_order(&diagrams.admissible, top);
+            return self.in_order(diagrams, top);
         }
         // At most every other variant is dropped, so twice as many always suffice.
-        let all = self.in_order(&diagrams.admissible, top.saturating_mul(2));
+        let all = self.in_order(diagrams, top.saturating_mul(2));
         let first_of_orbit = |v: &Assignment| self.mirrored(&v.choices) >= v.choices;
         Box::new(all.filter(first_of_orbit).take(top))
     }
 
+    /// Those up to the cost to which all are known, and then the dearer ones that happen to be known.
     fn in_order<'a>(
         &'a self,
-        diagram: &'a Diagram,
+        diagrams: &'a Diagrams,
         top: usize,
     ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-        self.distinct(diagram, top, Box::new(|_, _, _, _| true))
+        let all = &diagrams.admissible;
+        let Some(UpTo {
+            diagram,
+            cost_milli,
+        }) = &diagrams.cheapest
+        else {
+            return self.between(all, top, (i64::MIN, i64::MAX), every());
+        };
+        let first = self.between(diagram, top, (i64::MIN, *cost_milli), every());
+        let dearer = std::iter::once_with(move || {
+            self.between(all, top, (cost_milli.saturating_add(1), i64::MAX), every())
+        });
+        Box::new(first.chain(dearer.flatten()).take(top))
     }
 
     /// The admissible variants of a diagram in order, but for those whose beginnings `enter` refuses.
@@ -39,27 +58,30 @@ impl Search {
         top: usize,
         enter: Enter<'a>,
     ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+        self.between(diagram, top, (i64::MIN, i64::MAX), enter)
+    }
+
+    /// The variants of a diagram with costs in thousandths from one to another, but for those whose beginnings `enter`
+    /// refuses.
+    fn between<'a>(
+        &'a self,
+        diagram: &'a Diagram,
+        top: usize,
+        (least, most): (i64, i64),
+        enter: Enter<'a>,
+    ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
         let rank = |k: Key| (self.mobility(k), k.changes());
-        let wanted = |k: Key| self.wanted(k);
+        let costs = |k: Key| (least..=most).contains(&self.steps.milli(k.cost()));
+        let wanted = |k: Key| self.wanted(k) && costs(k);
+        let (steps, room) = (&self.steps, self.conditions.memory / 4);
+        let range = (top, self.steps.above(most));
         if self.fits() {
             Box::new(Cheapest::<u128>::new(
-                diagram,
-                &self.steps,
-                top,
-                wanted,
-                rank,
-                self.conditions.memory / 4,
-                enter,
+                diagram, steps, range, wanted, rank, room, enter,
             ))
         } else {
             Box::new(Cheapest::<BigUint>::new(
-                diagram,
-                &self.steps,
-                top,
-                wanted,
-                rank,
-                self.conditions.memory / 4,
-                enter,
+                diagram, steps, range, wanted, rank, room, enter,
             ))
         }
     }

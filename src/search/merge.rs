@@ -5,6 +5,7 @@ use crate::search::spent::Spent;
 use crate::search::stop::Stop;
 use crate::search::transition::Children;
 use hashbrown::HashTable;
+use std::collections::TryReserveError;
 
 /// A missing edge: the choice leads nowhere admissible.
 pub const DEAD: u32 = u32::MAX;
@@ -58,6 +59,32 @@ impl Nodes {
         &self.data[self.start[i]..self.start[i + 1]]
     }
 
+    /// Makes room for a node whose matrix has so many numbers.
+    fn reserve(&mut self, numbers: usize) -> Result<(), TryReserveError> {
+        self.spent.try_reserve(1)?;
+        self.start.try_reserve(1)?;
+        self.least.try_reserve(1)?;
+        self.data.try_reserve(numbers)
+    }
+
+    /// Keeps the nodes listed, ascending, within the memory that they have.
+    pub(super) fn retain(&mut self, kept: &[usize]) {
+        let mut end = 0;
+        for (to, &from) in kept.iter().enumerate() {
+            let matrix = self.start[from]..self.start[from + 1];
+            self.spent.swap(to, from);
+            self.least[to] = self.least[from];
+            self.start[to] = end;
+            end += matrix.len();
+            self.data.copy_within(matrix.clone(), end - matrix.len());
+        }
+        self.spent.truncate(kept.len());
+        self.least.truncate(kept.len());
+        self.start.truncate(kept.len());
+        self.start.push(end);
+        self.data.truncate(end);
+    }
+
     pub(super) fn push(&mut self, spent: Spent, matrix: &[Residue], least: i64) {
         self.spent.push(spent);
         self.data.extend_from_slice(matrix);
@@ -73,6 +100,8 @@ pub(super) struct Merge {
     /// Bytes that they and the edges may take.
     bytes: usize,
     pub(super) stop: Stop,
+    /// Whether the system had no more memory, however much is allowed.
+    pub(super) refused: bool,
     table: HashTable<(u64, u32)>,
     pub(super) next: Nodes,
     pub(super) edges: Vec<u32>,
@@ -85,6 +114,7 @@ impl Merge {
             room,
             bytes,
             stop,
+            refused: false,
             table: HashTable::new(),
             next: Nodes::empty(),
             edges: Vec::with_capacity(edges),
@@ -96,9 +126,20 @@ impl Merge {
         self.room = self.room.min(CUT);
     }
 
-    /// Takes the children of some nodes, those of the nodes before them having been taken.
-    pub(super) fn take(&mut self, part: &Children, parents: &Nodes, cost: impl Fn(usize) -> i64) {
+    /// Takes the children of some nodes, those of the nodes before them having been taken, but for those that are out of
+    /// the question: said of what a child has spent, the size of its matrix, and the least cost of this way to it.
+    pub(super) fn take(
+        &mut self,
+        part: &Children,
+        parents: &Nodes,
+        cost: impl Fn(usize) -> i64,
+        mut out: impl FnMut(&Spent, usize, i64) -> bool,
+    ) {
         let choices = part.choices;
+        if part.short {
+            self.refused = true;
+            self.stop = self.stop.or(Stop::Memory);
+        }
         for child in &part.found {
             let Some((hash, ref spent, start, end)) = *child else {
                 self.edges.push(DEAD);
@@ -106,8 +147,16 @@ impl Merge {
             };
             let matrix = &part.data[start..end];
             let at = self.edges.len();
-            let least = parents.least[at / choices] + cost(at % choices);
+            let parent = at / choices;
+            let least = parents.least[parent] + cost(at % choices);
+            if out(spent, matrix.len(), least) {
+                self.edges.push(DEAD);
+                continue;
+            }
             let next = &mut self.next;
+            let refused = next.reserve(matrix.len()).is_err()
+                || self.table.try_reserve(1, |&(h, _)| h).is_err();
+            self.refused |= refused;
             let same = |&(h, i): &(u64, u32)| {
                 h == hash && next.spent[i as usize] == *spent && next.matrix(i as usize) == matrix
             };
@@ -115,7 +164,7 @@ impl Merge {
                 hashbrown::hash_table::Entry::Occupied(o) => o.get().1,
                 hashbrown::hash_table::Entry::Vacant(v) => {
                     let taken = next.bytes() + size_of::<u32>() * self.edges.len();
-                    let full = taken >= self.bytes && next.len() >= CUT;
+                    let full = refused || taken >= self.bytes && next.len() >= CUT;
                     if full || next.len() >= self.room {
                         let why = if full { Stop::Memory } else { Stop::NodeBudget };
                         self.stop = self.stop.or(why);

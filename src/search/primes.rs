@@ -95,6 +95,10 @@ pub fn compare(
     let [a, b] = diagrams;
     let equal = same(&a.determinate, &b.determinate)
         && same(&a.admissible, &b.admissible)
+        && match (&a.cheapest, &b.cheapest) {
+            (Some(a), Some(b)) => a.cost_milli == b.cost_milli && same(&a.diagram, &b.diagram),
+            (a, b) => a.is_none() && b.is_none(),
+        }
         && searches[0].steps.keys == searches[1].steps.keys;
     if equal {
         return Ok(Verdict::Agree);

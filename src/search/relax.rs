@@ -89,6 +89,7 @@ impl Search {
         let counted = |change: &dyn Fn(&mut Conditions)| -> Result<Option<Counts>, SearchError> {
             let mut eased = conditions.clone();
             eased.nodes = eased.nodes.min(most);
+            (eased.cheapest, eased.counted, eased.estimate) = (0, true, None);
             change(&mut eased);
             let search = Search::new(self.exact.clone(), self.mechanism.clone(), eased)?;
             let diagrams = search.build(cancelled, &mut |_| {});

@@ -83,6 +83,11 @@ impl Spent {
         self.lanes = vec![all - harmless.unwrap_or(0).max(0)];
     }
 
+    /// Redundant constraints within the mechanism so far.
+    pub(super) fn internal(&self) -> u32 {
+        self.internal
+    }
+
     /// Whether it is within limits; harm counts once the lanes are settled.
     pub(super) fn within(&self, limits: &Limits) -> bool {
         let at_most =

@@ -7,6 +7,8 @@ pub enum Stop {
     Exhausted,
     /// The node budget cut layers down to their cheapest nodes: counts are lower bounds.
     NodeBudget,
+    /// No more was asked for than the cheapest variants: counts are lower bounds.
+    NotCounted,
     /// What may be held of memory did, in the same way.
     Memory,
     /// The caller asked to end: layers were cut down, counts are lower bounds.
@@ -26,6 +28,7 @@ impl Stop {
         match self {
             Stop::Exhausted => "exhausted",
             Stop::NodeBudget => "node-budget",
+            Stop::NotCounted => "not-counted",
             Stop::Memory => "memory",
             Stop::Interrupted => "interrupted",
         }

@@ -177,6 +177,13 @@ impl Steps {
         }
     }
 
+    /// The largest cost part of a key that is no more than a cost in thousandths.
+    #[must_use]
+    pub fn above(&self, milli: i64) -> u64 {
+        let steps = milli.saturating_sub(self.base_milli) / self.unit_milli;
+        u64::try_from(steps).unwrap_or(0)
+    }
+
     /// A cost in thousandths from the cost part of a key.
     #[must_use]
     pub fn milli(&self, cost: u64) -> i64 {
@@ -199,7 +206,7 @@ impl<C: Count> Tally<C> {
     /// `bound(layer, node)` is the largest cost of interest. `None` where the tables would take more than some bytes.
     ///
     /// # Complexity
-    /// O(edges · table size · log), with table sizes given by the kinds told apart.
+    /// O(edges · table size + nodes · table size · log), with table sizes given by the kinds told apart.
     #[must_use]
     pub fn new(
         diagram: &Diagram,
@@ -208,15 +215,19 @@ impl<C: Count> Tally<C> {
         bytes: usize,
     ) -> Option<Tally<C>> {
         let mut left = bytes;
-        let mut tables: Vec<Vec<Table<C>>> = vec![terminals(diagram, steps)];
+        let (mut tables, mut numbers) = terminals(diagram, steps);
+        let mut out = Vec::with_capacity(diagram.layers.len() + 1);
         for l in (0..diagram.layers.len()).rev() {
-            let below = tables.last().expect("there is a last layer");
-            let here = layer(diagram, steps, (l, bound.map(|b| &b[l][..])), below, left)?;
-            left = left.saturating_sub(here.1);
-            tables.push(here.0);
+            let bound = bound.map(|b| &b[l][..]);
+            let below = (&tables[..], &numbers);
+            let (here, named, used) = layer(diagram, steps, (l, bound), below, left)?;
+            left = left.saturating_sub(used);
+            out.push(std::mem::replace(&mut tables, here));
+            numbers = named;
         }
-        tables.reverse();
-        Some(Tally { tables })
+        out.push(tables);
+        out.reverse();
+        Some(Tally { tables: out })
     }
 
     /// Counts of whole variants by key.
@@ -236,18 +247,82 @@ impl<C: Count> Tally<C> {
 /// As [`Tally::new`].
 #[must_use]
 pub fn totals<C: Count>(diagram: &Diagram, steps: &Steps, bytes: usize) -> Option<Table<C>> {
-    let mut below = (terminals(diagram, steps), 0);
+    let (mut tables, mut numbers) = terminals(diagram, steps);
+    let mut held = 0;
     for l in (0..diagram.layers.len()).rev() {
-        let left = bytes.saturating_sub(below.1);
-        below = layer(diagram, steps, (l, None), &below.0, left)?;
+        let left = bytes.saturating_sub(held);
+        let below = (&tables[..], &numbers);
+        (tables, numbers, held) = layer(diagram, steps, (l, None), below, left)?;
     }
-    Some(below.0.into_iter().next().unwrap_or_default())
+    Some(tables.into_iter().next().unwrap_or_default())
 }
 
-fn terminals<C: Count>(diagram: &Diagram, steps: &Steps) -> Vec<Table<C>> {
-    let ends = diagram.terminals.iter();
-    ends.map(|&r| vec![(steps.redundancy(r), C::one())])
-        .collect()
+/// The keys of a layer's tables, numbered.
+struct Numbers {
+    /// All keys, ascending.
+    keys: Vec<Key>,
+    /// Of each entry of each table, the number of its key.
+    places: Vec<Vec<u32>>,
+}
+
+fn terminals<C: Count>(diagram: &Diagram, steps: &Steps) -> (Vec<Table<C>>, Numbers) {
+    let ends = diagram.terminals.iter().map(|&r| steps.redundancy(r));
+    let ends: Vec<Key> = ends.collect();
+    let mut keys = ends.clone();
+    keys.sort_unstable();
+    keys.dedup();
+    let place = |k: &Key| vec![number(keys.partition_point(|x| x < k))];
+    let places = ends.iter().map(place).collect();
+    let tables = ends.iter().map(|&k| vec![(k, C::one())]).collect();
+    (tables, Numbers { keys, places })
+}
+
+fn number(place: usize) -> u32 {
+    u32::try_from(place).expect("tables that fit the memory have fewer keys")
+}
+
+/// How the keys of a layer's completions come from those of the layer below.
+struct Shifts {
+    /// All keys, ascending.
+    keys: Vec<Key>,
+    /// Of each choice, which of the different shifts is its own.
+    of_choice: Vec<usize>,
+    /// `to[shift][key below]`, a place in `keys`.
+    to: Vec<Vec<u32>>,
+}
+
+impl Shifts {
+    /// Of the keys below and the choices' own, those of no more than a cost; `None` where they would take more than some bytes.
+    fn new(below: &[Key], choices: &[Key], most: u64, bytes: usize) -> Option<Shifts> {
+        let mut different = choices.to_vec();
+        different.sort_unstable();
+        different.dedup();
+        if (different.len() + 1) * below.len() > bytes / size_of::<(Key, u32)>() {
+            return None;
+        }
+        let shifted = |by: Key| below.iter().map(move |k| Key(k.0 + by.0));
+        let within = |by: Key| shifted(by).take_while(|k| k.cost() <= most);
+        let mut keys: Vec<Key> = different.iter().flat_map(|&by| within(by)).collect();
+        // These are a few ascending lists, one after another, which this sort merges.
+        keys.sort();
+        keys.dedup();
+        // Both ascend; what costs too much comes after all.
+        let places = |by: Key| {
+            let mut at = 0;
+            let place = |k: Key| {
+                at += keys[at..].iter().take_while(|x| **x < k).count();
+                number(at)
+            };
+            shifted(by).map(place).collect()
+        };
+        let to = different.iter().map(|&by| places(by)).collect();
+        let of_choice = choices.iter().map(|c| different.partition_point(|x| x < c));
+        Some(Shifts {
+            of_choice: of_choice.collect(),
+            to,
+            keys,
+        })
+    }
 }
 
 /// The tables of layer `l` from those of the one below, with the bytes they take; `None` where these are too many.
@@ -255,41 +330,64 @@ fn layer<C: Count>(
     diagram: &Diagram,
     steps: &Steps,
     (l, bound): (usize, Option<&[u64]>),
-    below: &[Table<C>],
+    (below, numbers): (&[Table<C>], &Numbers),
     bytes: usize,
-) -> Option<(Vec<Table<C>>, usize)> {
+) -> Option<(Vec<Table<C>>, Numbers, usize)> {
     let layer = &diagram.layers[l];
-    let keys = &steps.keys[layer.variable];
-    let mut here = Vec::with_capacity(layer.nodes);
-    let mut gathered: Vec<(Key, &C)> = Vec::new();
+    let most = bound.and_then(|b| b.iter().copied().max());
+    let choices = &steps.keys[layer.variable];
+    let shifts = Shifts::new(&numbers.keys, choices, most.unwrap_or(u64::MAX), bytes)?;
+    let mut sums: Vec<Option<C>> = vec![None; shifts.keys.len()];
+    let mut met: Vec<u32> = Vec::new();
+    let (mut here, mut places) = (Vec::with_capacity(layer.nodes), Vec::new());
     let mut used = 0;
     for node in 0..layer.nodes {
         let limit = bound.map_or(u64::MAX, |b| b[node]);
-        gathered.clear();
-        for (choice, &to) in layer.edges[node * layer.choices..(node + 1) * layer.choices]
-            .iter()
-            .enumerate()
-        {
-            if to != DEAD {
-                let edge = keys[choice].0;
-                let table = below[to as usize].iter().map(|(k, c)| (Key(k.0 + edge), c));
-                gathered.extend(table.take_while(|(k, _)| k.cost() <= limit));
+        let edges = &layer.edges[node * layer.choices..(node + 1) * layer.choices];
+        for (shift, &to) in shifts.of_choice.iter().zip(edges) {
+            if to == DEAD {
+                continue;
+            }
+            let shift = &shifts.to[*shift];
+            let entries = below[to as usize].iter().zip(&numbers.places[to as usize]);
+            for ((_, count), &from) in entries {
+                let to = shift[from as usize];
+                if shifts
+                    .keys
+                    .get(to as usize)
+                    .is_none_or(|k| k.cost() > limit)
+                {
+                    break;
+                }
+                match &mut sums[to as usize] {
+                    Some(sum) => *sum += count,
+                    none => {
+                        *none = Some(count.clone());
+                        met.push(to);
+                    }
+                }
             }
         }
-        gathered.sort_unstable_by_key(|(k, _)| *k);
+        // Few are sorted, many found by looking through all.
+        if met.len() * 8 < sums.len() {
+            met.sort_unstable();
+        } else {
+            met.clear();
+            let all = sums.iter().enumerate().filter(|(_, s)| s.is_some());
+            met.extend(all.map(|(i, _)| number(i)));
+        }
+        let entry = |&to: &u32| Some((shifts.keys[to as usize], sums[to as usize].take()?));
         let mut table: Table<C> = Vec::new();
-        for (k, c) in &gathered {
-            match table.last_mut() {
-                Some((known, sum)) if known == k => *sum += c,
-                _ => table.push((*k, (*c).clone())),
-            }
-        }
-        used += table.capacity() * size_of::<(Key, C)>();
+        table.try_reserve_exact(met.len()).ok()?;
+        table.extend(met.iter().filter_map(entry));
+        used += table.capacity() * (size_of::<(Key, C)>() + size_of::<u32>());
         used += table.iter().map(|(_, c)| c.beside()).sum::<usize>();
         if used > bytes {
             return None;
         }
         here.push(table);
+        places.push(std::mem::take(&mut met));
     }
-    Some((here, used))
+    let keys = shifts.keys;
+    Some((here, Numbers { keys, places }, used))
 }

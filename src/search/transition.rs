@@ -21,14 +21,56 @@ pub(super) struct Children {
     /// The children in order of (node, choice); `None` if dead.
     pub(super) found: Vec<Option<Child>>,
     pub(super) data: Vec<Residue>,
+    /// Whether some were left out for want of memory.
+    pub(super) short: bool,
+}
+
+impl Children {
+    /// None yet, of nodes with so many choices.
+    pub(super) fn new(choices: usize) -> Self {
+        Children {
+            choices,
+            found: Vec::new(),
+            data: Vec::new(),
+            short: false,
+        }
+    }
+
+    /// Takes a child, `times` in a row.
+    fn take(&mut self, matrix: &[Residue], spent: Spent, times: usize) {
+        let start = self.data.len();
+        if self.data.try_reserve(matrix.len()).is_err() {
+            self.short = true;
+            self.found.resize(self.found.len() + times, None);
+            return;
+        }
+        self.data.extend_from_slice(matrix);
+        let child = (hash(matrix, &spent), spent, start, self.data.len());
+        self.found.resize(self.found.len() + times, Some(child));
+    }
 }
 
 /// Rows of a matrix in reduced row echelon form: each pivot is one and alone in its column.
-#[derive(Default, Clone)]
+#[derive(Default)]
 struct Rows {
     width: usize,
     pivots: Vec<usize>,
     pub(super) data: Vec<Residue>,
+}
+
+impl Clone for Rows {
+    fn clone(&self) -> Self {
+        let mut out = Rows::default();
+        out.clone_from(self);
+        out
+    }
+
+    /// Within the memory that is there already, which the derived one would give away.
+    fn clone_from(&mut self, other: &Self) {
+        self.width = other.width;
+        self.pivots.clone_from(&other.pivots);
+        self.data.clone_from(&other.data);
+    }
 }
 
 impl Rows {
@@ -197,11 +239,7 @@ impl Worker {
         let choices = &space.variables[stage.variable].choices;
         let Some((first, rest)) = stage.moves.split_first() else {
             // The variable does not matter here: every choice leads to the same node.
-            let start = out.data.len();
-            out.data.extend_from_slice(matrix);
-            let child = (hash(matrix, spent), spent.clone(), start, out.data.len());
-            out.found
-                .resize(out.found.len() + choices.len(), Some(child));
+            out.take(matrix, spent.clone(), choices.len());
             return;
         };
         if stage.copies > 1 {
@@ -249,10 +287,7 @@ impl Worker {
             if let Some(collapse) = &stage.collapse {
                 self.collapse(collapse);
             }
-            let start = out.data.len();
-            out.data.extend_from_slice(&self.work.data);
-            let hash = hash(&self.work.data, &now);
-            out.found.push(Some((hash, now, start, out.data.len())));
+            out.take(&self.work.data, now, 1);
         }
     }
 

@@ -97,11 +97,7 @@ impl<'m> Trials<'m> {
         let moves =
             joints.map(|(i, &joint)| Move::common(i, trial.planner.add(At { joint, lane: 0 })));
         let stage = Stage::plain(variable, moves.collect());
-        let mut children = Children {
-            choices: of.choices.len(),
-            found: Vec::new(),
-            data: Vec::new(),
-        };
+        let mut children = Children::new(of.choices.len());
         let growth = grown(self.field, &self.space, &stage);
         for i in 0..trial.nodes.len() {
             self.worker.children(
@@ -114,7 +110,7 @@ impl<'m> Trials<'m> {
             );
         }
         let mut merge = Merge::new((WIDEST, usize::MAX), Stop::Exhausted, children.found.len());
-        merge.take(&children, &trial.nodes, |_| 0);
+        merge.take(&children, &trial.nodes, |_| 0, |_, _, _| false);
         let width = merge.next.len() as u64;
         trial.work += width * width;
         trial.order.push(variable);

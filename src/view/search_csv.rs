@@ -45,12 +45,16 @@ const SCORES: [&str; 8] = [
 pub fn write(out: &mut dyn Write, outcome: &Outcome, mut variants: Variants<'_>) -> io::Result<()> {
     rows(out, outcome, &mut variants)?;
     if variants.stop() != Stop::Exhausted {
+        let proven = match variants.summary().proven {
+            Some(n) if n > 0 => format!(", the first {n} proven the cheapest"),
+            _ => String::new(),
+        };
         let (given, of) = (variants.summary().given, &outcome.admissible);
         let least = if outcome.is_exact() { "" } else { "at least " };
         let why = variants.stop().word();
         writeln!(
             out,
-            "# stopped early ({why}): {given} of {least}{of} admissible variants given"
+            "# stopped early ({why}): {given} of {least}{of} admissible variants given{proven}"
         )?;
     }
     Ok(())

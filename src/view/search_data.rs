@@ -9,6 +9,7 @@ use crate::score::variants::Variants;
 use crate::search::building::Diagrams;
 use crate::search::diagram::{Diagram, Stop};
 use crate::search::relax::{Hopeless, Relaxation};
+use crate::view::early::EstimateData;
 use crate::view::ranking::RankingData;
 use num_bigint::BigUint;
 use serde::{Serialize, Serializer};
@@ -55,12 +56,16 @@ pub struct SearchData<'a> {
     space: String,
     determinate: String,
     determinate_exact: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    determinate_estimate: Option<EstimateData>,
     by_mobility: By<'a, i64>,
     by_mobility_and_changes: ByBoth<'a>,
     by_redundant: By<'a, u32>,
     by_changes: By<'a, u32>,
     by_freedoms: By<'a, u32>,
     admissible: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    admissible_estimate: Option<EstimateData>,
     admissible_by_mobility: By<'a, i64>,
     admissible_by_mobility_and_changes: ByBoth<'a>,
     admissible_by_redundant: By<'a, u32>,
@@ -145,6 +150,7 @@ impl<'a> SearchData<'a> {
                 nodes: diagram.map(|d| d.nodes),
             }
         };
+        let estimates = outcome.estimates();
         let by_cost = outcome.admissible_by_cost();
         let left_out = [
             (determinate.only_total || admissible.only_total).then_some("counts by kind"),
@@ -157,12 +163,14 @@ impl<'a> SearchData<'a> {
             space: outcome.search.size().to_string(),
             determinate: determinate.to_string(),
             determinate_exact: outcome.is_determinate_exact(),
+            determinate_estimate: estimates[0].map(EstimateData::from),
             by_mobility: By(&determinate.by_mobility),
             by_mobility_and_changes: ByBoth(&determinate.by_mobility_and_changes),
             by_redundant: By(&determinate.by_redundant),
             by_changes: By(&determinate.by_changes),
             by_freedoms: By(&determinate.by_freedoms),
             admissible: admissible.to_string(),
+            admissible_estimate: estimates[1].map(EstimateData::from),
             admissible_by_mobility: By(&admissible.by_mobility),
             admissible_by_mobility_and_changes: ByBoth(&admissible.by_mobility_and_changes),
             admissible_by_redundant: By(&admissible.by_redundant),
@@ -226,6 +234,9 @@ pub struct TailData<'a> {
     variants_complete: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     variants_stop: Option<&'static str>,
+    /// How many, from the first on, are proven to be the cheapest, where the search ended early.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    variants_proven: Option<usize>,
     variants_checked: usize,
     variants_disagreeing: usize,
     variants_check_failed: usize,
@@ -295,6 +306,7 @@ impl<'a> TailData<'a> {
         TailData {
             variants_complete: stop.is_none(),
             variants_stop: stop.map(Stop::word),
+            variants_proven: summary.proven,
             variants_checked: summary.checked,
             variants_disagreeing: summary.disagreeing,
             variants_check_failed: summary.failed,

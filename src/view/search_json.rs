@@ -59,6 +59,7 @@ pub fn write_lines(
         let end = json!({
             "stop": variants.stop().word(),
             "given": variants.summary().given,
+            "proven": variants.summary().proven.unwrap_or(0),
             "admissible": outcome.admissible.to_string(),
             "admissible_exact": outcome.is_exact(),
         });

@@ -9,6 +9,7 @@ use crate::search::certify::{NEARLY_SINGULAR, Opinion, Second, Summary};
 use crate::search::primes::Verdict;
 use crate::search::relax::{Hopeless, Relaxation};
 use crate::view::conditions::{hopeless, in_state};
+use crate::view::early;
 use crate::view::layout::{fit, table};
 use crate::view::next::{self, Step, file_name};
 use crate::view::ranking;
@@ -63,7 +64,11 @@ pub fn write(
     let summary = given.summary();
     let lines = notes(&summary).into_iter();
     let notes = lines.chain(marked(footnotes)).map(|l| format!("  {l}\n"));
-    let gap = if summary.is_asked() { "\n" } else { "" };
+    let gap = if summary.is_asked() || summary.proven.is_some_and(|n| n > 0) {
+        "\n"
+    } else {
+        ""
+    };
     write!(out, "{gap}{}", fit(&notes.collect::<String>(), width))?;
     if let Some(p) = &outcome.ranking {
         let m = &outcome.search.mechanism;
@@ -145,12 +150,11 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
             Verdict::Interrupted => writeln!(out, "  Not checked by a second prime: interrupted"),
         };
     }
-    if !outcome.is_exact() {
-        let _ = writeln!(
-            out,
-            "  Stopped early ({}): counts are lower bounds, variants are valid but may not be the cheapest",
-            outcome.stop.word()
-        );
+    for line in early::stopped(outcome)
+        .into_iter()
+        .chain(early::estimated(outcome))
+    {
+        let _ = writeln!(out, "  {line}");
     }
     let mobilities: BTreeSet<i64> = outcome
         .determinate
@@ -338,6 +342,7 @@ pub fn notes(summary: &Summary) -> Vec<String> {
     if summary.is_asked() {
         out.push(opinions(summary));
     }
+    out.extend(early::proven(summary));
     let posed = grouped(&summary.posed.to_string());
     match (summary.posed, summary.lucky, summary.dropped) {
         (0, _, 0) => {}

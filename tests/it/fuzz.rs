@@ -10,6 +10,7 @@
 //! search against brute force on small random mechanisms is in `twin`, and takes the same number.
 
 mod certificates;
+mod corpus;
 mod expressions;
 mod mechanism_files;
 mod robot_files;
@@ -145,8 +146,8 @@ fn edits(words: &'static [&'static str]) -> impl Strategy<Value = Vec<Edit>> {
 }
 
 /// The text after the changes.
-fn spoilt(text: &str, edits: &[Edit]) -> Vec<u8> {
-    let mut bytes = text.as_bytes().to_vec();
+fn spoilt(text: impl AsRef<[u8]>, edits: &[Edit]) -> Vec<u8> {
+    let mut bytes = text.as_ref().to_vec();
     for edit in edits {
         edit.apply(&mut bytes);
     }

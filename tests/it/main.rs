@@ -4,6 +4,7 @@
 mod accuracy;
 mod adding;
 mod bench;
+mod beyond_budget;
 mod cam;
 mod catalogs;
 mod catalogue;
@@ -30,6 +31,7 @@ mod holding;
 mod ideas;
 mod layering;
 mod library;
+mod licences;
 mod mobility;
 mod order;
 mod png;

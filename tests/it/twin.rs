@@ -386,6 +386,22 @@ fn agrees(text: &str, allowed: u32, keep: bool, hold: bool) -> Result<(), TestCa
     }
     let three: Vec<_> = search.cheapest(&diagrams, 3).collect();
     prop_assert_eq!(&three[..], &list[..list.len().min(3)]);
+    // The same under a ceiling of cost, with nothing counted.
+    let best = Conditions {
+        counted: false,
+        cheapest: 3,
+        ..search.conditions.clone()
+    };
+    let best = Search::new(exact_field(&m, 0).unwrap(), &m, best).unwrap();
+    let bounded = best.build(&|| false, &mut |_| {});
+    let found: Vec<_> = best.cheapest(&bounded, 3).collect();
+    prop_assert_eq!(&found, &three);
+    let known = bounded.known_up_to().unwrap_or(i64::MAX);
+    prop_assert!(
+        found
+            .iter()
+            .all(|v| best.steps.milli(v.key.cost()) <= known)
+    );
     for v in search.sample(&diagrams, 7).take(5) {
         prop_assert!(list.contains(&v));
     }

@@ -131,6 +131,16 @@ fn tallies_stay_within_the_memory() {
     assert_eq!(v["exact"], false);
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_search_says_how_much_memory_it_took_of_what_it_may() {
+    let o = ozols(&["search", "four-bar", "--memory", "300M"])
+        .output()
+        .unwrap();
+    let said = text(&o.stderr);
+    assert!(said.contains(" MiB of memory (300 MiB allowed)"), "{said}");
+}
+
 /// Once an abort: all of the sample was drawn before any of it was given.
 #[test]
 fn a_sample_of_any_size_is_given_one_by_one() {

@@ -9,7 +9,7 @@ use ozols::redundancy::analysis::{Method, analyse};
 use proptest::prelude::*;
 use proptest::sample::Index;
 
-const WORDS: [&str; 20] = [
+pub(super) const WORDS: [&str; 20] = [
     "1e308",
     "-0.0",
     "nan",
@@ -32,8 +32,8 @@ const WORDS: [&str; 20] = [
     "\n",
 ];
 
-/// What is read can be analysed, and written so that it reads as the same.
-fn read(name: &str, bytes: &[u8]) {
+/// What is read can be analysed, and written so that it reads as the same. Returns what was said.
+pub(super) fn read(name: &str, bytes: &[u8]) -> String {
     match mechanism_from_bytes(name, bytes) {
         Ok(m) => {
             let written = serde_json::to_vec(&mechanism_file(&m)).unwrap();
@@ -42,15 +42,37 @@ fn read(name: &str, bytes: &[u8]) {
                 serde_json::to_vec(&mechanism_file(&again)).unwrap(),
                 written
             );
-            if m.joints.len() < 20 {
-                let _ = analyse(&m, &[StateId::FREE], Method::Auto { tolerance: None });
+            if m.joints.len() >= 20 {
+                return "large".to_owned();
+            }
+            match analyse(&m, &[StateId::FREE], Method::Auto { tolerance: None }) {
+                Ok(_) => "analysed".to_owned(),
+                Err(e) => e.to_string(),
             }
         }
         Err(e) => {
             assert!(!e.problems.is_empty());
-            let _ = (e.render(true), e.to_string());
+            let _ = e.render(true);
+            let said = e.problems.iter().map(|p| p.kind.to_string());
+            said.collect::<Vec<_>>().join("\n")
         }
     }
+}
+
+/// Some built-in mechanisms.
+pub(super) fn toml() -> Vec<Vec<u8>> {
+    let some = builtin::names().into_iter().step_by(7);
+    some.map(|n| builtin::text(n).unwrap().as_bytes().to_vec())
+        .collect()
+}
+
+pub(super) fn json() -> Vec<Vec<u8>> {
+    let some = toml().into_iter().map(|text| {
+        let text = String::from_utf8(text).unwrap();
+        let value: toml::Value = toml::from_str(&text).unwrap();
+        serde_json::to_vec_pretty(&value).unwrap()
+    });
+    some.collect()
 }
 
 fn built_in(which: Index) -> &'static str {

@@ -49,7 +49,7 @@ const FILES: [Input; 6] = [
     ),
 ];
 
-const WORDS: [&str; 26] = [
+pub(super) const WORDS: [&str; 26] = [
     "1e308",
     "-1e308",
     "1e-320",
@@ -78,7 +78,7 @@ const WORDS: [&str; 26] = [
     "",
 ];
 
-fn read(name: &str, bytes: &[u8], side: Option<(&str, &[u8])>, bits: u8) {
+fn read(name: &str, bytes: &[u8], side: Option<(&str, &[u8])>, bits: u8) -> String {
     let options = Options {
         loops: side.map(|(n, b)| (n.to_owned(), b.to_vec())),
         floating: bits & 1 != 0,
@@ -90,13 +90,33 @@ fn read(name: &str, bytes: &[u8], side: Option<(&str, &[u8])>, bits: u8) {
     match import(name, bytes, &none, &options) {
         Ok(i) => {
             mechanism_from_str("x.toml", &i.toml().unwrap()).unwrap();
-            assert!(!i.report.text(name).is_empty());
+            let report = i.report.text(name);
+            assert!(!report.is_empty());
+            report
         }
         Err(e) => {
             assert!(!e.problems.is_empty());
-            let _ = (e.render(true), e.to_string());
+            let _ = e.render(true);
+            let said = e.problems.iter().map(|p| p.kind.to_string());
+            said.collect::<Vec<_>>().join("\n")
         }
     }
+}
+
+/// The descriptions alone.
+pub(super) fn seeds() -> Vec<Vec<u8>> {
+    FILES.iter().map(|f| f.1.as_bytes().to_vec()).collect()
+}
+
+/// Imports a description, in the format that it begins as.
+pub(super) fn look(bytes: &[u8]) -> String {
+    let has = |tag: &[u8]| bytes.windows(tag.len()).any(|w| w == tag);
+    let name = match (has(b"<mujoco"), has(b"<sdf")) {
+        (true, _) => "x.xml",
+        (_, true) => "x.sdf",
+        _ => "x.urdf",
+    };
+    read(name, bytes, None, bytes.len() as u8)
 }
 
 proptest! {

@@ -1,0 +1,205 @@
+//! What is known where the diagram of all variants does not fit the budget: the cheapest, proven, and about how many there
+//! are.
+
+use crate::common::{ozols, text};
+use ozols::file::text::mechanism_from_str;
+use ozols::redundancy::analysis::exact_field;
+use ozols::search::best::Assignment;
+use ozols::search::building::Diagrams;
+use ozols::search::conditions::{Conditions, Search};
+use proptest::prelude::*;
+use serde_json::Value;
+use std::fmt::Write;
+
+/// A ladder of contours: a four-bar, and three joints more for each further one, hinges along z in a plane at places drawn
+/// from a seed; along any direction where it is `spatial`.
+fn ladder(contours: usize, seed: u64, spatial: bool) -> String {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let mut number = |below: u64| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 33) % below
+    };
+    let mut joints = vec![(0, 1), (1, 3), (3, 2), (2, 0)];
+    let (mut left, mut right, mut next) = (1, 2, 4);
+    for _ in 1..contours {
+        joints.extend([(left, next), (next, next + 1), (next + 1, right)]);
+        (left, right, next) = (next, next + 1, next + 2);
+    }
+    let options = "[\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]";
+    let mut out = format!("name = \"ladder\"\n[search]\noptions = {options}\n");
+    for i in 0..next {
+        let role = match i {
+            0 => "role = \"frame\"",
+            1 => "role = \"output\"",
+            _ => "",
+        };
+        write!(out, "[[link]]\nid = \"{i}\"\n{role}\n").unwrap();
+    }
+    for (i, (a, b)) in joints.iter().enumerate() {
+        let (x, y, z) = (
+            number(997),
+            number(997),
+            if spatial { number(997) } else { 0 },
+        );
+        let axis = match spatial {
+            true => [number(19) + 1, number(19), number(19)],
+            false => [0, 0, 1],
+        };
+        write!(
+            out,
+            "[[joint]]\nid = \"j{i}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = [{x}, {y}, {z}]\naxis = {axis:?}\n"
+        )
+        .unwrap();
+    }
+    out
+}
+
+fn search(text: &str, conditions: Conditions) -> (Search, Diagrams) {
+    let m = mechanism_from_str("ladder.toml", text).unwrap();
+    let search = Search::new(exact_field(&m, 0).unwrap(), m, conditions).unwrap();
+    let diagrams = search.build(&|| false, &mut |_| {});
+    (search, diagrams)
+}
+
+fn best(search: &Search, diagrams: &Diagrams, top: usize) -> Vec<Assignment> {
+    search.cheapest(diagrams, top).collect()
+}
+
+proptest! {
+    #![proptest_config(crate::fuzz::runs(12))]
+    #[test]
+    fn the_proven_best_are_those_of_the_whole_diagram(
+        contours in 2usize..4,
+        seed in any::<u64>(),
+        spatial in any::<bool>(),
+        keep_output in any::<bool>(),
+        max_redundant in 0u32..3,
+        max_mobility in prop::option::of(1i64..4),
+        max_changes in prop::option::of(4u32..9),
+    ) {
+        let conditions = Conditions { max_redundant, max_mobility, max_changes, keep_output, ..Conditions::default() };
+        let text = ladder(contours, seed, spatial);
+        let (whole, all) = search(&text, conditions.clone());
+        for (top, counted) in [(1, true), (12, true), (40, true), (12, false)] {
+            let few = Conditions { nodes: 700, cheapest: top, counted, ..conditions.clone() };
+            let (s, d) = search(&text, few);
+            let (expected, found) = (best(&whole, &all, top), best(&s, &d, top));
+            let Some(known) = d.known_up_to() else { continue };
+            let dearest = expected.last().map_or(i64::MAX, |v| s.steps.milli(v.key.cost()));
+            let proven = |list: &[Assignment]| -> Vec<Assignment> {
+                list.iter().filter(|v| s.steps.milli(v.key.cost()) <= known).cloned().collect()
+            };
+            prop_assert_eq!(proven(&found), proven(&expected));
+            // A ladder of two contours is small: all that is asked for can be proven.
+            prop_assert!(contours > 2 || known >= dearest, "{known} of {dearest}");
+        }
+    }
+}
+
+/// Once 5.8 s, 507 MB and unproven.
+#[test]
+fn the_best_of_a_long_ladder_are_proven_in_few_nodes() {
+    let conditions = Conditions {
+        cheapest: 10,
+        counted: false,
+        nodes: 100_000,
+        ..Conditions::default()
+    };
+    let (s, d) = search(&ladder(8, 1, false), conditions);
+    let list = best(&s, &d, 10);
+    assert_eq!(list.len(), 10);
+    let dearest = s.steps.milli(list[9].key.cost());
+    assert!(d.known_up_to().unwrap() >= dearest);
+    let nodes = d.cheapest.as_ref().unwrap().diagram.nodes;
+    assert!(nodes < 50_000, "{nodes} nodes");
+}
+
+#[test]
+fn estimates_are_near_the_count_and_right_on_average() {
+    let text = ladder(3, 1, true);
+    for (max_mobility, keep_output) in [(None, true), (Some(2), false)] {
+        let base = Conditions {
+            max_mobility,
+            keep_output,
+            ..Conditions::default()
+        };
+        let (whole, all) = search(&text, base.clone());
+        let counts = [
+            whole.counts(&all.determinate, false),
+            whole.counts(&all.admissible, true),
+        ];
+        let counts = counts.map(|c| c.to_string().parse::<f64>().unwrap());
+        let (mut sums, mut variances, mut n) = ([0.0; 2], [0.0; 2], 0.0);
+        for seed in 0..16 {
+            let conditions = Conditions {
+                nodes: 1000,
+                estimate: Some(seed),
+                ..base.clone()
+            };
+            let (_, d) = search(&text, conditions.clone());
+            if seed == 0 {
+                assert_eq!(d.estimates, search(&text, conditions).1.estimates);
+            }
+            n += 1.0;
+            for (i, e) in d.estimates.into_iter().enumerate() {
+                let e = e.unwrap();
+                let off = (e.mean - counts[i]) / e.standard_error;
+                assert!(off.abs() < 5.0, "{e:?} for {}", counts[i]);
+                assert!(
+                    e.standard_error > 0.0 && e.standard_error < 0.2 * e.mean,
+                    "{e:?}"
+                );
+                sums[i] += e.mean;
+                variances[i] += e.standard_error.powi(2);
+            }
+        }
+        for i in 0..2 {
+            let off = (sums[i] / n - counts[i]) / (variances[i].sqrt() / n);
+            assert!(off.abs() < 4.0, "{i}: {} for {}", sums[i] / n, counts[i]);
+        }
+    }
+}
+
+#[test]
+fn every_output_says_what_is_proven_and_what_is_estimated() {
+    let file = ladder(5, 1, false);
+    let told = |more: &[&str]| {
+        let args = [&["search", "-", "--nodes", "6000", "--top", "3"], more].concat();
+        let o = ozols(&args).write_stdin(file.clone()).output().unwrap();
+        assert_eq!(o.status.code(), Some(0), "{}", text(&o.stderr));
+        text(&o.stdout)
+    };
+    let said = told(&[]);
+    for words in [
+        "Stopped early (node-budget): counts are lower bounds\n",
+        "Estimated, not counted: about ",
+        "Proven the cheapest: all 3",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    let v: Value = serde_json::from_str(&told(&["--format", "json"])).unwrap();
+    assert_eq!(
+        (&v["exact"], &v["variants_proven"]),
+        (&false.into(), &3.into())
+    );
+    let mean = v["admissible_estimate"]["mean"].as_f64().unwrap();
+    let least: f64 = v["admissible"].as_str().unwrap().parse().unwrap();
+    assert!(mean > least, "{mean} {least}");
+    assert!(told(&["--format", "csv"]).contains("the first 3 proven the cheapest"));
+    let last = told(&["--format", "jsonl"])
+        .lines()
+        .last()
+        .unwrap()
+        .to_owned();
+    assert_eq!(serde_json::from_str::<Value>(&last).unwrap()["proven"], 3);
+    let said = told(&["--no-count"]);
+    for words in [
+        "Not counted (--no-count): counts are lower bounds\n",
+        "Proven the cheapest: all 3",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    assert!(!said.contains("Estimated"), "{said}");
+}
