@@ -17,6 +17,7 @@ mod export;
 mod grip;
 mod import;
 mod interrupt;
+mod lint;
 mod list;
 mod load;
 mod machine;
@@ -43,7 +44,7 @@ use std::process::ExitCode;
 enum Done {
     /// It did what was asked.
     Found,
-    /// There was nothing to be found.
+    /// There was nothing to be found, or something was that should not be there.
     Nothing,
 }
 
@@ -74,6 +75,7 @@ pub fn run() -> ExitCode {
         args::Command::Drive(a) => drive::run(&args, a),
         args::Command::Verify(a) => verify::run(&args, a),
         args::Command::Import(a) => import::run(&args, a),
+        args::Command::Lint(a) => lint::run(a),
         args::Command::Draw(a) => draw::run(&args, a),
         args::Command::Report(a) => report::run(&args, a),
         args::Command::Export(a) => export::run(&args, a),

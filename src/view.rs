@@ -9,6 +9,7 @@ pub mod drive;
 pub mod grip;
 pub mod idle;
 pub mod layout;
+pub mod lint;
 pub mod mechanism;
 pub mod mobility;
 pub mod next;

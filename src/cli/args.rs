@@ -2,7 +2,7 @@
 
 use super::{
     accuracy, analyze, bench, catalog, check, completions, draw, drive, examples, explain, export,
-    grip, import, list, man, new, report, search, statics, verify,
+    grip, import, lint, list, man, new, report, search, statics, verify,
 };
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum, ValueHint};
 
@@ -56,6 +56,9 @@ pub(super) enum Command {
     /// Make a mechanism file of a robot description: URDF, MJCF or SDF.
     #[command(after_help = examples::IMPORT)]
     Import(import::Import),
+    /// Name each redundant constraint of robot descriptions, with its line and what removes it.
+    #[command(after_help = examples::LINT)]
+    Lint(lint::Lint),
     /// Draw the structural or the kinematic scheme as SVG.
     #[command(after_help = examples::DRAW)]
     Draw(draw::Draw),

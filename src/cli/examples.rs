@@ -71,6 +71,12 @@ Examples:
   ozols import robot.urdf --working-link effector --format json
   ozols analyze robot.toml                                   or at once: ozols analyze robot.urdf";
 
+pub(super) const LINT: &str = "\
+Examples:
+  ozols lint robot.urdf                                what its loops hold twice: exit code 0 nothing, 1 something
+  ozols lint robot.urdf --format json                  the same for programs
+  ozols lint robot.urdf --format sarif -o lint.sarif   for code scanning";
+
 pub(super) const DRAW: &str = "\
 Examples:
   ozols draw gripper-10 -o gripper.svg                   structural scheme

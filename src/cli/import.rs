@@ -16,11 +16,10 @@ enum ImportFormat {
     Json,
 }
 
+/// How a description is read: the same for every command that reads one.
 #[derive(Debug, ClapArgs)]
-pub(super) struct Import {
-    /// A robot description: URDF, MJCF or SDF, by its root element.
-    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
-    file: String,
+#[command(next_help_heading = "How a description is read")]
+pub(super) struct Reading {
     /// A file of loop closures (YAML, JSON or TOML): [[loop]] with a, b and type; robot.yaml of
     /// example-parallel-robots; Drake's list of ball constraints.
     #[arg(long, value_name = "SIDE")]
@@ -44,6 +43,15 @@ pub(super) struct Import {
     /// A link whose motion is the working motion (repeatable); the ends of chains by default.
     #[arg(long, value_name = "LINK")]
     working_link: Vec<String>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Import {
+    /// A robot description: URDF, MJCF or SDF, by its root element.
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    file: String,
+    #[command(flatten)]
+    pub(super) reading: Reading,
     /// Output format.
     #[arg(long, value_enum, default_value = "toml")]
     format: ImportFormat,
@@ -52,22 +60,30 @@ pub(super) struct Import {
     output: Option<PathBuf>,
 }
 
+impl Reading {
+    /// The options of the import.
+    pub(super) fn options(&self) -> anyhow::Result<Options> {
+        let mut options = Options {
+            floating: self.floating,
+            assemble: self.assemble,
+            open: self.open,
+            frame: self.frame.clone(),
+            outputs: self.working_link.clone(),
+            ..Options::default()
+        };
+        for p in &self.pose {
+            options.pose.push(pose(p)?);
+        }
+        if let Some(path) = &self.loops {
+            let bytes = api::bytes(path, MAX_DESCRIPTION_BYTES)?;
+            options.loops = Some((path.display().to_string(), bytes));
+        }
+        Ok(options)
+    }
+}
+
 pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
-    let mut options = Options {
-        floating: a.floating,
-        assemble: a.assemble,
-        open: a.open,
-        frame: a.frame.clone(),
-        outputs: a.working_link.clone(),
-        ..Options::default()
-    };
-    for p in &a.pose {
-        options.pose.push(pose(p)?);
-    }
-    if let Some(path) = &a.loops {
-        let bytes = api::bytes(path, MAX_DESCRIPTION_BYTES)?;
-        options.loops = Some((path.display().to_string(), bytes));
-    }
+    let options = a.reading.options()?;
     let imported = description(Path::new(&a.file), &options)?;
     if !args.quiet {
         let width = output::error_width();

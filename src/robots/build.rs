@@ -203,14 +203,28 @@ pub(crate) fn close_loops(
     })
 }
 
-/// The entries of the file called `file` of a `format`, with what is to be said above them.
+/// A mechanism file and what its parts are of the robot.
+#[derive(Debug)]
+pub(crate) struct Entries {
+    pub(super) file: MechanismFile,
+    /// What is to be said above its entries.
+    pub(super) comments: Vec<Comment>,
+    /// Places of the links in the pose found.
+    pub(super) places: Vec<Motion>,
+    /// The robot's joints that its joints are.
+    pub(super) joints: Vec<usize>,
+    /// The elements that its couplings are.
+    pub(super) couplings: Vec<usize>,
+}
+
+/// The entries of the file called `file` of a `format`.
 pub(crate) fn entries(
     robot: &mut Robot,
     tree: &Tree,
     file: &str,
     format: &'static str,
     options: &Options,
-) -> Result<(MechanismFile, Vec<Comment>), RobotProblem> {
+) -> Result<Entries, RobotProblem> {
     let places = places(robot, tree);
     let fixed = |j: usize| robot.joints[j].joint_type == JointType::Fixed;
     let rigid = tree
@@ -269,7 +283,7 @@ pub(crate) fn entries(
     }
     robot.report = report;
     let file = std::path::Path::new(file).file_name();
-    Ok(emit::entries(&Content {
+    let (file, comments) = emit::entries(&Content {
         robot,
         file: &file.unwrap_or_default().to_string_lossy(),
         format,
@@ -279,7 +293,14 @@ pub(crate) fn entries(
         outputs: &outputs,
         joints: &joints,
         couplings: &couplings,
-    }))
+    });
+    Ok(Entries {
+        file,
+        comments,
+        places,
+        joints,
+        couplings: couplings.iter().map(|u| u.said_by).collect(),
+    })
 }
 
 /// The links asked for, or those at the ends of chains, or the one farthest from the frame.

@@ -4,6 +4,7 @@ use crate::geom::rigid::{Motion, perpendicular};
 use crate::geom::vector::{Vector, X, Z, cross};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::warning::Report;
+use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
 /// A joint between two links, or a constraint that closes a loop.
@@ -33,6 +34,8 @@ pub(crate) struct Part {
     pub(super) limits: Option<(f64, f64)>,
     /// What was approximated, for the file.
     pub(super) comment: Option<String>,
+    /// The element that says so; none where a file beside the description does.
+    pub(super) element: Option<usize>,
 }
 
 impl Part {
@@ -57,7 +60,14 @@ impl Part {
             closes: false,
             limits: None,
             comment: None,
+            element: None,
         }
+    }
+
+    /// The joint as an element says.
+    pub(crate) fn said_by(mut self, e: Element<'_>) -> Part {
+        self.element = Some(e.id);
+        self
     }
 
     /// The joint about or along another axis of its frame.
@@ -90,12 +100,14 @@ pub(crate) struct Ratio {
     pub(super) joints: [String; 2],
     /// Rate of the follower over that of the leader, in radians and metres.
     pub(super) ratio: f64,
-    /// The element that says so.
+    /// The element that says so, in words.
     pub(super) element: String,
+    /// That element.
+    pub(super) said_by: usize,
 }
 
 /// A robot as read.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Robot {
     pub(super) name: String,
     /// Names of the links.

@@ -21,31 +21,34 @@ const MAX_ATTRIBUTES: (usize, usize) = (256, 1_000_000);
 const MAX_NUMBER: f64 = 1e9;
 
 /// A file's name and text.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Source {
     pub(super) name: String,
     pub(super) text: String,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Attribute {
     name: String,
     value: String,
     span: Range<usize>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Node {
     name: String,
     attributes: Vec<Attribute>,
     text: String,
     pub(super) children: Vec<usize>,
-    source: usize,
-    span: Range<usize>,
+    pub(super) source: usize,
+    /// Of the tag it begins with.
+    pub(super) span: Range<usize>,
+    /// Of the tag it ends with; nothing, behind it, where it is one tag.
+    pub(super) close: Range<usize>,
 }
 
 /// The elements of a file and of those it includes.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Document {
     pub(super) sources: Vec<Source>,
     pub(super) nodes: Vec<Node>,
@@ -163,7 +166,9 @@ fn parse(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Loca
                 }
             }
             Event::End(_) => {
-                open.pop();
+                if let Some(id) = open.pop() {
+                    nodes[id].close = before..after;
+                }
             }
             Event::Text(t) => put(&t, &open, nodes),
             Event::CData(t) => put(&t, &open, nodes),
@@ -251,17 +256,24 @@ fn node(
         text: String::new(),
         children: Vec::new(),
         source,
+        close: span.end..span.end,
         span,
     })
 }
 
 impl<'a> Element<'a> {
-    fn node(self) -> &'a Node {
+    pub(super) fn node(self) -> &'a Node {
         &self.document.nodes[self.id]
     }
 
     pub(crate) fn name(self) -> &'a str {
         &self.node().name
+    }
+
+    /// Where the value of an attribute stands in the file.
+    pub(super) fn value_span(self, name: &str) -> Option<Range<usize>> {
+        let found = self.node().attributes.iter().find(|a| a.name == name)?;
+        (found.span != self.node().span).then(|| found.span.clone())
     }
 
     pub(crate) fn text(self) -> &'a str {

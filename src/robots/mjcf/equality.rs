@@ -126,7 +126,7 @@ fn closing(
     if links[0] == links[1] {
         return Err(same_link(e));
     }
-    let mut part = Part::new(id, links, ends.map(|x| x.1), joint_type);
+    let mut part = Part::new(id, links, ends.map(|x| x.1), joint_type).said_by(e);
     part.closes = true;
     part.comment = Some(format!("closes a loop: <{}>", e.name()));
     robot.report.map(e.name());
@@ -174,6 +174,7 @@ fn coupling(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
         joints: [b.to_owned(), a.to_owned()],
         ratio,
         element,
+        said_by: e.id,
     });
     Ok(())
 }

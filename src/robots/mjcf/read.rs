@@ -180,7 +180,8 @@ fn body<'a>(
             [parent, link],
             [place, Motion::IDENTITY],
             JointType::Fixed,
-        );
+        )
+        .said_by(e);
         robot.joints.push(part);
         return Ok(link);
     }
@@ -242,7 +243,7 @@ fn joint<'a>(
     } else {
         Motion::shift(pos)
     };
-    let mut part = Part::new(&id, links, [place.then(&at), at], joint_type);
+    let mut part = Part::new(&id, links, [place.then(&at), at], joint_type).said_by(e);
     if matches!(word, "hinge" | "slide") {
         let axis = look.vector("axis", Z)?;
         if length(axis) < 1e-9 {

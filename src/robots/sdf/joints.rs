@@ -113,7 +113,7 @@ pub(crate) fn joint(
         robot.places[parent].inverse().then(&on_parent),
         robot.places[child].inverse().then(&world),
     ];
-    let mut part = Part::new(&name, [parent, child], sides, joint_type);
+    let mut part = Part::new(&name, [parent, child], sides, joint_type).said_by(e);
     robot.report.map(word);
     match word {
         "ball" | "fixed" | "floating" => {}
@@ -165,6 +165,7 @@ fn mimic(
         joints: [leader.clone(), name.to_owned()],
         ratio,
         element: e.label(),
+        said_by: m.id,
     });
     Ok(Some(leader))
 }
@@ -251,8 +252,8 @@ pub(crate) fn two_axes(
         &e.label(),
         "its axes are not perpendicular: two revolute joints through a link without mass",
     );
-    robot.joints.push(one.about(first));
-    robot.joints.push(two.about(second));
+    robot.joints.push(one.about(first).said_by(e));
+    robot.joints.push(two.about(second).said_by(e));
     Ok(())
 }
 
@@ -273,7 +274,8 @@ pub(crate) fn weld(
         return Err(same_link(e));
     }
     let id = format!("weld-{}-{}", end(e, "parent")?.1, end(e, "child")?.1);
-    let mut part = Part::new(&id, ends.map(|x| x.0), ends.map(|x| x.1), JointType::Fixed);
+    let mut part =
+        Part::new(&id, ends.map(|x| x.0), ends.map(|x| x.1), JointType::Fixed).said_by(e);
     part.closes = true;
     part.comment = Some("closes a loop: <drake:weld_constraint>".to_owned());
     robot.report.map("weld constraint");

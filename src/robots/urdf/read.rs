@@ -140,7 +140,7 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
         "floating" => free(),
         _ => return Err(unknown_type(e, word, TYPES)),
     };
-    let mut part = Part::new(name, links, sides, joint_type);
+    let mut part = Part::new(name, links, sides, joint_type).said_by(e);
     if matches!(word, "revolute" | "continuous" | "prismatic" | "planar") {
         part = part.about(axis(e)?);
     }
@@ -161,6 +161,7 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
             joints: [leader.to_owned(), name.to_owned()],
             ratio,
             element: e.label(),
+            said_by: m.id,
         });
     }
     for c in e.children() {
@@ -222,7 +223,9 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
             ));
         }
     };
-    let mut part = Part::new(name, links, sides, joint_type).about(axis(e)?);
+    let mut part = Part::new(name, links, sides, joint_type)
+        .about(axis(e)?)
+        .said_by(e);
     part.closes = true;
     robot.report.map("loop_joint");
     robot.joints.push(part);
@@ -258,7 +261,7 @@ pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), I
         return Err(same_link(e));
     }
     let id = format!("ball-{}-{}", robot.links[links[0]], robot.links[links[1]]);
-    let mut part = Part::new(&id, links, sides, JointType::Spherical);
+    let mut part = Part::new(&id, links, sides, JointType::Spherical).said_by(e);
     part.closes = true;
     robot.report.map("ball constraint");
     robot.joints.push(part);
