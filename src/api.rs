@@ -112,6 +112,15 @@ fn bytes_of(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
 /// Imports a robot description; files it includes are read from its folder and nowhere else.
 pub(crate) fn description(path: &Path, options: &Options) -> Result<Imported, Error> {
     let bytes = bytes(path, MAX_DESCRIPTION_BYTES)?;
+    description_of(path, &bytes, options)
+}
+
+/// Imports the text of a robot description as if it stood in a file.
+pub(crate) fn description_of(
+    path: &Path,
+    bytes: &[u8],
+    options: &Options,
+) -> Result<Imported, Error> {
     let folder = path
         .parent()
         .filter(|p| !p.as_os_str().is_empty())
@@ -128,7 +137,7 @@ pub(crate) fn description(path: &Path, options: &Options) -> Result<Imported, Er
         bytes_of(&inside, MAX_DESCRIPTION_BYTES)
     };
     let name = path.display().to_string();
-    Ok(robots::import(&name, &bytes, &read, options)?)
+    Ok(robots::import(&name, bytes, &read, options)?)
 }
 
 /// The structure of a mechanism in each of its states, the free one first: mobility, redundant constraints, contour by

@@ -14,6 +14,7 @@ mod drive;
 mod examples;
 mod explain;
 mod export;
+mod fix;
 mod grip;
 mod import;
 mod interrupt;
@@ -76,6 +77,7 @@ pub fn run() -> ExitCode {
         args::Command::Verify(a) => verify::run(&args, a),
         args::Command::Import(a) => import::run(&args, a),
         args::Command::Lint(a) => lint::run(a),
+        args::Command::Fix(a) => fix::run(&args, a),
         args::Command::Draw(a) => draw::run(&args, a),
         args::Command::Report(a) => report::run(&args, a),
         args::Command::Export(a) => export::run(&args, a),

@@ -3,7 +3,9 @@
 mod build;
 mod close;
 mod coupling;
+mod edit;
 mod emit;
+mod fix;
 pub mod formats;
 mod graph;
 mod import;
@@ -21,6 +23,7 @@ mod urdf;
 mod warning;
 mod xml;
 
+pub use fix::fix;
 pub use formats::is_description;
 pub use import::{Imported, import};
 pub use options::{Options, Reader};

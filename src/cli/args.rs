@@ -2,7 +2,7 @@
 
 use super::{
     accuracy, analyze, bench, catalog, check, completions, draw, drive, examples, explain, export,
-    grip, import, lint, list, man, new, report, search, statics, verify,
+    fix, grip, import, lint, list, man, new, report, search, statics, verify,
 };
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum, ValueHint};
 
@@ -59,6 +59,9 @@ pub(super) enum Command {
     /// Name each redundant constraint of robot descriptions, with its line and what removes it.
     #[command(after_help = examples::LINT)]
     Lint(lint::Lint),
+    /// Let the redundant constraints of a robot description go, in its own file.
+    #[command(after_help = examples::FIX)]
+    Fix(fix::Fix),
     /// Draw the structural or the kinematic scheme as SVG.
     #[command(after_help = examples::DRAW)]
     Draw(draw::Draw),

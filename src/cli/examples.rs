@@ -77,6 +77,12 @@ Examples:
   ozols lint robot.urdf --format json                  the same for programs
   ozols lint robot.urdf --format sarif -o lint.sarif   for code scanning";
 
+pub(super) const FIX: &str = "\
+Examples:
+  ozols fix robot.urdf -o fixed.urdf                   the cheapest releases that remove all and let nothing move
+  ozols fix robot.urdf --at elbow -o fixed.urdf        at these joints alone
+  ozols fix robot.urdf --variant 2 -o fixed.urdf       the second redesign that `ozols search` lists";
+
 pub(super) const DRAW: &str = "\
 Examples:
   ozols draw gripper-10 -o gripper.svg                   structural scheme

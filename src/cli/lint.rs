@@ -5,6 +5,7 @@ use super::{Done, load, output};
 use crate::file::text::mechanism_from_bytes;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::held_twice::{HeldTwice, held_twice};
+use crate::redundancy::release::Release;
 use crate::robots::{self, Origin};
 use crate::view::layout::fit;
 use crate::view::lint::{self, Lint as Found};
@@ -38,15 +39,15 @@ pub(super) fn run(a: &Lint) -> anyhow::Result<Done> {
     let options = a.reading.options()?;
     let mut all = Vec::new();
     for file in &a.files {
-        let (mechanism, origin) = if robots::is_description(file) && Path::new(file).is_file() {
+        let (mechanism, imported) = if robots::is_description(file) && Path::new(file).is_file() {
             let imported = description(Path::new(file), &options)?;
-            (imported.mechanism, Some(imported.origin))
+            (imported.mechanism.clone(), Some(imported))
         } else {
             let (name, bytes) = load::named(file)?;
             (mechanism_from_bytes(&name, &bytes)?, None)
         };
-        let found = look(&mechanism, origin.as_ref())?;
-        all.push(Found::new(file, &mechanism, origin.as_ref(), &found));
+        let found = look(&mechanism, imported.as_ref().map(|i| &i.origin))?;
+        all.push(Found::new(file, &mechanism, imported.as_ref(), &found));
     }
     let width = output::width(a.output.as_deref());
     output::to(a.output.as_deref(), |out| {
@@ -67,9 +68,24 @@ pub(super) fn run(a: &Lint) -> anyhow::Result<Done> {
     })
 }
 
-/// What a mechanism holds twice. Drives stay as they are, and what a file beside the description closes.
+/// What a mechanism holds twice. Drives stay as they are, and what no format has a place for.
 pub(super) fn look(m: &Mechanism, origin: Option<&Origin>) -> anyhow::Result<HeldTwice> {
+    look_at(m, origin, &|r| match *r {
+        Release::Freedom { joint, .. } => !m.joints[joint].drive,
+        Release::Coupling(_) => true,
+    })
+}
+
+/// The same with releases that are wanted alone.
+pub(super) fn look_at(
+    m: &Mechanism,
+    origin: Option<&Origin>,
+    wanted: &dyn Fn(&Release) -> bool,
+) -> anyhow::Result<HeldTwice> {
     let closes = |j: JointId| origin.is_some_and(|o| o.closes(j));
-    let free = |j: JointId| !m.joints[j].drive && origin.is_none_or(|o| o.joint(j).is_some());
-    Ok(held_twice(m, &closes, &free)?)
+    let written = |r: &Release| match *r {
+        Release::Freedom { joint, .. } => origin.is_none_or(|o| o.can_be_freed(joint)),
+        Release::Coupling(_) => true,
+    };
+    Ok(held_twice(m, &closes, &|r| written(r) && wanted(r))?)
 }

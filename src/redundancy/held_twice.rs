@@ -41,7 +41,7 @@ impl HeldTwice {
     }
 }
 
-/// Finds what is held twice. `closes` says which joints are there to close loops, `free` which may be given more freedom.
+/// Finds what is held twice. `closes` says which joints are there to close loops, `may` what may be let go.
 ///
 /// # Guarantee
 /// σ is as the analysis says. What is redundant of each loop is numeric; there are other choices of as many constraints.
@@ -54,7 +54,7 @@ impl HeldTwice {
 pub fn held_twice(
     m: &Mechanism,
     closes: &dyn Fn(JointId) -> bool,
-    free: &dyn Fn(JointId) -> bool,
+    may: &dyn Fn(&Release) -> bool,
 ) -> Result<HeldTwice, AnalysisError> {
     let state = StateId::FREE;
     let mut found = analyse(m, &[state], Method::Auto { tolerance: None })?;
@@ -78,13 +78,16 @@ pub fn held_twice(
     };
     let mut rows = Vec::new();
     for q in 0..stressed.closure.couplings.len() {
-        rows.push((0, Release::Coupling(q)));
-        out.releases.push((COUPLING, Release::Coupling(q)));
+        let r = Release::Coupling(q);
+        rows.push((0, r));
+        if may(&r) {
+            out.releases.push((COUPLING, r));
+        }
     }
     for j in m.joints_in(state) {
         for r in stressed.at(j) {
             rows.push((if closes(j) { 1 } else { 2 }, r));
-            if free(j) {
+            if may(&r) {
                 out.releases.push((cost(m, &r, closes(j)), r));
             }
         }

@@ -344,8 +344,8 @@ fn positive(d: Vector) -> Vector {
         |m: f64, x| if x.abs() > m.abs() + ALIKE { *x } else { m },
     );
     let sign = if largest < 0.0 { -1.0 } else { 1.0 };
-    // No minus zeros.
-    d.map(|x| if x == 0.0 { 0.0 } else { sign * x })
+    // No minus zeros, and no rounding errors.
+    d.map(|x| if x.abs() < 1e-12 { 0.0 } else { sign * x })
 }
 
 fn norm(v: &[f64]) -> f64 {

@@ -58,6 +58,13 @@ impl Origin {
         self.part(joint).closes
     }
 
+    /// Whether a joint can be given freedoms where it stands.
+    #[must_use]
+    pub fn can_be_freed(&self, joint: JointId) -> bool {
+        let element = self.part(joint).element.map(|e| self.element(e).name());
+        element.is_some_and(|e| ["joint", "connect", "weld", "loop_joint"].contains(&e))
+    }
+
     fn place(&self, id: usize) -> Place {
         let node = self.element(id).node();
         let source = &self.document.sources[node.source];

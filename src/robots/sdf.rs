@@ -1,5 +1,6 @@
-//! SDF, read and written.
+//! SDF, read, mended and written.
 
+pub(super) mod fix;
 mod joints;
 pub(super) mod read;
 mod scene;

@@ -6,7 +6,7 @@ use crate::geom::vector::Vector;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::redundancy::held_twice::HeldTwice;
 use crate::redundancy::release::{Duplicate, Release, becomes};
-use crate::robots::{Origin, Place};
+use crate::robots::{Imported, Origin, Place};
 use itertools::Itertools;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -35,6 +35,10 @@ pub struct Lint {
     pub over_motion_kind: Option<&'static str>,
     /// In words.
     pub over_motion: Option<String>,
+    /// Rows of couplings that are left out of the figures: W is up to so many too high, σ may be too low.
+    pub left_out: usize,
+    /// What was read approximately.
+    pub approximated: Vec<String>,
     /// Each redundant constraint.
     pub findings: Vec<Finding>,
     /// The cheapest releases that remove them all and let nothing move; none where there are not enough.
@@ -69,7 +73,9 @@ pub struct Finding {
 impl Lint {
     /// What was found in a mechanism, in the words of the description it came from, where it did.
     #[must_use]
-    pub fn new(file: &str, m: &Mechanism, origin: Option<&Origin>, found: &HeldTwice) -> Lint {
+    pub fn new(file: &str, m: &Mechanism, read: Option<&Imported>, found: &HeldTwice) -> Lint {
+        let origin = read.map(|i| &i.origin);
+        let report = read.map(|i| &i.report);
         let (least, most) = found.range();
         let words = Words { m, found };
         let finding = |d: &Duplicate| words.finding(d, origin);
@@ -83,6 +89,13 @@ impl Lint {
             certainty: found.analysis.certainty.describe(),
             over_motion_kind: found.over.map(|o| o.word()),
             over_motion: found.over.map(|o| o.describe()),
+            left_out: report.map_or(0, |r| r.coupling_rows),
+            approximated: report.map_or(Vec::new(), |r| {
+                let notes = r.approximated.iter();
+                notes
+                    .map(|n| format!("{}: {}", n.element, n.what))
+                    .collect()
+            }),
             findings: found.list.iter().map(finding).collect(),
             cheapest: match whole {
                 true => found.cheapest.iter().map(|&i| words.remedy(i)).collect(),
@@ -102,10 +115,13 @@ impl Lint {
     pub fn text(&self) -> String {
         let Lint { file, mobility, .. } = self;
         if self.is_clean() {
-            return format!("{file}: nothing is redundant (σ = 0, W = {mobility})\n");
+            return format!(
+                "{file}: nothing is redundant (σ = 0, W = {mobility}){}\n",
+                self.left_out()
+            );
         }
         let sigma = self.sigma();
-        let mut out = format!("{file}: {sigma}, W = {mobility}\n");
+        let mut out = format!("{file}: {sigma}, W = {mobility}{}\n", self.left_out());
         if let Some(over) = &self.over_motion {
             out += &format!("  redundant {over}\n");
         }
@@ -129,6 +145,17 @@ impl Lint {
             );
         }
         out
+    }
+
+    /// What keeps the figures from being those of the description.
+    fn left_out(&self) -> String {
+        match self.left_out {
+            0 => String::new(),
+            n => format!(
+                "; {} between joints left out, which may be redundant and lower W",
+                plural(n, "row")
+            ),
+        }
     }
 
     /// "2 redundant constraints (σ = 2)", "0 to 2 redundant constraints (...)".

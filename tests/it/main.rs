@@ -37,6 +37,7 @@ mod ranking;
 mod reactions;
 mod reactions_cycle;
 mod report_page;
+mod robot_fix;
 mod robot_mjcf;
 mod robot_models;
 mod robot_sdf;

@@ -1,0 +1,189 @@
+"""Lints and fixes models with ozols, and asks MuJoCo and Pinocchio what became of them.
+
+usage: compare.py OZOLS MODELS
+MODELS is a folder of real models, one folder each. Ends with 1 where a figure differs.
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+import generate
+import mujoco_figures
+import numpy as np
+import pinocchio_figures
+
+STEPS = 60
+# The same place, as a fraction of a model's size.
+SAME = 1e-6
+
+failures = []
+rows = []
+
+
+def ozols(*words):
+    out = subprocess.run([OZOLS, *map(str, words)], capture_output=True, text=True, check=False)
+    return out.returncode, out.stdout, out.stderr
+
+
+def expect(name, what, found, wanted):
+    if found != wanted:
+        failures.append(f"{name}: {what} is {found}, not {wanted}")
+
+
+def lint(file, *more):
+    code, out, err = ozols("lint", file, "--format", "json", *more)
+    if code == 2:
+        return None, err.strip().split("\n")[0]
+    return json.loads(out)["files"][0], None
+
+
+def size(peer, q):
+    peer.jacobian(q)
+    return max(float(np.abs(peer.data.xpos).max()), 1e-3)
+
+
+def mjcf(name, file, truth=None):
+    """One MJCF model: ours and MuJoCo's figures before and after, and the motion of one in the other."""
+    began = time.perf_counter()
+    found, why = lint(file)
+    took = time.perf_counter() - began
+    if found is None:
+        failures.append(f"{name}: not read: {why}")
+        return
+    before = mujoco_figures.Model(file)
+    q, gap = before.close(before.model.qpos0)
+    if gap > 1e-7:
+        failures.append(f"{name}: MuJoCo does not close it ({gap:.1e})")
+        return
+    peer = truth or before.figures(q)
+    out = found["redundant_at_most"] - found["redundant"]
+    rows.append((name, peer["w"], peer["redundant"], found["mobility"], found["redundant"], out, took))
+    left = found.get("left_out", 0)
+    if out:
+        # Undecided: the truth is within what is said.
+        inside = found["redundant"] <= peer["redundant"] <= found["redundant_at_most"]
+        expect(name, "the range of redundant", inside, True)
+        return
+    expect(name, "W", found["mobility"], peer["w"] + left)
+    expect(name, "redundant", found["redundant"], peer["redundant"])
+    if found["redundant"] == 0:
+        return
+    with tempfile.NamedTemporaryFile(suffix=".xml", dir=pathlib.Path(file).parent if truth else None) as t:
+        code, _, err = ozols("fix", file, "-o", t.name)
+        if code != 0:
+            failures.append(f"{name}: not fixed: {err.strip().splitlines()[0]}")
+            return
+        after = mujoco_figures.Model(t.name)
+    follow(name, before, after, q, peer)
+
+
+def follow(name, before, after, q, peer):
+    """The way of the model as it was, step by step, in the model as it is: closed there, of full rank, and nowhere else."""
+    random = np.random.default_rng(7)
+    j, _ = before.jacobian(q)
+    v = random.normal(size=before.model.nv)
+    whole, places = size(before, q), None
+    for step in range(STEPS):
+        j, _ = before.jacobian(q)
+        v = v - np.linalg.pinv(j, rcond=1e-6) @ (j @ v)
+        if np.abs(v).max() < 1e-9:
+            break
+        v = v / np.abs(v).max()
+        mujoco_figures.integrate(before.model, q, v * 0.003)
+        q, _ = before.close(q)
+        places = before.places(q)
+        embedded = after.embed(before, q)
+        figures = after.figures(embedded)
+        _, gap = after.jacobian(embedded)
+        expect(f"{name}, step {step}", "W", figures["w"], peer["w"])
+        expect(f"{name}, step {step}", "redundant", figures["redundant"], 0)
+        expect(f"{name}, step {step}", "closed", bool(np.abs(gap).max() < SAME * whole), True)
+        # From beside it, with as many coordinates held as there are motions, back to the same pose.
+        if step % 10 == 0:
+            held = after.independent(embedded, figures["w"])
+            aside = embedded.copy()
+            shift = 1e-3 * random.normal(size=after.model.nv)
+            shift[held] = 0
+            mujoco_figures.integrate(after.model, aside, shift)
+            back, _ = after.close(aside, held)
+            apart = max(
+                (float(np.abs(p - places[n]).max()) for n, p in after.places(back).items() if n in places),
+                default=0.0,
+            )
+            expect(f"{name}, step {step}", "the same place", bool(apart < SAME * whole), True)
+        if failures:
+            return
+
+
+def urdf(name, file, side):
+    """One URDF model with its loops in a file beside it: ours and Pinocchio's."""
+    more = ["--loops", side]
+    began = time.perf_counter()
+    found, why = lint(file, *more)
+    took = time.perf_counter() - began
+    if found is None:
+        failures.append(f"{name}: not read: {why}")
+        return
+    before = pinocchio_figures.Model(file, side)
+    peer, gap = before.figures()
+    if gap > 1e-9:
+        failures.append(f"{name}: Pinocchio does not close it ({gap:.1e})")
+        return
+    rows.append((name, peer["w"], peer["redundant"], found["mobility"], found["redundant"], 0, took))
+    expect(name, "W", found["mobility"], peer["w"])
+    expect(name, "redundant", found["redundant"], peer["redundant"])
+    if found["redundant"] == 0:
+        return
+    with tempfile.NamedTemporaryFile(suffix=".urdf") as t:
+        code, _, err = ozols("fix", file, *more, "-o", t.name)
+        if code != 0:
+            failures.append(f"{name}: not fixed: {err.strip().splitlines()[0]}")
+            return
+        after = pinocchio_figures.Model(t.name, side)
+        figures, _ = after.figures()
+        expect(f"{name}, fixed", "W", figures["w"], peer["w"])
+        expect(f"{name}, fixed", "redundant", figures["redundant"], 0)
+        for step, (w, redundant, apart) in enumerate(before.along(after, STEPS)):
+            expect(f"{name}, step {step}", "W", w, peer["w"])
+            expect(f"{name}, step {step}", "redundant", redundant, 0)
+            expect(f"{name}, step {step}", "the same place", bool(apart < SAME), True)
+
+
+def main():
+    models = pathlib.Path(MODELS)
+    for file in [
+        "robotiq_2f85_v4/2f85.nomesh.xml",
+        "xarm7_hand/hand.nomesh.xml",
+        "toddlerbot_2xc/toddlerbot_2xc.nomesh.xml",
+    ]:
+        mjcf(file.split("/")[0], models / file)
+    for folder in ["epr_5bar_linkage", "epr_5bar_linkage_iso6d", "epr_digit_like", "epr_talos_like"]:
+        urdf(folder, models / folder / "robot.urdf", models / folder / "robot.yaml")
+    with tempfile.TemporaryDirectory() as t:
+        for name, text, exact in generate.models():
+            file = pathlib.Path(t) / f"{name}.xml"
+            file.write_text(text)
+            truth = None
+            if exact is not None:
+                other = pathlib.Path(t) / f"{name}-exact.xml"
+                other.write_text(exact)
+                peer = mujoco_figures.Model(other)
+                truth = peer.figures(peer.close(peer.model.qpos0)[0])
+            mjcf(name, file, truth)
+    print(f"{'model':32} {'peer W':>6} {'red.':>5} {'our W':>6} {'red.':>5}  seconds")
+    for name, w, r, our_w, our_r, out, took in rows:
+        most = f"-{our_r + out}" if out else ""
+        print(f"{name:32} {w:6} {r:5} {our_w:6} {our_r:>4}{most:2}  {took:.2f}")
+    for f in failures[:40]:
+        print("FAILED", f)
+    print(f"{len(rows)} models, {len(failures)} failures")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    OZOLS, MODELS = sys.argv[1:3]
+    sys.exit(main())
