@@ -16,6 +16,7 @@ mod mjcf;
 mod options;
 mod origin;
 mod parts;
+mod physical;
 mod problem;
 mod sdf;
 mod single_freedoms;

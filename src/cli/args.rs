@@ -68,7 +68,7 @@ pub(super) enum Command {
     /// One HTML page: the verdict, drawings, contours, and the variants to sort, filter and look at.
     #[command(after_help = examples::REPORT)]
     Report(report::Report),
-    /// Write a mechanism in another format: TOML, JSON, URDF, SDF, Graphviz DOT, GraphML.
+    /// Write a mechanism in another format: TOML, JSON, URDF, MJCF, SDF, Graphviz DOT, GraphML.
     #[command(after_help = examples::EXPORT)]
     Export(export::Export),
     /// How right and how fast each method is on every built-in mechanism, and where its numbers fail.

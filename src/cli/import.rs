@@ -31,6 +31,10 @@ pub(super) struct Reading {
     /// Let a robot without a fixed link float: a joint of six freedoms to the world.
     #[arg(long)]
     floating: bool,
+    /// A folder of models (repeatable): what `model://NAME` of an SDF include stands for, and where MJCF includes with `../` may
+    /// lead.
+    #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
+    models: Vec<PathBuf>,
     /// SDF drawn in parts: every joint puts the frame that is its parent onto its child.
     #[arg(long)]
     assemble: bool,
@@ -66,6 +70,7 @@ impl Reading {
         let mut options = Options {
             floating: self.floating,
             assemble: self.assemble,
+            models: self.models.clone(),
             open: self.open,
             frame: self.frame.clone(),
             outputs: self.working_link.clone(),

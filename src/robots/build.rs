@@ -77,7 +77,8 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, R
         .filter(held)
         .or_else(|| (0..robot.links.len()).find(|l| !child.contains(l) && robot.world != Some(*l)))
         .unwrap_or(0);
-    if !options.floating {
+    let apart = robot.floats && !loose(robot, &spanning_tree(robot, root)).is_empty();
+    if !options.floating && !apart {
         return Ok(root);
     }
     let world = match robot.world {
@@ -93,20 +94,25 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, R
         robot.joints.push(Part::new(&id, [world, r], sides, free()));
         robot.report.map("floating base");
     }
+    if apart && !options.floating {
+        let what = "parts that no joint holds float in the world, each by itself";
+        robot.report.pose.push(what.to_owned());
+    }
     Ok(world)
+}
+
+/// The roots beside the frame, but for a world that holds nothing.
+fn loose(robot: &Robot, tree: &Tree) -> Vec<usize> {
+    let jointless =
+        |l: usize| robot.world == Some(l) && !robot.joints.iter().any(|j| j.links.contains(&l));
+    let others = tree.roots.iter().skip(1).copied();
+    others.filter(|&l| !jointless(l)).collect()
 }
 
 /// Every link must hang on the frame.
 pub(crate) fn held(robot: &Robot, tree: &Tree) -> Result<(), RobotProblem> {
-    let jointless =
-        |l: usize| robot.world == Some(l) && !robot.joints.iter().any(|j| j.links.contains(&l));
-    let loose: Vec<&str> = tree
-        .roots
-        .iter()
-        .skip(1)
-        .filter(|&&l| !jointless(l))
-        .map(|&l| robot.links[l].as_str())
-        .collect();
+    let loose = loose(robot, tree);
+    let loose: Vec<&str> = loose.iter().map(|&l| robot.links[l].as_str()).collect();
     if loose.is_empty() {
         return Ok(());
     }

@@ -49,6 +49,16 @@ pub fn fix(imported: &Imported, releases: &[(Release, String)]) -> Result<String
         .iter()
         .map(|(&part, list)| (&origin.robot.joints[part], list.as_slice()))
         .collect();
+    for (part, _) in &all {
+        if let Some(e) = part.element.map(|e| origin.element(e))
+            && e.node().copy
+        {
+            return Err(e.unsupported(
+                "it is a copy made by <replicate>",
+                "choose another joint (--at), or write the copies out",
+            ));
+        }
+    }
     free(origin, &all, &mut edits)?;
     for (element, why) in uncoupled {
         uncouple(origin, element, &why, &mut edits)?;

@@ -1,4 +1,4 @@
-//! MJCF, read and mended.
+//! MJCF, read, mended and written.
 
 mod context;
 mod defaults;
@@ -6,3 +6,5 @@ mod equality;
 pub(super) mod fix;
 mod include;
 pub(super) mod read;
+mod replicate;
+pub(super) mod write;

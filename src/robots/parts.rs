@@ -117,6 +117,8 @@ pub(crate) struct Robot {
     pub(super) couplings: Vec<Ratio>,
     /// The link that is the world, where the format has one.
     pub(super) world: Option<usize>,
+    /// Whether parts that no joint holds float in the world.
+    pub(super) floats: bool,
     /// Named frames: the link they are fixed to and their place on it.
     pub(super) frames: BTreeMap<String, (usize, Motion)>,
     /// Places of links in the file, for those that nothing else places.
@@ -132,6 +134,7 @@ impl Robot {
             joints: Vec::new(),
             couplings: Vec::new(),
             world: None,
+            floats: false,
             frames: BTreeMap::new(),
             places: Vec::new(),
             report: Report::default(),

@@ -1,6 +1,7 @@
 //! SDF, read, mended and written.
 
 pub(super) mod fix;
+mod include;
 mod joints;
 pub(super) mod read;
 mod scene;

@@ -45,6 +45,50 @@ pub(crate) struct Node {
     pub(super) span: Range<usize>,
     /// Of the tag it ends with; nothing, behind it, where it is one tag.
     pub(super) close: Range<usize>,
+    /// Whether it is a copy of what stands there.
+    pub(super) copy: bool,
+}
+
+impl Node {
+    pub(super) fn is_called(&self, name: &str) -> bool {
+        self.name == name
+    }
+
+    pub(super) fn rename(&mut self, name: String) {
+        if let Some(a) = self.attributes.iter_mut().find(|a| a.name == "name") {
+            a.value = name;
+        }
+    }
+
+    /// A copy with an end to its name.
+    pub(super) fn named_on(&self, suffix: &str) -> Node {
+        let mut out = self.clone();
+        out.copy = true;
+        let name = out.attributes.iter_mut().find(|a| a.name == "name");
+        if let Some(name) = name {
+            name.value.push_str(suffix);
+        }
+        out
+    }
+
+    /// A frame in the place of the element, with its class, at a place that six numbers of `xyaxes` turn.
+    pub(super) fn as_frame(&self, pos: Vector, axes: [f64; 6]) -> Node {
+        let words = |v: &[f64]| v.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
+        let made = |name: &str, value: String| Attribute {
+            name: name.to_owned(),
+            value,
+            span: self.span.clone(),
+        };
+        let class = self.attributes.iter().filter(|a| a.name == "childclass");
+        let mut attributes: Vec<Attribute> = class.cloned().collect();
+        attributes.extend([made("pos", words(&pos)), made("xyaxes", words(&axes))]);
+        Node {
+            name: "frame".to_owned(),
+            attributes,
+            copy: true,
+            ..self.clone()
+        }
+    }
 }
 
 /// The elements of a file and of those it includes.
@@ -258,6 +302,7 @@ fn node(
         source,
         close: span.end..span.end,
         span,
+        copy: false,
     })
 }
 

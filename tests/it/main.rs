@@ -40,6 +40,7 @@ mod report_page;
 mod robot_fix;
 mod robot_mjcf;
 mod robot_models;
+mod robot_readers;
 mod robot_sdf;
 mod robots;
 mod rounded;

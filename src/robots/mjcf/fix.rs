@@ -88,6 +88,18 @@ impl<'a> File<'a> {
         self.origin.element(parent)
     }
 
+    /// The body, or world, around an element.
+    fn body(&self, id: usize) -> Element<'a> {
+        let mut at = self.parents[id];
+        while let Some(id) = at {
+            if ["body", "worldbody"].contains(&self.origin.element(id).name()) {
+                break;
+            }
+            at = self.parents[id];
+        }
+        self.origin.element(at.unwrap_or(self.origin.root))
+    }
+
     /// What the classes around say of joints that is nothing to a new one is taken back.
     fn neutral(&self, around: Element<'a>) -> Result<String, ImportError> {
         let (mut at, mut class) = (Some(around.id), None);
@@ -149,14 +161,20 @@ impl<'a> File<'a> {
         freed: Freed<'_>,
         edits: &mut Edits<'_>,
     ) -> Result<(), ImportError> {
-        let body = self.parent(e);
-        let own = body
-            .children()
-            .filter(|c| ["joint", "freejoint"].contains(&c.name()));
-        let last = own.last().unwrap_or(e);
-        let (Some(link), Some(part)) = (self.part(last.id), self.part(e.id)) else {
+        let body = self.body(e.id);
+        let own = self.origin.robot.joints.iter().rev();
+        let own = own.filter_map(|p| Some((p, p.element?)));
+        let last = own.into_iter().find(|&(p, id)| {
+            let joint = self.origin.element(id).name() != "body";
+            joint && !p.closes && self.body(id).id == body.id
+        });
+        let (Some((link, last)), Some(part)) = (last, self.part(e.id)) else {
             return Err(e.unsupported("it is no joint of a body", "choose another (--at)"));
         };
+        let last = self.origin.element(last);
+        if self.parents[last.id] != Some(body.id) {
+            return Err(e.unsupported("its body has joints in a <frame>", "choose another (--at)"));
+        }
         let frame = self.origin.places[link.links[1]];
         let point = self.origin.places[part.links[1]]
             .then(&part.sides[1])

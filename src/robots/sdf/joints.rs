@@ -51,7 +51,7 @@ pub(crate) fn axis(
     let in_model = a
         .child("use_parent_model_frame")
         .is_some_and(|u| ["true", "1"].contains(&u.text()))
-        || scene.old_axes;
+        || scene.old_axes.get(e.node().source) == Some(&true);
     match xyz.attribute("expressed_in").filter(|f| !f.is_empty()) {
         Some("world") => Ok(v),
         Some(f) => Ok(located(xyz, &absolute(scope, f), scene)?.1.direction(v)),

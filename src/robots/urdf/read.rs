@@ -59,6 +59,10 @@ pub(crate) fn read(
             }
         }
     }
+    // By convention a root of this name is the ground.
+    let world = robot.links.iter().position(|l| l == "world");
+    let held = |w: &usize| robot.joints.iter().any(|j| j.links[1] == *w);
+    robot.world = world.filter(|w| !held(w));
     Ok(robot)
 }
 
@@ -147,9 +151,14 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     if let Some(l) = e.child("limit")
         && word != "continuous"
     {
-        let one = |k| Ok(l.numbers::<1>(k)?.map_or(0.0, |[x]| x));
+        // What is beyond all numbers that are read, 1e16 say, is no limit.
+        let one = |k| match l.attribute(k).map(str::parse::<f64>) {
+            Some(Ok(x)) if x.abs() > 1e9 => Ok(x.signum() * f64::INFINITY),
+            _ => Ok(l.numbers::<1>(k)?.map_or(0.0, |[x]| x)),
+        };
         let (low, high) = (one("lower")?, one("upper")?);
-        part.limits = (low < high).then_some((low, high));
+        let finite = low.is_finite() && high.is_finite();
+        part.limits = (low < high && finite).then_some((low, high));
     }
     robot.report.map(word);
     if let Some(m) = e.child("mimic") {
