@@ -22,7 +22,7 @@ pub(super) struct Args {
     /// What to do.
     #[command(subcommand)]
     pub(super) command: Command,
-    /// No progress bar, no report of an import.
+    /// Nothing but errors on standard error: no progress bar, no report of an import, no warnings.
     #[arg(long, short, global = true)]
     pub(super) quiet: bool,
     /// Threads to use; all processors by default. Results do not depend on it.

@@ -1,6 +1,5 @@
 //! `ozols fix`.
 
-use super::args::Args;
 use super::import::{Reading, description};
 use super::progress::note;
 use super::request::Which;
@@ -44,7 +43,7 @@ struct Plan {
     redundant: usize,
 }
 
-pub(super) fn run(args: &Args, a: &Fix) -> anyhow::Result<Done> {
+pub(super) fn run(a: &Fix) -> anyhow::Result<Done> {
     let options = a.reading.options()?;
     let imported = description(&a.file, &options)?;
     let m = &imported.mechanism;
@@ -80,10 +79,8 @@ pub(super) fn run(args: &Args, a: &Fix) -> anyhow::Result<Done> {
         out.write_all(text.as_bytes())?;
         Ok(Done::Found)
     })?;
-    if !args.quiet {
-        let lines = summary(&a.file, &releases, [&before, &after]);
-        output::note(&fit(&lines, output::error_width()));
-    }
+    let lines = summary(&a.file, &releases, [&before, &after]);
+    output::note(&fit(&lines, output::error_width()));
     Ok(Done::Found)
 }
 

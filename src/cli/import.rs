@@ -1,6 +1,5 @@
 //! `ozols import`.
 
-use super::args::Args;
 use super::{Done, output};
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::robots::{self, Options};
@@ -87,13 +86,11 @@ impl Reading {
     }
 }
 
-pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
+pub(super) fn run(a: &Import) -> anyhow::Result<Done> {
     let options = a.reading.options()?;
     let imported = description(Path::new(&a.file), &options)?;
-    if !args.quiet {
-        let width = output::error_width();
-        output::note(&fit(&imported.report.text(&a.file), width));
-    }
+    let width = output::error_width();
+    output::note(&fit(&imported.report.text(&a.file), width));
     output::to(a.output.as_deref(), |out| {
         match a.format {
             ImportFormat::Toml => write!(out, "{}", imported.toml()?)?,
@@ -101,7 +98,7 @@ pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
         }
         Ok(Done::Found)
     })?;
-    if let (Some(path), false) = (&a.output, args.quiet) {
+    if let Some(path) = &a.output {
         let file = path.display().to_string();
         let steps = [
             ("analyze", "its mobility and redundant constraints"),

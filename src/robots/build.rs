@@ -1,6 +1,5 @@
 //! From a robot as read to a mechanism file: pose, frame, loops, bodies, outputs.
 
-use crate::closure::tree::forest;
 use crate::file::read::limits::LIMITS;
 use crate::file::schema::MechanismFile;
 use crate::file::write::Comment;
@@ -11,11 +10,12 @@ use crate::robots::coupling;
 use crate::robots::emit::{self, Bodies, Content};
 use crate::robots::kinematics::{Tree, places, spanning_tree};
 use crate::robots::options::Options;
+use crate::robots::outputs;
 use crate::robots::parts::{Part, Robot, free};
 use crate::robots::problem::{RobotProblem, known};
 use std::collections::BTreeSet;
 
-fn link_of(robot: &Robot, name: &str) -> Result<usize, RobotProblem> {
+pub(crate) fn link_of(robot: &Robot, name: &str) -> Result<usize, RobotProblem> {
     robot
         .links
         .iter()
@@ -264,7 +264,7 @@ pub(crate) fn entries(
     }
     let couplings = coupling::usable(robot, &joints);
     let frame = bodies.of[tree.roots[0]];
-    let outputs = output_links(robot, &bodies, &joints, frame, options)?;
+    let outputs = outputs::of(robot, &bodies, &joints, frame, options)?;
     let mut report = std::mem::take(&mut robot.report);
     report.outputs = (
         outputs.iter().map(|&b| robot.links[b].clone()).collect(),
@@ -307,56 +307,4 @@ pub(crate) fn entries(
         joints,
         couplings: couplings.iter().map(|u| u.said_by).collect(),
     })
-}
-
-/// The links asked for, or those at the ends of chains, or the one farthest from the frame.
-fn output_links(
-    robot: &Robot,
-    bodies: &Bodies,
-    joints: &[usize],
-    frame: usize,
-    options: &Options,
-) -> Result<Vec<usize>, RobotProblem> {
-    let mut out = Vec::new();
-    for name in &options.outputs {
-        let b = bodies.of[link_of(robot, name)?];
-        if b == frame {
-            return Err(RobotProblem::Whole {
-                message: format!(
-                    "link \"{name}\" is the frame or fixed to it; name a link that moves"
-                ),
-            });
-        }
-        out.push(b);
-    }
-    if out.is_empty() {
-        out = end_links(robot, bodies, joints, frame);
-    }
-    out.sort_unstable();
-    out.dedup();
-    Ok(out)
-}
-
-/// The links of one joint; where there are none, those farthest from the frame by number of joints.
-fn end_links(robot: &Robot, bodies: &Bodies, joints: &[usize], frame: usize) -> Vec<usize> {
-    let n = robot.links.len();
-    let ends = joints
-        .iter()
-        .map(|&j| robot.joints[j].links.map(|l| bodies.of[l]));
-    let mut joints_at = vec![0; n];
-    ends.clone().flatten().for_each(|b| joints_at[b] += 1);
-    let ends_of_chains: Vec<usize> = (0..n)
-        .filter(|&b| b != frame && joints_at[b] == 1)
-        .collect();
-    if !ends_of_chains.is_empty() {
-        return ends_of_chains;
-    }
-    let (_, steps) = forest(n, ends, |_| false, [frame]);
-    let mut depth = vec![0; n];
-    for s in &steps {
-        depth[s.link] = depth[s.from] + 1;
-    }
-    let deepest = steps.last().map_or(0, |s| depth[s.link]);
-    let last = steps.iter().map(|s| s.link);
-    last.filter(|&b| depth[b] == deepest).collect()
 }

@@ -9,7 +9,7 @@ use crate::robots::parts::Robot;
 use crate::robots::warning::Kept;
 
 /// Work of singular values, rows · columns · the lesser of them, up to which the figures are told.
-const LARGEST: usize = 2_000_000_000;
+pub(crate) const LARGEST: usize = 2_000_000_000;
 
 /// A coupling that a mechanism file can say.
 #[derive(Debug, Clone, Copy)]

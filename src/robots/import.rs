@@ -16,6 +16,7 @@ use crate::robots::coupling;
 use crate::robots::formats::{Format, of_root, roots};
 use crate::robots::kinematics::spanning_tree;
 use crate::robots::loops;
+use crate::robots::offers;
 use crate::robots::options::{Options, Reader};
 use crate::robots::origin::Origin;
 use crate::robots::problem::{ExportError, RobotProblem};
@@ -88,7 +89,7 @@ pub fn import(
     held(&robot, &tree).map_err(fail)?;
     close_loops(&mut robot, &tree, options).map_err(fail)?;
     let Entries {
-        file,
+        mut file,
         comments,
         places,
         joints,
@@ -99,6 +100,16 @@ pub fn import(
         let text = write::toml(&file, &comments).unwrap_or_default();
         mechanism_from_str("the imported mechanism", &text)
     })?;
+    let closes: Vec<bool> = joints.iter().map(|&j| robot.joints[j].closes).collect();
+    let mut offered = file.clone();
+    let mechanism =
+        match offers::at_loops(&mechanism, &closes, &mut offered).then(|| build(&offered)) {
+            Some(Ok(m)) => {
+                file = offered;
+                m
+            }
+            _ => mechanism,
+        };
     robot.report.kept = coupling::kept(&mechanism);
     Ok(Imported {
         mechanism,

@@ -5,7 +5,7 @@ use crate::geom::vector::{Vector, X, Z, cross};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::warning::Report;
 use crate::robots::xml::Element;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A joint between two links, or a constraint that closes a loop.
 #[derive(Debug, Clone)]
@@ -119,6 +119,8 @@ pub(crate) struct Robot {
     pub(super) world: Option<usize>,
     /// Whether parts that no joint holds float in the world.
     pub(super) floats: bool,
+    /// Links with a shape or a site: parts that are more than kinematics.
+    pub(super) shown: BTreeSet<usize>,
     /// Named frames: the link they are fixed to and their place on it.
     pub(super) frames: BTreeMap<String, (usize, Motion)>,
     /// Places of links in the file, for those that nothing else places.
@@ -135,6 +137,7 @@ impl Robot {
             couplings: Vec::new(),
             world: None,
             floats: false,
+            shown: BTreeSet::new(),
             frames: BTreeMap::new(),
             places: Vec::new(),
             report: Report::default(),

@@ -267,3 +267,49 @@ fn fix_refuses_what_it_cannot_write() {
     );
     assert!(!Path::new(&out).exists());
 }
+
+// A search may let a connect go along the direction that it holds twice, and what it finds is written at the connect.
+#[test]
+fn searches_offer_releases_where_loops_close() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = |name: &str| dir.path().join(name).display().to_string();
+    for (equality, name) in [
+        (
+            "<connect name='e' body1='b' body2='c' anchor='2 0.5 0'/>",
+            "spherical + slide z",
+        ),
+        ("<weld name='e' body1='c' body2='b'/>", "slide z + turn "),
+    ] {
+        let (file, out) = (path("four.xml"), path("fixed.xml"));
+        std::fs::write(&file, four_bar(equality, ["", ""])).unwrap();
+        let words = [
+            "search", &file, "--all", "--format", "jsonl", "--forbid", "j1", "--forbid", "j2",
+            "--forbid", "j3",
+        ];
+        let (code, found, told) = run(&words);
+        assert_eq!(code, Some(0), "{told}");
+        let first = found.lines().next().unwrap();
+        assert!(first.contains(name), "{first}");
+        let words = [
+            "fix",
+            &file,
+            "--variant",
+            "1",
+            "--forbid",
+            "j1",
+            "--forbid",
+            "j2",
+            "--forbid",
+            "j3",
+            "-o",
+            &out,
+        ];
+        let (code, _, told) = run(&words);
+        assert_eq!(code, Some(0), "{told}");
+        assert!(
+            std::fs::read_to_string(&out).unwrap().contains("e_between"),
+            "{told}"
+        );
+        assert_eq!(figures(&out, &[]).1, 0);
+    }
+}

@@ -160,14 +160,14 @@ fn parts_that_nothing_holds() {
     assert!(refused("m.urdf", &urdf).contains("no joint connects link \"c\""));
 }
 
-// A weld whose turns nothing holds is a ball: of the loop of two hinges and it 3 rows stay, W = 1 where a weld gives 1 too, but
-// with hinges about different lines it gives 0.
+// A weld whose turns nothing holds is a ball. Three parallel hinges and one across, at the weld: it holds all four, and two
+// rows twice; a ball there leaves the plane's one freedom, its own turn about the fourth hinge, and one row twice.
 #[test]
 fn a_weld_without_torque_is_a_ball() {
     let loops = |weld: &str| {
         mjcf(&format!(
             "<worldbody><body name='a'><joint axis='0 0 1'/></body><body name='b' pos='1 0 0'><joint axis='0 0 1'/>
-             <body name='c'><joint axis='0 0 1'/><body name='d'><joint axis='1 0 0'/></body></body></body></worldbody>
+             <body name='c' pos='0 1 0'><joint axis='0 0 1'/><body name='d'><joint axis='1 0 0'/></body></body></body></worldbody>
              <equality><weld body1='a' body2='d' {weld}/></equality>"
         ))
     };
@@ -175,7 +175,7 @@ fn a_weld_without_torque_is_a_ball() {
     assert_eq!(w_sigma("m.xml", &loops("torquescale='0'")), (2, 1));
     assert_eq!(w_sigma("m.xml", &loops("torquescale='0.1'")), (0, 2));
     let t = toml_of("m.xml", &loops("torquescale='0' anchor='0 2 0'"));
-    assert!(t.contains("type = \"spherical\"\npoint = [1, 2, 0]"), "{t}");
+    assert!(t.contains("type = \"spherical\"\npoint = [1, 3, 0]"), "{t}");
 }
 
 #[test]
@@ -309,5 +309,43 @@ fn includes_within_a_named_root() {
         }
         let o = ozols(&words).output().unwrap();
         assert_eq!(o.status.code(), Some(code), "{file}");
+    }
+}
+
+// What a user means by the outputs: end effectors by name, ends of chains that have a shape, a base that floats; not each rod.
+#[test]
+fn outputs_are_what_users_mean() {
+    let outputs = |body: &str| {
+        read("m.xml", &mjcf(&format!("<worldbody>{body}</worldbody>")))
+            .report
+            .outputs
+            .0
+    };
+    // A leg as of a walking robot: its rod is as far from the base as its foot.
+    let leg = "<body name='base'><freejoint/><body name='shin'><joint/><body name='left-foot'><joint axis='0 1 0'/></body>
+      <body name='crank'><joint axis='0 1 0'/><body name='rod'><joint axis='1 0 0'/></body></body></body></body>";
+    assert_eq!(outputs(leg), ["base", "left-foot"]);
+    let shapes = "<body name='a'><joint/><body name='b'><joint axis='0 1 0'/><geom size='1'/></body><body name='c'><joint axis='1 0 0'/></body></body>";
+    assert_eq!(outputs(shapes), ["b"]);
+    assert_eq!(outputs(&shapes.replace("<geom size='1'/>", "")), ["b", "c"]);
+}
+
+// Joints in series are what they are, and nothing approximate; -q leaves out all but errors.
+#[test]
+fn nothing_is_said_that_need_not_be() {
+    let i = read(
+        "m.xml",
+        &mjcf("<worldbody><body name='a'><joint/><joint type='slide'/></body></worldbody>"),
+    );
+    assert_eq!(
+        (i.report.approximated.len(), i.report.doubts().as_str()),
+        (0, "")
+    );
+    let file = folder().join("mujoco_constraints/constraints.xml");
+    for command in ["analyze", "import", "search"] {
+        let o = ozols(&[command, file.to_str().unwrap(), "-q"])
+            .output()
+            .unwrap();
+        assert_eq!(String::from_utf8(o.stderr).unwrap(), "", "{command}");
     }
 }

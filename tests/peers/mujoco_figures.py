@@ -78,9 +78,12 @@ class Model:
         m, o = self.model, other.model
         out = m.qpos0.copy()
         sizes = {0: 7, 1: 4, 2: 1, 3: 1}
-        mine = {self.key(j): j for j in range(m.njnt)}
+        # Joints without names are told by their bodies, or by their order: what is new has a name.
+        waiting = {}
+        for j in range(m.njnt):
+            waiting.setdefault(self.key(j), []).append(j)
         for i in range(o.njnt):
-            j = mine[other.key(i)]
+            j = waiting[other.key(i)].pop(0)
             n = sizes[int(m.jnt_type[j])]
             a, b = m.jnt_qposadr[j], o.jnt_qposadr[i]
             out[a : a + n] = q[b : b + n]

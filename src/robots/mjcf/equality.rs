@@ -37,9 +37,10 @@ pub(crate) fn read(
                 if scale == Some([0.0]) {
                     // Nothing holds its turns: a ball at its anchor, which is given in the second body.
                     let at = Motion::shift(look.vector("anchor", [0.0; 3])?);
+                    let [(one, first), (two, second)] = ends;
                     let ends = match e.attribute("site1") {
                         Some(_) => ends,
-                        None => ends.map(|(link, place)| (link, place.then(&at))),
+                        None => [(one, first.then(&second.inverse()).then(&at)), (two, at)],
                     };
                     closing(e, &id, ends, JointType::Spherical, robot)?;
                 } else {

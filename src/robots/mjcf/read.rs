@@ -107,7 +107,12 @@ fn bodies<'a>(
                     let remedy = "save the compiled model from MuJoCo as XML and import that";
                     return Err(e.unsupported("it makes bodies when the model is compiled", remedy));
                 }
-                other => robot.report.drop(other, e.attribute("name")),
+                other => {
+                    if other == "geom" {
+                        robot.shown.insert(w.link);
+                    }
+                    robot.report.drop(other, e.attribute("name"));
+                }
             }
         }
         stack.extend(here.into_iter().rev());
@@ -137,6 +142,7 @@ fn site(
         .frames
         .entry(name.to_owned())
         .or_insert((w.link, place));
+    robot.shown.insert(w.link);
     robot.report.map("site");
     Ok(())
 }
@@ -188,11 +194,7 @@ fn body<'a>(
         (from, at) = (link, Motion::IDENTITY);
     }
     if joints.len() > 1 {
-        let what = format!(
-            "{} joints in series, through links without mass",
-            joints.len()
-        );
-        robot.report.approximate(&e.label(), what);
+        robot.report.map("body on joints in series");
     }
     Ok(from)
 }

@@ -115,15 +115,14 @@ fn included(
     let inner = document.read(&uri, text)?;
     old.push(is_old(document.element(inner)));
     let (e, found) = (document.element(id), document.element(inner));
-    let mut models = found.named("model");
-    let (Some(model), None) = (models.next(), models.next()) else {
+    let models: Vec<usize> = found.named("model").map(|m| m.id).collect();
+    let [model] = models[..] else {
         return Err(refuse(
             e,
             "the file has not one <model>",
             "name a file that has",
         ));
     };
-    let model = model.id;
     let own = |tag: &str| e.child(tag).map(|c| c.id);
     let (name, place, fixed) = (
         e.child("name").map(|n| n.text().to_owned()),

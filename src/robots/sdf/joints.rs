@@ -248,10 +248,8 @@ pub(crate) fn two_axes(
         [Motion::IDENTITY, part.sides[1]],
         JointType::Revolute,
     );
-    robot.report.approximate(
-        &e.label(),
-        "its axes are not perpendicular: two revolute joints through a link without mass",
-    );
+    // Axes that are not square: two hinges in series are the same.
+    robot.report.map("joint of two oblique axes");
     robot.joints.push(one.about(first).said_by(e));
     robot.joints.push(two.about(second).said_by(e));
     Ok(())

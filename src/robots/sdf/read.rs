@@ -210,6 +210,9 @@ fn model<'a>(
                 let to = relative.map_or_else(|| own.clone(), |r| absolute(scope, r));
                 insert(scene, name.clone(), placed(e, to, raw, name, Some(link)))?;
                 for c in e.children().filter(|c| c.name() != "pose") {
+                    if ["visual", "collision"].contains(&c.name()) {
+                        robot.shown.insert(link);
+                    }
                     robot.report.drop(c.name(), None);
                 }
                 if static_model {

@@ -31,8 +31,11 @@ pub(crate) fn read(
                 },
             ));
         }
-        robot.link(name, Motion::IDENTITY);
+        let l = robot.link(name, Motion::IDENTITY);
         for c in link.children() {
+            if ["visual", "collision"].contains(&c.name()) {
+                robot.shown.insert(l);
+            }
             robot.report.drop(c.name(), None);
         }
     }
