@@ -60,6 +60,7 @@ pub use score::variant::Variant;
 pub mod accuracy;
 mod api;
 pub mod builtin;
+pub mod catalog;
 pub mod chains;
 pub mod chart;
 #[cfg(feature = "cli")]
@@ -83,6 +84,7 @@ pub mod score;
 pub mod search;
 pub mod statics;
 mod svg;
+pub mod synthesis;
 pub mod terms;
 pub mod verify;
 pub mod view;

@@ -4,6 +4,8 @@
 //! network. What a script shows of ten thousand variants is stored as columns of numbers and one symbol for each option
 //! of each joint, not as ten thousand drawings. Names come from files, so they enter as escaped text or JSON only.
 
+#[cfg(feature = "cli")]
+pub mod catalogue;
 mod certainty;
 mod data;
 mod explorer;

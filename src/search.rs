@@ -18,6 +18,7 @@ pub mod counts;
 pub mod diagram;
 mod growth;
 pub mod held;
+pub mod ideas;
 pub mod lanes;
 pub mod listing;
 pub mod lookahead;

@@ -22,5 +22,7 @@ pub mod search_json;
 pub mod search_text;
 pub mod statics;
 pub mod stroke;
+#[cfg(feature = "cli")]
+pub mod structures;
 pub mod suggestions;
 pub mod variant_data;

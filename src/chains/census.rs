@@ -2,7 +2,7 @@
 
 use crate::chains::chain::Chain;
 use crate::chains::enumerate::{ChainsError, visit_chains};
-use crate::chains::layout_symmetry::{Symmetry, works};
+use crate::chains::layout_symmetry::{Input, Symmetry, working_swap};
 use crate::chains::roles::Subject;
 use std::ops::AddAssign;
 use std::sync::{Mutex, PoisonError};
@@ -87,8 +87,9 @@ impl Grippers {
             out.truss += u64::from(subject.is_truss(&roles));
             if subject.swaps(&roles).next().is_some() {
                 out.symmetric += 1;
-                out.mirror += u64::from(works(subject, &roles, Symmetry::Mirror));
-                out.half_turn += u64::from(works(subject, &roles, Symmetry::HalfTurn));
+                let works = |of| u64::from(working_swap(subject, &roles, of).is_ok());
+                out.mirror += works((Symmetry::Mirror, Input::Slide));
+                out.half_turn += works((Symmetry::HalfTurn, Input::Turn));
             }
         }
         out.three_jaws = subject.grippers(3).len() as u64;

@@ -1,4 +1,4 @@
-//! Whether a structure moves as a gripper when it is laid out symmetrically.
+//! Whether a structure moves as a gripper when it is laid out, symmetrically or not.
 //!
 //! A symmetric graph is not enough: with pins in places that mirror each other the motion is often another, or the drive is
 //! dead. Places are drawn at random in a prime field, so that a motion found missing may be missing by accident with a
@@ -9,20 +9,89 @@ use crate::linalg::echelon::relations;
 use crate::linalg::modp::{Field, Residue};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
+use thiserror::Error;
 
 /// How a structure lies on itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Symmetry {
+    /// Not at all: every pin where it likes.
+    Generic,
     /// Across a line, along which the driver slides.
     Mirror,
     /// By half a turn about a centre, about which the driver turns.
     HalfTurn,
 }
 
+impl Symmetry {
+    /// Every symmetry with its word.
+    pub const ALL: [(Symmetry, &'static str); 3] = [
+        (Symmetry::Generic, "generic"),
+        (Symmetry::Mirror, "mirror"),
+        (Symmetry::HalfTurn, "half-turn"),
+    ];
+
+    /// The word used for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        Symmetry::ALL[self as usize].1
+    }
+
+    /// Whether the input joint may move so: a mirror image needs a slide, half a turn a hinge.
+    #[must_use]
+    pub fn suits(self, input: Input) -> bool {
+        match self {
+            Symmetry::Generic => true,
+            Symmetry::Mirror => input == Input::Slide,
+            Symmetry::HalfTurn => input == Input::Turn,
+        }
+    }
+}
+
+/// How the driver moves in the frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Input {
+    /// It slides.
+    Slide,
+    /// It turns.
+    Turn,
+}
+
+impl Input {
+    /// Every input with its word.
+    pub const ALL: [(Input, &'static str); 2] = [(Input::Slide, "slide"), (Input::Turn, "turn")];
+
+    /// The word used for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        Input::ALL[self as usize].1
+    }
+}
+
+/// Why a structure is no gripper in nearly all places of a symmetry.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum NoGripper {
+    /// No automorphism of the chain keeps frame and driver and swaps the jaws.
+    #[error("nothing of the chain swaps the jaws")]
+    Unsymmetric,
+    /// More than one motion.
+    #[error("{0} motions where there should be one")]
+    Motions(usize),
+    /// The drive cannot move.
+    #[error("the drive cannot move")]
+    DeadDrive,
+    /// A jaw stands still.
+    #[error("a jaw stands still")]
+    DeadJaw,
+    /// The jaws move as one body.
+    #[error("the jaws do not move against each other")]
+    Together,
+}
+
 /// 2^61 - 1.
 const PRIME: u64 = (1 << 61) - 1;
 
-/// Pins in places that a symmetry carries to each other, by links.
+/// Pins in places that a symmetry carries to each other, by links; `swap` is the identity where there is none.
 fn pins(
     subject: &Subject<'_>,
     swap: &[usize],
@@ -41,6 +110,7 @@ fn pins(
         let mut draw = || field.from_i64((random.next_u64() >> 4).cast_signed());
         let (x, y) = (draw(), draw());
         let [own, far] = match symmetry {
+            Symmetry::Generic => [[x, y]; 2],
             Symmetry::Mirror if other == i => [[x, field.zero()]; 2],
             Symmetry::Mirror => [[x, y], [x, field.neg(y)]],
             Symmetry::HalfTurn if other == i => [[field.zero(); 2]; 2],
@@ -57,12 +127,12 @@ fn pins(
 /// A velocity of each link: its turning, and the velocity of its point at the origin.
 type Velocities = Vec<[Residue; 3]>;
 
-/// The motions with the frame at rest, hinges at the pins, the input a slide along the line where it is one.
+/// The motions with the frame at rest, hinges at the pins, the input a slide along x where it is one.
 fn motions(
     roles: &Roles,
     links: usize,
     pins: &[((usize, usize), [Residue; 2])],
-    symmetry: Symmetry,
+    slide: Input,
     field: Field,
 ) -> Vec<Velocities> {
     let (zero, one) = (field.zero(), field.one());
@@ -81,7 +151,7 @@ fn motions(
     }
     for &((u, v), [x, y]) in pins {
         let input = [(u, v), (v, u)].contains(&(roles.frame, roles.driver));
-        if input && symmetry == Symmetry::Mirror {
+        if input && slide == Input::Slide {
             row(&[(3 * roles.driver, one)]);
             row(&[(3 * roles.driver + 2, one)]);
             continue;
@@ -103,21 +173,62 @@ fn motions(
     relations(field, &columns).into_iter().map(links).collect()
 }
 
-/// Whether a gripper can be laid out so that it has one motion, in which the input moves, and the two jaws against each other.
+/// Whether a gripper laid out so that `swap` is its symmetry has one motion, in which the input moves, and the two jaws
+/// against each other.
+///
+/// # Errors
+/// What is wrong with it.
 ///
 /// # Complexity
-/// An elimination of 3n columns for each automorphism that swaps the jaws.
-#[must_use]
-pub fn works(subject: &Subject<'_>, roles: &Roles, symmetry: Symmetry) -> bool {
+/// An elimination of 3n columns.
+pub fn moves(
+    subject: &Subject<'_>,
+    roles: &Roles,
+    (symmetry, input): (Symmetry, Input),
+    swap: &[usize],
+) -> Result<(), NoGripper> {
     let field = Field::new(PRIME);
     let rest = [field.zero(); 3];
-    subject.swaps(roles).any(|swap| {
-        let pins = pins(subject, swap, symmetry, field);
-        let found = motions(roles, subject.chain.links(), &pins, symmetry, field);
-        let [motion] = &found[..] else {
-            return false;
-        };
-        let [a, b] = [roles.jaws[0], roles.jaws[1]].map(|l| motion[l]);
-        motion[roles.driver] != rest && a != rest && b != rest && a != b
-    })
+    let pins = pins(subject, swap, symmetry, field);
+    let found = motions(roles, subject.chain.links(), &pins, input, field);
+    let [motion] = &found[..] else {
+        return Err(NoGripper::Motions(found.len()));
+    };
+    let [a, b] = [roles.jaws[0], roles.jaws[1]].map(|l| motion[l]);
+    if motion[roles.driver] == rest {
+        Err(NoGripper::DeadDrive)
+    } else if a == rest || b == rest {
+        Err(NoGripper::DeadJaw)
+    } else if a == b {
+        Err(NoGripper::Together)
+    } else {
+        Ok(())
+    }
+}
+
+/// The automorphism by which a structure moves as a gripper: the first of those that swap the jaws, or the identity where no
+/// symmetry is asked for.
+///
+/// # Errors
+/// What is wrong with the last of them.
+///
+/// # Complexity
+/// As [`moves`] for each.
+pub fn working_swap(
+    subject: &Subject<'_>,
+    roles: &Roles,
+    of: (Symmetry, Input),
+) -> Result<Vec<usize>, NoGripper> {
+    let identity: Vec<usize> = (0..subject.chain.links()).collect();
+    if of.0 == Symmetry::Generic {
+        return moves(subject, roles, of, &identity).map(|()| identity);
+    }
+    let mut why = NoGripper::Unsymmetric;
+    for swap in subject.swaps(roles) {
+        match moves(subject, roles, of, swap) {
+            Ok(()) => return Ok(swap.clone()),
+            Err(e) => why = e,
+        }
+    }
+    Err(why)
 }

@@ -1,5 +1,8 @@
 //! `ozols catalog`.
 
+mod build;
+mod look;
+
 use super::args::Args;
 use super::progress::Bar;
 use super::{Done, output};
@@ -26,6 +29,18 @@ enum What {
     Count(Count),
     /// The chains, by the codes that name them.
     Chains(Chains),
+    /// Lay out, search and score every structure, into a database; carries on where it was ended.
+    Build(build::Build),
+    /// Put the parts of a catalogue together.
+    Merge(build::Merge),
+    /// Ask a catalogue in SQL, or for its best structures.
+    Query(look::Query),
+    /// What a catalogue knows of a structure.
+    Show(look::Show),
+    /// A structure as a mechanism file, or one of its ideas carried out.
+    Export(look::Export),
+    /// A catalogue as one page to look at.
+    Page(look::Page),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -110,6 +125,12 @@ pub(super) fn run(args: &Args, a: &Catalog) -> anyhow::Result<Done> {
     match &a.what {
         What::Count(count) => self::count(args, count),
         What::Chains(chains) => list(chains),
+        What::Build(b) => build::run(args, b),
+        What::Merge(m) => build::merge(m),
+        What::Query(q) => look::query(q),
+        What::Show(s) => look::show(s),
+        What::Export(e) => look::export(e),
+        What::Page(p) => look::page(p),
     }
 }
 

@@ -73,6 +73,9 @@ pub(super) struct Which {
     /// Of a variant and its mirror image, only one.
     #[arg(long, conflicts_with = "symmetric")]
     one_per_orbit: bool,
+    /// Of the variants that give the same freedoms to the same joints in series, only the first.
+    #[arg(long)]
+    distinct: bool,
     /// Search a file whose coordinates are rounded exactly as it is written, though something else is meant.
     #[arg(long)]
     as_written: bool,
@@ -163,6 +166,7 @@ impl Which {
                 .map(|w| term(w))
                 .collect::<Result<_, _>>()?,
             pool: self.pool,
+            distinct: self.distinct,
             ..Request::default()
         })
     }

@@ -38,10 +38,10 @@ pub(super) struct Search {
     #[arg(long, value_name = "K", default_value_t = 10)]
     top: usize,
     /// Give every admissible variant, cheapest first.
-    #[arg(long, conflicts_with_all = ["top", "sample", "count", "rank"])]
+    #[arg(long, conflicts_with_all = ["top", "sample", "count", "rank", "distinct"])]
     all: bool,
     /// Give N admissible variants drawn at random, each with the same chance, instead of the best.
-    #[arg(long, value_name = "N", conflicts_with_all = ["top", "count", "rank"])]
+    #[arg(long, value_name = "N", conflicts_with_all = ["top", "count", "rank", "distinct"])]
     sample: Option<usize>,
     /// Counts only.
     #[arg(long, conflicts_with = "rank")]

@@ -126,6 +126,8 @@ pub struct Request {
     pub pool: usize,
     /// Which variants are given.
     pub list: List,
+    /// Whether of the variants that give the same freedoms to the same joints in series only the first is given.
+    pub distinct: bool,
     /// How the search is checked.
     pub check: Check,
     /// How variants are counted.
@@ -162,6 +164,7 @@ impl Default for Request {
             rank: Vec::new(),
             pool: POOL,
             list: List::Top(10),
+            distinct: false,
             check: Check::Full,
             method: Method::Diagram,
             poses: 0,

@@ -11,6 +11,7 @@ use crate::score::terms::Scores;
 use crate::search::best::Assignment;
 use crate::search::certify::{Certified, Second};
 use crate::search::conditions::Search;
+use crate::search::ideas::Idea;
 use crate::search::over_stroke::OverStroke;
 use crate::search::space::choice_name;
 use itertools::Itertools;
@@ -33,6 +34,7 @@ pub struct Variant<'o> {
     pub(super) outcome: &'o Outcome,
     pub(super) position: usize,
     pub(super) certified: Certified,
+    pub(super) idea: Option<Idea>,
     /// Place in the ranking, from 0.
     pub(super) place: Option<usize>,
 }
@@ -54,6 +56,12 @@ impl<'o> Variant<'o> {
     #[must_use]
     pub fn assignment(&self) -> &Assignment {
         &self.certified.variant
+    }
+
+    /// What it stands for, where only the first variant of each idea is given.
+    #[must_use]
+    pub fn idea(&self) -> Option<&Idea> {
+        self.idea.as_ref()
     }
 
     /// Its cost above the present mechanism's, in thousandths.

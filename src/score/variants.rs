@@ -8,6 +8,7 @@ use crate::search::best::Assignment;
 use crate::search::certify::{CHECKED, Certified, Summary};
 use crate::search::conditions::Symmetry;
 use crate::search::diagram::Stop;
+use crate::search::ideas::Idea;
 use crate::search::over_stroke::Stroke;
 use itertools::Itertools;
 use num_traits::Zero;
@@ -30,9 +31,30 @@ impl Outcome {
             List::All | List::Sample(_) => usize::MAX / 4,
             List::Nothing => 0,
         };
+        let mut ideas = Vec::new();
         let unranked = |v: Assignment| (v, None);
         let source: Box<dyn Iterator<Item = (Assignment, Option<usize>)>> =
             match (&self.diagrams, &self.ranking, request.list) {
+                (Some(d), ranking, List::Top(k)) if request.distinct => {
+                    let found = match ranking {
+                        Some(r) => {
+                            let list = r.list.iter().map(|r| &r.variant);
+                            let first = self.search.first_of_each(list, d).into_iter();
+                            first
+                                .map(|(at, idea)| (Some(at), idea))
+                                .take(k)
+                                .collect_vec()
+                        }
+                        None => {
+                            let all = self.search.ideas(d, k).into_iter();
+                            all.map(|idea| (None, idea)).collect_vec()
+                        }
+                    };
+                    let (places, found): (Vec<_>, Vec<_>) = found.into_iter().unzip();
+                    ideas = found;
+                    let firsts = ideas.iter().map(|i| i.first.clone()).collect_vec();
+                    Box::new(firsts.into_iter().zip(places))
+                }
                 (None, ..) | (.., List::Nothing) => Box::new(std::iter::empty()),
                 (Some(d), _, List::Sample(n)) => {
                     let drawn = self.search.sample(d, request.seed);
@@ -59,6 +81,7 @@ impl Outcome {
             opinions: request.check == Check::Full,
             stroke: self.stroke.as_ref(),
             ready: Vec::new().into_iter(),
+            ideas,
             room: wanted,
             summary: Summary::default(),
             interrupted: false,
@@ -79,6 +102,8 @@ pub struct Variants<'o> {
     stroke: Option<&'o Stroke>,
     /// Looked at, and not given yet.
     ready: std::vec::IntoIter<(Certified, Option<usize>)>,
+    /// What each stands for, where only the first of each idea is given.
+    ideas: Vec<Idea>,
     /// How many more may be given.
     room: usize,
     summary: Summary,
@@ -136,7 +161,13 @@ impl Variants<'_> {
         // Brute force gives none, and orbits of a list cut short are not counted one by one.
         let counted =
             o.diagrams.is_some() && (o.is_exact() || o.request.symmetry != Symmetry::OnePerOrbit);
-        counted && !o.request.generic_only && due > given.into()
+        let some = o.request.generic_only || o.request.distinct;
+        counted && !some && due > given.into()
+    }
+
+    /// What a variant stands for, where only the first of each idea is given.
+    fn idea(&self, of: &Certified) -> Option<Idea> {
+        self.ideas.iter().find(|i| i.first == of.variant).cloned()
     }
 
     /// The next with its opinions: variants are gathered first, so that they are analysed in parallel.
@@ -189,6 +220,7 @@ impl<'o> Iterator for Variants<'o> {
             return Some(Variant {
                 outcome: self.outcome,
                 position: self.summary.given,
+                idea: self.idea(&certified),
                 certified,
                 place,
             });

@@ -9,6 +9,7 @@ use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigUint;
 use num_traits::Zero;
+use std::fmt;
 
 /// A variant found on a diagram.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,7 +25,6 @@ pub struct Assignment {
 /// # Complexity
 /// Some passes over the part of the diagram that variants of that cost use, then O(variables · choices) table look-ups
 /// a variant; memory is the tables, however many are asked for.
-#[derive(Debug)]
 pub struct Cheapest<'d, C> {
     diagram: &'d Diagram,
     steps: &'d Steps,
@@ -38,10 +38,25 @@ pub struct Cheapest<'d, C> {
     choices: Vec<usize>,
     /// How many may still be given.
     left: usize,
+    enter: Enter<'d>,
+}
+
+/// Told layer, node, what is left of the key there and the choices so far; says whether to look at what follows.
+pub type Enter<'d> = Box<dyn FnMut(usize, usize, Key, &[usize]) -> bool + 'd>;
+
+impl<C: Count> fmt::Debug for Cheapest<'_, C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Cheapest")
+            .field("key", &self.key)
+            .field("path", &self.path)
+            .field("left", &self.left)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<'d, C: Count> Cheapest<'d, C> {
-    /// The first `top` variants whose key passes `wanted`; those of equal cost in the order of `rank`.
+    /// The first `top` variants whose key passes `wanted`; those of equal cost in the order of `rank`. Of those that begin
+    /// alike none is given where `enter` refuses the beginning.
     pub fn new<R: Ord>(
         diagram: &'d Diagram,
         steps: &'d Steps,
@@ -49,6 +64,7 @@ impl<'d, C: Count> Cheapest<'d, C> {
         wanted: impl Fn(Key) -> bool,
         rank: impl Fn(Key) -> R,
         bytes: usize,
+        enter: Enter<'d>,
     ) -> Self {
         let (tally, mut keys) = enough(diagram, steps, top, wanted, bytes);
         keys.sort_by_key(|&k| (k.cost(), rank(k), k));
@@ -61,6 +77,7 @@ impl<'d, C: Count> Cheapest<'d, C> {
             path: Vec::new(),
             choices: vec![0; steps.keys.len()],
             left: top,
+            enter,
         }
     }
 }
@@ -103,7 +120,9 @@ impl<C: Count> Iterator for Cheapest<'_, C> {
             };
             if to != DEAD && leads(to) {
                 self.choices[here.variable] = tried;
-                self.path.push((to as usize, rest, 0));
+                if (self.enter)(depth, to as usize, rest, &self.choices) {
+                    self.path.push((to as usize, rest, 0));
+                }
             }
         }
     }

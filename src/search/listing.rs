@@ -1,6 +1,6 @@
 //! The admissible variants of a finished diagram: the cheapest in order, or some at random.
 
-use crate::search::best::{Assignment, Cheapest, Sample};
+use crate::search::best::{Assignment, Cheapest, Enter, Sample};
 use crate::search::building::Diagrams;
 use crate::search::conditions::{Search, Symmetry};
 use crate::search::diagram::Diagram;
@@ -29,6 +29,16 @@ impl Search {
         diagram: &'a Diagram,
         top: usize,
     ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+        self.distinct(diagram, top, Box::new(|_, _, _, _| true))
+    }
+
+    /// The admissible variants of a diagram in order, but for those whose beginnings `enter` refuses.
+    pub(super) fn distinct<'a>(
+        &'a self,
+        diagram: &'a Diagram,
+        top: usize,
+        enter: Enter<'a>,
+    ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
         let rank = |k: Key| (self.mobility(k), k.changes());
         let wanted = |k: Key| self.wanted(k);
         if self.fits() {
@@ -39,6 +49,7 @@ impl Search {
                 wanted,
                 rank,
                 self.conditions.memory / 4,
+                enter,
             ))
         } else {
             Box::new(Cheapest::<BigUint>::new(
@@ -48,6 +59,7 @@ impl Search {
                 wanted,
                 rank,
                 self.conditions.memory / 4,
+                enter,
             ))
         }
     }

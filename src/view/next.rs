@@ -89,6 +89,7 @@ pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
         ("allow-loose-object", r.allow_loose_object),
         ("symmetric", r.symmetry == Symmetry::SymmetricOnly),
         ("one-per-orbit", r.symmetry == Symmetry::OnePerOrbit),
+        ("distinct", r.distinct),
         ("as-written", r.as_written),
     ];
     valued

@@ -43,6 +43,9 @@ pub fn write(
     let what = match &outcome.ranking {
         Some(p) => ranking::head(p),
         None if sample => "drawn at random".to_owned(),
+        None if outcome.request.distinct => {
+            "cheapest first, of the variants that give the same freedoms to the same joints in series the first".to_owned()
+        }
         None => "cheapest first".to_owned(),
     };
     let mut footnotes = Vec::new();
@@ -191,6 +194,7 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
 fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u16>) -> String {
     let ranking = outcome.ranking.as_ref();
     let checked = best.iter().any(|v| *v.second() != Second::Unasked);
+    let big = |n: &BigUint| grouped(&n.to_string());
     let rows = best.iter().map(|v| {
         let sigma = match v.external_redundant() {
             Some(external) => format!("{} + {external}", v.redundant()),
@@ -211,6 +215,7 @@ fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u16>) -> Stri
             let cells = v.ranked().map(|r| ranking::cells(p, r));
             row.extend(cells.unwrap_or_default());
         }
+        row.extend(v.idea().map(|i| big(&i.variants)));
         row.push(in_words(&outcome.search, &v.changes()));
         row
     });
@@ -218,6 +223,7 @@ fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u16>) -> Stri
     head.extend(outcome.search.conditions.state.map(|_| "harmful"));
     head.extend(checked.then_some("cond."));
     head.extend(ranking.into_iter().flat_map(ranking::columns));
+    head.extend(outcome.request.distinct.then_some("stands for"));
     head.push("changes");
     table(&head, rows.collect(), width)
 }

@@ -3,6 +3,7 @@
 use crate::score::outcome::Outcome;
 use crate::score::variant::Variant;
 use crate::search::certify::Opinion;
+use crate::search::ideas;
 use crate::search::over_stroke::OverStroke;
 use crate::view::ranking::RankedData;
 use serde::Serialize;
@@ -18,6 +19,8 @@ pub struct VariantData<'a> {
     external_harmful: Option<u32>,
     per_contour: Vec<ContourData>,
     changes: Vec<ChangeData<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    idea: Option<IdeaData>,
     scores: ScoresData<'a>,
     conditioning: Option<f64>,
     agree: Option<bool>,
@@ -54,6 +57,15 @@ struct ChangeData<'a> {
 enum ScoresData<'a> {
     Ranked(Box<RankedData<'a>>),
     Unranked {},
+}
+
+/// What the first variant of an idea stands for.
+#[derive(Debug, Serialize)]
+struct IdeaData {
+    /// A number of any size, as text.
+    variants: String,
+    /// What all of them add, in words.
+    adds: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -117,6 +129,10 @@ impl<'a> VariantData<'a> {
                     to: c.to,
                 })
                 .collect(),
+            idea: v.idea().map(|i| IdeaData {
+                variants: i.variants.to_string(),
+                adds: ideas::in_words(mechanism, &i.added),
+            }),
             scores: v.ranked().map_or(ScoresData::Unranked {}, |r| {
                 ScoresData::Ranked(Box::new(RankedData::new(mechanism, r, v.reason())))
             }),

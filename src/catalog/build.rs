@@ -1,0 +1,116 @@
+//! Every structure of a specification, in parallel, each given when it is done.
+
+use crate::catalog::row::{Row, RowError, row};
+use crate::catalog::spec::Spec;
+use crate::chains::chain::Chain;
+use crate::chains::enumerate::{ChainsError, chains};
+use crate::chains::roles::Subject;
+use crate::synthesis::structure::{Structure, structures};
+use rayon::prelude::*;
+use sha2::{Digest, Sha256};
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+use thiserror::Error;
+
+/// A part of a catalogue, by a hash of the structures' names: part `index` of `of`, from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// Which.
+    pub index: u64,
+    /// Of how many.
+    pub of: u64,
+}
+
+impl Shard {
+    /// The whole.
+    pub const WHOLE: Shard = Shard { index: 0, of: 1 };
+
+    fn has(self, structure: &Structure) -> bool {
+        let digest = Sha256::digest(structure.name());
+        let mut first = [0; 8];
+        first.copy_from_slice(&digest[8..16]);
+        u64::from_be_bytes(first) % self.of.max(1) == self.index
+    }
+}
+
+/// Why a catalogue cannot be built.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum BuildError {
+    /// Chains that are not listed.
+    #[error(transparent)]
+    Chains(#[from] ChainsError),
+    /// A row failed.
+    #[error(transparent)]
+    Row(#[from] RowError),
+}
+
+/// A chain with its automorphisms and the structures that are asked of it.
+#[derive(Debug)]
+pub struct Work {
+    chain: Chain,
+    automorphisms: Vec<Vec<usize>>,
+    /// The structures.
+    pub structures: Vec<Structure>,
+}
+
+/// The structures of a part of a specification, by chains, in the order of their codes.
+///
+/// # Errors
+/// Where the specification is wrong.
+pub fn work(spec: &Spec, shard: Shard) -> Result<Vec<Work>, BuildError> {
+    let forms = spec.forms().map_err(RowError::from)?;
+    let mut out = Vec::new();
+    for n in spec.links().map_err(RowError::from)?.filter(|n| n % 2 == 0) {
+        let all = chains(n, 1)?;
+        out.par_extend(all.into_par_iter().map(|chain| {
+            let (chain, automorphisms) = chain.canonical();
+            let subject = Subject::new(&chain, &automorphisms);
+            let mut structures = structures(&subject, &forms);
+            structures.retain(|s| shard.has(s));
+            Work {
+                structures,
+                automorphisms,
+                chain,
+            }
+        }));
+    }
+    Ok(out)
+}
+
+/// Makes the rows of all structures but those that `skip` knows, in parallel, and gives each to `done` when it is ready,
+/// one at a time. Which comes first depends on the threads; what is in a row does not. Ends early where `done` breaks.
+///
+/// # Errors
+/// The first failure.
+pub fn build<B: Send>(
+    spec: &Spec,
+    work: &[Work],
+    skip: impl Fn(&Structure) -> bool + Sync,
+    done: impl FnMut(Row) -> ControlFlow<B> + Send,
+) -> Result<Option<B>, BuildError> {
+    let done = Mutex::new(done);
+    let all = work.par_iter().flat_map(|w| {
+        let each = w.structures.par_iter();
+        each.map(move |s| (w, s))
+    });
+    let ended = all.try_for_each(|(w, structure)| {
+        if skip(structure) {
+            return Ok(());
+        }
+        let subject = Subject::new(&w.chain, &w.automorphisms);
+        let row = row(&subject, structure, spec).map_err(|e| Some(Err(BuildError::Row(e))))?;
+        let Ok(mut done) = done.lock() else {
+            return Err(None);
+        };
+        match done(row) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(b) => Err(Some(Ok(b))),
+        }
+    });
+    match ended {
+        Ok(()) | Err(None) => Ok(None),
+        Err(Some(Ok(b))) => Ok(Some(b)),
+        Err(Some(Err(e))) => Err(e),
+    }
+}

@@ -1,0 +1,219 @@
+//! One structure of a catalogue: where its links are, what it does, and how it is made determinate.
+
+use crate::catalog::spec::{Spec, SpecError};
+use crate::chains::graph6;
+use crate::chains::roles::Subject;
+use crate::file::read::build;
+use crate::file::schema::MechanismFile;
+use crate::file::write;
+use crate::geom::exact::ExactError;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::ranking::ClearanceSum;
+use crate::rank::finite::Finite;
+use crate::redundancy::analysis::{AnalysisError, Method, analyse};
+use crate::score::elimination::Scratch;
+use crate::score::evaluate::Evaluator;
+use crate::score::request::{Check, List, Request};
+use crate::score::run::{RunError, run};
+use crate::score::terms::Scores;
+use crate::score::variant::{changes, in_words};
+use crate::search::ideas;
+use crate::synthesis::figures::{Figures, figures};
+use crate::synthesis::layout::{Layout, NoLayout, layout};
+use crate::synthesis::mechanism::mechanism_file;
+use crate::synthesis::structure::Structure;
+use itertools::Itertools;
+use num_bigint::BigUint;
+use std::collections::BTreeMap;
+use thiserror::Error;
+
+/// A structure of a catalogue.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// The structure.
+    pub structure: Structure,
+    /// How many of the jaws are joined to the frame.
+    pub jaws_at_frame: usize,
+    /// Whether it makes a truss with a part hinged to both jaws.
+    pub truss: bool,
+    /// Whether its graph is symmetric, jaw for jaw.
+    pub graph_symmetric: bool,
+    /// What it is when laid out, or why it is not.
+    pub laid: Result<Laid, NoLayout>,
+}
+
+/// A structure laid out, searched and scored.
+#[derive(Debug, Clone)]
+pub struct Laid {
+    /// Where it is.
+    pub layout: Layout,
+    /// What it does over its stroke.
+    pub figures: Figures,
+    /// The mechanism as a file in TOML.
+    pub file: String,
+    /// W and σ as built, all joints hinges.
+    pub as_built: (usize, usize),
+    /// The mobility that is really there, and how that is known.
+    pub finite: Finite,
+    /// Determinate variants by W and number of changes.
+    pub counts: BTreeMap<(i64, u32), BigUint>,
+    /// Whether every count is exact; lower bounds otherwise, where the node budget ended the search.
+    pub exact: bool,
+    /// The best ideas with W = 1, cheapest first.
+    pub ideas: Vec<IdeaRow>,
+}
+
+/// An idea of a catalogue.
+#[derive(Debug, Clone)]
+pub struct IdeaRow {
+    /// What it adds, in words.
+    pub adds: String,
+    /// Its first variant in words.
+    pub changes: String,
+    /// Of each joint in the order of the file, the option of its first variant, 0 for the present one.
+    pub choices: Vec<usize>,
+    /// Cost above the mechanism's, in thousandths.
+    pub cost_milli: i64,
+    /// Changed joints.
+    pub change_count: u32,
+    /// How many variants it stands for.
+    pub variants: BigUint,
+    /// Scores of its first variant under the closing force; `None` where the reactions have no solution.
+    pub scores: Option<Scores>,
+}
+
+/// Why there is no row, through no fault of the structure.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RowError {
+    /// The specification is wrong.
+    #[error(transparent)]
+    Spec(#[from] SpecError),
+    /// A coordinate has no value.
+    #[error(transparent)]
+    Exact(#[from] ExactError),
+    /// The mechanism cannot be analysed.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
+    /// The mechanism cannot be searched.
+    #[error(transparent)]
+    Search(#[from] RunError),
+    /// The file of the layout is refused: a fault of the program.
+    #[error("{structure}: its own file is refused: {why}")]
+    File {
+        /// The structure.
+        structure: String,
+        /// Why.
+        why: String,
+    },
+}
+
+/// The search that a catalogue makes of each mechanism.
+#[must_use]
+pub fn request(spec: &Spec) -> Request {
+    Request {
+        max_mobility: Some(1),
+        list: List::Top(spec.ideas.max(1)),
+        check: Check::Prime,
+        nodes: spec.nodes,
+        ..Request::default()
+    }
+}
+
+/// The row of a structure.
+///
+/// # Errors
+/// Where the program fails; that a structure has no layout is a row, too.
+///
+/// # Complexity
+/// A search for places, and one of the variants.
+pub fn row(subject: &Subject<'_>, structure: &Structure, spec: &Spec) -> Result<Row, RowError> {
+    let laid = match layout(subject, structure, &spec.limits(), spec.seed) {
+        Ok(layout) => lay(structure, layout, spec)?,
+        Err(why) => Err(why),
+    };
+    Ok(Row {
+        jaws_at_frame: subject.jaws_at_frame(&structure.roles),
+        truss: subject.is_truss(&structure.roles),
+        graph_symmetric: subject.swaps(&structure.roles).next().is_some(),
+        structure: structure.clone(),
+        laid,
+    })
+}
+
+/// The mechanism of a file that the program made.
+fn mechanism(structure: &Structure, file: &MechanismFile) -> Result<Mechanism, RowError> {
+    build(file).map_err(|found| RowError::File {
+        structure: structure.name(),
+        why: found.iter().map(|(_, kind)| kind.to_string()).join("; "),
+    })
+}
+
+fn lay(
+    structure: &Structure,
+    layout: Layout,
+    spec: &Spec,
+) -> Result<Result<Laid, NoLayout>, RowError> {
+    let file = mechanism_file(structure, &layout, &spec.options()?);
+    let built = mechanism(structure, &file)?;
+    let figures = figures(structure, &layout, &built)?;
+    let method = Method::Auto { tolerance: None };
+    let as_built = analyse(&built, &[StateId::FREE], method)?.swap_remove(0);
+    if !as_built.finite.is_proven() || as_built.finite.figure() != "1" {
+        return Ok(Err(NoLayout::NotRegular));
+    }
+    let outcome = run(built, &request(spec), &|| false, &mut |_| {})?;
+    let ideas = match &outcome.diagrams {
+        Some(d) if spec.ideas > 0 => outcome.search.ideas(d, spec.ideas),
+        _ => Vec::new(),
+    };
+    let search = &outcome.search;
+    let evaluator = Evaluator::in_states(search, ClearanceSum::Worst, &[]).ok();
+    let mut scratch = Scratch::default();
+    let ideas = ideas.into_iter().map(|idea| IdeaRow {
+        adds: ideas::in_words(&search.mechanism, &idea.added),
+        changes: in_words(search, &changes(search, &idea.first)),
+        cost_milli: search.steps.milli(idea.first.key.cost()),
+        change_count: idea.first.key.changes(),
+        scores: evaluator
+            .as_ref()
+            .and_then(|e| e.scores(&idea.first, &mut scratch).ok()),
+        variants: idea.variants,
+        choices: idea.first.choices,
+    });
+    let ideas = ideas.collect();
+    let text = write::toml(&file, &[]).map_err(|e| RowError::File {
+        structure: structure.name(),
+        why: e.to_string(),
+    })?;
+    Ok(Ok(Laid {
+        layout,
+        figures,
+        file: text,
+        as_built: (as_built.mobility, as_built.redundant),
+        finite: as_built.finite,
+        counts: outcome.determinate.by_mobility_and_changes.clone(),
+        exact: outcome.is_exact(),
+        ideas,
+    }))
+}
+
+impl Row {
+    /// The code of its chain.
+    #[must_use]
+    pub fn chain(&self) -> String {
+        graph6::write(&self.structure.chain)
+    }
+}
+
+impl Laid {
+    /// Determinate variants of mobility `w`, or of any where there is none.
+    #[must_use]
+    pub fn determinate(&self, w: Option<i64>) -> BigUint {
+        let some = self
+            .counts
+            .iter()
+            .filter(|((m, _), _)| w.is_none_or(|w| w == *m));
+        some.map(|(_, n)| n).sum()
+    }
+}

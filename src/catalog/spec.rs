@@ -1,0 +1,244 @@
+//! What a catalogue is to hold.
+
+use crate::chains::layout_symmetry::{Input, Symmetry};
+use crate::file::schema::{OptionEntry, OptionTable};
+use crate::synthesis::looks::Limits;
+use crate::synthesis::structure::Form;
+use itertools::Itertools;
+use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
+use thiserror::Error;
+
+/// Most links of a structure: with more there are millions of structures.
+pub const MOST_LINKS: usize = 12;
+
+/// What a catalogue is to hold; the file of it, TOML, has the same keys.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Spec {
+    /// Links from and to, both included: "4..8".
+    pub links: String,
+    /// Inputs: "slide", "turn".
+    pub inputs: Vec<String>,
+    /// Symmetries: "generic", "mirror", "half-turn".
+    pub symmetries: Vec<String>,
+    /// Whether layouts with the jaws on parallelograms are made too: "with", "without" or "only".
+    pub parallel: String,
+    /// What may be put in place of a hinge, by name.
+    pub options: Vec<String>,
+    /// Ideas kept of each structure.
+    pub ideas: usize,
+    /// Seed of the layouts.
+    pub seed: u64,
+    /// The longest link over the shortest at most.
+    pub ratio: f64,
+    /// The least transmission angle, in degrees.
+    pub transmission: f64,
+    /// Crossings of links at most.
+    pub crossings: usize,
+    /// Nodes of each diagram at most.
+    pub nodes: usize,
+}
+
+impl Default for Spec {
+    fn default() -> Self {
+        let words = |w: &[&str]| w.iter().map(|&s| s.to_owned()).collect();
+        let limits = Limits::default();
+        Spec {
+            links: "4..6".to_owned(),
+            inputs: words(&["slide", "turn"]),
+            symmetries: words(&["generic", "mirror", "half-turn"]),
+            parallel: "with".to_owned(),
+            options: words(&[
+                "cylindrical",
+                "universal",
+                "universal-y",
+                "spherical",
+                "sphere-in-cylinder",
+            ]),
+            ideas: 10,
+            seed: 1,
+            ratio: limits.ratio,
+            transmission: limits.transmission,
+            crossings: limits.crossings,
+            nodes: 1_000_000,
+        }
+    }
+}
+
+/// What is wrong with a specification.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum SpecError {
+    /// A word that means nothing here.
+    #[error("{what}: {word:?} is none of {}", known.join(", "))]
+    Word {
+        /// The key.
+        what: &'static str,
+        /// The word.
+        word: String,
+        /// The words there are.
+        known: Vec<String>,
+    },
+    /// Links that are no range.
+    #[error(
+        "links: {0:?} is no range of even numbers from 4 to {MOST_LINKS}, such as 4..8: chains of mobility 1 have an even number of links"
+    )]
+    Links(String),
+    /// A number out of its range.
+    #[error("{what} must be from {from} to {to}")]
+    Range {
+        /// The key.
+        what: &'static str,
+        /// The least.
+        from: u64,
+        /// The greatest.
+        to: u64,
+    },
+    /// No form is left.
+    #[error("no layout is asked for: a mirror image needs a slide, half a turn a turning input")]
+    Nothing,
+}
+
+fn word<T: Copy>(
+    what: &'static str,
+    word: &str,
+    all: &[(T, &'static str)],
+) -> Result<T, SpecError> {
+    let found = all.iter().find(|(_, w)| *w == word);
+    found.map(|(t, _)| *t).ok_or_else(|| SpecError::Word {
+        what,
+        word: word.to_owned(),
+        known: all.iter().map(|(_, w)| (*w).to_owned()).collect(),
+    })
+}
+
+/// Options that a hinge may be replaced by.
+const OPTIONS: [&str; 8] = [
+    "cylindrical",
+    "universal",
+    "universal-y",
+    "spherical",
+    "sphere-in-cylinder",
+    "cylindrical-universal",
+    "planar",
+    "slotted",
+];
+
+impl Spec {
+    /// The numbers of links.
+    ///
+    /// # Errors
+    /// Where they are no range that is known.
+    pub fn links(&self) -> Result<RangeInclusive<usize>, SpecError> {
+        let wrong = || SpecError::Links(self.links.clone());
+        let (from, to) = self
+            .links
+            .split_once("..")
+            .unwrap_or((&self.links, &self.links));
+        let to = to.strip_prefix('=').unwrap_or(to);
+        let number = |t: &str| t.trim().parse::<usize>().map_err(|_| wrong());
+        let (from, to) = (number(from)?, number(to)?);
+        let some = from <= to && from >= 4 && to <= MOST_LINKS && (from..=to).any(|n| n % 2 == 0);
+        some.then_some(from..=to).ok_or_else(wrong)
+    }
+
+    /// The forms that structures are laid out in.
+    ///
+    /// # Errors
+    /// Where a word means nothing, or no form is left.
+    pub fn forms(&self) -> Result<Vec<Form>, SpecError> {
+        let inputs: Vec<Input> = self
+            .inputs
+            .iter()
+            .map(|w| word("inputs", w, &Input::ALL))
+            .try_collect()?;
+        let symmetries: Vec<Symmetry> = self
+            .symmetries
+            .iter()
+            .map(|w| word("symmetries", w, &Symmetry::ALL))
+            .try_collect()?;
+        let words = [
+            (None, "with"),
+            (Some(false), "without"),
+            (Some(true), "only"),
+        ];
+        let parallel: Option<bool> = word("parallel", &self.parallel, &words)?;
+        let asked = |f: &Form| {
+            inputs.contains(&f.input)
+                && symmetries.contains(&f.symmetry)
+                && parallel.is_none_or(|p| p == f.parallel)
+        };
+        let forms: Vec<Form> = Form::all().filter(asked).collect();
+        (!forms.is_empty())
+            .then_some(forms)
+            .ok_or(SpecError::Nothing)
+    }
+
+    /// What may be put in place of a hinge, the hinge first.
+    ///
+    /// # Errors
+    /// Where a name is none.
+    pub fn options(&self) -> Result<Vec<OptionEntry>, SpecError> {
+        let known = OPTIONS.map(|o| (o, o));
+        let mut out = vec![OptionEntry::Word("revolute".to_owned())];
+        for name in self.options.iter().filter(|n| *n != "revolute").unique() {
+            out.push(match word("options", name, &known)? {
+                "universal-y" => OptionEntry::Table(Box::new(OptionTable {
+                    kind: Some("universal".to_owned()),
+                    reference: Some([0, 1, 0].map(crate::file::schema::Coordinate::Integer)),
+                    name: Some("universal-y".to_owned()),
+                    ..OptionTable::default()
+                })),
+                plain => OptionEntry::Word(plain.to_owned()),
+            });
+        }
+        Ok(out)
+    }
+
+    /// What a layout must be like.
+    #[must_use]
+    pub fn limits(&self) -> Limits {
+        Limits {
+            ratio: self.ratio,
+            transmission: self.transmission,
+            crossings: self.crossings,
+        }
+    }
+
+    /// Whether all of it can be done.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn check(&self) -> Result<(), SpecError> {
+        let range = |what, n: usize, from: u64, to: u64| {
+            let n = u64::try_from(n).unwrap_or(u64::MAX);
+            let ok = (from..=to).contains(&n);
+            ok.then_some(()).ok_or(SpecError::Range { what, from, to })
+        };
+        range("ideas", self.ideas, 0, 1000)?;
+        range("nodes", self.nodes, 1, 100_000_000)?;
+        let positive = |what, x: f64, to: u64| {
+            #[allow(clippy::cast_precision_loss, reason = "small")]
+            let ok = x >= 0.0 && x <= to as f64;
+            ok.then_some(())
+                .ok_or(SpecError::Range { what, from: 0, to })
+        };
+        positive("ratio", self.ratio, 1000)?;
+        positive("transmission", self.transmission, 90)?;
+        self.links()?;
+        self.forms()?;
+        self.options().map(|_| ())
+    }
+
+    /// The specification as TOML: the same for the same catalogue, whatever the order of its words.
+    #[must_use]
+    pub fn canonical(&self) -> String {
+        let mut same = self.clone();
+        for list in [&mut same.inputs, &mut same.symmetries, &mut same.options] {
+            list.sort();
+            list.dedup();
+        }
+        toml::to_string(&same).unwrap_or_default()
+    }
+}

@@ -1,0 +1,74 @@
+CREATE TABLE meta (
+  key TEXT PRIMARY KEY,            -- spec: what the catalogue holds, as TOML; ozols: the version that made it
+  value TEXT NOT NULL
+) WITHOUT ROWID;
+CREATE TABLE structures (
+  id TEXT PRIMARY KEY,             -- short name: number of links, and the beginning of the SHA-256 of the whole name
+  name TEXT NOT NULL UNIQUE,       -- whole name: chain, frame-driver, jaws, input, symmetry
+  chain TEXT NOT NULL,             -- graph6 of the canonical numbering
+  links INTEGER NOT NULL,
+  joints INTEGER NOT NULL,
+  frame INTEGER NOT NULL,          -- links by their canonical numbers
+  driver INTEGER NOT NULL,
+  jaw_a INTEGER NOT NULL,
+  jaw_b INTEGER NOT NULL,
+  input TEXT NOT NULL,             -- slide, turn
+  symmetry TEXT NOT NULL,          -- generic, mirror, half-turn
+  parallel INTEGER NOT NULL,       -- 1: each jaw stands on a parallelogram
+  jaws_at_frame INTEGER NOT NULL,  -- how many jaws are joined to the frame
+  truss INTEGER NOT NULL,          -- 1: a truss with a part hinged to both jaws, and nothing less is
+  graph_symmetric INTEGER NOT NULL,
+  no_layout TEXT                   -- why it has no layout; NULL where it has one
+) WITHOUT ROWID;
+CREATE TABLE layouts (
+  structure TEXT PRIMARY KEY REFERENCES structures(id),
+  mechanism TEXT NOT NULL,         -- the mechanism file, TOML
+  start INTEGER NOT NULL,          -- the start of the search for places it was found from
+  crossings INTEGER NOT NULL,      -- of links, and pins on links they are no part of
+  link_ratio REAL NOT NULL,        -- longest link over shortest
+  transmission REAL NOT NULL,      -- worst transmission angle of a rod, degrees
+  area REAL NOT NULL,              -- of the box round pins and tips, mm2
+  opening_min REAL NOT NULL,       -- of the stroke followed, mm
+  opening_max REAL NOT NULL,
+  travel REAL NOT NULL,            -- of the drive between them, mm or rad
+  force_min REAL NOT NULL,         -- force of each jaw over the drive's, without friction; N for 1 Nm where it turns
+  force_mean REAL NOT NULL,
+  force_max REAL NOT NULL,
+  jaw_a_motion TEXT NOT NULL,      -- parallel, swinging, floating
+  jaw_b_motion TEXT NOT NULL,
+  tip_a_dx REAL NOT NULL,          -- how the tips move as they close, mm for 1 mm or 1 rad of the drive
+  tip_a_dy REAL NOT NULL,
+  tip_b_dx REAL NOT NULL,
+  tip_b_dy REAL NOT NULL,
+  jaw_turn REAL NOT NULL,          -- the most that a jaw turns over the stroke, degrees
+  ends_closing TEXT,               -- why the stroke ends before the jaws are closed; NULL where it does not
+  ends_opening TEXT,
+  mobility INTEGER NOT NULL,       -- W as built, all joints hinges
+  redundant INTEGER NOT NULL,      -- sigma as built
+  finite TEXT NOT NULL,            -- the mobility that is really there, and how that is known
+  determinate NOT NULL,            -- variants with sigma = 0: a number, or its digits as text beyond 63 bits
+  determinate_w1 NOT NULL,         -- of these, W = 1
+  certainty TEXT NOT NULL,         -- exact, or at least
+  best_cost REAL                   -- of the cheapest variant with sigma = 0 and W = 1
+) WITHOUT ROWID;
+CREATE TABLE counts (
+  structure TEXT NOT NULL REFERENCES structures(id),
+  mobility INTEGER NOT NULL,
+  changes INTEGER NOT NULL,
+  variants NOT NULL,               -- determinate variants of this mobility and so many changes
+  PRIMARY KEY (structure, mobility, changes)
+) WITHOUT ROWID;
+CREATE TABLE ideas (
+  structure TEXT NOT NULL REFERENCES structures(id),
+  place INTEGER NOT NULL,          -- from 1, the cheapest first
+  adds TEXT NOT NULL,              -- which freedoms where: the joints named are in series
+  changes TEXT NOT NULL,           -- the first variant of the idea
+  choices TEXT NOT NULL,           -- its options, joint by joint, 0 for the present one
+  cost REAL NOT NULL,
+  change_count INTEGER NOT NULL,
+  variants NOT NULL,               -- how many variants the idea stands for
+  peak_force REAL,                 -- greatest joint force over capacity under the closing force
+  peak_moment REAL,
+  output_error REAL,               -- of the jaws from the joints' clearances, mm
+  PRIMARY KEY (structure, place)
+) WITHOUT ROWID;

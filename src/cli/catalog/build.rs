@@ -1,0 +1,173 @@
+//! `ozols catalog build` and `merge`.
+
+use super::super::args::Args;
+use super::super::progress::Bar;
+use super::super::{Done, interrupt, output};
+use crate::catalog::build::{Shard, build, work};
+use crate::catalog::spec::Spec;
+use crate::catalog::store::Store;
+use crate::view::structures::built_text;
+use anyhow::{Context, ensure};
+use clap::{Args as ClapArgs, ValueHint};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Build {
+    /// Numbers of links, the last included; chains of mobility 1 have an even number.
+    #[arg(long, value_name = "N..M")]
+    links: Option<String>,
+    /// How the driver moves: slide, turn; both by default.
+    #[arg(long, value_name = "INPUT", value_delimiter = ',')]
+    input: Vec<String>,
+    /// How structures are laid out: generic, mirror (with a slide), half-turn (with a turning input); all by default.
+    #[arg(long, value_name = "SYMMETRY", value_delimiter = ',')]
+    symmetry: Vec<String>,
+    /// Layouts with each jaw on a parallelogram: with, without or only.
+    #[arg(long, value_name = "WORD")]
+    parallel: Option<String>,
+    /// What may be put in place of a hinge.
+    #[arg(long, value_name = "TYPES", value_delimiter = ',')]
+    options: Vec<String>,
+    /// Ideas kept of each structure; 10 by default.
+    #[arg(long, value_name = "K")]
+    ideas: Option<usize>,
+    /// The longest link over the shortest at most; 8 by default.
+    #[arg(long, value_name = "X")]
+    ratio: Option<f64>,
+    /// The least transmission angle of a rod, in degrees; 15 by default.
+    #[arg(long, value_name = "DEGREES")]
+    transmission: Option<f64>,
+    /// Crossings of links at most; 6 by default.
+    #[arg(long, value_name = "N")]
+    crossings: Option<usize>,
+    /// A file that says all this, in TOML; what is given beside it counts more.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    spec: Option<PathBuf>,
+    /// Make part I of N alone, from 1; `ozols catalog merge` puts the parts together.
+    #[arg(long, value_name = "I/N", value_parser = shard)]
+    shard: Option<Shard>,
+    /// The database; where there is one of the same catalogue, what it has not is added.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: PathBuf,
+}
+
+fn shard(text: &str) -> Result<Shard, String> {
+    let parts = text.split_once('/');
+    let numbers = parts.and_then(|(i, n)| Some((i.parse::<u64>().ok()?, n.parse::<u64>().ok()?)));
+    match numbers {
+        Some((i, of)) if i >= 1 && i <= of => Ok(Shard { index: i - 1, of }),
+        _ => Err("a part is written 1/7, the first of seven".to_owned()),
+    }
+}
+
+impl Build {
+    fn spec(&self, seed: u64) -> anyhow::Result<Spec> {
+        let mut spec = match &self.spec {
+            None => Spec::default(),
+            Some(path) => {
+                let text = std::fs::read_to_string(path)
+                    .with_context(|| format!("cannot read {}", path.display()))?;
+                toml::from_str(&text).with_context(|| path.display().to_string())?
+            }
+        };
+        if let Some(links) = &self.links {
+            spec.links.clone_from(links);
+        }
+        let lists = [
+            (&self.input, &mut spec.inputs),
+            (&self.symmetry, &mut spec.symmetries),
+            (&self.options, &mut spec.options),
+        ];
+        for (given, there) in lists {
+            if !given.is_empty() {
+                there.clone_from(given);
+            }
+        }
+        if let Some(word) = &self.parallel {
+            spec.parallel.clone_from(word);
+        }
+        spec.ideas = self.ideas.unwrap_or(spec.ideas);
+        spec.ratio = self.ratio.unwrap_or(spec.ratio);
+        spec.transmission = self.transmission.unwrap_or(spec.transmission);
+        spec.crossings = self.crossings.unwrap_or(spec.crossings);
+        if seed != 1 {
+            spec.seed = seed;
+        }
+        spec.check()?;
+        Ok(spec)
+    }
+}
+
+pub(super) fn run(args: &Args, a: &Build) -> anyhow::Result<Done> {
+    let spec = a.spec(args.seed)?;
+    let mut store = Store::create(&a.output, &spec)?;
+    let there = store.ids()?;
+    let work = work(&spec, a.shard.unwrap_or(Shard::WHOLE))?;
+    let all: usize = work.iter().map(|w| w.structures.len()).sum();
+    interrupt::be_patient();
+    let mut bar = Bar::new(args.quiet);
+    let mut count = 0;
+    let ended = build(
+        &spec,
+        &work,
+        |s| interrupt::pending() || there.contains(&s.id()),
+        |row| {
+            count += 1;
+            bar.step("structures", there.len() + count, all);
+            match store.add(&row) {
+                Err(e) => ControlFlow::Break(Some(e)),
+                Ok(()) if interrupt::pending() => ControlFlow::Break(None),
+                Ok(()) => ControlFlow::Continue(()),
+            }
+        },
+    )?;
+    bar.clear();
+    if let Some(Some(e)) = ended {
+        return Err(e.into());
+    }
+    output::to(None, |out| {
+        write!(
+            out,
+            "{}",
+            built_text(&store, &a.output, count, output::width(None))?
+        )?;
+        if interrupt::pending() {
+            let path = a.output.display();
+            writeln!(
+                out,
+                "\nInterrupted: the same command carries on with {path}."
+            )?;
+        }
+        Ok(Done::Found)
+    })
+}
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Merge {
+    /// The parts.
+    #[arg(required = true, value_hint = ValueHint::FilePath)]
+    parts: Vec<PathBuf>,
+    /// The whole; where it is there already, it is added to.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: PathBuf,
+}
+
+pub(super) fn merge(a: &Merge) -> anyhow::Result<Done> {
+    let same = |p: &PathBuf| std::fs::canonicalize(p).ok() == std::fs::canonicalize(&a.output).ok();
+    ensure!(
+        !(a.output.exists() && a.parts.iter().any(same)),
+        "{} is one of the parts and the whole; choose another name for the whole",
+        a.output.display()
+    );
+    let added = Store::merge(&a.output, &a.parts)?;
+    let store = Store::open(&a.output)?;
+    output::to(None, |out| {
+        write!(
+            out,
+            "{}",
+            built_text(&store, &a.output, added, output::width(None))?
+        )?;
+        Ok(Done::Found)
+    })
+}

@@ -1,0 +1,158 @@
+//! `ozols catalog query`, `show`, `export` and `page`.
+
+use super::super::{Done, output};
+use super::CatalogFormat;
+use crate::catalog::row::request;
+use crate::catalog::spec::Spec;
+use crate::catalog::store::Store;
+use crate::model::mechanism::Mechanism;
+use crate::page::catalogue::catalogue;
+use crate::robots::formats;
+use crate::score::run::run as search;
+use crate::view::structures::{Answer, StructureData, show_text};
+use anyhow::Context;
+use clap::{Args as ClapArgs, ValueHint};
+use std::path::PathBuf;
+
+/// What is shown where no question is asked: the best of each kind first.
+const BEST: &str = "SELECT id, links, input, symmetry, parallel, jaw_a_motion AS jaws, force_mean AS force, determinate_w1 AS determinate, \
+     best_cost AS cost, round(transmission) AS transmission FROM structures JOIN layouts ON structure = id \
+     ORDER BY links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id LIMIT 25";
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Query {
+    /// The database.
+    #[arg(value_hint = ValueHint::FilePath)]
+    file: PathBuf,
+    /// A question in SQL; the best structures where left out. `ozols catalog query FILE "SELECT sql FROM sqlite_schema"` shows the
+    /// tables with all columns explained.
+    sql: Option<String>,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    format: CatalogFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: Option<PathBuf>,
+}
+
+pub(super) fn query(a: &Query) -> anyhow::Result<Done> {
+    let store = Store::open(&a.file)?;
+    let (names, rows) = store.query(a.sql.as_deref().unwrap_or(BEST), None)?;
+    let answer = Answer { names, rows };
+    let path = a.output.as_deref();
+    output::to(path, |out| {
+        match a.format {
+            CatalogFormat::Text => write!(out, "{}", answer.text(output::width(path)))?,
+            CatalogFormat::Json => output::json(out, &answer)?,
+            CatalogFormat::Csv => write!(out, "{}", answer.csv())?,
+        }
+        Ok(if answer.rows.is_empty() {
+            Done::Nothing
+        } else {
+            Done::Found
+        })
+    })
+}
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Show {
+    /// The database.
+    #[arg(value_hint = ValueHint::FilePath)]
+    file: PathBuf,
+    /// The structure: its id or the beginning of it, or its whole name.
+    id: String,
+    /// JSON instead of text.
+    #[arg(long)]
+    json: bool,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: Option<PathBuf>,
+}
+
+pub(super) fn show(a: &Show) -> anyhow::Result<Done> {
+    let store = Store::open(&a.file)?;
+    let data = StructureData::read(&store, &store.find(&a.id)?)?;
+    let path = a.output.as_deref();
+    output::to(path, |out| {
+        if a.json {
+            output::json(out, &data)?;
+        } else {
+            write!(out, "{}", show_text(&data, &a.file, output::width(path)))?;
+        }
+        Ok(Done::Found)
+    })
+}
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Export {
+    /// The database.
+    #[arg(value_hint = ValueHint::FilePath)]
+    file: PathBuf,
+    /// The structure: its id or the beginning of it, or its whole name.
+    id: String,
+    /// Carry out the first variant of idea K.
+    #[arg(long, value_name = "K")]
+    variant: Option<usize>,
+    /// Format: toml, json, urdf, sdf, dot or graphml.
+    #[arg(long, value_name = "FORMAT", default_value = "toml")]
+    to: String,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: Option<PathBuf>,
+}
+
+pub(super) fn export(a: &Export) -> anyhow::Result<Done> {
+    let store = Store::open(&a.file)?;
+    let id = store.find(&a.id)?;
+    let text = store.mechanism(&id)?.with_context(|| {
+        format!(
+            "{id} has no layout; `ozols catalog show {} {id}` says why",
+            a.file.display()
+        )
+    })?;
+    let text = match a.variant {
+        None if a.to == "toml" => text,
+        None => formats::write(&Mechanism::from_toml(&text)?, &a.to)?,
+        Some(k) => {
+            let choices = store
+                .choices(&id, k)?
+                .with_context(|| format!("{id} has no idea {k} in {}", a.file.display()))?;
+            let spec = Spec {
+                ideas: 0,
+                ..Spec::default()
+            };
+            let outcome = search(
+                Mechanism::from_toml(&text)?,
+                &request(&spec),
+                &|| false,
+                &mut |_| {},
+            )?;
+            let mut made = outcome.search.realize(&choices);
+            made.name = format!("{id}-idea-{k}");
+            formats::write(&made, &a.to)?
+        }
+    };
+    output::to(a.output.as_deref(), |out| {
+        out.write_all(text.as_bytes())?;
+        Ok(Done::Found)
+    })
+}
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Page {
+    /// The database.
+    #[arg(value_hint = ValueHint::FilePath)]
+    file: PathBuf,
+    /// The page.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: PathBuf,
+}
+
+pub(super) fn page(a: &Page) -> anyhow::Result<Done> {
+    let store = Store::open(&a.file)?;
+    let page = catalogue(&store, &a.file.display().to_string())?;
+    output::to(Some(&a.output), |out| {
+        out.write_all(page.as_bytes())?;
+        Ok(Done::Found)
+    })
+}

@@ -1,0 +1,195 @@
+//! A catalogue as one page: a card for each structure, with its drawing, to filter, sort and choose from.
+
+use super::{POLICY, STYLE, policy};
+use crate::catalog::store::{Store, StoreError};
+use crate::geom::vector::real;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Mechanism, Role};
+use maud::{DOCTYPE, PreEscaped, html};
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+
+const CARDS: &str = include_str!("catalogue.css");
+/// The script by idea, in the order it is run.
+const SCRIPT: [&str; 3] = [
+    include_str!("script/gripper.js"),
+    include_str!("script/cards.js"),
+    include_str!("script/structure.js"),
+];
+
+/// What a card is made of, but for its drawing and its ideas.
+const CARD: &str = "SELECT id, name, links, input, symmetry, parallel, jaws_at_frame, truss, mechanism, crossings, link_ratio, transmission, \
+     opening_min, opening_max, travel, force_min, force_mean, force_max, jaw_a_motion, jaw_b_motion, jaw_turn, ends_closing, \
+     ends_opening, tip_a_dx, tip_a_dy, tip_b_dx, tip_b_dy, mobility, redundant, finite, CAST(determinate AS TEXT) AS determinate, \
+     CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost FROM structures JOIN layouts ON structure = id \
+     ORDER BY links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id";
+const IDEAS: &str = "SELECT structure, place, adds, changes, cost, change_count AS changed, CAST(variants AS TEXT) AS variants, peak_force, \
+     peak_moment FROM ideas ORDER BY structure, place";
+const WITHOUT: &str = "SELECT no_layout AS why, count(*) AS n FROM structures WHERE no_layout IS NOT NULL GROUP BY 1 ORDER BY 2 DESC, 1";
+
+fn maps(store: &Store, sql: &str) -> Result<Vec<Map<String, Value>>, StoreError> {
+    let (names, rows) = store.query(sql, None)?;
+    let map = |row: Vec<Value>| names.iter().cloned().zip(row).collect();
+    Ok(rows.into_iter().map(map).collect())
+}
+
+/// The drawing of a mechanism as numbers: pins, links by their pins, and what links are.
+fn drawing(text: &str) -> Option<Value> {
+    let m = Mechanism::from_toml(text).ok()?;
+    let place = |j: &crate::model::mechanism::Joint| {
+        let [x, y, _] = real(&j.frame.point);
+        [x, y]
+    };
+    let pins: Vec<[f64; 2]> = m.joints.iter().map(place).collect();
+    let links: Vec<Vec<usize>> = m
+        .link_ids()
+        .map(|l| {
+            let of = |(_, j): &(usize, &crate::model::mechanism::Joint)| j.links.contains(&l);
+            m.joints
+                .iter()
+                .enumerate()
+                .filter(of)
+                .map(|(i, _)| i)
+                .collect()
+        })
+        .collect();
+    let drive = m.joints.iter().position(|j| j.drive);
+    let driver = drive.map(|d| m.joints[d].links[1].index());
+    let jaws: Vec<usize> = m
+        .links_with_ids()
+        .filter(|(_, l)| l.role == Role::Output)
+        .map(|(l, _)| l.index())
+        .collect();
+    let tip = |jaw: &usize| {
+        let force = m.loads.forces.iter().find(|f| f.link.index() == *jaw)?;
+        let [x, y, _] = real(&force.point);
+        Some([x, y])
+    };
+    let tips: Option<Vec<[f64; 2]>> = jaws.iter().map(tip).collect();
+    Some(json!({
+        "pins": pins,
+        "names": m.joints.iter().map(|j| j.id.as_str()).collect::<Vec<_>>(),
+        "links": links,
+        "frame": m.frame().index(),
+        "driver": driver,
+        "drive": drive,
+        "slides": drive.is_some_and(|d| m.joints[d].joint_type == JointType::Prismatic),
+        "jaws": jaws,
+        "tips": tips?,
+    }))
+}
+
+/// The page of a catalogue, `file` being its name for the commands that go on with it.
+///
+/// # Errors
+/// Where the database cannot be read.
+///
+/// # Complexity
+/// A mechanism read for each structure.
+pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
+    let mut ideas: BTreeMap<String, Vec<Map<String, Value>>> = BTreeMap::new();
+    for mut idea in maps(store, IDEAS)? {
+        if let Some(Value::String(of)) = idea.remove("structure") {
+            ideas.entry(of).or_default().push(idea);
+        }
+    }
+    let mut cards = Vec::new();
+    for mut card in maps(store, CARD)? {
+        let mechanism = card.remove("mechanism");
+        let id = card.get("id").and_then(Value::as_str).unwrap_or_default();
+        let of = ideas.remove(id).unwrap_or_default();
+        let Some(drawn) = mechanism.as_ref().and_then(Value::as_str).and_then(drawing) else {
+            continue;
+        };
+        card.insert(
+            "ideas".to_owned(),
+            of.into_iter().map(Value::Object).collect(),
+        );
+        card.insert("drawing".to_owned(), drawn);
+        cards.push(card);
+    }
+    let without = maps(store, WITHOUT)?;
+    let left_out: u64 = without
+        .iter()
+        .filter_map(|w| w.get("n").and_then(Value::as_u64))
+        .sum();
+    let data = json!({ "file": file, "cards": cards });
+    let data = data.to_string().replace('<', "\\u003c");
+    let title = "Grippers by structure";
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (title) }
+                style { (PreEscaped(STYLE)) (PreEscaped(CARDS)) }
+            }
+            body {
+                a.skip href="#cards" { "To the grippers" }
+                header {
+                    h1 { (title) }
+                    p.lead {
+                        "Kinematic chains with a frame, a driver and two jaws, each laid out in a plane and searched for the redesigns "
+                        "without redundant constraints. Counts are of all joint assignments; costs are per joint changed."
+                    }
+                    p.meta { (cards.len()) " grippers from " code { (file) } @if left_out > 0 { "; " (left_out) " structures have no layout" } }
+                }
+                main {
+                    noscript { p { "The cards need scripts; " code { "ozols catalog query " (file) } " lists the same." } }
+                    (filters())
+                    p.note id="count" role="status" {}
+                    ul id="cards" tabindex="-1" {}
+                    p id="more" hidden { button type="button" { "Show more" } }
+                    dialog id="chosen" aria-labelledby="chosen-name" {}
+                    @if !without.is_empty() {
+                        details {
+                            summary { "Structures without a layout" }
+                            div.wide { table {
+                                thead { tr { th { "why" } th.n { "structures" } } }
+                                tbody { @for w in &without { tr {
+                                    td { (w.get("why").and_then(Value::as_str).unwrap_or_default()) }
+                                    td.n { (w.get("n").and_then(Value::as_u64).unwrap_or_default()) }
+                                } } }
+                            } }
+                        }
+                    }
+                }
+                script id="data" type="application/json" { (PreEscaped(data)) }
+                script { (PreEscaped(SCRIPT.concat())) }
+            }
+        }
+    };
+    Ok(policy::named(&page.into_string(), POLICY))
+}
+
+fn filters() -> maud::Markup {
+    let select = |id: &str, label: &str, options: &[(&str, &str)]| {
+        html! {
+            label {
+                (label) " "
+                select id=(id) {
+                    @for (value, word) in options { option value=(value) { (word) } }
+                }
+            }
+        }
+    };
+    html! {
+        form id="filters" aria-label="Filter the grippers" {
+            label { "Links " select id="links" { option value="" { "all" } } }
+            (select("input", "Driver", &[("", "all"), ("slide", "slides"), ("turn", "turns")]))
+            (select("symmetry", "Layout", &[("", "all"), ("mirror", "mirror image"), ("half-turn", "half turn"), ("generic", "generic")]))
+            (select("jaws", "Jaws", &[("", "all"), ("parallel", "parallel"), ("swinging", "swinging"), ("floating", "floating")]))
+            label { "Cost at most " input type="number" id="cost" min="0" step="0.5" inputmode="decimal"; }
+            label { "Transmission angle from " input type="number" id="transmission" min="0" max="90" step="5" inputmode="numeric"; }
+            label { "Force ratio from " input type="number" id="force" min="0" step="any" inputmode="decimal"; }
+            label { "Find " input type="search" id="find" autocomplete="off" spellcheck="false" placeholder="id or chain"; }
+            (select("sort", "First", &[
+                ("", "fewest links, symmetric"), ("best_cost", "least cost"), ("force_mean", "greatest force"),
+                ("transmission", "best transmission angle"), ("determinate_w1", "most redesigns"), ("link_ratio", "most even links"),
+            ]))
+            button type="reset" { "Show all" }
+        }
+    }
+}

@@ -1,0 +1,89 @@
+// The cards: filtered, sorted, a page of them at a time.
+const data = JSON.parse(document.getElementById('data').textContent);
+const by = (id) => document.getElementById(id);
+const STEP = 60;
+const BIGGEST_FIRST = ['force_mean', 'transmission', 'determinate_w1'];
+
+function grouped(digits) {
+  return String(digits).replace(/\B(?=(\d{3})+(?!\d))/g, ',');
+}
+
+function short(x) {
+  return x === null || x === undefined ? '–' : String(+Number(x).toPrecision(3));
+}
+
+function text(name, content, attributes) {
+  const e = document.createElement(name);
+  e.textContent = content;
+  for (const [key, value] of Object.entries(attributes || {})) e.setAttribute(key, value);
+  return e;
+}
+
+const jawsOf = (c) => (c.jaw_a_motion === c.jaw_b_motion ? c.jaw_a_motion : c.jaw_a_motion + ' and ' + c.jaw_b_motion);
+const unit = (c) => (c.input === 'slide' ? 'N per N' : 'N per Nm');
+const formOf = (c) => `${c.input === 'slide' ? 'sliding' : 'turning'} driver, ${c.symmetry}${c.parallel ? ', parallelograms' : ''}`;
+
+function cardOf(c) {
+  const item = document.createElement('li');
+  const button = text('button', '', { class: 'card', type: 'button', 'data-id': c.id });
+  button.append(
+    gripper(c, `Gripper ${c.id}`),
+    text('b', c.id),
+    text('span', `${c.links} links, ${formOf(c)}`),
+    text('span', `jaws ${jawsOf(c)}, ${short(c.force_mean)} ${unit(c)}`),
+    text('span', `W ${c.mobility}, σ ${c.redundant}; ${c.certainty === 'exact' ? '' : 'at least '}${grouped(c.determinate_w1)} redesigns, from cost ${short(c.best_cost)}`),
+  );
+  button.addEventListener('click', () => choose(c, button));
+  item.append(button);
+  return item;
+}
+
+let shown = [], given = 0;
+
+function wanted(c) {
+  const word = (id) => by(id).value;
+  const number = (id) => (by(id).value === '' ? null : Number(by(id).value));
+  const find = word('find').trim().toLowerCase();
+  return (
+    (!word('links') || String(c.links) === word('links')) &&
+    (!word('input') || c.input === word('input')) &&
+    (!word('symmetry') || c.symmetry === word('symmetry')) &&
+    (!word('jaws') || (c.jaw_a_motion === word('jaws') && c.jaw_b_motion === word('jaws'))) &&
+    (number('cost') === null || (c.best_cost !== null && c.best_cost <= number('cost'))) &&
+    (number('transmission') === null || c.transmission >= number('transmission')) &&
+    (number('force') === null || c.force_mean >= number('force')) &&
+    (!find || c.name.toLowerCase().includes(find) || c.id.includes(find))
+  );
+}
+
+function more() {
+  const next = shown.slice(given, given + STEP);
+  by('cards').append(...next.map(cardOf));
+  given += next.length;
+  by('more').hidden = given >= shown.length;
+}
+
+function show() {
+  shown = data.cards.filter(wanted);
+  const key = by('sort').value;
+  if (key) {
+    const sign = BIGGEST_FIRST.includes(key) ? -1 : 1;
+    const value = (c) => (c[key] === null ? Infinity : sign * Number(c[key]));
+    shown.sort((a, b) => value(a) - value(b));
+  }
+  by('cards').replaceChildren();
+  given = 0;
+  more();
+  const n = data.cards.length;
+  by('count').textContent = shown.length === n ? `All ${grouped(n)} grippers.`
+    : shown.length ? `${grouped(shown.length)} of ${grouped(n)} grippers.`
+    : `None of ${grouped(n)} grippers is like that: take a filter away.`;
+}
+
+for (const n of [...new Set(data.cards.map((c) => c.links))]) by('links').append(text('option', n, { value: n }));
+let pending = 0;
+by('filters').addEventListener('input', () => { clearTimeout(pending); pending = setTimeout(show, 120); });
+by('filters').addEventListener('reset', () => setTimeout(show));
+by('filters').addEventListener('submit', (e) => e.preventDefault());
+by('more').querySelector('button').addEventListener('click', more);
+new IntersectionObserver((seen) => { if (seen.some((s) => s.isIntersecting) && given < shown.length) more(); }, { rootMargin: '600px' }).observe(by('more'));

@@ -1,0 +1,13 @@
+//! Synthesis: from a kinematic chain to grippers that have a place for every joint.
+//!
+//! A structure is a chain with its roles, the way its driver moves, and the symmetry it is to have. A layout gives its
+//! pins places in the plane: symmetric exactly, regular, moving as a gripper does, and as well proportioned as a search
+//! finds. All lengths are whole millimetres.
+
+pub mod figures;
+pub mod layout;
+pub mod looks;
+pub mod mechanism;
+pub mod rules;
+pub mod structure;
+pub mod velocities;

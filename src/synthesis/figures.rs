@@ -1,0 +1,171 @@
+//! What a laid-out gripper does over its stroke: how far it opens, with what force it closes, how the jaws move.
+
+use crate::geom::exact::ExactError;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::motion::follow::{Follower, Why, slides};
+use crate::motion::pose::Pose;
+use crate::synthesis::layout::Layout;
+use crate::synthesis::mechanism::link_names;
+use crate::synthesis::structure::Structure;
+
+/// Steps over the drawn opening.
+const STEPS: f64 = 12.0;
+/// Steps in either direction at most.
+const MOST: usize = 30;
+/// Openings followed to, as fractions of the drawn one.
+const OPENINGS: [f64; 2] = [0.2, 1.8];
+/// A jaw that turns by less than this over the stroke keeps its attitude: what is left is the error of closing. In rad.
+const STILL: f64 = 1e-6;
+
+/// How a jaw moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JawMotion {
+    /// It keeps its attitude.
+    Parallel,
+    /// It turns about a hinge in the frame.
+    Swinging,
+    /// It turns, and no point of it stands still.
+    Floating,
+}
+
+impl JawMotion {
+    /// The word used for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            JawMotion::Parallel => "parallel",
+            JawMotion::Swinging => "swinging",
+            JawMotion::Floating => "floating",
+        }
+    }
+}
+
+/// Figures over the stroke, by following the mechanism numerically.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figures {
+    /// The least and the greatest opening reached, in millimetres.
+    pub openings: [f64; 2],
+    /// Travel of the drive between them: millimetres, or radians.
+    pub travel: f64,
+    /// Force of each jaw over the force of the drive, without friction: the least, the mean and the greatest of the steps.
+    /// Where the drive turns, newtons for a newton metre.
+    pub force: [f64; 3],
+    /// How each jaw moves.
+    pub jaws: [JawMotion; 2],
+    /// How far each jaw turns over the stroke, in rad.
+    pub turns: [f64; 2],
+    /// Why the stroke ends before the jaws have closed, and before they have opened so far.
+    pub ends: [Option<Why>; 2],
+}
+
+/// Figures of a laid-out gripper, `mechanism` being its [`mechanism_file`](crate::synthesis::mechanism::mechanism_file).
+///
+/// # Errors
+/// Where a coordinate has no value.
+///
+/// # Complexity
+/// Some dozen poses, each of O(n³) for n links.
+pub fn figures(
+    structure: &Structure,
+    layout: &Layout,
+    mechanism: &Mechanism,
+) -> Result<Figures, ExactError> {
+    let pose = Pose::of_file(mechanism, StateId::FREE)?;
+    let names = link_names(structure);
+    let drive = |j: JointId| mechanism.joints[j].drive;
+    let drive = (0..pose.columns.len()).find(|&c| drive(pose.columns[c].joint));
+    let jaws = [0, 1].map(|n| mechanism.link(&names[structure.roles.jaws[n]]));
+    let (Some(drive), [Some(a), Some(b)]) = (drive, jaws) else {
+        unreachable!("the file of a layout has a drive and two jaws");
+    };
+    let unit = if slides(&pose, drive) {
+        pose.length
+    } else {
+        1.0
+    };
+    let opening = |p: &Pose| {
+        let tip = |jaw: LinkId, n: usize| {
+            let [x, y] = layout.tips[n].map(f64::from);
+            let [u, v, w] = pose.middle;
+            let place = [x - u, y - v, -w].map(|x| x / pose.length);
+            p.links[jaw].point(place)[1] * pose.length
+        };
+        tip(a, 0) - tip(b, 1)
+    };
+    let turn = |p: &Pose, jaw: LinkId| {
+        let m = &p.links[jaw];
+        m.sine()[2].atan2(m.cosine()).abs()
+    };
+    let drawn = opening(&pose);
+    // Towards closing first.
+    let rate = layout.looks.closing;
+    let ahead = drawn / STEPS / rate.max(1e-9) / unit;
+    let sign = {
+        let mut probe = Follower::new(pose.clone(), drive, &[]);
+        let small = 0.01 * ahead;
+        match probe.advance(small, |_| {}) {
+            Ok(()) if opening(&probe.pose()) > drawn => -1.0,
+            _ => 1.0,
+        }
+    };
+    let mut way = vec![(0.0, drawn)];
+    let mut turns = [0.0_f64; 2];
+    let mut ends = [None; 2];
+    for (n, until) in OPENINGS.into_iter().enumerate() {
+        let direction = if n == 0 { sign } else { -sign };
+        let mut follower = Follower::new(pose.clone(), drive, &[]);
+        let mut last = drawn;
+        for i in 1..=MOST {
+            #[allow(clippy::cast_precision_loss, reason = "a few")]
+            let to = direction * ahead * i as f64;
+            if let Err(stop) = follower.advance(to, |_| {}) {
+                ends[n] = Some(stop.why);
+                break;
+            }
+            let here = follower.pose();
+            let now = opening(&here);
+            // The jaws turn back: what comes is another stroke.
+            if (now < last) != (n == 0) {
+                break;
+            }
+            last = now;
+            way.push((to * unit, now));
+            turns = [turns[0].max(turn(&here, a)), turns[1].max(turn(&here, b))];
+            if (now <= until * drawn) == (n == 0) {
+                break;
+            }
+        }
+    }
+    way.sort_by(|x, y| x.1.total_cmp(&y.1));
+    // Newtons for a newton metre where the drive turns: lengths are in millimetres.
+    let metre = if slides(&pose, drive) { 1.0 } else { 1000.0 };
+    let ratios: Vec<f64> = way
+        .windows(2)
+        .map(|w| metre * (w[1].0 - w[0].0).abs() / (w[1].1 - w[0].1))
+        .collect();
+    #[allow(clippy::cast_precision_loss, reason = "a few")]
+    let count = ratios.len().max(1) as f64;
+    let (first, last) = (way[0], way[way.len() - 1]);
+    let motion = |n: usize| match turns[n] {
+        t if t < STILL => JawMotion::Parallel,
+        _ if structure
+            .chain
+            .joined(structure.roles.frame, structure.roles.jaws[n]) =>
+        {
+            JawMotion::Swinging
+        }
+        _ => JawMotion::Floating,
+    };
+    Ok(Figures {
+        openings: [first.1, last.1],
+        travel: (last.0 - first.0).abs(),
+        force: [
+            ratios.iter().copied().fold(f64::INFINITY, f64::min),
+            ratios.iter().sum::<f64>() / count,
+            ratios.iter().copied().fold(0.0, f64::max),
+        ],
+        jaws: [motion(0), motion(1)],
+        turns,
+        ends,
+    })
+}

@@ -1,0 +1,245 @@
+//! A place for every pin, found by simulated annealing from seeds that follow from the structure's name.
+//!
+//! Moves go to whole millimetres, so that what is found is exact as it stands. [Kirkpatrick, Gelatt & Vecchi 1983]
+
+use crate::chains::layout_symmetry::{NoGripper, working_swap};
+use crate::chains::roles::Subject;
+use crate::synthesis::looks::{Limits, Looks, Point, looks, middle, tips};
+use crate::synthesis::rules::{Rule, Rules};
+use crate::synthesis::structure::Structure;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
+use sha2::{Digest, Sha256};
+use thiserror::Error;
+
+/// Starts of the search for places at most.
+const STARTS: u32 = 6;
+/// Moves tried from a start.
+const MOVES: usize = 1500;
+/// Of these, the last in which velocities count.
+const MOVING: usize = 700;
+/// A layout that costs less than this is taken without looking for a better one.
+const GOOD: f64 = 3.0;
+
+/// A structure with a place for every joint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layout {
+    /// The links of each pin, by canonical numbers; the input joint is among them.
+    pub pins: Vec<(usize, usize)>,
+    /// Their places in millimetres, whole numbers.
+    pub at: Vec<[i32; 2]>,
+    /// Joints that are images of each other, by their places in the list.
+    pub images: Vec<(usize, usize)>,
+    /// Where the tips of the jaws are.
+    pub tips: [[i32; 2]; 2],
+    /// The figures it was taken for.
+    pub looks: Looks,
+    /// The start it was found from.
+    pub start: u32,
+}
+
+/// Why a structure has no layout.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum NoLayout {
+    /// In nearly all places it moves otherwise, or not at all.
+    #[error("{0}")]
+    Motion(#[from] NoGripper),
+    /// The parallelograms of the jaws ask for what the symmetry does not give.
+    #[error("the parallelograms do not go with the symmetry")]
+    Parallelograms,
+    /// The pose is not proven to be a regular one of mobility 1.
+    #[error("the places found are not proven to leave one finite motion")]
+    NotRegular,
+    /// No places were found that keep the limits; those of the best are told.
+    #[error(
+        "no places found within the limits: the best have links of 1 : {ratio:.1}, a transmission angle of \
+         {transmission:.0}°, {crossings} crossings, and {straightness:.0} % of the jaws' motion closes them"
+    )]
+    Limits {
+        /// The longest link over the shortest.
+        ratio: f64,
+        /// The worst transmission angle.
+        transmission: f64,
+        /// Crossings.
+        crossings: usize,
+        /// Share of the jaws' motion that closes them, in per cent.
+        straightness: f64,
+    },
+}
+
+/// Lays a structure out; the same for the same seed.
+///
+/// # Errors
+/// Why there is none.
+///
+/// # Complexity
+/// Some thousand looks at places.
+pub fn layout(
+    subject: &Subject<'_>,
+    structure: &Structure,
+    limits: &Limits,
+    seed: u64,
+) -> Result<Layout, NoLayout> {
+    let of = (structure.form.symmetry, structure.form.input);
+    let swap = working_swap(subject, &structure.roles, of)?;
+    let rules = Rules::new(structure, &swap).ok_or(NoLayout::Parallelograms)?;
+    let within = |l: &Looks| {
+        l.ratio <= limits.ratio
+            && l.transmission >= limits.transmission
+            && l.crossings <= limits.crossings
+            && l.straightness >= LEAST_CLOSING
+    };
+    let mut best: Option<(bool, Looks, Vec<Point>, u32)> = None;
+    for start in 0..STARTS {
+        let (at, found) = anneal(structure, &rules, &mut random(structure, seed, start));
+        let Some(found) = found else { continue };
+        let better = best
+            .as_ref()
+            .is_none_or(|(ok, b, ..)| (!within(&found), found.penalty) < (!ok, b.penalty));
+        if better {
+            best = Some((within(&found), found, at, start));
+        }
+        if best
+            .as_ref()
+            .is_some_and(|(ok, b, ..)| *ok && b.penalty < GOOD)
+        {
+            break;
+        }
+    }
+    let Some((ok, looks, at, start)) = best else {
+        return Err(NoLayout::Motion(NoGripper::DeadDrive));
+    };
+    if !ok {
+        return Err(NoLayout::Limits {
+            ratio: looks.ratio,
+            transmission: looks.transmission,
+            crossings: looks.crossings,
+            straightness: 100.0 * looks.straightness,
+        });
+    }
+    #[allow(clippy::cast_possible_truncation, reason = "whole and small")]
+    let whole = |p: Point| p.map(|x| x.round() as i32);
+    Ok(Layout {
+        pins: rules.pins.clone(),
+        at: at.into_iter().map(whole).collect(),
+        images: rules.images().collect(),
+        tips: tips(structure).map(whole),
+        looks,
+        start,
+    })
+}
+
+/// The tips' motion must close them by this share at least.
+const LEAST_CLOSING: f64 = 0.35;
+
+fn random(structure: &Structure, seed: u64, start: u32) -> ChaCha8Rng {
+    let name = format!("{} {seed} {start}", structure.name());
+    let digest = Sha256::digest(name);
+    let mut key = [0; 32];
+    key.copy_from_slice(&digest);
+    ChaCha8Rng::from_seed(key)
+}
+
+/// From 0 to 1.
+#[allow(clippy::cast_precision_loss, reason = "53 bits")]
+fn unit(random: &mut ChaCha8Rng) -> f64 {
+    (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// Roughly normal, of variance 1.
+fn bell(random: &mut ChaCha8Rng) -> f64 {
+    (0..12).map(|_| unit(random)).sum::<f64>() - 6.0
+}
+
+/// Links between frame and jaws as far ahead as they are joints away, each pin between its two links.
+fn first_places(structure: &Structure, rules: &Rules, random: &mut ChaCha8Rng) -> Vec<Point> {
+    let c = &structure.chain;
+    let away = |from: usize| {
+        let mut out = vec![usize::MAX; c.links()];
+        let (mut here, mut d) = (vec![from], 0);
+        while !here.is_empty() {
+            here.iter().for_each(|&l| out[l] = d);
+            d += 1;
+            let next = (0..c.links()).filter(|&l| out[l] == usize::MAX);
+            here = next
+                .filter(|&l| here.iter().any(|&h| c.joined(h, l)))
+                .collect();
+        }
+        out
+    };
+    #[allow(clippy::cast_precision_loss, reason = "a few")]
+    let far = |from: usize| {
+        away(from)
+            .into_iter()
+            .map(|d| d as f64)
+            .collect::<Vec<f64>>()
+    };
+    let (frame, jaws) = (
+        far(structure.roles.frame),
+        [0, 1].map(|n| far(structure.roles.jaws[n])),
+    );
+    let tips = tips(structure);
+    let place = |l: usize| -> Point {
+        let near = jaws[0][l].min(jaws[1][l]);
+        let ahead = frame[l] / (frame[l] + near).max(1.0);
+        // The nearer jaw draws a link to its side.
+        let side = (jaws[1][l] - jaws[0][l]) / (jaws[1][l] + jaws[0][l]).max(1.0);
+        let tip = middle(&tips);
+        [tip[0] * 0.8 * ahead, 40.0 * side + tip[1] * ahead]
+    };
+    let mut at: Vec<Point> = Vec::with_capacity(rules.pins.len());
+    for &(u, v) in &rules.pins {
+        let [x, y] = middle(&[place(u), place(v)]);
+        at.push([x + 12.0 * bell(random), y + 12.0 * bell(random)].map(f64::round));
+    }
+    rules.settle(&mut at);
+    at
+}
+
+fn anneal(
+    structure: &Structure,
+    rules: &Rules,
+    random: &mut ChaCha8Rng,
+) -> (Vec<Point>, Option<Looks>) {
+    let mut at = first_places(structure, rules, random);
+    let movable: Vec<usize> = rules.movable().collect();
+    let cost = |at: &[Point], moving: bool| {
+        looks(structure, rules, at, moving).map_or(f64::INFINITY, |l| l.penalty)
+    };
+    let mut now = cost(&at, false);
+    let mut best = (f64::INFINITY, at.clone());
+    for step in 0..MOVES {
+        let moving = step + MOVING >= MOVES;
+        if step + MOVING == MOVES {
+            now = cost(&at, true);
+            best = (now, at.clone());
+        }
+        #[allow(clippy::cast_precision_loss, reason = "a few thousand")]
+        let left = 1.0 - step as f64 / MOVES as f64;
+        let (heat, reach) = (2.0 * left * left, 2.0 + 18.0 * left);
+        #[allow(clippy::cast_possible_truncation, reason = "the remainder is an index")]
+        let pin = movable[(random.next_u64() % movable.len() as u64) as usize];
+        let before = at.clone();
+        at[pin] = match rules.rules[pin] {
+            Rule::OnLine => [at[pin][0] + reach * bell(random), 0.0],
+            _ => [
+                at[pin][0] + reach * bell(random),
+                at[pin][1] + reach * bell(random),
+            ],
+        }
+        .map(f64::round);
+        rules.settle(&mut at);
+        let then = cost(&at, moving);
+        if then <= now || unit(random) < ((now - then) / heat.max(1e-9)).exp() {
+            now = then;
+            if moving && now < best.0 {
+                best = (now, at.clone());
+            }
+        } else {
+            at = before;
+        }
+    }
+    let found = looks(structure, rules, &best.1, true);
+    (best.1, found)
+}

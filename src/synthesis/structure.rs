@@ -1,0 +1,145 @@
+//! Structures: a chain, what its links do in a gripper, how its driver moves, and the symmetry it is to have.
+
+use crate::chains::chain::Chain;
+use crate::chains::graph6;
+use crate::chains::layout_symmetry::{Input, Symmetry};
+use crate::chains::roles::{Roles, Subject};
+use sha2::{Digest, Sha256};
+use std::fmt::Write as _;
+
+/// How a structure is to be laid out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Form {
+    /// How its driver moves.
+    pub input: Input,
+    /// How it lies on itself.
+    pub symmetry: Symmetry,
+    /// Whether each jaw stands on a parallelogram with the frame or a sliding driver, so that it does not turn.
+    pub parallel: bool,
+}
+
+impl Form {
+    /// Every form that there is, in order.
+    pub fn all() -> impl Iterator<Item = Form> {
+        let inputs = Input::ALL.into_iter().map(|(i, _)| i);
+        inputs
+            .flat_map(|input| Symmetry::ALL.map(move |(symmetry, _)| (input, symmetry)))
+            .flat_map(|(input, symmetry)| {
+                [false, true].map(|parallel| Form {
+                    input,
+                    symmetry,
+                    parallel,
+                })
+            })
+            .filter(|f| f.symmetry.suits(f.input))
+    }
+
+    /// The form in words: "slide mirror parallel".
+    #[must_use]
+    pub fn name(self) -> String {
+        let parallel = if self.parallel { " parallel" } else { "" };
+        format!("{} {}{parallel}", self.input.name(), self.symmetry.name())
+    }
+}
+
+/// A gripper without places.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Structure {
+    /// Its chain, in canonical numbering.
+    pub chain: Chain,
+    /// What the links do, by their canonical numbers.
+    pub roles: Roles,
+    /// How it is laid out.
+    pub form: Form,
+}
+
+impl Structure {
+    /// The name that says all of it: "E`ow 0-3 1,4 slide mirror" is the chain, frame and driver, jaws, and the form.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let r = &self.roles;
+        let jaws: Vec<String> = r.jaws.iter().map(ToString::to_string).collect();
+        format!(
+            "{} {}-{} {} {}",
+            graph6::write(&self.chain),
+            r.frame,
+            r.driver,
+            jaws.join(","),
+            self.form.name()
+        )
+    }
+
+    /// A short name that a shell takes as it is: the number of links, and the beginning of the SHA-256 of the whole name.
+    #[must_use]
+    pub fn id(&self) -> String {
+        let mut id = format!("{}-", self.chain.links());
+        for byte in &Sha256::digest(self.name())[..6] {
+            // Writing to a string does not fail.
+            let _ = write!(id, "{byte:02x}");
+        }
+        id
+    }
+}
+
+/// The essential grippers of two jaws of a chain that a form can be asked of: for a symmetric one those whose graph is
+/// symmetric, for a parallel one those whose jaws stand on rings of four links with the frame or a sliding driver.
+///
+/// # Complexity
+/// A step for each choice of roles and each form.
+#[must_use]
+pub fn structures(subject: &Subject<'_>, forms: &[Form]) -> Vec<Structure> {
+    let mut out = Vec::new();
+    for roles in subject.grippers(2) {
+        if !subject.is_essential(&roles) {
+            continue;
+        }
+        let symmetric = subject.swaps(&roles).next().is_some();
+        for &form in forms {
+            let structure = Structure {
+                chain: subject.chain.clone(),
+                roles: roles.clone(),
+                form,
+            };
+            let asked = form.symmetry == Symmetry::Generic || symmetric;
+            if asked && (!form.parallel || structure.rings().is_some()) {
+                out.push(structure);
+            }
+        }
+    }
+    out
+}
+
+/// A ring of four links on which a jaw stands: two rods, both joined to the base and to the jaw.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Ring {
+    /// The frame, or a driver that slides.
+    pub base: usize,
+    /// The rods.
+    pub rods: [usize; 2],
+    /// The jaw.
+    pub jaw: usize,
+}
+
+impl Structure {
+    /// A ring for each jaw, or `None` where one has none. The first by numbers, base before rods.
+    #[must_use]
+    pub fn rings(&self) -> Option<[Ring; 2]> {
+        let (c, r) = (&self.chain, &self.roles);
+        let ring = |jaw: usize| {
+            let sliding = (self.form.input == Input::Slide).then_some(r.driver);
+            std::iter::once(r.frame).chain(sliding).find_map(|base| {
+                // The joint of frame and driver is no pin where the driver slides.
+                let rod = |l: &usize| {
+                    let input =
+                        [base, *l] == [r.frame, r.driver] || [*l, base] == [r.frame, r.driver];
+                    let slides = input && self.form.input == Input::Slide;
+                    c.joined(*l, jaw) && c.joined(*l, base) && !slides && !r.jaws.contains(l)
+                };
+                let mut rods = (0..c.links()).filter(rod);
+                let rods = [rods.next()?, rods.next()?];
+                Some(Ring { base, rods, jaw })
+            })
+        };
+        Some([ring(r.jaws[0])?, ring(r.jaws[1])?])
+    }
+}

@@ -1,0 +1,383 @@
+//! Structures laid out: exactly symmetric, one motion that closes the jaws, determinate variants as published.
+
+mod command;
+
+use itertools::Itertools;
+use ozols::catalog::row::{Laid, Row, row};
+use ozols::catalog::spec::Spec;
+use ozols::chains::enumerate::chains;
+use ozols::chains::graph6;
+use ozols::chains::layout_symmetry::{Input, Symmetry};
+use ozols::chains::roles::Subject;
+use ozols::geom::vector::real;
+use ozols::model::joint_type::JointType;
+use ozols::model::mechanism::Mechanism;
+use ozols::synthesis::looks::Limits;
+use ozols::synthesis::structure::{Form, Structure, structures};
+use ozols::synthesis::{layout, mechanism::mechanism_file};
+use ozols::{Request, analyze};
+use std::collections::BTreeMap;
+
+/// Calls with every structure of some forms of all chains of so many links.
+fn each(links: usize, forms: &[Form], mut with: impl FnMut(&Subject<'_>, Structure)) {
+    for chain in chains(links, 1).unwrap() {
+        let (chain, automorphisms) = chain.canonical();
+        let subject = Subject::new(&chain, &automorphisms);
+        for s in structures(&subject, forms) {
+            with(&subject, s);
+        }
+    }
+}
+
+fn form(input: Input, symmetry: Symmetry, parallel: bool) -> Form {
+    Form {
+        input,
+        symmetry,
+        parallel,
+    }
+}
+
+fn plain(ideas: usize) -> Spec {
+    Spec {
+        ideas,
+        ..Spec::default()
+    }
+}
+
+/// A structure a test lays out: places by joint.
+fn places(s: &Structure, l: &layout::Layout) -> BTreeMap<(usize, usize), [i32; 2]> {
+    assert_eq!(l.pins, s.chain.joints());
+    l.pins.iter().copied().zip(l.at.iter().copied()).collect()
+}
+
+#[test]
+fn symmetric_layouts_are_as_many_as_can_be_and_exactly_symmetric() {
+    let mirror = form(Input::Slide, Symmetry::Mirror, false);
+    let half_turn = form(Input::Turn, Symmetry::HalfTurn, false);
+    // `topology.md`: mirror possible, half-turn possible.
+    for (links, form, possible) in [
+        (4, mirror, 0),
+        (6, mirror, 2),
+        (8, mirror, 5),
+        (6, half_turn, 2),
+        (8, half_turn, 0),
+    ] {
+        let mut laid = 0;
+        each(links, &[form], |subject, s| {
+            let Ok(l) = layout::layout(subject, &s, &Limits::default(), 1) else {
+                return;
+            };
+            laid += 1;
+            // Whichever way round: some automorphism that swaps the jaws carries every pin to its image.
+            let at = places(&s, &l);
+            let image = |[x, y]: [i32; 2]| match form.symmetry {
+                Symmetry::Mirror => [x, -y],
+                _ => [-x, -y],
+            };
+            let carries = |swap: &Vec<usize>| {
+                at.iter().all(|(&(u, v), &place)| {
+                    let (p, q) = (swap[u], swap[v]);
+                    at[&(p.min(q), p.max(q))] == image(place)
+                })
+            };
+            assert!(subject.swaps(&s.roles).any(carries), "{}", s.name());
+        });
+        assert_eq!(laid, possible, "{links} {form:?}");
+    }
+}
+
+#[test]
+fn parallelograms_are_exact_and_their_jaws_do_not_turn() {
+    let mut seen = 0;
+    each(
+        6,
+        &Form::all().filter(|f| f.parallel).collect_vec(),
+        |subject, s| {
+            let Ok(row) = row(subject, &s, &plain(0)) else {
+                panic!("{}", s.name())
+            };
+            let Ok(Laid {
+                layout, figures, ..
+            }) = row.laid
+            else {
+                return;
+            };
+            seen += 1;
+            let at = places(&s, &layout);
+            let pin = |u: usize, v: usize| at[&(u.min(v), u.max(v))];
+            for r in s.rings().unwrap() {
+                let side = |l: usize| {
+                    let (a, b) = (pin(l, r.base), pin(l, r.jaw));
+                    [b[0] - a[0], b[1] - a[1]]
+                };
+                assert_eq!(side(r.rods[0]), side(r.rods[1]), "{}", s.name());
+            }
+            assert!(figures.turns.iter().all(|t| *t < 1e-6), "{figures:?}");
+        },
+    );
+    assert!(seen > 0);
+}
+
+/// The two tips' distance across, by solving the places of all pins afresh for a drive moved a little: Newton's method on
+/// the distances of pins of one link, by least squares with difference quotients. Shares no code with the velocities.
+#[test]
+fn the_drive_closes_the_jaws_as_fast_as_the_layout_says() {
+    let forms = [
+        form(Input::Slide, Symmetry::Generic, false),
+        form(Input::Turn, Symmetry::Generic, false),
+    ];
+    let mut n = 0;
+    each(6, &forms, |subject, s| {
+        n += 1;
+        if n % 8 != 0 {
+            return;
+        }
+        let l = layout::layout(subject, &s, &Limits::default(), 1).unwrap();
+        let step = 1e-5
+            * if s.form.input == Input::Slide {
+                1.0
+            } else {
+                0.02
+            };
+        let gap = |drive: f64| -> f64 {
+            let tips = moved(&s, &l, drive);
+            tips[0][1] - tips[1][1]
+        };
+        let rate = (gap(step) - gap(-step)) / (2.0 * step);
+        let stated = l.looks.closing;
+        assert!(
+            (rate.abs() - stated).abs() < 1e-4 * stated,
+            "{}: {rate} {stated}",
+            s.name()
+        );
+        // Against each other: the sum of both tips' speeds is more than either.
+        let [a, b] = l.looks.tips;
+        assert!(a[1] < 0.0 && b[1] > 0.0, "{:?}", l.looks);
+    });
+}
+
+/// Where the tips are when the drive has moved: unknown are a turn and a shift of each link.
+fn moved(s: &Structure, l: &layout::Layout, drive: f64) -> [[f64; 2]; 2] {
+    let n = s.chain.links();
+    let place = |x: &[f64], link: usize, p: [f64; 2]| {
+        if link == s.roles.frame {
+            return p;
+        }
+        let [t, u, v] = [x[3 * link], x[3 * link + 1], x[3 * link + 2]];
+        [
+            t.cos() * p[0] - t.sin() * p[1] + u,
+            t.sin() * p[0] + t.cos() * p[1] + v,
+        ]
+    };
+    let residuals = |x: &[f64]| {
+        let mut out = Vec::new();
+        for (&(u, v), at) in l.pins.iter().zip(&l.at) {
+            let input = [(u, v), (v, u)].contains(&(s.roles.frame, s.roles.driver));
+            if input && s.form.input == Input::Slide {
+                let d = s.roles.driver;
+                out.extend([50.0 * x[3 * d], x[3 * d + 1] - drive, x[3 * d + 2]]);
+                continue;
+            }
+            let p = at.map(f64::from);
+            let (a, b) = (place(x, u, p), place(x, v, p));
+            out.extend([a[0] - b[0], a[1] - b[1]]);
+        }
+        if s.form.input == Input::Turn {
+            out.push(50.0 * (x[3 * s.roles.driver] - drive));
+        }
+        // The frame stands still.
+        out.extend((0..3).map(|k| x[3 * s.roles.frame + k]));
+        out
+    };
+    let mut x = vec![0.0; 3 * n];
+    for _ in 0..8 {
+        let r = residuals(&x);
+        let columns: Vec<Vec<f64>> = (0..x.len())
+            .map(|c| {
+                let mut y = x.clone();
+                y[c] += 1e-7;
+                residuals(&y)
+                    .iter()
+                    .zip(&r)
+                    .map(|(a, b)| (a - b) / 1e-7)
+                    .collect()
+            })
+            .collect();
+        let dx = gauss(&columns, &r);
+        x.iter_mut().zip(dx).for_each(|(a, d)| *a -= d);
+    }
+    [0, 1].map(|k| place(&x, s.roles.jaws[k], l.tips[k].map(f64::from)))
+}
+
+/// Solves a square system given by columns.
+fn gauss(columns: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
+    let n = right.len();
+    assert_eq!(columns.len(), n);
+    let mut rows: Vec<Vec<f64>> = (0..n)
+        .map(|r| columns.iter().map(|c| c[r]).chain([right[r]]).collect())
+        .collect();
+    for c in 0..n {
+        let p = (c..n)
+            .max_by(|&a, &b| rows[a][c].abs().total_cmp(&rows[b][c].abs()))
+            .unwrap();
+        rows.swap(c, p);
+        for r in 0..n {
+            if r != c {
+                let f = rows[r][c] / rows[c][c];
+                for k in c..=n {
+                    rows[r][k] -= f * rows[c][k];
+                }
+            }
+        }
+    }
+    (0..n).map(|i| rows[i][n] / rows[i][i]).collect()
+}
+
+/// Of every chain and input joint one structure, laid out with a turning input.
+fn one_for_each_input(links: usize, mut with: impl FnMut(&Subject<'_>, &Structure)) {
+    let turning = [form(Input::Turn, Symmetry::Generic, false)];
+    for chain in chains(links, 1).unwrap() {
+        let (chain, automorphisms) = chain.canonical();
+        let subject = Subject::new(&chain, &automorphisms);
+        let all = structures(&subject, &turning);
+        for (u, v) in subject.inputs() {
+            // Any structure with this input, or one that an automorphism makes of it.
+            let has = |s: &&Structure| {
+                let (r, d) = (s.roles.frame, s.roles.driver);
+                automorphisms
+                    .iter()
+                    .any(|a| [(a[r], a[d]), (a[d], a[r])].contains(&(u, v)))
+            };
+            let found = all.iter().find(has);
+            with(&subject, found.unwrap_or_else(|| panic!("{u} {v}")));
+        }
+    }
+}
+
+/// `topology.md`: W = 1 rows with the input joint unchanged, summed over chains and input joints, generic places.
+#[test]
+fn determinate_variants_with_the_input_unchanged_are_as_published() {
+    let mut sum = 0u64;
+    one_for_each_input(6, |subject, s| {
+        let laid = row(subject, s, &plain(0)).unwrap().laid.unwrap();
+        sum += u64::try_from(laid.determinate(Some(1))).unwrap();
+    });
+    assert_eq!(sum, 11_732);
+}
+
+/// `cargo test --release --test integration catalogue -- --ignored`
+#[test]
+#[ignore = "84 searches, a minute without optimisation"]
+fn determinate_variants_of_eight_links_are_as_published() {
+    let mut sum = 0u64;
+    one_for_each_input(8, |subject, s| {
+        let laid = row(subject, s, &plain(0)).unwrap().laid.unwrap();
+        sum += u64::try_from(laid.determinate(Some(1))).unwrap();
+    });
+    assert_eq!(sum, 12_008_197);
+}
+
+/// `topology.md`: determinate variants of Watt, Stephenson and three eight-bars, every joint free to be changed.
+#[test]
+fn determinate_variants_of_known_chains_are_as_published() {
+    let known = [
+        (6, None, 212_386u64, 5_556u64),
+        (6, None, 220_808, 6_730),
+        (8, Some("G?Bcro"), 42_701_208, 514_560),
+        (8, Some("G?`F`w"), 42_470_582, 425_244),
+        (8, Some("GCOf?{"), 39_461_211, 307_962),
+    ];
+    let turning = [form(Input::Turn, Symmetry::Generic, false)];
+    let mut found = Vec::new();
+    for links in [6, 8] {
+        let mut seen = Vec::new();
+        each(links, &turning, |subject, s| {
+            let code = graph6::write(&s.chain);
+            let asked = |k: &(usize, Option<&str>, u64, u64)| {
+                k.0 == links
+                    && k.1
+                        .is_none_or(|c| graph6::code(&graph6::read(c).unwrap()) == code)
+            };
+            if seen.contains(&code) || !known.iter().any(asked) {
+                return;
+            }
+            seen.push(code);
+            let l = layout::layout(subject, &s, &Limits::default(), 1).unwrap();
+            let mut file = mechanism_file(&s, &l, &Spec::default().options().unwrap());
+            // Every joint may change here, the driven one too.
+            file.joint.iter_mut().for_each(|j| j.drive = false);
+            let mechanism = Mechanism::from_json(&file.json().to_string()).unwrap();
+            let outcome = ozols::search(&mechanism, &Request::default()).unwrap();
+            let one = outcome.determinate.by_mobility[&1].to_string();
+            found.push((links, outcome.determinate.to_string(), one));
+        });
+    }
+    let text = |k: &(usize, Option<&str>, u64, u64)| (k.0, k.2.to_string(), k.3.to_string());
+    assert_eq!(
+        found.into_iter().sorted().collect_vec(),
+        known.iter().map(text).sorted().collect_vec()
+    );
+}
+
+#[test]
+fn the_mechanism_of_a_row_has_the_figures_of_the_row_when_it_is_read_again() {
+    let forms = Form::all().collect_vec();
+    let mut n = 0;
+    each(6, &forms, |subject, s| {
+        n += 1;
+        if n % 9 != 0 {
+            return;
+        }
+        let Row { laid: Ok(laid), .. } = row(subject, &s, &plain(3)).unwrap() else {
+            return;
+        };
+        let again = Mechanism::from_toml(&laid.file).unwrap();
+        let free = &analyze(&again).unwrap()[0];
+        assert_eq!((free.mobility, free.redundant), laid.as_built);
+        let request = Request {
+            max_mobility: Some(1),
+            ..Request::default()
+        };
+        let outcome = ozols::search(&again, &request).unwrap();
+        assert_eq!(outcome.determinate.by_mobility_and_changes, laid.counts);
+        assert_eq!(
+            outcome.admissible.total,
+            laid.determinate(Some(1)),
+            "{}",
+            s.name()
+        );
+        let best = outcome.variants().next().unwrap();
+        assert_eq!(best.cost_milli(), laid.ideas[0].cost_milli);
+        // Every joint is a hinge square to the plane but the input, and no place is off the millimetre.
+        for j in &again.joints {
+            let slides = j.drive && s.form.input == Input::Slide;
+            assert_eq!(j.joint_type == JointType::Prismatic, slides);
+            assert!(real(&j.frame.point).iter().all(|x| x.fract() == 0.0));
+        }
+    });
+}
+
+#[test]
+fn why_a_structure_has_no_layout_is_said() {
+    let mirror = form(Input::Slide, Symmetry::Mirror, false);
+    let mut whys = BTreeMap::new();
+    each(8, &[mirror], |subject, s| {
+        if let Err(why) = layout::layout(subject, &s, &Limits::default(), 1) {
+            *whys.entry(why.to_string()).or_insert(0) += 1;
+        }
+    });
+    // `topology.md`: of 53 graph-symmetric ones 48 have no regular mirror layout.
+    assert_eq!(whys.values().sum::<i32>(), 48, "{whys:?}");
+    assert!(whys.contains_key("the drive cannot move"), "{whys:?}");
+    let strict = Limits {
+        transmission: 89.9,
+        ..Limits::default()
+    };
+    let turning = form(Input::Turn, Symmetry::Generic, false);
+    let mut refused = 0;
+    each(6, &[turning], |subject, s| {
+        let found = layout::layout(subject, &s, &strict, 1);
+        refused += usize::from(found.is_err_and(|e| e.to_string().contains("transmission angle")));
+    });
+    assert!(refused > 0);
+}

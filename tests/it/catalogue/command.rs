@@ -1,0 +1,298 @@
+//! `ozols catalog build`, `query`, `show`, `export`, `merge` and `page` as commands.
+
+use crate::common::{ozols, run, text};
+use assert_cmd::cargo::CommandCargoExt as _;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+use tempfile::{TempDir, tempdir};
+
+fn at(folder: &TempDir, name: &str) -> String {
+    folder.path().join(name).display().to_string()
+}
+
+fn ok(args: &[&str]) -> String {
+    let o = run(args);
+    assert_eq!(o.status.code(), Some(0), "{args:?}: {}", text(&o.stderr));
+    text(&o.stdout)
+}
+
+fn fails(args: &[&str], says: &str) {
+    let o = run(args);
+    let told = text(&o.stderr);
+    assert_eq!(
+        (o.status.code(), told.contains(says)),
+        (Some(2), true),
+        "{args:?}: {told}"
+    );
+}
+
+/// All that a catalogue holds, table by table, in order.
+fn whole(file: &str) -> String {
+    [
+        "structures ORDER BY id",
+        "layouts ORDER BY structure",
+        "counts ORDER BY structure, mobility, changes",
+        "ideas ORDER BY structure, place",
+    ]
+    .map(|t| {
+        let o = run(&[
+            "catalog",
+            "query",
+            file,
+            &format!("SELECT * FROM {t}"),
+            "--format",
+            "csv",
+        ]);
+        text(&o.stdout)
+    })
+    .join("\n")
+}
+
+/// Small enough for a test without optimisation: structures of six links that are symmetric, and their ideas.
+const SMALL: [&str; 10] = [
+    "catalog",
+    "build",
+    "--links",
+    "4..6",
+    "--symmetry",
+    "mirror,half-turn",
+    "--ideas",
+    "3",
+    "--quiet",
+    "-o",
+];
+
+fn small<'a>(file: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    SMALL
+        .iter()
+        .copied()
+        .chain([file])
+        .chain(more.iter().copied())
+        .collect()
+}
+
+#[test]
+fn a_catalogue_is_the_same_whatever_the_threads_and_the_shards() {
+    let folder = tempdir().unwrap();
+    let one = at(&folder, "one.db");
+    ok(&small(&one, &["--threads", "1"]));
+    let rows = whole(&one);
+    assert!(rows.contains("slide,mirror") && rows.contains("turn,half-turn"));
+    let eight = at(&folder, "eight.db");
+    ok(&small(&eight, &["--threads", "8"]));
+    assert_eq!(whole(&eight), rows);
+    let mut merge = vec!["catalog".to_owned(), "merge".to_owned()];
+    for i in 1..=3 {
+        let part = at(&folder, &format!("{i}.db"));
+        ok(&small(&part, &["--shard", &format!("{i}/3")]));
+        merge.push(part);
+    }
+    let merged = at(&folder, "merged.db");
+    merge.extend(["-o".to_owned(), merged.clone()]);
+    ok(&merge.iter().map(String::as_str).collect::<Vec<_>>());
+    assert_eq!(whole(&merged), rows);
+    // What is there already is not made again.
+    assert!(ok(&small(&one, &[])).contains("0 structures added"));
+}
+
+#[cfg(unix)]
+#[test]
+fn killed_at_any_moment_it_carries_on() {
+    let folder = tempdir().unwrap();
+    let (whole_file, killed) = (at(&folder, "whole.db"), at(&folder, "killed.db"));
+    ok(&small(&whole_file, &[]));
+    for i in 0..6 {
+        let mut child = Command::cargo_bin("ozols")
+            .unwrap()
+            .args(small(&killed, &[]))
+            .stdout(Stdio::null())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_millis(37 * i));
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    ok(&small(&killed, &[]));
+    assert_eq!(whole(&killed), whole(&whole_file));
+}
+
+#[test]
+fn it_is_queried_shown_exported_and_drawn() {
+    let folder = tempdir().unwrap();
+    let db = at(&folder, "g.db");
+    let built = ok(&small(&db, &[]));
+    assert!(built.contains("ozols catalog query"), "{built}");
+    let list = ok(&["catalog", "query", &db]);
+    let id = list
+        .lines()
+        .find(|l| l.contains("mirror"))
+        .unwrap()
+        .split_whitespace()
+        .next()
+        .unwrap();
+    let shown = ok(&["catalog", "show", &db, &id[..6]]);
+    assert!(
+        shown.contains("W = 1, σ = 6; finite mobility 1, proven"),
+        "{shown}"
+    );
+    let json: serde_json::Value =
+        serde_json::from_str(&ok(&["catalog", "show", &db, id, "--json"])).unwrap();
+    assert_eq!(json["ideas"].as_array().unwrap().len(), 3);
+    assert_eq!(json["layout"]["mobility"], 1);
+    let toml = at(&folder, "g.toml");
+    ok(&["catalog", "export", &db, id, "-o", &toml]);
+    let analysed: serde_json::Value =
+        serde_json::from_str(&ok(&["analyze", &toml, "--format", "json"])).unwrap();
+    assert_eq!(
+        analysed["states"][0]["redundant"],
+        json["layout"]["redundant"]
+    );
+    // Every idea carried out is determinate, and of mobility 1.
+    for k in ["1", "2", "3"] {
+        ok(&["catalog", "export", &db, id, "--variant", k, "-o", &toml]);
+        let v: serde_json::Value =
+            serde_json::from_str(&ok(&["analyze", &toml, "--format", "json"])).unwrap();
+        let free = &v["states"][0];
+        assert_eq!(
+            (free["mobility"].as_u64(), free["redundant"].as_u64()),
+            (Some(1), Some(0)),
+            "{k}"
+        );
+    }
+    let page = at(&folder, "g.html");
+    ok(&["catalog", "page", &db, "-o", &page]);
+    let html = std::fs::read_to_string(&page).unwrap();
+    assert!(
+        html.contains(id)
+            && html.contains("Content-Security-Policy")
+            && !html.contains("http://localhost")
+    );
+    let csv = ok(&[
+        "catalog",
+        "query",
+        &db,
+        "SELECT links, count(*) AS n FROM structures GROUP BY links",
+        "--format",
+        "csv",
+    ]);
+    assert!(csv.starts_with("links,n\n6,"), "{csv}");
+    let nothing = run(&[
+        "catalog",
+        "query",
+        &db,
+        "SELECT id FROM structures WHERE links = 5",
+    ]);
+    assert_eq!(nothing.status.code(), Some(1));
+}
+
+#[test]
+fn what_cannot_be_done_is_said() {
+    let folder = tempdir().unwrap();
+    let db = at(&folder, "g.db");
+    ok(&["catalog", "build", "--links", "4", "--quiet", "-o", &db]);
+    fails(
+        &[
+            "catalog", "build", "--links", "4", "--ideas", "2", "-o", &db,
+        ],
+        "ideas differs",
+    );
+    fails(
+        &["catalog", "build", "--links", "5", "-o", &db],
+        "even number",
+    );
+    fails(
+        &["catalog", "build", "--links", "4..14", "-o", &db],
+        "4 to 12",
+    );
+    fails(
+        &["catalog", "build", "--input", "push", "-o", &db],
+        "none of slide, turn",
+    );
+    fails(
+        &[
+            "catalog",
+            "build",
+            "--input",
+            "turn",
+            "--symmetry",
+            "mirror",
+            "-o",
+            &db,
+        ],
+        "a mirror image needs a slide",
+    );
+    fails(
+        &["catalog", "build", "--options", "glue", "-o", &db],
+        "cylindrical",
+    );
+    fails(
+        &["catalog", "build", "--shard", "3/2", "-o", &db],
+        "a part is written",
+    );
+    fails(&["catalog", "show", &db, "nothing"], "no structure nothing");
+    fails(
+        &["catalog", "show", &db, "4-"],
+        "the beginning of 2 structures",
+    );
+    fails(
+        &["catalog", "query", &db, "SELECT nonsense"],
+        "no such column",
+    );
+    fails(&["catalog", "query", &db, "DELETE FROM ideas"], "readonly");
+    let other = at(&folder, "other.txt");
+    std::fs::write(
+        &other,
+        "This is no database, though it is long enough to be looked at as one.".repeat(20),
+    )
+    .unwrap();
+    fails(&["catalog", "query", &other], "is no catalogue");
+    fails(
+        &["catalog", "build", "--links", "4", "-o", &other],
+        "is no catalogue",
+    );
+    assert!(
+        std::fs::read_to_string(&other)
+            .unwrap()
+            .starts_with("This is no database")
+    );
+    fails(
+        &["catalog", "query", &at(&folder, "missing.db")],
+        "missing.db",
+    );
+    assert!(!Path::new(&at(&folder, "missing.db")).exists());
+    fails(
+        &["catalog", "merge", &db, "-o", &db],
+        "one of the parts and the whole",
+    );
+    let spec = at(&folder, "spec.toml");
+    std::fs::write(&spec, "links = \"4\"\ncolour = \"red\"\n").unwrap();
+    fails(
+        &[
+            "catalog",
+            "build",
+            "--spec",
+            &spec,
+            "-o",
+            &at(&folder, "s.db"),
+        ],
+        "colour",
+    );
+    std::fs::write(&spec, "links = \"4\"\nideas = 2\ninputs = [\"slide\"]\n").unwrap();
+    let told = ozols(&[
+        "catalog",
+        "build",
+        "--spec",
+        &spec,
+        "-o",
+        &at(&folder, "s.db"),
+        "--quiet",
+    ])
+    .output()
+    .unwrap();
+    assert!(
+        text(&told.stdout).contains("1 structures added"),
+        "{}",
+        text(&told.stdout)
+    );
+}

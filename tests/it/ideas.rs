@@ -1,0 +1,211 @@
+//! Ideas against a slow twin: every variant listed, its pattern made of cycles found by walking.
+
+use itertools::Itertools;
+use num_bigint::BigUint;
+use ozols::geom::vector::{cross, real, unit};
+use ozols::model::joint_type::Freedom;
+use ozols::model::mechanism::{JointId, JointOption, Mechanism};
+use ozols::search::best::Assignment;
+use ozols::{Outcome, Request, search};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Every simple cycle of the mechanism's graph, as the set of its joints.
+fn cycles(m: &Mechanism) -> BTreeSet<BTreeSet<JointId>> {
+    fn walk(
+        m: &Mechanism,
+        start: usize,
+        path: &mut Vec<(JointId, usize)>,
+        out: &mut BTreeSet<BTreeSet<JointId>>,
+    ) {
+        let here = path.last().map_or(start, |p| p.1);
+        for j in m.joint_ids() {
+            let [a, b] = m.joints[j].links.map(|l| l.index());
+            let to = match here {
+                h if h == a => b,
+                h if h == b => a,
+                _ => continue,
+            };
+            if path.iter().any(|p| p.0 == j) {
+                continue;
+            }
+            if to == start {
+                out.insert(path.iter().map(|p| p.0).chain([j]).collect());
+            } else if !path.iter().any(|p| p.1 == to) {
+                path.push((j, to));
+                walk(m, start, path, out);
+                path.pop();
+            }
+        }
+    }
+    let mut out = BTreeSet::new();
+    for start in 0..m.links.len() {
+        walk(m, start, &mut Vec::new(), &mut out);
+    }
+    out
+}
+
+/// The freedoms of an option by what they are and where they point, either way.
+fn freedoms(o: &JointOption) -> Vec<(bool, [i64; 3])> {
+    let z = unit(real(&o.frame.axis));
+    let r = real(&o.frame.reference);
+    let along = z.iter().zip(&r).map(|(a, b)| a * b).sum::<f64>();
+    let x = unit([0, 1, 2].map(|i| r[i] - along * z[i]));
+    let y = cross(z, x);
+    o.joint_type
+        .freedoms()
+        .iter()
+        .map(|f| {
+            let axis = match f {
+                Freedom::Rx | Freedom::Tx => x,
+                Freedom::Ry | Freedom::Ty => y,
+                _ => z,
+            };
+            #[allow(clippy::cast_possible_truncation, reason = "a unit vector")]
+            let d = axis.map(|c| (c * 1e5).round() as i64);
+            let back = d.iter().find(|c| **c != 0).is_some_and(|c| *c < 0);
+            (f.turns(), if back { d.map(|c| -c) } else { d })
+        })
+        .collect()
+}
+
+type Pattern = BTreeMap<(BTreeSet<JointId>, (bool, [i64; 3])), usize>;
+
+struct Twin<'o> {
+    outcome: &'o Outcome,
+    series: BTreeMap<JointId, BTreeSet<JointId>>,
+}
+
+impl<'o> Twin<'o> {
+    fn new(outcome: &'o Outcome) -> Twin<'o> {
+        let m = &outcome.search.mechanism;
+        let cycles = cycles(m);
+        let on = |j: JointId| cycles.iter().map(|c| c.contains(&j)).collect_vec();
+        let series = |j: JointId| m.joint_ids().filter(|&k| on(k) == on(j)).collect();
+        let series = m.joint_ids().map(|j| (j, series(j))).collect();
+        Twin { outcome, series }
+    }
+
+    fn pattern(&self, v: &Assignment, mirrored: bool) -> Pattern {
+        let m = &self.outcome.search.mechanism;
+        let image = |j: JointId| {
+            let of = m.search.mirror.iter().find_map(|&(a, b)| match j {
+                j if j == a => Some(b),
+                j if j == b => Some(a),
+                _ => None,
+            });
+            if mirrored { of.unwrap_or(j) } else { j }
+        };
+        let mut out = Pattern::new();
+        for (variable, &choice) in self.outcome.search.space.variables.iter().zip(&v.choices) {
+            let [j] = variable.joints[..] else { panic!() };
+            let joint = &m.joints[j];
+            let mut added = freedoms(&joint.options[variable.choices[choice].option]);
+            for f in freedoms(&joint.options[0]) {
+                let at = added.iter().position(|a| *a == f).unwrap();
+                added.remove(at);
+            }
+            let series: BTreeSet<JointId> = self.series[&j].iter().map(|&k| image(k)).collect();
+            for f in added {
+                *out.entry((series.clone(), f)).or_default() += 1;
+            }
+        }
+        out
+    }
+}
+
+fn agrees(m: &Mechanism, request: &Request, symmetric: bool) {
+    let outcome = search(m, request).unwrap();
+    let diagrams = outcome.diagrams.as_ref().unwrap();
+    let twin = Twin::new(&outcome);
+    let mut first: Vec<(Pattern, Assignment, usize)> = Vec::new();
+    for v in outcome.search.cheapest(diagrams, usize::MAX) {
+        let own = twin.pattern(&v, false);
+        let pattern = if symmetric {
+            own.clone().min(twin.pattern(&v, true))
+        } else {
+            own
+        };
+        match first.iter_mut().find(|(p, ..)| *p == pattern) {
+            Some((_, _, n)) => *n += 1,
+            None => first.push((pattern, v, 1)),
+        }
+    }
+    let total: usize = first.iter().map(|f| f.2).sum();
+    assert_eq!(outcome.admissible.total, BigUint::from(total));
+    for top in [1, 7, first.len(), first.len() + 3] {
+        let ideas = outcome.search.ideas(diagrams, top);
+        assert_eq!(ideas.len(), top.min(first.len()));
+        for (idea, (_, v, n)) in ideas.iter().zip(&first) {
+            assert_eq!(&idea.first, v);
+            assert_eq!(idea.variants, BigUint::from(*n));
+        }
+    }
+}
+
+#[test]
+fn ideas_are_those_of_a_list_of_all_variants() {
+    let names = |n: &[&str]| n.iter().map(|&s| s.to_owned()).collect();
+    for (name, options, max_mobility) in [
+        ("four-bar", &[][..], None),
+        ("four-bar", &[], Some(1)),
+        (
+            "parallelogram-3-rods",
+            &["spherical", "cylindrical"],
+            Some(1),
+        ),
+        ("3-crr", &["spherical", "cylindrical"], None),
+    ] {
+        let m = Mechanism::builtin(name).unwrap();
+        let request = Request {
+            options: names(options),
+            max_mobility,
+            ..Request::default()
+        };
+        agrees(&m, &request, !m.search.mirror.is_empty());
+    }
+    let gripper = Mechanism::builtin("gripper-10").unwrap();
+    let request = Request {
+        options: names(&["spherical", "sphere-in-cylinder"]),
+        max_mobility: Some(1),
+        ..Request::default()
+    };
+    agrees(&gripper, &request, true);
+}
+
+/// The ways of sharing out the freedoms of the cheapest redesign of the gripper: each half alike.
+#[test]
+fn an_idea_says_what_is_added_where() {
+    let gripper = Mechanism::builtin("gripper-10").unwrap();
+    let request = Request {
+        max_mobility: Some(1),
+        ..Request::default()
+    };
+    let outcome = search(&gripper, &request).unwrap();
+    let ideas = outcome.search.ideas(outcome.diagrams.as_ref().unwrap(), 5);
+    // 11 redundant constraints, one of which is the turn of the slider that the rods share: 11 freedoms are added.
+    for idea in &ideas {
+        let added: u32 = idea.added.iter().map(|a| u32::from(a.times)).sum();
+        assert_eq!(added, 11);
+        assert!(idea.variants > BigUint::from(1u8));
+        assert!(idea.added.iter().all(|a| {
+            ["turn about x", "turn about y", "slide along z"].contains(&a.freedom.as_str())
+        }));
+    }
+    // The joints of the outer rod's contour are in series; the slider's joint is in series with none.
+    let series = |id: &str| {
+        let j = gripper.joint(id).unwrap();
+        let groups = ideas.iter().flat_map(|i| &i.added);
+        groups
+            .filter(|a| a.joints.contains(&j))
+            .map(|a| a.joints.clone())
+            .next()
+            .unwrap_or_default()
+    };
+    let ids = |joints: Vec<JointId>| {
+        joints
+            .into_iter()
+            .map(|j| gripper.joints[j].id.clone())
+            .collect_vec()
+    };
+    assert_eq!(ids(series("2-4")), ["2-4", "4-5", "5-1"]);
+}
