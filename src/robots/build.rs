@@ -10,23 +10,10 @@ use crate::robots::coupling;
 use crate::robots::emit::{self, Bodies, Content};
 use crate::robots::kinematics::{Tree, places, spanning_tree};
 use crate::robots::options::Options;
-use crate::robots::outputs;
+use crate::robots::outputs::{self, link_of};
 use crate::robots::parts::{Part, Robot, free};
 use crate::robots::problem::{RobotProblem, known};
 use std::collections::BTreeSet;
-
-pub(crate) fn link_of(robot: &Robot, name: &str) -> Result<usize, RobotProblem> {
-    robot
-        .links
-        .iter()
-        .position(|l| l == name)
-        .ok_or_else(|| RobotProblem::UnknownName {
-            element: "the command line".to_owned(),
-            what: "link",
-            name: name.to_owned(),
-            known: known("links", robot.links.iter().map(String::as_str)),
-        })
-}
 
 pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Result<(), RobotProblem> {
     for (id, values) in &options.pose {

@@ -1,11 +1,16 @@
 //! Edits of a description by spans of its text: everything else stays as it is, byte for byte.
 
 use crate::file::problem::ImportError;
+use crate::geom::vector::Vector;
 use crate::robots::origin::Origin;
+use crate::robots::parts::Part;
 use crate::robots::problem::RobotProblem;
 use crate::robots::xml::Element;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
+
+/// The freedoms that a joint gets: whether each slides, its direction in the world, and why, in words.
+pub(crate) type Freed<'a> = &'a [(bool, Vector, String)];
 
 /// Changes to the text of a description.
 pub(crate) struct Edits<'a> {
@@ -158,4 +163,18 @@ impl<'a> Edits<'a> {
 /// Where an element ends.
 pub(crate) fn end(e: Element<'_>) -> usize {
     e.node().close.end.max(e.node().span.end)
+}
+
+/// Where a file beside the description says that the joint is there.
+pub(crate) fn beside(origin: &Origin, part: &Part) -> ImportError {
+    let root = origin.element(origin.root);
+    let element = format!("loop \"{}\"", part.id);
+    let why = "the file of loop closures says that it is there".to_owned();
+    let remedy = "choose a joint of the description (--at)".to_owned();
+    let problem = RobotProblem::Unsupported {
+        element,
+        why,
+        remedy,
+    };
+    root.fail(None, problem)
 }

@@ -3,17 +3,13 @@
 use crate::file::problem::ImportError;
 use crate::geom::vector::Vector;
 use crate::redundancy::release::Release;
-use crate::robots::edit::Edits;
+use crate::robots::edit::{Edits, Freed};
 use crate::robots::import::Imported;
 use crate::robots::origin::Origin;
 use crate::robots::parts::Part;
-use crate::robots::problem::RobotProblem;
 use crate::robots::single_freedoms::comment;
 use crate::robots::{mjcf, sdf, urdf};
 use std::collections::BTreeMap;
-
-/// The freedoms that a joint gets: whether each slides, its direction in the world, and why, in words.
-pub(crate) type Freed<'a> = &'a [(bool, Vector, String)];
 
 /// The text of the description with releases made: joints added in series, and couplings left out. All else stays as it is,
 /// byte for byte; comments say why.
@@ -68,17 +64,3 @@ pub fn fix(imported: &Imported, releases: &[(Release, String)]) -> Result<String
 
 type Free = fn(&Origin, &[(&Part, Freed<'_>)], &mut Edits<'_>) -> Result<(), ImportError>;
 type Uncouple = fn(&Origin, usize, &str, &mut Edits<'_>) -> Result<(), ImportError>;
-
-/// Where a file beside the description says that the joint is there.
-pub(crate) fn beside(origin: &Origin, part: &Part) -> ImportError {
-    let root = origin.element(origin.root);
-    let element = format!("loop \"{}\"", part.id);
-    let why = "the file of loop closures says that it is there".to_owned();
-    let remedy = "choose a joint of the description (--at)".to_owned();
-    let problem = RobotProblem::Unsupported {
-        element,
-        why,
-        remedy,
-    };
-    root.fail(None, problem)
-}

@@ -4,7 +4,7 @@ use crate::closure::tree::forest;
 use crate::robots::emit::Bodies;
 use crate::robots::options::Options;
 use crate::robots::parts::Robot;
-use crate::robots::problem::RobotProblem;
+use crate::robots::problem::{RobotProblem, known};
 use std::collections::BTreeSet;
 
 /// Last words of the names of end effectors.
@@ -33,6 +33,19 @@ const IDLE: [&str; 9] = [
     "link", "body", "frame", "left", "right", "l", "r", "front", "rear",
 ];
 
+pub(crate) fn link_of(robot: &Robot, name: &str) -> Result<usize, RobotProblem> {
+    robot
+        .links
+        .iter()
+        .position(|l| l == name)
+        .ok_or_else(|| RobotProblem::UnknownName {
+            element: "the command line".to_owned(),
+            what: "link",
+            name: name.to_owned(),
+            known: known("links", robot.links.iter().map(String::as_str)),
+        })
+}
+
 /// Links by the place of the one that stands for each: those asked for, or end effectors by name, or the ends of chains that
 /// have a shape or a site, or all of them, or what is farthest from the frame; and a base that floats.
 pub(crate) fn of(
@@ -44,7 +57,7 @@ pub(crate) fn of(
 ) -> Result<Vec<usize>, RobotProblem> {
     let mut out = Vec::new();
     for name in &options.outputs {
-        let b = bodies.of[crate::robots::build::link_of(robot, name)?];
+        let b = bodies.of[link_of(robot, name)?];
         if b == frame {
             return Err(RobotProblem::Whole {
                 message: format!(

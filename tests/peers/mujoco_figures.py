@@ -73,6 +73,44 @@ class Model:
         names = [mujoco.mj_id2name(m, mujoco.mjtObj.mjOBJ_BODY, b) for b in range(m.nbody)]
         return {n: self.data.xpos[b].copy() for b, n in enumerate(names) if n}
 
+    def marks(self, q, points):
+        """Points that bodies carry, given in the world at a pose: by body, in its own frame."""
+        self.jacobian(q)
+        out = {}
+        for n, ps in points.items():
+            b = mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_BODY, n)
+            r = self.data.xmat[b].reshape(3, 3)
+            out[n] = (b, [r.T @ (p - self.data.xpos[b]) for p in ps])
+        return out
+
+    def seen(self, q, marks):
+        """Where the marks are at a pose."""
+        self.jacobian(q)
+        d = self.data
+        at = lambda b, p: d.xpos[b] + d.xmat[b].reshape(3, 3) @ p
+        return {n: [at(b, p) for p in ps] for n, (b, ps) in marks.items()}
+
+    def match(self, marks, wanted, q, steps=60):
+        """The closed pose near by with marks where they are wanted."""
+        m, q = self.model, np.array(q, dtype=float)
+        for _ in range(steps):
+            found = self.seen(q, marks)
+            rows, gap = self.jacobian(q)
+            rows, gap = [rows], [gap]
+            for n, (b, _) in marks.items():
+                for now, want in zip(found[n], wanted[n]):
+                    j = np.zeros((3, m.nv))
+                    mujoco.mj_jac(m, self.data, j, None, now, b)
+                    rows.append(j)
+                    gap.append(now - want)
+            gap = np.concatenate(gap)
+            if np.abs(gap).max() < 1e-13:
+                break
+            dv = -np.linalg.lstsq(np.vstack(rows), gap, rcond=1e-8)[0]
+            dv *= min(1.0, 0.3 / max(np.abs(dv).max(), 1e-12))
+            integrate(m, q, dv)
+        return q
+
     def embed(self, other, q):
         """The pose of another model, of the joints that both have; what is new stands at zero."""
         m, o = self.model, other.model

@@ -4,8 +4,7 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
 use crate::geom::vector::Vector;
-use crate::robots::edit::Edits;
-use crate::robots::fix::{Freed, beside};
+use crate::robots::edit::{Edits, Freed, beside};
 use crate::robots::mjcf::context::compiler;
 use crate::robots::mjcf::defaults::Defaults;
 use crate::robots::origin::Origin;

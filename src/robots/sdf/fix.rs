@@ -2,8 +2,7 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
-use crate::robots::edit::Edits;
-use crate::robots::fix::{Freed, beside};
+use crate::robots::edit::{Edits, Freed, beside};
 use crate::robots::origin::Origin;
 use crate::robots::parts::Part;
 use crate::robots::single_freedoms::{escape, numbers};

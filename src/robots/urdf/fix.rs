@@ -2,8 +2,7 @@
 //! of a joint, or the first link of a loop, and the joint.
 
 use crate::file::problem::ImportError;
-use crate::robots::edit::Edits;
-use crate::robots::fix::{Freed, beside};
+use crate::robots::edit::{Edits, Freed, beside};
 use crate::robots::origin::Origin;
 use crate::robots::parts::Part;
 use crate::robots::single_freedoms::{comment, escape, numbers};
