@@ -112,6 +112,15 @@ fn bytes_of(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
 /// Imports a robot description; files it includes are read from its folder and nowhere else.
 pub(crate) fn description(path: &Path, options: &Options) -> Result<Imported, Error> {
     let bytes = bytes(path, MAX_DESCRIPTION_BYTES)?;
+    description_of(path, &bytes, options)
+}
+
+/// Imports the text of a robot description as if it stood in a file.
+pub(crate) fn description_of(
+    path: &Path,
+    bytes: &[u8],
+    options: &Options,
+) -> Result<Imported, Error> {
     let folder = path
         .parent()
         .filter(|p| !p.as_os_str().is_empty())
@@ -120,15 +129,42 @@ pub(crate) fn description(path: &Path, options: &Options) -> Result<Imported, Er
         path: path.to_owned(),
         why,
     })?;
-    let read = |inner: &str| {
-        let inside = std::fs::canonicalize(folder.join(inner))?;
-        if !inside.starts_with(&folder) {
-            return Err(io::Error::other("it is outside the folder of the file"));
-        }
-        bytes_of(&inside, MAX_DESCRIPTION_BYTES)
-    };
+    let read = |inner: &str| included(&folder, &options.models, inner);
     let name = path.display().to_string();
-    Ok(robots::import(&name, &bytes, &read, options)?)
+    Ok(robots::import(&name, bytes, &read, options)?)
+}
+
+/// The bytes of an included file: of the description's own folder, or of one of the folders of models.
+fn included(folder: &Path, models: &[PathBuf], name: &str) -> io::Result<Vec<u8>> {
+    let (roots, name): (Vec<&Path>, &str) = match name.split_once("://") {
+        Some(("model", name)) => (models.iter().map(PathBuf::as_path).collect(), name),
+        Some((scheme, _)) => {
+            return Err(io::Error::other(format!("{scheme}:// is not read")));
+        }
+        None => (vec![folder], name),
+    };
+    let mut why = io::Error::other("no folder of models was named");
+    for root in roots {
+        let root = std::fs::canonicalize(root)?;
+        let found = std::fs::canonicalize(root.join(name)).and_then(|path| {
+            let allowed = models.iter().filter_map(|m| std::fs::canonicalize(m).ok());
+            if !path.starts_with(&root) && !allowed.into_iter().any(|m| path.starts_with(m)) {
+                return Err(io::Error::other("it is outside the folder of the file"));
+            }
+            // A model is a folder with its description.
+            let path = if path.is_dir() {
+                path.join("model.sdf")
+            } else {
+                path
+            };
+            bytes_of(&path, MAX_DESCRIPTION_BYTES)
+        });
+        match found {
+            Ok(bytes) => return Ok(bytes),
+            Err(e) => why = e,
+        }
+    }
+    Err(why)
 }
 
 /// The structure of a mechanism in each of its states, the free one first: mobility, redundant constraints, contour by
@@ -174,7 +210,8 @@ pub fn search(mechanism: &Mechanism, request: &Request) -> Result<Outcome, Error
     Ok(run(mechanism.clone(), request, &|| false, &mut |_| {})?)
 }
 
-/// A mechanism in another format, as text: `toml` and `json` for the mechanism file, `urdf`, `sdf`, `dot` and `graphml`; see
+/// A mechanism in another format, as text: `toml` and `json` for the mechanism file, `urdf`, `mjcf`, `sdf`, `dot` and `graphml`;
+/// see
 /// [`formats::written`].
 ///
 /// # Errors

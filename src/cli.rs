@@ -14,9 +14,11 @@ mod drive;
 mod examples;
 mod explain;
 mod export;
+mod fix;
 mod grip;
 mod import;
 mod interrupt;
+mod lint;
 mod list;
 mod load;
 mod machine;
@@ -43,7 +45,7 @@ use std::process::ExitCode;
 enum Done {
     /// It did what was asked.
     Found,
-    /// There was nothing to be found.
+    /// There was nothing to be found, or something was that should not be there.
     Nothing,
 }
 
@@ -73,7 +75,9 @@ pub fn run() -> ExitCode {
         args::Command::Grip(a) => grip::run(&args, a),
         args::Command::Drive(a) => drive::run(&args, a),
         args::Command::Verify(a) => verify::run(&args, a),
-        args::Command::Import(a) => import::run(&args, a),
+        args::Command::Import(a) => import::run(a),
+        args::Command::Lint(a) => lint::run(a),
+        args::Command::Fix(a) => fix::run(a),
         args::Command::Draw(a) => draw::run(&args, a),
         args::Command::Report(a) => report::run(&args, a),
         args::Command::Export(a) => export::run(&args, a),
@@ -113,6 +117,9 @@ const THREADS: usize = 1024;
 fn prepare(args: &args::Args) -> anyhow::Result<()> {
     interrupt::listen()?;
     working::show(args.quiet);
+    if args.quiet {
+        output::hush();
+    }
     if let Some(threads) = args.threads {
         anyhow::ensure!(
             (1..=THREADS).contains(&threads),

@@ -10,6 +10,7 @@ pub mod early;
 pub mod grip;
 pub mod idle;
 pub mod layout;
+pub mod lint;
 pub mod mechanism;
 pub mod mobility;
 pub mod next;

@@ -2,7 +2,7 @@
 
 use super::{
     accuracy, analyze, bench, catalog, check, completions, draw, drive, examples, explain, export,
-    grip, import, list, man, new, report, search, statics, verify,
+    fix, grip, import, lint, list, man, new, report, search, statics, verify,
 };
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum, ValueHint};
 
@@ -22,7 +22,7 @@ pub(super) struct Args {
     /// What to do.
     #[command(subcommand)]
     pub(super) command: Command,
-    /// No progress bar, no report of an import.
+    /// Nothing but errors on standard error: no progress bar, no report of an import, no warnings.
     #[arg(long, short, global = true)]
     pub(super) quiet: bool,
     /// Threads to use; all processors by default. Results do not depend on it.
@@ -56,13 +56,19 @@ pub(super) enum Command {
     /// Make a mechanism file of a robot description: URDF, MJCF or SDF.
     #[command(after_help = examples::IMPORT)]
     Import(import::Import),
+    /// Name each redundant constraint of robot descriptions, with its line and what removes it.
+    #[command(after_help = examples::LINT)]
+    Lint(lint::Lint),
+    /// Let the redundant constraints of a robot description go, in its own file.
+    #[command(after_help = examples::FIX)]
+    Fix(fix::Fix),
     /// Draw the structural or the kinematic scheme as SVG.
     #[command(after_help = examples::DRAW)]
     Draw(draw::Draw),
     /// One HTML page: the verdict, drawings, contours, and the variants to sort, filter and look at.
     #[command(after_help = examples::REPORT)]
     Report(report::Report),
-    /// Write a mechanism in another format: TOML, JSON, URDF, SDF, Graphviz DOT, GraphML.
+    /// Write a mechanism in another format: TOML, JSON, URDF, MJCF, SDF, Graphviz DOT, GraphML.
     #[command(after_help = examples::EXPORT)]
     Export(export::Export),
     /// How right and how fast each method is on every built-in mechanism, and where its numbers fail.

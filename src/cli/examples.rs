@@ -71,6 +71,18 @@ Examples:
   ozols import robot.urdf --working-link effector --format json
   ozols analyze robot.toml                                   or at once: ozols analyze robot.urdf";
 
+pub(super) const LINT: &str = "\
+Examples:
+  ozols lint robot.urdf                                what its loops hold twice: exit code 0 nothing, 1 something
+  ozols lint robot.urdf --format json                  the same for programs
+  ozols lint robot.urdf --format sarif -o lint.sarif   for code scanning";
+
+pub(super) const FIX: &str = "\
+Examples:
+  ozols fix robot.urdf -o fixed.urdf                   the cheapest releases that remove all and let nothing move
+  ozols fix robot.urdf --at elbow -o fixed.urdf        at these joints alone
+  ozols fix robot.urdf --variant 2 -o fixed.urdf       the second redesign that `ozols search` lists";
+
 pub(super) const DRAW: &str = "\
 Examples:
   ozols draw gripper-10 -o gripper.svg                   structural scheme

@@ -1,6 +1,5 @@
 //! `ozols import`.
 
-use super::args::Args;
 use super::{Done, output};
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::robots::{self, Options};
@@ -16,11 +15,10 @@ enum ImportFormat {
     Json,
 }
 
+/// How a description is read: the same for every command that reads one.
 #[derive(Debug, ClapArgs)]
-pub(super) struct Import {
-    /// A robot description: URDF, MJCF or SDF, by its root element.
-    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
-    file: String,
+#[command(next_help_heading = "How a description is read")]
+pub(super) struct Reading {
     /// A file of loop closures (YAML, JSON or TOML): [[loop]] with a, b and type; robot.yaml of
     /// example-parallel-robots; Drake's list of ball constraints.
     #[arg(long, value_name = "SIDE")]
@@ -32,6 +30,10 @@ pub(super) struct Import {
     /// Let a robot without a fixed link float: a joint of six freedoms to the world.
     #[arg(long)]
     floating: bool,
+    /// A folder of models (repeatable): what `model://NAME` of an SDF include stands for, and where MJCF includes with `../` may
+    /// lead.
+    #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
+    models: Vec<PathBuf>,
     /// SDF drawn in parts: every joint puts the frame that is its parent onto its child.
     #[arg(long)]
     assemble: bool,
@@ -44,6 +46,15 @@ pub(super) struct Import {
     /// A link whose motion is the working motion (repeatable); the ends of chains by default.
     #[arg(long, value_name = "LINK")]
     working_link: Vec<String>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Import {
+    /// A robot description: URDF, MJCF or SDF, by its root element.
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    file: String,
+    #[command(flatten)]
+    pub(super) reading: Reading,
     /// Output format.
     #[arg(long, value_enum, default_value = "toml")]
     format: ImportFormat,
@@ -52,27 +63,34 @@ pub(super) struct Import {
     output: Option<PathBuf>,
 }
 
-pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
-    let mut options = Options {
-        floating: a.floating,
-        assemble: a.assemble,
-        open: a.open,
-        frame: a.frame.clone(),
-        outputs: a.working_link.clone(),
-        ..Options::default()
-    };
-    for p in &a.pose {
-        options.pose.push(pose(p)?);
+impl Reading {
+    /// The options of the import.
+    pub(super) fn options(&self) -> anyhow::Result<Options> {
+        let mut options = Options {
+            floating: self.floating,
+            assemble: self.assemble,
+            models: self.models.clone(),
+            open: self.open,
+            frame: self.frame.clone(),
+            outputs: self.working_link.clone(),
+            ..Options::default()
+        };
+        for p in &self.pose {
+            options.pose.push(pose(p)?);
+        }
+        if let Some(path) = &self.loops {
+            let bytes = api::bytes(path, MAX_DESCRIPTION_BYTES)?;
+            options.loops = Some((path.display().to_string(), bytes));
+        }
+        Ok(options)
     }
-    if let Some(path) = &a.loops {
-        let bytes = api::bytes(path, MAX_DESCRIPTION_BYTES)?;
-        options.loops = Some((path.display().to_string(), bytes));
-    }
+}
+
+pub(super) fn run(a: &Import) -> anyhow::Result<Done> {
+    let options = a.reading.options()?;
     let imported = description(Path::new(&a.file), &options)?;
-    if !args.quiet {
-        let width = output::error_width();
-        output::note(&fit(&imported.report.text(&a.file), width));
-    }
+    let width = output::error_width();
+    output::note(&fit(&imported.report.text(&a.file), width));
     output::to(a.output.as_deref(), |out| {
         match a.format {
             ImportFormat::Toml => write!(out, "{}", imported.toml()?)?,
@@ -80,7 +98,7 @@ pub(super) fn run(args: &Args, a: &Import) -> anyhow::Result<Done> {
         }
         Ok(Done::Found)
     })?;
-    if let (Some(path), false) = (&a.output, args.quiet) {
+    if let Some(path) = &a.output {
         let file = path.display().to_string();
         let steps = [
             ("analyze", "its mobility and redundant constraints"),

@@ -6,6 +6,7 @@ use crate::file::problem::ImportError;
 use anyhow::Context;
 use std::io::{BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The temporary file that is being written, to be removed where the program ends in between.
@@ -142,8 +143,19 @@ pub(super) fn is_broken_pipe(e: &anyhow::Error) -> bool {
     })
 }
 
+/// Whether nothing but errors is said on standard error.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// Leaves out all notes from now on.
+pub(super) fn hush() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
 /// Says something on standard error; a closed one is no failure.
 pub(super) fn note(text: &str) {
+    if QUIET.load(Ordering::Relaxed) {
+        return;
+    }
     working::rest();
     let _ = write!(std::io::stderr().lock(), "{text}");
 }

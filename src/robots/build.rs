@@ -1,6 +1,5 @@
 //! From a robot as read to a mechanism file: pose, frame, loops, bodies, outputs.
 
-use crate::closure::tree::forest;
 use crate::file::read::limits::LIMITS;
 use crate::file::schema::MechanismFile;
 use crate::file::write::Comment;
@@ -11,22 +10,10 @@ use crate::robots::coupling;
 use crate::robots::emit::{self, Bodies, Content};
 use crate::robots::kinematics::{Tree, places, spanning_tree};
 use crate::robots::options::Options;
+use crate::robots::outputs::{self, link_of};
 use crate::robots::parts::{Part, Robot, free};
 use crate::robots::problem::{RobotProblem, known};
 use std::collections::BTreeSet;
-
-fn link_of(robot: &Robot, name: &str) -> Result<usize, RobotProblem> {
-    robot
-        .links
-        .iter()
-        .position(|l| l == name)
-        .ok_or_else(|| RobotProblem::UnknownName {
-            element: "the command line".to_owned(),
-            what: "link",
-            name: name.to_owned(),
-            known: known("links", robot.links.iter().map(String::as_str)),
-        })
-}
 
 pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Result<(), RobotProblem> {
     for (id, values) in &options.pose {
@@ -77,7 +64,8 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, R
         .filter(held)
         .or_else(|| (0..robot.links.len()).find(|l| !child.contains(l) && robot.world != Some(*l)))
         .unwrap_or(0);
-    if !options.floating {
+    let apart = robot.floats && !loose(robot, &spanning_tree(robot, root)).is_empty();
+    if !options.floating && !apart {
         return Ok(root);
     }
     let world = match robot.world {
@@ -93,20 +81,25 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, R
         robot.joints.push(Part::new(&id, [world, r], sides, free()));
         robot.report.map("floating base");
     }
+    if apart && !options.floating {
+        let what = "parts that no joint holds float in the world, each by itself";
+        robot.report.pose.push(what.to_owned());
+    }
     Ok(world)
+}
+
+/// The roots beside the frame, but for a world that holds nothing.
+fn loose(robot: &Robot, tree: &Tree) -> Vec<usize> {
+    let jointless =
+        |l: usize| robot.world == Some(l) && !robot.joints.iter().any(|j| j.links.contains(&l));
+    let others = tree.roots.iter().skip(1).copied();
+    others.filter(|&l| !jointless(l)).collect()
 }
 
 /// Every link must hang on the frame.
 pub(crate) fn held(robot: &Robot, tree: &Tree) -> Result<(), RobotProblem> {
-    let jointless =
-        |l: usize| robot.world == Some(l) && !robot.joints.iter().any(|j| j.links.contains(&l));
-    let loose: Vec<&str> = tree
-        .roots
-        .iter()
-        .skip(1)
-        .filter(|&&l| !jointless(l))
-        .map(|&l| robot.links[l].as_str())
-        .collect();
+    let loose = loose(robot, tree);
+    let loose: Vec<&str> = loose.iter().map(|&l| robot.links[l].as_str()).collect();
     if loose.is_empty() {
         return Ok(());
     }
@@ -203,14 +196,28 @@ pub(crate) fn close_loops(
     })
 }
 
-/// The entries of the file called `file` of a `format`, with what is to be said above them.
+/// A mechanism file and what its parts are of the robot.
+#[derive(Debug)]
+pub(crate) struct Entries {
+    pub(super) file: MechanismFile,
+    /// What is to be said above its entries.
+    pub(super) comments: Vec<Comment>,
+    /// Places of the links in the pose found.
+    pub(super) places: Vec<Motion>,
+    /// The robot's joints that its joints are.
+    pub(super) joints: Vec<usize>,
+    /// The elements that its couplings are.
+    pub(super) couplings: Vec<usize>,
+}
+
+/// The entries of the file called `file` of a `format`.
 pub(crate) fn entries(
     robot: &mut Robot,
     tree: &Tree,
     file: &str,
     format: &'static str,
     options: &Options,
-) -> Result<(MechanismFile, Vec<Comment>), RobotProblem> {
+) -> Result<Entries, RobotProblem> {
     let places = places(robot, tree);
     let fixed = |j: usize| robot.joints[j].joint_type == JointType::Fixed;
     let rigid = tree
@@ -244,7 +251,7 @@ pub(crate) fn entries(
     }
     let couplings = coupling::usable(robot, &joints);
     let frame = bodies.of[tree.roots[0]];
-    let outputs = output_links(robot, &bodies, &joints, frame, options)?;
+    let outputs = outputs::of(robot, &bodies, &joints, frame, options)?;
     let mut report = std::mem::take(&mut robot.report);
     report.outputs = (
         outputs.iter().map(|&b| robot.links[b].clone()).collect(),
@@ -269,7 +276,7 @@ pub(crate) fn entries(
     }
     robot.report = report;
     let file = std::path::Path::new(file).file_name();
-    Ok(emit::entries(&Content {
+    let (file, comments) = emit::entries(&Content {
         robot,
         file: &file.unwrap_or_default().to_string_lossy(),
         format,
@@ -279,57 +286,12 @@ pub(crate) fn entries(
         outputs: &outputs,
         joints: &joints,
         couplings: &couplings,
-    }))
-}
-
-/// The links asked for, or those at the ends of chains, or the one farthest from the frame.
-fn output_links(
-    robot: &Robot,
-    bodies: &Bodies,
-    joints: &[usize],
-    frame: usize,
-    options: &Options,
-) -> Result<Vec<usize>, RobotProblem> {
-    let mut out = Vec::new();
-    for name in &options.outputs {
-        let b = bodies.of[link_of(robot, name)?];
-        if b == frame {
-            return Err(RobotProblem::Whole {
-                message: format!(
-                    "link \"{name}\" is the frame or fixed to it; name a link that moves"
-                ),
-            });
-        }
-        out.push(b);
-    }
-    if out.is_empty() {
-        out = end_links(robot, bodies, joints, frame);
-    }
-    out.sort_unstable();
-    out.dedup();
-    Ok(out)
-}
-
-/// The links of one joint; where there are none, those farthest from the frame by number of joints.
-fn end_links(robot: &Robot, bodies: &Bodies, joints: &[usize], frame: usize) -> Vec<usize> {
-    let n = robot.links.len();
-    let ends = joints
-        .iter()
-        .map(|&j| robot.joints[j].links.map(|l| bodies.of[l]));
-    let mut joints_at = vec![0; n];
-    ends.clone().flatten().for_each(|b| joints_at[b] += 1);
-    let ends_of_chains: Vec<usize> = (0..n)
-        .filter(|&b| b != frame && joints_at[b] == 1)
-        .collect();
-    if !ends_of_chains.is_empty() {
-        return ends_of_chains;
-    }
-    let (_, steps) = forest(n, ends, |_| false, [frame]);
-    let mut depth = vec![0; n];
-    for s in &steps {
-        depth[s.link] = depth[s.from] + 1;
-    }
-    let deepest = steps.last().map_or(0, |s| depth[s.link]);
-    let last = steps.iter().map(|s| s.link);
-    last.filter(|&b| depth[b] == deepest).collect()
+    });
+    Ok(Entries {
+        file,
+        comments,
+        places,
+        joints,
+        couplings: couplings.iter().map(|u| u.said_by).collect(),
+    })
 }

@@ -9,12 +9,23 @@ use crate::robots::parts::Robot;
 use crate::robots::warning::Kept;
 
 /// Work of singular values, rows · columns · the lesser of them, up to which the figures are told.
-const LARGEST: usize = 2_000_000_000;
+pub(crate) const LARGEST: usize = 2_000_000_000;
 
-/// Sorts out the couplings that a mechanism file can say, as joint indices; the others are noted and left out. `written`
-/// are the joints that go into the file.
-pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<([usize; 2], f64)> {
-    let mut out: Vec<([usize; 2], f64)> = Vec::new();
+/// A coupling that a mechanism file can say.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Usable {
+    /// The joints that lead and follow, by their places in the robot.
+    pub(super) ends: [usize; 2],
+    /// The rate of the follower over the leader's.
+    pub(super) ratio: f64,
+    /// The element that says so.
+    pub(super) said_by: usize,
+}
+
+/// Sorts out the couplings that a mechanism file can say; the others are noted and left out. `written` are the joints that
+/// go into the file.
+pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
+    let mut out: Vec<Usable> = Vec::new();
     for coupling in std::mem::take(&mut robot.couplings) {
         let found = coupling
             .joints
@@ -28,7 +39,7 @@ pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<([usize; 2], f
                     let freedoms = robot.joints[j].joint_type.freedoms();
                     matches!(freedoms, [Freedom::Rz | Freedom::Tz | Freedom::Screw])
                 };
-                let twice = out.iter().any(|(p, _)| *p == [a, b] || *p == [b, a]);
+                let twice = out.iter().any(|u| u.ends == [a, b] || u.ends == [b, a]);
                 match [a, b].into_iter().find(|j| !written.contains(j)) {
                     Some(j) => format!("joint {} is within a rigid body", robot.joints[j].id),
                     None if !one(a) || !one(b) => {
@@ -39,7 +50,11 @@ pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<([usize; 2], f
                         format!("times 0, so that {follower} would stand still")
                     }
                     None => {
-                        out.push(([a, b], coupling.ratio));
+                        out.push(Usable {
+                            ends: [a, b],
+                            ratio: coupling.ratio,
+                            said_by: coupling.said_by,
+                        });
                         continue;
                     }
                 }

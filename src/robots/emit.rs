@@ -7,6 +7,7 @@ use crate::file::write::Comment;
 use crate::geom::rigid::{Motion, towards};
 use crate::geom::vector::{Vector, length};
 use crate::model::joint_type::{Freedom, JointType};
+use crate::robots::coupling::Usable;
 use crate::robots::kinematics::world_axes;
 use crate::robots::parts::{Part, Robot};
 use std::collections::{BTreeMap, BTreeSet};
@@ -76,14 +77,14 @@ pub(crate) struct Content<'a> {
     pub(super) outputs: &'a [usize],
     /// Joints to write, in order.
     pub(super) joints: &'a [usize],
-    /// Joints that lead and follow, with the ratio of their rates.
-    pub(super) couplings: &'a [([usize; 2], f64)],
+    /// Joints that lead and follow.
+    pub(super) couplings: &'a [Usable],
 }
 
 impl Content<'_> {
     /// Whether the rates of a joint matter: its axis is then of length 1, so that they are exact.
     fn coupled(&self, joint: usize) -> bool {
-        self.couplings.iter().any(|(ends, _)| ends.contains(&joint))
+        self.couplings.iter().any(|u| u.ends.contains(&joint))
     }
 }
 
@@ -138,9 +139,9 @@ pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
         }
         joints.push(joint(j, id, c, &ids));
     }
-    let coupling = |(ends, ratio): &([usize; 2], f64)| CouplingEntry {
-        joints: ends.map(|j| joint_ids[&j].clone()),
-        ratio: number(*ratio),
+    let coupling = |u: &Usable| CouplingEntry {
+        joints: u.ends.map(|j| joint_ids[&j].clone()),
+        ratio: number(u.ratio),
     };
     let what = "What a search may put in place of a joint; edit freely.";
     comments.push(Comment::new("search", 0, what));

@@ -50,7 +50,7 @@ static FORMATS: [Format; 7] = [
     Format {
         word: "urdf",
         name: "URDF",
-        about: "A spanning tree; loops as comments",
+        about: "A spanning tree, loops as <loop_joint>",
         endings: &["urdf", "xml"],
         read: Some(("robot", urdf::read::read)),
         write: Some(urdf::write::urdf),
@@ -58,10 +58,10 @@ static FORMATS: [Format; 7] = [
     Format {
         word: "mjcf",
         name: "MJCF",
-        about: "",
+        about: "Bodies; loops as connect and weld",
         endings: &["mjcf", "xml"],
         read: Some(("mujoco", mjcf::read::read)),
-        write: None,
+        write: Some(mjcf::write::mjcf),
     },
     Format {
         word: "sdf",

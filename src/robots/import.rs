@@ -11,12 +11,14 @@ use crate::file::schema::MechanismFile;
 use crate::file::text::mechanism_from_str;
 use crate::file::write::{self, Comment};
 use crate::model::mechanism::Mechanism;
-use crate::robots::build::{apply_pose, close_loops, entries, held, root_link};
+use crate::robots::build::{Entries, apply_pose, close_loops, entries, held, root_link};
 use crate::robots::coupling;
 use crate::robots::formats::{Format, of_root, roots};
 use crate::robots::kinematics::spanning_tree;
 use crate::robots::loops;
+use crate::robots::offers;
 use crate::robots::options::{Options, Reader};
+use crate::robots::origin::Origin;
 use crate::robots::problem::{ExportError, RobotProblem};
 use crate::robots::warning::Report;
 use crate::robots::xml::{self, Document};
@@ -33,6 +35,8 @@ pub struct Imported {
     /// What was mapped, approximated and dropped.
     pub report: Report,
     comments: Vec<Comment>,
+    /// Where in the description the mechanism's parts stand.
+    pub origin: Origin,
 }
 
 impl Imported {
@@ -84,18 +88,42 @@ pub fn import(
     let tree = spanning_tree(&robot, frame);
     held(&robot, &tree).map_err(fail)?;
     close_loops(&mut robot, &tree, options).map_err(fail)?;
-    let (file, comments) = entries(&mut robot, &tree, name, format.name, options).map_err(fail)?;
+    let Entries {
+        mut file,
+        comments,
+        places,
+        joints,
+        couplings,
+    } = entries(&mut robot, &tree, name, format.name, options).map_err(fail)?;
     // Problems are shown in the text that would be written.
     let mechanism = build(&file).or_else(|_| {
         let text = write::toml(&file, &comments).unwrap_or_default();
         mechanism_from_str("the imported mechanism", &text)
     })?;
+    let closes: Vec<bool> = joints.iter().map(|&j| robot.joints[j].closes).collect();
+    let mut offered = file.clone();
+    let mechanism =
+        match offers::at_loops(&mechanism, &closes, &mut offered).then(|| build(&offered)) {
+            Some(Ok(m)) => {
+                file = offered;
+                m
+            }
+            _ => mechanism,
+        };
     robot.report.kept = coupling::kept(&mechanism);
     Ok(Imported {
         mechanism,
         file,
         format,
-        report: robot.report,
+        report: std::mem::take(&mut robot.report),
         comments,
+        origin: Origin {
+            document,
+            root,
+            robot,
+            places,
+            joints,
+            couplings,
+        },
     })
 }

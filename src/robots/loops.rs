@@ -2,12 +2,13 @@
 //!
 //! - ozols' own: a list `loop` of tables with `a` and `b` (names of links, frames or joints), `type` (spherical by
 //!   default), and `point_a`, `point_b`, `axis_a`, `axis_b` in those frames;
-//! - `closed_loop: [[a, b], ...]`, `type: [6d, 3d, ...]`, `name_mot: [...]` of example-parallel-robots;
+//! - `closed_loop: [[a, b], ...]`, `type: [6d, 3d, ...]`, `name_mot: [...]` of example-parallel-robots, with `joint_name: [...]`
+//!   and `joint_type: [...]` of the joints that are not what the URDF says;
 //! - Drake's list of `ball_constraint_body_A`, `ball_constraint_p_AP`, `..._body_B`, `..._p_BQ`.
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
-use crate::geom::vector::{Vector, Z, length};
+use crate::geom::vector::{Vector, X, Y, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::parts::{Part, Robot};
 use crate::robots::problem::{RobotProblem, known};
@@ -139,8 +140,65 @@ fn put(
     Ok(())
 }
 
+/// Gives the joints of `joint_name` the kinds of `joint_type`: those that URDF has no word for.
+fn retyped(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), RobotProblem> {
+    let (names, types) = (list(o, "joint_name")?, list(o, "joint_type")?);
+    if names.len() != types.len() {
+        return Err(whole(format!(
+            "joint_name has {} entries and joint_type {}; write one type for each joint",
+            names.len(),
+            types.len()
+        )));
+    }
+    for (name, kind) in names.iter().zip(types) {
+        let (name, kind) = (
+            word(Some(name), "joint_name")?,
+            word(Some(kind), "joint_type")?,
+        );
+        let Some(joint) = robot.joints.iter_mut().find(|j| j.id == name) else {
+            return Err(RobotProblem::UnknownName {
+                element: "joint_name".to_owned(),
+                what: "joint",
+                name: name.to_owned(),
+                known: known("joints", robot.joints.iter().map(|j| j.id.as_str())),
+            });
+        };
+        let axis = |letter: u8| match letter {
+            b'X' => Some(X),
+            b'Y' => Some(Y),
+            b'Z' => Some(Z),
+            _ => None,
+        };
+        let upper = kind.to_uppercase();
+        let new = match upper.as_bytes() {
+            b"SPHERICAL" => Some((JointType::Spherical, Z, X)),
+            b"FIXED" => Some((JointType::Fixed, Z, X)),
+            b"CARDAN" => Some((JointType::Universal, X, Y)),
+            [b'U', b'J', b'O', b'I', b'N', b'T', b'_', a, b] if a != b => axis(*a)
+                .zip(axis(*b))
+                .map(|(first, second)| (JointType::Universal, first, second)),
+            _ => None,
+        };
+        let Some((new, first, second)) = new else {
+            return Err(RobotProblem::UnknownWord {
+                element: format!("joint \"{name}\""),
+                what: "joint_type",
+                word: kind.to_owned(),
+                known: "SPHERICAL, FIXED, CARDAN, UJOINT_XY and the like".to_owned(),
+            });
+        };
+        joint.values = vec![0.0; new.freedoms().len()];
+        (joint.joint_type, joint.axis, joint.second) = (new, first, second);
+        (joint.limits, joint.zero) = (None, 0.0);
+        joint.comment = Some(format!("{kind} by the file beside the description"));
+        robot.report.map("joint type");
+    }
+    Ok(())
+}
+
 /// The form of example-parallel-robots.
 fn pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), RobotProblem> {
+    retyped(o, robot)?;
     let types = list(o, "type")?;
     for (i, pair) in list(o, "closed_loop")?.iter().enumerate() {
         let element = format!("loop-{}", i + 1);

@@ -1,7 +1,10 @@
-//! MJCF, read.
+//! MJCF, read, mended and written.
 
 mod context;
 mod defaults;
 mod equality;
+pub(super) mod fix;
 mod include;
 pub(super) mod read;
+mod replicate;
+pub(super) mod write;

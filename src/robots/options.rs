@@ -13,6 +13,8 @@ pub struct Options {
     pub assemble: bool,
     /// Take loops that do not close as they are.
     pub open: bool,
+    /// Folders that `model://` stands for, searched in order; files that are included with `../` may be within them, too.
+    pub models: Vec<std::path::PathBuf>,
     /// The link to be the frame, in place of the root.
     pub frame: Option<String>,
     /// The links to be outputs, in place of the end links.

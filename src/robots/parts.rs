@@ -4,7 +4,8 @@ use crate::geom::rigid::{Motion, perpendicular};
 use crate::geom::vector::{Vector, X, Z, cross};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::warning::Report;
-use std::collections::BTreeMap;
+use crate::robots::xml::Element;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A joint between two links, or a constraint that closes a loop.
 #[derive(Debug, Clone)]
@@ -33,6 +34,8 @@ pub(crate) struct Part {
     pub(super) limits: Option<(f64, f64)>,
     /// What was approximated, for the file.
     pub(super) comment: Option<String>,
+    /// The element that says so; none where a file beside the description does.
+    pub(super) element: Option<usize>,
 }
 
 impl Part {
@@ -57,7 +60,14 @@ impl Part {
             closes: false,
             limits: None,
             comment: None,
+            element: None,
         }
+    }
+
+    /// The joint as an element says.
+    pub(crate) fn said_by(mut self, e: Element<'_>) -> Part {
+        self.element = Some(e.id);
+        self
     }
 
     /// The joint about or along another axis of its frame.
@@ -90,12 +100,14 @@ pub(crate) struct Ratio {
     pub(super) joints: [String; 2],
     /// Rate of the follower over that of the leader, in radians and metres.
     pub(super) ratio: f64,
-    /// The element that says so.
+    /// The element that says so, in words.
     pub(super) element: String,
+    /// That element.
+    pub(super) said_by: usize,
 }
 
 /// A robot as read.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Robot {
     pub(super) name: String,
     /// Names of the links.
@@ -105,6 +117,10 @@ pub(crate) struct Robot {
     pub(super) couplings: Vec<Ratio>,
     /// The link that is the world, where the format has one.
     pub(super) world: Option<usize>,
+    /// Whether parts that no joint holds float in the world.
+    pub(super) floats: bool,
+    /// Links with a shape or a site: parts that are more than kinematics.
+    pub(super) shown: BTreeSet<usize>,
     /// Named frames: the link they are fixed to and their place on it.
     pub(super) frames: BTreeMap<String, (usize, Motion)>,
     /// Places of links in the file, for those that nothing else places.
@@ -120,6 +136,8 @@ impl Robot {
             joints: Vec::new(),
             couplings: Vec::new(),
             world: None,
+            floats: false,
+            shown: BTreeSet::new(),
             frames: BTreeMap::new(),
             places: Vec::new(),
             report: Report::default(),

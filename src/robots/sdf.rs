@@ -1,5 +1,7 @@
-//! SDF, read and written.
+//! SDF, read, mended and written.
 
+pub(super) mod fix;
+mod include;
 mod joints;
 pub(super) mod read;
 mod scene;

@@ -1,4 +1,5 @@
-//! URDF, read and written.
+//! URDF, read, mended and written.
 
+pub(super) mod fix;
 pub(super) mod read;
 pub(super) mod write;

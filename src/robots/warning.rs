@@ -106,7 +106,7 @@ impl Report {
         let hint = if *asked {
             ""
         } else {
-            " (the end links; --working-link to choose)"
+            " (end effectors, ends of chains, a floating base; --working-link to choose)"
         };
         let shown = names
             .iter()

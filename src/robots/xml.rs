@@ -1,5 +1,7 @@
 //! XML as a flat arena with the place of every element and attribute, bounded in size, depth and number.
 
+mod numbers;
+
 use crate::file::problem::ImportError;
 use crate::geom::vector::Vector;
 use crate::robots::problem::RobotProblem;
@@ -17,35 +19,80 @@ pub(crate) const MAX_ELEMENTS: usize = 500_000;
 const MAX_PARTS: usize = 10_000;
 /// Most attributes of one element, and of all together.
 const MAX_ATTRIBUTES: (usize, usize) = (256, 1_000_000);
-/// Largest size of a number; the mechanism file takes lengths up to 1e12.
-const MAX_NUMBER: f64 = 1e9;
 
 /// A file's name and text.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Source {
     pub(super) name: String,
     pub(super) text: String,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Attribute {
     name: String,
     value: String,
     span: Range<usize>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Node {
     name: String,
     attributes: Vec<Attribute>,
     text: String,
     pub(super) children: Vec<usize>,
-    source: usize,
-    span: Range<usize>,
+    pub(super) source: usize,
+    /// Of the tag it begins with.
+    pub(super) span: Range<usize>,
+    /// Of the tag it ends with; nothing, behind it, where it is one tag.
+    pub(super) close: Range<usize>,
+    /// Whether it is a copy of what stands there.
+    pub(super) copy: bool,
+}
+
+impl Node {
+    pub(super) fn is_called(&self, name: &str) -> bool {
+        self.name == name
+    }
+
+    pub(super) fn rename(&mut self, name: String) {
+        if let Some(a) = self.attributes.iter_mut().find(|a| a.name == "name") {
+            a.value = name;
+        }
+    }
+
+    /// A copy with an end to its name.
+    pub(super) fn named_on(&self, suffix: &str) -> Node {
+        let mut out = self.clone();
+        out.copy = true;
+        let name = out.attributes.iter_mut().find(|a| a.name == "name");
+        if let Some(name) = name {
+            name.value.push_str(suffix);
+        }
+        out
+    }
+
+    /// A frame in the place of the element, with its class, at a place that six numbers of `xyaxes` turn.
+    pub(super) fn as_frame(&self, pos: Vector, axes: [f64; 6]) -> Node {
+        let words = |v: &[f64]| v.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
+        let made = |name: &str, value: String| Attribute {
+            name: name.to_owned(),
+            value,
+            span: self.span.clone(),
+        };
+        let class = self.attributes.iter().filter(|a| a.name == "childclass");
+        let mut attributes: Vec<Attribute> = class.cloned().collect();
+        attributes.extend([made("pos", words(&pos)), made("xyaxes", words(&axes))]);
+        Node {
+            name: "frame".to_owned(),
+            attributes,
+            copy: true,
+            ..self.clone()
+        }
+    }
 }
 
 /// The elements of a file and of those it includes.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Document {
     pub(super) sources: Vec<Source>,
     pub(super) nodes: Vec<Node>,
@@ -163,7 +210,9 @@ fn parse(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Loca
                 }
             }
             Event::End(_) => {
-                open.pop();
+                if let Some(id) = open.pop() {
+                    nodes[id].close = before..after;
+                }
             }
             Event::Text(t) => put(&t, &open, nodes),
             Event::CData(t) => put(&t, &open, nodes),
@@ -251,17 +300,25 @@ fn node(
         text: String::new(),
         children: Vec::new(),
         source,
+        close: span.end..span.end,
         span,
+        copy: false,
     })
 }
 
 impl<'a> Element<'a> {
-    fn node(self) -> &'a Node {
+    pub(super) fn node(self) -> &'a Node {
         &self.document.nodes[self.id]
     }
 
     pub(crate) fn name(self) -> &'a str {
         &self.node().name
+    }
+
+    /// Where the value of an attribute stands in the file.
+    pub(super) fn value_span(self, name: &str) -> Option<Range<usize>> {
+        let found = self.node().attributes.iter().find(|a| a.name == name)?;
+        (found.span != self.node().span).then(|| found.span.clone())
     }
 
     pub(crate) fn text(self) -> &'a str {
@@ -359,61 +416,5 @@ impl<'a> Element<'a> {
                     },
                 )
             })
-    }
-
-    /// N numbers of an attribute, if it is there.
-    pub(crate) fn numbers<const N: usize>(
-        self,
-        name: &str,
-    ) -> Result<Option<[f64; N]>, ImportError> {
-        self.attribute(name)
-            .map(|text| self.parse_numbers(name, text))
-            .transpose()
-    }
-
-    /// A vector attribute, or what is there without it.
-    pub(crate) fn vector(self, name: &str, default: Vector) -> Result<Vector, ImportError> {
-        Ok(self.numbers::<3>(name)?.unwrap_or(default))
-    }
-
-    /// N numbers of the element's text.
-    pub(crate) fn text_numbers<const N: usize>(self) -> Result<[f64; N], ImportError> {
-        self.parse_numbers("the text", self.text())
-    }
-
-    fn parse_numbers<const N: usize>(
-        self,
-        what: &str,
-        text: &str,
-    ) -> Result<[f64; N], ImportError> {
-        let bad = || {
-            let want = match N {
-                _ if text.contains("${") => "expand the macros first, with `xacro FILE`".to_owned(),
-                1 => "write one finite number up to 1e9 in size".to_owned(),
-                n => format!("write {n} finite numbers up to 1e9 in size, with spaces between"),
-            };
-            self.fail(
-                Some(what),
-                RobotProblem::BadValue {
-                    element: self.label(),
-                    what: what.to_owned(),
-                    found: text.chars().take(60).collect(),
-                    want,
-                },
-            )
-        };
-        let mut out = [0.0; N];
-        let mut words = text.split_whitespace();
-        for x in &mut out {
-            *x = words
-                .next()
-                .and_then(|w| w.parse::<f64>().ok())
-                .filter(|x| x.abs() <= MAX_NUMBER)
-                .ok_or_else(bad)?;
-        }
-        if words.next().is_some() {
-            return Err(bad());
-        }
-        Ok(out)
     }
 }

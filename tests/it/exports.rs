@@ -172,71 +172,65 @@ fn searches_alike() {
     assert_eq!(count(file.to_str().unwrap()), count("gripper-10"));
 }
 
-// SDF keeps loops: W and σ of the free state by singular values survive the way there and back.
-#[test]
-fn sdf_there_and_back() {
-    let mut tried = 0;
-    for m in all() {
-        if matches!(m.mode, Mode::Planar { .. }) {
-            continue;
-        }
-        let text = formats::write(&m, "sdf").unwrap();
-        let i = import("x.sdf", text.as_bytes(), &none, &Options::default())
-            .unwrap_or_else(|e| panic!("{}: {e}\n{text}", m.name));
-        let back = mechanism_from_str("x.toml", &i.toml().unwrap()).unwrap();
-        // A joint mimics one other: couplings beyond a tree, which are redundant where the mechanism moves, are comments.
-        let unsaid = text.matches("<!-- coupled, ").count();
-        let figures = |m: &Mechanism, unsaid: usize| {
-            let s =
-                &analyse(m, &[StateId::FREE], Method::Numeric(Elimination::Svd, 1e-9)).unwrap()[0];
-            (s.contours, s.mobility, s.redundant - unsaid)
-        };
-        assert_eq!(figures(&back, 0), figures(&m, unsaid), "{}\n{text}", m.name);
-        tried += 1;
-    }
-    assert!(tried > 25);
+/// W and σ of the free state by singular values.
+fn figures(m: &Mechanism) -> (usize, usize) {
+    let s = &analyse(m, &[StateId::FREE], Method::Numeric(Elimination::Svd, 1e-9)).unwrap()[0];
+    (s.mobility, s.redundant)
 }
 
-// URDF keeps a spanning tree: one comment for each contour, W the freedoms of the tree.
+fn back(name: &str, text: &str) -> Mechanism {
+    let i = import(name, text.as_bytes(), &none, &Options::default())
+        .unwrap_or_else(|e| panic!("{name}: {e}\n{text}"));
+    mechanism_from_str("x.toml", &i.toml().unwrap()).unwrap()
+}
+
+// MJCF, URDF and SDF keep loops: W and σ of the free state survive the way there and back, and masses are written.
 #[test]
-fn urdf_trees() {
-    for m in all() {
-        let s = &analyse(&m, &[StateId::FREE], Method::Modular).unwrap()[0];
-        let text = match formats::write(&m, "urdf") {
-            Ok(t) => t,
-            Err(e) => {
-                assert!(
-                    e.to_string().contains("write SDF instead"),
-                    "{}: {e}",
-                    m.name
-                );
+fn loops_there_and_back() {
+    for (to, least) in [("mjcf", 25), ("urdf", 20), ("sdf", 25)] {
+        let mut tried = 0;
+        for m in all() {
+            if matches!(m.mode, Mode::Planar { .. }) {
                 continue;
             }
-        };
-        assert_eq!(
-            text.matches("<!-- closes a loop").count(),
-            s.contours,
-            "{}",
-            m.name
-        );
-        match import("x.urdf", text.as_bytes(), &none, &Options::default()) {
-            Ok(i) => {
-                let back = mechanism_from_str("x.toml", &i.toml().unwrap()).unwrap();
-                let t = &analyse(
-                    &back,
-                    &[StateId::FREE],
-                    Method::Numeric(Elimination::Svd, 1e-9),
-                )
-                .unwrap()[0];
-                assert_eq!((t.contours, t.redundant), (0, 0));
-                assert!(t.mobility <= s.freedoms);
-            }
-            Err(e) => assert!(
-                e.to_string().contains("nothing can move"),
-                "{}: {e}",
-                m.name
-            ),
+            let text = match formats::write(&m, to) {
+                Ok(t) => t,
+                Err(e) => {
+                    let e = e.to_string();
+                    assert!(to == "urdf" && e.contains("instead"), "{}: {e}", m.name);
+                    continue;
+                }
+            };
+            // A joint mimics one other: couplings beyond a tree, which are redundant where the mechanism moves, are comments.
+            let unsaid = text.matches("<!-- coupled, ").count();
+            let (w, sigma) = figures(&m);
+            let found = figures(&back(&format!("x.{to}"), &text));
+            assert_eq!(found, (w, sigma - unsaid), "{to} {}\n{text}", m.name);
+            let masses = m.links.iter().filter(|l| l.mass.is_some()).count();
+            assert!(masses == 0 || text.contains("inertial"), "{to} {}", m.name);
+            tried += 1;
         }
+        assert!(tried > least, "{to} {tried}");
+    }
+}
+
+// What a format has no words for is named in the file.
+#[test]
+fn nothing_is_lost_in_silence() {
+    let m = all().find(|m| m.name == "gripper-10-loaded").unwrap();
+    let out: Vec<&str> = m
+        .joint_ids()
+        .filter(|&j| !m.joints[j].is_in(StateId::FREE))
+        .map(|j| m.joints[j].id.as_str())
+        .collect();
+    for to in ["mjcf", "urdf", "sdf"] {
+        let text = formats::write(&m, to).unwrap();
+        assert!(
+            text.contains(&format!("not of the free state: {}", out.join(", "))),
+            "{to}: {text}"
+        );
+        assert!(text.contains("no words for it: "), "{to}: {text}");
+        assert!(text.contains("the options of a search"), "{to}: {text}");
     }
 }
 
@@ -276,7 +270,7 @@ fn graphs() {
 
 #[test]
 fn the_command() {
-    for to in ["toml", "json", "urdf", "sdf", "dot", "graphml"] {
+    for to in ["toml", "json", "urdf", "mjcf", "sdf", "dot", "graphml"] {
         assert!(out(&["export", "four-bar", "--to", to]).len() > 200, "{to}");
     }
     let o = ozols(&["export", "nowhere", "--to", "dot"])

@@ -89,7 +89,7 @@ fn sdf_kinds() {
             "6 finite numbers",
         ),
         ("<link name='a'><pose relative_to='x'/></link>", "\"x\""),
-        ("<include><uri>model://x</uri></include>", "gz sdf -p"),
+        ("<include><uri>model://x</uri></include>", "--models"),
         (
             "<frame name='f' attached_to='g'/><frame name='g' attached_to='f'/><link name='l'/><joint name='j' type='ball'><parent>f</parent><child>l</child></joint>",
             "itself",

@@ -57,7 +57,14 @@ pub(super) fn compiler(root: Element<'_>) -> Result<Compiler, ImportError> {
 impl Compiler {
     /// The place that `pos` and one of the five ways to give an orientation stand for.
     pub(super) fn place(&self, e: Element<'_>) -> Result<Motion, ImportError> {
-        let at = e.vector("pos", [0.0; 3])?;
+        Ok(Motion {
+            translation: e.vector("pos", [0.0; 3])?,
+            ..self.turned(e)?
+        })
+    }
+
+    /// The turn that one of the five ways stands for.
+    pub(super) fn turned(&self, e: Element<'_>) -> Result<Motion, ImportError> {
         let zero = |name: &str| {
             e.fail(
                 Some(name),
@@ -78,12 +85,12 @@ impl Compiler {
             let why = format!("it has two orientations, {}", given.join(" and "));
             return Err(e.unsupported(&why, "keep one"));
         }
-        let mut pose = Motion::shift(at);
+        let mut pose = Motion::IDENTITY;
         if let Some(q) = e.numbers::<4>("quat")? {
             if q.iter().all(|x| x.abs() < 1e-9) {
                 return Err(zero("quat"));
             }
-            pose = Motion::quaternion(at, q);
+            pose = Motion::quaternion([0.0; 3], q);
         } else if let Some([x, y, z, angle]) = e.numbers::<4>("axisangle")? {
             if length([x, y, z]) < 1e-9 {
                 return Err(zero("axisangle"));

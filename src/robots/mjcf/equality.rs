@@ -3,6 +3,7 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
 use crate::model::joint_type::JointType;
+use crate::robots::kinematics::displacement;
 use crate::robots::mjcf::context::Context;
 use crate::robots::parts::{Part, Ratio, Robot};
 use crate::robots::problem::{RobotProblem, known};
@@ -32,7 +33,19 @@ pub(crate) fn read(
             }
             "weld" => {
                 let ends = ends(e, context, robot)?;
-                closing(e, &id, ends, JointType::Fixed, robot)?;
+                let scale = look.numbers::<1>("torquescale")?;
+                if scale == Some([0.0]) {
+                    // Nothing holds its turns: a ball at its anchor, which is given in the second body.
+                    let at = Motion::shift(look.vector("anchor", [0.0; 3])?);
+                    let [(one, first), (two, second)] = ends;
+                    let ends = match e.attribute("site1") {
+                        Some(_) => ends,
+                        None => [(one, first.then(&second.inverse()).then(&at)), (two, at)],
+                    };
+                    closing(e, &id, ends, JointType::Spherical, robot)?;
+                } else {
+                    closing(e, &id, ends, JointType::Fixed, robot)?;
+                }
             }
             "joint" => coupling(e, robot)?,
             "tendon" => {
@@ -126,7 +139,7 @@ fn closing(
     if links[0] == links[1] {
         return Err(same_link(e));
     }
-    let mut part = Part::new(id, links, ends.map(|x| x.1), joint_type);
+    let mut part = Part::new(id, links, ends.map(|x| x.1), joint_type).said_by(e);
     part.closes = true;
     part.comment = Some(format!("closes a loop: <{}>", e.name()));
     robot.report.map(e.name());
@@ -149,12 +162,22 @@ fn coupling(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
         robot.report.approximate(&element, what);
     };
     let [a, b] = names[..] else {
-        let what = format!(
-            "{} can move; its equality to a constant (1 row) is left out",
-            names[0]
-        );
-        left_out(robot, what);
-        comment(names[0], "held at a constant; here it can move", robot);
+        // The joint stands at a constant: it is rigid.
+        let [value, ..] = polynomial(e)?;
+        let one = |j: &&mut Part| j.id == names[0] && j.values.len() == 1;
+        match robot.joints.iter_mut().find(one) {
+            Some(j) => {
+                j.values = vec![value];
+                j.sides[0] = j.sides[0].then(&displacement(j));
+                (j.joint_type, j.values, j.limits) = (JointType::Fixed, Vec::new(), None);
+                j.comment = Some("held at a constant by an equality".to_owned());
+                robot.report.map("joint held at a constant");
+            }
+            None => {
+                let what = format!("{} can move; its equality is left out", names[0]);
+                left_out(robot, what);
+            }
+        }
         return Ok(());
     };
     // Value of joint 1 less its reference, as a polynomial of that of joint 2 less its own.
@@ -174,6 +197,7 @@ fn coupling(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
         joints: [b.to_owned(), a.to_owned()],
         ratio,
         element,
+        said_by: e.id,
     });
     Ok(())
 }

@@ -8,15 +8,17 @@ use crate::robots::xml::{self, Document, Element, MAX_BYTES};
 /// Deepest nesting of files, and most includes in all.
 const LIMITS: (usize, usize) = (16, 1000);
 
-/// Puts the included files in place of all `<include>` elements below `root`.
+/// Puts the included files in place of all `<include>` elements below `root`; `outside` says whether files outside its folder
+/// may be asked for.
 pub(super) fn expand(
     document: &mut Document,
     root: usize,
     read: Reader<'_>,
+    outside: bool,
 ) -> Result<(), ImportError> {
     let mut count = 0;
     let names = vec![document.element(root).source().to_owned()];
-    below(document, root, &names, &mut count, read)
+    below(document, root, &names, &mut count, (read, outside))
 }
 
 fn below(
@@ -24,7 +26,7 @@ fn below(
     root: usize,
     open: &[String],
     count: &mut usize,
-    read: Reader<'_>,
+    read: (Reader<'_>, bool),
 ) -> Result<(), ImportError> {
     let mut stack = vec![root];
     while let Some(id) = stack.pop() {
@@ -54,7 +56,7 @@ fn included(
     id: usize,
     open: &[String],
     count: usize,
-    read: Reader<'_>,
+    (read, outside): (Reader<'_>, bool),
 ) -> Result<usize, ImportError> {
     let e = document.element(id);
     let file = e.required("file")?.to_owned();
@@ -82,15 +84,18 @@ fn included(
         return Err(refuse(e, why, "put the files together"));
     }
     let path = std::path::Path::new(&file);
-    let plain = path.components().all(|c| {
+    let up = |c| matches!(c, std::path::Component::ParentDir);
+    let plain = |c| {
         matches!(
             c,
             std::path::Component::Normal(_) | std::path::Component::CurDir
         )
-    });
-    if !plain {
+    };
+    let mut parts = path.components();
+    if !parts.all(|c| plain(c) || (outside && up(c))) {
         let why = "it is outside the folder of the file".to_owned();
-        return Err(refuse(e, why, "copy it there"));
+        let remedy = "copy it there, or name a folder that holds both with --models";
+        return Err(refuse(e, why, remedy));
     }
     let bytes = match read(&file) {
         Ok(b) => b,

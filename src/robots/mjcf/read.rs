@@ -6,7 +6,7 @@ use crate::geom::vector::{Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::mjcf::context::{Context, compiler};
 use crate::robots::mjcf::defaults::Defaults;
-use crate::robots::mjcf::include;
+use crate::robots::mjcf::{include, replicate};
 use crate::robots::options::{Options, Reader};
 use crate::robots::parts::{Part, Robot, free};
 use crate::robots::problem::RobotProblem;
@@ -26,9 +26,10 @@ pub(crate) fn read(
     document: &mut Document,
     root: usize,
     inner: Reader<'_>,
-    _: &Options,
+    options: &Options,
 ) -> Result<Robot, ImportError> {
-    include::expand(document, root, inner)?;
+    include::expand(document, root, inner, !options.models.is_empty())?;
+    replicate::expand(document, root)?;
     let root = document.element(root);
     let name = root.attribute("model").unwrap_or("robot");
     let mut robot = Robot::new(name);
@@ -95,27 +96,23 @@ fn bodies<'a>(
                     here.push(inner(link, Motion::IDENTITY));
                 }
                 "frame" => {
-                    if e.named("joint")
-                        .chain(e.named("freejoint"))
-                        .next()
-                        .is_some()
-                    {
-                        return Err(
-                            e.unsupported("a joint inside <frame>", "move it into the body")
-                        );
-                    }
                     here.push(inner(w.link, w.place.then(&context.compiler.place(e)?)));
                 }
                 "site" => site(e, &w, context, robot)?,
-                "joint" | "freejoint" if w.element.name() != "worldbody" => {}
+                "joint" | "freejoint" if w.link != 0 => {}
                 "joint" | "freejoint" => {
                     return Err(e.unsupported("the world cannot move", "put the joint into a body"));
                 }
-                "composite" | "flexcomp" | "attach" | "replicate" => {
+                "composite" | "flexcomp" | "attach" => {
                     let remedy = "save the compiled model from MuJoCo as XML and import that";
                     return Err(e.unsupported("it makes bodies when the model is compiled", remedy));
                 }
-                other => robot.report.drop(other, e.attribute("name")),
+                other => {
+                    if other == "geom" {
+                        robot.shown.insert(w.link);
+                    }
+                    robot.report.drop(other, e.attribute("name"));
+                }
             }
         }
         stack.extend(here.into_iter().rev());
@@ -145,6 +142,7 @@ fn site(
         .frames
         .entry(name.to_owned())
         .or_insert((w.link, place));
+    robot.shown.insert(w.link);
     robot.report.map("site");
     Ok(())
 }
@@ -168,10 +166,8 @@ fn body<'a>(
     e.room("bodies", robot.links.len())?;
     e.room("joints", robot.joints.len())?;
     let world = robot.places[parent].then(&place);
-    let joints: Vec<Element<'a>> = e
-        .children()
-        .filter(|c| ["joint", "freejoint"].contains(&c.name()))
-        .collect();
+    let mut joints = Vec::new();
+    own_joints(e, Motion::IDENTITY, class, context, &mut joints)?;
     robot.report.map("body");
     if joints.is_empty() {
         let link = robot.link(&name, world);
@@ -180,7 +176,8 @@ fn body<'a>(
             [parent, link],
             [place, Motion::IDENTITY],
             JointType::Fixed,
-        );
+        )
+        .said_by(e);
         robot.joints.push(part);
         return Ok(link);
     }
@@ -192,26 +189,46 @@ fn body<'a>(
             let between = format!("{name}~{}", i + 1);
             robot.link(&between, world)
         };
-        let part = joint(*j, &name, [from, link], at, class, context, robot)?;
+        let part = joint(j, &name, [from, link], at, context, robot)?;
         robot.joints.push(part);
         (from, at) = (link, Motion::IDENTITY);
     }
     if joints.len() > 1 {
-        let what = format!(
-            "{} joints in series, through links without mass",
-            joints.len()
-        );
-        robot.report.approximate(&e.label(), what);
+        robot.report.map("body on joints in series");
     }
     Ok(from)
 }
 
-fn joint<'a>(
+/// A joint of a body: its element, the place of the frames around it in the body, and their class.
+type Own<'a> = (Element<'a>, Motion, Option<&'a str>);
+
+/// The joints of a body, those in frames in it among them.
+fn own_joints<'a>(
     e: Element<'a>,
+    place: Motion,
+    class: Option<&'a str>,
+    context: &Context<'a>,
+    out: &mut Vec<Own<'a>>,
+) -> Result<(), ImportError> {
+    for c in e.children() {
+        match c.name() {
+            "joint" | "freejoint" => out.push((c, place, class)),
+            "frame" => {
+                let inner = place.then(&context.compiler.place(c)?);
+                let class = c.attribute("childclass").or(class);
+                own_joints(c, inner, class, context, out)?;
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+fn joint<'a>(
+    &(e, inner, class): &Own<'a>,
     body: &str,
     links: [usize; 2],
     place: Motion,
-    class: Option<&'a str>,
     context: &Context<'a>,
     robot: &mut Robot,
 ) -> Result<Part, ImportError> {
@@ -240,9 +257,9 @@ fn joint<'a>(
     let at = if word == "free" {
         Motion::IDENTITY
     } else {
-        Motion::shift(pos)
+        Motion::shift(inner.point(pos))
     };
-    let mut part = Part::new(&id, links, [place.then(&at), at], joint_type);
+    let mut part = Part::new(&id, links, [place.then(&at), at], joint_type).said_by(e);
     if matches!(word, "hinge" | "slide") {
         let axis = look.vector("axis", Z)?;
         if length(axis) < 1e-9 {
@@ -256,7 +273,7 @@ fn joint<'a>(
                 },
             ));
         }
-        part = part.about(axis);
+        part = part.about(inner.direction(axis));
         let unit = if word == "hinge" {
             context.compiler.angle
         } else {

@@ -51,7 +51,7 @@ pub(crate) fn axis(
     let in_model = a
         .child("use_parent_model_frame")
         .is_some_and(|u| ["true", "1"].contains(&u.text()))
-        || scene.old_axes;
+        || scene.old_axes.get(e.node().source) == Some(&true);
     match xyz.attribute("expressed_in").filter(|f| !f.is_empty()) {
         Some("world") => Ok(v),
         Some(f) => Ok(located(xyz, &absolute(scope, f), scene)?.1.direction(v)),
@@ -113,7 +113,7 @@ pub(crate) fn joint(
         robot.places[parent].inverse().then(&on_parent),
         robot.places[child].inverse().then(&world),
     ];
-    let mut part = Part::new(&name, [parent, child], sides, joint_type);
+    let mut part = Part::new(&name, [parent, child], sides, joint_type).said_by(e);
     robot.report.map(word);
     match word {
         "ball" | "fixed" | "floating" => {}
@@ -165,6 +165,7 @@ fn mimic(
         joints: [leader.clone(), name.to_owned()],
         ratio,
         element: e.label(),
+        said_by: m.id,
     });
     Ok(Some(leader))
 }
@@ -247,12 +248,10 @@ pub(crate) fn two_axes(
         [Motion::IDENTITY, part.sides[1]],
         JointType::Revolute,
     );
-    robot.report.approximate(
-        &e.label(),
-        "its axes are not perpendicular: two revolute joints through a link without mass",
-    );
-    robot.joints.push(one.about(first));
-    robot.joints.push(two.about(second));
+    // Axes that are not square: two hinges in series are the same.
+    robot.report.map("joint of two oblique axes");
+    robot.joints.push(one.about(first).said_by(e));
+    robot.joints.push(two.about(second).said_by(e));
     Ok(())
 }
 
@@ -273,7 +272,8 @@ pub(crate) fn weld(
         return Err(same_link(e));
     }
     let id = format!("weld-{}-{}", end(e, "parent")?.1, end(e, "child")?.1);
-    let mut part = Part::new(&id, ends.map(|x| x.0), ends.map(|x| x.1), JointType::Fixed);
+    let mut part =
+        Part::new(&id, ends.map(|x| x.0), ends.map(|x| x.1), JointType::Fixed).said_by(e);
     part.closes = true;
     part.comment = Some("closes a loop: <drake:weld_constraint>".to_owned());
     robot.report.map("weld constraint");

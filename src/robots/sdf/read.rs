@@ -7,6 +7,7 @@ use crate::model::joint_type::JointType;
 use crate::robots::options::{Options, Reader};
 use crate::robots::parts::{Part, Robot};
 use crate::robots::problem::RobotProblem;
+use crate::robots::sdf::include;
 use crate::robots::sdf::joints::{joint, weld};
 use crate::robots::sdf::scene::{Placed, Scene, absolute, end, insert, moves_with, resolve};
 use crate::robots::urdf::read::ball_constraint;
@@ -16,9 +17,10 @@ use crate::robots::xml::{Document, Element};
 pub(crate) fn read(
     document: &mut Document,
     root: usize,
-    _: Reader<'_>,
+    inner: Reader<'_>,
     options: &Options,
 ) -> Result<Robot, ImportError> {
+    let old = include::expand(document, root, inner)?;
     let (root, assemble) = (document.element(root), options.assemble);
     let mut models: Vec<(Element<'_>, bool)> = root.named("model").map(|m| (m, false)).collect();
     let mut robot = Robot::new("robot");
@@ -28,9 +30,6 @@ pub(crate) fn read(
             .children()
             .filter(|e| !["model", "joint", "frame"].contains(&e.name()))
         {
-            if e.name() == "include" {
-                return Err(include(e));
-            }
             robot.report.drop(e.name(), e.attribute("name"));
         }
         if let Some(e) = w.child("joint").or(w.child("frame")) {
@@ -54,11 +53,9 @@ pub(crate) fn read(
         .unwrap_or("robot")
         .clone_into(&mut robot.name);
     robot.world = Some(robot.link("world", Motion::IDENTITY));
-    let version = root
-        .attribute("version")
-        .and_then(|v| v.parse::<f64>().ok());
+    robot.floats = true;
     let mut scene = Scene {
-        old_axes: version.is_some_and(|v| v < 1.5),
+        old_axes: old,
         assemble,
         ..Scene::default()
     };
@@ -115,13 +112,6 @@ pub(crate) fn read(
         }
     }
     Ok(robot)
-}
-
-fn include(e: Element<'_>) -> ImportError {
-    e.unsupported(
-        "another file is needed",
-        "expand the file first, for example with `gz sdf -p`",
-    )
 }
 
 /// The pose child: numbers, what it is relative to, and in which unit.
@@ -207,10 +197,22 @@ fn model<'a>(
                 e.room("links", robot.links.len())?;
                 let name = named(e)?;
                 let (raw, relative) = pose(e)?;
+                if name == "world" {
+                    // Joints that name it mean the world.
+                    if raw != Motion::IDENTITY {
+                        let why = "a link that is the world is not in its place";
+                        return Err(e.unsupported(why, "remove its pose, or give it another name"));
+                    }
+                    robot.report.map("link that is the world");
+                    continue;
+                }
                 let link = robot.link(&name, Motion::IDENTITY);
                 let to = relative.map_or_else(|| own.clone(), |r| absolute(scope, r));
                 insert(scene, name.clone(), placed(e, to, raw, name, Some(link)))?;
                 for c in e.children().filter(|c| c.name() != "pose") {
+                    if ["visual", "collision"].contains(&c.name()) {
+                        robot.shown.insert(link);
+                    }
                     robot.report.drop(c.name(), None);
                 }
                 if static_model {
@@ -238,7 +240,6 @@ fn model<'a>(
                 e.room("constraints", scene.constraints.len())?;
                 scene.constraints.push((e, scope.to_owned()));
             }
-            "include" => return Err(include(e)),
             "gripper" | "plugin" | "self_collide" | "allow_auto_disable" | "enable_wind" => {
                 robot.report.drop(e.name(), e.attribute("name"));
             }

@@ -27,8 +27,8 @@ pub(crate) struct Scene<'a> {
     pub(crate) constraints: Vec<(Element<'a>, String)>,
     /// Links of static models.
     pub(super) fixed: Vec<usize>,
-    /// Whether axes are given in the model's frame: before SDF 1.5.
-    pub(super) old_axes: bool,
+    /// By file, whether axes are given in the model's frame: before SDF 1.5.
+    pub(super) old_axes: Vec<bool>,
     /// Whether joints put their parent frame onto the child.
     pub(super) assemble: bool,
 }

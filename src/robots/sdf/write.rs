@@ -1,8 +1,9 @@
 //! SDF: every joint of the free state as it stands, loops closed by joints.
 
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::robots::mimic::{Follows, mimics, settled, stand_in};
+use crate::robots::physical::{inertial, left_out};
 use crate::robots::single_freedoms::{
     Names, Place, Single, comment, escape, number, numbers, place, singles,
 };
@@ -24,11 +25,8 @@ pub(crate) fn sdf(m: &Mechanism) -> String {
         "  <model name=\"{}\">",
         escape(&m.name.replace("::", ":"))
     );
-    if let Mode::Planar { .. } = m.mode {
-        let _ = writeln!(
-            out,
-            "    <!-- a planar model: its figures count 3 constraints per contour, those of this file 6 -->"
-        );
+    for what in left_out(m) {
+        let _ = writeln!(out, "    <!-- {} -->", comment(&what));
     }
     let joints: Vec<JointId> = m.joints_in(StateId::FREE).collect();
     let written: Vec<bool> = m.joint_ids().map(|j| joints.contains(&j)).collect();
@@ -52,7 +50,15 @@ pub(crate) fn sdf(m: &Mechanism) -> String {
         let Some(n) = links[l].as_deref().filter(|n| *n != world) else {
             continue;
         };
-        let _ = writeln!(out, "    <link name=\"{}\"/>", escape(n));
+        let weight = inertial(m, l, [0.0; 3]).map_or("/>".to_owned(), |i| {
+            let [xx, yy, zz, xy, xz, yz] = i.tensor.map(number);
+            format!(
+                "><inertial><pose>{} 0 0 0</pose><mass>{}</mass><inertia><ixx>{xx}</ixx><iyy>{yy}</iyy><izz>{zz}</izz><ixy>{xy}</ixy><ixz>{xz}</ixz><iyz>{yz}</iyz></inertia></inertial></link>",
+                numbers(i.centre),
+                i.mass
+            )
+        });
+        let _ = writeln!(out, "    <link name=\"{}\"{weight}", escape(n));
         if link.role == Role::Frame {
             let ends = [world.as_str(), n];
             write_joint(

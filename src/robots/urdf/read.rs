@@ -31,8 +31,11 @@ pub(crate) fn read(
                 },
             ));
         }
-        robot.link(name, Motion::IDENTITY);
+        let l = robot.link(name, Motion::IDENTITY);
         for c in link.children() {
+            if ["visual", "collision"].contains(&c.name()) {
+                robot.shown.insert(l);
+            }
             robot.report.drop(c.name(), None);
         }
     }
@@ -59,6 +62,10 @@ pub(crate) fn read(
             }
         }
     }
+    // By convention a root of this name is the ground.
+    let world = robot.links.iter().position(|l| l == "world");
+    let held = |w: &usize| robot.joints.iter().any(|j| j.links[1] == *w);
+    robot.world = world.filter(|w| !held(w));
     Ok(robot)
 }
 
@@ -140,16 +147,21 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
         "floating" => free(),
         _ => return Err(unknown_type(e, word, TYPES)),
     };
-    let mut part = Part::new(name, links, sides, joint_type);
+    let mut part = Part::new(name, links, sides, joint_type).said_by(e);
     if matches!(word, "revolute" | "continuous" | "prismatic" | "planar") {
         part = part.about(axis(e)?);
     }
     if let Some(l) = e.child("limit")
         && word != "continuous"
     {
-        let one = |k| Ok(l.numbers::<1>(k)?.map_or(0.0, |[x]| x));
+        // What is beyond all numbers that are read, 1e16 say, is no limit.
+        let one = |k| match l.attribute(k).map(str::parse::<f64>) {
+            Some(Ok(x)) if x.abs() > 1e9 => Ok(x.signum() * f64::INFINITY),
+            _ => Ok(l.numbers::<1>(k)?.map_or(0.0, |[x]| x)),
+        };
         let (low, high) = (one("lower")?, one("upper")?);
-        part.limits = (low < high).then_some((low, high));
+        let finite = low.is_finite() && high.is_finite();
+        part.limits = (low < high && finite).then_some((low, high));
     }
     robot.report.map(word);
     if let Some(m) = e.child("mimic") {
@@ -161,6 +173,7 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
             joints: [leader.to_owned(), name.to_owned()],
             ratio,
             element: e.label(),
+            said_by: m.id,
         });
     }
     for c in e.children() {
@@ -222,7 +235,9 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
             ));
         }
     };
-    let mut part = Part::new(name, links, sides, joint_type).about(axis(e)?);
+    let mut part = Part::new(name, links, sides, joint_type)
+        .about(axis(e)?)
+        .said_by(e);
     part.closes = true;
     robot.report.map("loop_joint");
     robot.joints.push(part);
@@ -258,7 +273,7 @@ pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), I
         return Err(same_link(e));
     }
     let id = format!("ball-{}-{}", robot.links[links[0]], robot.links[links[1]]);
-    let mut part = Part::new(&id, links, sides, JointType::Spherical);
+    let mut part = Part::new(&id, links, sides, JointType::Spherical).said_by(e);
     part.closes = true;
     robot.report.map("ball constraint");
     robot.joints.push(part);

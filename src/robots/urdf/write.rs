@@ -1,10 +1,11 @@
-//! URDF: a spanning tree of the free state; the joints that close loops are comments.
+//! URDF: a spanning tree of the free state; the joints that close loops are `<loop_joint>`s.
 
 use crate::closure::tree::spanning_tree;
 use crate::geom::vector::sub;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::robots::mimic::{mimics, settled, stand_in};
+use crate::robots::physical::{inertial, left_out};
 use crate::robots::problem::ExportError;
 use crate::robots::single_freedoms::{
     Names, Single, comment, escape, number, numbers, place, singles,
@@ -25,12 +26,23 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<String, ExportError> {
     let mut ids = vec![String::new(); m.joints.len()];
     let mut single = vec![false; m.joints.len()];
     let frame = m.frame();
-    let link = |l: LinkId, head: &mut String, names: &mut Names| {
+    for what in left_out(m) {
+        let _ = writeln!(head, "  <!-- {} -->", comment(&what));
+    }
+    let link = |l: LinkId, at: [f64; 3], head: &mut String, names: &mut Names| {
         let n = names.fit(&m.links[l].id);
-        let _ = writeln!(head, "  <link name=\"{}\"/>", escape(&n));
+        let weight = inertial(m, l, at).map_or("/>".to_owned(), |i| {
+            let [xx, yy, zz, xy, xz, yz] = i.tensor.map(number);
+            format!(
+                "><inertial><origin xyz=\"{}\"/><mass value=\"{}\"/><inertia ixx=\"{xx}\" iyy=\"{yy}\" izz=\"{zz}\" ixy=\"{xy}\" ixz=\"{xz}\" iyz=\"{yz}\"/></inertial></link>",
+                numbers(i.centre),
+                i.mass
+            )
+        });
+        let _ = writeln!(head, "  <link name=\"{}\"{weight}", escape(&n));
         n
     };
-    links[frame] = Some((link(frame, &mut head, &mut names), [0.0; 3]));
+    links[frame] = Some((link(frame, [0.0; 3], &mut head, &mut names), [0.0; 3]));
     let mut joint_names = Names::default();
     for step in spanning_tree(m, StateId::FREE) {
         let (j, from, to) = (step.joint, step.from, step.link);
@@ -41,7 +53,7 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<String, ExportError> {
         let at = sub(p.point, origin);
         let id = joint_names.fit(&joint.id);
         ids[j].clone_from(&id);
-        let child = link(to, &mut head, &mut names);
+        let child = link(to, p.point, &mut head, &mut names);
         // The child moves the other way where the joint is passed backwards.
         let sign = if step.forward { 1.0 } else { -1.0 };
         let parts = kinds(m, j, sign)?;
@@ -61,7 +73,8 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<String, ExportError> {
             } else {
                 joint_names.fit(&format!("{id}~{}", i + 1))
             };
-            write_joint(&mut body, &part, kind, [&holder, &held], origin, *axis, j);
+            let ends = [holder.as_str(), held.as_str()];
+            body.push_str(&tree_joint(&part, kind, ends, origin, *axis, &stand_in(j)));
             (holder, origin) = (held, [0.0; 3]);
         }
         if joint.drive {
@@ -71,15 +84,51 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<String, ExportError> {
     }
     for &j in joints.iter().filter(|&&j| !used[j]) {
         let (joint, p) = (&m.joints[j], place(m, &m.joints[j]));
-        let [a, b] = joint.links.map(|l| m.links[l].id.as_str());
-        let what = format!(
-            "closes a loop: {} ({}) between {a} and {b} at {}, axis {}",
-            joint.id,
-            joint.joint_type.name(),
-            numbers(p.point),
-            numbers(p.axes[2]),
+        let id = joint_names.fit(&joint.id);
+        let [(mut a, mut from), (b, to)] =
+            joint.links.map(|l| links[l].clone().unwrap_or_default());
+        // All but the last of its freedoms are joints of the tree; a ball, and what is rigid, close the loop alone.
+        let mut parts = match joint.joint_type {
+            JointType::Spherical => vec![("spherical", None)],
+            _ => kinds(m, j, 1.0)?,
+        };
+        let closes = parts.pop().unwrap_or(("fixed", None));
+        if ["planar", "floating"].contains(&closes.0) {
+            let (joint, kind) = (joint.id.clone(), closes.0.to_owned());
+            let remedy = "write MJCF instead";
+            let format = "URDF's <loop_joint>";
+            return Err(ExportError::Joint {
+                joint,
+                kind,
+                format,
+                remedy,
+            });
+        }
+        for (i, (kind, axis)) in parts.iter().enumerate() {
+            let between = names.fit(&format!("{id}~{}", i + 1));
+            let _ = writeln!(head, "  <link name=\"{}\"/>", escape(&between));
+            let part = joint_names.fit(&format!("{id}~{}", i + 1));
+            let ends = [a.as_str(), between.as_str()];
+            let text = tree_joint(&part, kind, ends, sub(p.point, from), *axis, "");
+            body.push_str(&text);
+            (a, from) = (between, p.point);
+        }
+        let axis = closes.1.map_or(String::new(), |d| {
+            format!("    <axis xyz=\"{}\"/>\n", numbers(d))
+        });
+        let _ = write!(
+            body,
+            "  <loop_joint name=\"{}\" type=\"{}\">\n    <link1 link=\"{}\" xyz=\"{}\" rpy=\"0 0 0\"/>\n    <link2 link=\"{}\" xyz=\"{}\" rpy=\"0 0 0\"/>\n{axis}  </loop_joint>\n",
+            escape(&id),
+            closes.0,
+            escape(&a),
+            numbers(sub(p.point, from)),
+            escape(&b),
+            numbers(sub(p.point, to)),
         );
-        let _ = writeln!(body, "  <!-- {} -->", comment(&what));
+        if joint.drive {
+            let _ = writeln!(body, "  <!-- {} is driven -->", comment(&id));
+        }
     }
     let (follows, unsaid) = mimics(m, &single);
     for name in unsaid {
@@ -130,32 +179,26 @@ fn kinds(m: &Mechanism, j: JointId, sign: f64) -> Result<Vec<Kind>, ExportError>
         .collect()
 }
 
-fn write_joint(
-    out: &mut String,
+fn tree_joint(
     id: &str,
     kind: &str,
     ends: [&str; 2],
     at: [f64; 3],
     axis: Option<[f64; 3]>,
-    joint: JointId,
-) {
+    more: &str,
+) -> String {
     let [parent, child] = ends.map(escape);
-    let _ = writeln!(out, "  <joint name=\"{}\" type=\"{kind}\">", escape(id));
-    let _ = writeln!(
-        out,
-        "    <parent link=\"{parent}\"/>\n    <child link=\"{child}\"/>"
-    );
-    let _ = writeln!(out, "    <origin xyz=\"{}\"/>", numbers(at));
-    if let Some(d) = axis {
-        let _ = writeln!(out, "    <axis xyz=\"{}\"/>", numbers(d));
-    }
-    if kind == "prismatic" {
-        // URDF wants limits here; the mechanism has none.
-        let _ = writeln!(
-            out,
-            "    <limit lower=\"-1\" upper=\"1\" effort=\"0\" velocity=\"0\"/>"
-        );
-    }
-    out.push_str(&stand_in(joint));
-    out.push_str("  </joint>\n");
+    let axis = axis.map_or(String::new(), |d| {
+        format!("    <axis xyz=\"{}\"/>\n", numbers(d))
+    });
+    // URDF wants limits of what slides; the mechanism has none.
+    let limit = match kind {
+        "prismatic" => "    <limit lower=\"-1\" upper=\"1\" effort=\"0\" velocity=\"0\"/>\n",
+        _ => "",
+    };
+    format!(
+        "  <joint name=\"{}\" type=\"{kind}\">\n    <parent link=\"{parent}\"/>\n    <child link=\"{child}\"/>\n    <origin xyz=\"{}\"/>\n{axis}{limit}{more}  </joint>\n",
+        escape(id),
+        numbers(at),
+    )
 }

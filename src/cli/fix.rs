@@ -1,0 +1,198 @@
+//! `ozols fix`.
+
+use super::import::{Reading, description};
+use super::progress::note;
+use super::request::Which;
+use super::{Done, lint, output, variant};
+use crate::api::{self, MAX_DESCRIPTION_BYTES};
+use crate::format::phrase::plural;
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::redundancy::analysis::StateAnalysis;
+use crate::redundancy::release::{Release, added};
+use crate::robots::{self, Imported};
+use crate::view::layout::fit;
+use crate::view::lint::words;
+use anyhow::{Context, bail, ensure};
+use clap::{Args as ClapArgs, ValueHint};
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Fix {
+    /// A robot description: URDF, MJCF or SDF.
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    file: PathBuf,
+    #[command(flatten)]
+    reading: Reading,
+    /// A joint, loop or coupling that may be changed (repeatable); by default all but drives.
+    #[arg(long, value_name = "NAME", conflicts_with = "variant")]
+    at: Vec<String>,
+    /// Make variant K of the list that `ozols search FILE` gives, with the same of the options below.
+    #[arg(long, value_name = "K")]
+    variant: Option<usize>,
+    #[command(flatten)]
+    which: Which,
+    /// Write to a file instead of standard output. Beside the description, so that its meshes and includes are found.
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// What is to be done, and the W and σ that are to come of it.
+struct Plan {
+    releases: Vec<Release>,
+    mobility: usize,
+    redundant: usize,
+}
+
+pub(super) fn run(a: &Fix) -> anyhow::Result<Done> {
+    let options = a.reading.options()?;
+    let imported = description(&a.file, &options)?;
+    let m = &imported.mechanism;
+    let bytes = api::bytes(&a.file, MAX_DESCRIPTION_BYTES)?;
+    let (before, plan) = match a.variant {
+        Some(k) => of_search(m, a, k)?,
+        None => cheapest(&imported, &a.at)?,
+    };
+    let told = |release: &Release| (*release, words(m, release));
+    let releases: Vec<(Release, String)> = plan.releases.iter().map(told).collect();
+    let edited = robots::fix(&imported, &releases)?;
+    // The byte order mark is no part of the text.
+    let mark = if bytes.starts_with("\u{feff}".as_bytes()) {
+        "\u{feff}"
+    } else {
+        ""
+    };
+    let text = format!("{mark}{edited}");
+    let again = api::description_of(&a.file, text.as_bytes(), &options).context(
+        "the edited file cannot be read again; nothing is written; report this with the file",
+    )?;
+    let after = lint::look(&again.mechanism, Some(&again.origin))?.analysis;
+    ensure!(
+        (after.mobility, after.redundant) == (plan.mobility, plan.redundant)
+            && after.at_most().is_none(),
+        "read again, the edited file has W = {}, σ = {} where W = {}, σ = {} was to be; nothing is written",
+        after.mobility,
+        after.at_most().map_or(after.redundant, |(_, most)| most),
+        plan.mobility,
+        plan.redundant
+    );
+    output::to(a.output.as_deref(), |out| {
+        out.write_all(text.as_bytes())?;
+        Ok(Done::Found)
+    })?;
+    let lines = summary(&a.file, &releases, [&before, &after]);
+    output::note(&fit(&lines, output::error_width()));
+    Ok(Done::Found)
+}
+
+fn summary(
+    file: &Path,
+    releases: &[(Release, String)],
+    [before, after]: [&StateAnalysis; 2],
+) -> String {
+    let mut out = match releases.len() {
+        0 => format!(
+            "{}: nothing is redundant, nothing is changed\n",
+            file.display()
+        ),
+        n => format!("{}: {}\n", file.display(), plural(n, "release")),
+    };
+    for (_, words) in releases {
+        out += &format!("  {words}\n");
+    }
+    let row = |name: &str, s: &StateAnalysis| {
+        format!(
+            "  {name:<7} rank {} of {} rows, W = {}, redundant {} ({})\n",
+            s.rank,
+            s.rows,
+            s.mobility,
+            s.redundant,
+            s.certainty.word()
+        )
+    };
+    out + &row("before:", before) + &row("after:", after)
+}
+
+/// The cheapest releases that remove all redundant constraints.
+fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis, Plan)> {
+    let m = &imported.mechanism;
+    let coupled = |q: usize| m.couplings[q].name(m);
+    for name in at {
+        let known = m.joints.iter().any(|j| j.id == *name)
+            || (0..m.couplings.len()).any(|q| coupled(q) == *name);
+        ensure!(
+            known,
+            "--at {name}: there is no such joint, loop or coupling; `ozols lint` names them"
+        );
+    }
+    let wanted = |r: &Release| match *r {
+        Release::Coupling(q) => at.is_empty() || at.contains(&coupled(q)),
+        Release::Freedom { joint, .. } if at.is_empty() => !m.joints[joint].drive,
+        Release::Freedom { joint, .. } => at.contains(&m.joints[joint].id),
+    };
+    let mut found = lint::look_at(m, Some(&imported.origin), &wanted)?;
+    let (_, most) = found.range();
+    ensure!(
+        found.analysis.at_most().is_none(),
+        "what is redundant is not decided: coordinates are rounded too coarsely; give more digits (`ozols check` names the coordinates)"
+    );
+    let some = found.cheapest.len();
+    if some < most {
+        let of = if at.is_empty() {
+            "that may be changed"
+        } else {
+            "of --at"
+        };
+        bail!(
+            "the joints {of} remove {some} of {most} redundant constraints; `ozols lint` tells what removes each{}",
+            if at.is_empty() {
+                ", --at takes more joints"
+            } else {
+                ""
+            }
+        );
+    }
+    let releases = std::mem::take(&mut found.cheapest);
+    let releases = releases.into_iter().map(|i| found.releases[i].1).collect();
+    let plan = Plan {
+        releases,
+        mobility: found.analysis.mobility,
+        redundant: 0,
+    };
+    Ok((found.analysis, plan))
+}
+
+/// Those of a variant of the search.
+fn of_search(m: &Mechanism, a: &Fix, k: usize) -> anyhow::Result<(StateAnalysis, Plan)> {
+    let request = a.which.request(None)?;
+    let before = api::analyze(m)?.remove(0);
+    let (changed, w, sigma) = variant::kth(m.clone(), request, k, |v| {
+        (v.mechanism(), v.mobility(), v.redundant())
+    })?;
+    ensure!(
+        changed.joints.len() == m.joints.len(),
+        "variant {k} puts in joints that are not of one joint's kind; choose another"
+    );
+    let mut releases = Vec::new();
+    for (i, (old, new)) in m.joints.iter().zip(&changed.joints).enumerate() {
+        let all = added((&old.frame, &old.joint_type), (&new.frame, &new.joint_type))?;
+        ensure!(
+            old.joint_type.freedoms().len() + all.len() == new.joint_type.freedoms().len(),
+            "variant {k} puts a joint in the place of \"{}\" that has not all of its freedoms; choose another",
+            old.id
+        );
+        releases.extend(all.into_iter().map(|(slides, direction)| Release::Freedom {
+            joint: JointId::new(i),
+            slides,
+            direction,
+        }));
+    }
+    if releases.is_empty() {
+        note(format!("variant {k} changes nothing"));
+    }
+    let plan = Plan {
+        releases,
+        mobility: usize::try_from(w)?,
+        redundant: usize::try_from(sigma)?,
+    };
+    Ok((before, plan))
+}

@@ -1,0 +1,91 @@
+//! `ozols lint`.
+
+use super::import::{Reading, description};
+use super::{Done, load, output};
+use crate::file::text::mechanism_from_bytes;
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::redundancy::held_twice::{HeldTwice, held_twice};
+use crate::redundancy::release::Release;
+use crate::robots::{self, Origin};
+use crate::view::layout::fit;
+use crate::view::lint::{self, Lint as Found};
+use clap::{Args as ClapArgs, ValueEnum, ValueHint};
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum LintFormat {
+    Text,
+    Json,
+    /// SARIF 2.1.0, for code scanning.
+    Sarif,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Lint {
+    /// Robot descriptions (URDF, MJCF, SDF), or mechanism files.
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath, required = true)]
+    files: Vec<String>,
+    #[command(flatten)]
+    reading: Reading,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    format: LintFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+pub(super) fn run(a: &Lint) -> anyhow::Result<Done> {
+    let options = a.reading.options()?;
+    let mut all = Vec::new();
+    for file in &a.files {
+        let (mechanism, imported) = if robots::is_description(file) && Path::new(file).is_file() {
+            let imported = description(Path::new(file), &options)?;
+            (imported.mechanism.clone(), Some(imported))
+        } else {
+            let (name, bytes) = load::named(file)?;
+            (mechanism_from_bytes(&name, &bytes)?, None)
+        };
+        let found = look(&mechanism, imported.as_ref().map(|i| &i.origin))?;
+        all.push(Found::new(file, &mechanism, imported.as_ref(), &found));
+    }
+    let width = output::width(a.output.as_deref());
+    output::to(a.output.as_deref(), |out| {
+        match a.format {
+            LintFormat::Text => {
+                for lint in &all {
+                    write!(out, "{}", fit(&lint.text(), width))?;
+                }
+            }
+            LintFormat::Json => output::json(out, &lint::json(&all))?,
+            LintFormat::Sarif => output::json(out, &lint::sarif(&all))?,
+        }
+        Ok(if all.iter().all(Found::is_clean) {
+            Done::Found
+        } else {
+            Done::Nothing
+        })
+    })
+}
+
+/// What a mechanism holds twice. Drives stay as they are, and what no format has a place for.
+pub(super) fn look(m: &Mechanism, origin: Option<&Origin>) -> anyhow::Result<HeldTwice> {
+    look_at(m, origin, &|r| match *r {
+        Release::Freedom { joint, .. } => !m.joints[joint].drive,
+        Release::Coupling(_) => true,
+    })
+}
+
+/// The same with releases that are wanted alone.
+pub(super) fn look_at(
+    m: &Mechanism,
+    origin: Option<&Origin>,
+    wanted: &dyn Fn(&Release) -> bool,
+) -> anyhow::Result<HeldTwice> {
+    let closes = |j: JointId| origin.is_some_and(|o| o.closes(j));
+    let written = |r: &Release| match *r {
+        Release::Freedom { joint, .. } => origin.is_none_or(|o| o.can_be_freed(joint)),
+        Release::Coupling(_) => true,
+    };
+    Ok(held_twice(m, &closes, &|r| written(r) && wanted(r))?)
+}

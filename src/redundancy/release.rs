@@ -1,0 +1,412 @@
+//! Releases: a freedom given to a joint, or a coupling let go, each of which removes one redundant constraint and lets
+//! nothing move.
+//!
+//! A release adds a column to J (or takes away a row). It lets nothing move where that column is outside the image of J:
+//! where a self-stress does work on the new freedom. A set of σ releases removes all redundant constraints and leaves W as
+//! it is exactly where the σ × σ matrix of these powers is regular, so that the cheapest set is a basis of a matroid and
+//! the greedy choice finds it. The rows of joints that such a set lets go are what is redundant, in the joints' own words.
+
+use crate::closure::matrix::Closure;
+use crate::closure::twist::MotionSpace;
+use crate::geom::exact::ExactError;
+use crate::geom::rigid::perpendicular;
+use crate::geom::scalars::Reals;
+use crate::geom::vector::{Vector, across, cross, dot, length, real, sub, unit};
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::rank::scaled::{Scaling, scaled};
+use ozols_dense::{Matrix, solve, svd};
+
+/// A share of a stress of unit length below this is none.
+const NOTHING: f64 = 1e-6;
+/// A release that the others leave less work than this does not count: digits decide it.
+const LEAST: f64 = 1e-5;
+/// Directions nearer than this are one.
+const ALIKE: f64 = 1e-5;
+
+/// What is let go.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Release {
+    /// A joint gets one more freedom.
+    Freedom {
+        /// The joint.
+        joint: JointId,
+        /// Whether it is a slide along a line, or else a turn about it.
+        slides: bool,
+        /// Direction of the line through the joint's point, of unit length.
+        direction: Vector,
+    },
+    /// A coupling, by its place among those of the state.
+    Coupling(usize),
+}
+
+/// A redundant constraint: what is held twice.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Duplicate {
+    /// The constraint: what would be let go of it.
+    pub row: Release,
+    /// The joints that hold the same, those that its self-stress loads.
+    pub by: Vec<JointId>,
+    /// Indices of the contours that its self-stress goes round.
+    pub contours: Vec<usize>,
+    /// Couplings that its self-stress loads.
+    pub couplings: Vec<usize>,
+    /// Places in the list of candidates of the releases that remove it, in the order of their costs.
+    pub remedies: Vec<usize>,
+}
+
+/// The self-stresses of a state in numbers.
+#[derive(Debug)]
+pub struct Stressed<'a> {
+    mechanism: &'a Mechanism,
+    space: MotionSpace<f64>,
+    /// J of the state.
+    pub closure: Closure<f64>,
+    scaling: Scaling,
+    /// An orthonormal basis by columns, in the rows of the scaled J.
+    basis: Matrix,
+}
+
+impl<'a> Stressed<'a> {
+    /// The self-stresses where J has a rank; none where its singular values do not converge.
+    ///
+    /// # Guarantee
+    /// Numeric: as good as the rank, and the gap in the singular values that it stands on.
+    ///
+    /// # Complexity
+    /// One decomposition of J.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value.
+    pub fn new(m: &'a Mechanism, state: StateId, rank: usize) -> Result<Option<Self>, ExactError> {
+        let closure = Closure::new(&Reals, m, state)?;
+        let scaling = Scaling::of(&closure);
+        let found = svd(&scaled(&closure));
+        Ok(match found {
+            Some(svd) if rank <= svd.u.ncols() => Some(Stressed {
+                mechanism: m,
+                space: MotionSpace::new(&Reals, &m.mode)?,
+                scaling,
+                basis: svd.left_null_space(rank),
+                closure,
+            }),
+            _ => None,
+        })
+    }
+
+    /// σ.
+    #[must_use]
+    pub fn redundant(&self) -> usize {
+        self.basis.ncols()
+    }
+
+    fn point(&self, joint: JointId) -> Vector {
+        real(&self.mechanism.joints[joint].frame.point)
+    }
+
+    /// What a vector of twist components, scaled, does in the rows of the contours that pass a joint: one number a stress.
+    fn powers_of(&self, joint: JointId, twist: &[f64]) -> Vec<f64> {
+        let dim = self.closure.dim;
+        let mut out = vec![0.0; self.redundant()];
+        for (i, contour) in self.closure.contours.iter().enumerate() {
+            let Some(forward) = contour.direction(joint) else {
+                continue;
+            };
+            let sign = if forward { 1.0 } else { -1.0 };
+            for (s, x) in out.iter_mut().enumerate() {
+                for (r, t) in twist.iter().enumerate() {
+                    *x += sign * t * self.basis[(i * dim + r, s)];
+                }
+            }
+        }
+        out
+    }
+
+    /// The twist of a freedom, scaled to unit length; none of one that leaves the plane of a planar model.
+    fn twist(&self, joint: JointId, slides: bool, d: Vector) -> Option<Vec<f64>> {
+        let v = if slides {
+            d
+        } else {
+            cross(self.point(joint), d)
+        };
+        let w = if slides { [0.0; 3] } else { d };
+        let whole = [w[0], w[1], w[2], v[0], v[1], v[2]];
+        let mut twist = self.space.components(&Reals, &whole)?;
+        self.scaling.unit(&mut twist);
+        Some(twist)
+    }
+
+    /// The work of each self-stress on a release.
+    #[must_use]
+    pub fn powers(&self, release: &Release) -> Vec<f64> {
+        match *release {
+            Release::Freedom {
+                joint,
+                slides,
+                direction,
+            } => match self.twist(joint, slides, direction) {
+                Some(twist) => self.powers_of(joint, &twist),
+                None => vec![0.0; self.redundant()],
+            },
+            Release::Coupling(q) => {
+                let row = self.closure.contour_rows() + q;
+                (0..self.redundant())
+                    .map(|s| self.basis[(row, s)])
+                    .collect()
+            }
+        }
+    }
+
+    /// Forces, or moments about its point, that a joint carries: three numbers a stress, by columns.
+    fn carried(&self, joint: JointId, forces: bool) -> Matrix {
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let rows = axes.map(|a| match self.twist(joint, forces, a) {
+            Some(t) => self.powers_of(joint, &t),
+            None => vec![0.0; self.redundant()],
+        });
+        Matrix::from_fn(3, self.redundant(), |i, s| rows[i][s])
+    }
+
+    /// The single freedoms that the joint has not and that a self-stress works on, about and along directions that fit the
+    /// forces and moments it carries: slides first.
+    #[must_use]
+    pub fn at(&self, joint: JointId) -> Vec<Release> {
+        let directions = self.directions(joint);
+        let own: Vec<Vec<f64>> = {
+            let columns = self.closure.columns.iter();
+            let of_joint = columns.filter(|c| c.joint == joint);
+            let scaled = of_joint.map(|c| {
+                let mut t = c.twist.clone();
+                self.scaling.unit(&mut t);
+                t
+            });
+            orthonormal(scaled)
+        };
+        let each = [true, false].into_iter();
+        each.flat_map(|slides| directions.map(|direction| (slides, direction)))
+            .filter(|&(slides, d)| {
+                let twist = self.twist(joint, slides, d);
+                twist.is_some_and(|t| norm(&rest(&t, &own)) > ALIKE)
+            })
+            .map(|(slides, direction)| Release::Freedom {
+                joint,
+                slides,
+                direction,
+            })
+            .filter(|r| norm(&self.powers(r)) > LEAST)
+            .collect()
+    }
+
+    /// Three square directions at a joint: along the one force or moment it carries, square to the plane of two, and else its
+    /// own axes.
+    fn directions(&self, joint: JointId) -> [Vector; 3] {
+        let frame = &self.mechanism.joints[joint].frame;
+        let z = unit(real(&frame.axis));
+        let x = unit(across(real(&frame.reference), z));
+        let own = [z, x, cross(z, x)];
+        let special = |forces: bool| -> Option<Vector> {
+            let found = svd(&self.carried(joint, forces))?;
+            let column = |i: usize| [0, 1, 2].map(|r| found.u[(r, i)]);
+            match found.values.iter().filter(|v| **v > NOTHING).count() {
+                1 => Some(column(0)),
+                2 => Some(column(2)),
+                _ => None,
+            }
+        };
+        let [forces, moments] = [special(true), special(false)];
+        let Some(first) = forces.or(moments).map(|d| settled(d, &own)) else {
+            return own;
+        };
+        // The other two as the moments ask for them, or as the joint's own axes lie.
+        let wanted = moments.into_iter().chain(own);
+        let mut wanted = wanted.map(|d| across(d, first));
+        let second = wanted.find(|d| length(*d) > 0.1).map(unit);
+        let second = second.unwrap_or_else(|| unit(perpendicular(first)));
+        let second = settled(second, &own);
+        [first, second, unit(cross(first, second))].map(positive)
+    }
+
+    /// The cheapest set of releases that removes all redundant constraints and lets nothing move, by their places in the
+    /// list; fewer than σ where no such set is among them.
+    #[must_use]
+    pub fn cheapest(&self, candidates: &[(i64, Release)]) -> Vec<usize> {
+        let powers: Vec<Vec<f64>> = candidates.iter().map(|(_, r)| self.powers(r)).collect();
+        let mut costs: Vec<i64> = candidates.iter().map(|(c, _)| *c).collect();
+        costs.sort_unstable();
+        costs.dedup();
+        let (mut chosen, mut span): (Vec<usize>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
+        for cost in costs {
+            while span.len() < self.redundant() {
+                let left = |i: usize| norm(&rest(&powers[i], &span));
+                let alike = (0..candidates.len()).filter(|&i| candidates[i].0 == cost);
+                let left: Vec<(usize, f64)> = alike.map(|i| (i, left(i))).collect();
+                let most = left.iter().fold(0.0, |m: f64, (_, x)| m.max(*x));
+                // The first that does about as well as the best.
+                let Some(&(i, _)) = left.iter().find(|(_, x)| *x > LEAST && *x > most / 2.0) else {
+                    break;
+                };
+                let r = rest(&powers[i], &span);
+                span.push(r.iter().map(|x| x / norm(&r)).collect());
+                chosen.push(i);
+            }
+        }
+        chosen
+    }
+
+    /// What is redundant, as constraints of the candidates preferred, each with what holds the same and what removes it.
+    #[must_use]
+    pub fn duplicates(
+        &self,
+        rows: &[(i64, Release)],
+        remedies: &[(i64, Release)],
+    ) -> Vec<Duplicate> {
+        let chosen = self.cheapest(rows);
+        let n = self.redundant();
+        if chosen.len() < n {
+            return Vec::new();
+        }
+        let powers: Vec<Vec<f64>> = chosen.iter().map(|&i| self.powers(&rows[i].1)).collect();
+        let matrix = Matrix::from_fn(n, n, |i, s| powers[i][s]);
+        let mut by_cost: Vec<usize> = (0..remedies.len()).collect();
+        by_cost.sort_by_key(|&i| remedies[i].0);
+        let works: Vec<Vec<f64>> = remedies.iter().map(|(_, r)| self.powers(r)).collect();
+        let duplicate = |i: usize| {
+            // The stress that works on this row alone of those chosen.
+            let mut right = vec![0.0; n];
+            right[i] = 1.0;
+            let weights = solve(&matrix, &right);
+            let size = norm(&weights);
+            let on = |v: &[f64]| {
+                let sum: f64 = v.iter().zip(&weights).map(|(a, b)| a * b).sum();
+                (sum / size).abs() > NOTHING
+            };
+            let entry = |r: usize| {
+                let row: Vec<f64> = (0..n).map(|s| self.basis[(r, s)]).collect();
+                on(&row)
+            };
+            let dim = self.closure.dim;
+            let contours = 0..self.closure.contours.len();
+            let contours = contours.filter(|k| (k * dim..(k + 1) * dim).any(entry));
+            let couplings = 0..self.closure.couplings.len();
+            let couplings = couplings.filter(|q| entry(self.closure.contour_rows() + q));
+            let row = rows[chosen[i]].1;
+            let itself = |j: &JointId| matches!(row, Release::Freedom { joint, .. } if joint == *j);
+            let loaded = |j: &JointId| {
+                [true, false].into_iter().any(|forces| {
+                    let carried = self.carried(*j, forces);
+                    let line = |r: usize| (0..n).map(|s| carried[(r, s)]).collect::<Vec<f64>>();
+                    (0..3).any(|r| on(&line(r)))
+                })
+            };
+            let joints = self.mechanism.joints_in(self.closure.state);
+            Duplicate {
+                row,
+                by: joints.filter(|j| !itself(j) && loaded(j)).collect(),
+                contours: contours.collect(),
+                couplings: couplings.collect(),
+                remedies: by_cost.iter().copied().filter(|&r| on(&works[r])).collect(),
+            }
+        };
+        (0..n).map(duplicate).collect()
+    }
+}
+
+/// What a joint becomes with one more freedom: a type with a name where there is one.
+#[must_use]
+pub fn becomes(m: &Mechanism, joint: JointId, slides: bool, direction: Vector) -> String {
+    let j = &m.joints[joint];
+    let along = length(cross(unit(real(&j.frame.axis)), direction)) < ALIKE;
+    match (&j.joint_type, slides, along) {
+        (JointType::Revolute, true, true) | (JointType::Prismatic, false, true) => {
+            JointType::Cylindrical.name().to_owned()
+        }
+        (JointType::Revolute, false, false) => JointType::Universal.name().to_owned(),
+        (JointType::Revolute, true, false) => JointType::Slotted.name().to_owned(),
+        (JointType::Spherical, true, _) => JointType::SphereInCylinder.name().to_owned(),
+        (JointType::Fixed, true, _) => JointType::Prismatic.name().to_owned(),
+        (JointType::Fixed, false, _) => JointType::Revolute.name().to_owned(),
+        (t, true, _) => format!("{} with a slide", t.name()),
+        (t, false, _) => format!("{} with a turn", t.name()),
+    }
+}
+
+/// A direction taken for one of the global or own axes where it is hardly another; its largest component positive.
+fn settled(d: Vector, own: &[Vector; 3]) -> Vector {
+    let global = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let near = |a: &&Vector| length(cross(**a, d)) < ALIKE;
+    let found = own.iter().chain(&global).find(near);
+    positive(found.copied().unwrap_or(d))
+}
+
+fn positive(d: Vector) -> Vector {
+    let largest = d.iter().fold(
+        0.0,
+        |m: f64, x| if x.abs() > m.abs() + ALIKE { *x } else { m },
+    );
+    let sign = if largest < 0.0 { -1.0 } else { 1.0 };
+    // No minus zeros, and no rounding errors.
+    d.map(|x| if x.abs() < 1e-12 { 0.0 } else { sign * x })
+}
+
+fn norm(v: &[f64]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// What orthonormal vectors leave of another.
+fn rest(v: &[f64], span: &[Vec<f64>]) -> Vec<f64> {
+    let mut out = v.to_vec();
+    for s in span {
+        let along: f64 = out.iter().zip(s).map(|(a, b)| a * b).sum();
+        out.iter_mut().zip(s).for_each(|(a, b)| *a -= along * b);
+    }
+    out
+}
+
+fn orthonormal(vectors: impl Iterator<Item = Vec<f64>>) -> Vec<Vec<f64>> {
+    let mut span: Vec<Vec<f64>> = Vec::new();
+    for v in vectors {
+        let r = rest(&v, &span);
+        if norm(&r) > ALIKE {
+            span.push(r.iter().map(|x| x / norm(&r)).collect());
+        }
+    }
+    span
+}
+
+/// The turns and slides, about and along unit directions through a joint's point, that another option at the joint has and
+/// the joint has not.
+///
+/// # Errors
+/// Where a coordinate has no value.
+pub fn added(
+    now: (&crate::model::mechanism::Frame, &JointType),
+    then: (&crate::model::mechanism::Frame, &JointType),
+) -> Result<Vec<(bool, Vector)>, ExactError> {
+    use crate::closure::twist::joint_twists;
+    let origin = real(&now.0.point);
+    let single = |(frame, kind): (&crate::model::mechanism::Frame, &JointType)| -> Result<Vec<[Vector; 2]>, ExactError> {
+        let all = joint_twists(&Reals, &MotionSpace::Spatial, frame, kind)?;
+        let about = |t: Vec<f64>| {
+            let (w, v) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
+            let v = sub(v, cross(origin, w));
+            [w, v]
+        };
+        Ok(all.into_iter().map(|(_, t)| about(t)).collect())
+    };
+    let flat = |[w, v]: [Vector; 2]| -> Vec<f64> {
+        let all: Vec<f64> = w.into_iter().chain(v).collect();
+        let size = norm(&all).max(f64::MIN_POSITIVE);
+        all.into_iter().map(|x| x / size).collect()
+    };
+    let mut span = orthonormal(single(now)?.into_iter().map(flat));
+    let mut out = Vec::new();
+    for [w, v] in single(then)? {
+        let r = rest(&flat([w, v]), &span);
+        if norm(&r) > ALIKE {
+            let slides = dot(w, w) < ALIKE * ALIKE;
+            out.push((slides, positive(unit(if slides { v } else { w }))));
+            span.push(r.iter().map(|x| x / norm(&r)).collect());
+        }
+    }
+    Ok(out)
+}

@@ -1,0 +1,66 @@
+//! Redundant constraints let go in the owner's own file.
+
+use crate::file::problem::ImportError;
+use crate::geom::vector::Vector;
+use crate::redundancy::release::Release;
+use crate::robots::edit::{Edits, Freed};
+use crate::robots::import::Imported;
+use crate::robots::origin::Origin;
+use crate::robots::parts::Part;
+use crate::robots::single_freedoms::comment;
+use crate::robots::{mjcf, sdf, urdf};
+use std::collections::BTreeMap;
+
+/// The text of the description with releases made: joints added in series, and couplings left out. All else stays as it is,
+/// byte for byte; comments say why.
+///
+/// # Errors
+/// Where the format cannot say a release at the place it is asked for.
+pub fn fix(imported: &Imported, releases: &[(Release, String)]) -> Result<String, ImportError> {
+    let origin = &imported.origin;
+    let mut edits = Edits::new(origin);
+    let mut freed: BTreeMap<usize, Vec<(bool, Vector, String)>> = BTreeMap::new();
+    let mut uncoupled = Vec::new();
+    for (release, why) in releases {
+        let why = comment(&format!("ozols fix: {why}"));
+        match *release {
+            Release::Coupling(q) => uncoupled.push((origin.couplings[q], why)),
+            Release::Freedom {
+                joint,
+                slides,
+                direction,
+            } => {
+                let part = origin.joints[joint.index()];
+                let all = freed.entry(part).or_default();
+                all.push((slides, direction, why));
+            }
+        }
+    }
+    let (free, uncouple): (Free, Uncouple) = match imported.format.word {
+        "mjcf" => (mjcf::fix::free, mjcf::fix::uncouple),
+        "urdf" => (urdf::fix::free, urdf::fix::uncouple),
+        _ => (sdf::fix::free, urdf::fix::uncouple),
+    };
+    let all: Vec<(&Part, Freed<'_>)> = freed
+        .iter()
+        .map(|(&part, list)| (&origin.robot.joints[part], list.as_slice()))
+        .collect();
+    for (part, _) in &all {
+        if let Some(e) = part.element.map(|e| origin.element(e))
+            && e.node().copy
+        {
+            return Err(e.unsupported(
+                "it is a copy made by <replicate>",
+                "choose another joint (--at), or write the copies out",
+            ));
+        }
+    }
+    free(origin, &all, &mut edits)?;
+    for (element, why) in uncoupled {
+        uncouple(origin, element, &why, &mut edits)?;
+    }
+    edits.apply()
+}
+
+type Free = fn(&Origin, &[(&Part, Freed<'_>)], &mut Edits<'_>) -> Result<(), ImportError>;
+type Uncouple = fn(&Origin, usize, &str, &mut Edits<'_>) -> Result<(), ImportError>;

@@ -1,0 +1,370 @@
+//! Joints of one more freedom in an MJCF file: `<joint>`s added to a body behind its own, and bodies put in between what a
+//! `<connect>` or `<weld>` holds together. Keyframes get the numbers of the new joints.
+
+use crate::file::problem::ImportError;
+use crate::geom::rigid::Motion;
+use crate::geom::vector::Vector;
+use crate::robots::edit::{Edits, Freed, beside};
+use crate::robots::mjcf::context::compiler;
+use crate::robots::mjcf::defaults::Defaults;
+use crate::robots::origin::Origin;
+use crate::robots::parts::Part;
+use crate::robots::single_freedoms::{escape, numbers};
+use crate::robots::xml::Element;
+
+/// Moving bodies must have mass and inertia; in kg and kg·m².
+const INERTIAL: &str = "<inertial pos=\"0 0 0\" mass=\"1e-4\" diaginertia=\"1e-7 1e-7 1e-7\"/>";
+
+/// Gives joints freedoms.
+pub(crate) fn free(
+    origin: &Origin,
+    all: &[(&Part, Freed<'_>)],
+    edits: &mut Edits<'_>,
+) -> Result<(), ImportError> {
+    let root = origin.element(origin.root);
+    let mut file = File {
+        origin,
+        defaults: Defaults::read(root)?,
+        parents: parents(origin),
+        inserted: Vec::new(),
+    };
+    for &(part, freed) in all {
+        let Some(id) = part.element else {
+            return Err(beside(origin, part));
+        };
+        let e = origin.element(id);
+        // A connect that may slide in three ways holds nothing.
+        let slides = freed.iter().filter(|f| f.0).count();
+        if e.name() == "connect" && slides == 3 {
+            let why = "ozols fix: left out, others hold all that it holds";
+            uncouple(origin, id, why, edits)?;
+            continue;
+        }
+        match (e.name(), e.attribute("site1")) {
+            ("connect" | "weld", Some(site)) => file.at_site(e, part, site, freed, edits)?,
+            ("connect" | "weld", None) => file.at_body(e, part, freed, edits)?,
+            _ => file.in_body(e, freed, edits)?,
+        }
+    }
+    file.keyframes(edits)
+}
+
+/// Leaves an equality of joints out.
+pub(crate) fn uncouple(
+    origin: &Origin,
+    element: usize,
+    why: &str,
+    edits: &mut Edits<'_>,
+) -> Result<(), ImportError> {
+    let e = origin.element(element);
+    edits.set(e, "active", "false")?;
+    edits.after(e, &[format!("<!-- {why} -->")]);
+    Ok(())
+}
+
+/// Where new joints stand among those of a keyframe.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Mark {
+    /// Behind a joint.
+    Joint(usize),
+    /// Behind all that is within a body or the world.
+    Within(usize),
+    /// Behind a site.
+    Site(usize),
+}
+
+struct File<'a> {
+    origin: &'a Origin,
+    defaults: Defaults<'a>,
+    parents: Vec<Option<usize>>,
+    /// Joints put in.
+    inserted: Vec<(Mark, usize)>,
+}
+
+impl<'a> File<'a> {
+    fn parent(&self, e: Element<'a>) -> Element<'a> {
+        let parent = self.parents[e.id].unwrap_or(self.origin.root);
+        self.origin.element(parent)
+    }
+
+    /// The body, or world, around an element.
+    fn body(&self, id: usize) -> Element<'a> {
+        let mut at = self.parents[id];
+        while let Some(id) = at {
+            if ["body", "worldbody"].contains(&self.origin.element(id).name()) {
+                break;
+            }
+            at = self.parents[id];
+        }
+        self.origin.element(at.unwrap_or(self.origin.root))
+    }
+
+    /// What the classes around say of joints that is nothing to a new one is taken back.
+    fn neutral(&self, around: Element<'a>) -> Result<String, ImportError> {
+        let (mut at, mut class) = (Some(around.id), None);
+        while let (Some(id), None) = (at, class) {
+            class = self.origin.element(id).attribute("childclass");
+            at = self.parents[id];
+        }
+        let look = self.defaults.of(around, "joint", class)?;
+        let mut out = String::new();
+        for (set, back) in [
+            ("range", "limited=\"false\""),
+            ("stiffness", "stiffness=\"0\""),
+            ("springdamper", "springdamper=\"0 0\""),
+            ("frictionloss", "frictionloss=\"0\""),
+            ("ref", "ref=\"0\""),
+            ("springref", "springref=\"0\""),
+            ("actuatorfrcrange", "actuatorfrclimited=\"false\""),
+        ] {
+            if look.attribute(set).is_some() {
+                out += &format!(" {back}");
+            }
+        }
+        Ok(out)
+    }
+
+    /// The new joints of a joint, in a frame at a place in the world.
+    fn joints(
+        &self,
+        id: &str,
+        point: Vector,
+        frame: &Motion,
+        (around, freed): (Element<'a>, Freed<'_>),
+        edits: &mut Edits<'_>,
+    ) -> Result<Vec<String>, ImportError> {
+        let neutral = self.neutral(around)?;
+        let (mut out, inside) = (Vec::new(), frame.inverse());
+        for (slides, direction, why) in freed {
+            let (kind, word) = if *slides {
+                ("slide", "slide")
+            } else {
+                ("hinge", "turn")
+            };
+            let name = edits.name(&format!("{id}_{word}"));
+            out.push(format!("<!-- {why} -->"));
+            out.push(format!(
+                "<joint name=\"{}\" type=\"{kind}\" pos=\"{}\" axis=\"{}\"{neutral}/>",
+                escape(&name),
+                numbers(inside.point(point)),
+                numbers(inside.direction(*direction)),
+            ));
+        }
+        Ok(out)
+    }
+
+    /// Behind the joints of a body.
+    fn in_body(
+        &mut self,
+        e: Element<'a>,
+        freed: Freed<'_>,
+        edits: &mut Edits<'_>,
+    ) -> Result<(), ImportError> {
+        let body = self.body(e.id);
+        let own = self.origin.robot.joints.iter().rev();
+        let own = own.filter_map(|p| Some((p, p.element?)));
+        let last = own.into_iter().find(|&(p, id)| {
+            let joint = self.origin.element(id).name() != "body";
+            joint && !p.closes && self.body(id).id == body.id
+        });
+        let (Some((link, last)), Some(part)) = (last, self.part(e.id)) else {
+            return Err(e.unsupported("it is no joint of a body", "choose another (--at)"));
+        };
+        let last = self.origin.element(last);
+        if self.parents[last.id] != Some(body.id) {
+            return Err(e.unsupported("its body has joints in a <frame>", "choose another (--at)"));
+        }
+        let frame = self.origin.places[link.links[1]];
+        let point = self.origin.places[part.links[1]]
+            .then(&part.sides[1])
+            .translation;
+        let lines = self.joints(&part.id, point, &frame, (body, freed), edits)?;
+        edits.after(last, &lines);
+        self.inserted.push((Mark::Joint(last.id), freed.len()));
+        Ok(())
+    }
+
+    fn part(&self, element: usize) -> Option<&'a Part> {
+        let all = self.origin.robot.joints.iter();
+        all.rev().find(|p| p.element == Some(element))
+    }
+
+    /// A body in between: it moves on the first body, and is held in its place.
+    fn at_body(
+        &mut self,
+        e: Element<'a>,
+        part: &Part,
+        freed: Freed<'_>,
+        edits: &mut Edits<'_>,
+    ) -> Result<(), ImportError> {
+        let (robot, one) = (&self.origin.robot, part.links[0]);
+        let name = &robot.links[one];
+        let is_world = robot.world == Some(one);
+        let named = |b: &Element<'a>| match is_world {
+            true => b.name() == "worldbody",
+            false => b.name() == "body" && b.attribute("name") == Some(name),
+        };
+        let all = (0..self.origin.document.nodes.len()).map(|id| self.origin.element(id));
+        let Some(body) = all.into_iter().find(named) else {
+            return Err(e.unsupported("its first body has no name", "give it one"));
+        };
+        let frame = self.origin.places[one];
+        let point = frame.then(&part.sides[0]).translation;
+        let between = edits.name(&format!("{}_between", part.id));
+        let inner = self.joints(&part.id, point, &frame, (body, freed), edits)?;
+        edits.within(body, &whole(&between, inner, None));
+        edits.set(e, "body1", &between)?;
+        self.inserted.push((Mark::Within(body.id), freed.len()));
+        Ok(())
+    }
+
+    /// The same where sites are held together: the body in between has a copy of the first.
+    fn at_site(
+        &mut self,
+        e: Element<'a>,
+        part: &Part,
+        site: &str,
+        freed: Freed<'_>,
+        edits: &mut Edits<'_>,
+    ) -> Result<(), ImportError> {
+        let named = |s: &Element<'a>| s.name() == "site" && s.attribute("name") == Some(site);
+        let mut all = (0..self.origin.document.nodes.len()).map(|id| self.origin.element(id));
+        let Some(found) = all.find(named) else {
+            return Err(e.unsupported("its first site has no element", "choose another (--at)"));
+        };
+        let around = self.parent(found);
+        let root = self.origin.element(self.origin.root);
+        let own = compiler(root)?.place(found)?;
+        let at = self.origin.places[part.links[0]].then(&part.sides[0]);
+        let frame = at.then(&own.inverse());
+        let between = edits.name(&format!("{}_between", part.id));
+        let inner = self.joints(&part.id, at.translation, &frame, (around, freed), edits)?;
+        let copy = edits.name(&format!("{site}_between"));
+        let raw = edits.raw(found);
+        let Some(span) = found.value_span("name") else {
+            return Err(found.unsupported("its name has character references", "write it plainly"));
+        };
+        let start = found.node().span.start;
+        let (before, after) = (&raw[..span.start - start], &raw[span.end - start..]);
+        let copied = format!("{before}{}{after}", escape(&copy));
+        edits.after(found, &whole(&between, inner, Some(copied)));
+        edits.set(e, "site1", &copy)?;
+        self.inserted.push((Mark::Site(found.id), freed.len()));
+        Ok(())
+    }
+
+    /// Zeros for the new joints in the positions and speeds of keyframes.
+    fn keyframes(&self, edits: &mut Edits<'_>) -> Result<(), ImportError> {
+        let root = self.origin.element(self.origin.root);
+        let keys = root
+            .named("keyframe")
+            .flat_map(|k| k.named("key").collect::<Vec<_>>());
+        let keys: Vec<Element<'a>> = keys.collect();
+        if keys.is_empty() {
+            return Ok(());
+        }
+        let mut walk = Walk {
+            file: self,
+            sizes: [0, 0],
+            marks: Vec::new(),
+        };
+        for w in root.named("worldbody") {
+            walk.below(w);
+        }
+        for key in keys {
+            for (which, attribute) in ["qpos", "qvel"].into_iter().enumerate() {
+                let Some(text) = key.attribute(attribute) else {
+                    continue;
+                };
+                if text.split_whitespace().count() != walk.sizes[which] {
+                    let why = format!("{attribute} has not {} numbers", walk.sizes[which]);
+                    return Err(key.unsupported(&why, "correct or remove the keyframe"));
+                }
+                let Some(span) = key.value_span(attribute) else {
+                    return Err(key.unsupported("it has character references", "write it plainly"));
+                };
+                let starts = word_starts(
+                    &edits.raw(key)
+                        [span.start - key.node().span.start..span.end - key.node().span.start],
+                );
+                for (mark, count) in &self.inserted {
+                    let place = walk.marks.iter().find(|(m, _)| m == mark);
+                    let Some((_, sizes)) = place else { continue };
+                    let zeros = " 0".repeat(*count);
+                    match starts.get(sizes[which]) {
+                        Some(at) => {
+                            let at = span.start + at;
+                            edits.replace(key, at..at, format!("{} ", zeros.trim_start()));
+                        }
+                        None => edits.replace(key, span.end..span.end, zeros),
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The lines of a body in between.
+fn whole(name: &str, inner: Vec<String>, site: Option<String>) -> Vec<String> {
+    let mut out = vec![format!("<body name=\"{}\">", escape(name))];
+    let inner = std::iter::once(INERTIAL.to_owned())
+        .chain(inner)
+        .chain(site);
+    out.extend(inner.map(|l| format!("  {l}")));
+    out.push("</body>".to_owned());
+    out
+}
+
+/// Where the words of a text begin.
+fn word_starts(text: &str) -> Vec<usize> {
+    let start = text.as_ptr() as usize;
+    text.split_whitespace()
+        .map(|w| w.as_ptr() as usize - start)
+        .collect()
+}
+
+/// The elements around each.
+fn parents(origin: &Origin) -> Vec<Option<usize>> {
+    let mut out = vec![None; origin.document.nodes.len()];
+    for (id, node) in origin.document.nodes.iter().enumerate() {
+        for &c in &node.children {
+            out[c] = Some(id);
+        }
+    }
+    out
+}
+
+/// Bodies in the order of MuJoCo, depth first, each with its own joints first.
+struct Walk<'f, 'a> {
+    file: &'f File<'a>,
+    /// Numbers of `qpos` and of `qvel` so far.
+    sizes: [usize; 2],
+    marks: Vec<(Mark, [usize; 2])>,
+}
+
+impl<'a> Walk<'_, 'a> {
+    fn below(&mut self, e: Element<'a>) {
+        for j in e
+            .children()
+            .filter(|c| ["joint", "freejoint"].contains(&c.name()))
+        {
+            let freedoms = self
+                .file
+                .part(j.id)
+                .map_or(0, |p| p.joint_type.freedoms().len());
+            // A ball's and a free joint's turns are quaternions.
+            self.sizes[0] += freedoms + usize::from(freedoms > 1);
+            self.sizes[1] += freedoms;
+            self.marks.push((Mark::Joint(j.id), self.sizes));
+        }
+        for c in e.children() {
+            match c.name() {
+                "body" | "frame" => self.below(c),
+                "site" => self.marks.push((Mark::Site(c.id), self.sizes)),
+                _ => {}
+            }
+        }
+        self.marks.push((Mark::Within(e.id), self.sizes));
+    }
+}

@@ -1,0 +1,111 @@
+//! `<replicate>`: what it holds, again and again, each time moved on and with a number behind its names.
+
+use crate::file::problem::ImportError;
+use crate::geom::rigid::Motion;
+use crate::robots::mjcf::context::{Compiler, compiler};
+use crate::robots::problem::RobotProblem;
+use crate::robots::xml::{Document, MAX_ELEMENTS};
+
+/// Puts frames with copies in place of all `<replicate>` elements below `root`, those within others first.
+pub(super) fn expand(document: &mut Document, root: usize) -> Result<(), ImportError> {
+    // Settings may be wrong, which is told where they are needed.
+    if !document.nodes.iter().any(|n| n.is_called("replicate")) {
+        return Ok(());
+    }
+    let compiler = compiler(document.element(root))?;
+    let (mut order, mut stack) = (Vec::new(), vec![root]);
+    while let Some(id) = stack.pop() {
+        order.push(id);
+        stack.extend(&document.nodes[id].children);
+    }
+    // From the inside out: children come after what is around them.
+    for id in order.into_iter().rev() {
+        let children = document.nodes[id].children.clone();
+        let mut all = Vec::with_capacity(children.len());
+        for c in children {
+            if document.element(c).name() == "replicate" {
+                all.extend(copies(document, c, &compiler)?);
+            } else {
+                all.push(c);
+            }
+        }
+        document.nodes[id].children = all;
+    }
+    Ok(())
+}
+
+fn copies(
+    document: &mut Document,
+    id: usize,
+    compiler: &Compiler,
+) -> Result<Vec<usize>, ImportError> {
+    let e = document.element(id);
+    let [count] = e.numbers::<1>("count")?.ok_or_else(|| {
+        let (element, what) = (e.label(), "attribute count".to_owned());
+        e.fail(None, RobotProblem::Missing { element, what })
+    })?;
+    if !(1.0..=10_000.0).contains(&count) || count.fract() != 0.0 {
+        let why = format!("count is {count}");
+        return Err(e.unsupported(&why, "write a whole number from 1 to 10000"));
+    }
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "whole, from 1 to 10000"
+    )]
+    let count = count as usize;
+    let step = Motion {
+        translation: e.vector("offset", [0.0; 3])?,
+        ..compiler.turned(e)?
+    };
+    let separator = e.attribute("sep").unwrap_or("").to_owned();
+    let digits = (count - 1).to_string().len();
+    let (inner, mut place, mut out) = (
+        document.nodes[id].children.clone(),
+        Motion::IDENTITY,
+        Vec::new(),
+    );
+    for i in 0..count {
+        let suffix = format!("{separator}{i:0digits$}");
+        let r = place.rotation;
+        let axes = [r[0][0], r[1][0], r[2][0], r[0][1], r[1][1], r[2][1]];
+        let frame = document.nodes[id].as_frame(place.translation, axes);
+        let frame = push(document, id, frame)?;
+        let mut children = Vec::new();
+        for &c in &inner {
+            children.push(copied(document, c, &suffix)?);
+        }
+        document.nodes[frame].children = children;
+        out.push(frame);
+        place = place.then(&step);
+    }
+    Ok(out)
+}
+
+fn push(
+    document: &mut Document,
+    at: usize,
+    node: crate::robots::xml::Node,
+) -> Result<usize, ImportError> {
+    let id = document.nodes.len();
+    if id >= MAX_ELEMENTS {
+        let (what, limit) = ("elements", MAX_ELEMENTS);
+        let e = document.element(at);
+        return Err(e.fail(None, RobotProblem::TooMany { what, limit }));
+    }
+    document.nodes.push(node);
+    Ok(id)
+}
+
+/// A copy of an element and all it holds, its names with an end.
+fn copied(document: &mut Document, id: usize, suffix: &str) -> Result<usize, ImportError> {
+    let node = document.nodes[id].named_on(suffix);
+    let children = node.children.clone();
+    let copy = push(document, id, node)?;
+    let mut all = Vec::with_capacity(children.len());
+    for c in children {
+        all.push(copied(document, c, suffix)?);
+    }
+    document.nodes[copy].children = all;
+    Ok(copy)
+}

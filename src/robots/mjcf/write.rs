@@ -1,0 +1,277 @@
+//! MJCF: a spanning tree of the free state as bodies; loops as `<connect>` and `<weld>`, other joints that close one as a
+//! small body on joints that is welded.
+
+use crate::closure::tree::spanning_tree;
+use crate::geom::vector::{Vector, sub};
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
+use crate::robots::physical::{inertial, left_out};
+use crate::robots::problem::ExportError;
+use crate::robots::single_freedoms::{
+    Names, Single, comment, escape, number, numbers, place, singles,
+};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// MuJoCo wants mass of what moves: of links whose mass the mechanism does not state, in kg and kg·m².
+const LIGHT: &str = "mass=\"1e-3\" diaginertia=\"1e-6 1e-6 1e-6\"";
+
+/// The mechanism's free state as MJCF; bodies have the global axes, each its origin at the joint that holds it.
+///
+/// # Errors
+/// Never, as far as is known.
+pub(crate) fn mjcf(m: &Mechanism) -> Result<String, ExportError> {
+    let mut w = Writer {
+        m,
+        bodies: vec![None; m.links.len()],
+        between: BTreeMap::new(),
+        children: BTreeMap::new(),
+        joints: BTreeMap::new(),
+        equalities: Vec::new(),
+        body_names: Names::default(),
+        joint_names: Names::default(),
+    };
+    let frame = m.frame();
+    w.bodies[frame] = Some((w.body_names.fit("world"), [0.0; 3]));
+    let mut used = vec![false; m.joints.len()];
+    for s in spanning_tree(m, StateId::FREE) {
+        used[s.joint] = true;
+        let at = place(m, &m.joints[s.joint]).point;
+        w.bodies[s.link] = Some((w.body_names.fit(&m.links[s.link].id), at));
+        let sign = if s.forward { 1.0 } else { -1.0 };
+        w.children
+            .entry(s.from)
+            .or_default()
+            .push((s.link, s.joint, sign));
+    }
+    let mut bodies = String::new();
+    // Joint by joint in the order of the file, so that names are fitted in it.
+    let tree: Vec<(LinkId, JointId, f64)> = w.children.values().flatten().copied().collect();
+    let mut own: BTreeMap<LinkId, Vec<String>> = BTreeMap::new();
+    for (link, joint, sign) in tree {
+        let lines = w.joints(joint, sign, [0.0; 3]);
+        own.insert(link, lines);
+    }
+    for j in m.joints_in(StateId::FREE).filter(|&j| !used[j]) {
+        w.closing(j);
+    }
+    w.couplings();
+    w.below(frame, 2, &own, &mut bodies);
+    let mut out = format!("<mujoco model=\"{}\">\n", escape(&m.name));
+    let mut told = left_out(m);
+    if m.links[frame].id != "world" {
+        told.push(format!("the world is {}", m.links[frame].id));
+    }
+    if m.links_with_ids()
+        .any(|(l, k)| l != frame && k.mass.is_none())
+    {
+        told.push("links without a mass weigh a gram, for MuJoCo's sake".to_owned());
+    }
+    for t in told {
+        let _ = writeln!(out, "  <!-- {} -->", comment(&t));
+    }
+    out += "  <compiler angle=\"radian\"/>\n  <worldbody>\n";
+    out += &bodies;
+    out += "  </worldbody>\n";
+    if !w.equalities.is_empty() {
+        let _ = writeln!(out, "  <equality>\n{}  </equality>", w.equalities.concat());
+    }
+    let drives = m.joints_in(StateId::FREE).filter(|&j| m.joints[j].drive);
+    let motors = drives.filter_map(|j| {
+        let (_, name) = w.joints.iter().find(|((k, _), _)| *k == j)?;
+        Some(format!("    <motor joint=\"{}\"/>\n", escape(name)))
+    });
+    let motors: String = motors.collect();
+    if !motors.is_empty() {
+        let _ = writeln!(out, "  <actuator>\n{motors}  </actuator>");
+    }
+    Ok(out + "</mujoco>\n")
+}
+
+struct Writer<'a> {
+    m: &'a Mechanism,
+    /// Names and origins of the links.
+    bodies: Vec<Option<(String, Vector)>>,
+    /// Lines of the small bodies on a link.
+    between: BTreeMap<LinkId, Vec<String>>,
+    /// What hangs on a link, by which joint, and the sense it is passed in.
+    children: BTreeMap<LinkId, Vec<(LinkId, JointId, f64)>>,
+    /// Names of the joints that are one freedom.
+    joints: BTreeMap<(JointId, Freedom), String>,
+    equalities: Vec<String>,
+    body_names: Names,
+    joint_names: Names,
+}
+
+impl Writer<'_> {
+    /// The joints of one freedom each that a joint becomes, or a ball.
+    fn joints(&mut self, j: JointId, sign: f64, pos: Vector) -> Vec<String> {
+        let joint = &self.m.joints[j];
+        let p = place(self.m, joint);
+        let coupled = self.m.couplings.iter().any(|c| c.end_at(j).is_some());
+        let pos = numbers(pos);
+        if joint.joint_type == JointType::Spherical && !coupled {
+            let name = self.joint_names.fit(&joint.id);
+            let line = format!(
+                "<joint name=\"{}\" type=\"ball\" pos=\"{pos}\"/>",
+                escape(&name)
+            );
+            if let Some(&first) = joint.joint_type.freedoms().first() {
+                self.joints.insert((j, first), name);
+            }
+            return vec![line];
+        }
+        let mut out = Vec::new();
+        let all = singles(&joint.joint_type, &p);
+        for (single, &freedom) in all.iter().zip(joint.joint_type.freedoms()) {
+            let wanted = match out.len() {
+                0 => joint.id.clone(),
+                n => format!("{}~{}", joint.id, n + 1),
+            };
+            let name = self.joint_names.fit(&wanted);
+            let mut line = |name: &str, kind: &str, d: Vector| {
+                out.push(format!(
+                    "<joint name=\"{}\" type=\"{kind}\" pos=\"{pos}\" axis=\"{}\"/>",
+                    escape(name),
+                    numbers(d.map(|x| sign * x))
+                ));
+            };
+            match *single {
+                Single::Turn(d) => line(&name, "hinge", d),
+                Single::Shift(d) => line(&name, "slide", d),
+                Single::Screw(d, pitch) => {
+                    let slide = self.joint_names.fit(&format!("{wanted}~thread"));
+                    line(&name, "hinge", d);
+                    line(&slide, "slide", d);
+                    let coupling = equality(&slide, &name, pitch);
+                    self.equalities.push(coupling);
+                }
+            }
+            self.joints.insert((j, freedom), name);
+        }
+        out
+    }
+
+    fn body(&self, link: LinkId) -> (&str, Vector) {
+        match &self.bodies[link] {
+            Some((name, at)) => (name, *at),
+            None => ("world", [0.0; 3]),
+        }
+    }
+
+    /// A joint that closes a loop.
+    fn closing(&mut self, j: JointId) {
+        let joint = &self.m.joints[j];
+        let [a, b] = joint.links;
+        let at = place(self.m, joint).point;
+        let id = escape(&joint.id);
+        let second = |w: &Self| {
+            let (name, _) = w.body(b);
+            escape(name)
+        };
+        let (first, origin) = self.body(a);
+        let (first, from) = (escape(first), sub(at, origin));
+        let coupled = self.m.couplings.iter().any(|c| c.end_at(j).is_some());
+        let line = match &joint.joint_type {
+            JointType::Spherical if !coupled => format!(
+                "    <connect name=\"{id}\" body1=\"{first}\" body2=\"{}\" anchor=\"{}\"/>\n",
+                second(self),
+                numbers(from)
+            ),
+            t if t.freedoms().is_empty() => format!(
+                "    <weld name=\"{id}\" body1=\"{first}\" body2=\"{}\"/>\n",
+                second(self)
+            ),
+            _ => {
+                let name = self.body_names.fit(&format!("{}~body", joint.id));
+                let inner = self.joints(j, 1.0, [0.0; 3]);
+                let lines = self.between.entry(a).or_default();
+                lines.push(format!(
+                    "<body name=\"{}\" pos=\"{}\">",
+                    escape(&name),
+                    numbers(from)
+                ));
+                lines.push(format!("  <inertial pos=\"0 0 0\" {LIGHT}/>"));
+                lines.extend(inner.into_iter().map(|l| format!("  {l}")));
+                lines.push("</body>".to_owned());
+                format!(
+                    "    <weld name=\"{id}\" body1=\"{}\" body2=\"{}\"/>\n",
+                    escape(&name),
+                    second(self)
+                )
+            }
+        };
+        self.equalities.push(line);
+    }
+
+    fn couplings(&mut self) {
+        for c in self.m.couplings_in(StateId::FREE) {
+            let name = |e: usize| {
+                let end = &c.ends[e];
+                self.joints.get(&(end.joint, end.freedom))
+            };
+            let unit = |e: usize| match c.ends[e].freedom {
+                f if f.slides() => self.m.length_unit.metres,
+                _ => 1.0,
+            };
+            if let (Some(leads), Some(follows)) = (name(0), name(1)) {
+                let ratio = c.ratio.to_f64() * unit(1) / unit(0);
+                self.equalities.push(equality(follows, leads, ratio));
+            }
+        }
+    }
+
+    /// The bodies on a link.
+    fn below(
+        &self,
+        link: LinkId,
+        depth: usize,
+        own: &BTreeMap<LinkId, Vec<String>>,
+        out: &mut String,
+    ) {
+        let indent = "  ".repeat(depth);
+        let (_, from) = self.body(link);
+        for line in self.between.get(&link).into_iter().flatten() {
+            let _ = writeln!(out, "{indent}{line}");
+        }
+        for &(child, ..) in self.children.get(&link).into_iter().flatten() {
+            let (name, at) = self.body(child);
+            let role = match self.m.links[child].role {
+                Role::Output => format!("  <!-- {} is an output -->", comment(name)),
+                _ => String::new(),
+            };
+            let (name, pos) = (escape(name), numbers(sub(at, from)));
+            let _ = writeln!(out, "{indent}<body name=\"{name}\" pos=\"{pos}\">{role}");
+            let weight = match inertial(self.m, child, at) {
+                Some(i) if i.mass > 0.0 && i.tensor[..3].iter().all(|x| *x > 0.0) => format!(
+                    "pos=\"{}\" mass=\"{}\" fullinertia=\"{}\"",
+                    numbers(i.centre),
+                    i.mass,
+                    i.tensor.map(|x| number(x).to_string()).join(" ")
+                ),
+                Some(i) if i.mass > 0.0 => format!(
+                    "pos=\"{}\" mass=\"{}\" diaginertia=\"1e-6 1e-6 1e-6\"",
+                    numbers(i.centre),
+                    i.mass
+                ),
+                _ => format!("pos=\"0 0 0\" {LIGHT}"),
+            };
+            let _ = writeln!(out, "{indent}  <inertial {weight}/>");
+            for line in own.get(&child).into_iter().flatten() {
+                let _ = writeln!(out, "{indent}  {line}");
+            }
+            self.below(child, depth + 1, own, out);
+            let _ = writeln!(out, "{indent}</body>");
+        }
+    }
+}
+
+/// A joint that follows another.
+fn equality(follows: &str, leads: &str, ratio: f64) -> String {
+    format!(
+        "    <joint joint1=\"{}\" joint2=\"{}\" polycoef=\"0 {} 0 0 0\"/>\n",
+        escape(follows),
+        escape(leads),
+        number(ratio)
+    )
+}

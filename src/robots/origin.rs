@@ -1,0 +1,82 @@
+//! Where in a description the parts of the mechanism stand.
+
+use crate::geom::rigid::Motion;
+use crate::model::mechanism::JointId;
+use crate::robots::parts::{Part, Robot};
+use crate::robots::xml::{Document, Element};
+
+/// The description that a mechanism was read from, and which of its elements the mechanism's parts are.
+#[derive(Debug, Clone)]
+pub struct Origin {
+    pub(super) document: Document,
+    /// The root element.
+    pub(super) root: usize,
+    pub(super) robot: Robot,
+    /// Places of the robot's links in the pose found.
+    pub(super) places: Vec<Motion>,
+    /// The robot's joints that the mechanism's are.
+    pub(super) joints: Vec<usize>,
+    /// The elements that the mechanism's couplings are.
+    pub(super) couplings: Vec<usize>,
+}
+
+/// The place of an element.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// Name of the file.
+    pub file: String,
+    /// Line and column, from 1.
+    pub at: [usize; 2],
+    /// Its tag.
+    pub tag: String,
+}
+
+impl Origin {
+    pub(super) fn part(&self, joint: JointId) -> &Part {
+        &self.robot.joints[self.joints[joint.index()]]
+    }
+
+    pub(super) fn element(&self, id: usize) -> Element<'_> {
+        self.document.element(id)
+    }
+
+    /// The element that a joint is; none where a file beside the description says that it is there.
+    #[must_use]
+    pub fn joint(&self, joint: JointId) -> Option<Place> {
+        self.part(joint).element.map(|e| self.place(e))
+    }
+
+    /// The element that a coupling is, by its place among the mechanism's.
+    #[must_use]
+    pub fn coupling(&self, coupling: usize) -> Option<Place> {
+        self.couplings.get(coupling).map(|&e| self.place(e))
+    }
+
+    /// Whether a joint is there to close a loop, by what the description says.
+    #[must_use]
+    pub fn closes(&self, joint: JointId) -> bool {
+        self.part(joint).closes
+    }
+
+    /// Whether a joint can be given freedoms where it stands.
+    #[must_use]
+    pub fn can_be_freed(&self, joint: JointId) -> bool {
+        let element = self.part(joint).element.map(|e| self.element(e).name());
+        element.is_some_and(|e| ["joint", "connect", "weld", "loop_joint"].contains(&e))
+    }
+
+    fn place(&self, id: usize) -> Place {
+        let node = self.element(id).node();
+        let source = &self.document.sources[node.source];
+        let before = &source.text[..node.span.start];
+        let line = before.rfind('\n').map_or(0, |n| n + 1);
+        Place {
+            file: source.name.clone(),
+            at: [
+                before.matches('\n').count() + 1,
+                before[line..].chars().count() + 1,
+            ],
+            tag: self.element(id).name().to_owned(),
+        }
+    }
+}

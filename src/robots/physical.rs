@@ -1,0 +1,80 @@
+//! What robot formats say of links besides joints, and what they have no words for.
+
+use crate::geom::vector::{Vector, real, sub};
+use crate::model::loads::Inertia;
+use crate::model::mechanism::{LinkId, Mechanism, Mode, StateId};
+use itertools::Itertools;
+
+/// What a link weighs: kg, m, kg·m².
+pub(crate) struct Inertial {
+    pub(super) mass: f64,
+    /// From the origin asked for.
+    pub(super) centre: Vector,
+    /// xx, yy, zz, xy, xz, yz about the centre, in global axes.
+    pub(super) tensor: [f64; 6],
+}
+
+/// Of a link whose mass the file states, its centre as seen from an origin in metres.
+pub(crate) fn inertial(m: &Mechanism, link: LinkId, origin: Vector) -> Option<Inertial> {
+    let p = m.links[link].mass.as_ref()?;
+    let tensor = match p.inertia {
+        None => [0.0; 6],
+        // The plane's normal is told of by the comment on planar models.
+        Some(Inertia::Plane(i)) => [i, i, i, 0.0, 0.0, 0.0],
+        Some(Inertia::Principal([x, y, z])) => [x, y, z, 0.0, 0.0, 0.0],
+        Some(Inertia::Tensor([xx, yy, zz, xy, yz, zx])) => [xx, yy, zz, xy, zx, yz],
+    };
+    let centre = real(&p.centre).map(|c| c * m.length_unit.metres);
+    Some(Inertial {
+        mass: p.mass,
+        centre: sub(centre, origin),
+        tensor,
+    })
+}
+
+/// What a robot description of the free state leaves out, a sentence each.
+pub(crate) fn left_out(m: &Mechanism) -> Vec<String> {
+    let mut out = Vec::new();
+    if let Mode::Planar { .. } = m.mode {
+        let what =
+            "a planar model: its figures count 3 constraints per contour, those of this file 6";
+        out.push(what.to_owned());
+    }
+    let others = m.joint_ids().filter(|&j| !m.joints[j].is_in(StateId::FREE));
+    let others = others.map(|j| m.joints[j].id.as_str()).join(", ");
+    if !others.is_empty() {
+        out.push(format!("left out, as not of the free state: {others}"));
+    }
+    let plane = |l: &crate::model::mechanism::Link| {
+        let inertia = l.mass.as_ref().and_then(|p| p.inertia);
+        matches!(inertia, Some(Inertia::Plane(_)))
+    };
+    if m.links.iter().any(plane) {
+        out.push("inertias about the plane's normal stand for all three axes".to_owned());
+    }
+    let loads = &m.loads;
+    let told = [
+        (
+            !loads.forces.is_empty() || !loads.moments.is_empty(),
+            "forces",
+        ),
+        (loads.gravity.is_some(), "gravity"),
+        (
+            loads.stroke.is_some() || !loads.drive_speeds.is_empty(),
+            "strokes and speeds",
+        ),
+        (loads.grip.is_some(), "the gripper's data"),
+        (loads.drive.is_some(), "the drive's data"),
+        (
+            m.joints.iter().any(|j| j.options.len() > 1),
+            "the options of a search",
+        ),
+    ];
+    let told = told.iter().filter(|t| t.0).map(|t| t.1).join(", ");
+    if !told.is_empty() {
+        out.push(format!(
+            "left out, as this format has no words for it: {told}"
+        ));
+    }
+    out
+}

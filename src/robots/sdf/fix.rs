@@ -1,0 +1,98 @@
+//! Joints of one more freedom in an SDF file: a link and a joint put in between a joint and its child.
+
+use crate::file::problem::ImportError;
+use crate::geom::rigid::Motion;
+use crate::robots::edit::{Edits, Freed, beside};
+use crate::robots::origin::Origin;
+use crate::robots::parts::Part;
+use crate::robots::single_freedoms::{escape, numbers};
+use crate::robots::xml::Element;
+
+/// Links must have mass; in kg and kg·m².
+const INERTIAL: &str = "<inertial><mass>1e-4</mass><inertia><ixx>1e-7</ixx><iyy>1e-7</iyy><izz>1e-7</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial>";
+
+/// Gives joints freedoms.
+pub(crate) fn free(
+    origin: &Origin,
+    all: &[(&Part, Freed<'_>)],
+    edits: &mut Edits<'_>,
+) -> Result<(), ImportError> {
+    for &(part, freed) in all {
+        let Some(id) = part.element else {
+            return Err(beside(origin, part));
+        };
+        let e = origin.element(id);
+        let remedy = "choose another joint (--at)";
+        let (Some(child), "joint") = (e.child("child"), e.name()) else {
+            return Err(e.unsupported("no link can be put in between there", remedy));
+        };
+        let mut nodes = origin.document.nodes.iter();
+        let model = nodes
+            .position(|n| n.children.contains(&id))
+            .unwrap_or(origin.root);
+        let model = origin.element(model);
+        let named = |l: &Element<'_>| l.attribute("name") == Some(child.text());
+        let Some(link) = model.named("link").find(named) else {
+            return Err(e.unsupported("its child is no link of its own model", remedy));
+        };
+        // A joint with two axes that are not square is two parts; its child hangs on the last.
+        let last = origin
+            .robot
+            .joints
+            .iter()
+            .rev()
+            .find(|p| p.element == Some(id));
+        let last = last.unwrap_or(part);
+        let to = last.links[1];
+        let version = origin.element(origin.root).attribute("version");
+        let old = version
+            .and_then(|v| v.parse::<f64>().ok())
+            .is_some_and(|v| v < 1.5);
+        // Before SDF 1.5 axes are given in the model's frame, later in the joint's.
+        let frame = if old {
+            let back = origin.robot.places[to].then(&origin.places[to].inverse());
+            let turned = model
+                .child("pose")
+                .map(|p| p.text_numbers::<6>())
+                .transpose()?;
+            let [_, _, _, roll, pitch, yaw] = turned.unwrap_or_default();
+            let model = Motion::roll_pitch_yaw([0.0; 3], [roll, pitch, yaw]);
+            back.inverse().then(&model)
+        } else {
+            origin.places[to].then(&last.sides[1])
+        };
+        let pose = |e: Element<'_>| e.child("pose").map_or("", |p| edits.raw(p)).to_owned();
+        let (link_pose, joint_pose) = (pose(link), pose(e));
+        let mut lines = Vec::new();
+        let mut chain = Vec::new();
+        for (slides, direction, why) in freed {
+            let (kind, word) = if *slides {
+                ("prismatic", "slide")
+            } else {
+                ("revolute", "turn")
+            };
+            let between = edits.name(&format!("{}_{word}_link", part.id.replace("::", "_")));
+            let name = edits.name(&format!("{}_{word}", part.id.replace("::", "_")));
+            let axis = numbers(frame.inverse().direction(*direction));
+            lines.push(format!("<!-- {why} -->"));
+            lines.push(format!(
+                "<link name=\"{}\">{link_pose}{INERTIAL}</link>",
+                escape(&between)
+            ));
+            chain.push((name, kind, between, axis));
+        }
+        for (i, (name, kind, between, axis)) in chain.iter().enumerate() {
+            let next = chain.get(i + 1).map_or(child.text(), |c| &c.2);
+            lines.push(format!(
+                "<joint name=\"{}\" type=\"{kind}\">{joint_pose}<parent>{}</parent><child>{}</child><axis><xyz>{axis}</xyz><limit><lower>-1e16</lower><upper>1e16</upper></limit></axis></joint>",
+                escape(name),
+                escape(between),
+                escape(next),
+            ));
+        }
+        let inner = child.node().span.end..child.node().close.start;
+        edits.replace(child, inner, escape(&chain[0].2));
+        edits.after(e, &lines);
+    }
+    Ok(())
+}

@@ -1,0 +1,143 @@
+//! `<include>`: the model of another file in place of the element, under the name and at the place that it gives.
+
+use crate::file::problem::ImportError;
+use crate::robots::options::Reader;
+use crate::robots::problem::RobotProblem;
+use crate::robots::xml::{self, Document, Element, MAX_BYTES};
+
+/// Deepest nesting of files, and most includes in all.
+const LIMITS: (usize, usize) = (16, 1000);
+
+/// Puts models in place of all `<include>` elements below `root`; says of each file whether it is older than SDF 1.5.
+pub(super) fn expand(
+    document: &mut Document,
+    root: usize,
+    read: Reader<'_>,
+) -> Result<Vec<bool>, ImportError> {
+    let mut old = vec![is_old(document.element(root))];
+    let mut count = 0;
+    // With the names of the files that are open.
+    let mut stack = vec![(root, Vec::<String>::new())];
+    while let Some((id, open)) = stack.pop() {
+        let children = document.nodes[id].children.clone();
+        let mut all = Vec::with_capacity(children.len());
+        for c in children {
+            let e = document.element(c);
+            if e.name() != "include" || !["world", "model"].contains(&document.element(id).name()) {
+                all.push(c);
+                stack.push((c, open.clone()));
+                continue;
+            }
+            count += 1;
+            let (model, uri) = included(document, c, (&open, count), read, &mut old)?;
+            let mut names = open.clone();
+            names.push(uri);
+            all.push(model);
+            stack.push((model, names));
+        }
+        document.nodes[id].children = all;
+    }
+    Ok(old)
+}
+
+fn is_old(root: Element<'_>) -> bool {
+    let version = root
+        .attribute("version")
+        .and_then(|v| v.parse::<f64>().ok());
+    version.is_some_and(|v| v < 1.5)
+}
+
+/// The model that an include names, with what the include says of it.
+fn included(
+    document: &mut Document,
+    id: usize,
+    (open, count): (&[String], usize),
+    read: Reader<'_>,
+    old: &mut Vec<bool>,
+) -> Result<(usize, String), ImportError> {
+    let e = document.element(id);
+    let uri = e
+        .child("uri")
+        .map(|u| u.text().to_owned())
+        .filter(|u| !u.is_empty());
+    let Some(uri) = uri else {
+        let (element, what) = (e.label(), "<uri>".to_owned());
+        return Err(e.fail(None, RobotProblem::Missing { element, what }));
+    };
+    let refuse = |e: Element<'_>, why: &str, remedy: &str| {
+        let element = format!("<include> of {uri}");
+        let (why, remedy) = (why.to_owned(), remedy.to_owned());
+        e.fail(
+            None,
+            RobotProblem::Unsupported {
+                element,
+                why,
+                remedy,
+            },
+        )
+    };
+    if open.contains(&uri) {
+        return Err(refuse(
+            e,
+            "the file includes itself",
+            "remove one of the includes",
+        ));
+    }
+    if open.len() >= LIMITS.0 || count > LIMITS.1 {
+        let why = format!("more than {} files deep or {} in all", LIMITS.0, LIMITS.1);
+        return Err(refuse(e, &why, "put the files together"));
+    }
+    if e.attribute("merge").is_some_and(|m| m == "true") || e.child("placement_frame").is_some() {
+        let why = "it merges models or places them by a frame";
+        return Err(refuse(
+            e,
+            why,
+            "expand the file first, for example with `gz sdf -p`",
+        ));
+    }
+    let bytes = match read(&uri) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            let why = format!("it cannot be read ({error})");
+            return Err(refuse(
+                e,
+                &why,
+                "name the folder that its model is in with --models",
+            ));
+        }
+    };
+    let total: usize = document.sources.iter().map(|s| s.text.len()).sum();
+    if total + bytes.len() > MAX_BYTES {
+        let why = format!("the files have more than {MAX_BYTES} bytes together");
+        return Err(refuse(e, &why, "remove what is not kinematics"));
+    }
+    let text = xml::utf8(&uri, &bytes)?;
+    let inner = document.read(&uri, text)?;
+    old.push(is_old(document.element(inner)));
+    let (e, found) = (document.element(id), document.element(inner));
+    let models: Vec<usize> = found.named("model").map(|m| m.id).collect();
+    let [model] = models[..] else {
+        return Err(refuse(
+            e,
+            "the file has not one <model>",
+            "name a file that has",
+        ));
+    };
+    let own = |tag: &str| e.child(tag).map(|c| c.id);
+    let (name, place, fixed) = (
+        e.child("name").map(|n| n.text().to_owned()),
+        own("pose"),
+        own("static"),
+    );
+    for (tag, new) in [("pose", place), ("static", fixed)] {
+        let Some(new) = new else { continue };
+        let mut children = document.nodes[model].children.clone();
+        children.retain(|&c| !document.nodes[c].is_called(tag));
+        children.push(new);
+        document.nodes[model].children = children;
+    }
+    if let Some(name) = name.filter(|n| !n.is_empty()) {
+        document.nodes[model].rename(name);
+    }
+    Ok((model, uri))
+}

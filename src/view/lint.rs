@@ -1,0 +1,340 @@
+//! What robot descriptions hold twice: text, JSON, and SARIF for code scanning.
+
+use crate::format::number::{brief, cost};
+use crate::format::phrase::plural;
+use crate::geom::vector::Vector;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::redundancy::held_twice::HeldTwice;
+use crate::redundancy::release::{Duplicate, Release, becomes};
+use crate::robots::{Imported, Origin, Place};
+use itertools::Itertools;
+use serde::Serialize;
+use serde_json::{Value, json};
+
+/// Remedies told of each finding.
+const REMEDIES: usize = 3;
+/// Joints named in a line.
+const JOINTS: usize = 8;
+
+/// What was found in one file.
+#[derive(Debug, Serialize)]
+pub struct Lint {
+    /// Name of the file.
+    pub file: String,
+    /// W.
+    pub mobility: usize,
+    /// σ; the least it can be where that is not decided.
+    pub redundant: usize,
+    /// The most that σ can be.
+    pub redundant_at_most: usize,
+    /// How sure σ is, in a word, and in a line.
+    pub certainty_kind: &'static str,
+    /// The line.
+    pub certainty: String,
+    /// Where it holds, in a word: proven, followed, seen, rigid, pose or unknown; nothing where σ = 0.
+    pub over_motion_kind: Option<&'static str>,
+    /// In words.
+    pub over_motion: Option<String>,
+    /// Rows of couplings that are left out of the figures: W is up to so many too high, σ may be too low.
+    pub left_out: usize,
+    /// What was read approximately.
+    pub approximated: Vec<String>,
+    /// Each redundant constraint.
+    pub findings: Vec<Finding>,
+    /// The cheapest releases that remove them all and let nothing move; none where there are not enough.
+    pub cheapest: Vec<String>,
+}
+
+/// A redundant constraint.
+#[derive(Debug, Serialize)]
+pub struct Finding {
+    /// File, line and column of the element that the constraint is of; nothing where a file beside it says so.
+    pub file: Option<String>,
+    /// Line, from 1.
+    pub line: Option<usize>,
+    /// Column, from 1.
+    pub column: Option<usize>,
+    /// The joint or coupling.
+    pub constraint: String,
+    /// Its row: x, y or z, a direction, a turn about one.
+    pub row: String,
+    /// The joints and couplings that hold the same.
+    pub duplicates: Vec<String>,
+    /// The contours that its self-stress goes round.
+    pub contours: Vec<String>,
+    /// What an inexact part makes.
+    pub assembly: String,
+    /// The cheapest releases that remove it.
+    pub remedies: Vec<String>,
+    /// All that in a sentence.
+    pub message: String,
+}
+
+impl Lint {
+    /// What was found in a mechanism, in the words of the description it came from, where it did.
+    #[must_use]
+    pub fn new(file: &str, m: &Mechanism, read: Option<&Imported>, found: &HeldTwice) -> Lint {
+        let origin = read.map(|i| &i.origin);
+        let report = read.map(|i| &i.report);
+        let (least, most) = found.range();
+        let words = Words { m, found };
+        let finding = |d: &Duplicate| words.finding(d, origin);
+        let whole = found.cheapest.len() == most;
+        Lint {
+            file: file.to_owned(),
+            mobility: found.analysis.mobility,
+            redundant: least,
+            redundant_at_most: most,
+            certainty_kind: found.analysis.certainty.word(),
+            certainty: found.analysis.certainty.describe(),
+            over_motion_kind: found.over.map(|o| o.word()),
+            over_motion: found.over.map(|o| o.describe()),
+            left_out: report.map_or(0, |r| r.coupling_rows),
+            approximated: report.map_or(Vec::new(), |r| {
+                let notes = r.approximated.iter();
+                notes
+                    .map(|n| format!("{}: {}", n.element, n.what))
+                    .collect()
+            }),
+            findings: found.list.iter().map(finding).collect(),
+            cheapest: match whole {
+                true => found.cheapest.iter().map(|&i| words.remedy(i)).collect(),
+                false => Vec::new(),
+            },
+        }
+    }
+
+    /// Whether nothing is redundant, for sure.
+    #[must_use]
+    pub fn is_clean(&self) -> bool {
+        self.redundant_at_most == 0
+    }
+
+    /// The findings, a paragraph each.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let Lint { file, mobility, .. } = self;
+        if self.is_clean() {
+            return format!(
+                "{file}: nothing is redundant (σ = 0, W = {mobility}){}\n",
+                self.left_out()
+            );
+        }
+        let sigma = self.sigma();
+        let mut out = format!("{file}: {sigma}, W = {mobility}{}\n", self.left_out());
+        if let Some(over) = &self.over_motion {
+            out += &format!("  redundant {over}\n");
+        }
+        for f in &self.findings {
+            let place = match (&f.file, f.line, f.column) {
+                (Some(file), Some(line), Some(column)) => format!("{file}:{line}:{column}: "),
+                _ => String::new(),
+            };
+            out += &format!("\n{place}{}\n", f.message);
+            if !f.remedies.is_empty() {
+                out += &format!("  remedies: {}\n", f.remedies.join("; "));
+            }
+        }
+        if self.findings.is_empty() {
+            out += "\n  which constraints these are cannot be told: the digits do not decide\n";
+        }
+        if !self.cheapest.is_empty() {
+            out += &format!(
+                "\n  cheapest that removes all: {}\n",
+                self.cheapest.join("; ")
+            );
+        }
+        out
+    }
+
+    /// What keeps the figures from being those of the description.
+    fn left_out(&self) -> String {
+        match self.left_out {
+            0 => String::new(),
+            n => format!(
+                "; {} between joints left out, which may be redundant and lower W",
+                plural(n, "row")
+            ),
+        }
+    }
+
+    /// "2 redundant constraints (σ = 2)", "0 to 2 redundant constraints (...)".
+    fn sigma(&self) -> String {
+        let (least, most) = (self.redundant, self.redundant_at_most);
+        match least == most {
+            true => format!(
+                "{} (σ = {most}, {})",
+                plural(most, "redundant constraint"),
+                self.certainty_kind
+            ),
+            false => format!(
+                "{least} to {most} redundant constraints (undecided: coordinates are rounded too coarsely)"
+            ),
+        }
+    }
+}
+
+struct Words<'a> {
+    m: &'a Mechanism,
+    found: &'a HeldTwice,
+}
+
+impl Words<'_> {
+    fn coupling(&self, q: usize) -> String {
+        let found = self.m.couplings_in(StateId::FREE).nth(q);
+        found.map_or(String::new(), |c| c.name(self.m))
+    }
+
+    fn joint(&self, j: JointId) -> &str {
+        &self.m.joints[j].id
+    }
+
+    fn finding(&self, d: &Duplicate, origin: Option<&Origin>) -> Finding {
+        let (constraint, row, assembly) = match d.row {
+            Release::Coupling(q) => (
+                self.coupling(q),
+                "the coupling".to_owned(),
+                "a force or moment through the coupling".to_owned(),
+            ),
+            Release::Freedom {
+                joint,
+                slides,
+                direction,
+            } => {
+                let line = name(direction);
+                let (row, what) = match slides {
+                    true => (line.clone(), format!("force along {line}")),
+                    false => (format!("turn about {line}"), format!("moment about {line}")),
+                };
+                (self.joint(joint).to_owned(), row, what)
+            }
+        };
+        let place: Option<Place> = origin.and_then(|o| match d.row {
+            Release::Coupling(q) => o.coupling(q),
+            Release::Freedom { joint, .. } => o.joint(joint),
+        });
+        let joints = d.by.iter().map(|&j| self.joint(j).to_owned());
+        let itself = |q: &&usize| d.row != Release::Coupling(**q);
+        let couplings = d.couplings.iter().filter(itself).map(|&q| self.coupling(q));
+        let duplicates: Vec<String> = joints.chain(couplings).collect();
+        let contours = &self.found.analysis.per_contour;
+        let contours = d.contours.iter().filter_map(|&k| contours.get(k));
+        let remedies = d.remedies.iter().take(REMEDIES);
+        let more = match duplicates.len().saturating_sub(JOINTS) {
+            0 => String::new(),
+            n => format!(" and {n} more"),
+        };
+        let shown = duplicates.iter().take(JOINTS).join(" / ");
+        let row_words = match d.row {
+            Release::Coupling(_) => row.clone(),
+            Release::Freedom { .. } => format!("row {row}"),
+        };
+        Finding {
+            message: format!(
+                "{constraint}, {row_words} duplicates {shown}{more}; assembly {assembly}"
+            ),
+            file: place.as_ref().map(|p| p.file.clone()),
+            line: place.as_ref().map(|p| p.at[0]),
+            column: place.as_ref().map(|p| p.at[1]),
+            contours: contours.map(|c| c.contour.name(self.m)).collect(),
+            remedies: remedies.map(|&i| self.remedy(i)).collect(),
+            constraint,
+            row,
+            duplicates,
+            assembly,
+        }
+    }
+
+    /// "slide hinge along y: revolute -> cylindrical (cost 1.5)".
+    fn remedy(&self, i: usize) -> String {
+        let (milli, release) = &self.found.releases[i];
+        format!("{} (cost {})", words(self.m, release), cost(*milli))
+    }
+}
+
+/// A release in words: "let a slide along y: revolute -> cylindrical".
+#[must_use]
+pub fn words(m: &Mechanism, release: &Release) -> String {
+    match *release {
+        Release::Coupling(q) => {
+            let found = m.couplings_in(StateId::FREE).nth(q);
+            let name = found.map_or(String::new(), |c| c.name(m));
+            format!("leave out the coupling {name}")
+        }
+        Release::Freedom {
+            joint,
+            slides,
+            direction,
+        } => {
+            let j = &m.joints[joint];
+            let does = if slides { "slide along" } else { "turn about" };
+            format!(
+                "let {} {does} {}: {} -> {}",
+                j.id,
+                name(direction),
+                j.joint_type.name(),
+                becomes(m, joint, slides, direction)
+            )
+        }
+    }
+}
+
+/// "y", or "(0.6, 0.8, 0)".
+fn name(d: Vector) -> String {
+    let axes = ["x", "y", "z"];
+    let along = (0..3).find(|&i| d[i].abs() > 1.0 - 1e-9);
+    match along {
+        Some(i) => axes[i].to_owned(),
+        None => format!("({})", d.map(brief).join(", ")),
+    }
+}
+
+/// What was found in some files as JSON.
+#[must_use]
+pub fn json(all: &[Lint]) -> Value {
+    json!({ "files": all })
+}
+
+/// What was found in some files as SARIF 2.1.0.
+#[must_use]
+pub fn sarif(all: &[Lint]) -> Value {
+    let result = |lint: &Lint, f: &Finding| {
+        let mut place = json!({
+            "artifactLocation": { "uri": f.file.as_ref().unwrap_or(&lint.file) },
+        });
+        if let (Some(line), Some(column)) = (f.line, f.column) {
+            place["region"] = json!({ "startLine": line, "startColumn": column });
+        }
+        let more = match f.remedies.first() {
+            Some(r) => format!(". Remedy: {r}"),
+            None => String::new(),
+        };
+        json!({
+            "ruleId": "redundant-constraint",
+            "level": if lint.redundant == lint.redundant_at_most { "warning" } else { "note" },
+            "message": { "text": format!("{}{more}", f.message) },
+            "locations": [{ "physicalLocation": place }],
+        })
+    };
+    let results: Vec<Value> = all
+        .iter()
+        .flat_map(|l| l.findings.iter().map(move |f| (l, f)))
+        .map(|(l, f)| result(l, f))
+        .collect();
+    json!({
+        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
+        "version": "2.1.0",
+        "runs": [{
+            "tool": { "driver": {
+                "name": "ozols",
+                "version": env!("CARGO_PKG_VERSION"),
+                "rules": [{
+                    "id": "redundant-constraint",
+                    "shortDescription": { "text": "A loop holds a motion twice" },
+                    "fullDescription": { "text": "Its constraint Jacobian is rank deficient: parts out of true are forced together, and solvers divide the forces as they like." },
+                }],
+            } },
+            "results": results,
+        }],
+    })
+}

@@ -1,0 +1,315 @@
+//! `ozols lint` and `ozols fix`: what a description holds twice, by line, and the owner's own file with it let go.
+
+use crate::common::ozols;
+use crate::robots::folder;
+use serde_json::Value;
+use std::path::Path;
+use std::process::Output;
+
+fn run(words: &[&str]) -> (Option<i32>, String, String) {
+    let Output {
+        status,
+        stdout,
+        stderr,
+    } = ozols(words).output().unwrap();
+    let text = |b| String::from_utf8(b).unwrap();
+    (status.code(), text(stdout), text(stderr))
+}
+
+fn gripper() -> String {
+    folder()
+        .join("robotiq_2f85_v4/2f85.nomesh.xml")
+        .display()
+        .to_string()
+}
+
+/// W and σ that lint finds.
+fn figures(file: &str, more: &[&str]) -> (u64, u64) {
+    let words = [&["lint", file, "--format", "json"], more].concat();
+    let (_, out, complaint) = run(&words);
+    let v: Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{file}: {complaint}"));
+    let of = |key: &str| v["files"][0][key].as_u64().unwrap();
+    assert_eq!(of("redundant"), of("redundant_at_most"), "{file}");
+    (of("mobility"), of("redundant"))
+}
+
+// Each connect of the Robotiq 2F-85 closes a planar loop of three hinges: its row across the plane is held twice.
+#[test]
+fn lint_names_each_redundant_row_with_its_line() {
+    let (code, out, _) = run(&["lint", &gripper(), "--format", "json"]);
+    assert_eq!(code, Some(1));
+    let v: Value = serde_json::from_str(&out).unwrap();
+    let file = &v["files"][0];
+    let found: Vec<(&str, &str, u64)> = file["findings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|f| {
+            (
+                f["constraint"].as_str().unwrap(),
+                f["row"].as_str().unwrap(),
+                f["line"].as_u64().unwrap(),
+            )
+        })
+        .collect();
+    assert_eq!(found, [("connect-1", "y", 83), ("connect-2", "y", 84)]);
+    assert_eq!(
+        file["findings"][0]["duplicates"],
+        serde_json::json!([
+            "right_driver_joint",
+            "right_spring_link_joint",
+            "right_follower_joint"
+        ])
+    );
+    assert_eq!(file["findings"][0]["assembly"], "force along y");
+    // Its coordinates are decimals: nothing is proven over the motion.
+    assert_eq!(file["over_motion_kind"], "seen");
+    let remedies = file["findings"][0]["remedies"].as_array().unwrap();
+    assert!(
+        remedies[0]
+            .as_str()
+            .unwrap()
+            .contains("slide along y: revolute -> cylindrical")
+    );
+}
+
+#[test]
+fn lint_is_for_machines_too() {
+    let (code, out, _) = run(&["lint", &gripper(), "--format", "sarif"]);
+    assert_eq!(code, Some(1));
+    let v: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(v["version"], "2.1.0");
+    let result = &v["runs"][0]["results"][0];
+    assert_eq!(result["level"], "warning");
+    let place = &result["locations"][0]["physicalLocation"];
+    assert_eq!(place["artifactLocation"]["uri"], gripper());
+    assert_eq!(place["region"]["startLine"], 83);
+    // Nothing redundant: 0, and nothing is searched. Not readable: 2.
+    let urdf = folder().join("robotiq_ros_urdf/robotiq_arg2f_85_model.expanded.urdf");
+    let (code, out, _) = run(&["lint", urdf.to_str().unwrap()]);
+    assert_eq!(code, Some(0));
+    assert!(out.contains("nothing is redundant (σ = 0, W = 1)"), "{out}");
+    assert_eq!(run(&["lint", "nowhere.xml"]).0, Some(2));
+    // Mechanism files have names, too.
+    let (code, out, _) = run(&["lint", "gripper-10"]);
+    assert_eq!(code, Some(1));
+    assert!(out.contains("11 redundant constraints"), "{out}");
+}
+
+// What is there stays, byte for byte: lines are put in, and attributes that are named changed.
+#[test]
+fn fix_keeps_the_file() {
+    let dir = tempfile::tempdir().unwrap();
+    let out = dir.path().join("fixed.xml").display().to_string();
+    let (code, _, told) = run(&["fix", &gripper(), "-o", &out]);
+    assert_eq!(code, Some(0), "{told}");
+    assert!(
+        told.contains("before: rank 11 of 13 rows, W = 1, redundant 2"),
+        "{told}"
+    );
+    assert!(
+        told.contains("after:  rank 13 of 13 rows, W = 1, redundant 0"),
+        "{told}"
+    );
+    let (old, new) = (
+        std::fs::read_to_string(gripper()).unwrap(),
+        std::fs::read_to_string(&out).unwrap(),
+    );
+    let left: Vec<&str> = new
+        .split('\n')
+        .filter(|l| !l.contains("ozols fix") && !l.contains("_slide\""))
+        .collect();
+    assert_eq!(left.join("\n"), old);
+    assert_eq!(new.split('\n').count(), old.split('\n').count() + 4);
+    assert_eq!(figures(&out, &[]), (1, 0));
+    // At the connects, and as the search has it.
+    for more in [
+        &["--at", "connect-1", "--at", "connect-2"][..],
+        &["--variant", "12"],
+    ] {
+        let file = gripper();
+        let words = [&["fix", &file, "-o", &out], more].concat();
+        let (code, _, told) = run(&words);
+        assert_eq!(code, Some(0), "{told}");
+        assert_eq!(figures(&out, &[]), (1, 0));
+    }
+    assert!(!new.contains("_between"));
+    // A place that does not suffice, and one that there is not.
+    let (code, _, told) = run(&["fix", &gripper(), "--at", "connect-1"]);
+    assert!(code == Some(2) && told.contains("remove 1 of 2"), "{told}");
+    let (code, _, told) = run(&["fix", &gripper(), "--at", "nowhere"]);
+    assert!(code == Some(2) && told.contains("--at nowhere"), "{told}");
+}
+
+// A four-bar in the plane of x and y, closed by each of MuJoCo's means: 1 redundant row by a connect, 3 by a weld.
+fn four_bar(equality: &str, sites: [&str; 2]) -> String {
+    format!(
+        "<mujoco>\r\n  <default><joint range='-2 2' stiffness='3'/></default>\r\n  <worldbody>\r\n    <body name='a'>\r\n      <joint name='j1'/>\r\n      <body name='b' pos='0 1 0'><joint name='j2'/>{}</body></body>\r\n    <body name='c' pos='2 0 0'><joint name='j3'/><frame pos='0 1.5 0'>{}</frame></body>\r\n    <body name='d' pos='9 0 0'><freejoint/></body>\r\n  </worldbody>\r\n  <equality>{equality}</equality>\r\n  <keyframe><key qpos='0 0 0 9 0 0 1 0 0 0' qvel='1 2 3 4 5 6 7 8 9'/></keyframe>\r\n</mujoco>\r\n",
+        sites[0], sites[1]
+    )
+}
+
+#[test]
+fn fix_lets_go_at_each_kind_of_equality() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = |name: &str| dir.path().join(name).display().to_string();
+    let none = ["", ""];
+    let sites = ["<site name='s' pos='2 0.5 0'/>", "<site name='t'/>"];
+    for (name, text, sigma, zeros) in [
+        (
+            "connect",
+            four_bar(
+                "<connect name='e' body1='b' body2='c' anchor='2 0.5 0'/>",
+                none,
+            ),
+            1,
+            "0 0 0 0 9",
+        ),
+        (
+            "sites",
+            four_bar("<connect name='e' site1='s' site2='t'/>", sites),
+            1,
+            "0 0 0 0 9",
+        ),
+        (
+            "weld",
+            four_bar("<weld name='e' body1='c' body2='b'/>", none),
+            3,
+            "0 0 0 0 0 0 9",
+        ),
+        (
+            "site-weld",
+            four_bar("<weld name='e' site1='t' site2='s'/>", sites),
+            3,
+            "0 0 0 0 0 0 9",
+        ),
+    ] {
+        let (file, out) = (
+            path(&format!("{name}.xml")),
+            path(&format!("{name}-fixed.xml")),
+        );
+        std::fs::write(&file, &text).unwrap();
+        let (w, found) = figures(&file, &[]);
+        assert_eq!(found, sigma, "{name}");
+        let (code, _, told) = run(&["fix", &file, "--at", "e", "-o", &out]);
+        assert_eq!(code, Some(0), "{name}: {told}");
+        assert_eq!(figures(&out, &[]), (w, 0), "{name}");
+        let new = std::fs::read_to_string(&out).unwrap();
+        // Keyframes have the new joints' numbers where MuJoCo looks for them, and classes say nothing of these.
+        assert!(new.contains(&format!("qpos='{zeros}")), "{name}: {new}");
+        assert!(
+            new.contains("limited=\"false\" stiffness=\"0\""),
+            "{name}: {new}"
+        );
+        assert_eq!(new.matches('\n').count(), new.matches("\r\n").count());
+    }
+}
+
+// Loops of URDF: in the file, or in one beside it that names joints; and the loops of joints of SDF.
+#[test]
+fn fix_puts_links_in_between() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = |name: &str| dir.path().join(name).display().to_string();
+    let urdf = "<robot name='four-bar'>
+  <link name='base'/><link name='a'/><link name='b'/><link name='c'/>
+  <joint name='j1' type='continuous'><parent link='base'/><child link='a'/><axis xyz='0 0 1'/></joint>
+  <joint name='j2' type='continuous'><parent link='a'/><child link='b'/><origin xyz='0 1 0'/><axis xyz='0 0 1'/></joint>
+  <joint name='j3' type='continuous'><parent link='base'/><child link='c'/><origin xyz='2 0 0' rpy='0 0 1'/><axis xyz='0 0 1'/></joint>
+  <loop_joint name='j4' type='revolute'><link1 link='b' xyz='2 0.5 0' rpy='0 0 0'/><link2 link='c' xyz='1.2622064772 0.8104534588 0' rpy='0 0 -1'/><axis xyz='0 0 1'/></loop_joint>
+</robot>";
+    let (file, out) = (path("four.urdf"), path("fixed.urdf"));
+    std::fs::write(&file, urdf).unwrap();
+    let (w, sigma) = figures(&file, &[]);
+    assert_eq!((w, sigma), (1, 3));
+    for at in ["j2", "j3", "j4"] {
+        let (code, _, told) = run(&["fix", &file, "--at", at, "-o", &out]);
+        assert_eq!(code, Some(0), "{at}: {told}");
+        assert_eq!(figures(&out, &[]), (1, 0), "{at}");
+    }
+    let bar = folder().join("epr_5bar_linkage");
+    let (file, side) = (bar.join("robot.urdf"), bar.join("robot.yaml"));
+    let more = ["--loops", side.to_str().unwrap()];
+    let words = [&["fix", file.to_str().unwrap(), "-o", &out], &more[..]].concat();
+    let (code, _, told) = run(&words);
+    assert_eq!(code, Some(0), "{told}");
+    assert_eq!(figures(&out, &more), (3, 0));
+    let bars = folder().join("drake_four_bar");
+    let out = path("fixed.sdf");
+    for (file, w) in [("four_bar_loop.sdf", 1), ("four_bar_weld.sdf", 1)] {
+        let file = bars.join(file);
+        let words = ["fix", file.to_str().unwrap(), "--assemble", "-o", &out];
+        let (code, _, told) = run(&words);
+        assert_eq!(code, Some(0), "{told}");
+        assert_eq!(figures(&out, &["--assemble"]), (w, 0), "{}", file.display());
+    }
+}
+
+// What is included is another file, which is not written.
+#[test]
+fn fix_refuses_what_it_cannot_write() {
+    let dir = tempfile::tempdir().unwrap();
+    let text = four_bar(
+        "<connect name='e' body1='b' body2='c' anchor='2 0.5 0'/>",
+        ["", ""],
+    );
+    let (head, rest) = text.split_once("<worldbody>").unwrap();
+    let (world, tail) = rest.split_once("</worldbody>").unwrap();
+    let part = format!("<mujoco><worldbody>{world}</worldbody></mujoco>");
+    std::fs::write(dir.path().join("part.xml"), part).unwrap();
+    let main: std::path::PathBuf = dir.path().join("main.xml");
+    std::fs::write(&main, format!("{head}<include file='part.xml'/>{tail}")).unwrap();
+    let out = dir.path().join("out.xml");
+    let words = ["fix", main.to_str().unwrap(), "-o", out.to_str().unwrap()];
+    let (code, _, told) = run(&words);
+    assert!(
+        code == Some(2) && told.contains("in a file that is included"),
+        "{told}"
+    );
+    assert!(!Path::new(&out).exists());
+}
+
+// A search may let a connect go along the direction that it holds twice, and what it finds is written at the connect.
+#[test]
+fn searches_offer_releases_where_loops_close() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = |name: &str| dir.path().join(name).display().to_string();
+    for (equality, name) in [
+        (
+            "<connect name='e' body1='b' body2='c' anchor='2 0.5 0'/>",
+            "spherical + slide z",
+        ),
+        ("<weld name='e' body1='c' body2='b'/>", "slide z + turn "),
+    ] {
+        let (file, out) = (path("four.xml"), path("fixed.xml"));
+        std::fs::write(&file, four_bar(equality, ["", ""])).unwrap();
+        let words = [
+            "search", &file, "--all", "--format", "jsonl", "--forbid", "j1", "--forbid", "j2",
+            "--forbid", "j3",
+        ];
+        let (code, found, told) = run(&words);
+        assert_eq!(code, Some(0), "{told}");
+        let first = found.lines().next().unwrap();
+        assert!(first.contains(name), "{first}");
+        let words = [
+            "fix",
+            &file,
+            "--variant",
+            "1",
+            "--forbid",
+            "j1",
+            "--forbid",
+            "j2",
+            "--forbid",
+            "j3",
+            "-o",
+            &out,
+        ];
+        let (code, _, told) = run(&words);
+        assert_eq!(code, Some(0), "{told}");
+        assert!(
+            std::fs::read_to_string(&out).unwrap().contains("e_between"),
+            "{told}"
+        );
+        assert_eq!(figures(&out, &[]).1, 0);
+    }
+}

@@ -1,0 +1,282 @@
+"""Lints and fixes models with ozols, and asks MuJoCo and Pinocchio what became of them.
+
+usage: compare.py OZOLS MODELS
+MODELS is a folder of real models, one folder each. Ends with 1 where a figure differs.
+"""
+
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+import generate
+import mujoco_figures
+import numpy as np
+import pinocchio_figures
+
+STEPS = 60
+# The same place, as a fraction of a model's size.
+SAME = 1e-6
+
+failures = []
+rows = []
+
+
+def ozols(*words):
+    out = subprocess.run([OZOLS, *map(str, words)], capture_output=True, text=True, check=False)
+    return out.returncode, out.stdout, out.stderr
+
+
+def expect(name, what, found, wanted):
+    if found != wanted:
+        failures.append(f"{name}: {what} is {found}, not {wanted}")
+
+
+def lint(file, *more):
+    code, out, err = ozols("lint", file, "--format", "json", *more)
+    if code == 2:
+        return None, err.strip().split("\n")[0]
+    return json.loads(out)["files"][0], None
+
+
+def size(peer, q):
+    peer.jacobian(q)
+    return max(float(np.abs(peer.data.xpos).max()), 1e-3)
+
+
+def mjcf(name, file, truth=None):
+    """One MJCF model: ours and MuJoCo's figures before and after, and the motion of one in the other."""
+    began = time.perf_counter()
+    found, why = lint(file)
+    took = time.perf_counter() - began
+    if found is None:
+        failures.append(f"{name}: not read: {why}")
+        return
+    before = mujoco_figures.Model(file)
+    q, gap = before.close(before.model.qpos0)
+    if gap > 1e-7:
+        failures.append(f"{name}: MuJoCo does not close it ({gap:.1e})")
+        return
+    peer = truth or before.figures(q)
+    out = found["redundant_at_most"] - found["redundant"]
+    rows.append((name, peer["w"], peer["redundant"], found["mobility"], found["redundant"], out, took))
+    left = found["left_out"]
+    if out:
+        # Undecided: the truth is within what is said.
+        inside = found["redundant"] <= peer["redundant"] <= found["redundant_at_most"]
+        expect(name, "the range of redundant", inside, True)
+        return
+    expect(name, "W", found["mobility"], peer["w"] + left)
+    expect(name, "redundant", found["redundant"], peer["redundant"])
+    if found["redundant"] == 0:
+        return
+    with tempfile.NamedTemporaryFile(suffix=".xml", dir=pathlib.Path(file).parent if truth else None) as t:
+        code, _, err = ozols("fix", file, "-o", t.name)
+        if code != 0:
+            failures.append(f"{name}: not fixed: {err.strip().splitlines()[0]}")
+            return
+        after = mujoco_figures.Model(t.name)
+    follow(name, before, after, q, peer)
+
+
+def follow(name, before, after, q, peer, by_places=False):
+    """The way of the model as it was, step by step, in the model as it is: closed there, of full rank, and nowhere else.
+
+    The poses are told by the joints that both have; where ozols wrote both, which may cut loops elsewhere, by the places of
+    their links.
+    """
+    random = np.random.default_rng(7)
+    v = random.normal(size=before.model.nv)
+    whole, there = size(before, q), after.model.qpos0.copy()
+    links = [n for n in before.places(q) if n in after.places(there) and "~" not in n]
+    # Three points of each link, as it is drawn.
+    corners = whole * np.vstack([np.zeros(3), np.eye(3)[:2]])
+    points = {n: [p + c for c in corners] for n, p in before.places(q).items() if n in links}
+    start = there if by_places else after.embed(before, q)
+    ours, theirs = before.marks(q, points), after.marks(start, points)
+
+    def apart(pose, wanted):
+        found = after.seen(pose, theirs)
+        gaps = [np.abs(a - b).max() for n in links for a, b in zip(found[n], wanted[n])]
+        return float(max(gaps, default=0.0))
+
+    for step in range(STEPS):
+        j, _ = before.jacobian(q)
+        v = v - np.linalg.pinv(j, rcond=1e-6) @ (j @ v)
+        if np.abs(v).max() < 1e-9:
+            break
+        v = v / np.abs(v).max()
+        mujoco_figures.integrate(before.model, q, v * 0.003)
+        q, _ = before.close(q)
+        wanted = before.seen(q, ours)
+        at = f"{name}, step {step}"
+        if by_places:
+            there = after.match(theirs, wanted, there)
+        else:
+            there = after.embed(before, q)
+        expect(at, "the same place", bool(apart(there, wanted) < SAME * whole), True)
+        figures = after.figures(there)
+        _, gap = after.jacobian(there)
+        expect(at, "W", figures["w"], peer["w"])
+        expect(at, "redundant", figures["redundant"], 0)
+        expect(at, "closed", bool(np.abs(gap).max() < SAME * whole), True)
+        # From beside it, with as many coordinates held as there are motions, back to the same pose.
+        if step % 10 == 0:
+            held = after.independent(there, figures["w"])
+            aside = there.copy()
+            shift = 1e-3 * random.normal(size=after.model.nv)
+            shift[held] = 0
+            mujoco_figures.integrate(after.model, aside, shift)
+            back, _ = after.close(aside, held)
+            expect(at, "the pose it closes to again", bool(apart(back, wanted) < SAME * whole), True)
+        if any(f.startswith(name) for f in failures):
+            return
+
+
+def urdf(name, file, side):
+    """One URDF model with its loops in a file beside it: ours and Pinocchio's."""
+    more = ["--loops", side]
+    began = time.perf_counter()
+    found, why = lint(file, *more)
+    took = time.perf_counter() - began
+    if found is None:
+        failures.append(f"{name}: not read: {why}")
+        return
+    before = pinocchio_figures.Model(file, side)
+    peer, gap = before.figures()
+    if gap > 1e-9:
+        failures.append(f"{name}: Pinocchio does not close it ({gap:.1e})")
+        return
+    rows.append((name, peer["w"], peer["redundant"], found["mobility"], found["redundant"], 0, took))
+    expect(name, "W", found["mobility"], peer["w"])
+    expect(name, "redundant", found["redundant"], peer["redundant"])
+    if found["redundant"] == 0:
+        return
+    with tempfile.NamedTemporaryFile(suffix=".urdf") as t:
+        code, _, err = ozols("fix", file, *more, "-o", t.name)
+        if code != 0:
+            failures.append(f"{name}: not fixed: {err.strip().splitlines()[0]}")
+            return
+        after = pinocchio_figures.Model(t.name, side)
+        figures, _ = after.figures()
+        expect(f"{name}, fixed", "W", figures["w"], peer["w"])
+        expect(f"{name}, fixed", "redundant", figures["redundant"], 0)
+        for step, (w, redundant, apart) in enumerate(before.along(after, STEPS)):
+            expect(f"{name}, step {step}", "W", w, peer["w"])
+            expect(f"{name}, step {step}", "redundant", redundant, 0)
+            expect(f"{name}, step {step}", "the same place", bool(apart < SAME), True)
+
+
+def as_mjcf(folder, file, more):
+    """A model of any format as ozols writes it in MJCF."""
+    toml, xml = folder / "model.toml", folder / "model.xml"
+    for words in (["import", file, *more, "-o", toml], ["export", toml, "--to", "mjcf", "-o", xml]):
+        code, _, err = ozols(*words)
+        if code != 0:
+            return None, err.strip().splitlines()[0]
+    return mujoco_figures.Model(xml), None
+
+
+def through(name, file, more=(), truth=None, moves=True):
+    """A model that MuJoCo does not read: as ozols writes it in MJCF, before and after it is fixed in its own format."""
+    began = time.perf_counter()
+    found, why = lint(file, *more)
+    took = time.perf_counter() - began
+    with tempfile.TemporaryDirectory() as t:
+        folder = pathlib.Path(t)
+        before, why = as_mjcf(folder, file, more) if found else (None, why)
+        if before is None:
+            failures.append(f"{name}: not read: {why}")
+            return
+        q, gap = before.close(before.model.qpos0)
+        expect(name, "closed", bool(gap < 1e-7), True)
+        peer = before.figures(q)
+        if truth:
+            expect(name, "figures", (peer["w"], peer["redundant"]), truth)
+        out = found["redundant_at_most"] - found["redundant"]
+        rows.append((name, peer["w"], peer["redundant"], found["mobility"], found["redundant"], out, took))
+        expect(name, "W", found["mobility"], peer["w"])
+        expect(name, "redundant", found["redundant"], peer["redundant"])
+        if found["redundant"] == 0 or out:
+            return
+        fixed = folder / f"fixed{pathlib.Path(file).suffix}"
+        code, _, err = ozols("fix", file, *more, "-o", fixed)
+        if code != 0:
+            failures.append(f"{name}: not fixed: {err.strip().splitlines()[0]}")
+            return
+        after, why = as_mjcf(folder, fixed, more)
+        if after is None:
+            failures.append(f"{name}: fixed, not read: {why}")
+            return
+        if moves:
+            follow(name, before, after, q, peer, by_places=True)
+            return
+        # Loops that are far open in the file may close in another pose.
+        r, gap = after.close(after.model.qpos0)
+        figures = after.figures(r)
+        expect(f"{name}, fixed", "figures", (figures["w"], figures["redundant"]), (peer["w"], 0))
+
+
+def main():
+    models = pathlib.Path(MODELS)
+    for file in [
+        "robotiq_2f85_v4/2f85.nomesh.xml",
+        "xarm7_hand/hand.nomesh.xml",
+        "toddlerbot_2xc/toddlerbot_2xc.nomesh.xml",
+    ]:
+        mjcf(file.split("/")[0], models / file)
+    # MuJoCo 4.0 does not take its tendon on a ball: without tendons.
+    text = (models / "mujoco_constraints/constraints.xml").read_text()
+    text = re.sub(r"<tendon>.*?</tendon>|<tendon [^>]*/>", "", text, flags=re.DOTALL)
+    with tempfile.TemporaryDirectory() as t:
+        file = pathlib.Path(t) / "constraints.xml"
+        file.write_text(text)
+        mjcf("mujoco_constraints", file)
+    for folder in ["epr_5bar_linkage", "epr_5bar_linkage_iso6d", "epr_digit_like", "epr_talos_like"]:
+        urdf(folder, models / folder / "robot.urdf", models / folder / "robot.yaml")
+    for folder in ["epr_digit_like_2legs", "epr_battobot_6d"]:
+        through(folder, models / folder / "robot.urdf", ["--loops", models / folder / "robot.yaml"])
+    beest = models / "drake_strandbeest"
+    through("strandbeest", beest / "strandbeest_nomesh.urdf", ["--loops", beest / "strandbeest_ball_constraints.json"], moves=False)
+    through("polaris", models / "gazebo_polaris_ranger_ev" / "model-1_4.sdf")
+    for file in ["four_bar_loop.sdf", "four_bar_weld.sdf", "four_bar.sdf"]:
+        through(file, models / "drake_four_bar" / file, ["--assemble"])
+    for file in sorted((models / "robotiq_ros_urdf").glob("*.urdf")):
+        # One of them has no joint that moves.
+        if "mesh" not in file.name:
+            through(file.name.split(".")[0], file)
+    with tempfile.TemporaryDirectory() as t:
+        for name, text, exact in generate.models():
+            file = pathlib.Path(t) / f"{name}.xml"
+            file.write_text(text)
+            truth = None
+            if exact is not None:
+                other = pathlib.Path(t) / f"{name}-exact.xml"
+                other.write_text(exact)
+                peer = mujoco_figures.Model(other)
+                truth = peer.figures(peer.close(peer.model.qpos0)[0])
+            mjcf(name, file, truth)
+            if name.endswith(f"-connect-{generate.FULL}"):
+                peer = mujoco_figures.Model(file)
+                figures = peer.figures(peer.close(peer.model.qpos0)[0])
+                for to in ["urdf", "sdf"]:
+                    other = file.with_suffix(f".{to}")
+                    code, _, err = ozols("export", file, "--to", to, "-o", other)
+                    expect(f"{name}.{to}", "export", (code, err), (0, ""))
+                    through(f"{name}.{to}", other, (), (figures["w"], figures["redundant"]))
+    print(f"{'model':32} {'peer W':>6} {'red.':>5} {'our W':>6} {'red.':>5}  seconds")
+    for name, w, r, our_w, our_r, out, took in rows:
+        most = f"-{our_r + out}" if out else ""
+        print(f"{name:32} {w:6} {r:5} {our_w:6} {our_r:>4}{most:2}  {took:.2f}")
+    for f in failures[:40]:
+        print("FAILED", f)
+    print(f"{len(rows)} models, {len(failures)} failures")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    OZOLS, MODELS = sys.argv[1:3]
+    sys.exit(main())

@@ -1,0 +1,97 @@
+"""What Pinocchio makes of a URDF whose loops stand in a `robot.yaml` beside it: rank of the loops' Jacobian, W, and poses."""
+
+import numpy as np
+import pinocchio as pin
+import yaml
+
+ZERO = 1e-6
+
+
+class Model:
+    def __init__(self, path, side):
+        self.model = pin.buildModelFromUrdf(str(path))
+        self.data = self.model.createData()
+        with open(side) as f:
+            loops = yaml.safe_load(f)
+        self.ends = [[self.frame(n) for n in pair] for pair in loops["closed_loop"]]
+        self.rows = [6 if t.lower() == "6d" else 3 for t in loops["type"]]
+
+    def frame(self, name):
+        """A frame of a link, or of the child's side of a joint."""
+        for f, frame in enumerate(self.model.frames):
+            if frame.name == name:
+                return f
+        raise KeyError(name)
+
+    def jacobian(self, q):
+        """Rows of the loops, and how far they are open."""
+        m, d = self.model, self.data
+        pin.computeJointJacobians(m, d, q)
+        pin.updateFramePlacements(m, d)
+        rows, gaps = [], []
+        for (a, b), n in zip(self.ends, self.rows):
+            relative = d.oMf[a].actInv(d.oMf[b])
+            j = pin.getFrameJacobian(m, d, b, pin.LOCAL)
+            i = pin.getFrameJacobian(m, d, a, pin.LOCAL)
+            if n == 6:
+                rows.append(pin.Jlog6(relative) @ (j - relative.toActionMatrixInverse() @ i))
+                gaps.append(pin.log6(relative).vector)
+            else:
+                turn_a, turn_b = d.oMf[a].rotation, d.oMf[b].rotation
+                rows.append(turn_b @ j[:3] - turn_a @ i[:3])
+                gaps.append(d.oMf[b].translation - d.oMf[a].translation)
+        return np.vstack(rows), np.concatenate(gaps)
+
+    def close(self, q, hold=(), steps=300):
+        free = [v for v in range(self.model.nv) if v not in set(hold)]
+        for _ in range(steps):
+            j, gap = self.jacobian(q)
+            if np.abs(gap).max() < 1e-13:
+                break
+            dv = np.zeros(self.model.nv)
+            dv[free] = -np.linalg.lstsq(j[:, free], gap, rcond=1e-8)[0]
+            dv *= min(1.0, 0.2 / max(np.abs(dv).max(), 1e-12))
+            q = pin.integrate(self.model, q, dv)
+        return q, float(np.abs(self.jacobian(q)[1]).max())
+
+    def start(self):
+        """A closed pose: from the neutral one, or from beside it."""
+        random = np.random.default_rng(3)
+        q = pin.neutral(self.model)
+        for _ in range(40):
+            found, gap = self.close(q)
+            if gap < 1e-10:
+                return found, gap
+            q = pin.integrate(self.model, pin.neutral(self.model), random.normal(size=self.model.nv) * 0.7)
+        return found, gap
+
+    def of(self, q):
+        j, _ = self.jacobian(q)
+        norms = np.linalg.norm(j, axis=0)
+        s = np.linalg.svd(j / np.where(norms > 1e-5, norms, 1), compute_uv=False)
+        rank = int((s > ZERO * s[0]).sum())
+        nv = self.model.nv
+        return {"nv": nv, "rows": len(j), "rank": rank, "w": nv - rank, "redundant": len(j) - rank}
+
+    def figures(self):
+        q, gap = self.start()
+        return self.of(q), gap
+
+    def along(self, other, steps):
+        """The way of this model in another that has its joints and more: W, redundant and the gap at each step."""
+        q, _ = self.start()
+        random = np.random.default_rng(5)
+        v = random.normal(size=self.model.nv)
+        for _ in range(steps):
+            j, _ = self.jacobian(q)
+            v = v - np.linalg.pinv(j, rcond=1e-8) @ (j @ v)
+            v = v / np.abs(v).max()
+            q = pin.integrate(self.model, q, 0.003 * v)
+            q, _ = self.close(q)
+            there = pin.neutral(other.model)
+            for name in self.model.names[1:]:
+                i, k = self.model.getJointId(name), other.model.getJointId(name)
+                a, b = self.model.joints[i], other.model.joints[k]
+                there[b.idx_q : b.idx_q + b.nq] = q[a.idx_q : a.idx_q + a.nq]
+            figures = other.of(there)
+            yield figures["w"], figures["redundant"], float(np.abs(other.jacobian(there)[1]).max())
