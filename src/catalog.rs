@@ -1,6 +1,8 @@
 //! Catalogues: every structure of a range of chains laid out, searched and scored, in a database that people can query.
 
 pub mod build;
+#[cfg(feature = "cli")]
+mod insert;
 pub mod row;
 pub mod spec;
 #[cfg(feature = "cli")]

@@ -60,11 +60,14 @@ pub fn in_words(m: &Mechanism, added: &[Added]) -> String {
 /// How often each freedom is added to each group of joints.
 type Pattern = Vec<u8>;
 
+/// A freedom of any of some joints in series.
+type Item = (Vec<JointId>, String);
+
 /// The groups of joints in series, and what every choice adds to them.
 #[derive(Debug)]
 struct Patterns {
     /// What the numbers of a pattern are about.
-    items: Vec<(Vec<JointId>, String)>,
+    items: Vec<Item>,
     /// `[variable][choice]`.
     of: Vec<Vec<Pattern>>,
     /// The number that a mirror image makes of each; `None` where the mechanism is not its own mirror image.
@@ -185,8 +188,8 @@ impl Search {
                 .filter(|&j| !m.joints[j].is_in(state))
                 .map(|j| (j, vec![j])),
         );
-        let mut items: BTreeSet<(Vec<JointId>, String)> = BTreeSet::new();
-        let mut raw: Vec<Vec<Vec<(Vec<JointId>, String)>>> = Vec::new();
+        let mut items: BTreeSet<Item> = BTreeSet::new();
+        let mut raw: Vec<Vec<Vec<Item>>> = Vec::new();
         for v in &self.space.variables {
             let mut choices = Vec::new();
             for choice in &v.choices {
@@ -204,9 +207,9 @@ impl Search {
             }
             raw.push(choices);
         }
-        let items: Vec<(Vec<JointId>, String)> = items.into_iter().collect();
-        let at = |x: &(Vec<JointId>, String)| items.binary_search(x).ok();
-        let pattern = |here: &Vec<(Vec<JointId>, String)>| {
+        let items: Vec<Item> = items.into_iter().collect();
+        let at = |x: &Item| items.binary_search(x).ok();
+        let pattern = |here: &Vec<Item>| {
             let mut out = vec![0; items.len()];
             here.iter().filter_map(at).for_each(|i| out[i] += 1);
             out
@@ -224,7 +227,7 @@ impl Search {
             };
             pairs.clone().find_map(of).unwrap_or(j)
         };
-        let image = |(joints, word): &(Vec<JointId>, String)| {
+        let image = |(joints, word): &Item| {
             let joints = joints.iter().map(|&j| partner(j)).sorted().collect();
             at(&(joints, word.clone()))
         };

@@ -118,6 +118,9 @@ fn distance(p: Point, [a, b]: [Point; 2]) -> f64 {
     norm(sub(to, [along[0] * t, along[1] * t]))
 }
 
+/// Pins whose coordinates differ by less than this are nearly in line.
+const ALIGNED: f64 = 2.5;
+
 /// How far a number is beyond a limit, squared, in units of a width.
 fn beyond(over: f64, width: f64) -> f64 {
     (over.max(0.0) / width).powi(2)
@@ -142,6 +145,15 @@ pub fn looks(structure: &Structure, rules: &Rules, at: &[Point], moving: bool) -
     for (i, a) in all.iter().enumerate() {
         for b in &all[..i] {
             penalty += 4.0 * beyond(NEAR - norm(sub(a.1, b.1)), NEAR);
+        }
+    }
+    // Pins level with each other, or square above each other, have an axis in common: a special place that costs redesigns.
+    for (i, a) in at.iter().enumerate() {
+        for (j, b) in at[..i].iter().enumerate() {
+            let forced = rules.follows(i) || rules.follows(j);
+            for k in (0..2).filter(|_| !forced) {
+                penalty += 0.5 * beyond(ALIGNED - (a[k] - b[k]).abs(), ALIGNED);
+            }
         }
     }
     let (mut longest, mut shortest) = (0.0_f64, f64::INFINITY);

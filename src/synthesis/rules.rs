@@ -108,6 +108,12 @@ impl Rules {
         }
     }
 
+    /// Whether a pin is where others have it.
+    #[must_use]
+    pub fn follows(&self, pin: usize) -> bool {
+        self.rules[pin] != Rule::Free
+    }
+
     /// The pins that may be moved.
     pub fn movable(&self) -> impl Iterator<Item = usize> + '_ {
         let free = |i: &usize| matches!(self.rules[*i], Rule::Free | Rule::OnLine);

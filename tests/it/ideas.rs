@@ -4,7 +4,7 @@ use itertools::Itertools;
 use num_bigint::BigUint;
 use ozols::geom::vector::{cross, real, unit};
 use ozols::model::joint_type::Freedom;
-use ozols::model::mechanism::{JointId, JointOption, Mechanism};
+use ozols::model::mechanism::{JointId, JointOption, Mechanism, StateId};
 use ozols::search::best::Assignment;
 use ozols::{Outcome, Request, search};
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,7 +18,7 @@ fn cycles(m: &Mechanism) -> BTreeSet<BTreeSet<JointId>> {
         out: &mut BTreeSet<BTreeSet<JointId>>,
     ) {
         let here = path.last().map_or(start, |p| p.1);
-        for j in m.joint_ids() {
+        for j in m.joints_in(StateId::FREE) {
             let [a, b] = m.joints[j].links.map(|l| l.index());
             let to = match here {
                 h if h == a => b,
@@ -80,8 +80,12 @@ impl<'o> Twin<'o> {
         let m = &outcome.search.mechanism;
         let cycles = cycles(m);
         let on = |j: JointId| cycles.iter().map(|c| c.contains(&j)).collect_vec();
-        let series = |j: JointId| m.joint_ids().filter(|&k| on(k) == on(j)).collect();
-        let series = m.joint_ids().map(|j| (j, series(j))).collect();
+        let series = |j: JointId| {
+            m.joints_in(StateId::FREE)
+                .filter(|&k| on(k) == on(j))
+                .collect()
+        };
+        let series = m.joints_in(StateId::FREE).map(|j| (j, series(j))).collect();
         Twin { outcome, series }
     }
 

@@ -1,7 +1,7 @@
 //! `ozols catalog query`, `show`, `export` and `page`.
 
 use super::super::{Done, output};
-use super::CatalogFormat;
+use super::format::CatalogFormat;
 use crate::catalog::row::request;
 use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;

@@ -1,0 +1,150 @@
+//! A row as entries of the tables.
+
+use crate::catalog::row::{IdeaRow, Laid, Row};
+use crate::format::number::significant;
+use crate::geom::vector::cross_plane;
+use crate::model::ranking::Term;
+use crate::motion::follow::Why;
+use crate::synthesis::structure::Structure;
+use num_bigint::BigUint;
+use rusqlite::types::ToSqlOutput;
+use rusqlite::{Transaction, params};
+
+/// Enters a row.
+pub(super) fn row(t: &Transaction<'_>, row: &Row) -> rusqlite::Result<()> {
+    structure(t, row)?;
+    match &row.laid {
+        Ok(laid) => layout(t, &row.structure, laid),
+        Err(_) => Ok(()),
+    }
+}
+
+fn number(n: usize) -> i64 {
+    i64::try_from(n).unwrap_or(i64::MAX)
+}
+
+/// A count of any size: a number where it fits, otherwise its digits.
+fn count(n: &BigUint) -> ToSqlOutput<'static> {
+    match i64::try_from(n) {
+        Ok(small) => small.into(),
+        Err(_) => n.to_string().into(),
+    }
+}
+
+fn structure(t: &Transaction<'_>, row: &Row) -> rusqlite::Result<()> {
+    let (s, r) = (&row.structure, &row.structure.roles);
+    t.prepare_cached(
+        "INSERT OR REPLACE INTO structures VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16)",
+    )?
+    .execute(params![
+        s.id(),
+        s.name(),
+        row.chain(),
+        number(s.chain.links()),
+        number(s.chain.joint_count()),
+        number(r.frame),
+        number(r.driver),
+        number(r.jaws[0]),
+        number(r.jaws[1]),
+        s.form.input.name(),
+        s.form.symmetry.name(),
+        s.form.parallel,
+        number(row.jaws_at_frame),
+        row.truss,
+        row.graph_symmetric,
+        row.laid.as_ref().err().map(ToString::to_string),
+    ])?;
+    Ok(())
+}
+
+/// Rounded to what the figure is worth, so that the file does not depend on the last bits.
+fn rounded(x: f64) -> f64 {
+    significant(x).parse().unwrap_or(x)
+}
+
+fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<()> {
+    let (l, f, id) = (&laid.layout.looks, &laid.figures, s.id());
+    let end = |w: Option<Why>| w.map(Why::word);
+    t.prepare_cached(
+        "INSERT OR REPLACE INTO layouts VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, \
+         ?19, ?20, ?21, ?22, ?23, ?24, ?25, ?26, ?27, ?28, ?29)",
+    )?
+    .execute(params![
+        id,
+        laid.file,
+        laid.layout.start,
+        number(l.crossings),
+        rounded(l.ratio),
+        rounded(l.transmission),
+        rounded(laid.size()),
+        rounded(f.openings[0]),
+        rounded(f.openings[1]),
+        rounded(f.travel),
+        rounded(f.force[0]),
+        rounded(f.force[1]),
+        rounded(f.force[2]),
+        f.jaws[0].name(),
+        f.jaws[1].name(),
+        rounded(l.tips[0][0]),
+        rounded(l.tips[0][1]),
+        rounded(l.tips[1][0]),
+        rounded(l.tips[1][1]),
+        rounded(f.turns[0].max(f.turns[1]).to_degrees()),
+        end(f.ends[0]),
+        end(f.ends[1]),
+        number(laid.as_built.0),
+        number(laid.as_built.1),
+        format!("{}, proven", laid.finite.figure()),
+        count(&laid.determinate(None)),
+        count(&laid.determinate(Some(1))),
+        if laid.exact { "exact" } else { "at least" },
+        laid.ideas.first().map(|i| milli(i.cost_milli)),
+    ])?;
+    let mut counts = t.prepare_cached("INSERT OR REPLACE INTO counts VALUES (?1, ?2, ?3, ?4)")?;
+    for ((w, changes), n) in &laid.counts {
+        counts.execute(params![id, w, changes, count(n)])?;
+    }
+    let mut ideas = t.prepare_cached(
+        "INSERT OR REPLACE INTO ideas VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)",
+    )?;
+    for (i, idea) in laid.ideas.iter().enumerate() {
+        let term = |t: Term| idea.scores.as_ref().map(|s| rounded(s.value(t)));
+        ideas.execute(params![
+            id,
+            number(i + 1),
+            idea.adds,
+            idea.changes,
+            choices(idea),
+            milli(idea.cost_milli),
+            idea.change_count,
+            count(&idea.variants),
+            term(Term::PeakForce),
+            term(Term::PeakMoment),
+            term(Term::OutputError).map(|x| rounded(1e3 * x)),
+        ])?;
+    }
+    Ok(())
+}
+
+fn choices(idea: &IdeaRow) -> String {
+    let words: Vec<String> = idea.choices.iter().map(ToString::to_string).collect();
+    words.join(" ")
+}
+
+#[allow(clippy::cast_precision_loss, reason = "costs are small")]
+fn milli(cost: i64) -> f64 {
+    cost as f64 / 1000.0
+}
+
+impl Laid {
+    /// Area of the box round pins and tips, in square millimetres.
+    fn size(&self) -> f64 {
+        let points = self.layout.at.iter().chain(&self.layout.tips);
+        let points: Vec<[f64; 2]> = points.map(|p| p.map(f64::from)).collect();
+        let side = |k: usize| {
+            let all = points.iter().map(|p| p[k]);
+            all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
+        };
+        cross_plane([side(0), 0.0], [0.0, side(1)])
+    }
+}
