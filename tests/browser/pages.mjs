@@ -2,6 +2,7 @@
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
+import { rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";
 import { pathToFileURL } from "node:url";
@@ -15,6 +16,16 @@ const ozols = process.env.OZOLS ?? path.join(root, "target/debug/ozols");
 export function report(name, ...args) {
   const file = path.join(work, `${name}.html`);
   execFileSync(ozols, ["report", "--quiet", ...args, "-o", file], { stdio: ["ignore", "ignore", "pipe"], cwd: root });
+  return file;
+}
+
+/** Builds a catalogue of the arguments and writes its page, and gives the page's path. */
+export function catalogue(name, ...args) {
+  const [db, file] = [path.join(work, `${name}.db`), path.join(work, `${name}.html`)];
+  rmSync(db, { force: true });
+  const run = (...words) => execFileSync(ozols, ["catalog", ...words], { stdio: ["ignore", "ignore", "pipe"], cwd: root });
+  run("build", "--quiet", ...args, "-o", db);
+  run("page", db, "-o", file);
   return file;
 }
 

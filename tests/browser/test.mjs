@@ -2,6 +2,7 @@
 
 import assert from "node:assert/strict";
 import path from "node:path";
+import { catalogueTests } from "./catalogue.mjs";
 import { browser, column, fits, open, picture, report } from "./pages.mjs";
 
 const text = (tab, selector) => tab.locator(selector).innerText();
@@ -12,6 +13,8 @@ const test = (name, body) => tests.push([name, body]);
 const gripper = report("gripper-10", "gripper-10");
 const many = report("gripper-10-many", "gripper-10", "--top", "10000");
 const loaded = report("gripper-10-loaded", "gripper-10-loaded");
+
+catalogueTests(test);
 
 test("the verdict stands at the top, and every part has its words", async () => {
   await open(gripper, {}, async (tab) => {

@@ -224,13 +224,10 @@ fn gauss(columns: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
             .max_by(|&a, &b| rows[a][c].abs().total_cmp(&rows[b][c].abs()))
             .unwrap();
         rows.swap(c, p);
-        for r in 0..n {
-            if r != c {
-                let f = rows[r][c] / rows[c][c];
-                for k in c..=n {
-                    rows[r][k] -= f * rows[c][k];
-                }
-            }
+        let own = rows[c].clone();
+        for (_, row) in rows.iter_mut().enumerate().filter(|(r, _)| *r != c) {
+            let factor = row[c] / own[c];
+            row.iter_mut().zip(&own).for_each(|(x, o)| *x -= factor * o);
         }
     }
     (0..n).map(|i| rows[i][n] / rows[i][i]).collect()

@@ -35,8 +35,9 @@ function gripper(card, title, changed) {
   const pins = d.pins.map(flip), tips = d.tips.map(flip);
   const all = pins.concat(tips);
   const low = [0, 1].map((k) => Math.min(...all.map((p) => p[k]))), high = [0, 1].map((k) => Math.max(...all.map((p) => p[k])));
-  const margin = 20, size = [0, 1].map((k) => high[k] - low[k] + 2 * margin);
-  const box = [low[0] - margin, low[1] - margin, size[0], size[1]];
+  // Labels stand beside their pins, those on the right to the left of them.
+  const margin = [changed ? 40 : 20, 20], size = [0, 1].map((k) => high[k] - low[k] + 2 * margin[k]);
+  const box = [low[0] - margin[0], low[1] - margin[1], size[0], size[1]], centre = box[0] + size[0] / 2;
   const out = [element('title', {}, [title])];
   const slidePin = d.slides ? d.drive : -1;
   d.links.forEach((of, l) => {
@@ -77,8 +78,8 @@ function gripper(card, title, changed) {
     if (i < 0) continue;
     const [x, y] = pins[i];
     out.push(element('circle', { class: 'changed', cx: x, cy: y, r: 5.5 }));
-    const label = element('text', { x: x + 7, y: y - 5 }, [word]);
-    out.push(label);
+    const right = x > centre;
+    out.push(element('text', { x: right ? x - 7 : x + 7, y: y - 6, 'text-anchor': right ? 'end' : 'start' }, [word]));
   }
   return element('svg', { class: 'gripper', viewBox: box.map((v) => v.toFixed(1)).join(' '), role: 'img' }, out);
 }

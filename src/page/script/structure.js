@@ -14,7 +14,7 @@ function choose(c, from) {
   close.addEventListener('click', () => dialog.close());
   head.append(text('h2', c.id, { id: 'chosen-name' }), close);
   const figure = document.createElement('div');
-  const draw = (idea) => figure.replaceChildren(gripper(c, `Gripper ${c.id}${idea ? ', idea ' + idea.place : ''}`, idea && changesOf(idea)));
+  const draw = (idea) => figure.replaceChildren(gripper(c, `Gripper ${c.id}${idea ? ', idea ' + idea.place : ''}`, idea ? changesOf(idea) : []));
   draw(null);
   const list = document.createElement('dl');
   const drive = c.input === 'slide' ? 'mm' : 'rad';

@@ -75,7 +75,7 @@ fn kind(answer: &str) -> String {
             quoted = !quoted;
         }
         let digit = c.is_ascii_digit();
-        if !quoted && !(digit && digits) {
+        if !(quoted || digit && digits) {
             out.push(if digit { '0' } else { c });
         }
         digits = digit;

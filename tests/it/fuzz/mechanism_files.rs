@@ -96,7 +96,7 @@ proptest! {
     #[test]
     fn spoilt_json(which in any::<Index>(), edits in edits(&WORDS)) {
         let value: toml::Value = toml::from_str(built_in(which)).unwrap();
-        read("x.json", &spoilt(&serde_json::to_string_pretty(&value).unwrap(), &edits));
+        read("x.json", &spoilt(serde_json::to_string_pretty(&value).unwrap(), &edits));
     }
 }
 
