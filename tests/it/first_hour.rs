@@ -9,7 +9,9 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 21] = [
+const COMMANDS: [&str; 23] = [
+    "lint",
+    "fix",
     "report",
     "analyze",
     "search",
@@ -91,7 +93,9 @@ fn examples_of_the_main_help_run() {
 
 #[test]
 fn examples_of_every_command_run() {
-    for command in COMMANDS.iter().filter(|c| **c != "accuracy") {
+    // `fix --at` names a joint that users have; `robot_fix` tries each of its options.
+    let own = |c: &&&str| !["accuracy", "fix"].contains(*c);
+    for command in COMMANDS.iter().filter(own) {
         run_examples(command);
     }
 }
