@@ -97,6 +97,9 @@ impl Missing {
         let needed = if known == stages.len() { end } else { 0 };
         let mut least: Vec<Vec<Option<i64>>> = vec![Vec::new(); stages.len() + 1];
         let mut share: Vec<Vec<f64>> = vec![Vec::new(); stages.len() + 1];
+        if known < stages.len() {
+            (least[stages.len()], share[stages.len()]) = (vec![Some(0)], vec![1.0]);
+        }
         for (t, stage) in stages.iter().enumerate().skip(known).rev() {
             let choices = &space.variables[stage.variable].choices;
             let cheapest = choices.iter().map(|c| c.cost_milli).min().unwrap_or(0);
