@@ -27,3 +27,4 @@ pub mod stroke;
 pub mod structures;
 pub mod suggestions;
 pub mod variant_data;
+mod variant_table;

@@ -49,7 +49,7 @@ CREATE TABLE layouts (
   determinate NOT NULL,            -- variants with sigma = 0: a number, or its digits as text beyond 63 bits
   determinate_w1 NOT NULL,         -- of these, W = 1
   certainty TEXT NOT NULL,         -- exact, or at least
-  best_cost REAL                   -- of the cheapest variant with sigma = 0 and W = 1
+  best_cost REAL                   -- of the cheapest variant with sigma = 0 and W = 1; of those found, where the certainty is at least
 ) WITHOUT ROWID;
 CREATE TABLE counts (
   structure TEXT NOT NULL REFERENCES structures(id),
@@ -66,7 +66,7 @@ CREATE TABLE ideas (
   choices TEXT NOT NULL,           -- its options, joint by joint, 0 for the present one
   cost REAL NOT NULL,
   change_count INTEGER NOT NULL,
-  variants NOT NULL,               -- how many variants the idea stands for
+  variants NOT NULL,               -- how many variants the idea stands for; at least, where the layout's certainty says so
   peak_force REAL,                 -- greatest joint force over capacity under the closing force
   peak_moment REAL,
   output_error REAL,               -- of the jaws from the joints' clearances, mm

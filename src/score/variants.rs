@@ -94,7 +94,9 @@ impl Outcome {
                     Box::new(self.search.cheapest(d, enough).map(unranked))
                 }
             };
-        let by_cost = self.ranking.is_none() && !matches!(request.list, List::Sample(_));
+        // What is proven is a list of all variants; of ideas a diagram cut down may lack the first ones.
+        let by_cost =
+            self.ranking.is_none() && !request.distinct && !matches!(request.list, List::Sample(_));
         let summary = Summary {
             proven: (by_cost && !self.is_exact()).then_some(0),
             ..Summary::default()

@@ -84,6 +84,17 @@ impl Patterns {
         out
     }
 
+    fn of_variant(&self, v: &Assignment) -> Pattern {
+        self.sum(v.choices.iter().copied().enumerate())
+    }
+
+    /// What a variant has in common with all of its idea: its pattern or the image of it, whichever is less.
+    fn idea(&self, v: &Assignment) -> Pattern {
+        let pattern = self.of_variant(v);
+        let image = self.image(&pattern);
+        pattern.min(image)
+    }
+
     fn image(&self, pattern: &Pattern) -> Pattern {
         match &self.mirrored {
             None => pattern.clone(),
@@ -218,21 +229,16 @@ impl Search {
             .iter()
             .map(|c| c.iter().map(pattern).collect())
             .collect();
-        let partner = |j: JointId| {
-            let pairs = m.search.mirror.iter();
-            let of = |&(a, b): &(JointId, JointId)| match j {
-                j if j == a => Some(b),
-                j if j == b => Some(a),
-                _ => None,
-            };
-            pairs.clone().find_map(of).unwrap_or(j)
-        };
         let image = |(joints, word): &Item| {
-            let joints = joints.iter().map(|&j| partner(j)).sorted().collect();
+            let joints = joints
+                .iter()
+                .map(|&j| mirror::image(m, j))
+                .sorted()
+                .collect();
             at(&(joints, word.clone()))
         };
-        let symmetric = !m.search.mirror.is_empty()
-            && mirror::check(&self.exact, m, self.conditions.state.map(|s| s.state)).is_ok();
+        let searched = self.conditions.state.map(|s| s.state);
+        let symmetric = mirror::check(&self.exact, m, searched).is_ok();
         let mirrored = symmetric
             .then(|| items.iter().map(image).collect())
             .flatten();
@@ -264,27 +270,15 @@ impl Search {
                 entered.insert((depth, node, rest, patterns.sum(chosen)))
             };
             let mut seen = BTreeSet::new();
-            let mut found: Vec<(Assignment, Pattern)> = Vec::new();
-            let mut ended = true;
-            for v in self.distinct(&diagrams.admissible, at_least, Box::new(enter)) {
-                let pattern = patterns.sum(v.choices.iter().copied().enumerate());
-                let image = patterns.image(&pattern);
-                if seen.insert(pattern.clone().min(image)) {
-                    found.push((v, pattern));
-                }
-                if found.len() == top {
-                    ended = false;
-                    break;
-                }
-            }
-            // All there are, or all that were asked for: otherwise more variants must be let in.
-            let all = BigUint::from(at_least) >= self.total(&diagrams.admissible, true);
-            if found.len() == top || (ended && all) {
-                let idea = |(first, pattern): (Assignment, Pattern)| Idea {
-                    first,
-                    added: patterns.added(&pattern),
-                    variants: self.variants_of(diagrams, &patterns, &pattern),
-                };
+            let found: Vec<Assignment> = self
+                .distinct(&diagrams.admissible, at_least, Box::new(enter))
+                .filter(|v| seen.insert(patterns.idea(v)))
+                .take(top)
+                .collect();
+            // All that were asked for, or all there are: otherwise more variants must be let in.
+            let all = || BigUint::from(at_least) >= self.total(&diagrams.admissible, true);
+            if found.len() == top || all() {
+                let idea = |first| self.idea(diagrams, &patterns, first);
                 return found.into_iter().map(idea).collect();
             }
             at_least = at_least.saturating_mul(64);
@@ -299,20 +293,20 @@ impl Search {
     ) -> Vec<(usize, Idea)> {
         let patterns = self.patterns();
         let mut seen = BTreeSet::new();
-        let mut out = Vec::new();
-        for (place, v) in list.enumerate() {
-            let pattern = patterns.sum(v.choices.iter().copied().enumerate());
-            let image = patterns.image(&pattern);
-            if seen.insert(pattern.clone().min(image)) {
-                let idea = Idea {
-                    first: v.clone(),
-                    added: patterns.added(&pattern),
-                    variants: self.variants_of(diagrams, &patterns, &pattern),
-                };
-                out.push((place, idea));
-            }
+        list.enumerate()
+            .filter(|(_, v)| seen.insert(patterns.idea(v)))
+            .map(|(place, v)| (place, self.idea(diagrams, &patterns, v.clone())))
+            .collect()
+    }
+
+    /// The idea that a variant is the first of.
+    fn idea(&self, diagrams: &Diagrams, patterns: &Patterns, first: Assignment) -> Idea {
+        let pattern = patterns.of_variant(&first);
+        Idea {
+            added: patterns.added(&pattern),
+            variants: self.variants_of(diagrams, patterns, &pattern),
+            first,
         }
-        out
     }
 
     /// How many admissible variants have a pattern, or its mirror image.

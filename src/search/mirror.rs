@@ -76,7 +76,8 @@ pub enum MirrorError {
     Exact(#[from] ExactError),
 }
 
-fn image(mechanism: &Mechanism, j: JointId) -> JointId {
+/// The joint that is the mirror image of another; itself where no pair names it.
+pub(super) fn image(mechanism: &Mechanism, j: JointId) -> JointId {
     let pairs = mechanism.search.mirror.iter();
     let other = pairs
         .flat_map(|&(a, b)| [(a, b), (b, a)])

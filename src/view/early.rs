@@ -16,8 +16,8 @@ pub fn stopped(outcome: &Outcome) -> Option<String> {
     };
     // What is proven of a list is told after it.
     let list = match outcome.known_up_to() {
-        Some(_) => "",
-        None => ", variants are valid but may not be the cheapest",
+        Some(_) if !outcome.request.distinct => "",
+        _ => ", variants are valid but may not be the cheapest",
     };
     Some(format!("{why}: counts are lower bounds{list}"))
 }

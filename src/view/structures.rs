@@ -201,10 +201,14 @@ pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
             .map(|k| i.get(*k).map_or_else(String::new, cell))
             .collect()
     };
+    let (found, least) = match layout.get("certainty").and_then(Value::as_str) {
+        Some("exact") => ("", ""),
+        _ => (" found", "at least "),
+    };
     let ideas = match d.ideas.len() {
         0 => String::new(),
         n => format!(
-            "The {n} cheapest ideas; each stands for as many variants, of which the first is exported:\n\n{}\n",
+            "The {n} cheapest ideas{found}; each stands for {least}as many variants, of which the first is exported:\n\n{}\n",
             table(&heads, d.ideas.iter().map(row).collect(), width)
         ),
     };

@@ -64,6 +64,8 @@ enum ScoresData<'a> {
 struct IdeaData {
     /// A number of any size, as text.
     variants: String,
+    /// Whether that is all of them; a lower bound otherwise.
+    exact: bool,
     /// What all of them add, in words.
     adds: String,
 }
@@ -131,6 +133,7 @@ impl<'a> VariantData<'a> {
                 .collect(),
             idea: v.idea().map(|i| IdeaData {
                 variants: i.variants.to_string(),
+                exact: outcome.is_exact(),
                 adds: ideas::in_words(mechanism, &i.added),
             }),
             scores: v.ranked().map_or(ScoresData::Unranked {}, |r| {

@@ -1,5 +1,6 @@
 //! Ideas against a slow twin: every variant listed, its pattern made of cycles found by walking.
 
+use crate::common::{count, json, out};
 use itertools::Itertools;
 use num_bigint::BigUint;
 use ozols::geom::vector::{cross, real, unit};
@@ -174,6 +175,41 @@ fn ideas_are_those_of_a_list_of_all_variants() {
         ..Request::default()
     };
     agrees(&gripper, &request, true);
+}
+
+/// The third idea stands for 168 variants, of which a small budget finds some, and cheaper ideas may be among what it leaves
+/// out, though the cheapest variants are all known.
+#[test]
+fn of_a_search_cut_short_ideas_are_bounds_and_none_is_proven_the_cheapest() {
+    let args = ["search", "gripper-10", "--distinct", "--top", "3"];
+    let with = |more: &[&'static str]| [&args[..], more].concat();
+    let short = out(&with(&["--nodes", "60"]));
+    assert!(
+        short.contains("variants are valid but may not be the cheapest"),
+        "{short}"
+    );
+    assert!(
+        !short.contains("Proven the cheapest") && short.contains("at least 1,008"),
+        "{short}"
+    );
+    let whole = json(&with(&["--format", "json"]));
+    let cut = json(&with(&["--nodes", "60", "--format", "json"]));
+    assert!(
+        cut["variants_proven"].is_null(),
+        "{}",
+        cut["variants_proven"]
+    );
+    for (data, exact) in [(&whole, true), (&cut, false)] {
+        let ideas = data["variants"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|v| &v["idea"]);
+        assert!(ideas.clone().all(|i| i["exact"] == exact));
+        assert_eq!(ideas.count(), 3);
+    }
+    assert_eq!(count(&whole["variants"][2]["idea"]["variants"]), 168);
+    assert!(count(&cut["variants"][2]["idea"]["variants"]) <= 168);
 }
 
 /// The ways of sharing out the freedoms of the cheapest redesign of the gripper: each half alike.

@@ -19,6 +19,7 @@ function text(name, content, attributes) {
   return e;
 }
 
+const least = (c) => (c.certainty === 'exact' ? '' : 'at least ');
 const jawsOf = (c) => (c.jaw_a_motion === c.jaw_b_motion ? c.jaw_a_motion : c.jaw_a_motion + ' and ' + c.jaw_b_motion);
 const unit = (c) => (c.input === 'slide' ? 'N per N' : 'N per Nm');
 const formOf = (c) => `${c.input === 'slide' ? 'sliding' : 'turning'} driver, ${c.symmetry}${c.parallel ? ', parallelograms' : ''}`;
@@ -31,7 +32,7 @@ function cardOf(c) {
     text('b', c.id),
     text('span', `${c.links} links, ${formOf(c)}`),
     text('span', `jaws ${jawsOf(c)}, ${short(c.force_mean)} ${unit(c)}`),
-    text('span', `W ${c.mobility}, σ ${c.redundant}; ${c.certainty === 'exact' ? '' : 'at least '}${grouped(c.determinate_w1)} redesigns, from cost ${short(c.best_cost)}`),
+    text('span', `W ${c.mobility}, σ ${c.redundant}; ${least(c)}${grouped(c.determinate_w1)} redesigns, from cost ${short(c.best_cost)}`),
   );
   button.addEventListener('click', () => choose(c, button));
   item.append(button);

@@ -27,7 +27,7 @@ function choose(c, from) {
     ['Force of a jaw', `${short(c.force_mean)} ${unit(c)}, ${short(c.force_min)} to ${short(c.force_max)} over the stroke, without friction`],
     ['Transmission', `worst angle ${short(c.transmission)}°, links 1 : ${short(c.link_ratio)}, ${c.crossings} crossings`],
     ['As built', `W = ${c.mobility}, σ = ${c.redundant}; finite mobility ${c.finite}`],
-    ['Without redundant', `${c.certainty === 'exact' ? '' : 'at least '}${grouped(c.determinate)} assignments, ${grouped(c.determinate_w1)} of them with W = 1`],
+    ['Without redundant', `${least(c)}${grouped(c.determinate)} assignments, ${grouped(c.determinate_w1)} of them with W = 1`],
   ];
   for (const [name, value] of rows) list.append(text('dt', name), text('dd', value));
   const two = document.createElement('div');
@@ -46,7 +46,7 @@ function choose(c, from) {
     for (const idea of c.ideas) {
       const row = body.insertRow();
       row.tabIndex = 0;
-      row.append(text('td', idea.place), text('td', short(idea.cost), { class: 'n' }), text('td', grouped(idea.variants), { class: 'n' }), text('td', idea.adds));
+      row.append(text('td', idea.place), text('td', short(idea.cost), { class: 'n' }), text('td', least(c) + grouped(idea.variants), { class: 'n' }), text('td', idea.adds));
       const pick = () => {
         for (const other of body.rows) other.setAttribute('aria-selected', other === row);
         draw(idea);
