@@ -2,13 +2,12 @@
 
 use super::super::{Done, output};
 use super::format::CatalogFormat;
-use crate::catalog::row::request;
-use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;
 use crate::model::mechanism::Mechanism;
 use crate::page::catalogue::catalogue;
+use crate::redundancy::analysis::exact_field;
 use crate::robots::formats;
-use crate::score::run::run as search;
+use crate::search::conditions::{Conditions, Search};
 use crate::view::structures::{Answer, StructureData, show_text};
 use anyhow::Context;
 use clap::{Args as ClapArgs, ValueHint};
@@ -117,17 +116,10 @@ pub(super) fn export(a: &Export) -> anyhow::Result<Done> {
             let choices = store
                 .choices(&id, k)?
                 .with_context(|| format!("{id} has no idea {k} in {}", a.file.display()))?;
-            let spec = Spec {
-                ideas: 0,
-                ..Spec::default()
-            };
-            let outcome = search(
-                Mechanism::from_toml(&text)?,
-                &request(&spec),
-                &|| false,
-                &mut |_| {},
-            )?;
-            let mut made = outcome.search.realize(&choices);
+            let mechanism = Mechanism::from_toml(&text)?;
+            let field = exact_field(&mechanism, 0)?;
+            let search = Search::new(field, mechanism, Conditions::default())?;
+            let mut made = search.realize(&choices);
             made.name = format!("{id}-idea-{k}");
             formats::write(&made, &a.to)?
         }
