@@ -100,6 +100,17 @@ pub enum SpecError {
     Nothing,
 }
 
+/// A number, or a range with its end, "4..10": empty where it ends before it begins.
+///
+/// # Errors
+/// The part that is no number.
+pub fn range(text: &str) -> Result<RangeInclusive<usize>, &str> {
+    let number = |t: &'_ str| t.trim().parse::<usize>().ok();
+    let (from, to) = text.split_once("..").unwrap_or((text, text));
+    let to = to.strip_prefix('=').unwrap_or(to);
+    Ok(number(from).ok_or(from)?..=number(to).ok_or(to)?)
+}
+
 fn word<T: Copy>(
     what: &'static str,
     word: &str,
@@ -132,15 +143,10 @@ impl Spec {
     /// Where they are no range that is known.
     pub fn links(&self) -> Result<RangeInclusive<usize>, SpecError> {
         let wrong = || SpecError::Links(self.links.clone());
-        let (from, to) = self
-            .links
-            .split_once("..")
-            .unwrap_or((&self.links, &self.links));
-        let to = to.strip_prefix('=').unwrap_or(to);
-        let number = |t: &str| t.trim().parse::<usize>().map_err(|_| wrong());
-        let (from, to) = (number(from)?, number(to)?);
-        let some = from <= to && from >= 4 && to <= MOST_LINKS && (from..=to).any(|n| n % 2 == 0);
-        some.then_some(from..=to).ok_or_else(wrong)
+        let all = range(&self.links).map_err(|_| wrong())?;
+        let within = *all.start() >= 4 && *all.end() <= MOST_LINKS;
+        let some = within && all.clone().any(|n| n % 2 == 0);
+        some.then_some(all).ok_or_else(wrong)
     }
 
     /// The forms that structures are laid out in.

@@ -4,6 +4,7 @@ use super::super::args::Args;
 use super::super::progress::Bar;
 use super::super::{Done, output};
 use super::format::CatalogFormat;
+use crate::catalog::spec::range;
 use crate::chains::census::census;
 use crate::chains::enumerate::{ChainsError, chains};
 use crate::format::csv::records;
@@ -71,19 +72,14 @@ const MOST_OF_GRIPPERS: usize = 12;
 const MOST_LISTED: usize = 14;
 
 fn links(text: &str) -> Result<RangeInclusive<usize>, String> {
-    let number = |t: &str| {
-        let n = t.trim().parse::<usize>();
-        n.map_err(|_| format!("{t:?} is no number of links: write 8 or 4..10"))
-    };
-    let (from, to) = text.split_once("..").unwrap_or((text, text));
-    let to = to.strip_prefix('=').unwrap_or(to);
-    let (from, to) = (number(from)?, number(to)?);
-    if from > to || from < 4 || to > 18 {
+    let all =
+        range(text).map_err(|part| format!("{part:?} is no number of links: write 8 or 4..10"))?;
+    if all.is_empty() || *all.start() < 4 || *all.end() > 18 {
         return Err(
             "chains of 4 to 18 links are counted, from the lesser number to the greater".to_owned(),
         );
     }
-    Ok(from..=to)
+    Ok(all)
 }
 
 pub(super) fn count(args: &Args, a: &Count) -> anyhow::Result<Done> {
