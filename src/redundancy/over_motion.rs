@@ -13,8 +13,6 @@ use ozols_dense::singular_values;
 const STEP: f64 = 0.2;
 /// How often a step that does not close is halved.
 const HALVINGS: u32 = 5;
-/// A pose nearer than this share of its step is the old one.
-const BACK: f64 = 0.1;
 
 /// Where the redundant constraints of a pose are redundant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -116,19 +114,10 @@ pub fn redundant_where(
         let along: Vec<f64> = (0..span.nrows())
             .map(|r| (0..span.ncols()).map(|c| span[(r, c)] * weight(c)).sum())
             .collect();
-        let largest = along
-            .iter()
-            .fold(f64::MIN_POSITIVE, |m: f64, x| m.max(x.abs()));
         let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
-        let steps = (0..=HALVINGS).map(|h| sign * STEP / f64::from(1u32 << h) / largest);
-        let reached = steps
-            .map(|s| (s, along.iter().map(|x| x * s).collect::<Vec<f64>>()))
-            .find_map(|(s, q)| {
-                let q = pose.close(q, &[]).ok()?;
-                let moved = q.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-                (moved > BACK * (s * largest).abs()).then_some(q)
-            });
-        let Some(q) = reached else { continue };
+        let Some(q) = pose.beside(&along, sign * STEP, HALVINGS) else {
+            continue;
+        };
         let moved = pose.moved(&q);
         let values = singular_values(&moved.jacobian(&vec![0.0; q.len()])).unwrap_or_default();
         seen.push(rows.saturating_sub(rank_of_values(values, tolerance).rank));

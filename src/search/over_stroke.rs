@@ -25,9 +25,7 @@ use ozols_dense::{Matrix, singular_values};
 /// The largest coordinate of the first steps: radians, and fractions of the mechanism's size.
 const STEP: f64 = 0.2;
 /// How often a step that does not close is halved.
-const HALVINGS: usize = 4;
-/// A pose nearer than this share of its step is the old one.
-const BACK: f64 = 0.1;
+const HALVINGS: u32 = 4;
 
 /// How far a joint's freedom has moved since the file's pose.
 type Coordinate = (JointId, Freedom, f64);
@@ -106,19 +104,10 @@ impl Search {
             let along: Vec<f64> = (0..span.nrows())
                 .map(|r| (0..span.ncols()).map(|c| span[(r, c)] * weights[c]).sum())
                 .collect();
-            let largest = along.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
             // There and back, a little farther each time, at odd places.
             #[allow(clippy::cast_precision_loss, reason = "a small number of poses")]
             let far = STEP * (1.0 + 0.37 * (i / 2) as f64) * if i % 2 == 0 { 1.0 } else { -1.0 };
-            let steps = (0..=HALVINGS).map(|h| far / f64::from(1u32 << h) / largest);
-            let reached = steps
-                .map(|s| (s, along.iter().map(|x| x * s).collect::<Vec<f64>>()))
-                .find_map(|(s, q)| {
-                    let q = pose.close(q, &[]).ok()?;
-                    let moved = q.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-                    (moved > BACK * (s * largest).abs()).then_some(q)
-                });
-            if let Some(q) = reached {
+            if let Some(q) = pose.beside(&along, far, HALVINGS) {
                 let columns = pose.columns.iter().zip(&q);
                 let coordinates = columns.map(|(c, &x)| (c.joint, c.freedom, x)).collect();
                 let figures = self.figures_at(&self.mechanism, &pose.moved(&q));
