@@ -12,6 +12,9 @@ use std::ops::Range;
 /// The freedoms that a joint gets: whether each slides, its direction in the world, and why, in words.
 pub(crate) type Freed<'a> = &'a [(bool, Vector, String)];
 
+/// A joint that gets freedoms, and the element that it is.
+pub(crate) type Freeing<'a> = (&'a Part, Element<'a>, Freed<'a>);
+
 /// Changes to the text of a description.
 pub(crate) struct Edits<'a> {
     origin: &'a Origin,
@@ -163,18 +166,4 @@ impl<'a> Edits<'a> {
 /// Where an element ends.
 pub(crate) fn end(e: Element<'_>) -> usize {
     e.node().close.end.max(e.node().span.end)
-}
-
-/// Where a file beside the description says that the joint is there.
-pub(crate) fn beside(origin: &Origin, part: &Part) -> ImportError {
-    let root = origin.element(origin.root);
-    let element = format!("loop \"{}\"", part.id);
-    let why = "the file of loop closures says that it is there".to_owned();
-    let remedy = "choose a joint of the description (--at)".to_owned();
-    let problem = RobotProblem::Unsupported {
-        element,
-        why,
-        remedy,
-    };
-    root.fail(None, problem)
 }

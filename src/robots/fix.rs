@@ -3,10 +3,11 @@
 use crate::file::problem::ImportError;
 use crate::geom::vector::Vector;
 use crate::redundancy::release::Release;
-use crate::robots::edit::{Edits, Freed};
+use crate::robots::edit::{Edits, Freeing};
 use crate::robots::import::Imported;
 use crate::robots::origin::Origin;
 use crate::robots::parts::Part;
+use crate::robots::problem::RobotProblem;
 use crate::robots::single_freedoms::comment;
 use crate::robots::{mjcf, sdf, urdf};
 use std::collections::BTreeMap;
@@ -41,19 +42,18 @@ pub fn fix(imported: &Imported, releases: &[(Release, String)]) -> Result<String
         "urdf" => (urdf::fix::free, urdf::fix::uncouple),
         _ => (sdf::fix::free, urdf::fix::uncouple),
     };
-    let all: Vec<(&Part, Freed<'_>)> = freed
-        .iter()
-        .map(|(&part, list)| (&origin.robot.joints[part], list.as_slice()))
-        .collect();
-    for (part, _) in &all {
-        if let Some(e) = part.element.map(|e| origin.element(e))
-            && e.node().copy
-        {
+    let mut all: Vec<Freeing<'_>> = Vec::new();
+    for (&part, list) in &freed {
+        let part = &origin.robot.joints[part];
+        let e = part.element.ok_or_else(|| beside(origin, part))?;
+        let e = origin.element(e);
+        if e.node().copy {
             return Err(e.unsupported(
                 "it is a copy made by <replicate>",
                 "choose another joint (--at), or write the copies out",
             ));
         }
+        all.push((part, e, list));
     }
     free(origin, &all, &mut edits)?;
     for (element, why) in uncoupled {
@@ -62,5 +62,19 @@ pub fn fix(imported: &Imported, releases: &[(Release, String)]) -> Result<String
     edits.apply()
 }
 
-type Free = fn(&Origin, &[(&Part, Freed<'_>)], &mut Edits<'_>) -> Result<(), ImportError>;
+type Free = fn(&Origin, &[Freeing<'_>], &mut Edits<'_>) -> Result<(), ImportError>;
 type Uncouple = fn(&Origin, usize, &str, &mut Edits<'_>) -> Result<(), ImportError>;
+
+/// Where a file beside the description says that the joint is there.
+fn beside(origin: &Origin, part: &Part) -> ImportError {
+    let root = origin.element(origin.root);
+    let element = format!("loop \"{}\"", part.id);
+    let why = "the file of loop closures says that it is there".to_owned();
+    let remedy = "choose a joint of the description (--at)".to_owned();
+    let problem = RobotProblem::Unsupported {
+        element,
+        why,
+        remedy,
+    };
+    root.fail(None, problem)
+}

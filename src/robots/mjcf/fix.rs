@@ -4,7 +4,7 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
 use crate::geom::vector::Vector;
-use crate::robots::edit::{Edits, Freed, beside};
+use crate::robots::edit::{Edits, Freed, Freeing};
 use crate::robots::mjcf::context::compiler;
 use crate::robots::mjcf::defaults::Defaults;
 use crate::robots::origin::Origin;
@@ -18,7 +18,7 @@ const INERTIAL: &str = "<inertial pos=\"0 0 0\" mass=\"1e-4\" diaginertia=\"1e-7
 /// Gives joints freedoms.
 pub(crate) fn free(
     origin: &Origin,
-    all: &[(&Part, Freed<'_>)],
+    all: &[Freeing<'_>],
     edits: &mut Edits<'_>,
 ) -> Result<(), ImportError> {
     let root = origin.element(origin.root);
@@ -28,16 +28,12 @@ pub(crate) fn free(
         parents: parents(origin),
         inserted: Vec::new(),
     };
-    for &(part, freed) in all {
-        let Some(id) = part.element else {
-            return Err(beside(origin, part));
-        };
-        let e = origin.element(id);
+    for &(part, e, freed) in all {
         // A connect that may slide in three ways holds nothing.
         let slides = freed.iter().filter(|f| f.0).count();
         if e.name() == "connect" && slides == 3 {
             let why = "ozols fix: left out, others hold all that it holds";
-            uncouple(origin, id, why, edits)?;
+            uncouple(origin, e.id, why, edits)?;
             continue;
         }
         match (e.name(), e.attribute("site1")) {

@@ -2,9 +2,8 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
-use crate::robots::edit::{Edits, Freed, beside};
+use crate::robots::edit::{Edits, Freeing};
 use crate::robots::origin::Origin;
-use crate::robots::parts::Part;
 use crate::robots::single_freedoms::{escape, numbers};
 use crate::robots::xml::Element;
 
@@ -14,21 +13,17 @@ const INERTIAL: &str = "<inertial><mass>1e-4</mass><inertia><ixx>1e-7</ixx><iyy>
 /// Gives joints freedoms.
 pub(crate) fn free(
     origin: &Origin,
-    all: &[(&Part, Freed<'_>)],
+    all: &[Freeing<'_>],
     edits: &mut Edits<'_>,
 ) -> Result<(), ImportError> {
-    for &(part, freed) in all {
-        let Some(id) = part.element else {
-            return Err(beside(origin, part));
-        };
-        let e = origin.element(id);
+    for &(part, e, freed) in all {
         let remedy = "choose another joint (--at)";
         let (Some(child), "joint") = (e.child("child"), e.name()) else {
             return Err(e.unsupported("no link can be put in between there", remedy));
         };
         let mut nodes = origin.document.nodes.iter();
         let model = nodes
-            .position(|n| n.children.contains(&id))
+            .position(|n| n.children.contains(&e.id))
             .unwrap_or(origin.root);
         let model = origin.element(model);
         let named = |l: &Element<'_>| l.attribute("name") == Some(child.text());
@@ -41,7 +36,7 @@ pub(crate) fn free(
             .joints
             .iter()
             .rev()
-            .find(|p| p.element == Some(id));
+            .find(|p| p.element == Some(e.id));
         let last = last.unwrap_or(part);
         let to = last.links[1];
         let version = origin.element(origin.root).attribute("version");

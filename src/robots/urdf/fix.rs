@@ -2,23 +2,18 @@
 //! of a joint, or the first link of a loop, and the joint.
 
 use crate::file::problem::ImportError;
-use crate::robots::edit::{Edits, Freed, beside};
+use crate::robots::edit::{Edits, Freeing};
 use crate::robots::origin::Origin;
-use crate::robots::parts::Part;
 use crate::robots::single_freedoms::{comment, escape, numbers};
 use crate::robots::xml::Element;
 
 /// Gives joints freedoms. What is put in between stands before the joint: its child, its name and what follows it stay.
 pub(crate) fn free(
     origin: &Origin,
-    all: &[(&Part, Freed<'_>)],
+    all: &[Freeing<'_>],
     edits: &mut Edits<'_>,
 ) -> Result<(), ImportError> {
-    for &(part, freed) in all {
-        let Some(id) = part.element else {
-            return Err(beside(origin, part));
-        };
-        let e = origin.element(id);
+    for &(part, e, freed) in all {
         // A loop's first link has the place of the loop in its own attributes, a joint in an element of its own.
         let (tag, at) = match e.name() {
             "joint" => ("parent", e.child("origin")),
