@@ -2,7 +2,6 @@
 
 use crate::catalog::row::{IdeaRow, Laid, Row};
 use crate::format::number::significant;
-use crate::geom::vector::cross_plane;
 use crate::model::ranking::Term;
 use crate::motion::follow::Why;
 use crate::synthesis::structure::Structure;
@@ -145,6 +144,6 @@ impl Laid {
             let all = points.iter().map(|p| p[k]);
             all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
         };
-        cross_plane([side(0), 0.0], [0.0, side(1)])
+        side(0) * side(1)
     }
 }

@@ -7,13 +7,13 @@
 //! the greedy choice finds it. The rows of joints that such a set lets go are what is redundant, in the joints' own words.
 
 use crate::closure::matrix::Closure;
-use crate::closure::twist::MotionSpace;
+use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::exact::ExactError;
 use crate::geom::rigid::perpendicular;
 use crate::geom::scalars::Reals;
 use crate::geom::vector::{Vector, across, cross, dot, length, real, sub, unit};
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::model::mechanism::{Frame, JointId, Mechanism, StateId};
 use crate::rank::scaled::{Scaling, scaled};
 use ozols_dense::{Matrix, solve, svd};
 
@@ -379,12 +379,11 @@ fn orthonormal(vectors: impl Iterator<Item = Vec<f64>>) -> Vec<Vec<f64>> {
 /// # Errors
 /// Where a coordinate has no value.
 pub fn added(
-    now: (&crate::model::mechanism::Frame, &JointType),
-    then: (&crate::model::mechanism::Frame, &JointType),
+    now: (&Frame, &JointType),
+    then: (&Frame, &JointType),
 ) -> Result<Vec<(bool, Vector)>, ExactError> {
-    use crate::closure::twist::joint_twists;
     let origin = real(&now.0.point);
-    let single = |(frame, kind): (&crate::model::mechanism::Frame, &JointType)| -> Result<Vec<[Vector; 2]>, ExactError> {
+    let single = |(frame, kind): (&Frame, &JointType)| -> Result<Vec<[Vector; 2]>, ExactError> {
         let all = joint_twists(&Reals, &MotionSpace::Spatial, frame, kind)?;
         let about = |t: Vec<f64>| {
             let (w, v) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);

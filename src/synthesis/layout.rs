@@ -4,6 +4,7 @@
 
 use crate::chains::layout_symmetry::{NoGripper, working_swap};
 use crate::chains::roles::Subject;
+use crate::closure::tree::forest;
 use crate::synthesis::looks::{Limits, Looks, Point, looks, middle, tips};
 use crate::synthesis::rules::{Rule, Rules};
 use crate::synthesis::structure::Structure;
@@ -155,25 +156,15 @@ fn bell(random: &mut ChaCha8Rng) -> f64 {
 /// Links between frame and jaws as far ahead as they are joints away, each pin between its two links.
 fn first_places(structure: &Structure, rules: &Rules, random: &mut ChaCha8Rng) -> Vec<Point> {
     let c = &structure.chain;
-    let away = |from: usize| {
-        let mut out = vec![usize::MAX; c.links()];
-        let (mut here, mut d) = (vec![from], 0);
-        while !here.is_empty() {
-            here.iter().for_each(|&l| out[l] = d);
-            d += 1;
-            let next = (0..c.links()).filter(|&l| out[l] == usize::MAX);
-            here = next
-                .filter(|&l| here.iter().any(|&h| c.joined(h, l)))
-                .collect();
-        }
-        out
-    };
-    #[allow(clippy::cast_precision_loss, reason = "a few")]
+    let joints: Vec<[usize; 2]> = c.joints().into_iter().map(|(u, v)| [u, v]).collect();
+    // Joints on a shortest way from a link to each.
     let far = |from: usize| {
-        away(from)
-            .into_iter()
-            .map(|d| d as f64)
-            .collect::<Vec<f64>>()
+        let (_, steps) = forest(c.links(), joints.iter().copied(), |_| false, [from]);
+        let mut away = vec![0.0_f64; c.links()];
+        for s in steps {
+            away[s.link] = away[s.from] + 1.0;
+        }
+        away
     };
     let (frame, jaws) = (
         far(structure.roles.frame),

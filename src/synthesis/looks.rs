@@ -259,8 +259,8 @@ fn motion(
         .fold(0.0, f64::max);
     out.penalty += beyond(fastest * 40.0 / out.closing.max(1e-9) - 2.0, 1.5).min(20.0);
     for (l, points) in outlines.iter().enumerate() {
-        let rod = l != structure.roles.driver || structure.roles.frame == l;
-        if let ([(_, a), (_, b)], true) = (&points[..], rod && l != structure.roles.frame) {
+        let rod = l != structure.roles.driver && l != structure.roles.frame;
+        if let ([(_, a), (_, b)], true) = (&points[..], rod) {
             let along = sub(*b, *a);
             let (va, vb) = (velocities[l].at(*a), velocities[l].at(*b));
             let speed = norm(va).max(norm(vb));
