@@ -78,7 +78,7 @@ pub struct IdeaRow {
     pub change_count: u32,
     /// How many variants it stands for.
     pub variants: BigUint,
-    /// Scores of its first variant under the closing force; `None` where the reactions have no solution.
+    /// Scores of its first variant under the closing force and the part's weight across; `None` where the reactions have no solution.
     pub scores: Option<Scores>,
 }
 
@@ -108,11 +108,13 @@ pub enum RowError {
     },
 }
 
-/// The search that a catalogue makes of each mechanism.
+/// The search that a catalogue makes of each mechanism. Variants of W = 1 move as the mechanism does, so that nothing more need
+/// be asked of their outputs.
 #[must_use]
 pub fn request(spec: &Spec) -> Request {
     Request {
         max_mobility: Some(1),
+        allow_output_change: true,
         list: List::Top(spec.ideas.max(1)),
         check: Check::Prime,
         nodes: spec.nodes,

@@ -67,8 +67,25 @@ CREATE TABLE ideas (
   cost REAL NOT NULL,
   change_count INTEGER NOT NULL,
   variants NOT NULL,               -- how many variants the idea stands for; at least, where the layout's certainty says so
-  peak_force REAL,                 -- greatest joint force over capacity under the closing force
+  peak_force REAL,                 -- greatest joint force over capacity under the closing force and the part's weight across
   peak_moment REAL,
   output_error REAL,               -- of the jaws from the joints' clearances, mm
   PRIMARY KEY (structure, place)
 ) WITHOUT ROWID;
+CREATE VIEW front AS               -- structures that no other with the same input beats: as good in all five, better in one
+SELECT s.id, s.links, l.best_cost, l.force_mean, l.transmission, l.jaw_turn, s.input
+FROM structures s JOIN layouts l ON l.structure = s.id
+WHERE l.best_cost IS NOT NULL AND NOT EXISTS (
+  SELECT 1 FROM structures t JOIN layouts m ON m.structure = t.id
+  WHERE t.input = s.input AND t.links <= s.links AND m.best_cost <= l.best_cost AND m.force_mean >= l.force_mean
+    AND m.transmission >= l.transmission AND m.jaw_turn <= l.jaw_turn
+    AND (t.links < s.links OR m.best_cost < l.best_cost OR m.force_mean > l.force_mean
+      OR m.transmission > l.transmission OR m.jaw_turn < l.jaw_turn));
+CREATE VIEW idea_front AS          -- ideas that no other of their structure beats in cost, peak force and moment, and error
+SELECT i.* FROM ideas i
+WHERE i.peak_force IS NOT NULL AND NOT EXISTS (
+  SELECT 1 FROM ideas j
+  WHERE j.structure = i.structure AND j.cost <= i.cost AND j.peak_force <= i.peak_force
+    AND j.peak_moment <= i.peak_moment AND j.output_error <= i.output_error
+    AND (j.cost < i.cost OR j.peak_force < i.peak_force OR j.peak_moment < i.peak_moment
+      OR j.output_error < i.output_error));

@@ -21,7 +21,7 @@ const SCRIPT: [&str; 3] = [
 const CARD: &str = "SELECT id, name, links, input, symmetry, parallel, jaws_at_frame, truss, mechanism, crossings, link_ratio, transmission, \
      opening_min, opening_max, travel, force_min, force_mean, force_max, jaw_a_motion, jaw_b_motion, jaw_turn, ends_closing, \
      ends_opening, tip_a_dx, tip_a_dy, tip_b_dx, tip_b_dy, mobility, redundant, finite, CAST(determinate AS TEXT) AS determinate, \
-     CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost FROM structures JOIN layouts ON structure = id \
+     CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost, id IN (SELECT id FROM front) AS front FROM structures JOIN layouts ON structure = id \
      ORDER BY links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id";
 const IDEAS: &str = "SELECT structure, place, adds, changes, cost, change_count AS changed, CAST(variants AS TEXT) AS variants, peak_force, \
      peak_moment FROM ideas ORDER BY structure, place";
@@ -184,6 +184,7 @@ fn filters() -> maud::Markup {
             label { "Cost at most " input type="number" id="cost" min="0" step="0.5" inputmode="decimal"; }
             label { "Transmission angle from " input type="number" id="transmission" min="0" max="90" step="5" inputmode="numeric"; }
             label { "Force ratio from " input type="number" id="force" min="0" step="any" inputmode="decimal"; }
+            label { input type="checkbox" id="front"; " Only those that no other beats" }
             label { "Find " input type="search" id="find" autocomplete="off" spellcheck="false" placeholder="id or chain"; }
             (select("sort", "First", &[
                 ("", "fewest links, symmetric"), ("best_cost", "least cost"), ("force_mean", "greatest force"),

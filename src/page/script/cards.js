@@ -53,6 +53,7 @@ function wanted(c) {
     (number('cost') === null || (c.best_cost !== null && c.best_cost <= number('cost'))) &&
     (number('transmission') === null || c.transmission >= number('transmission')) &&
     (number('force') === null || c.force_mean >= number('force')) &&
+    (!by('front').checked || c.front === 1) &&
     (!find || c.name.toLowerCase().includes(find) || c.id.includes(find))
   );
 }

@@ -277,3 +277,55 @@ fn what_cannot_be_done_is_said() {
         text(&told.stdout)
     );
 }
+
+/// The rows that no other is as good as in all figures and better than in one; larger is worse.
+fn unbeaten(rows: &[(String, String, Vec<f64>)]) -> Vec<&str> {
+    let beats = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(x, y)| x <= y) && a != b;
+    let free = rows.iter().filter(|(_, group, row)| {
+        !rows
+            .iter()
+            .any(|(_, g, other)| g == group && beats(other, row))
+    });
+    free.map(|(id, ..)| id.as_str()).collect()
+}
+
+#[test]
+fn the_fronts_are_what_no_other_beats() {
+    let folder = tempdir().unwrap();
+    let file = at(&folder, "all.db");
+    ok(&[
+        "catalog", "build", "--links", "4..6", "--ideas", "6", "--quiet", "-o", &file,
+    ]);
+    let rows = |sql: &str| -> Vec<(String, String, Vec<f64>)> {
+        let csv = ok(&["catalog", "query", &file, sql, "--format", "csv"]);
+        let row = |line: &str| {
+            let mut cells = line.split(',').map(str::to_owned);
+            let [id, group] = [cells.next().unwrap(), cells.next().unwrap()];
+            (id, group, cells.map(|c| c.parse().unwrap()).collect())
+        };
+        csv.lines().skip(1).map(row).collect()
+    };
+    let structures = rows(
+        "SELECT id, input, links, best_cost, -force_mean, -transmission, jaw_turn FROM structures JOIN layouts \
+         ON structure = id WHERE best_cost IS NOT NULL ORDER BY id",
+    );
+    let front = rows("SELECT id, input FROM front ORDER BY id");
+    let front: Vec<&str> = front.iter().map(|(id, ..)| id.as_str()).collect();
+    assert_eq!(front, unbeaten(&structures));
+    assert!(
+        !front.is_empty() && 2 * front.len() < structures.len(),
+        "{} of {}",
+        front.len(),
+        structures.len()
+    );
+    let ideas = rows(
+        "SELECT structure || ' ' || place, structure, cost, peak_force, peak_moment, output_error FROM ideas \
+         WHERE peak_force IS NOT NULL ORDER BY structure, place",
+    );
+    let best = rows(
+        "SELECT structure || ' ' || place, structure FROM idea_front ORDER BY structure, place",
+    );
+    let best: Vec<&str> = best.iter().map(|(id, ..)| id.as_str()).collect();
+    assert_eq!(best, unbeaten(&ideas));
+    assert!(best.len() < ideas.len());
+}
