@@ -51,15 +51,32 @@ CREATE TABLE layouts (
   certainty TEXT NOT NULL,         -- exact, or at least
   best_cost REAL                   -- of the cheapest variant with sigma = 0 and W = 1; of those found, where the certainty is at least
 ) WITHOUT ROWID;
+CREATE TABLE drawn (               -- mechanisms that were drawn, searched with the options of their own files
+  id TEXT PRIMARY KEY,             -- drawn-, and the beginning of the SHA-256 of the file
+  name TEXT NOT NULL,
+  description TEXT NOT NULL,
+  links INTEGER NOT NULL,          -- of the free state
+  joints INTEGER NOT NULL,
+  contours INTEGER NOT NULL,
+  input TEXT,                      -- slide, turn; NULL where it is not driven by one joint of one freedom
+  mechanism TEXT NOT NULL,         -- the mechanism file, TOML
+  mobility INTEGER NOT NULL,       -- W as built
+  redundant INTEGER NOT NULL,      -- sigma as built
+  finite TEXT NOT NULL,            -- the mobility that is really there, and how that is known
+  determinate NOT NULL,            -- variants with sigma = 0
+  admissible NOT NULL,             -- of these, those that keep the output motion and have no more mobility than is there at most
+  certainty TEXT NOT NULL,         -- exact, or at least
+  best_cost REAL                   -- of the cheapest of these; of those found, where the certainty is at least
+) WITHOUT ROWID;
 CREATE TABLE counts (
-  structure TEXT NOT NULL REFERENCES structures(id),
+  structure TEXT NOT NULL,         -- of structures, or of drawn
   mobility INTEGER NOT NULL,
   changes INTEGER NOT NULL,
   variants NOT NULL,               -- determinate variants of this mobility and so many changes
   PRIMARY KEY (structure, mobility, changes)
 ) WITHOUT ROWID;
 CREATE TABLE ideas (
-  structure TEXT NOT NULL REFERENCES structures(id),
+  structure TEXT NOT NULL,         -- of structures, or of drawn
   place INTEGER NOT NULL,          -- from 1, the cheapest first
   adds TEXT NOT NULL,              -- which freedoms where: the joints named are in series
   changes TEXT NOT NULL,           -- the first variant of the idea

@@ -329,3 +329,76 @@ fn the_fronts_are_what_no_other_beats() {
     assert_eq!(best, unbeaten(&ideas));
     assert!(best.len() < ideas.len());
 }
+
+#[test]
+fn drawn_mechanisms_stand_beside_the_structures() {
+    let folder = tempdir().unwrap();
+    let file = at(&folder, "all.db");
+    // A wrong name among right ones: nothing is begun.
+    fails(
+        &["catalog", "search", "tongs", "gripper-11", "-o", &file],
+        "gripper-1",
+    );
+    assert!(!Path::new(&file).exists());
+    fails(&["catalog", "search", "-o", &file], "--grippers");
+    let drawn = [
+        "catalog",
+        "search",
+        "gripper-10",
+        "tongs",
+        "--ideas",
+        "2",
+        "-o",
+    ];
+    let drawn = |to| -> Vec<&str> { drawn.into_iter().chain([to]).collect() };
+    assert!(ok(&drawn(&file)).contains("2 mechanisms added"));
+    assert!(ok(&drawn(&file)).contains("0 mechanisms added"));
+    // The counts are those of `ozols search`.
+    let sql = "SELECT links, joints, contours, input, mobility, redundant, finite, determinate, admissible, certainty, best_cost \
+               FROM drawn WHERE name = 'gripper-10'";
+    let row = ok(&["catalog", "query", &file, sql, "--format", "csv"]);
+    let found = row.lines().nth(1).unwrap();
+    assert_eq!(
+        found,
+        "10,13,4,,1,11,\"1, followed\",6340592477,7150020,exact,9.5"
+    );
+    // It takes in structures, and is taken in.
+    let parts = at(&folder, "parts.db");
+    ok(&small(&parts, &[]));
+    let merged = at(&folder, "merged.db");
+    assert!(ok(&["catalog", "merge", &file, &parts, "-o", &merged]).contains("drawn"));
+    ok(&small(&file, &[]));
+    for table in ["drawn", "structures", "ideas"] {
+        let sql = format!("SELECT * FROM {table}");
+        let of = |db: &str| ok(&["catalog", "query", db, &sql, "--format", "csv"]);
+        assert_eq!(of(&merged), of(&file), "{table}");
+    }
+    let best = ok(&["catalog", "query", &merged]);
+    assert!(best.contains("tongs") && best.contains("mirror"), "{best}");
+    let told = ok(&["catalog", "show", &merged, "gripper-10"]);
+    assert!(
+        told.contains("6,340,592,477") && told.contains("--variant 1"),
+        "{told}"
+    );
+    let redesign = at(&folder, "redesign.toml");
+    ok(&[
+        "catalog",
+        "export",
+        &merged,
+        "gripper-10",
+        "--variant",
+        "1",
+        "-o",
+        &redesign,
+    ]);
+    let analysed = ok(&["analyze", &redesign, "--format", "json"]);
+    let analysed: serde_json::Value = serde_json::from_str(&analysed).unwrap();
+    assert_eq!(analysed["states"][0]["redundant"], 0, "{analysed}");
+    let page = at(&folder, "page.html");
+    ok(&["catalog", "page", &merged, "-o", &page]);
+    assert!(
+        std::fs::read_to_string(&page)
+            .unwrap()
+            .contains("\"name\":\"tongs\"")
+    );
+}
