@@ -18,10 +18,13 @@ pub(super) struct Export {
     #[arg(long, value_parser = written())]
     to: String,
     /// Write variant K of the list that `ozols search FILE` gives, with the same of the options below.
-    #[arg(long, value_name = "K")]
+    #[arg(long, value_name = "K", group = "chosen")]
     variant: Option<usize>,
+    /// The first variant of idea K, as short texts of `ozols search FILE` number them: --distinct --variant K.
+    #[arg(long, value_name = "K", group = "chosen")]
+    idea: Option<usize>,
     /// The state that the search takes in besides the free one.
-    #[arg(long, value_name = "STATE", requires = "variant")]
+    #[arg(long, value_name = "STATE", requires = "chosen")]
     state: Option<String>,
     #[command(flatten)]
     which: Which,
@@ -37,8 +40,9 @@ fn written() -> PossibleValuesParser {
 
 pub(super) fn run(_: &Args, a: &Export) -> anyhow::Result<Done> {
     let mut m = load::mechanism(&a.file.file)?;
-    let request = a.which.request(a.state.as_deref())?;
-    if let Some(k) = a.variant {
+    let mut request = a.which.request(a.state.as_deref())?;
+    request.distinct |= a.idea.is_some();
+    if let Some(k) = a.variant.or(a.idea) {
         m = variant::kth(m, request, k, |v| v.mechanism())?;
     } else if request.snap.is_some() {
         m = request.snapped(&m, &mut note)?;

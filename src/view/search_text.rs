@@ -2,7 +2,7 @@
 
 use crate::format::number::grouped;
 use crate::score::outcome::Outcome;
-use crate::score::request::List;
+use crate::score::request::{List, Request};
 use crate::score::variant::Variant;
 use crate::score::variants::Variants;
 use crate::search::certify::{NEARLY_SINGULAR, Second, Summary};
@@ -46,7 +46,7 @@ pub fn write(
         Some(p) => ranking::head(p),
         None if sample => "drawn at random".to_owned(),
         None if outcome.request.distinct => {
-            "cheapest first, of the variants that give the same freedoms to the same joints in series the first".to_owned()
+            "ideas, cheapest first, each by its first variant; it stands for all that give the same freedoms to the same joints in series".to_owned()
         }
         None => "cheapest first".to_owned(),
     };
@@ -274,23 +274,32 @@ fn marked(mut notes: Vec<String>) -> Vec<String> {
 /// What to do after a search: look at the first variant given, or ease a condition. `file` is the search's own, as
 /// are the flags, so that the commands are about the same list.
 fn next(outcome: &Outcome, given: usize, eased: &[(Relaxation, BigUint)], file: &str) -> Vec<Step> {
-    let flags = &next::flags(&outcome.search.mechanism, &outcome.request);
+    // `--idea` says that ideas are meant.
+    let request = Request {
+        distinct: false,
+        ..outcome.request.clone()
+    };
+    let flags = &next::flags(&outcome.search.mechanism, &request);
+    let number = match outcome.request.distinct {
+        true => "idea",
+        false => "variant",
+    };
     let joined = |more: &str| format!("{flags} {more}").trim().to_owned();
     let mechanism = &outcome.search.mechanism.name;
     if given > 0 {
-        let svg = file_name(&format!("{mechanism}-variant-1"), "svg");
-        let toml = file_name(&format!("{mechanism}-variant-1"), "toml");
+        let svg = file_name(&format!("{mechanism}-{number}-1"), "svg");
+        let toml = file_name(&format!("{mechanism}-{number}-1"), "toml");
         return vec![
             Step::new(
                 "draw",
                 file,
-                &joined(&format!("--variant 1 -o {svg}")),
+                &joined(&format!("--{number} 1 -o {svg}")),
                 "the first of the list, its changes in colour",
             ),
             Step::new(
                 "export",
                 file,
-                &joined(&format!("--variant 1 --to toml -o {toml}")),
+                &joined(&format!("--{number} 1 --to toml -o {toml}")),
                 "the first of the list as a mechanism file of its own",
             ),
         ];

@@ -142,9 +142,9 @@ fn a_search_says_what_to_do_next() {
     );
     let flags = "--max-mobility 1 --hold 5";
     for part in [
-        format!("\n    ozols draw gripper-10 {flags} --variant 1 -o gripper-10-variant-1.svg\n"),
+        format!("\n    ozols draw gripper-10 {flags} --idea 1 -o gripper-10-idea-1.svg\n"),
         format!(
-            "\n    ozols export gripper-10 {flags} --variant 1 --to toml -o gripper-10-variant-1.toml\n"
+            "\n    ozols export gripper-10 {flags} --idea 1 --to toml -o gripper-10-idea-1.toml\n"
         ),
     ] {
         assert!(text.contains(&part), "no {part:?} in {text}");
