@@ -6,7 +6,7 @@ use super::request::Which;
 use super::{Done, lint, output, variant};
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::format::phrase::plural;
-use crate::model::mechanism::{JointId, Mechanism};
+use crate::model::mechanism::JointId;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::release::{Release, added};
 use crate::robots::{self, Imported};
@@ -49,7 +49,7 @@ pub(super) fn run(a: &Fix) -> anyhow::Result<Done> {
     let m = &imported.mechanism;
     let bytes = api::bytes(&a.file, MAX_DESCRIPTION_BYTES)?;
     let (before, plan) = match a.variant {
-        Some(k) => of_search(m, a, k)?,
+        Some(k) => of_search(&imported, a, k)?,
         None => cheapest(&imported, &a.at)?,
     };
     let told = |release: &Release| (*release, words(m, release));
@@ -89,13 +89,16 @@ fn summary(
     releases: &[(Release, String)],
     [before, after]: [&StateAnalysis; 2],
 ) -> String {
-    let mut out = match releases.len() {
-        0 => format!(
-            "{}: nothing is redundant, nothing is changed\n",
-            file.display()
-        ),
-        n => format!("{}: {}\n", file.display(), plural(n, "release")),
-    };
+    let file = file.display();
+    if releases.is_empty() {
+        let (w, sure) = (before.mobility, before.certainty.word());
+        let redundant = match before.redundant {
+            0 => "nothing is redundant".to_owned(),
+            n => format!("{n} redundant"),
+        };
+        return format!("{file}: {redundant} (W = {w}, {sure}); written as it is\n");
+    }
+    let mut out = format!("{file}: {}\n", plural(releases.len(), "release"));
     for (_, words) in releases {
         out += &format!("  {words}\n");
     }
@@ -161,10 +164,23 @@ fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis
     Ok((found.analysis, plan))
 }
 
-/// Those of a variant of the search.
-fn of_search(m: &Mechanism, a: &Fix, k: usize) -> anyhow::Result<(StateAnalysis, Plan)> {
+/// Those of a variant of the search. Where nothing is redundant there is nothing to mend: variants only let more move, and
+/// are made where a mobility is asked for.
+fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAnalysis, Plan)> {
+    let m = &imported.mechanism;
     let request = a.which.request(None)?;
     let before = api::analyze(m)?.remove(0);
+    if before.redundant == 0 && before.at_most().is_none() && request.max_mobility.is_none() {
+        note(format!(
+            "nothing is redundant: variant {k} of the search would only let more move; --max-mobility makes it all the same"
+        ));
+        let plan = Plan {
+            releases: Vec::new(),
+            mobility: before.mobility,
+            redundant: 0,
+        };
+        return Ok((before, plan));
+    }
     let (changed, w, sigma) = variant::kth(m.clone(), request, k, |v| {
         (v.mechanism(), v.mobility(), v.redundant())
     })?;
@@ -185,9 +201,6 @@ fn of_search(m: &Mechanism, a: &Fix, k: usize) -> anyhow::Result<(StateAnalysis,
             slides,
             direction,
         }));
-    }
-    if releases.is_empty() {
-        note(format!("variant {k} changes nothing"));
     }
     let plan = Plan {
         releases,

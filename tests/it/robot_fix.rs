@@ -313,3 +313,34 @@ fn searches_offer_releases_where_loops_close() {
         assert_eq!(figures(&out, &[]).1, 0);
     }
 }
+
+// Where nothing is redundant there is nothing to mend: the file is written as it is, whatever variant of the search is named,
+// unless a mobility is asked for.
+#[test]
+fn nothing_redundant_is_nothing_to_mend() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = |name: &str| dir.path().join(name).display().to_string();
+    let (file, out) = (path("arm.xml"), path("out.xml"));
+    let text = "\u{feff}<mujoco><worldbody>\r\n<body name='a'><joint name='j1'/>\t<body name='b' pos='1 0 0'><joint name='j2'/></body></body></worldbody></mujoco>\r\n";
+    std::fs::write(&file, text).unwrap();
+    for more in [&[][..], &["--variant", "1"], &["--variant", "2"]] {
+        let _ = std::fs::remove_file(&out);
+        let (code, _, told) = run(&[&["fix", &file, "-o", &out], more].concat());
+        assert_eq!(code, Some(0), "{more:?}: {told}");
+        assert!(told.contains("nothing is redundant (W = 2"), "{told}");
+        assert_eq!(std::fs::read_to_string(&out).unwrap(), text, "{more:?}");
+    }
+    let asked = [
+        "fix",
+        &file,
+        "--variant",
+        "2",
+        "--max-mobility",
+        "3",
+        "-o",
+        &out,
+    ];
+    let (code, _, told) = run(&[&asked[..], &["--allow-output-change"]].concat());
+    assert_eq!(code, Some(0), "{told}");
+    assert_eq!(figures(&out, &[]), (3, 0));
+}
