@@ -61,14 +61,18 @@ pub(crate) fn read(
                         .iter_mut()
                         .find(|j| Some(j.id.as_str()) == joint)
                     {
-                        Some(j) => j.drive = true,
+                        Some(j) => {
+                            j.drive = true;
+                            robot
+                                .report
+                                .drop("data of an actuator", a.attribute("name"));
+                        }
                         None => robot.report.drop("actuator", a.attribute("name")),
                     }
                 }
             }
             "deformable" => return Err(section.unsupported("deformable bodies", "remove them")),
-            other if section.children().next().is_some() => robot.report.drop(other, None),
-            _ => {}
+            other => robot.report.drop(other, None),
         }
     }
     Ok(robot)
@@ -282,6 +286,17 @@ fn joint<'a>(
         part.zero = look.numbers::<1>("ref")?.map_or(0.0, |[x]| x * unit);
         if let Some([low, high]) = look.numbers::<2>("range")? {
             part.limits = (low < high).then_some((low * unit - part.zero, high * unit - part.zero));
+        }
+    }
+    for key in [
+        "damping",
+        "stiffness",
+        "springdamper",
+        "armature",
+        "frictionloss",
+    ] {
+        if look.attribute(key).is_some() {
+            robot.report.drop(key, Some(&id));
         }
     }
     robot.report.map(word);
