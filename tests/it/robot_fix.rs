@@ -344,3 +344,47 @@ fn nothing_redundant_is_nothing_to_mend() {
     assert_eq!(code, Some(0), "{told}");
     assert_eq!(figures(&out, &[]), (3, 0));
 }
+
+// What lint and search end with is a command that mends, whatever the file is called and however it is read.
+#[test]
+fn the_next_command_mends() {
+    let dir = tempfile::tempdir().unwrap();
+    let bar = folder().join("epr_5bar_linkage");
+    let file = dir.path().join("five bar.urdf").display().to_string();
+    std::fs::copy(bar.join("robot.urdf"), &file).unwrap();
+    let side = bar.join("robot.yaml").display().to_string();
+    let next = |words: &[&str]| {
+        let (_, out, told) = run(words);
+        let line = out
+            .lines()
+            .find(|l| l.trim_start().starts_with("ozols fix"));
+        line.unwrap_or_else(|| panic!("{out}{told}"))
+            .trim()
+            .to_owned()
+    };
+    let loops = next(&["lint", &file, "--loops", &side]);
+    let plain = next(&["search", &gripper(), "--top", "1"]);
+    let (plain, _) = plain.split_once(" -o ").unwrap();
+    let plain = format!("{plain} -o {}", dir.path().join("gripper.xml").display());
+    for line in [loops, plain] {
+        let words = line.strip_prefix("ozols ").unwrap().split('\'').enumerate();
+        // What stands in quotes is one word.
+        let words = words.flat_map(|(i, part)| match i % 2 {
+            0 => part.split_whitespace().map(str::to_owned).collect(),
+            _ => vec![part.to_owned()],
+        });
+        let words: Vec<String> = words.collect();
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        let (code, _, told) = run(&words);
+        assert_eq!(code, Some(0), "{line}: {told}");
+        assert!(told.contains("redundant 0"), "{told}");
+    }
+    // Nothing to mend, nothing to type.
+    let (_, out, _) = run(&[
+        "lint",
+        &dir.path().join("five bar-fixed.urdf").display().to_string(),
+        "--loops",
+        &side,
+    ]);
+    assert!(!out.contains("Next:"), "{out}");
+}
