@@ -129,7 +129,9 @@ fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis
     }
     let wanted = |r: &Release| match *r {
         Release::Coupling(q) => at.is_empty() || at.contains(&coupled(q)),
-        Release::Freedom { joint, .. } if at.is_empty() => !m.joints[joint].drive,
+        Release::Freedom { joint, .. } if at.is_empty() => {
+            !lint::is_actuated(m, Some(&imported.origin), joint)
+        }
         Release::Freedom { joint, .. } => at.contains(&m.joints[joint].id),
     };
     let mut found = lint::look_at(m, Some(&imported.origin), &wanted)?;

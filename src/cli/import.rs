@@ -90,28 +90,25 @@ impl Reading {
     pub(super) fn flags(&self) -> String {
         let path = |p: &PathBuf| p.display().to_string();
         let valued = [
-            ("loops", self.loops.iter().map(path).collect()),
-            ("pose", self.pose.clone()),
-            ("models", self.models.iter().map(path).collect()),
-            ("frame", self.frame.iter().cloned().collect()),
-            ("working-link", self.working_link.clone()),
+            ("--loops", self.loops.iter().map(path).collect()),
+            ("--pose", self.pose.clone()),
+            ("--models", self.models.iter().map(path).collect()),
+            ("--frame", self.frame.iter().cloned().collect()),
+            ("--working-link", self.working_link.clone()),
         ];
         let valued = valued
             .iter()
             .flat_map(|(flag, values): &(&str, Vec<String>)| {
                 values
                     .iter()
-                    .map(move |v| format!("--{flag} {}", next::word(v)))
+                    .map(move |v| format!("{flag} {}", next::word(v)))
             });
         let switches = [
-            ("floating", self.floating),
-            ("assemble", self.assemble),
-            ("open", self.open),
+            ("--floating", self.floating),
+            ("--assemble", self.assemble),
+            ("--open", self.open),
         ];
-        let switches = switches
-            .iter()
-            .filter(|s| s.1)
-            .map(|s| format!("--{}", s.0));
+        let switches = switches.iter().filter(|s| s.1).map(|s| s.0.to_owned());
         valued.chain(switches).join(" ")
     }
 }

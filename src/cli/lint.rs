@@ -79,9 +79,14 @@ pub(super) fn run(a: &Lint) -> anyhow::Result<Done> {
 /// What a mechanism holds twice. Drives stay as they are, and what no format has a place for.
 pub(super) fn look(m: &Mechanism, origin: Option<&Origin>) -> anyhow::Result<HeldTwice> {
     look_at(m, origin, &|r| match *r {
-        Release::Freedom { joint, .. } => !m.joints[joint].drive,
+        Release::Freedom { joint, .. } => !is_actuated(m, origin, joint),
         Release::Coupling(_) => true,
     })
+}
+
+/// Whether a joint is a drive, or moved by an actuator in a way that a mechanism has no word for.
+pub(super) fn is_actuated(m: &Mechanism, origin: Option<&Origin>, joint: JointId) -> bool {
+    m.joints[joint].drive || origin.is_some_and(|o| o.is_actuated(joint))
 }
 
 /// The same with releases that are wanted alone.

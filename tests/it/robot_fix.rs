@@ -388,3 +388,27 @@ fn the_next_command_mends() {
     ]);
     assert!(!out.contains("Next:"), "{out}");
 }
+
+// The published gripper has one actuator that pulls both drivers by a tendon: these stay as they are, unless they are named.
+#[test]
+fn joints_that_an_actuator_pulls_stay_as_they_are() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("hand.xml").display().to_string();
+    let text = std::fs::read_to_string(gripper()).unwrap();
+    let pulls = "<tendon><fixed name='split'><joint joint='right_driver_joint' coef='0.5'/>\
+        <joint joint='left_driver_joint' coef='0.5'/></fixed></tendon>\
+        <actuator><general name='fingers' tendon='split'/></actuator></mujoco>";
+    std::fs::write(&file, text.replace("</mujoco>", pulls)).unwrap();
+    let out = dir.path().join("out.xml").display().to_string();
+    let (code, _, told) = run(&["fix", &file, "-o", &out]);
+    assert!(code == Some(0) && !told.contains("driver_joint"), "{told}");
+    assert_eq!(figures(&out, &[]), (1, 0));
+    let (_, found, _) = run(&["lint", &file]);
+    assert!(!found.contains("let right_driver_joint"), "{found}");
+    let named = ["--at", "right_driver_joint", "--at", "left_driver_joint"];
+    let (code, _, told) = run(&[&["fix", &file, "-o", &out][..], &named].concat());
+    assert!(
+        code == Some(0) && told.contains("let left_driver_joint slide"),
+        "{told}"
+    );
+}

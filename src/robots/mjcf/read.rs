@@ -67,7 +67,16 @@ pub(crate) fn read(
                                 .report
                                 .drop("data of an actuator", a.attribute("name"));
                         }
-                        None => robot.report.drop("actuator", a.attribute("name")),
+                        None => {
+                            let pulled = of_tendon(root, a);
+                            let pulled = |j: &&mut Part| pulled.contains(&j.id.as_str());
+                            robot
+                                .joints
+                                .iter_mut()
+                                .filter(pulled)
+                                .for_each(|j| j.pulled = true);
+                            robot.report.drop("actuator", a.attribute("name"));
+                        }
                     }
                 }
             }
@@ -76,6 +85,23 @@ pub(crate) fn read(
         }
     }
     Ok(robot)
+}
+
+/// Names of the joints that an actuator moves by a fixed tendon.
+fn of_tendon<'a>(root: Element<'a>, actuator: Element<'a>) -> Vec<&'a str> {
+    let Some(name) = actuator.attribute("tendon") else {
+        return Vec::new();
+    };
+    let mut out = Vec::new();
+    for section in root.named("tendon") {
+        for fixed in section
+            .named("fixed")
+            .filter(|f| f.attribute("name") == Some(name))
+        {
+            out.extend(fixed.named("joint").filter_map(|j| j.attribute("joint")));
+        }
+    }
+    out
 }
 
 fn bodies<'a>(
