@@ -1,6 +1,7 @@
 //! A search for people.
 
 use crate::format::number::grouped;
+use crate::robots::is_description;
 use crate::score::outcome::Outcome;
 use crate::score::request::{List, Request};
 use crate::score::variant::Variant;
@@ -22,6 +23,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::io;
 
+/// Rows of mobilities told at most; JSON and the page have them all.
+const MOBILITIES: usize = 12;
 /// Variants a table holds at most.
 const BLOCK: usize = 1000;
 
@@ -50,12 +53,13 @@ pub fn write(
         }
         None => "cheapest first".to_owned(),
     };
-    let mut footnotes = Vec::new();
+    let (mut footnotes, mut changed) = (Vec::new(), false);
     // A table is laid out as a whole, so a long list is given as several.
     loop {
         let block = given.by_ref().take(BLOCK).collect_vec();
         let Some(first) = block.first() else { break };
         if first.position() == 1 {
+            changed = first.cost_milli() > 0;
             write!(out, "{}", fit(&format!("\n  {what}:\n"), width))?;
         }
         writeln!(out, "{}", variants(outcome, &block, width))?;
@@ -86,7 +90,12 @@ pub fn write(
     // Numbers of a sample, or of a list with some left out, mean nothing to other commands.
     let steps = match outcome.request.generic_only {
         true => Vec::new(),
-        false => next(outcome, if sample { 0 } else { summary.given }, eased, file),
+        false => next(
+            outcome,
+            (if sample { 0 } else { summary.given }, changed),
+            eased,
+            file,
+        ),
     };
     write!(out, "{}", next::text(&steps, width))
 }
@@ -178,13 +187,24 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
             sum(&admissible.by_mobility),
         ]
     };
-    let each = shown.iter().map(|w| row(w.to_string(), &[*w]));
+    // Long tables are of robots with many joints; the least mobilities are those that let the least move idly.
+    let told = if shown.len() > MOBILITIES {
+        MOBILITIES - 1
+    } else {
+        shown.len()
+    };
+    let (told, folded) = shown.split_at(told);
+    let each = told.iter().map(|w| row(w.to_string(), &[*w]));
+    let folded = match folded {
+        [least, .., most] => Some(row(format!("{least} to {most}"), folded)),
+        _ => None,
+    };
     let left_out = match (rest.first(), rest.last()) {
         (Some(least), Some(most)) if least == most => Some(row(least.to_string(), &rest)),
         (Some(least), Some(most)) => Some(row(format!("rest, {least} to {most}"), &rest)),
         _ => None,
     };
-    let rows = each.chain(left_out);
+    let rows = each.chain(folded).chain(left_out);
     if !mobilities.is_empty() {
         let _ = writeln!(
             out,
@@ -273,7 +293,12 @@ fn marked(mut notes: Vec<String>) -> Vec<String> {
 
 /// What to do after a search: look at the first variant given, or ease a condition. `file` is the search's own, as
 /// are the flags, so that the commands are about the same list.
-fn next(outcome: &Outcome, given: usize, eased: &[(Relaxation, BigUint)], file: &str) -> Vec<Step> {
+fn next(
+    outcome: &Outcome,
+    (given, changed): (usize, bool),
+    eased: &[(Relaxation, BigUint)],
+    file: &str,
+) -> Vec<Step> {
     // `--idea` says that ideas are meant.
     let request = Request {
         distinct: false,
@@ -289,7 +314,15 @@ fn next(outcome: &Outcome, given: usize, eased: &[(Relaxation, BigUint)], file: 
     if given > 0 {
         let svg = file_name(&format!("{mechanism}-{number}-1"), "svg");
         let toml = file_name(&format!("{mechanism}-{number}-1"), "toml");
-        return vec![
+        // Whose first variant changes nothing has nothing to mend.
+        let own = (changed && is_description(file)).then(|| {
+            Step::mend(
+                file,
+                &joined(&format!("--{number} 1")),
+                "the first of the list in your own file",
+            )
+        });
+        let steps = [
             Step::new(
                 "draw",
                 file,
@@ -303,6 +336,7 @@ fn next(outcome: &Outcome, given: usize, eased: &[(Relaxation, BigUint)], file: 
                 "the first of the list as a mechanism file of its own",
             ),
         ];
+        return own.into_iter().chain(steps).collect();
     }
     if !outcome.admissible.total.is_zero() {
         return vec![Step::new(

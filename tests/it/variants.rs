@@ -95,8 +95,8 @@ fn an_exported_variant_has_the_figures_of_the_list() {
 #[test]
 fn variants_in_every_format_and_drawn() {
     for to in ["toml", "json", "urdf", "sdf", "dot", "graphml"] {
-        let v = out(&["export", "gripper-10", "--variant", "2", "--to", to]);
-        assert_ne!(v, out(&["export", "gripper-10", "--to", to]), "{to}");
+        let v = out(&["export", "gripper-10", "--variant", "2", "--to", to, "-q"]);
+        assert_ne!(v, out(&["export", "gripper-10", "--to", to, "-q"]), "{to}");
         assert!(v.contains("gripper-10-variant-2"), "{to}: {v}");
     }
     // The ranked list, not that of cost.
