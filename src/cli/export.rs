@@ -40,16 +40,10 @@ fn written() -> PossibleValuesParser {
 }
 
 pub(super) fn run(_: &Args, a: &Export) -> anyhow::Result<Done> {
-<<<<<<< HEAD
-    let mut m = load::mechanism(&a.file.file)?;
+    let (mut m, left_behind) = load::with_what_is_left_behind(&a.file.file)?;
     let mut request = a.which.request(a.state.as_deref())?;
     request.distinct |= a.idea.is_some();
     if let Some(k) = a.variant.or(a.idea) {
-=======
-    let (mut m, left_behind) = load::with_what_is_left_behind(&a.file.file)?;
-    let request = a.which.request(a.state.as_deref())?;
-    if let Some(k) = a.variant {
->>>>>>> robots
         m = variant::kth(m, request, k, |v| v.mechanism())?;
     } else if request.snap.is_some() {
         m = request.snapped(&m, &mut note)?;
