@@ -39,8 +39,8 @@ assert all(v.redundant == 0 and v.mobility == 1 for v in found)
 # %% [markdown]
 # ## A catalogue
 #
-# Is it the best structure there is? Here are all mirror-symmetric grippers of up to six links, laid out, searched and scored. On a
-# cluster the same call takes `client=`.
+# Is it the best structure there is? Here are all mirror-symmetric grippers of up to six links, laid out, searched and scored.
+# On a cluster the same call takes `client=`.
 
 # %%
 grippers = ozols.catalog.build({"links": "4..6", "symmetries": ["mirror"]}, out="grippers.db")

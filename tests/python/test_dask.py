@@ -5,8 +5,9 @@ import signal
 import threading
 import time
 
-import ozols
 import pytest
+
+import ozols
 
 distributed = pytest.importorskip("distributed")
 
@@ -86,9 +87,10 @@ def test_what_is_finished_is_not_made_again(cluster, alone, in_tmp, monkeypatch)
     (parts / "left-1-of-12.db.tmp").write_text("half of a part")
 
     # Another scheduler, with other workers.
-    with distributed.LocalCluster(
-        n_workers=1, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
-    ) as other, distributed.Client(other) as client:
+    with (
+        distributed.LocalCluster(n_workers=1, threads_per_worker=1, host="127.0.0.1", dashboard_address=None) as other,
+        distributed.Client(other) as client,
+    ):
         seen = {}
 
         def look(*_):

@@ -4,10 +4,13 @@ import doctest
 import importlib
 import pkgutil
 import runpy
+import subprocess
+import sys
 from pathlib import Path
 
-import ozols
 import pytest
+
+import ozols
 
 SOURCES = Path(__file__).parents[2] / "src"
 MODULES = ["ozols", *(f"ozols.{m.name}" for m in pkgutil.iter_modules(ozols.__path__) if m.name not in ("_native", "__main__"))]
@@ -34,6 +37,17 @@ def test_the_tutorial(in_tmp):
     runpy.run_path(str(SOURCES / "python/tutorial.py"))
     assert Path("idea.svg").read_text().startswith("<svg")
     assert "<mujoco" in Path("gripper.xml").read_text()
+
+
+def test_the_types_are_right():
+    """The package by its own annotations and stubs, and the stubs by the library that was built."""
+    checks = (
+        ["mypy", "--strict", "--allow-untyped-calls", "--ignore-missing-imports", "-p", "ozols"],
+        ["mypy.stubtest", "ozols._native"],
+    )
+    for check in checks:
+        done = subprocess.run([sys.executable, "-m", *check], capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_every_public_name_is_explained():

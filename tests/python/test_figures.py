@@ -2,10 +2,11 @@
 
 import json
 
-import ozols
 import pytest
 from conftest import ozols as command
 from conftest import printed
+
+import ozols
 
 Mechanism = ozols.Mechanism
 
@@ -51,6 +52,11 @@ SEARCHES = [
         "gripper-10",
         {"max_mobility": 1, "options": ["cylindrical", "universal", "spherical"], "top": 4},
         ["--max-mobility", 1, "--options", "cylindrical,universal,spherical", "--top", 4],
+    ),
+    (
+        "gripper-10",
+        {"options": "cylindrical,spherical", "unloading": {"spherical": "1-2,1-6"}, "rank": "cost,changes", "top": 2},
+        ["--options", "cylindrical,spherical", "--unloading", "spherical=1-2,1-6", "--rank", "cost,changes", "--top", 2],
     ),
     (
         "gripper-10",
@@ -128,6 +134,7 @@ def test_an_iteration_may_be_left_and_taken_up_by_another_thread():
     [
         ("parallel-shears", {}, []),
         ("parallel-shears", {"stroke": "0:30deg:2"}, ["--stroke", "0:30deg:2"]),
+        ("parallel-shears", {"stroke": (0, 0.5, 2)}, ["--stroke", "0:0.5:2"]),
         ("gripper-10-loaded", {}, []),
         ("gripper-10-loaded", {"spatial": True}, ["--spatial"]),
         ("lever-gripper", {"state": "clamped"}, ["--state", "clamped"]),

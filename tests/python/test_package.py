@@ -9,9 +9,10 @@ import time
 from fractions import Fraction
 from pathlib import Path
 
-import ozols
 import pytest
 from conftest import ozols as command
+
+import ozols
 
 Mechanism = ozols.Mechanism
 ROBOTS = Path(__file__).parents[1] / "data/robots"
@@ -119,7 +120,7 @@ def test_errors_are_exceptions_with_the_commands_text(at, in_tmp):
 
 def test_a_key_that_is_not_there_is_said():
     with pytest.raises(AttributeError, match="there is no speed; there are mechanism"):
-        Mechanism.builtin("four-bar").analyze().speed
+        Mechanism.builtin("four-bar").analyze().speed  # noqa: B018
     with pytest.raises(TypeError):
         Mechanism.builtin("four-bar").search(speed=1)
 

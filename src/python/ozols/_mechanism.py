@@ -21,10 +21,19 @@ def _entry(value: Any) -> Any:
     return value.tolist() if hasattr(value, "tolist") else str(value)
 
 
+def _names(words: Iterable[str]) -> list[str]:
+    """A list of names, or one string of them with commas, as on the command line."""
+    return words.split(",") if isinstance(words, str) else list(words)
+
+
 def _pairs(rules: Mapping[str, Iterable[str]] | Iterable[str]) -> list[tuple[str, list[str]]]:
     if isinstance(rules, Mapping):
-        return [(k, list(v)) for k, v in rules.items()]
-    return [(k, []) for k in rules]
+        return [(k, _names(v)) for k, v in rules.items()]
+    return [(k, []) for k in _names(rules)]
+
+
+def _range(stroke: str | tuple[float, float, int]) -> str:
+    return stroke if isinstance(stroke, str) else ":".join(map(str, stroke))
 
 
 class Mechanism:
@@ -100,7 +109,7 @@ class Mechanism:
         """
         side = None if loops is None else (os.fspath(loops), Path(loops).read_bytes())
         values = [(k, [v] if isinstance(v, (int, float)) else list(v)) for k, v in (pose or {}).items()]
-        options = (side, values, floating, assemble, open, list(models), frame, list(outputs))
+        options = (side, values, floating, assemble, open, list(models), frame, _names(outputs))
         return cls._doubtful(_native.Mechanism.from_robot(path, *options))
 
     from_urdf = from_mjcf = from_sdf = from_robot
@@ -119,7 +128,8 @@ class Mechanism:
 
     def to_dict(self) -> dict[str, Any]:
         """The keys of its file, every joint with its own options; :meth:`from_dict` reads them."""
-        return json.loads(self.export("json"))
+        data: dict[str, Any] = json.loads(self.export("json"))
+        return data
 
     def export(self, format: str) -> str:
         """Itself as text: ``toml``, ``json``, ``urdf``, ``mjcf``, ``sdf``, ``dot`` or ``graphml``.
@@ -138,20 +148,27 @@ class Mechanism:
         return Told(_native.analyze(self._native, state, method, tolerance), "states")
 
     def stroke(
-        self, range: str, *, drive: str | None = None, state: str = "free", tolerance: float | None = None
+        self,
+        range: str | tuple[float, float, int],
+        *,
+        drive: str | None = None,
+        state: str = "free",
+        tolerance: float | None = None,
     ) -> Chart:
-        """The figures over a range of the drive, such as ``"0:360deg:72"``: what ``ozols analyze --stroke`` has as ``stroke``.
+        """The figures over a range of the drive: what ``ozols analyze --stroke`` has as ``stroke``.
+
+        A range is ``"0:360deg:72"``, or from, to and steps, in radians or the file's unit of length.
 
         >>> Mechanism.builtin("four-bar").stroke("0:90deg:3").poses[-1].mobility
         1
         """
-        return Chart(_native.stroke(self._native, range, drive, state, tolerance), "poses")
+        return Chart(_native.stroke(self._native, _range(range), drive, state, tolerance), "poses")
 
     def statics(
         self,
         state: str = "free",
         *,
-        stroke: str | None = None,
+        stroke: str | tuple[float, float, int] | None = None,
         spatial: bool = False,
         unilateral: bool = False,
     ) -> Told:
@@ -159,7 +176,8 @@ class Mechanism:
 
         ``spatial``: all six components of each, where the plane would do. ``unilateral``: contacts with an object only push.
         """
-        return Told(_native.statics(self._native, state, stroke, spatial, unilateral))
+        over = None if stroke is None else _range(stroke)
+        return Told(_native.statics(self._native, state, over, spatial, unilateral))
 
     def draw(self, kind: str = "scheme", *, state: str = "free") -> Drawing:
         """A drawing as SVG: the structural ``scheme``, or the ``kinematic`` one from the coordinates."""
@@ -200,15 +218,16 @@ class Mechanism:
     ) -> Outcome:
         """Every redesign that meets the conditions: exact counts, and the best of them one by one.
 
-        The keywords are the options of ``ozols search``. ``forbid`` takes joints, or joints with names of options;
-        ``unloading`` takes types, or types with joints; ``rank`` takes terms, or terms with weights; ``symmetry`` is ``all``,
-        ``symmetric`` or ``one-per-orbit``. ``progress`` is called with layers done, layers in all, and nodes so far.
+        The keywords are the options of ``ozols search``; names come as a list, or with commas between. ``forbid`` takes joints,
+        or joints with names of options; ``unloading`` types, or types with joints; ``rank`` terms, or terms with weights;
+        ``symmetry`` is ``all``, ``symmetric`` or ``one-per-orbit``. ``progress`` is called with layers done, layers in all, and
+        nodes so far.
 
         >>> found = Mechanism.builtin("gripper-10").search(options=["cylindrical", "spherical"], max_changes=7)
         >>> found.determinate, found.admissible, found[0].cost
         (136800, 6240, 11.5)
         """
-        terms = rank.items() if isinstance(rank, Mapping) else ((t, 1.0) for t in rank)
+        terms = rank.items() if isinstance(rank, Mapping) else ((t, 1.0) for t in _names(rank))
         asked = {
             "max_redundant": max_redundant,
             "max_external": max_external,
@@ -218,9 +237,9 @@ class Mechanism:
             "max_mobility": max_mobility,
             "max_changes": max_changes,
             "allow_output_change": allow_output_change,
-            "hold": list(hold),
+            "hold": _names(hold),
             "unloading": [([k], v) for k, v in _pairs(unloading)],
-            "options": list(options),
+            "options": _names(options),
             "allow": _pairs(allow or {}),
             "forbid": _pairs(forbid),
             "symmetry": symmetry,

@@ -91,7 +91,8 @@ class Outcome(Sequence[Variant]):
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON that the command prints, but for its last key, ``seconds``."""
-        return json.loads(self._native.data())
+        data: dict[str, Any] = json.loads(self._native.data())
+        return data
 
     def to_csv(self) -> str:
         """The variants asked for as the command's CSV."""

@@ -51,7 +51,7 @@ class Catalog:
         self.path = Path(path)
         try:
             self._db = sqlite3.connect(f"{self.path.resolve().as_uri()}?mode=ro", uri=True)
-            self._meta = dict(self._db.execute("SELECT key, value FROM meta"))
+            self._meta: dict[str, str] = dict(self._db.execute("SELECT key, value FROM meta"))
         except sqlite3.Error as e:
             raise _native.Error(f"{self.path} is no catalogue of ozols: {e}") from e
 
@@ -71,7 +71,8 @@ class Catalog:
         self.close()
 
     def __len__(self) -> int:
-        return self._db.execute("SELECT count(*) FROM structures").fetchone()[0]
+        count: int = self._db.execute("SELECT count(*) FROM structures").fetchone()[0]
+        return count
 
     def ids(self) -> list[str]:
         """The structures by their short names, ascending."""
@@ -131,7 +132,7 @@ class Catalog:
         """As a table of polars, over Arrow."""
         import polars
 
-        return polars.from_arrow(self.to_arrow(what, params))
+        return polars.DataFrame(self.to_arrow(what, params))
 
     def to_parquet(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Writes every table to a Parquet file of its name in a folder."""
@@ -256,9 +257,7 @@ def _parts(
     return [(Path(path), Digest(rows, int(total, 16))) for path, rows, total in found]
 
 
-def build_part(
-    words: str, name: str, folder: str, part: tuple[int, int], threads: int = 1
-) -> tuple[str, dict[str, int], str]:
+def build_part(words: str, name: str, folder: str, part: tuple[int, int], threads: int = 1) -> tuple[str, dict[str, int], str]:
     """Makes part ``(i, n)`` of a specification, given as JSON and a name for it, in a folder; its path and digest. Finished ones
     stay.
 
