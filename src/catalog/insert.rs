@@ -1,5 +1,6 @@
 //! A row as entries of the tables.
 
+use crate::catalog::drawn::Drawn;
 use crate::catalog::row::{IdeaRow, Laid, Row};
 use crate::format::number::significant;
 use crate::model::ranking::Term;
@@ -8,6 +9,7 @@ use crate::synthesis::structure::Structure;
 use num_bigint::BigUint;
 use rusqlite::types::ToSqlOutput;
 use rusqlite::{Transaction, params};
+use std::collections::BTreeMap;
 
 /// Enters a row.
 pub(super) fn row(t: &Transaction<'_>, row: &Row) -> rusqlite::Result<()> {
@@ -96,17 +98,57 @@ fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<(
         format!("{}, proven", laid.finite.figure()),
         count(&laid.determinate(None)),
         count(&laid.determinate(Some(1))),
-        if laid.exact { "exact" } else { "at least" },
+        certainty(laid.exact),
         laid.ideas.first().map(|i| milli(i.cost_milli)),
     ])?;
+    found(t, &id, &laid.counts, &laid.ideas)
+}
+
+/// Enters a drawn mechanism.
+pub(super) fn drawn(t: &Transaction<'_>, d: &Drawn) -> rusqlite::Result<()> {
+    let all: BigUint = d.counts.values().sum();
+    t.prepare_cached(
+        "INSERT OR REPLACE INTO drawn VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15)",
+    )?
+    .execute(params![
+        d.id,
+        d.name,
+        d.description,
+        number(d.size[0]),
+        number(d.size[1]),
+        number(d.size[2]),
+        d.input,
+        d.file,
+        number(d.as_built.0),
+        number(d.as_built.1),
+        d.finite,
+        count(&all),
+        count(&d.admissible),
+        certainty(d.exact),
+        d.ideas.first().map(|i| milli(i.cost_milli)),
+    ])?;
+    found(t, &d.id, &d.counts, &d.ideas)
+}
+
+fn certainty(exact: bool) -> &'static str {
+    if exact { "exact" } else { "at least" }
+}
+
+/// Enters what a search has found.
+fn found(
+    t: &Transaction<'_>,
+    id: &str,
+    of: &BTreeMap<(i64, u32), BigUint>,
+    list: &[IdeaRow],
+) -> rusqlite::Result<()> {
     let mut counts = t.prepare_cached("INSERT OR REPLACE INTO counts VALUES (?1, ?2, ?3, ?4)")?;
-    for ((w, changes), n) in &laid.counts {
+    for ((w, changes), n) in of {
         counts.execute(params![id, w, changes, count(n)])?;
     }
     let mut ideas = t.prepare_cached(
         "INSERT OR REPLACE INTO ideas VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)",
     )?;
-    for (i, idea) in laid.ideas.iter().enumerate() {
+    for (i, idea) in list.iter().enumerate() {
         let term = |t: Term| idea.scores.as_ref().map(|s| rounded(s.value(t)));
         ideas.execute(params![
             id,

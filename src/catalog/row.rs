@@ -13,11 +13,12 @@ use crate::rank::finite::Finite;
 use crate::redundancy::analysis::{AnalysisError, Method, analyse};
 use crate::score::elimination::Scratch;
 use crate::score::evaluate::Evaluator;
+use crate::score::outcome::Outcome;
 use crate::score::request::{Check, List, Request};
 use crate::score::run::{RunError, run};
 use crate::score::terms::Scores;
 use crate::score::variant::{changes, in_words};
-use crate::search::ideas;
+use crate::search::ideas::{self, Idea};
 use crate::synthesis::figures::{Figures, figures};
 use crate::synthesis::layout::{Layout, NoLayout, layout};
 use crate::synthesis::mechanism::mechanism_file;
@@ -78,7 +79,7 @@ pub struct IdeaRow {
     pub change_count: u32,
     /// How many variants it stands for.
     pub variants: BigUint,
-    /// Scores of its first variant under the closing force; `None` where the reactions have no solution.
+    /// Scores of its first variant under the closing force and the part's weight across; `None` where the reactions have no solution.
     pub scores: Option<Scores>,
 }
 
@@ -108,11 +109,13 @@ pub enum RowError {
     },
 }
 
-/// The search that a catalogue makes of each mechanism.
+/// The search that a catalogue makes of each mechanism. Variants of W = 1 move as the mechanism does, so that nothing more need
+/// be asked of their outputs.
 #[must_use]
 pub fn request(spec: &Spec) -> Request {
     Request {
         max_mobility: Some(1),
+        allow_output_change: true,
         list: List::Top(spec.ideas.max(1)),
         check: Check::Prime,
         nodes: spec.nodes,
@@ -163,25 +166,7 @@ fn lay(
         return Ok(Err(NoLayout::NotRegular));
     }
     let outcome = run(built, &request(spec), &|| false, &mut |_| {})?;
-    let ideas = match &outcome.diagrams {
-        Some(d) if spec.ideas > 0 => outcome.search.ideas(d, spec.ideas),
-        _ => Vec::new(),
-    };
-    let search = &outcome.search;
-    let evaluator = Evaluator::in_states(search, ClearanceSum::Worst, &[]).ok();
-    let mut scratch = Scratch::default();
-    let ideas = ideas.into_iter().map(|idea| IdeaRow {
-        adds: ideas::in_words(&search.mechanism, &idea.added),
-        changes: in_words(search, &changes(search, &idea.first)),
-        cost_milli: search.steps.milli(idea.first.key.cost()),
-        change_count: idea.first.key.changes(),
-        scores: evaluator
-            .as_ref()
-            .and_then(|e| e.scores(&idea.first, &mut scratch).ok()),
-        variants: idea.variants,
-        choices: idea.first.choices,
-    });
-    let ideas = ideas.collect();
+    let ideas = ideas(&outcome, spec.ideas);
     let text = write::toml(&file, &[]).map_err(|e| RowError::File {
         structure: structure.name(),
         why: e.to_string(),
@@ -196,6 +181,28 @@ fn lay(
         exact: outcome.is_exact(),
         ideas,
     }))
+}
+
+/// The first ideas of an outcome, each with the scores of its first variant.
+pub(super) fn ideas(outcome: &Outcome, top: usize) -> Vec<IdeaRow> {
+    let Some(diagrams) = outcome.diagrams.as_ref().filter(|_| top > 0) else {
+        return Vec::new();
+    };
+    let search = &outcome.search;
+    let evaluator = Evaluator::in_states(search, ClearanceSum::Worst, &[]).ok();
+    let mut scratch = Scratch::default();
+    let row = |idea: Idea| IdeaRow {
+        adds: ideas::in_words(&search.mechanism, &idea.added),
+        changes: in_words(search, &changes(search, &idea.first)),
+        cost_milli: search.steps.milli(idea.first.key.cost()),
+        change_count: idea.first.key.changes(),
+        scores: evaluator
+            .as_ref()
+            .and_then(|e| e.scores(&idea.first, &mut scratch).ok()),
+        variants: idea.variants,
+        choices: idea.first.choices,
+    };
+    search.ideas(diagrams, top).into_iter().map(row).collect()
 }
 
 impl Row {

@@ -1,6 +1,7 @@
 //! The file of a catalogue: an SQLite database, a structure a transaction, so that it can be ended at any moment and
 //! carried on.
 
+use crate::catalog::drawn::Drawn;
 use crate::catalog::insert;
 use crate::catalog::row::Row;
 use crate::catalog::spec::Spec;
@@ -15,7 +16,7 @@ use thiserror::Error;
 /// What marks a file as a catalogue: "ozcg".
 const APPLICATION: i64 = 0x6f7a_6367;
 /// Version of the tables.
-const VERSION: i64 = 1;
+const VERSION: i64 = 2;
 
 /// The tables, each column with what it holds; the file carries these words, too (`.schema` shows them).
 pub const TABLES: &str = include_str!("tables.sql");
@@ -166,7 +167,10 @@ impl Store {
     }
 
     /// Opens a catalogue to write to, or makes an empty one.
-    fn writable(path: &Path) -> Stored<Store> {
+    ///
+    /// # Errors
+    /// Where the file is something else.
+    pub fn writable(path: &Path) -> Stored<Store> {
         let fresh = std::fs::metadata(path).map_or(true, |m| m.len() == 0);
         let db = Store::wrap(path, Connection::open(path))?;
         Store::wrap(path, db.busy_timeout(Duration::from_secs(30)))?;
@@ -224,14 +228,31 @@ impl Store {
         self.ok(done)
     }
 
+    /// Adds a drawn mechanism; whether it was not there yet.
+    ///
+    /// # Errors
+    /// Where the file cannot be written.
+    pub fn add_drawn(&mut self, drawn: &Drawn) -> Stored<bool> {
+        let mut all = || -> rusqlite::Result<bool> {
+            let t = self.db.transaction()?;
+            let sql = "SELECT count(*) FROM drawn WHERE id = ?1";
+            let there: i64 = t.query_row(sql, [&drawn.id], |r| r.get(0))?;
+            insert::drawn(&t, drawn)?;
+            t.commit()?;
+            Ok(there == 0)
+        };
+        let done = all();
+        self.ok(done)
+    }
+
     /// The whole id that begins so.
     ///
     /// # Errors
     /// Where there is none, or more than one.
     pub fn find(&self, id: &str) -> Stored<String> {
         let all = || -> rusqlite::Result<Vec<String>> {
-            let sql =
-                "SELECT id FROM structures WHERE substr(id, 1, ?2) = ?1 OR name = ?1 ORDER BY id";
+            let sql = "SELECT id FROM (SELECT id, name FROM structures UNION ALL SELECT id, name FROM drawn) \
+                 WHERE substr(id, 1, ?2) = ?1 OR name = ?1 ORDER BY id";
             let mut query = self.db.prepare(sql)?;
             let length = i64::try_from(id.chars().count()).unwrap_or(i64::MAX);
             let ids = query.query_map(params![id, length], |r| r.get(0))?;
@@ -281,11 +302,16 @@ impl Store {
         let mut added = 0;
         for part in parts {
             let from = Store::open(part)?;
-            let text = from.meta("spec")?.unwrap_or_default();
-            let spec: Spec = toml::from_str(&text).map_err(|_| StoreError::Other(part.clone()))?;
-            let here = match store.take() {
-                Some(s) if s.meta("spec")?.as_deref() == Some(&text) => s,
-                _ => Store::create(path, &spec)?,
+            let here = match (store.take(), from.meta("spec")?) {
+                (Some(s), None) => s,
+                // Drawn mechanisms alone go with any.
+                (None, None) => Store::writable(path)?,
+                (Some(s), same) if s.meta("spec")? == same => s,
+                (_, Some(text)) => {
+                    let spec = toml::from_str(&text);
+                    let spec: Spec = spec.map_err(|_| StoreError::Other(part.clone()))?;
+                    Store::create(path, &spec)?
+                }
             };
             added += here.take_in(part)?;
             store = Some(here);
@@ -297,12 +323,14 @@ impl Store {
         let all = || -> rusqlite::Result<usize> {
             let name = part.to_string_lossy();
             self.db.execute("ATTACH DATABASE ?1 AS part", [&name])?;
-            let count = "SELECT count(*) FROM part.structures WHERE id NOT IN (SELECT id FROM main.structures)";
+            let count = "SELECT (SELECT count(*) FROM part.structures WHERE id NOT IN (SELECT id FROM main.structures)) \
+                         + (SELECT count(*) FROM part.drawn WHERE id NOT IN (SELECT id FROM main.drawn))";
             let added: i64 = self.db.query_row(count, [], |r| r.get(0))?;
             self.db.execute_batch(
                 "BEGIN IMMEDIATE;
                  INSERT OR IGNORE INTO main.structures SELECT * FROM part.structures;
                  INSERT OR IGNORE INTO main.layouts SELECT * FROM part.layouts;
+                 INSERT OR IGNORE INTO main.drawn SELECT * FROM part.drawn;
                  INSERT OR IGNORE INTO main.counts SELECT * FROM part.counts;
                  INSERT OR IGNORE INTO main.ideas SELECT * FROM part.ideas;
                  COMMIT; DETACH DATABASE part;",
@@ -317,7 +345,8 @@ impl Store {
     /// # Errors
     /// Where there is none.
     pub fn mechanism(&self, id: &str) -> Stored<Option<String>> {
-        let sql = "SELECT mechanism FROM layouts WHERE structure = ?1";
+        let sql = "SELECT mechanism FROM layouts WHERE structure = ?1 \
+                   UNION ALL SELECT mechanism FROM drawn WHERE id = ?1";
         let found = self.db.query_row(sql, [id], |r| r.get(0)).optional();
         self.ok(found)
     }

@@ -51,15 +51,32 @@ CREATE TABLE layouts (
   certainty TEXT NOT NULL,         -- exact, or at least
   best_cost REAL                   -- of the cheapest variant with sigma = 0 and W = 1; of those found, where the certainty is at least
 ) WITHOUT ROWID;
+CREATE TABLE drawn (               -- mechanisms that were drawn, searched with the options of their own files
+  id TEXT PRIMARY KEY,             -- drawn-, and the beginning of the SHA-256 of the file
+  name TEXT NOT NULL,
+  description TEXT NOT NULL,
+  links INTEGER NOT NULL,          -- of the free state
+  joints INTEGER NOT NULL,
+  contours INTEGER NOT NULL,
+  input TEXT,                      -- slide, turn; NULL where it is not driven by one joint of one freedom
+  mechanism TEXT NOT NULL,         -- the mechanism file, TOML
+  mobility INTEGER NOT NULL,       -- W as built
+  redundant INTEGER NOT NULL,      -- sigma as built
+  finite TEXT NOT NULL,            -- the mobility that is really there, and how that is known
+  determinate NOT NULL,            -- variants with sigma = 0
+  admissible NOT NULL,             -- of these, those that keep the output motion and have no more mobility than is there at most
+  certainty TEXT NOT NULL,         -- exact, or at least
+  best_cost REAL                   -- of the cheapest of these; of those found, where the certainty is at least
+) WITHOUT ROWID;
 CREATE TABLE counts (
-  structure TEXT NOT NULL REFERENCES structures(id),
+  structure TEXT NOT NULL,         -- of structures, or of drawn
   mobility INTEGER NOT NULL,
   changes INTEGER NOT NULL,
   variants NOT NULL,               -- determinate variants of this mobility and so many changes
   PRIMARY KEY (structure, mobility, changes)
 ) WITHOUT ROWID;
 CREATE TABLE ideas (
-  structure TEXT NOT NULL REFERENCES structures(id),
+  structure TEXT NOT NULL,         -- of structures, or of drawn
   place INTEGER NOT NULL,          -- from 1, the cheapest first
   adds TEXT NOT NULL,              -- which freedoms where: the joints named are in series
   changes TEXT NOT NULL,           -- the first variant of the idea
@@ -67,8 +84,25 @@ CREATE TABLE ideas (
   cost REAL NOT NULL,
   change_count INTEGER NOT NULL,
   variants NOT NULL,               -- how many variants the idea stands for; at least, where the layout's certainty says so
-  peak_force REAL,                 -- greatest joint force over capacity under the closing force
+  peak_force REAL,                 -- greatest joint force over capacity under the closing force and the part's weight across
   peak_moment REAL,
   output_error REAL,               -- of the jaws from the joints' clearances, mm
   PRIMARY KEY (structure, place)
 ) WITHOUT ROWID;
+CREATE VIEW front AS               -- structures that no other with the same input beats: as good in all five, better in one
+SELECT s.id, s.links, l.best_cost, l.force_mean, l.transmission, l.jaw_turn, s.input
+FROM structures s JOIN layouts l ON l.structure = s.id
+WHERE l.best_cost IS NOT NULL AND NOT EXISTS (
+  SELECT 1 FROM structures t JOIN layouts m ON m.structure = t.id
+  WHERE t.input = s.input AND t.links <= s.links AND m.best_cost <= l.best_cost AND m.force_mean >= l.force_mean
+    AND m.transmission >= l.transmission AND m.jaw_turn <= l.jaw_turn
+    AND (t.links < s.links OR m.best_cost < l.best_cost OR m.force_mean > l.force_mean
+      OR m.transmission > l.transmission OR m.jaw_turn < l.jaw_turn));
+CREATE VIEW idea_front AS          -- ideas that no other of their structure beats in cost, peak force and moment, and error
+SELECT i.* FROM ideas i
+WHERE i.peak_force IS NOT NULL AND NOT EXISTS (
+  SELECT 1 FROM ideas j
+  WHERE j.structure = i.structure AND j.cost <= i.cost AND j.peak_force <= i.peak_force
+    AND j.peak_moment <= i.peak_moment AND j.output_error <= i.output_error
+    AND (j.cost < i.cost OR j.peak_force < i.peak_force OR j.peak_moment < i.peak_moment
+      OR j.output_error < i.output_error));

@@ -2,6 +2,7 @@
 
 mod build;
 mod chains;
+mod drawn;
 mod format;
 mod look;
 
@@ -23,6 +24,8 @@ enum What {
     Chains(chains::Chains),
     /// Lay out, search and score every structure, into a database; carries on where it was ended.
     Build(build::Build),
+    /// Search mechanisms that were drawn, and keep them beside the structures.
+    Search(drawn::Search),
     /// Put the parts of a catalogue together.
     Merge(build::Merge),
     /// Ask a catalogue in SQL, or for its best structures.
@@ -40,6 +43,7 @@ pub(super) fn run(args: &Args, a: &Catalog) -> anyhow::Result<Done> {
         What::Count(c) => chains::count(args, c),
         What::Chains(c) => chains::list(c),
         What::Build(b) => build::run(args, b),
+        What::Search(s) => drawn::search(args, s),
         What::Merge(m) => build::merge(m),
         What::Query(q) => look::query(q),
         What::Show(s) => look::show(s),

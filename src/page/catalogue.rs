@@ -4,7 +4,7 @@ use super::{POLICY, STYLE, policy};
 use crate::catalog::store::{Store, StoreError};
 use crate::geom::vector::real;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Mechanism, Role};
+use crate::model::mechanism::{Joint, Mechanism, Role, StateId};
 use maud::{DOCTYPE, PreEscaped, html};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -21,8 +21,12 @@ const SCRIPT: [&str; 3] = [
 const CARD: &str = "SELECT id, name, links, input, symmetry, parallel, jaws_at_frame, truss, mechanism, crossings, link_ratio, transmission, \
      opening_min, opening_max, travel, force_min, force_mean, force_max, jaw_a_motion, jaw_b_motion, jaw_turn, ends_closing, \
      ends_opening, tip_a_dx, tip_a_dy, tip_b_dx, tip_b_dy, mobility, redundant, finite, CAST(determinate AS TEXT) AS determinate, \
-     CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost FROM structures JOIN layouts ON structure = id \
+     CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost, id IN (SELECT id FROM front) AS front FROM structures JOIN layouts ON structure = id \
      ORDER BY links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id";
+/// What a card of a drawn mechanism is made of.
+const DRAWN: &str = "SELECT id, name, description, links, joints, contours, input, mechanism, mobility, redundant, finite, \
+     CAST(determinate AS TEXT) AS determinate, CAST(admissible AS TEXT) AS determinate_w1, certainty, best_cost, 1 AS drawn \
+     FROM drawn ORDER BY links, best_cost, id";
 const IDEAS: &str = "SELECT structure, place, adds, changes, cost, change_count AS changed, CAST(variants AS TEXT) AS variants, peak_force, \
      peak_moment FROM ideas ORDER BY structure, place";
 const WITHOUT: &str = "SELECT no_layout AS why, count(*) AS n FROM structures WHERE no_layout IS NOT NULL GROUP BY 1 ORDER BY 2 DESC, 1";
@@ -33,19 +37,32 @@ fn maps(store: &Store, sql: &str) -> Result<Vec<Map<String, Value>>, StoreError>
     Ok(rows.into_iter().map(map).collect())
 }
 
-/// The drawing of a mechanism as numbers: pins, links by their pins, and what links are.
+/// The drawing of a mechanism as numbers: pins, links by their pins, and what links are; none of one whose pins are not all
+/// square to the plane of x and y.
 fn drawing(text: &str) -> Option<Value> {
     let m = Mechanism::from_toml(text).ok()?;
-    let place = |j: &crate::model::mechanism::Joint| {
+    let place = |j: &Joint| {
         let [x, y, _] = real(&j.frame.point);
         [x, y]
     };
-    let pins: Vec<[f64; 2]> = m.joints.iter().map(place).collect();
+    let joints: Vec<&Joint> = m.joints_in(StateId::FREE).map(|j| &m.joints[j]).collect();
+    let square = |j: &&Joint| {
+        let [x, y, z] = real(&j.frame.axis);
+        let across = x == 0.0 && y == 0.0;
+        match j.joint_type {
+            JointType::Prismatic | JointType::Cylindrical => across || z == 0.0,
+            _ => across,
+        }
+    };
+    if !joints.iter().all(square) {
+        return None;
+    }
+    let pins: Vec<[f64; 2]> = joints.iter().map(|j| place(j)).collect();
     let links: Vec<Vec<usize>> = m
         .link_ids()
         .map(|l| {
-            let of = |(_, j): &(usize, &crate::model::mechanism::Joint)| j.links.contains(&l);
-            m.joints
+            let of = |(_, j): &(usize, &&Joint)| j.links.contains(&l);
+            joints
                 .iter()
                 .enumerate()
                 .filter(of)
@@ -53,8 +70,8 @@ fn drawing(text: &str) -> Option<Value> {
                 .collect()
         })
         .collect();
-    let drive = m.joints.iter().position(|j| j.drive);
-    let driver = drive.map(|d| m.joints[d].links[1].index());
+    let drive = joints.iter().position(|j| j.drive);
+    let driver = drive.map(|d| joints[d].links[1].index());
     let jaws: Vec<usize> = m
         .links_with_ids()
         .filter(|(_, l)| l.role == Role::Output)
@@ -68,14 +85,14 @@ fn drawing(text: &str) -> Option<Value> {
     let tips: Option<Vec<[f64; 2]>> = jaws.iter().map(tip).collect();
     Some(json!({
         "pins": pins,
-        "names": m.joints.iter().map(|j| j.id.as_str()).collect::<Vec<_>>(),
+        "names": joints.iter().map(|j| j.id.as_str()).collect::<Vec<_>>(),
         "links": links,
         "frame": m.frame().index(),
         "driver": driver,
         "drive": drive,
-        "slides": drive.is_some_and(|d| m.joints[d].joint_type == JointType::Prismatic),
+        "slides": drive.is_some_and(|d| joints[d].joint_type.freedoms().iter().any(|f| f.slides())),
         "jaws": jaws,
-        "tips": tips?,
+        "tips": tips.filter(|t| t.len() == 2),
     }))
 }
 
@@ -94,18 +111,16 @@ pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
         }
     }
     let mut cards = Vec::new();
-    for mut card in maps(store, CARD)? {
+    for mut card in maps(store, CARD)?.into_iter().chain(maps(store, DRAWN)?) {
         let mechanism = card.remove("mechanism");
         let id = card.get("id").and_then(Value::as_str).unwrap_or_default();
         let of = ideas.remove(id).unwrap_or_default();
-        let Some(drawn) = mechanism.as_ref().and_then(Value::as_str).and_then(drawing) else {
-            continue;
-        };
+        let drawn = mechanism.as_ref().and_then(Value::as_str).and_then(drawing);
         card.insert(
             "ideas".to_owned(),
             of.into_iter().map(Value::Object).collect(),
         );
-        card.insert("drawing".to_owned(), drawn);
+        card.insert("drawing".to_owned(), drawn.unwrap_or_default());
         cards.push(card);
     }
     let without = maps(store, WITHOUT)?;
@@ -179,11 +194,12 @@ fn filters() -> maud::Markup {
         form id="filters" aria-label="Filter the grippers" {
             label { "Links " select id="links" { option value="" { "all" } } }
             (select("input", "Driver", &[("", "all"), ("slide", "slides"), ("turn", "turns")]))
-            (select("symmetry", "Layout", &[("", "all"), ("mirror", "mirror image"), ("half-turn", "half turn"), ("generic", "generic")]))
+            (select("symmetry", "Layout", &[("", "all"), ("mirror", "mirror image"), ("half-turn", "half turn"), ("generic", "generic"), ("drawn", "drawn")]))
             (select("jaws", "Jaws", &[("", "all"), ("parallel", "parallel"), ("swinging", "swinging"), ("floating", "floating")]))
             label { "Cost at most " input type="number" id="cost" min="0" step="0.5" inputmode="decimal"; }
             label { "Transmission angle from " input type="number" id="transmission" min="0" max="90" step="5" inputmode="numeric"; }
             label { "Force ratio from " input type="number" id="force" min="0" step="any" inputmode="decimal"; }
+            label { input type="checkbox" id="front"; " Only those that no other beats" }
             label { "Find " input type="search" id="find" autocomplete="off" spellcheck="false" placeholder="id or chain"; }
             (select("sort", "First", &[
                 ("", "fewest links, symmetric"), ("best_cost", "least cost"), ("force_mean", "greatest force"),

@@ -1,20 +1,16 @@
 //! The diagrams that answer a question: of the determinate variants, and of the admissible ones.
 
-use crate::linalg::echelon::Echelon;
-use crate::linalg::modp::Residue;
-use crate::model::mechanism::{JointId, LinkId};
+use crate::model::mechanism::LinkId;
 use crate::search::budget;
 use crate::search::conditions::Search;
 use crate::search::diagram::{self, Diagram, Progress, Stop};
 use crate::search::estimate::Estimate;
-use crate::search::lanes::{Lane, Move, ways};
-use crate::search::lookahead::lookahead;
 use crate::search::missing::{Ceiling, Missing};
 use crate::search::order::variable_order;
-use crate::search::plan::{At, plan};
+use crate::search::product::product;
 use crate::search::proven::UpTo;
 use crate::search::spent::Limits;
-use crate::search::stage::{self, Collapse, Stage};
+use crate::search::stage::Stage;
 use num_bigint::BigUint;
 use num_traits::Zero;
 
@@ -63,22 +59,9 @@ type Question<'a> = (&'a [Stage], &'a Limits);
 /// Builds a diagram, under a ceiling or not.
 type Build<'a> = &'a mut dyn FnMut(Question<'_>, Option<&mut Ceiling<'_>>) -> Diagram;
 
-/// The stages and limits of both diagrams; of one where both are the same.
-struct Laid {
-    determinate: (Vec<Stage>, Limits),
-    admissible: Option<(Vec<Stage>, Limits)>,
-    /// The variables in the order of the admissible diagram.
-    order: Vec<usize>,
-}
-
 /// Whether a diagram is cut down to its limits.
 fn is_cut(stop: Stop) -> bool {
     matches!(stop, Stop::NodeBudget | Stop::Memory)
-}
-
-/// Whether a joint comes after the common ones.
-fn is_way(joined: &Move) -> bool {
-    joined.lane != Lane::Common
 }
 
 impl Search {
@@ -89,7 +72,7 @@ impl Search {
             variable_order(
                 &self.exact,
                 &self.mechanism,
-                &self.space,
+                &self.least.whole.space,
                 variables,
                 pinned,
                 self.conditions.max_redundant,
@@ -115,7 +98,7 @@ impl Search {
     }
 
     /// Whether nothing is asked of variants but what makes them determinate.
-    fn one_diagram(&self) -> bool {
+    pub(super) fn one_diagram(&self) -> bool {
         !self.conditions.keep_output && self.conditions.state.is_none()
     }
 
@@ -135,9 +118,12 @@ impl Search {
         cancelled: &(dyn Fn() -> bool + Sync),
         progress: &mut (dyn FnMut(Progress) + Send),
     ) -> Diagrams {
-        let laid = self.laid(orders);
+        if let Some(out) = self.build_parts(orders, cancelled, progress) {
+            return out;
+        }
+        let laid = self.laid(orders, &self.least.whole);
         let mut build = |(stages, limits): Question<'_>, ceiling: Option<&mut Ceiling<'_>>| {
-            let (exact, space) = (&self.exact, &self.space);
+            let (exact, space) = (&self.exact, &self.least.whole.space);
             let within = (limits, ceiling);
             diagram::build(exact, space, stages, within, cancelled, progress)
         };
@@ -157,14 +143,14 @@ impl Search {
         };
         let second = second.unwrap_or(first);
         let kept = if self.conditions.keep_output {
-            self.kept.1.len()
+            self.least.whole.kept.len()
         } else {
             0
         };
         self.prove(&mut out, second, kept, &mut build);
         let estimate = |(stages, limits): Question<'_>, end, stop, filter| {
             let seed = self.conditions.estimate.filter(|_| is_cut(stop))?;
-            let missing = Missing::new(&self.space, stages, limits, end);
+            let missing = Missing::new(&self.least.whole.space, stages, limits, end);
             self.estimate((stages, limits), &missing, (seed, filter), cancelled)
         };
         out.estimates = [
@@ -172,6 +158,43 @@ impl Search {
             estimate(second, kept, out.admissible.stop, true),
         ];
         out
+    }
+
+    /// Builds both diagrams from those of the two parts that the closure equations fall apart into; none where they do not, or
+    /// where a diagram does not fit the limits.
+    fn build_parts(
+        &self,
+        orders: &Orders,
+        cancelled: &(dyn Fn() -> bool + Sync),
+        progress: &mut (dyn FnMut(Progress) + Send),
+    ) -> Option<Diagrams> {
+        let parts = self
+            .least
+            .parts
+            .as_ref()
+            .filter(|_| self.conditions.counted)?;
+        let laid = parts.each_ref().map(|part| self.laid(orders, part));
+        let mut built = |part: usize, (stages, limits): &(Vec<Stage>, Limits)| {
+            let (exact, space) = (&self.exact, &parts[part].space);
+            let d = diagram::build(exact, space, stages, (limits, None), cancelled, progress);
+            (d.stop == Stop::Exhausted).then_some(d)
+        };
+        let mut both = |[one, two]: [&(Vec<Stage>, Limits); 2]| {
+            product([&built(0, one)?, &built(1, two)?], &one.1)
+        };
+        let [one, two] = &laid;
+        let determinate = both([&one.determinate, &two.determinate])?;
+        let admissible = match (&one.admissible, &two.admissible) {
+            (Some(one), Some(two)) => both([one, two])?,
+            _ => determinate.clone(),
+        };
+        Some(Diagrams {
+            determinate,
+            admissible,
+            cheapest: None,
+            estimates: [None; 2],
+            order: one.order.clone(),
+        })
     }
 
     /// The diagram of a question, or where it does not fit the limits the best of those cut down, which are worth the variants
@@ -191,87 +214,6 @@ impl Search {
         few
     }
 
-    /// Lays out the stages of both diagrams.
-    fn laid(&self, orders: &Orders) -> Laid {
-        let state = self.conditions.state.as_ref();
-        let limits = Limits {
-            internal: self.conditions.max_redundant,
-            external: None,
-            harmful: None,
-            nodes: self.conditions.nodes,
-            // Two primes with two diagrams each take half, and what is counted on them the rest.
-            bytes: self.conditions.memory / 8,
-        };
-        let all = 0..self.space.variables.len();
-        let (free, added): (Vec<usize>, Vec<usize>) =
-            all.partition(|&v| !self.space.variables[v].external);
-        let order = orders.determinate.clone();
-        let at = |order: &[usize]| -> Vec<At> {
-            let joints = order.iter().flat_map(|&v| &self.space.variables[v].joints);
-            joints.map(|&joint| At { joint, lane: 0 }).collect()
-        };
-        let idle = added.iter().map(|&v| Stage::plain(v, Vec::new()));
-        let whole = plan(&self.mechanism, &at(&order), &[], &[]);
-        let mut stages = stage::stages(&self.space, &order, &whole);
-        stages.extend(idle);
-        let determinate = (stages, limits.clone());
-        if self.one_diagram() {
-            return Laid {
-                determinate,
-                admissible: None,
-                order,
-            };
-        }
-        let is_alone = |v: &usize| self.space.variables[*v].alone;
-        let alone: Vec<usize> = free.iter().copied().filter(is_alone).collect();
-        let mut pinned = vec![self.mechanism.frame()];
-        pinned.extend(self.kept.0.iter().filter(|_| self.conditions.keep_output));
-        let later = at(&alone).into_iter().chain(at(&added));
-        pinned.extend(later.flat_map(|at| self.mechanism.joints[at.joint].links));
-        pinned.sort_unstable();
-        pinned.dedup();
-        let frame = self.mechanism.frame();
-        let mut order = orders.common.clone();
-        let first = plan(&self.mechanism, &at(&order), &pinned, &[]);
-        let mut stages = stage::stages(&self.space, &order, &first);
-        let mut limits = limits;
-        if let Some(state) = state {
-            (limits.external, limits.harmful) = (state.max_external, state.max_harmful);
-            let live = first.steps.last().map_or(&[][..], |s| &s.live);
-            let joints = (&alone[..], &added[..]);
-            let mut kept = vec![frame];
-            kept.extend(self.kept.0.iter().filter(|_| self.conditions.keep_output));
-            let ways = ways(
-                &self.mechanism,
-                &self.space,
-                joints,
-                live,
-                &kept,
-                &self.grasps,
-            );
-            let copies = std::iter::once(ways.copies).chain(std::iter::repeat(1));
-            for ((variable, moves), copies) in ways.stages.into_iter().zip(copies) {
-                stages.push(Stage {
-                    copies,
-                    ..Stage::plain(variable, moves)
-                });
-            }
-            if let Some(last) = stages.last_mut().filter(|s| s.moves.iter().all(is_way)) {
-                last.ending = Some(ways.held);
-            }
-        }
-        if self.conditions.keep_output {
-            self.look_ahead(&mut stages[..free.len()], alone.is_empty());
-        }
-        order.extend(alone);
-        order.extend(added);
-        Laid {
-            determinate,
-            admissible: Some((stages, limits)),
-            order,
-        }
-    }
-
     /// Finds the cheapest admissible variants where they are wanted and not all are known; `end` is the least dimension of
     /// the last nodes.
     fn prove(&self, out: &mut Diagrams, question: Question<'_>, end: usize, build: Build<'_>) {
@@ -280,7 +222,7 @@ impl Search {
         if known || most.is_zero() {
             return;
         }
-        let missing = Missing::new(&self.space, question.0, question.1, end);
+        let missing = Missing::new(&self.least.whole.space, question.0, question.1, end);
         if missing.root().is_none() {
             // There is none, by dimensions alone.
             out.admissible.stop = Stop::Exhausted;
@@ -298,95 +240,5 @@ impl Search {
         if proof.stop == Stop::Interrupted {
             out.admissible.stop = Stop::Interrupted;
         }
-    }
-
-    /// Gives each stage of the free state the test that its nodes must pass. `same_joints` says that all of them are in the
-    /// searched state, too: then a node that passes the last test has kept links that move as they do now, and the
-    /// searched state needs no more of them.
-    fn look_ahead(&self, stages: &mut [Stage], same_joints: bool) {
-        let present = |v: usize| {
-            let variable = &self.space.variables[v];
-            variable
-                .joints
-                .iter()
-                .copied()
-                .zip(variable.choices[0].spans.iter().cloned())
-        };
-        for i in 0..stages.len() {
-            let left: Vec<_> = stages[i + 1..]
-                .iter()
-                .flat_map(|s| present(s.variable))
-                .collect();
-            let Some(last) = stages[i].moves.last() else {
-                continue;
-            };
-            // The free state's lane comes first; what other lanes hold is of no concern.
-            let (links, couplings) = (self.mechanism.links.len(), self.mechanism.couplings.len());
-            let step = &last.step;
-            let mine = step.live.iter().filter(|(_, l)| l.index() < links);
-            let live: Vec<_> = mine.copied().collect();
-            let mine = step.pending.iter().filter(|&&q| q < couplings);
-            let pending: Vec<_> = mine.copied().collect();
-            let others = step.live.len() + step.pending.len() - live.len() - pending.len();
-            let (kept, allowed) = (&self.kept.0, self.kept.1.len());
-            let mut test = lookahead(
-                &self.exact,
-                &self.mechanism,
-                self.space.dim,
-                (&live, &pending),
-                &left,
-                kept,
-                allowed,
-            );
-            let nothing = vec![0; test.map.first().map_or(0, Vec::len)];
-            let size = test.map.len() + others * self.space.dim;
-            test.map.resize(size, nothing);
-            stages[i].lookahead = Some(test);
-            if last.lane == Lane::Common {
-                stages[i].collapse = self.collapse(&live, &left, same_joints);
-            }
-        }
-    }
-
-    /// The kept links in the frame's component that no joint to come touches.
-    fn collapse(
-        &self,
-        live: &[(LinkId, LinkId)],
-        left: &[(JointId, Vec<Vec<Residue>>)],
-        same_joints: bool,
-    ) -> Option<Collapse> {
-        let (frame, dim) = (self.mechanism.frame(), self.space.dim);
-        let contact = |l: LinkId| {
-            let external = self
-                .space
-                .variables
-                .iter()
-                .filter(|v| v.external && !same_joints)
-                .flat_map(|v| &v.joints);
-            left.iter()
-                .map(|(j, _)| j)
-                .chain(external)
-                .any(|&j| self.mechanism.joints[j].links.contains(&l))
-        };
-        let finished = |&(i, l): &(usize, &LinkId)| {
-            let here = live.iter().position(|x| *x == (frame, *l));
-            here.filter(|_| !contact(*l)).map(|block| (i, block))
-        };
-        let (places, blocks): (Vec<usize>, Vec<usize>) = self
-            .kept
-            .0
-            .iter()
-            .enumerate()
-            .filter_map(|x| finished(&x))
-            .unzip();
-        let mut present = Echelon::new(self.exact.field());
-        for row in &self.kept.1 {
-            let part: Vec<Residue> = places
-                .iter()
-                .flat_map(|p| row[p * dim..(p + 1) * dim].iter().copied())
-                .collect();
-            present.insert(&part);
-        }
-        (!blocks.is_empty()).then(|| Collapse::new(&blocks, dim, present.reduced()))
     }
 }

@@ -8,6 +8,7 @@ use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::redundancy::motion::joint_motion;
 use crate::search::cost::CostTable;
 use crate::search::held::{Grasp, grasps, is_free, loose};
+use crate::search::least_model::LeastModel;
 use crate::search::mirror::{self, MirrorError};
 use crate::search::space::Space;
 use crate::search::tally::{Key, Steps};
@@ -75,6 +76,8 @@ pub struct Conditions {
     pub cheapest: usize,
     /// The seed of estimates, where counts that do not fit the budgets are estimated.
     pub estimate: Option<u64>,
+    /// Whether diagrams have all rows of the closure equations, those that no choice changes too: slower, and for comparison.
+    pub whole_twists: bool,
     /// Node budget of each diagram.
     pub nodes: usize,
     /// Bytes that the search and what is counted on it may hold.
@@ -95,6 +98,7 @@ impl Default for Conditions {
             counted: true,
             cheapest: 0,
             estimate: None,
+            whole_twists: false,
             nodes: 1_000_000,
             memory: 4 << 30,
             tolerance: DEFAULT_TOLERANCE,
@@ -138,6 +142,8 @@ pub struct Search {
     /// Its costs.
     pub steps: Steps,
     pub(super) exact: ExactField,
+    /// What its diagrams are built of.
+    pub(super) least: LeastModel,
     /// Rows of J in the free state.
     rows: i64,
     /// Links whose motion is kept, with their present joint motion.
@@ -195,6 +201,13 @@ impl Search {
         let searched = conditions.state.iter();
         let grasps = searched.flat_map(|s| grasps(&mechanism, s.state, s.hold_objects));
         Ok(Search {
+            least: LeastModel::new(
+                &exact,
+                &mechanism,
+                &space,
+                &present,
+                conditions.whole_twists,
+            )?,
             grasps: grasps.collect(),
             mechanism,
             conditions,
@@ -236,6 +249,13 @@ impl Search {
     #[must_use]
     pub fn field(&self) -> &ExactField {
         &self.exact
+    }
+
+    /// Rows of the closure equations that the diagrams have for each contour: fewer than a twist has numbers where the rest is
+    /// the same whatever is chosen.
+    #[must_use]
+    pub fn rows_per_contour(&self) -> usize {
+        self.least.whole.space.dim
     }
 
     /// Number of variants asked about: of orbits, where one of each is wanted.

@@ -89,7 +89,7 @@ pub(super) fn build(
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
-    let mut nodes = Nodes::root();
+    let mut nodes = Nodes::root(limits.already);
     let mut layers = Vec::with_capacity(stages.len());
     let (mut total, mut largest, mut stop, mut held) = (1, 1, Stop::Exhausted, 0);
     let mut allowed = limits.bytes;

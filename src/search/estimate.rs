@@ -82,14 +82,14 @@ impl Search {
         filter: bool,
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<f64> {
-        let (field, space) = (self.exact.field(), &self.space);
+        let (field, space) = (self.exact.field(), &self.least.whole.space);
         let kinds = if filter {
             self.limited()
         } else {
             <_>::default()
         };
         let steps = self.steps.only(kinds);
-        let mut nodes = Nodes::root();
+        let mut nodes = Nodes::root(limits.already);
         // By node and what is told apart of the ways to it, their number.
         let mut ways = vec![BTreeMap::from([(Key::default(), 1.0)])];
         for (done, stage) in stages.iter().enumerate() {

@@ -28,9 +28,10 @@ pub(super) struct Nodes {
 }
 
 impl Nodes {
-    pub(super) fn root() -> Self {
+    /// The node before any choice, with redundant constraints that it has `already`.
+    pub(super) fn root(already: u32) -> Self {
         Nodes {
-            spent: vec![Spent::default()],
+            spent: vec![Spent::within_mechanism(already)],
             start: vec![0, 0],
             data: Vec::new(),
             least: vec![0],

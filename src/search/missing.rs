@@ -65,6 +65,7 @@ pub(super) struct Missing {
     share: Vec<Vec<f64>>,
     /// Numbers in a row of a node's matrix, after so many stages.
     width: Vec<usize>,
+    already: u32,
     allowed: u32,
 }
 
@@ -146,13 +147,14 @@ impl Missing {
             least,
             share,
             width,
+            already: limits.already,
             allowed,
         }
     }
 
     /// The least cost in thousandths of a variant.
     pub(super) fn root(&self) -> Option<i64> {
-        self.least(0, &Spent::default(), 0)
+        self.least(0, &Spent::within_mechanism(self.already), 0)
     }
 
     /// Where a node after so many stages stands in the tables.

@@ -5,6 +5,8 @@ use crate::search::lanes::Lane;
 /// When a partly built mechanism is given up, and when building stops; no number, no limit.
 #[derive(Debug, Clone)]
 pub struct Limits {
+    /// Redundant constraints within the mechanism that every variant has.
+    pub already: u32,
     /// Redundant constraints allowed within the mechanism.
     pub internal: u32,
     /// Redundant constraints that the state may add.
@@ -41,6 +43,14 @@ pub struct Redundancy {
 const RULED_OUT: i32 = i32::MIN;
 
 impl Spent {
+    /// So many redundant constraints within the mechanism.
+    pub(super) fn within_mechanism(internal: u32) -> Spent {
+        Spent {
+            internal,
+            ..Spent::default()
+        }
+    }
+
     /// Counts what a joint makes redundant in a lane.
     pub(super) fn add(&mut self, lane: Lane, redundant: u32) {
         let more = i32::try_from(redundant).unwrap_or(i32::MAX);

@@ -68,9 +68,10 @@ impl<'m> Trials<'m> {
             order: Vec::new(),
             work: 0,
             planner: Planner::new(mechanism, &at, pinned, &[]),
-            nodes: Rc::new(Nodes::root()),
+            nodes: Rc::new(Nodes::root(0)),
         };
         let limits = Limits {
+            already: 0,
             internal,
             external: None,
             harmful: None,

@@ -10,6 +10,8 @@ use crate::synthesis::structure::Structure;
 
 /// The force with which the jaws hold the part, in N.
 pub const CLOSING_FORCE: i64 = 100;
+/// The weight of the part on each jaw, square to the plane, in N: the hardest attitude. The part has about 1 kg.
+const WEIGHT: i64 = 5;
 
 /// What each link is called: frame, slider or crank, the jaws, and the rest by their numbers.
 #[must_use]
@@ -82,7 +84,7 @@ pub fn mechanism_file(
     let force = |n: usize, sign: i64| ForceEntry {
         link: names[r.jaws[n]].clone(),
         point: whole(layout.tips[n]),
-        force: [0, sign * CLOSING_FORCE, 0].map(Coordinate::Integer),
+        force: [0, sign * CLOSING_FORCE, -WEIGHT].map(Coordinate::Integer),
         from: None,
         to: None,
         state: None,
@@ -90,7 +92,7 @@ pub fn mechanism_file(
     MechanismFile {
         name: structure.id(),
         description: format!(
-            "Gripper of {} links from the catalogue of structures: {}. The forces at the tips are those of the part held.",
+            "Gripper of {} links from the catalogue of structures: {}. The forces at the tips are those of the part held, with its weight across.",
             structure.chain.links(),
             structure.name()
         ),

@@ -85,7 +85,7 @@ impl Answer {
 /// What a catalogue knows of a structure.
 #[derive(Debug, Clone, serde::Serialize)]
 pub struct StructureData {
-    /// The row of `structures`.
+    /// The row of `structures`, or of `drawn`.
     pub structure: Map<String, Value>,
     /// The row of `layouts`; `None` where it has no layout.
     pub layout: Option<Map<String, Value>>,
@@ -107,6 +107,7 @@ impl StructureData {
             Ok(rows.into_iter().map(map).collect())
         };
         let mut structure = maps("SELECT * FROM structures WHERE id = ?1")?;
+        structure.extend(maps("SELECT * FROM drawn WHERE id = ?1")?);
         Ok(StructureData {
             structure: structure.pop().unwrap_or_default(),
             layout: maps("SELECT * FROM layouts WHERE structure = ?1")?.pop(),
@@ -116,10 +117,36 @@ impl StructureData {
     }
 }
 
-/// What a catalogue knows of a structure, for people.
-#[must_use]
-pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
-    let s = |key: &str| d.structure.get(key).map_or_else(String::new, cell);
+/// A value of a row for people; empty where there is none.
+fn of<'a>(row: &'a Map<String, Value>) -> impl Fn(&str) -> String + 'a {
+    move |key| row.get(key).map_or_else(String::new, cell)
+}
+
+/// The figures of a drawn mechanism.
+fn drawn_text(row: &Map<String, Value>) -> String {
+    let s = of(row);
+    format!(
+        "{}: {}, drawn\n{}\n{} links, {} joints, {} contours; driver: {}\nAs built: W = {}, σ = {}; finite mobility {}\n\
+         Determinate variants ({}): {}, of these {} that keep the output motion and have no more mobility than that\n\n",
+        s("id"),
+        s("name"),
+        s("description"),
+        s("links"),
+        s("joints"),
+        s("contours"),
+        s("input"),
+        s("mobility"),
+        s("redundant"),
+        s("finite"),
+        s("certainty"),
+        s("determinate"),
+        s("admissible"),
+    )
+}
+
+/// The figures of a structure with a layout, or why it has none.
+fn structure_text(d: &StructureData) -> String {
+    let s = of(&d.structure);
     let mut out = format!("{}: {}\n", s("id"), s("name"));
     let _ = writeln!(
         out,
@@ -141,9 +168,9 @@ pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
     );
     let Some(layout) = &d.layout else {
         let _ = writeln!(out, "No layout: {}.", s("no_layout"));
-        return fit(&out, width);
+        return out;
     };
-    let l = |key: &str| layout.get(key).map_or_else(String::new, cell);
+    let l = of(layout);
     let slide = s("input") == "slide";
     let _ = writeln!(
         out,
@@ -185,7 +212,22 @@ pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
         l("determinate"),
         l("determinate_w1"),
     );
-    let head = fit(&out, width);
+    out
+}
+
+/// What a catalogue knows of a structure, for people.
+#[must_use]
+pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
+    let is_drawn = d.structure.contains_key("mechanism");
+    let head = match is_drawn {
+        true => drawn_text(&d.structure),
+        false => structure_text(d),
+    };
+    let head = fit(&head, width);
+    if !is_drawn && d.layout.is_none() {
+        return head;
+    }
+    let s = of(&d.structure);
     let heads = ["", "cost", "changes", "variants", "force", "moment", "adds"];
     let keys = [
         "place",
@@ -201,7 +243,8 @@ pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
             .map(|k| i.get(*k).map_or_else(String::new, cell))
             .collect()
     };
-    let (found, least) = match layout.get("certainty").and_then(Value::as_str) {
+    let searched = d.layout.as_ref().unwrap_or(&d.structure);
+    let (found, least) = match searched.get("certainty").and_then(Value::as_str) {
         Some("exact") => ("", ""),
         _ => (" found", "at least "),
     };
@@ -227,19 +270,21 @@ pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
 pub fn built_text(
     store: &Store,
     file: &Path,
-    added: usize,
+    (added, what): (usize, &str),
     width: Option<u16>,
 ) -> Result<String, StoreError> {
     let (names, rows) = store.query(
         "SELECT links, input, symmetry || iif(parallel, ' parallel', '') AS layout, count(*) AS structures, \
          sum(no_layout IS NULL) AS 'laid out', sum(determinate_w1) AS 'determinate, W = 1', min(best_cost) AS 'least cost' \
-         FROM structures LEFT JOIN layouts ON structure = id GROUP BY 1, 2, symmetry, parallel ORDER BY 1, 2, symmetry, parallel",
+         FROM structures LEFT JOIN layouts ON structure = id GROUP BY 1, 2, 3 \
+         UNION ALL SELECT links, input, 'drawn', count(*), NULL, sum(admissible), min(best_cost) FROM drawn GROUP BY 1, 2 \
+         ORDER BY 1, 2, 3",
         None,
     )?;
     let table = Answer { names, rows }.text(width);
     let n = grouped(&added.to_string());
     let path = file.display();
     Ok(format!(
-        "{table}\n{n} structures added to {path}. Go on with\n\n  ozols catalog query {path}\n  ozols catalog page {path} -o grippers.html\n"
+        "{table}\n{n} {what} added to {path}. Go on with\n\n  ozols catalog query {path}\n  ozols catalog page {path} -o grippers.html\n"
     ))
 }

@@ -32,6 +32,11 @@ export function catalogueTests(test) {
       await tab.waitForFunction(() => document.querySelectorAll("#cards .card").length === 0);
       assert.match(await tab.locator("#count").innerText(), /take a filter away/);
       await tab.click("#filters button[type=reset]");
+      await tab.check("#front");
+      await tab.waitForFunction(() => /^\d+ of \d+ grippers/.test(document.getElementById("count").textContent));
+      const [best, all] = (await tab.locator("#count").innerText()).match(/\d+/g).map(Number);
+      assert.ok(best > 0 && 2 * best < all, `${best} of ${all}`);
+      await tab.uncheck("#front");
       await tab.selectOption("#sort", "force_mean");
       await tab.waitForFunction(() => document.querySelectorAll("#cards .card").length >= 60);
     });

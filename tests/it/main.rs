@@ -30,6 +30,7 @@ mod held;
 mod holding;
 mod ideas;
 mod layering;
+mod least_model;
 mod library;
 mod licences;
 mod mobility;

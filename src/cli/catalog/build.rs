@@ -130,7 +130,12 @@ pub(super) fn run(args: &Args, a: &Build) -> anyhow::Result<Done> {
         write!(
             out,
             "{}",
-            built_text(&store, &a.output, count, output::width(None))?
+            built_text(
+                &store,
+                &a.output,
+                (count, "structures"),
+                output::width(None)
+            )?
         )?;
         if interrupt::pending() {
             let path = a.output.display();
@@ -166,7 +171,12 @@ pub(super) fn merge(a: &Merge) -> anyhow::Result<Done> {
         write!(
             out,
             "{}",
-            built_text(&store, &a.output, added, output::width(None))?
+            built_text(
+                &store,
+                &a.output,
+                (added, "structures"),
+                output::width(None)
+            )?
         )?;
         Ok(Done::Found)
     })

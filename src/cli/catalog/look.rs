@@ -14,9 +14,10 @@ use clap::{Args as ClapArgs, ValueHint};
 use std::path::PathBuf;
 
 /// What is shown where no question is asked: the best of each kind first.
-const BEST: &str = "SELECT id, links, input, symmetry, parallel, jaw_a_motion AS jaws, force_mean AS force, determinate_w1 AS determinate, \
-     best_cost AS cost, round(transmission) AS transmission FROM structures JOIN layouts ON structure = id \
-     ORDER BY links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id LIMIT 25";
+const BEST: &str = "SELECT * FROM (SELECT id, links, input, symmetry AS layout, parallel, jaw_a_motion AS jaws, force_mean AS force, \
+     determinate_w1 AS determinate, best_cost AS cost, round(transmission) AS transmission FROM structures JOIN layouts ON structure = id \
+     UNION ALL SELECT id, links, input, name, NULL, NULL, NULL, admissible, best_cost, NULL FROM drawn) \
+     ORDER BY links, layout = 'generic', parallel = 0, cost, transmission DESC, id LIMIT 25";
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Query {

@@ -22,7 +22,7 @@ function text(name, content, attributes) {
 const least = (c) => (c.certainty === 'exact' ? '' : 'at least ');
 const jawsOf = (c) => (c.jaw_a_motion === c.jaw_b_motion ? c.jaw_a_motion : c.jaw_a_motion + ' and ' + c.jaw_b_motion);
 const unit = (c) => (c.input === 'slide' ? 'N per N' : 'N per Nm');
-const formOf = (c) => `${c.input === 'slide' ? 'sliding' : 'turning'} driver, ${c.symmetry}${c.parallel ? ', parallelograms' : ''}`;
+const formOf = (c) => c.drawn ? `drawn, ${c.contours} contours${c.input ? ', driver ' + c.input + 's' : ''}` : `${c.input === 'slide' ? 'sliding' : 'turning'} driver, ${c.symmetry}${c.parallel ? ', parallelograms' : ''}`;
 
 function cardOf(c) {
   const item = document.createElement('li');
@@ -31,7 +31,7 @@ function cardOf(c) {
     gripper(c, `Gripper ${c.id}`),
     text('b', c.id),
     text('span', `${c.links} links, ${formOf(c)}`),
-    text('span', `jaws ${jawsOf(c)}, ${short(c.force_mean)} ${unit(c)}`),
+    text('span', c.drawn ? c.name : `jaws ${jawsOf(c)}, ${short(c.force_mean)} ${unit(c)}`),
     text('span', `W ${c.mobility}, σ ${c.redundant}; ${least(c)}${grouped(c.determinate_w1)} redesigns, from cost ${short(c.best_cost)}`),
   );
   button.addEventListener('click', () => choose(c, button));
@@ -48,11 +48,12 @@ function wanted(c) {
   return (
     (!word('links') || String(c.links) === word('links')) &&
     (!word('input') || c.input === word('input')) &&
-    (!word('symmetry') || c.symmetry === word('symmetry')) &&
+    (!word('symmetry') || (c.drawn ? 'drawn' : c.symmetry) === word('symmetry')) &&
     (!word('jaws') || (c.jaw_a_motion === word('jaws') && c.jaw_b_motion === word('jaws'))) &&
     (number('cost') === null || (c.best_cost !== null && c.best_cost <= number('cost'))) &&
     (number('transmission') === null || c.transmission >= number('transmission')) &&
     (number('force') === null || c.force_mean >= number('force')) &&
+    (!by('front').checked || c.front === 1) &&
     (!find || c.name.toLowerCase().includes(find) || c.id.includes(find))
   );
 }
@@ -69,7 +70,7 @@ function show() {
   const key = by('sort').value;
   if (key) {
     const sign = BIGGEST_FIRST.includes(key) ? -1 : 1;
-    const value = (c) => (c[key] === null ? Infinity : sign * Number(c[key]));
+    const value = (c) => (c[key] === null || c[key] === undefined ? Infinity : sign * Number(c[key]));
     shown.sort((a, b) => value(a) - value(b));
   }
   by('cards').replaceChildren();

@@ -32,7 +32,13 @@ const path = (points, closed) => 'M' + points.map((p) => p.map((v) => v.toFixed(
 
 function gripper(card, title, changed) {
   const d = card.drawing;
-  const pins = d.pins.map(flip), tips = d.tips.map(flip);
+  if (!d) {
+    const note = document.createElement('p');
+    note.className = 'help';
+    note.textContent = 'Not in one plane: ozols draw shows it.';
+    return note;
+  }
+  const pins = d.pins.map(flip), tips = (d.tips || []).map(flip);
   const all = pins.concat(tips);
   const low = [0, 1].map((k) => Math.min(...all.map((p) => p[k]))), high = [0, 1].map((k) => Math.max(...all.map((p) => p[k])));
   // Labels stand beside their pins, those on the right to the left of them.
@@ -43,14 +49,16 @@ function gripper(card, title, changed) {
   d.links.forEach((of, l) => {
     if (l === d.frame) return;
     const jaw = d.jaws.indexOf(l);
-    const points = of.map((i) => pins[i]).concat(jaw < 0 ? [] : [tips[jaw]]);
+    const points = of.map((i) => pins[i]).concat(tips[jaw] ? [tips[jaw]] : []);
     const kind = jaw >= 0 ? 'jaw' : l === d.driver ? 'driver' : '';
     out.push(element('path', { class: 'link ' + kind, d: path(hull(points), points.length > 2) }));
   });
   // The part that is held.
-  const middle = [0, 1].map((k) => (tips[0][k] + tips[1][k]) / 2);
-  const radius = Math.abs(tips[0][1] - tips[1][1]) / 2;
-  out.push(element('circle', { class: 'part', cx: middle[0], cy: middle[1], r: radius }));
+  if (tips.length) {
+    const middle = [0, 1].map((k) => (tips[0][k] + tips[1][k]) / 2);
+    const radius = Math.abs(tips[0][1] - tips[1][1]) / 2;
+    out.push(element('circle', { class: 'part', cx: middle[0], cy: middle[1], r: radius }));
+  }
   d.links[d.frame].forEach((i) => {
     const [x, y] = pins[i];
     if (i === slidePin) {
@@ -63,10 +71,10 @@ function gripper(card, title, changed) {
   pins.forEach(([x, y], i) => {
     if (i !== slidePin) out.push(element('circle', { class: 'pin', cx: x, cy: y, r: 2.6 }));
   });
-  const moves = [[card.tip_a_dx, card.tip_a_dy], [card.tip_b_dx, card.tip_b_dy]].map(flip);
+  const moves = card.drawn ? [] : [[card.tip_a_dx, card.tip_a_dy], [card.tip_b_dx, card.tip_b_dy]].map(flip);
   const fastest = Math.max(...moves.map((v) => Math.hypot(...v)), 1e-9);
-  tips.forEach(([x, y], n) => {
-    const v = moves[n].map((c) => (c / fastest) * 13), length = Math.hypot(...v);
+  moves.forEach((move, n) => {
+    const [x, y] = tips[n], v = move.map((c) => (c / fastest) * 13), length = Math.hypot(...v);
     if (length < 1) return;
     const u = v.map((c) => c / length), across = [-u[1], u[0]];
     const at = [x + v[0], y + v[1]];

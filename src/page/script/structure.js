@@ -19,16 +19,18 @@ function choose(c, from) {
   const list = document.createElement('dl');
   const drive = c.input === 'slide' ? 'mm' : 'rad';
   const ends = [['closing', c.ends_closing], ['opening', c.ends_opening]].filter((e) => e[1]).map((e) => `${e[0]}: ${e[1]}`);
-  const rows = [
+  const rows = c.drawn ? [['Mechanism', c.name], ['', c.description], ['Form', `${c.links} links, ${c.joints} joints, ${formOf(c)}`]] : [
     ['Structure', c.name],
     ['Form', `${c.links} links, ${formOf(c)}; ${c.jaws_at_frame} jaws at the frame${c.truss ? '; a truss with the part' : ''}`],
     ['Jaws', `${jawsOf(c)}; they turn by ${short(c.jaw_turn)}° at most`],
     ['Opening', `${short(c.opening_min)} to ${short(c.opening_max)} mm for ${short(c.travel)} ${drive} of the drive${ends.length ? ' (' + ends.join(', ') + ')' : ''}`],
     ['Force of a jaw', `${short(c.force_mean)} ${unit(c)}, ${short(c.force_min)} to ${short(c.force_max)} over the stroke, without friction`],
     ['Transmission', `worst angle ${short(c.transmission)}°, links 1 : ${short(c.link_ratio)}, ${c.crossings} crossings`],
-    ['As built', `W = ${c.mobility}, σ = ${c.redundant}; finite mobility ${c.finite}`],
-    ['Without redundant', `${least(c)}${grouped(c.determinate)} assignments, ${grouped(c.determinate_w1)} of them with W = 1`],
   ];
+  rows.push(
+    ['As built', `W = ${c.mobility}, σ = ${c.redundant}; finite mobility ${c.finite}`],
+    ['Without redundant', `${least(c)}${grouped(c.determinate)} assignments, ${grouped(c.determinate_w1)} of them ${c.drawn ? 'that move as it does now' : 'with W = 1'}`],
+  );
   for (const [name, value] of rows) list.append(text('dt', name), text('dd', value));
   const two = document.createElement('div');
   two.className = 'two';

@@ -277,3 +277,128 @@ fn what_cannot_be_done_is_said() {
         text(&told.stdout)
     );
 }
+
+/// The rows that no other is as good as in all figures and better than in one; larger is worse.
+fn unbeaten(rows: &[(String, String, Vec<f64>)]) -> Vec<&str> {
+    let beats = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(x, y)| x <= y) && a != b;
+    let free = rows.iter().filter(|(_, group, row)| {
+        !rows
+            .iter()
+            .any(|(_, g, other)| g == group && beats(other, row))
+    });
+    free.map(|(id, ..)| id.as_str()).collect()
+}
+
+#[test]
+fn the_fronts_are_what_no_other_beats() {
+    let folder = tempdir().unwrap();
+    let file = at(&folder, "all.db");
+    ok(&[
+        "catalog", "build", "--links", "4..6", "--ideas", "6", "--quiet", "-o", &file,
+    ]);
+    let rows = |sql: &str| -> Vec<(String, String, Vec<f64>)> {
+        let csv = ok(&["catalog", "query", &file, sql, "--format", "csv"]);
+        let row = |line: &str| {
+            let mut cells = line.split(',').map(str::to_owned);
+            let [id, group] = [cells.next().unwrap(), cells.next().unwrap()];
+            (id, group, cells.map(|c| c.parse().unwrap()).collect())
+        };
+        csv.lines().skip(1).map(row).collect()
+    };
+    let structures = rows(
+        "SELECT id, input, links, best_cost, -force_mean, -transmission, jaw_turn FROM structures JOIN layouts \
+         ON structure = id WHERE best_cost IS NOT NULL ORDER BY id",
+    );
+    let front = rows("SELECT id, input FROM front ORDER BY id");
+    let front: Vec<&str> = front.iter().map(|(id, ..)| id.as_str()).collect();
+    assert_eq!(front, unbeaten(&structures));
+    assert!(
+        !front.is_empty() && 2 * front.len() < structures.len(),
+        "{} of {}",
+        front.len(),
+        structures.len()
+    );
+    let ideas = rows(
+        "SELECT structure || ' ' || place, structure, cost, peak_force, peak_moment, output_error FROM ideas \
+         WHERE peak_force IS NOT NULL ORDER BY structure, place",
+    );
+    let best = rows(
+        "SELECT structure || ' ' || place, structure FROM idea_front ORDER BY structure, place",
+    );
+    let best: Vec<&str> = best.iter().map(|(id, ..)| id.as_str()).collect();
+    assert_eq!(best, unbeaten(&ideas));
+    assert!(best.len() < ideas.len());
+}
+
+#[test]
+fn drawn_mechanisms_stand_beside_the_structures() {
+    let folder = tempdir().unwrap();
+    let file = at(&folder, "all.db");
+    // A wrong name among right ones: nothing is begun.
+    fails(
+        &["catalog", "search", "tongs", "gripper-11", "-o", &file],
+        "gripper-1",
+    );
+    assert!(!Path::new(&file).exists());
+    fails(&["catalog", "search", "-o", &file], "--grippers");
+    let drawn = [
+        "catalog",
+        "search",
+        "gripper-10",
+        "tongs",
+        "--ideas",
+        "2",
+        "-o",
+    ];
+    let drawn = |to| -> Vec<&str> { drawn.into_iter().chain([to]).collect() };
+    assert!(ok(&drawn(&file)).contains("2 mechanisms added"));
+    assert!(ok(&drawn(&file)).contains("0 mechanisms added"));
+    // The counts are those of `ozols search`.
+    let sql = "SELECT links, joints, contours, input, mobility, redundant, finite, determinate, admissible, certainty, best_cost \
+               FROM drawn WHERE name = 'gripper-10'";
+    let row = ok(&["catalog", "query", &file, sql, "--format", "csv"]);
+    let found = row.lines().nth(1).unwrap();
+    assert_eq!(
+        found,
+        "10,13,4,,1,11,\"1, followed\",6340592477,7150020,exact,9.5"
+    );
+    // It takes in structures, and is taken in.
+    let parts = at(&folder, "parts.db");
+    ok(&small(&parts, &[]));
+    let merged = at(&folder, "merged.db");
+    assert!(ok(&["catalog", "merge", &file, &parts, "-o", &merged]).contains("drawn"));
+    ok(&small(&file, &[]));
+    for table in ["drawn", "structures", "ideas"] {
+        let sql = format!("SELECT * FROM {table}");
+        let of = |db: &str| ok(&["catalog", "query", db, &sql, "--format", "csv"]);
+        assert_eq!(of(&merged), of(&file), "{table}");
+    }
+    let best = ok(&["catalog", "query", &merged]);
+    assert!(best.contains("tongs") && best.contains("mirror"), "{best}");
+    let told = ok(&["catalog", "show", &merged, "gripper-10"]);
+    assert!(
+        told.contains("6,340,592,477") && told.contains("--variant 1"),
+        "{told}"
+    );
+    let redesign = at(&folder, "redesign.toml");
+    ok(&[
+        "catalog",
+        "export",
+        &merged,
+        "gripper-10",
+        "--variant",
+        "1",
+        "-o",
+        &redesign,
+    ]);
+    let analysed = ok(&["analyze", &redesign, "--format", "json"]);
+    let analysed: serde_json::Value = serde_json::from_str(&analysed).unwrap();
+    assert_eq!(analysed["states"][0]["redundant"], 0, "{analysed}");
+    let page = at(&folder, "page.html");
+    ok(&["catalog", "page", &merged, "-o", &page]);
+    assert!(
+        std::fs::read_to_string(&page)
+            .unwrap()
+            .contains("\"name\":\"tongs\"")
+    );
+}

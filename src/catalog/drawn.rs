@@ -1,0 +1,111 @@
+//! A mechanism that somebody drew, as a row beside the structures.
+
+use crate::catalog::row::{IdeaRow, RowError, ideas};
+use crate::closure::contour::contour_basis;
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::finite::{Finite, How};
+use crate::redundancy::analysis::{Method, analyse};
+use crate::robots::formats;
+use crate::score::request::{Check, List, Request};
+use crate::score::run::run;
+use num_bigint::BigUint;
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+
+/// A drawn mechanism, searched with the options and under the workload of its own file.
+#[derive(Debug, Clone)]
+pub struct Drawn {
+    /// `drawn-` and the beginning of a hash of the file.
+    pub id: String,
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub description: String,
+    /// The file in TOML.
+    pub file: String,
+    /// Links, joints and contours of the free state.
+    pub size: [usize; 3],
+    /// How it is driven: `slide`, `turn`, or nothing where it is not one joint of one freedom.
+    pub input: Option<&'static str>,
+    /// W and σ as built.
+    pub as_built: (usize, usize),
+    /// The mobility that is really there, and how that is known.
+    pub finite: String,
+    /// Variants with σ = 0, by W and number of changes.
+    pub counts: BTreeMap<(i64, u32), BigUint>,
+    /// Of those that keep the output motion the ones with no more mobility than is really there, by the same.
+    pub admissible: BigUint,
+    /// Whether every count is exact; lower bounds otherwise.
+    pub exact: bool,
+    /// The best ideas among these, cheapest first.
+    pub ideas: Vec<IdeaRow>,
+}
+
+/// The figure with the weakest word that is true of it.
+fn known(finite: &Finite) -> String {
+    let word = match finite.how {
+        _ if finite.numeric => "numeric",
+        _ if finite.is_proven() => "proven",
+        How::Traced { .. } => "followed",
+        How::Bound => "bound",
+        _ => "undecided",
+    };
+    format!("{}, {word}", finite.figure())
+}
+
+/// Searches a drawn mechanism.
+///
+/// # Errors
+/// Where it cannot be analysed, searched or written.
+pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<Drawn, RowError> {
+    let refused = |why: String| RowError::File {
+        structure: mechanism.name.clone(),
+        why,
+    };
+    let file = formats::write(&mechanism, "toml").map_err(|e| refused(e.to_string()))?;
+    let digest = Sha256::digest(&file);
+    let hash: String = digest[..4].iter().map(|b| format!("{b:02x}")).collect();
+    let method = Method::Auto { tolerance: None };
+    let as_built = analyse(&mechanism, &[StateId::FREE], method)?.swap_remove(0);
+    let joints = mechanism.joints_in(StateId::FREE).count();
+    let contours = contour_basis(&mechanism, StateId::FREE).len();
+    let mut drives = mechanism.joints.iter().filter(|j| j.drive);
+    let input = match (drives.next(), drives.next()) {
+        (Some(only), None) => match only.joint_type.freedoms() {
+            [Freedom::Rz] => Some("turn"),
+            [Freedom::Tz] => Some("slide"),
+            _ => None,
+        },
+        _ => None,
+    };
+    let moves = i64::try_from(as_built.finite.at_most()).unwrap_or(i64::MAX);
+    let request = Request {
+        max_mobility: Some(moves),
+        list: List::Top(top.max(1)),
+        check: Check::Prime,
+        nodes,
+        ..Request::default()
+    };
+    let (name, description) = (mechanism.name.clone(), mechanism.description.clone());
+    let links = mechanism.links_with_ids().filter(|(l, _)| {
+        let mut joints = mechanism.joints_in(StateId::FREE);
+        joints.any(|j| mechanism.joints[j].links.contains(l))
+    });
+    let size = [links.count(), joints, contours];
+    let outcome = run(mechanism, &request, &|| false, &mut |_| {})?;
+    Ok(Drawn {
+        id: format!("drawn-{hash}"),
+        name,
+        description,
+        file,
+        size,
+        input,
+        as_built: (as_built.mobility, as_built.redundant),
+        finite: known(&as_built.finite),
+        counts: outcome.determinate.by_mobility_and_changes.clone(),
+        admissible: outcome.admissible.total.clone(),
+        exact: outcome.is_exact(),
+        ideas: ideas(&outcome, top),
+    })
+}

@@ -1,0 +1,83 @@
+//! `ozols catalog search`.
+
+use super::super::args::Args;
+use super::super::progress::Bar;
+use super::super::{Done, interrupt, load, output};
+use crate::builtin;
+use crate::catalog::drawn::drawn;
+use crate::catalog::spec::Spec;
+use crate::catalog::store::Store;
+use crate::view::structures::built_text;
+use anyhow::{Context, ensure};
+use clap::{Args as ClapArgs, ValueHint};
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Search {
+    /// Mechanism files, robot files, or names of built-in mechanisms. Each is searched with its own options and workload.
+    #[arg(value_hint = ValueHint::FilePath)]
+    files: Vec<String>,
+    /// All built-in grippers, too.
+    #[arg(long)]
+    grippers: bool,
+    /// Ideas kept of each.
+    #[arg(long, value_name = "K", default_value_t = Spec::default().ideas)]
+    ideas: usize,
+    /// The database; where it is there already, it is added to.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: PathBuf,
+}
+
+/// The family of the built-in grippers.
+const GRIPPERS: &str = "Grippers";
+
+pub(super) fn search(args: &Args, a: &Search) -> anyhow::Result<Done> {
+    let mut files = a.files.clone();
+    let family = builtin::families()
+        .into_iter()
+        .find(|(f, _)| *f == GRIPPERS);
+    let built_in = family.into_iter().flat_map(|(_, names)| names);
+    files.extend(built_in.filter(|_| a.grippers).map(str::to_owned));
+    ensure!(
+        !files.is_empty(),
+        "nothing to search: name a FILE, or all built-in grippers by --grippers"
+    );
+    // A wrong file is told before any is searched.
+    let mechanisms: Vec<_> = files
+        .iter()
+        .map(|f| load::mechanism(f).with_context(|| f.clone()))
+        .collect::<anyhow::Result<_>>()?;
+    let mut rows = Vec::new();
+    interrupt::be_patient();
+    let mut bar = Bar::new(args.quiet);
+    for (file, mechanism) in files.iter().zip(mechanisms) {
+        if interrupt::pending() {
+            break;
+        }
+        rows.push(drawn(mechanism, a.ideas, Spec::default().nodes).with_context(|| file.clone())?);
+        bar.step("mechanisms", rows.len(), files.len());
+    }
+    bar.clear();
+    let mut store = Store::writable(&a.output)?;
+    let mut added = 0;
+    for row in &rows {
+        added += usize::from(store.add_drawn(row)?);
+    }
+    output::to(None, |out| {
+        write!(
+            out,
+            "{}",
+            built_text(
+                &store,
+                &a.output,
+                (added, "mechanisms"),
+                output::width(None)
+            )?
+        )?;
+        if interrupt::pending() {
+            let (done, all) = (rows.len(), files.len());
+            writeln!(out, "\nInterrupted: {done} of {all} mechanisms are there.")?;
+        }
+        Ok(Done::Found)
+    })
+}

@@ -1,0 +1,201 @@
+//! From the orders of variables to the stages of both diagrams, and what is tested after each.
+
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::Residue;
+use crate::model::mechanism::{JointId, LinkId};
+use crate::search::building::Orders;
+use crate::search::conditions::Search;
+use crate::search::lanes::{Lane, Move, ways};
+use crate::search::least_model::Model;
+use crate::search::lookahead::lookahead;
+use crate::search::plan::{At, plan};
+use crate::search::spent::Limits;
+use crate::search::stage::{self, Collapse, Stage};
+
+/// The stages and limits of both diagrams; of one where both are the same.
+pub(super) struct Laid {
+    pub(super) determinate: (Vec<Stage>, Limits),
+    pub(super) admissible: Option<(Vec<Stage>, Limits)>,
+    /// The variables in the order of the admissible diagram.
+    pub(super) order: Vec<usize>,
+}
+
+/// Whether a joint comes after the common ones.
+fn is_way(joined: &Move) -> bool {
+    joined.lane != Lane::Common
+}
+
+impl Search {
+    /// Lays out the stages of both diagrams of some rows.
+    pub(super) fn laid(&self, orders: &Orders, model: &Model) -> Laid {
+        let state = self.conditions.state.as_ref();
+        let order = orders.determinate.clone();
+        let at = |order: &[usize]| -> Vec<At> {
+            let joints = order.iter().flat_map(|&v| &self.space.variables[v].joints);
+            joints.map(|&joint| At { joint, lane: 0 }).collect()
+        };
+        let whole = plan(&self.mechanism, &at(&order), &[], &[]);
+        let limits = Limits {
+            already: model.already(&self.exact, &order, &whole),
+            internal: self.conditions.max_redundant,
+            external: None,
+            harmful: None,
+            nodes: self.conditions.nodes,
+            // Two primes with two diagrams each take half, and what is counted on them the rest.
+            bytes: self.conditions.memory / 8,
+        };
+        let all = 0..self.space.variables.len();
+        let (free, added): (Vec<usize>, Vec<usize>) =
+            all.partition(|&v| !self.space.variables[v].external);
+        let idle = added.iter().map(|&v| Stage::plain(v, Vec::new()));
+        let mut stages = stage::stages(&model.space, &order, &whole);
+        stages.extend(idle);
+        let determinate = (stages, limits.clone());
+        if self.one_diagram() {
+            return Laid {
+                determinate,
+                admissible: None,
+                order,
+            };
+        }
+        let is_alone = |v: &usize| self.space.variables[*v].alone;
+        let alone: Vec<usize> = free.iter().copied().filter(is_alone).collect();
+        let mut pinned = vec![self.mechanism.frame()];
+        pinned.extend(self.kept.0.iter().filter(|_| self.conditions.keep_output));
+        let later = at(&alone).into_iter().chain(at(&added));
+        pinned.extend(later.flat_map(|at| self.mechanism.joints[at.joint].links));
+        pinned.sort_unstable();
+        pinned.dedup();
+        let frame = self.mechanism.frame();
+        let mut order = orders.common.clone();
+        let first = plan(&self.mechanism, &at(&order), &pinned, &[]);
+        let mut stages = stage::stages(&model.space, &order, &first);
+        let mut limits = limits;
+        if let Some(state) = state {
+            (limits.external, limits.harmful) = (state.max_external, state.max_harmful);
+            let live = first.steps.last().map_or(&[][..], |s| &s.live);
+            let joints = (&alone[..], &added[..]);
+            let mut kept = vec![frame];
+            kept.extend(self.kept.0.iter().filter(|_| self.conditions.keep_output));
+            let ways = ways(
+                &self.mechanism,
+                &model.space,
+                joints,
+                live,
+                &kept,
+                &self.grasps,
+            );
+            let copies = std::iter::once(ways.copies).chain(std::iter::repeat(1));
+            for ((variable, moves), copies) in ways.stages.into_iter().zip(copies) {
+                stages.push(Stage {
+                    copies,
+                    ..Stage::plain(variable, moves)
+                });
+            }
+            if let Some(last) = stages.last_mut().filter(|s| s.moves.iter().all(is_way)) {
+                last.ending = Some(ways.held);
+            }
+        }
+        if self.conditions.keep_output {
+            self.look_ahead(model, &mut stages[..free.len()], alone.is_empty());
+        }
+        order.extend(alone);
+        order.extend(added);
+        Laid {
+            determinate,
+            admissible: Some((stages, limits)),
+            order,
+        }
+    }
+
+    /// Gives each stage of the free state the test that its nodes must pass. `same_joints` says that all of them are in the
+    /// searched state, too: then a node that passes the last test has kept links that move as they do now, and the
+    /// searched state needs no more of them.
+    fn look_ahead(&self, model: &Model, stages: &mut [Stage], same_joints: bool) {
+        let present = |v: usize| {
+            let variable = &model.space.variables[v];
+            variable
+                .joints
+                .iter()
+                .copied()
+                .zip(variable.choices[0].spans.iter().cloned())
+        };
+        for i in 0..stages.len() {
+            let left: Vec<_> = stages[i + 1..]
+                .iter()
+                .flat_map(|s| present(s.variable))
+                .collect();
+            let Some(last) = stages[i].moves.last() else {
+                continue;
+            };
+            // The free state's lane comes first; what other lanes hold is of no concern.
+            let (links, couplings) = (self.mechanism.links.len(), self.mechanism.couplings.len());
+            let step = &last.step;
+            let mine = step.live.iter().filter(|(_, l)| l.index() < links);
+            let live: Vec<_> = mine.copied().collect();
+            let mine = step.pending.iter().filter(|&&q| q < couplings);
+            let pending: Vec<_> = mine.copied().collect();
+            let others = step.live.len() + step.pending.len() - live.len() - pending.len();
+            let (kept, allowed) = (&self.kept.0, model.kept.len());
+            let mut test = lookahead(
+                &self.exact,
+                &self.mechanism,
+                model.space.dim,
+                (&live, &pending),
+                &left,
+                kept,
+                allowed,
+            );
+            let nothing = vec![0; test.map.first().map_or(0, Vec::len)];
+            let size = test.map.len() + others * model.space.dim;
+            test.map.resize(size, nothing);
+            stages[i].lookahead = Some(test);
+            if last.lane == Lane::Common {
+                stages[i].collapse = self.collapse(model, &live, &left, same_joints);
+            }
+        }
+    }
+
+    /// The kept links in the frame's component that no joint to come touches.
+    fn collapse(
+        &self,
+        model: &Model,
+        live: &[(LinkId, LinkId)],
+        left: &[(JointId, Vec<Vec<Residue>>)],
+        same_joints: bool,
+    ) -> Option<Collapse> {
+        let (frame, dim) = (self.mechanism.frame(), model.space.dim);
+        let contact = |l: LinkId| {
+            let external = self
+                .space
+                .variables
+                .iter()
+                .filter(|v| v.external && !same_joints)
+                .flat_map(|v| &v.joints);
+            left.iter()
+                .map(|(j, _)| j)
+                .chain(external)
+                .any(|&j| self.mechanism.joints[j].links.contains(&l))
+        };
+        let finished = |&(i, l): &(usize, &LinkId)| {
+            let here = live.iter().position(|x| *x == (frame, *l));
+            here.filter(|_| !contact(*l)).map(|block| (i, block))
+        };
+        let (places, blocks): (Vec<usize>, Vec<usize>) = self
+            .kept
+            .0
+            .iter()
+            .enumerate()
+            .filter_map(|x| finished(&x))
+            .unzip();
+        let mut present = Echelon::new(self.exact.field());
+        for row in &model.kept {
+            let part: Vec<Residue> = places
+                .iter()
+                .flat_map(|p| row[p * dim..(p + 1) * dim].iter().copied())
+                .collect();
+            present.insert(&part);
+        }
+        (!blocks.is_empty()).then(|| Collapse::new(&blocks, dim, present.reduced()))
+    }
+}
