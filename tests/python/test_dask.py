@@ -6,6 +6,7 @@ import threading
 import time
 
 import pytest
+from conftest import ozols as command
 
 import ozols
 
@@ -17,15 +18,14 @@ SHARDS = 12
 
 
 @pytest.fixture
-def cluster(tmp_path, monkeypatch):
+def cluster(tmp_path):
     """Three worker processes of one thread each, on 127.0.0.1."""
-    monkeypatch.setenv("DASK_TEMPORARY_DIRECTORY", str(tmp_path))
     with distributed.LocalCluster(
         n_workers=3,
         threads_per_worker=1,
         processes=True,
         host="127.0.0.1",
-        dashboard_address=None,
+        dashboard_address="127.0.0.1:0",
         local_directory=str(tmp_path / "dask"),
     ) as made:
         yield made
@@ -59,6 +59,8 @@ def test_rows_survive_the_death_of_a_worker(cluster, alone, in_tmp):
             killed.append(a_busy_worker(watching))
             os.kill(killed[0], signal.SIGKILL)
 
+    # What was drawn stays beside what is built.
+    assert command("catalog", "search", "four-bar", "-o", "all.db").returncode == 0
     killer = threading.Thread(target=kill)
     killer.start()
     heard = []
@@ -68,6 +70,7 @@ def test_rows_survive_the_death_of_a_worker(cluster, alone, in_tmp):
         assert killed and killed[0] not in client.run(os.getpid).values()
     with made:
         assert made.digest() == alone
+        assert [row["name"] for row in made.query("drawn")] == ["four-bar"]
     assert heard[-1] == (SHARDS, SHARDS)
     assert not parts.exists()
 
@@ -88,7 +91,7 @@ def test_what_is_finished_is_not_made_again(cluster, alone, in_tmp, monkeypatch)
 
     # Another scheduler, with other workers.
     with (
-        distributed.LocalCluster(n_workers=1, threads_per_worker=1, host="127.0.0.1", dashboard_address=None) as other,
+        distributed.LocalCluster(n_workers=1, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0") as other,
         distributed.Client(other) as client,
     ):
         seen = {}

@@ -39,7 +39,7 @@ def test_the_tutorial(in_tmp):
     assert "<mujoco" in Path("gripper.xml").read_text()
 
 
-def test_the_types_are_right():
+def test_the_types_are_right(in_tmp):
     """The package by its own annotations and stubs, and the stubs by the library that was built."""
     checks = (
         ["mypy", "--strict", "--allow-untyped-calls", "--ignore-missing-imports", "-p", "ozols"],

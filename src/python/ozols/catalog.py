@@ -1,6 +1,6 @@
 """Catalogues of structures that nobody has drawn yet: opened as tables, and built, on many machines if need be.
 
-A catalogue is an SQLite file with the tables ``structures``, ``layouts``, ``counts`` and ``ideas``
+A catalogue is an SQLite file with the tables ``structures``, ``layouts``, ``drawn``, ``counts`` and ``ideas``
 (``ozols catalog query FILE "SELECT sql FROM sqlite_schema"`` explains every column).
 """
 
@@ -32,11 +32,14 @@ if TYPE_CHECKING:
 TABLES = {
     "structures": "id",
     "layouts": "structure",
+    "drawn": "id",
     "counts": "structure, mobility, changes",
     "ideas": "structure, place",
 }
 #: Columns of counts of variants: numbers, or their digits as text beyond 63 bits.
-COUNTS = {"determinate", "determinate_w1", "variants"}
+COUNTS = {"determinate", "determinate_w1", "admissible", "variants"}
+#: The rows of structures: of ``counts`` and ``ideas`` those that are not of drawn mechanisms.
+BUILT = {"structures": "id", "layouts": "structure", "counts": "structure", "ideas": "structure"}
 
 
 def open(path: str | os.PathLike[str]) -> Catalog:
@@ -45,7 +48,7 @@ def open(path: str | os.PathLike[str]) -> Catalog:
 
 
 class Catalog:
-    """An open catalogue. What is asked of it is the name of a table, or a question in SQL."""
+    """An open catalogue. What is asked of it is the name of a table or a view, or a question in SQL."""
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = Path(path)
@@ -57,8 +60,8 @@ class Catalog:
 
     @property
     def spec(self) -> str:
-        """What it holds, as TOML."""
-        return self._meta["spec"]
+        """What it holds of structures, as TOML; nothing where it holds drawn mechanisms alone."""
+        return self._meta.get("spec", "")
 
     def close(self) -> None:
         """Lets go of the file."""
@@ -79,16 +82,18 @@ class Catalog:
         return [id for (id,) in self._db.execute("SELECT id FROM structures ORDER BY id")]
 
     def mechanism(self, id: str) -> Mechanism:
-        """A structure that was laid out, as a mechanism."""
+        """A structure that was laid out, or what was drawn, as a mechanism."""
         from ._mechanism import Mechanism
 
-        found = self._db.execute("SELECT mechanism FROM layouts WHERE structure = ?", [id]).fetchone()
+        sql = "SELECT mechanism FROM layouts WHERE structure = ?1 UNION ALL SELECT mechanism FROM drawn WHERE id = ?1"
+        found = self._db.execute(sql, [id]).fetchone()
         if found is None:
             raise _native.Error(f"{self.path} has no layout of a structure {id}")
         return Mechanism.from_toml(found[0])
 
     def _ask(self, what: str, params: Any = ()) -> tuple[list[str], list[tuple[Any, ...]]]:
-        sql = f"SELECT * FROM {what} ORDER BY {TABLES[what]}" if what in TABLES else what
+        order = f" ORDER BY {TABLES[what]}" if what in TABLES else ""
+        sql = f"SELECT * FROM {what}{order}" if what.isidentifier() else what
         try:
             cursor = self._db.execute(sql, params)
             names = [column[0] for column in cursor.description or ()]
@@ -147,11 +152,11 @@ class Catalog:
         return out
 
     def digest(self) -> Digest:
-        """What its rows are: their numbers by table, and a hash that does not depend on their order."""
+        """What the rows of its structures are: their numbers by table, and a hash that does not depend on their order."""
         rows, total = {}, 0
-        for table, key in TABLES.items():
+        for table, key in BUILT.items():
             rows[table] = 0
-            for row in self._db.execute(f"SELECT * FROM {table} ORDER BY {key}"):
+            for row in self._db.execute(f"SELECT * FROM {table} WHERE {key} IN (SELECT id FROM structures)"):
                 rows[table] += 1
                 total += int.from_bytes(hashlib.sha256(json.dumps([table, *row]).encode()).digest(), "big")
         return Digest(rows, total)
@@ -168,7 +173,7 @@ class Digest:
         self.total = total % (1 << 256)
 
     def __add__(self, other: Digest) -> Digest:
-        return Digest({t: self.rows[t] + other.rows[t] for t in TABLES}, self.total + other.total)
+        return Digest({t: self.rows[t] + other.rows[t] for t in BUILT}, self.total + other.total)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Digest) and (self.rows, self.total) == (other.rows, other.total)
@@ -204,7 +209,7 @@ def build(
         return open(out)
     if out.exists():
         with open(out) as there:
-            if there.spec != canonical:
+            if there.spec not in ("", canonical):
                 raise _native.Error(f"{out} holds another catalogue; choose another file, or the same specification")
             if there.ids() == ids:
                 return open(out)
@@ -215,9 +220,11 @@ def build(
     parts = _parts(client, words, canonical, folder, shards, threads or 1, progress)
     whole = folder / "whole.tmp"
     whole.unlink(missing_ok=True)
+    if out.exists():
+        shutil.copyfile(out, whole)
     _native.catalog_merge(whole, [path for path, _ in parts])
     with open(whole) as made:
-        expected = sum((digest for _, digest in parts), Digest(dict.fromkeys(TABLES, 0), 0))
+        expected = sum((digest for _, digest in parts), Digest(dict.fromkeys(BUILT, 0), 0))
         if made.ids() != ids or made.digest() != expected:
             raise _native.Error(f"the parts in {folder} do not make the whole: delete it, and build again")
     os.replace(whole, out)
