@@ -41,13 +41,21 @@ fn with_options(names: &[&str], joints: usize) -> Mechanism {
     m
 }
 
-fn search(m: &Mechanism) -> Search {
-    Search::new(exact_field(m, 0).expect("exact"), m, Conditions::default()).expect("valid")
+fn search(m: &Mechanism, whole_twists: bool) -> Search {
+    let conditions = Conditions {
+        whole_twists,
+        ..Conditions::default()
+    };
+    Search::new(exact_field(m, 0).expect("exact"), m, conditions).expect("valid")
 }
 
 /// Both counts and the `top` best; returns nodes and the largest layer.
 fn whole(m: &Mechanism, top: usize) -> (usize, usize) {
-    let s = search(m);
+    counted(&search(m, false), top)
+}
+
+/// The same of a search.
+fn counted(s: &Search, top: usize) -> (usize, usize) {
     let d = s.build(&|| false, &mut |_| {});
     black_box((
         s.counts(&d.determinate, false),
@@ -84,13 +92,13 @@ fn twins(c: &mut Criterion) {
     let mut group = c.benchmark_group("diagram against brute force");
     group.bench_function("R S, 4096 variants, diagram", |b| b.iter(|| whole(&rs, 0)));
     group.bench_function("R S, 4096 variants, brute force", |b| {
-        b.iter(|| search(&rs).brute())
+        b.iter(|| search(&rs, false).brute())
     });
     group.bench_function("R C U S, 16777216 variants, diagram", |b| {
         b.iter(|| whole(&rcus, 0))
     });
     group.bench_function("R C U S, 4096 of 16777216 variants, brute force", |b| {
-        b.iter(|| search(&part).brute())
+        b.iter(|| search(&part, false).brute())
     });
     group.finish();
 }
@@ -132,12 +140,20 @@ fn spaces(c: &mut Criterion) {
     for (name, m) in [("7 options", &seven), ("13 options", &thirteen)] {
         println!(
             "{name}: {} variants, (nodes, largest layer) = {:?}",
-            search(m).size(),
+            search(m, false).size(),
             whole(m, 100)
         );
         group.bench_function(BenchmarkId::new("counts and 100 best", name), |b| {
             b.iter(|| whole(m, 100))
         });
+        // The diagrams alone: with the rows that choices differ in, and with all of them.
+        for (rows, whole_twists) in [("least rows", false), ("all rows", true)] {
+            let s = search(m, whole_twists);
+            let orders = s.orders();
+            group.bench_function(BenchmarkId::new(rows, name), |b| {
+                b.iter(|| s.build_in(&orders, &|| false, &mut |_| {}))
+            });
+        }
     }
     group.finish();
     let mut group = c.benchmark_group("k best of 7 options");
@@ -191,7 +207,7 @@ fn growth(c: &mut Criterion) {
         let mechanism = fingers(m);
         println!(
             "m = {m}: {} variants, (nodes, largest layer) = {:?}",
-            search(&mechanism).size(),
+            search(&mechanism, false).size(),
             whole(&mechanism, 0)
         );
         group.bench_function(BenchmarkId::from_parameter(m), |b| {

@@ -47,23 +47,31 @@ pub fn text(name: &str) -> Option<&'static str> {
     files().find(|f| name_of(f) == Some(name))?.contents_utf8()
 }
 
+/// Names of the mechanisms of a family, ascending.
+fn members(folder: &str) -> Vec<&'static str> {
+    let dir = CATALOGS.get_dir(folder).into_iter();
+    let mut names: Vec<&str> = dir.flat_map(Dir::files).filter_map(name_of).collect();
+    names.sort_unstable();
+    names
+}
+
 /// Names of the built-in mechanisms by family, ascending in each.
 #[must_use]
 pub fn families() -> Vec<(&'static str, Vec<&'static str>)> {
-    let members = |folder: &str| {
-        let dir = CATALOGS.get_dir(folder).into_iter();
-        let mut names: Vec<&str> = dir.flat_map(Dir::files).filter_map(name_of).collect();
-        names.sort_unstable();
-        names
-    };
     FAMILIES
         .map(|(folder, name)| (name, members(folder)))
         .into()
 }
 
+/// Names of the built-in grippers, ascending.
+#[must_use]
+pub fn grippers() -> Vec<&'static str> {
+    members("grippers")
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{families, names};
+    use super::{families, grippers, names};
 
     #[test]
     fn every_mechanism_is_in_one_family_and_has_a_name_of_its_own() {
@@ -72,5 +80,6 @@ mod tests {
         assert_eq!(of_families, names());
         assert!(names().windows(2).all(|pair| pair[0] != pair[1]));
         assert!(families().iter().all(|f| !f.1.is_empty()));
+        assert_eq!(families()[0], ("grippers", grippers()));
     }
 }

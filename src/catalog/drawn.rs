@@ -3,7 +3,7 @@
 use crate::catalog::row::{IdeaRow, RowError, ideas};
 use crate::closure::contour::contour_basis;
 use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::rank::finite::{Finite, How};
 use crate::redundancy::analysis::{Method, analyse};
 use crate::robots::formats;
@@ -26,6 +26,8 @@ pub struct Drawn {
     pub file: String,
     /// Links, joints and contours of the free state.
     pub size: [usize; 3],
+    /// `spatial`, or `planar`.
+    pub mode: &'static str,
     /// How it is driven: `slide`, `turn`, or nothing where it is not one joint of one freedom.
     pub input: Option<&'static str>,
     /// W and σ as built.
@@ -87,6 +89,10 @@ pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<Drawn, Ro
         nodes,
         ..Request::default()
     };
+    let mode = match mechanism.mode {
+        Mode::Spatial => "spatial",
+        Mode::Planar { .. } => "planar",
+    };
     let (name, description) = (mechanism.name.clone(), mechanism.description.clone());
     let links = mechanism.links_with_ids().filter(|(l, _)| {
         let mut joints = mechanism.joints_in(StateId::FREE);
@@ -100,6 +106,7 @@ pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<Drawn, Ro
         description,
         file,
         size,
+        mode,
         input,
         as_built: (as_built.mobility, as_built.redundant),
         finite: known(&as_built.finite),

@@ -108,7 +108,7 @@ fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<(
 pub(super) fn drawn(t: &Transaction<'_>, d: &Drawn) -> rusqlite::Result<()> {
     let all: BigUint = d.counts.values().sum();
     t.prepare_cached(
-        "INSERT OR REPLACE INTO drawn VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15)",
+        "INSERT OR REPLACE INTO drawn VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16)",
     )?
     .execute(params![
         d.id,
@@ -117,6 +117,7 @@ pub(super) fn drawn(t: &Transaction<'_>, d: &Drawn) -> rusqlite::Result<()> {
         number(d.size[0]),
         number(d.size[1]),
         number(d.size[2]),
+        d.mode,
         d.input,
         d.file,
         number(d.as_built.0),

@@ -58,6 +58,7 @@ CREATE TABLE drawn (               -- mechanisms that were drawn, searched with 
   links INTEGER NOT NULL,          -- of the free state
   joints INTEGER NOT NULL,
   contours INTEGER NOT NULL,
+  mode TEXT NOT NULL,              -- spatial, or planar: nothing out of the plane is counted, so that less is redundant
   input TEXT,                      -- slide, turn; NULL where it is not driven by one joint of one freedom
   mechanism TEXT NOT NULL,         -- the mechanism file, TOML
   mobility INTEGER NOT NULL,       -- W as built

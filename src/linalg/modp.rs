@@ -181,6 +181,9 @@ impl Field {
     /// The residue of an integer of any size.
     #[must_use]
     pub fn from_bigint(self, x: &BigInt) -> Residue {
+        if let Some(small) = x.to_i64() {
+            return self.from_i64(small);
+        }
         let m = x
             .mod_floor(&BigInt::from(self.p))
             .to_u64()
@@ -191,6 +194,9 @@ impl Field {
     /// The residue of a fraction, or `None` when `p` divides its denominator.
     #[must_use]
     pub fn from_rational(self, x: &BigRational) -> Option<Residue> {
+        if x.is_integer() {
+            return Some(self.from_bigint(x.numer()));
+        }
         let d = self.from_bigint(x.denom());
         (d != 0).then(|| self.mul(self.from_bigint(x.numer()), self.inv(d)))
     }

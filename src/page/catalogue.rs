@@ -24,7 +24,7 @@ const CARD: &str = "SELECT id, name, links, input, symmetry, parallel, jaws_at_f
      CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost, id IN (SELECT id FROM front) AS front FROM structures JOIN layouts ON structure = id \
      ORDER BY links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id";
 /// What a card of a drawn mechanism is made of.
-const DRAWN: &str = "SELECT id, name, description, links, joints, contours, input, mechanism, mobility, redundant, finite, \
+const DRAWN: &str = "SELECT id, name, description, mode, links, joints, contours, input, mechanism, mobility, redundant, finite, \
      CAST(determinate AS TEXT) AS determinate, CAST(admissible AS TEXT) AS determinate_w1, certainty, best_cost, 1 AS drawn \
      FROM drawn ORDER BY links, best_cost, id";
 const IDEAS: &str = "SELECT structure, place, adds, changes, cost, change_count AS changed, CAST(variants AS TEXT) AS variants, peak_force, \
@@ -83,8 +83,11 @@ fn drawing(text: &str) -> Option<Value> {
         Some([x, y])
     };
     let tips: Option<Vec<[f64; 2]>> = jaws.iter().map(tip).collect();
+    let tips = tips.filter(|t| t.len() == 2);
+    let scaled = scale(&[&pins[..], tips.as_deref().unwrap_or_default()].concat());
+    let place = |p: &[f64; 2]| p.map(|x| x * scaled);
     Some(json!({
-        "pins": pins,
+        "pins": pins.iter().map(place).collect::<Vec<_>>(),
         "names": joints.iter().map(|j| j.id.as_str()).collect::<Vec<_>>(),
         "links": links,
         "frame": m.frame().index(),
@@ -92,8 +95,22 @@ fn drawing(text: &str) -> Option<Value> {
         "drive": drive,
         "slides": drive.is_some_and(|d| joints[d].joint_type.freedoms().iter().any(|f| f.slides())),
         "jaws": jaws,
-        "tips": tips.filter(|t| t.len() == 2),
+        "tips": tips.map(|t| t.iter().map(place).collect::<Vec<_>>()),
     }))
+}
+
+/// How many times larger a drawing is to be made: layouts are about as large as symbols are drawn for, whatever units a
+/// drawn mechanism is in.
+fn scale(points: &[[f64; 2]]) -> f64 {
+    let extent = |k: usize| {
+        let all = points.iter().map(|p| p[k]);
+        all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
+    };
+    let size = extent(0).max(extent(1));
+    match size {
+        s if s > 0.0 && !(60.0..=400.0).contains(&s) => 160.0 / s,
+        _ => 1.0,
+    }
 }
 
 /// The page of a catalogue, `file` being its name for the commands that go on with it.

@@ -147,7 +147,7 @@ impl Model {
     }
 }
 
-/// The planes across the axes of frames, through their points.
+/// The planes across the axes of the present joints' frames, through their points.
 fn planes(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -156,18 +156,15 @@ fn planes(
     let f = exact.field();
     let mut counted: BTreeMap<Plane, usize> = BTreeMap::new();
     for &joint in space.variables.iter().flat_map(|v| &v.joints) {
-        let joint = &mechanism.joints[joint];
-        for option in joint.options.iter().chain(&joint.unloading) {
-            let frame = FrameValues::new(exact, &option.frame)?;
-            for axis in frame.axes {
-                let Some(&first) = axis.iter().find(|x| **x != 0) else {
-                    continue;
-                };
-                let scale = f.inv(first);
-                let normal = axis.map(|x| f.mul(x, scale));
-                let distance = exact.dot(normal, frame.point);
-                *counted.entry((normal, distance)).or_default() += 1;
-            }
+        let frame = FrameValues::new(exact, &mechanism.joints[joint].frame)?;
+        for axis in frame.axes {
+            let Some(&first) = axis.iter().find(|x| **x != 0) else {
+                continue;
+            };
+            let scale = f.inv(first);
+            let normal = axis.map(|x| f.mul(x, scale));
+            let distance = exact.dot(normal, frame.point);
+            *counted.entry((normal, distance)).or_default() += 1;
         }
     }
     let mut all: Vec<(Plane, usize)> = counted.into_iter().collect();

@@ -1,7 +1,7 @@
 //! What a layout looks like, and how well it moves: the figures by which it is judged.
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
-use crate::geom::vector::{add_scaled, cross_plane, dot, norm, sub};
+use crate::geom::vector::{add_scaled, cross_plane, dot, length, sub};
 use crate::synthesis::rules::Rules;
 use crate::synthesis::structure::Structure;
 use crate::synthesis::velocities::{Velocity, velocities};
@@ -115,7 +115,7 @@ fn crosses([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
 fn distance(p: Point, [a, b]: [Point; 2]) -> f64 {
     let (along, to) = (sub(b, a), sub(p, a));
     let t = (dot(to, along) / dot(along, along).max(1e-9)).clamp(0.0, 1.0);
-    norm(sub(to, [along[0] * t, along[1] * t]))
+    length(sub(to, [along[0] * t, along[1] * t]))
 }
 
 /// Pins whose coordinates differ by less than this are nearly in line.
@@ -144,7 +144,7 @@ pub fn looks(structure: &Structure, rules: &Rules, at: &[Point], moving: bool) -
     );
     for (i, a) in all.iter().enumerate() {
         for b in &all[..i] {
-            penalty += 4.0 * beyond(NEAR - norm(sub(a.1, b.1)), NEAR);
+            penalty += 4.0 * beyond(NEAR - length(sub(a.1, b.1)), NEAR);
         }
     }
     // Pins level with each other, or square above each other, have an axis in common: a special place that costs redesigns.
@@ -161,7 +161,7 @@ pub fn looks(structure: &Structure, rules: &Rules, at: &[Point], moving: bool) -
     for (l, points) in outlines.iter().enumerate().filter(|(l, _)| *l != frame) {
         for (i, a) in points.iter().enumerate() {
             for b in &points[..i] {
-                let d = norm(sub(a.1, b.1));
+                let d = length(sub(a.1, b.1));
                 (longest, shortest) = (longest.max(d), shortest.min(d));
                 penalty += beyond(d - LONG, 25.0) + beyond(18.0 - d, 10.0);
             }
@@ -207,7 +207,7 @@ pub fn looks(structure: &Structure, rules: &Rules, at: &[Point], moving: bool) -
 fn places(structure: &Structure, outlines: &[Vec<(usize, Point)>], at: &[Point]) -> f64 {
     let mut penalty = 0.0;
     if structure.form.symmetry == Symmetry::HalfTurn {
-        return at.iter().map(|p| beyond(norm(*p) - 80.0, 25.0)).sum();
+        return at.iter().map(|p| beyond(length(*p) - 80.0, 25.0)).sum();
     }
     for (_, [x, _]) in &outlines[structure.roles.frame] {
         penalty += beyond(x - 50.0, 25.0) + beyond(-x, 25.0);
@@ -239,7 +239,7 @@ fn motion(
     out.closing = (vb[1] - va[1]).abs();
     let closes = (vb[1] - va[1]).signum();
     out.tips = [va, vb].map(|v| v.map(|x| closes * x));
-    let all = norm(va) + norm(vb);
+    let all = length(va) + length(vb);
     out.straightness = out.closing / all.max(1e-12);
     if va[1] * vb[1] >= 0.0 {
         // Both go the same way: one of them runs after the other.
@@ -263,13 +263,13 @@ fn motion(
         if let ([(_, a), (_, b)], true) = (&points[..], rod) {
             let along = sub(*b, *a);
             let (va, vb) = (velocities[l].at(*a), velocities[l].at(*b));
-            let speed = norm(va).max(norm(vb));
+            let speed = length(va).max(length(vb));
             // Along the rod both ends are equally fast. A rod from the frame pulls nothing: its end goes across it.
-            let least = norm(va).min(norm(vb));
+            let least = length(va).min(length(vb));
             if least < 1e-6 * speed.max(1e-9) {
                 continue;
             }
-            let sine = (dot(va, along) / norm(along).max(1e-9) / speed.max(1e-12)).abs();
+            let sine = (dot(va, along) / length(along).max(1e-9) / speed.max(1e-12)).abs();
             out.transmission = out.transmission.min(sine.min(1.0).asin().to_degrees());
         }
     }

@@ -126,10 +126,11 @@ fn of<'a>(row: &'a Map<String, Value>) -> impl Fn(&str) -> String + 'a {
 fn drawn_text(row: &Map<String, Value>) -> String {
     let s = of(row);
     format!(
-        "{}: {}, drawn\n{}\n{} links, {} joints, {} contours; driver: {}\nAs built: W = {}, σ = {}; finite mobility {}\n\
+        "{}: {}, drawn ({})\n{}\n{} links, {} joints, {} contours; driver: {}\nAs built: W = {}, σ = {}; finite mobility {}\n\
          Determinate variants ({}): {}, of these {} that keep the output motion and have no more mobility than that\n\n",
         s("id"),
         s("name"),
+        s("mode"),
         s("description"),
         s("links"),
         s("joints"),
@@ -251,7 +252,12 @@ pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
     let ideas = match d.ideas.len() {
         0 => String::new(),
         n => format!(
-            "The {n} cheapest ideas{found}; each stands for {least}as many variants, of which the first is exported:\n\n{}\n",
+            "{}{found}; each stands for {least}as many variants, of which the first is exported:\n\n{}\n",
+            if n == 1 {
+                "The cheapest idea".to_owned()
+            } else {
+                format!("The {n} cheapest ideas")
+            },
             table(&heads, d.ideas.iter().map(row).collect(), width)
         ),
     };

@@ -28,16 +28,11 @@ pub(in crate::cli) struct Search {
     output: PathBuf,
 }
 
-/// The family of the built-in grippers.
-const GRIPPERS: &str = "Grippers";
-
 pub(super) fn search(args: &Args, a: &Search) -> anyhow::Result<Done> {
     let mut files = a.files.clone();
-    let family = builtin::families()
-        .into_iter()
-        .find(|(f, _)| *f == GRIPPERS);
-    let built_in = family.into_iter().flat_map(|(_, names)| names);
-    files.extend(built_in.filter(|_| a.grippers).map(str::to_owned));
+    if a.grippers {
+        files.extend(builtin::grippers().into_iter().map(str::to_owned));
+    }
     ensure!(
         !files.is_empty(),
         "nothing to search: name a FILE, or all built-in grippers by --grippers"

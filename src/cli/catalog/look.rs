@@ -16,7 +16,7 @@ use std::path::PathBuf;
 /// What is shown where no question is asked: the best of each kind first.
 const BEST: &str = "SELECT * FROM (SELECT id, links, input, symmetry AS layout, parallel, jaw_a_motion AS jaws, force_mean AS force, \
      determinate_w1 AS determinate, best_cost AS cost, round(transmission) AS transmission FROM structures JOIN layouts ON structure = id \
-     UNION ALL SELECT id, links, input, name, NULL, NULL, NULL, admissible, best_cost, NULL FROM drawn) \
+     UNION ALL SELECT id, links, input, name || iif(mode = 'planar', ' (planar)', ''), NULL, NULL, NULL, admissible, best_cost, NULL FROM drawn) \
      ORDER BY links, layout = 'generic', parallel = 0, cost, transmission DESC, id LIMIT 25";
 
 #[derive(Debug, ClapArgs)]

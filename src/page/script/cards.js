@@ -22,17 +22,17 @@ function text(name, content, attributes) {
 const least = (c) => (c.certainty === 'exact' ? '' : 'at least ');
 const jawsOf = (c) => (c.jaw_a_motion === c.jaw_b_motion ? c.jaw_a_motion : c.jaw_a_motion + ' and ' + c.jaw_b_motion);
 const unit = (c) => (c.input === 'slide' ? 'N per N' : 'N per Nm');
-const formOf = (c) => c.drawn ? `drawn, ${c.contours} contours${c.input ? ', driver ' + c.input + 's' : ''}` : `${c.input === 'slide' ? 'sliding' : 'turning'} driver, ${c.symmetry}${c.parallel ? ', parallelograms' : ''}`;
+const formOf = (c) => c.drawn ? `drawn (${c.mode}), ${c.contours} contours${c.input ? ', driver ' + c.input + 's' : ''}` : `${c.input === 'slide' ? 'sliding' : 'turning'} driver, ${c.symmetry}${c.parallel ? ', parallelograms' : ''}`;
 
 function cardOf(c) {
   const item = document.createElement('li');
   const button = text('button', '', { class: 'card', type: 'button', 'data-id': c.id });
   button.append(
-    gripper(c, `Gripper ${c.id}`),
-    text('b', c.id),
+    gripper(c, `Gripper ${c.drawn ? c.name : c.id}`),
+    text('b', c.drawn ? c.name : c.id),
     text('span', `${c.links} links, ${formOf(c)}`),
-    text('span', c.drawn ? c.name : `jaws ${jawsOf(c)}, ${short(c.force_mean)} ${unit(c)}`),
-    text('span', `W ${c.mobility}, σ ${c.redundant}; ${least(c)}${grouped(c.determinate_w1)} redesigns, from cost ${short(c.best_cost)}`),
+    text('span', c.drawn ? c.description : `jaws ${jawsOf(c)}, ${short(c.force_mean)} ${unit(c)}`),
+    text('span', `W ${c.mobility}, σ ${c.redundant}; ${least(c)}${grouped(c.determinate_w1)} redesign${c.determinate_w1 === '1' ? '' : 's'}, from cost ${short(c.best_cost)}`),
   );
   button.addEventListener('click', () => choose(c, button));
   item.append(button);

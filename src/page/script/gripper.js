@@ -50,6 +50,7 @@ function gripper(card, title, changed) {
     if (l === d.frame) return;
     const jaw = d.jaws.indexOf(l);
     const points = of.map((i) => pins[i]).concat(tips[jaw] ? [tips[jaw]] : []);
+    if (points.length < 2) return;
     const kind = jaw >= 0 ? 'jaw' : l === d.driver ? 'driver' : '';
     out.push(element('path', { class: 'link ' + kind, d: path(hull(points), points.length > 2) }));
   });
