@@ -112,7 +112,7 @@ def test_all_variants_come_in_order_and_a_sample_is_the_commands():
     assert len(every) == found.admissible == 40
     costs = [v.cost for v in every]
     assert costs == sorted(costs)
-    assert len({json.dumps(v["changes"]) for v in every}) == len(every)
+    assert len({json.dumps(v.to_dict()["changes"]) for v in every}) == len(every)
     flags = ["--options", "spherical", "--max-mobility", 2, "--sample", 5, "--seed", 9]
     there = printed("search", "gripper-10", *flags)["variants"]
     assert [v.to_dict() for v in found.sample(5, seed=9)] == there

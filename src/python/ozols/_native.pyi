@@ -2,7 +2,25 @@
 
 import os
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, final
+
+__all__ = [
+    "VERSION",
+    "Error",
+    "Mechanism",
+    "Outcome",
+    "Variant",
+    "Variants",
+    "analyze",
+    "builtin_names",
+    "catalog_build",
+    "catalog_merge",
+    "catalog_plan",
+    "command",
+    "search",
+    "statics",
+    "stroke",
+]
 
 VERSION: str
 
@@ -12,6 +30,7 @@ _Told: TypeAlias = tuple[str, str, str | None, str | None]
 class Error(ValueError):
     """What went wrong, in the words of the command line."""
 
+@final
 class Mechanism:
     name: str
     @staticmethod
@@ -37,6 +56,7 @@ class Mechanism:
     def export(self, format: str) -> str: ...
     def draw(self, kind: str, state: str) -> str: ...
 
+@final
 class Outcome:
     def counts(self) -> str: ...
     def data(self) -> str: ...
@@ -44,9 +64,11 @@ class Outcome:
     def text(self) -> str: ...
     def variants(self, all: bool, sample: int | None, seed: int) -> Variants: ...
 
+@final
 class Variants(Iterator[Variant]):
     def __next__(self) -> Variant: ...
 
+@final
 class Variant:
     position: int
     text: str
@@ -55,13 +77,13 @@ class Variant:
     def draw(self, kind: str, state: str) -> str: ...
 
 def builtin_names() -> list[str]: ...
-def analyze(mechanism: Mechanism, state: str, method: str, tolerance: float | None) -> _Told: ...
-def stroke(mechanism: Mechanism, range: str, drive: str | None, state: str, tolerance: float | None) -> _Told: ...
-def statics(mechanism: Mechanism, state: str, stroke: str | None, spatial: bool, unilateral: bool) -> _Told: ...
+def analyze(mechanism: Mechanism, named: str, method: str, tolerance: float | None) -> _Told: ...
+def stroke(mechanism: Mechanism, range: str, drive: str | None, named: str, tolerance: float | None) -> _Told: ...
+def statics(mechanism: Mechanism, named: str, stroke: str | None, spatial: bool, unilateral: bool) -> _Told: ...
 def search(mechanism: Mechanism, asked: dict[str, Any], progress: Callable[[int, int, int], object] | None) -> Outcome: ...
-def catalog_plan(spec: str) -> tuple[str, list[str]]: ...
+def catalog_plan(json: str) -> tuple[str, list[str]]: ...
 def catalog_build(
-    spec: str,
+    json: str,
     path: _Path,
     part: tuple[int, int],
     threads: int,
