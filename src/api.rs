@@ -59,7 +59,7 @@ impl Mechanism {
     }
 
     /// Reads a mechanism file (JSON where its name ends in .json, else TOML) or a robot description (URDF, MJCF, SDF, by
-    /// the ending). What was approximated in a description is in the report of [`robots::import`].
+    /// the ending). What was approximated in a description is in the report of [`import`].
     ///
     /// # Errors
     /// Where the file cannot be read, and every problem in it, each with its place.
@@ -67,7 +67,7 @@ impl Mechanism {
         let path = path.as_ref();
         let name = path.display().to_string();
         if robots::is_description(&name) {
-            return Ok(description(path, &Options::default())?.mechanism);
+            return Ok(import(path, &Options::default())?.mechanism);
         }
         Ok(mechanism_from_bytes(&name, &bytes(path, MAX_BYTES)?)?)
     }
@@ -109,8 +109,13 @@ fn bytes_of(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Imports a robot description; files it includes are read from its folder and nowhere else.
-pub(crate) fn description(path: &Path, options: &Options) -> Result<Imported, Error> {
+/// Imports a robot description, with a report of what was approximated; files it includes are read from its folder and
+/// from the folders of models that the options name, and nowhere else.
+///
+/// # Errors
+/// Where a file cannot be read, and every problem in it.
+pub fn import(path: impl AsRef<Path>, options: &Options) -> Result<Imported, Error> {
+    let path = path.as_ref();
     let bytes = bytes(path, MAX_DESCRIPTION_BYTES)?;
     description_of(path, &bytes, options)
 }

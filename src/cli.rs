@@ -32,12 +32,12 @@ mod report;
 mod request;
 mod search;
 mod statics;
-mod stroke;
 mod variant;
 mod verify;
 mod working;
 
 use clap::Parser;
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// How a command ended without failing.
@@ -49,13 +49,19 @@ enum Done {
     Nothing,
 }
 
-/// Runs the program. Exit codes: 0 done, 1 nothing found or a certificate rejected, 2 bad input or failure, 130 interrupted by
-/// Ctrl-C, 143 by SIGTERM and 129 by SIGHUP.
+/// Runs the program.
 #[must_use]
 pub fn run() -> ExitCode {
-    let args = match args::Args::try_parse() {
+    ExitCode::from(run_with(std::env::args_os()))
+}
+
+/// Runs the program with these arguments, its name first. Exit codes: 0 done, 1 nothing found or a certificate rejected, 2
+/// bad input or failure, 130 interrupted by Ctrl-C, 143 by SIGTERM and 129 by SIGHUP.
+pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
+    let words: Vec<OsString> = words.into_iter().collect();
+    let args = match args::Args::try_parse_from(&words) {
         Ok(args) => args,
-        Err(_) if std::env::args_os().len() == 1 => {
+        Err(_) if words.len() == 1 => {
             return finish(output::to(None, |out| {
                 write!(out, "{}", examples::FIRST)?;
                 Ok(Done::Found)
@@ -65,7 +71,7 @@ pub fn run() -> ExitCode {
             // Help and version are no failures; a closed pipe is not one either.
             let code = if e.use_stderr() { 2 } else { 0 };
             let _ = e.print();
-            return ExitCode::from(code);
+            return code;
         }
     };
     let result = prepare(&args).and_then(|()| match &args.command {
@@ -97,16 +103,16 @@ pub fn run() -> ExitCode {
 }
 
 /// The exit code, after what went wrong is said.
-fn finish(result: anyhow::Result<Done>) -> ExitCode {
+fn finish(result: anyhow::Result<Done>) -> u8 {
     working::rest();
     let interrupted = |code| interrupt::exit_code().unwrap_or(code);
     match result {
-        Ok(Done::Found) => interrupted(ExitCode::SUCCESS),
-        Ok(Done::Nothing) => interrupted(ExitCode::from(1)),
-        Err(e) if output::is_broken_pipe(&e) => interrupted(ExitCode::SUCCESS),
+        Ok(Done::Found) => interrupted(0),
+        Ok(Done::Nothing) => interrupted(1),
+        Err(e) if output::is_broken_pipe(&e) => interrupted(0),
         Err(e) => {
             output::complain(&e);
-            ExitCode::from(2)
+            2
         }
     }
 }

@@ -50,7 +50,7 @@
 //! - `[Klyuchkovskyi 1999]` S. M. Klyuchkovskyi, a universal module of transport and feeding mechanisms for robots and
 //!   cyclic automata, UDC 621.01, 1999.
 
-pub use api::{Error, Scheme, analyze, draw, export, search};
+pub use api::{Error, Scheme, analyze, draw, export, import, search};
 pub use model::mechanism::Mechanism;
 pub use redundancy::analysis::StateAnalysis as Analysis;
 pub use score::outcome::Outcome;

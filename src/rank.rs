@@ -1,6 +1,7 @@
 //! Rank of the closure matrix, with what each method knows about its answer.
 
 pub mod along_stroke;
+pub mod asked_stroke;
 pub mod auto;
 pub mod certificate;
 pub mod counting;

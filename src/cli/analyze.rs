@@ -1,19 +1,21 @@
 //! `ozols analyze`.
 
 use super::args::{AnalyzeFormat, Args, File};
-use super::{Done, load, output, stroke, verify};
+use super::{Done, load, output, verify};
+use crate::file::read::motion::stroke;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::method::{Certainty, MobilityMethod, RankOfJ};
+use crate::rank::asked_stroke::Asked;
+use crate::rank::method::{MobilityMethod, RankOfJ};
 use crate::rank::registry;
 use crate::rank::verdict::verdict;
-use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
-use crate::search::suggest::single_changes;
+use crate::redundancy::analysis::{Method, analyse};
 use crate::view::analysis::Analysis;
 use crate::view::analysis::next::next as steps;
 use crate::view::layout::fit;
 use crate::view::mobility::ByMethod;
 use crate::view::next;
-use crate::view::suggestions::{self, Advice};
+use crate::view::stroke::Stroke;
+use crate::view::suggestions;
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -100,10 +102,10 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
         .map(|_| verdict(&mechanism, over, a.tolerance));
     let asked = asked.transpose()?;
     let stroke = match (&a.stroke, &asked) {
-        (Some(range), Some(verdict)) => Some(stroke::Asked::new(
+        (Some(range), Some(verdict)) => Some(Asked::new(
             &mechanism,
             over,
-            range,
+            (range, stroke(range)?),
             a.drive.as_deref(),
             (verdict, a.tolerance),
         )?),
@@ -116,14 +118,14 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     if let Some(path) = &a.certificate {
         verify::write(path, &mechanism, &states, &found)?;
     }
-    let stroke = stroke.as_ref().map(stroke::Asked::follow).transpose()?;
+    let stroke = stroke.as_ref().map(Stroke::of);
     if let (Some(s), Some(path)) = (&stroke, &a.svg) {
         output::to(Some(path), |out| {
             write!(out, "{}", s.chart().svg())?;
             Ok(Done::Found)
         })?;
     }
-    let advice = advise(&mechanism, &states, &found)?;
+    let advice = suggestions::advise(&mechanism, &states, &found)?;
     let analysis = Analysis {
         stroke,
         ..Analysis::new(&mechanism, &found, &advice)
@@ -145,33 +147,6 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
         let stopped = analysis.stroke.is_some_and(|s| s.stop.is_some());
         Ok(if stopped { Done::Nothing } else { Done::Found })
     })
-}
-
-/// What single changes would do in each state, on the geometry that the analysis is about.
-fn advise(
-    mechanism: &Mechanism,
-    states: &[StateId],
-    found: &[StateAnalysis],
-) -> anyhow::Result<Vec<Advice>> {
-    let one = |(&state, s): (&StateId, &StateAnalysis)| {
-        if suggestions::concerned(s) == 0 {
-            return Ok(Advice::Nothing);
-        }
-        if matches!(s.certainty, Certainty::Undecided { .. }) {
-            return Ok(Advice::Silent(
-                "which constraints are redundant is not decided",
-            ));
-        }
-        let found = single_changes(s.meant.as_deref().unwrap_or(mechanism), state)?;
-        Ok(if found.redundant == s.redundant {
-            Advice::Changes(found)
-        } else {
-            Advice::Silent(
-                "the redundant constraints are there within the tolerance only, not as the coordinates are written",
-            )
-        })
-    };
-    states.iter().zip(found).map(one).collect()
 }
 
 /// By a method that gives a mobility and nothing else.

@@ -159,5 +159,5 @@ pub(super) fn description(path: &Path, options: &Options) -> anyhow::Result<robo
         "{} is not a file; give the path of a URDF, MJCF or SDF file",
         path.display()
     );
-    Ok(api::description(path, options)?)
+    Ok(api::import(path, options)?)
 }

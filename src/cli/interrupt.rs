@@ -3,7 +3,6 @@
 
 use super::{output, working};
 use anyhow::Context;
-use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 
 /// SIGHUP, SIGINT and SIGTERM by their numbers, which are the same everywhere.
@@ -87,9 +86,9 @@ pub(super) fn answered() {
 }
 
 /// The exit code of a run that was interrupted.
-pub(super) fn exit_code() -> Option<ExitCode> {
+pub(super) fn exit_code() -> Option<u8> {
     match FIRST.load(Ordering::SeqCst) {
         0 => None,
-        signal => Some(ExitCode::from(code(signal))),
+        signal => Some(code(signal)),
     }
 }

@@ -4,7 +4,7 @@ pub(super) mod args;
 
 use super::args::Args;
 use super::{Done, charts, clamped, load, output};
-use crate::file::read::motion::{MAX_STEPS, position};
+use crate::file::read::motion::stroke;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -211,25 +211,6 @@ fn spatial(
         }
         Ok(Done::Found)
     })
-}
-
-/// A range and its steps, such as "0:360deg:72".
-pub(super) fn stroke(text: &str) -> anyhow::Result<Stroke> {
-    let parts: Vec<&str> = text.split(':').collect();
-    let parsed = match parts[..] {
-        [from, to, steps] => position(from)
-            .zip(position(to))
-            .zip(steps.parse::<usize>().ok()),
-        _ => None,
-    };
-    match parsed {
-        Some(((from, to), steps)) if (1..=MAX_STEPS).contains(&steps) => {
-            Ok(Stroke { from, to, steps })
-        }
-        _ => bail!(
-            "--stroke {text:?} is not FROM:TO:STEPS, such as 0:360deg:72 with 1 to {MAX_STEPS} steps"
-        ),
-    }
 }
 
 fn groups(m: &Mechanism, state: StateId, a: &Statics) -> anyhow::Result<Done> {

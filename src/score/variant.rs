@@ -158,18 +158,7 @@ impl<'o> Variant<'o> {
     /// The variant as a mechanism of its own, named for its place in the list.
     #[must_use]
     pub fn mechanism(&self) -> Mechanism {
-        let mut out = self.outcome.search.realize(&self.assignment().choices);
-        out.description = format!(
-            "Variant {} of {}: {}",
-            self.position,
-            out.name,
-            in_words(&self.outcome.search, &self.changes())
-        );
-        out.name = format!("{}-variant-{}", out.name, self.position);
-        // Options are gone, and their names with them.
-        out.joint_types
-            .retain(|t| t.name == "custom" || JointType::from_name(&t.name).is_some());
-        out
+        mechanism(&self.outcome.search, self.assignment(), self.position)
     }
 
     /// σ of each of its contours when they are added in this order, with the range over all orders: of the searched state,
@@ -212,6 +201,22 @@ impl fmt::Display for Variant<'_> {
         let changes = in_words(&self.outcome.search, &self.changes());
         write!(f, ": {changes}")
     }
+}
+
+/// A choice of options as a mechanism of its own, named for its place in a list.
+#[must_use]
+pub fn mechanism(search: &Search, assignment: &Assignment, position: usize) -> Mechanism {
+    let mut out = search.realize(&assignment.choices);
+    out.description = format!(
+        "Variant {position} of {}: {}",
+        out.name,
+        in_words(search, &changes(search, assignment))
+    );
+    out.name = format!("{}-variant-{position}", out.name);
+    // Options are gone, and their names with them.
+    out.joint_types
+        .retain(|t| t.name == "custom" || JointType::from_name(&t.name).is_some());
+    out
 }
 
 /// The joints that a choice of options changes, in file order.

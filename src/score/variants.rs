@@ -50,8 +50,21 @@ impl Outcome {
     /// The same until `cancelled`.
     #[must_use]
     pub fn variants_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
+        self.list_unless(self.request.list, self.request.seed, cancelled)
+    }
+
+    /// Another list of the same variants, until `cancelled`: all of them, or a sample by another seed. Those that further
+    /// poses drop are dropped from it, too. The best by a ranking, and more of the best than a search that does not count was
+    /// asked for, take a search of their own.
+    #[must_use]
+    pub fn list_unless<'o>(
+        &'o self,
+        list: List,
+        seed: u64,
+        cancelled: ShouldCancel<'o>,
+    ) -> Variants<'o> {
         let request = &self.request;
-        let wanted = match request.list {
+        let wanted = match list {
             List::Top(k) => k,
             List::All | List::Sample(_) => usize::MAX / 4,
             List::Nothing => 0,
@@ -59,7 +72,7 @@ impl Outcome {
         let mut ideas = Vec::new();
         let unranked = |v: Assignment| (v, None);
         let source: Box<dyn Iterator<Item = (Assignment, Option<usize>)>> =
-            match (&self.diagrams, &self.ranking, request.list) {
+            match (&self.diagrams, &self.ranking, list) {
                 (Some(d), ranking, List::Top(k)) if request.distinct => {
                     let found = match ranking {
                         Some(r) => {
@@ -82,27 +95,31 @@ impl Outcome {
                 }
                 (None, ..) | (.., List::Nothing) => Box::new(std::iter::empty()),
                 (Some(d), _, List::Sample(n)) => {
-                    let drawn = self.search.sample(d, request.seed);
+                    let drawn = self.search.sample(d, seed);
                     Box::new(drawn.take(n).map(unranked))
                 }
-                (_, Some(ranked), _) => {
+                (_, Some(ranked), List::Top(_)) => {
                     let list = ranked.list.iter().enumerate();
                     Box::new(list.map(|(place, r)| (r.variant.clone(), Some(place))))
                 }
-                (Some(d), None, _) => {
+                (Some(d), ..) => {
                     let enough = request.listed(wanted);
                     Box::new(self.search.cheapest(d, enough).map(unranked))
                 }
             };
         // What is proven is a list of all variants; of ideas a diagram cut down may lack the first ones.
-        let by_cost =
-            self.ranking.is_none() && !request.distinct && !matches!(request.list, List::Sample(_));
+        let by_cost = match list {
+            List::Top(_) | List::Nothing => self.ranking.is_none() && !request.distinct,
+            List::All => true,
+            List::Sample(_) => false,
+        };
         let summary = Summary {
             proven: (by_cost && !self.is_exact()).then_some(0),
             ..Summary::default()
         };
         Variants {
             outcome: self,
+            list,
             cancelled,
             source,
             opinions: request.check == Check::Full,
@@ -120,6 +137,7 @@ impl Outcome {
 /// The variants of an outcome, one by one.
 pub struct Variants<'o> {
     outcome: &'o Outcome,
+    list: List,
     cancelled: ShouldCancel<'o>,
     /// Variants, with their places in the ranking where there is one.
     source: Box<dyn Iterator<Item = (Assignment, Option<usize>)> + 'o>,
@@ -179,7 +197,7 @@ impl Variants<'_> {
     /// Whether fewer came than there are, though none was left out on purpose.
     fn is_short(&self) -> bool {
         let (o, given) = (self.outcome, self.summary.given);
-        let due = match o.request.list {
+        let due = match self.list {
             List::Sample(n) if !o.admissible.total.is_zero() => n.into(),
             List::Top(k) if o.ranking.is_none() => o.admissible.total.clone().min(k.into()),
             List::All => o.admissible.total.clone(),

@@ -5,6 +5,7 @@ use crate::format::number::decimals;
 use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::along_stroke::StrokeFigures;
+use crate::rank::asked_stroke::Asked;
 use crate::view::layout::table;
 use itertools::Itertools;
 use serde::Serialize;
@@ -82,6 +83,13 @@ pub struct Stop {
 }
 
 impl<'a> Stroke<'a> {
+    /// Follows a stroke that is asked for, and says what was found.
+    #[must_use]
+    pub fn of(asked: &Asked<'a>) -> Stroke<'a> {
+        let (m, state) = asked.subject();
+        Stroke::new(m, state, asked.drive(), asked.range(), &asked.follow())
+    }
+
     /// What was found of a drive of this name, which slides or turns, over a range.
     #[must_use]
     pub fn new(

@@ -1,9 +1,11 @@
 //! Single changes in words and as data, and what to do after an analysis.
 
 use crate::format::number::cost;
+use crate::geom::exact::ExactError;
 use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::method::Certainty;
 use crate::redundancy::analysis::StateAnalysis;
-use crate::search::suggest::{self, Suggestion};
+use crate::search::suggest::{self, Suggestion, single_changes};
 use crate::view::layout::table;
 use itertools::Itertools;
 use serde::{Serialize, Serializer};
@@ -33,6 +35,36 @@ pub fn concerned(s: &StateAnalysis) -> usize {
         None => s.redundant,
         Some(e) => usize::try_from(e.by_rank).unwrap_or(0),
     }
+}
+
+/// What single changes would do in each state, on the geometry that the analysis is about.
+///
+/// # Errors
+/// Where a geometry has no exact image.
+pub fn advise(
+    mechanism: &Mechanism,
+    states: &[StateId],
+    found: &[StateAnalysis],
+) -> Result<Vec<Advice>, ExactError> {
+    let one = |(&state, s): (&StateId, &StateAnalysis)| {
+        if concerned(s) == 0 {
+            return Ok(Advice::Nothing);
+        }
+        if matches!(s.certainty, Certainty::Undecided { .. }) {
+            return Ok(Advice::Silent(
+                "which constraints are redundant is not decided",
+            ));
+        }
+        let found = single_changes(s.meant.as_deref().unwrap_or(mechanism), state)?;
+        Ok(if found.redundant == s.redundant {
+            Advice::Changes(found)
+        } else {
+            Advice::Silent(
+                "the redundant constraints are there within the tolerance only, not as the coordinates are written",
+            )
+        })
+    };
+    states.iter().zip(found).map(one).collect()
 }
 
 /// What single changes would do in a state.

@@ -67,7 +67,8 @@ fn every_dependency_may_be_handed_out() {
     let told = String::from_utf8(told.stdout).unwrap();
     let host = told.lines().find_map(|l| l.strip_prefix("host: ")).unwrap();
     let o = Command::new(env!("CARGO"))
-        .args(["metadata", "--format-version", "1", "--locked", "--offline"])
+        // What only the Python package needs is perhaps not here yet, and is fetched.
+        .args(["metadata", "--format-version", "1", "--locked"])
         .args(["--filter-platform", host])
         .args([
             "--manifest-path",

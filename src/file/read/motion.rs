@@ -4,6 +4,8 @@ use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
 use crate::file::schema::Quantity;
+use crate::model::loads::Stroke;
+use thiserror::Error;
 
 /// Most forces, moments or misalignments.
 pub(super) const MAX_FORCES: usize = 10_000;
@@ -24,6 +26,31 @@ pub fn speed(text: &str) -> Option<f64> {
     let rpm = std::f64::consts::TAU / 60.0;
     let units = [("rpm", rpm), ("deg/s", 1f64.to_radians()), ("rad/s", 1.0)];
     with_units(text, &units)
+}
+
+/// A stroke that is not written as one.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("--stroke {0:?} is not FROM:TO:STEPS, such as 0:360deg:72 with 1 to {MAX_STEPS} steps")]
+pub struct NoStroke(String);
+
+/// A range and its steps, such as "0:360deg:72".
+///
+/// # Errors
+/// Where it is none.
+pub fn stroke(text: &str) -> Result<Stroke, NoStroke> {
+    let parts: Vec<&str> = text.split(':').collect();
+    let parsed = match parts[..] {
+        [from, to, steps] => position(from)
+            .zip(position(to))
+            .zip(steps.parse::<usize>().ok()),
+        _ => None,
+    };
+    match parsed {
+        Some(((from, to), steps)) if (1..=MAX_STEPS).contains(&steps) => {
+            Ok(Stroke { from, to, steps })
+        }
+        _ => Err(NoStroke(text.to_owned())),
+    }
 }
 
 fn with_units(text: &str, units: &[(&str, f64)]) -> Option<f64> {

@@ -1,23 +1,90 @@
-//! The stroke of `ozols analyze`.
+//! A stroke in the words of its user: which column moves, which are held, how exactly it is followed.
 
-use super::statics;
+use crate::geom::exact::ExactError;
 use crate::model::joint_type::Freedom;
 use crate::model::loads;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::follow::{Follower, slides};
 use crate::motion::pose::{FLAT, Pose};
-use crate::rank::along_stroke::{StrokeRequest, stroke};
+use crate::rank::along_stroke::{StrokeFigures, StrokeRequest, stroke};
 use crate::rank::verdict::{Meant, Verdict};
-use crate::view::stroke::Stroke;
-use anyhow::{Context, bail, ensure};
 use itertools::Itertools;
+use thiserror::Error;
 
 /// Most steps: every pose on the way is kept.
 const MOST: usize = 10_000;
 
+/// Why a mechanism cannot be followed over a stroke.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum AskedError {
+    /// Which mechanism is meant is not known.
+    #[error("the motion of {name} over a stroke is not known: {why}")]
+    Undecided {
+        /// Name of the mechanism.
+        name: String,
+        /// Why not.
+        why: String,
+    },
+    /// Angles for a drive that slides.
+    #[error(
+        "--stroke {range:?} is in angles, but the drive slides; give lengths in the file's unit, {unit}"
+    )]
+    Angles {
+        /// The range.
+        range: String,
+        /// Symbol of the unit.
+        unit: &'static str,
+    },
+    /// Too far, or in too many steps.
+    #[error("--stroke goes to at most {MOST} steps and {0:.0} radians or length units")]
+    Far(f64),
+    /// A joint without that freedom.
+    #[error("joint {joint} has no freedom{freedom} to be driven in state {state}; {could}")]
+    NoFreedom {
+        /// The joint.
+        joint: String,
+        /// The freedom, after a space; nothing where none was named.
+        freedom: String,
+        /// The state.
+        state: String,
+        /// What could be driven.
+        could: String,
+    },
+    /// A joint with several.
+    #[error(
+        "joint {joint} has several freedoms; say which moves: --drive {}", names.join(" or --drive ")
+    )]
+    Several {
+        /// The joint.
+        joint: String,
+        /// Its freedoms.
+        names: Vec<String>,
+    },
+    /// No such joint.
+    #[error("there is no joint {name}; {could}")]
+    NoJoint {
+        /// What was named.
+        name: String,
+        /// What could be driven.
+        could: String,
+    },
+    /// Nothing is driven.
+    #[error("{name} has no drive; name the joint that moves with --drive: {could}")]
+    NoDrive {
+        /// Name of the mechanism.
+        name: String,
+        /// What could be driven.
+        could: String,
+    },
+    /// A coordinate has no value.
+    #[error(transparent)]
+    Exact(#[from] ExactError),
+}
+
 /// A stroke that is asked for.
 #[derive(Debug)]
-pub(super) struct Asked<'a> {
+pub struct Asked<'a> {
     mechanism: &'a Mechanism,
     state: StateId,
     verdict: &'a Verdict,
@@ -48,34 +115,37 @@ fn names(m: &Mechanism, pose: &Pose) -> Vec<(usize, String)> {
 }
 
 impl<'a> Asked<'a> {
-    /// What `range`, and the joint named as the drive, ask of the mechanism that a verdict is about.
-    pub(super) fn new(
+    /// What a range, as it was written and read, and the joint named as the drive ask of the mechanism that a verdict is about.
+    ///
+    /// # Units
+    /// Radians, or the file's unit of length, from the pose of the file.
+    ///
+    /// # Errors
+    /// Where the mechanism has no such drive, or which mechanism is meant is not decided.
+    pub fn new(
         m: &'a Mechanism,
         state: StateId,
-        range: &str,
+        (text, range): (&str, loads::Stroke),
         named: Option<&str>,
         (verdict, tolerance): (&'a Verdict, Option<f64>),
-    ) -> anyhow::Result<Asked<'a>> {
-        ensure!(
-            verdict.is_decided(),
-            "the motion of {} over a stroke is not known: {}",
-            m.name,
-            verdict.undecided()
-        );
+    ) -> Result<Asked<'a>, AskedError> {
+        if !verdict.is_decided() {
+            let why = verdict.undecided();
+            let name = m.name.clone();
+            return Err(AskedError::Undecided { name, why });
+        }
         let m = verdict.mechanism().unwrap_or(m);
         let pose = Pose::of_file(m, state)?;
         let (drive, held) = drive(m, &pose, state, named)?;
         let slide = slides(&pose, drive);
-        if slide && (range.contains("deg") || range.contains("rad")) {
-            bail!(
-                "--stroke {range:?} is in angles, but the drive slides; give lengths in the file's unit, {}",
-                m.length_unit.symbol
-            );
+        if slide && (text.contains("deg") || text.contains("rad")) {
+            let unit = m.length_unit.symbol;
+            let range = text.to_owned();
+            return Err(AskedError::Angles { range, unit });
         }
-        let range = statics::stroke(range)?;
         let far = 1e3 * if slide { pose.length } else { 1.0 };
         if range.steps > MOST || range.from.abs() > far || range.to.abs() > far {
-            bail!("--stroke goes to at most {MOST} steps and {far:.0} radians or length units");
+            return Err(AskedError::Far(far));
         }
         Ok(Asked {
             mechanism: m,
@@ -89,8 +159,30 @@ impl<'a> Asked<'a> {
         })
     }
 
+    /// The mechanism that is meant, and the state.
+    #[must_use]
+    pub fn subject(&self) -> (&'a Mechanism, StateId) {
+        (self.mechanism, self.state)
+    }
+
+    /// The drive by name, and whether it slides.
+    #[must_use]
+    pub fn drive(&self) -> (String, bool) {
+        let mut names = names(self.mechanism, &self.pose).into_iter();
+        let drive = names.find(|(c, _)| *c == self.drive);
+        let name = drive.map_or_else(String::new, |(_, n)| n);
+        (name, slides(&self.pose, self.drive))
+    }
+
+    /// From and to.
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        [self.range.from, self.range.to]
+    }
+
     /// Goes there.
-    pub(super) fn follow(&self) -> anyhow::Result<Stroke<'a>> {
+    #[must_use]
+    pub fn follow(&self) -> StrokeFigures {
         let found = self.verdict;
         // Rounded coordinates close no better than what they leave of a zero.
         let measured = found.rounded.as_ref().is_some_and(|r| r.digits.is_some());
@@ -108,24 +200,11 @@ impl<'a> Asked<'a> {
             state: self.state,
             drive: self.drive,
             held: &self.held,
-            range: [self.range.from, self.range.to],
+            range: self.range(),
             steps: self.range.steps,
             tolerance,
         };
-        let figures = stroke(&request, &pose);
-        let drive = names(self.mechanism, &self.pose)
-            .into_iter()
-            .find(|(c, _)| *c == self.drive)
-            .map_or_else(String::new, |(_, n)| n);
-        let drive = (drive, slides(&self.pose, self.drive));
-        let range = request.range;
-        Ok(Stroke::new(
-            self.mechanism,
-            self.state,
-            drive,
-            range,
-            &figures,
-        ))
+        stroke(&request, &pose)
     }
 }
 
@@ -135,7 +214,7 @@ fn drive(
     pose: &Pose,
     state: StateId,
     asked: Option<&str>,
-) -> anyhow::Result<(usize, Vec<usize>)> {
+) -> Result<(usize, Vec<usize>), AskedError> {
     let names = names(m, pose);
     let driven = |j: JointId| m.joints[j].drive;
     let column = |joint: JointId, freedom: Option<&str>| {
@@ -149,18 +228,16 @@ fn drive(
         }
         match of[..] {
             [(c, _)] => Ok(*c),
-            [] => bail!(
-                "joint {} has no freedom{} to be driven in state {}; {}",
-                m.joints[joint].id,
-                freedom.map_or_else(String::new, |f| format!(" {f}")),
-                m.states[state],
-                could(m, pose, &names)
-            ),
-            _ => bail!(
-                "joint {} has several freedoms; say which moves: --drive {}",
-                m.joints[joint].id,
-                of.iter().map(|(_, n)| n).join(" or --drive ")
-            ),
+            [] => Err(AskedError::NoFreedom {
+                joint: m.joints[joint].id.clone(),
+                freedom: freedom.map_or_else(String::new, |f| format!(" {f}")),
+                state: m.states[state].clone(),
+                could: could(m, pose, &names),
+            }),
+            _ => Err(AskedError::Several {
+                joint: m.joints[joint].id.clone(),
+                names: of.iter().map(|(_, n)| n.clone()).collect(),
+            }),
         }
     };
     let chosen = match asked {
@@ -170,18 +247,17 @@ fn drive(
                 (None, Some((id, freedom))) if m.joint(id).is_some() => (id, Some(freedom)),
                 _ => (name, None),
             };
-            let joint = m
-                .joint(id)
-                .with_context(|| format!("there is no joint {name}; {}", could(m, pose, &names)))?;
+            let joint = m.joint(id).ok_or_else(|| AskedError::NoJoint {
+                name: name.to_owned(),
+                could: could(m, pose, &names),
+            })?;
             column(joint, freedom)?
         }
         None => {
-            let joint = m.joints_in(state).find(|&j| driven(j)).with_context(|| {
-                format!(
-                    "{} has no drive; name the joint that moves with --drive: {}",
-                    m.name,
-                    could(m, pose, &names)
-                )
+            let mut driving = m.joints_in(state).filter(|&j| driven(j));
+            let joint = driving.next().ok_or_else(|| AskedError::NoDrive {
+                name: m.name.clone(),
+                could: could(m, pose, &names),
             })?;
             column(joint, None)?
         }

@@ -1,0 +1,76 @@
+//! The structure of a mechanism, in its pose and over a stroke.
+
+use crate::mechanism::Mechanism;
+use crate::told::{Told, failed, json, state};
+use ozols::file::read::motion;
+use ozols::model::mechanism::StateId;
+use ozols::rank::asked_stroke::Asked;
+use ozols::rank::registry;
+use ozols::rank::verdict::verdict;
+use ozols::redundancy::analysis::{Method, analyse};
+use ozols::view::analysis::Analysis;
+use ozols::view::mobility::ByMethod;
+use ozols::view::stroke::Stroke;
+use ozols::view::suggestions::advise;
+use pyo3::prelude::*;
+
+/// As `ozols analyze`.
+#[pyfunction]
+pub(crate) fn analyze(
+    py: Python<'_>,
+    mechanism: &Bound<'_, Mechanism>,
+    named: &str,
+    method: &str,
+    tolerance: Option<f64>,
+) -> PyResult<Told> {
+    let m = &mechanism.get().0;
+    py.detach(|| {
+        let states: Vec<StateId> = match named {
+            "all" if m.state(named).is_none() => m.state_ids().collect(),
+            _ => vec![state(m, named)?],
+        };
+        let Some(by) = registry::by_name(method) else {
+            let known = registry::ALL.map(|m| m.name()).join(", ");
+            return Err(failed(format!("method {method:?} is none of {known}")));
+        };
+        if tolerance.is_some_and(|t| !(t > 0.0 && t < 1.0)) {
+            return Err(failed("--tolerance must be between 0 and 1"));
+        }
+        let Some(rank) = Method::of(by, tolerance) else {
+            let answer = |&s| Ok((s, by.answer(m, s).map_err(failed)?));
+            let answers = states.iter().map(answer).collect::<PyResult<Vec<_>>>()?;
+            let found = ByMethod::new(m, by, &answers);
+            return Ok((json(&found)?, found.text(), None, None));
+        };
+        let found = analyse(m, &states, rank).map_err(failed)?;
+        let advice = advise(m, &states, &found).map_err(failed)?;
+        let told = Analysis::new(m, &found, &advice);
+        Ok((json(&told)?, told.text(None), None, None))
+    })
+}
+
+/// The stroke of `ozols analyze --stroke`.
+#[pyfunction]
+pub(crate) fn stroke(
+    py: Python<'_>,
+    mechanism: &Bound<'_, Mechanism>,
+    range: &str,
+    drive: Option<&str>,
+    named: &str,
+    tolerance: Option<f64>,
+) -> PyResult<Told> {
+    let m = &mechanism.get().0;
+    py.detach(|| {
+        let state = state(m, named)?;
+        let verdict = verdict(m, state, tolerance).map_err(failed)?;
+        let read = (range, motion::stroke(range).map_err(failed)?);
+        let asked = Asked::new(m, state, read, drive, (&verdict, tolerance)).map_err(failed)?;
+        let told = Stroke::of(&asked);
+        Ok((
+            json(&told)?,
+            told.text(None),
+            None,
+            Some(told.chart().svg()),
+        ))
+    })
+}

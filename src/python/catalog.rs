@@ -1,0 +1,91 @@
+//! Catalogues: a part built in this process, and parts put together.
+
+use crate::told::failed;
+use crate::waiting::patiently;
+use ozols::catalog::build::{Shard, build, work};
+use ozols::catalog::spec::Spec;
+use ozols::catalog::store::Store;
+use pyo3::prelude::*;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::atomic::Ordering;
+
+fn spec(json: &str) -> PyResult<Spec> {
+    let spec: Spec = serde_json::from_str(json).map_err(failed)?;
+    spec.check().map_err(failed)?;
+    Ok(spec)
+}
+
+/// What a specification, given as JSON, is in the words that the database keeps, and the ids of its structures.
+#[pyfunction]
+pub(crate) fn catalog_plan(py: Python<'_>, json: &str) -> PyResult<(String, Vec<String>)> {
+    let spec = spec(json)?;
+    let work = py.detach(|| work(&spec, Shard::WHOLE)).map_err(failed)?;
+    let all = work.iter().flat_map(|w| &w.structures);
+    let mut ids: Vec<String> = all.map(|s| s.id()).collect();
+    ids.sort_unstable();
+    Ok((spec.canonical(), ids))
+}
+
+/// As `ozols catalog build`: what a database lacks of a part, counted from 1, is added to it; how many that were.
+/// `progress` hears structures done and in all.
+#[pyfunction]
+pub(crate) fn catalog_build(
+    py: Python<'_>,
+    json: &str,
+    path: PathBuf,
+    part: (u64, u64),
+    threads: usize,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<usize> {
+    let spec = &spec(json)?;
+    let (index, of) = part;
+    if !(1..=of).contains(&index) {
+        return Err(failed("a part is written 1/7, the first of seven"));
+    }
+    let index = index - 1;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    let pool = pool.build().map_err(failed)?;
+    let built = patiently(
+        py,
+        |stop, tell| {
+            pool.install(|| {
+                let mut store = Store::create(&path, spec).map_err(failed)?;
+                let there = store.ids().map_err(failed)?;
+                let work = work(spec, Shard { index, of }).map_err(failed)?;
+                let all: usize = work.iter().map(|w| w.structures.len()).sum();
+                let mut added = 0;
+                let stopped = || stop.load(Ordering::Relaxed);
+                let ended = build(
+                    spec,
+                    &work,
+                    |s| stopped() || there.contains(&s.id()),
+                    |row| {
+                        added += 1;
+                        tell((there.len() + added, all));
+                        match store.add(&row) {
+                            Err(e) => ControlFlow::Break(Some(e)),
+                            Ok(()) if stopped() => ControlFlow::Break(None),
+                            Ok(()) => ControlFlow::Continue(()),
+                        }
+                    },
+                );
+                match ended.map_err(failed)? {
+                    Some(Some(e)) => Err(failed(e)),
+                    _ => Ok(added),
+                }
+            })
+        },
+        |(done, all): (usize, usize)| match progress {
+            Some(progress) => progress.call1((done, all)).map(drop),
+            None => Ok(()),
+        },
+    )?;
+    built
+}
+
+/// As `ozols catalog merge`; how many structures were added.
+#[pyfunction]
+pub(crate) fn catalog_merge(py: Python<'_>, path: PathBuf, parts: Vec<PathBuf>) -> PyResult<usize> {
+    py.detach(|| Store::merge(&path, &parts)).map_err(failed)
+}

@@ -1,0 +1,121 @@
+//! Mechanisms: read, written and drawn.
+
+use crate::told::{failed, refused, state};
+use ozols::draw::{self, Marks, Subject};
+use ozols::redundancy::analysis::{Method, analyse};
+use ozols::robots::{self, Options};
+use pyo3::prelude::*;
+use std::path::PathBuf;
+
+/// A mechanism of the library.
+#[derive(Debug)]
+#[pyclass(frozen, module = "ozols._native")]
+pub(crate) struct Mechanism(pub(crate) ozols::Mechanism);
+
+#[pymethods]
+impl Mechanism {
+    #[staticmethod]
+    fn builtin(name: &str) -> PyResult<Self> {
+        ozols::Mechanism::builtin(name).map(Self).map_err(refused)
+    }
+
+    /// A mechanism file, or a robot description with what is doubtful about it.
+    #[staticmethod]
+    fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<(Self, String)> {
+        if robots::is_description(&path.display().to_string()) {
+            return robot(py, path, &Options::default());
+        }
+        let read = py.detach(|| ozols::Mechanism::from_file(path));
+        Ok((Self(read.map_err(refused)?), String::new()))
+    }
+
+    #[staticmethod]
+    fn from_toml(text: &str) -> PyResult<Self> {
+        ozols::Mechanism::from_toml(text).map(Self).map_err(refused)
+    }
+
+    #[staticmethod]
+    fn from_json(text: &str) -> PyResult<Self> {
+        ozols::Mechanism::from_json(text).map(Self).map_err(refused)
+    }
+
+    #[staticmethod]
+    #[allow(clippy::too_many_arguments, reason = "they are named in Python")]
+    fn from_robot(
+        py: Python<'_>,
+        path: PathBuf,
+        loops: Option<(String, Vec<u8>)>,
+        pose: Vec<(String, Vec<f64>)>,
+        floating: bool,
+        assemble: bool,
+        open: bool,
+        models: Vec<PathBuf>,
+        frame: Option<String>,
+        outputs: Vec<String>,
+    ) -> PyResult<(Self, String)> {
+        let options = Options {
+            loops,
+            pose,
+            floating,
+            assemble,
+            open,
+            models,
+            frame,
+            outputs,
+        };
+        robot(py, path, &options)
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    fn export(&self, py: Python<'_>, format: &str) -> PyResult<String> {
+        py.detach(|| ozols::export(&self.0, format)).map_err(failed)
+    }
+
+    fn draw(&self, py: Python<'_>, kind: &str, state: &str) -> PyResult<String> {
+        py.detach(|| drawn(&self.0, kind, state, None))
+    }
+}
+
+fn robot(py: Python<'_>, path: PathBuf, options: &Options) -> PyResult<(Mechanism, String)> {
+    let imported = py
+        .detach(|| ozols::import(path, options))
+        .map_err(refused)?;
+    Ok((Mechanism(imported.mechanism), imported.report.doubts()))
+}
+
+/// A drawing of a mechanism in a state, with what a redesign changed marked.
+pub(crate) fn drawn(
+    m: &ozols::Mechanism,
+    kind: &str,
+    named: &str,
+    marks: Option<Marks>,
+) -> PyResult<String> {
+    let draw = match kind {
+        "scheme" => draw::scheme,
+        "kinematic" => draw::kinematic,
+        _ => {
+            return Err(failed(format!(
+                "kind {kind:?} is neither scheme nor kinematic"
+            )));
+        }
+    };
+    let state = state(m, named)?;
+    let found = analyse(m, &[state], Method::Auto { tolerance: None }).map_err(failed)?;
+    let subject = Subject {
+        mechanism: m,
+        state,
+        analysis: found.first(),
+        marks,
+    };
+    Ok(draw(&subject).svg)
+}
+
+/// Names of the built-in mechanisms, ascending.
+#[pyfunction]
+pub(crate) fn builtin_names() -> Vec<&'static str> {
+    ozols::builtin::names()
+}

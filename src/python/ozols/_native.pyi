@@ -1,0 +1,93 @@
+"""The library itself: views as JSON, which the package around it makes objects of."""
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, TypeAlias, final
+
+__all__ = [
+    "VERSION",
+    "Error",
+    "Mechanism",
+    "Outcome",
+    "Variant",
+    "Variants",
+    "analyze",
+    "builtin_names",
+    "catalog_build",
+    "catalog_merge",
+    "catalog_plan",
+    "command",
+    "search",
+    "statics",
+    "stroke",
+]
+
+VERSION: str
+
+_Path: TypeAlias = str | os.PathLike[str]
+_Told: TypeAlias = tuple[str, str, str | None, str | None]
+
+class Error(ValueError):
+    """What went wrong, in the words of the command line."""
+
+@final
+class Mechanism:
+    name: str
+    @staticmethod
+    def builtin(name: str) -> Mechanism: ...
+    @staticmethod
+    def from_file(path: _Path) -> tuple[Mechanism, str]: ...
+    @staticmethod
+    def from_toml(text: str) -> Mechanism: ...
+    @staticmethod
+    def from_json(text: str) -> Mechanism: ...
+    @staticmethod
+    def from_robot(
+        path: _Path,
+        loops: tuple[str, bytes] | None,
+        pose: Sequence[tuple[str, Sequence[float]]],
+        floating: bool,
+        assemble: bool,
+        open: bool,
+        models: Sequence[_Path],
+        frame: str | None,
+        outputs: Sequence[str],
+    ) -> tuple[Mechanism, str]: ...
+    def export(self, format: str) -> str: ...
+    def draw(self, kind: str, state: str) -> str: ...
+
+@final
+class Outcome:
+    def counts(self) -> str: ...
+    def data(self) -> str: ...
+    def csv(self) -> str: ...
+    def text(self) -> str: ...
+    def variants(self, all: bool, sample: int | None, seed: int) -> Variants: ...
+
+@final
+class Variants(Iterator[Variant]):
+    def __next__(self) -> Variant: ...
+
+@final
+class Variant:
+    position: int
+    text: str
+    data: str
+    def mechanism(self) -> Mechanism: ...
+    def draw(self, kind: str, state: str) -> str: ...
+
+def builtin_names() -> list[str]: ...
+def analyze(mechanism: Mechanism, named: str, method: str, tolerance: float | None) -> _Told: ...
+def stroke(mechanism: Mechanism, range: str, drive: str | None, named: str, tolerance: float | None) -> _Told: ...
+def statics(mechanism: Mechanism, named: str, stroke: str | None, spatial: bool, unilateral: bool) -> _Told: ...
+def search(mechanism: Mechanism, asked: dict[str, Any], progress: Callable[[int, int, int], object] | None) -> Outcome: ...
+def catalog_plan(json: str) -> tuple[str, list[str]]: ...
+def catalog_build(
+    json: str,
+    path: _Path,
+    part: tuple[int, int],
+    threads: int,
+    progress: Callable[[int, int], object] | None,
+) -> int: ...
+def catalog_merge(path: _Path, parts: Sequence[_Path]) -> int: ...
+def command(words: Sequence[str]) -> int: ...

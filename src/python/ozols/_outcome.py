@@ -1,0 +1,175 @@
+"""What a search found, and its variants."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, overload
+
+from . import _native
+from ._view import View, table
+
+if TYPE_CHECKING:
+    import os
+
+    import pandas
+
+    from ._mechanism import Mechanism
+
+
+class Drawing(str):
+    """A drawing as SVG, which a notebook shows."""
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes it to a file."""
+        Path(path).write_text(self, encoding="utf-8")
+
+    def _repr_svg_(self) -> str:
+        return self
+
+
+class Variant(View):
+    """A redesign: ``position``, ``cost``, ``mobility``, ``redundant``, ``changes``, ``scores`` and the other keys of the JSON.
+
+    ``print(variant)`` shows it in one line.
+    """
+
+    __slots__ = ("_native",)
+
+    def __init__(self, native: _native.Variant) -> None:
+        super().__init__(json.loads(native.data))
+        self._native = native
+
+    def __str__(self) -> str:
+        return self._native.text
+
+    def mechanism(self) -> Mechanism:
+        """The redesign as a mechanism of its own."""
+        from ._mechanism import Mechanism
+
+        return Mechanism(self._native.mechanism())
+
+    def draw(self, kind: str = "scheme", *, state: str = "free") -> Drawing:
+        """The redesign with its changes marked, as ``ozols draw --variant``."""
+        return Drawing(self._native.draw(kind, state))
+
+    def _repr_svg_(self) -> str:
+        return self.draw()
+
+    def _row(self) -> dict[str, Any]:
+        keys = ("position", "cost", "mobility", "redundant")
+        by_type: dict[str, list[str]] = {}
+        for change in self._data["changes"]:
+            by_type.setdefault(change["to"], []).append(change["joint"])
+        changes = "; ".join(f"{', '.join(joints)} -> {to}" for to, joints in by_type.items())
+        return {**{k: self._data[k] for k in keys}, "changes": changes}
+
+
+class Outcome(Sequence[Variant]):
+    """What a search found: a sequence of the variants asked for, with the counts of all.
+
+    >>> import ozols
+    >>> found = ozols.Mechanism.builtin("gripper-10").search(top=3)
+    >>> found.admissible, len(found), found[0].cost
+    (25761436, 3, 9.5)
+    >>> [v.redundant for v in found.sample(3, seed=7)]
+    [0, 0, 0]
+    >>> sum(1 for v, _ in zip(found.all(), range(1000)))
+    1000
+    """
+
+    def __init__(self, native: _native.Outcome) -> None:
+        self._native = native
+
+    @cached_property
+    def counts(self) -> View:
+        """All keys of the JSON but the variants and what is told of them."""
+        return View(json.loads(self._native.counts()))
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON that the command prints, but for its last key, ``seconds``."""
+        data: dict[str, Any] = json.loads(self._native.data())
+        return data
+
+    def to_csv(self) -> str:
+        """The variants asked for as the command's CSV."""
+        return self._native.csv()
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The same as a table of pandas."""
+        import pandas
+
+        rows = [line for line in self.to_csv().splitlines() if not line.startswith("#")]
+        return pandas.read_csv(io.StringIO("\n".join(rows)))
+
+    @property
+    def space(self) -> int:
+        """How many variants there are to choose from."""
+        return int(self.counts["space"])
+
+    @property
+    def determinate(self) -> int:
+        """How many have no more redundant constraints than allowed; at least so many, where not :attr:`exact`."""
+        return int(self.counts["determinate"])
+
+    @property
+    def admissible(self) -> int:
+        """How many meet every condition; at least so many, where not :attr:`exact`."""
+        return int(self.counts["admissible"])
+
+    @property
+    def exact(self) -> bool:
+        """Whether everything was looked at, so that counts are exact and the list is the best there is."""
+        return bool(self.counts["exact"])
+
+    @property
+    def determinate_by_mobility(self) -> dict[int, int]:
+        """The determinate ones by their mobility W."""
+        return {int(w): int(n) for w, n in self.counts["by_mobility"].items()}
+
+    @property
+    def admissible_by_mobility(self) -> dict[int, int]:
+        """The admissible ones by their mobility W."""
+        return {int(w): int(n) for w, n in self.counts["admissible_by_mobility"].items()}
+
+    @cached_property
+    def variants(self) -> list[Variant]:
+        """The variants asked for, the best first."""
+        return list(map(Variant, self._native.variants(False, None, 0)))
+
+    def all(self) -> Iterator[Variant]:
+        """Every admissible variant, the cheapest first, however many there are: a million takes no more memory than ten."""
+        return map(Variant, self._native.variants(True, None, 0))
+
+    def sample(self, count: int, seed: int = 1) -> Iterator[Variant]:
+        """Admissible variants drawn at random, each with the same chance."""
+        return map(Variant, self._native.variants(False, count, seed))
+
+    def __iter__(self) -> Iterator[Variant]:
+        return iter(self.variants)
+
+    def __len__(self) -> int:
+        return len(self.variants)
+
+    @overload
+    def __getitem__(self, at: int) -> Variant: ...
+    @overload
+    def __getitem__(self, at: slice) -> list[Variant]: ...
+    def __getitem__(self, at: int | slice) -> Variant | list[Variant]:
+        return self.variants[at]
+
+    def __str__(self) -> str:
+        return self._native.text()
+
+    def __repr__(self) -> str:
+        least = "" if self.exact else "at least "
+        name = self.counts["mechanism"]
+        return f"<ozols.Outcome of {name}: {least}{self.admissible} admissible of {self.space} variants>"
+
+    def _repr_html_(self) -> str:
+        least = "" if self.exact else "at least "
+        head = f"<p>{least}{self.admissible:,} admissible of {self.space:,} variants</p>"
+        return head + table([v._row() for v in self])

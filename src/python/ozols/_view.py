@@ -1,0 +1,130 @@
+"""What the library found, by the keys of the JSON that the command prints."""
+
+from __future__ import annotations
+
+import csv
+import html
+import io
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import pandas
+
+#: Rows of a table in a notebook at most.
+ROWS = 30
+
+
+def _wrapped(value: Any) -> Any:
+    if isinstance(value, dict):
+        return View(value)
+    if isinstance(value, list):
+        return [_wrapped(v) for v in value]
+    return value
+
+
+def _plain(value: Any) -> bool:
+    return not isinstance(value, (dict, list))
+
+
+def table(records: Sequence[Mapping[str, Any]]) -> str:
+    """Rows as an HTML table, the first of them where there are many."""
+    columns = list(dict.fromkeys(k for r in records for k in r))
+
+    def cells(tag: str, values: list[Any]) -> str:
+        shown = ("" if v is None else f"{v:.6g}" if isinstance(v, float) else str(v) for v in values)
+        return "<tr>" + "".join(f"<{tag}>{html.escape(v)}</{tag}>" for v in shown) + "</tr>"
+
+    rows = [cells("td", [r.get(c) for c in columns]) for r in records[:ROWS]]
+    more = f"<p>and {len(records) - ROWS} more</p>" if len(records) > ROWS else ""
+    return f"<table><thead>{cells('th', columns)}</thead><tbody>{''.join(rows)}</tbody></table>{more}"
+
+
+class View(Mapping[str, Any]):
+    """Keys and values, the keys as attributes, too.
+
+    >>> import ozols
+    >>> state = ozols.Mechanism.builtin("bennett").analyze().states[0]
+    >>> state.mobility == state["mobility"] == 1
+    True
+    """
+
+    __slots__ = ("_data",)
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        self._data = data
+
+    def __getitem__(self, key: str) -> Any:
+        return _wrapped(self._data[key])
+
+    def __getattr__(self, key: str) -> Any:
+        if key.startswith("_"):
+            raise AttributeError(key)
+        try:
+            return self[key]
+        except KeyError:
+            known = ", ".join(self._data)
+            raise AttributeError(f"there is no {key}; there are {known}") from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._data)
+
+    def __len__(self) -> int:
+        return len(self._data)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._data]
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self._data!r})"
+
+    def to_dict(self) -> dict[str, Any]:
+        """The plain dictionary."""
+        return self._data
+
+
+class Told(View):
+    """An answer: its keys, and the text that the command prints.
+
+    ``print(answer)`` shows the text; a notebook shows :attr:`records` as a table.
+    """
+
+    __slots__ = ("_rows", "csv", "svg", "text")
+
+    def __init__(self, told: tuple[str, str, str | None, str | None], rows: str | None = None) -> None:
+        data, self.text, self.csv, self.svg = told
+        super().__init__(json.loads(data))
+        self._rows = rows
+
+    def __str__(self) -> str:
+        return self.text
+
+    @property
+    def records(self) -> list[dict[str, Any]]:
+        """The rows of its main table: states, positions or joints; empty where it has none."""
+        if self.csv is not None:
+            return list(csv.DictReader(io.StringIO(self.csv)))
+        rows = self._data.get(self._rows, []) if self._rows else []
+        return [{k: v for k, v in row.items() if _plain(v)} for row in rows]
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """:attr:`records` as a table of pandas."""
+        import pandas
+
+        if self.csv is not None:
+            return pandas.read_csv(io.StringIO(self.csv))
+        return pandas.DataFrame(self.records)
+
+    def _repr_html_(self) -> str:
+        records = self.records
+        return table(records) if records else f"<pre>{html.escape(self.text)}</pre>"
+
+
+class Chart(Told):
+    """An answer that a notebook shows as a chart."""
+
+    __slots__ = ()
+
+    def _repr_svg_(self) -> str:
+        return self.svg or ""

@@ -1,0 +1,291 @@
+"""Catalogues of structures that nobody has drawn yet: opened as tables, and built, on many machines if need be.
+
+A catalogue is an SQLite file with the tables ``structures``, ``layouts``, ``drawn``, ``counts`` and ``ideas``
+(``ozols catalog query FILE "SELECT sql FROM sqlite_schema"`` explains every column).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import shutil
+import socket
+import sqlite3
+import uuid
+from collections.abc import Callable, Mapping
+from decimal import Decimal
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from . import _native
+
+if TYPE_CHECKING:
+    import distributed
+    import pandas
+    import polars
+    import pyarrow
+
+    from ._mechanism import Mechanism
+
+#: The tables, each with what its rows are told apart by.
+TABLES = {
+    "structures": "id",
+    "layouts": "structure",
+    "drawn": "id",
+    "counts": "structure, mobility, changes",
+    "ideas": "structure, place",
+}
+#: Columns of counts of variants: numbers, or their digits as text beyond 63 bits.
+COUNTS = {"determinate", "determinate_w1", "admissible", "variants"}
+#: The rows of structures: of ``counts`` and ``ideas`` those that are not of drawn mechanisms.
+BUILT = {"structures": "id", "layouts": "structure", "counts": "structure", "ideas": "structure"}
+
+
+def open(path: str | os.PathLike[str]) -> Catalog:
+    """Opens a catalogue to read."""
+    return Catalog(path)
+
+
+class Catalog:
+    """An open catalogue. What is asked of it is the name of a table or a view, or a question in SQL."""
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = Path(path)
+        try:
+            self._db = sqlite3.connect(f"{self.path.resolve().as_uri()}?mode=ro", uri=True)
+            self._meta: dict[str, str] = dict(self._db.execute("SELECT key, value FROM meta"))
+        except sqlite3.Error as e:
+            raise _native.Error(f"{self.path} is no catalogue of ozols: {e}") from e
+
+    @property
+    def spec(self) -> str:
+        """What it holds of structures, as TOML; nothing where it holds drawn mechanisms alone."""
+        return self._meta.get("spec", "")
+
+    def close(self) -> None:
+        """Lets go of the file."""
+        self._db.close()
+
+    def __enter__(self) -> Catalog:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __len__(self) -> int:
+        count: int = self._db.execute("SELECT count(*) FROM structures").fetchone()[0]
+        return count
+
+    def ids(self) -> list[str]:
+        """The structures by their short names, ascending."""
+        return [id for (id,) in self._db.execute("SELECT id FROM structures ORDER BY id")]
+
+    def mechanism(self, id: str) -> Mechanism:
+        """A structure that was laid out, or what was drawn, as a mechanism."""
+        from ._mechanism import Mechanism
+
+        sql = "SELECT mechanism FROM layouts WHERE structure = ?1 UNION ALL SELECT mechanism FROM drawn WHERE id = ?1"
+        found = self._db.execute(sql, [id]).fetchone()
+        if found is None:
+            raise _native.Error(f"{self.path} has no layout of a structure {id}")
+        return Mechanism.from_toml(found[0])
+
+    def _ask(self, what: str, params: Any = ()) -> tuple[list[str], list[tuple[Any, ...]]]:
+        order = f" ORDER BY {TABLES[what]}" if what in TABLES else ""
+        sql = f"SELECT * FROM {what}{order}" if what.isidentifier() else what
+        try:
+            cursor = self._db.execute(sql, params)
+            names = [column[0] for column in cursor.description or ()]
+            rows = cursor.fetchall()
+        except sqlite3.Error as e:
+            raise _native.Error(f"{self.path}: {e}") from e
+        counted = [i for i, name in enumerate(names) if name in COUNTS]
+        if counted:
+            rows = [tuple(int(v) if i in counted and v is not None else v for i, v in enumerate(r)) for r in rows]
+        return names, rows
+
+    def query(self, what: str, params: Any = ()) -> list[dict[str, Any]]:
+        """Rows as dictionaries; ``params`` stand for ``?`` in a question."""
+        names, rows = self._ask(what, params)
+        return [dict(zip(names, row)) for row in rows]
+
+    def to_pandas(self, what: str = "structures", params: Any = ()) -> pandas.DataFrame:
+        """As a table of pandas; counts beyond 63 bits as Python's own integers."""
+        import pandas
+
+        names, rows = self._ask(what, params)
+        return pandas.DataFrame(rows, columns=names)
+
+    def to_arrow(self, what: str = "structures", params: Any = ()) -> pyarrow.Table:
+        """As a table of Arrow; counts of variants are decimals of 38 digits."""
+        import pyarrow
+
+        names, rows = self._ask(what, params)
+        kinds = {"INTEGER": pyarrow.int64(), "REAL": pyarrow.float64(), "TEXT": pyarrow.string()}
+        known = self._db.execute(f"PRAGMA table_info({what})") if what in TABLES else ()
+        declared = {name: kinds.get(kind) for _, name, kind, *_ in known}
+        arrays = []
+        for name, values in zip(names, zip(*rows) if rows else [()] * len(names)):
+            kind = pyarrow.decimal128(38) if name in COUNTS else declared.get(name)
+            if name in COUNTS:
+                values = tuple(None if v is None else Decimal(v) for v in values)
+            arrays.append(pyarrow.array(values, kind))
+        return pyarrow.table(arrays, names).replace_schema_metadata({"ozols.spec": self.spec})
+
+    def to_polars(self, what: str = "structures", params: Any = ()) -> polars.DataFrame:
+        """As a table of polars, over Arrow."""
+        import polars
+
+        return polars.DataFrame(self.to_arrow(what, params))
+
+    def to_parquet(self, folder: str | os.PathLike[str]) -> list[Path]:
+        """Writes every table to a Parquet file of its name in a folder."""
+        from pyarrow import parquet
+
+        folder = Path(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        out = []
+        for name in TABLES:
+            out.append(folder / f"{name}.parquet")
+            parquet.write_table(self.to_arrow(name), out[-1], compression="zstd")
+        return out
+
+    def digest(self) -> Digest:
+        """What the rows of its structures are: their numbers by table, and a hash that does not depend on their order."""
+        rows, total = {}, 0
+        for table, key in BUILT.items():
+            rows[table] = 0
+            for row in self._db.execute(f"SELECT * FROM {table} WHERE {key} IN (SELECT id FROM structures)"):
+                rows[table] += 1
+                total += int.from_bytes(hashlib.sha256(json.dumps([table, *row]).encode()).digest(), "big")
+        return Digest(rows, total)
+
+    def __repr__(self) -> str:
+        return f"<ozols.catalog.Catalog {self.path}: {len(self)} structures>"
+
+
+class Digest:
+    """Numbers of rows by table, and the sum of the SHA-256 of all rows modulo 2^256: those of parts add up to the whole's."""
+
+    def __init__(self, rows: Mapping[str, int], total: int) -> None:
+        self.rows = dict(rows)
+        self.total = total % (1 << 256)
+
+    def __add__(self, other: Digest) -> Digest:
+        return Digest({t: self.rows[t] + other.rows[t] for t in BUILT}, self.total + other.total)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Digest) and (self.rows, self.total) == (other.rows, other.total)
+
+    def __hash__(self) -> int:
+        return hash(self.total)
+
+    def __repr__(self) -> str:
+        return f"Digest({self.rows}, 0x{self.total:064x})"
+
+
+def build(
+    spec: Mapping[str, Any] | None = None,
+    *,
+    out: str | os.PathLike[str],
+    client: distributed.Client | None = None,
+    shards: int | None = None,
+    threads: int = 0,
+    progress: Callable[[int, int], object] | None = None,
+) -> Catalog:
+    """Builds what a catalogue lacks, here or on the workers of a Dask client.
+
+    ``spec`` has the keys of a specification file: ``links``, ``inputs``, ``symmetries`` and so on. Here, ``threads`` (0: all
+    processors) share the structures, and ``progress`` hears structures done and in all. With a client, ``shards`` tasks of
+    ``threads`` (0: one) each make a part in the folder ``OUT.parts``, which the workers must share; ``progress`` hears parts.
+    What is finished is not made again, whatever was killed in between. Rows are the same either way.
+    """
+    words = json.dumps(dict(spec or {}))
+    canonical, ids = _native.catalog_plan(words)
+    out = Path(out)
+    if client is None:
+        _native.catalog_build(words, out, (1, 1), threads, progress)
+        return open(out)
+    if out.exists():
+        with open(out) as there:
+            if there.spec not in ("", canonical):
+                raise _native.Error(f"{out} holds another catalogue; choose another file, or the same specification")
+            if there.ids() == ids:
+                return open(out)
+    folder = out.with_name(out.name + ".parts").resolve()
+    folder.mkdir(parents=True, exist_ok=True)
+    if shards is None:
+        shards = max(1, min(len(ids), 8 * sum(client.nthreads().values())))
+    parts = _parts(client, words, canonical, folder, shards, threads or 1, progress)
+    whole = folder / "whole.tmp"
+    whole.unlink(missing_ok=True)
+    if out.exists():
+        shutil.copyfile(out, whole)
+    _native.catalog_merge(whole, [path for path, _ in parts])
+    with open(whole) as made:
+        expected = sum((digest for _, digest in parts), Digest(dict.fromkeys(BUILT, 0), 0))
+        if made.ids() != ids or made.digest() != expected:
+            raise _native.Error(f"the parts in {folder} do not make the whole: delete it, and build again")
+    os.replace(whole, out)
+    # A worker that was given up may still be at a part.
+    shutil.rmtree(folder, ignore_errors=True)
+    return open(out)
+
+
+def _parts(
+    client: distributed.Client,
+    words: str,
+    canonical: str,
+    folder: Path,
+    shards: int,
+    threads: int,
+    progress: Callable[[int, int], object] | None,
+) -> list[tuple[Path, Digest]]:
+    from distributed import as_completed
+
+    name = hashlib.sha256(canonical.encode()).hexdigest()[:8]
+    tasks = [
+        client.submit(
+            build_part,
+            *(words, name, os.fspath(folder), (i, shards), threads),
+            key=f"ozols-catalog-part-{name}-{i}-of-{shards}",
+        )
+        for i in range(1, shards + 1)
+    ]
+    try:
+        for done, task in enumerate(as_completed(tasks), 1):
+            task.result()
+            if progress is not None:
+                progress(done, shards)
+        found = client.gather(tasks)
+    finally:
+        client.cancel(tasks)
+    return [(Path(path), Digest(rows, int(total, 16))) for path, rows, total in found]
+
+
+def build_part(words: str, name: str, folder: str, part: tuple[int, int], threads: int = 1) -> tuple[str, dict[str, int], str]:
+    """Makes part ``(i, n)`` of a specification, given as JSON and a name for it, in a folder; its path and digest. Finished ones
+    stay.
+
+    It is written under a name of its own and renamed when it is whole, so that the same part may be made twice at a time.
+    """
+    path = Path(folder) / f"{name}-{part[0]}-of-{part[1]}.db"
+    mark = path.with_suffix(".json")
+    if path.exists() and mark.exists():
+        rows, total = json.loads(mark.read_text())
+        return os.fspath(path), rows, total
+    own = f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex[:8]}.tmp"
+    made, told = (Path(f"{p}.{own}") for p in (path, mark))
+    try:
+        _native.catalog_build(words, made, part, threads, None)
+        with open(made) as catalog:
+            digest = catalog.digest()
+        found = digest.rows, f"{digest.total:064x}"
+        told.write_text(json.dumps(found))
+        os.replace(made, path)
+        os.replace(told, mark)
+    finally:
+        for left in (made, told, Path(f"{made}-journal")):
+            left.unlink(missing_ok=True)
+    return os.fspath(path), *found

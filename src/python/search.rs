@@ -1,0 +1,323 @@
+//! Searches, their outcomes, and variants one by one.
+
+use crate::mechanism::{Mechanism, drawn};
+use crate::told::{failed, json};
+use crate::waiting::{TURN, patiently};
+use ozols::draw::marks::of_variant;
+use ozols::model::ranking::Term;
+use ozols::score::request::{Check, Inserts, JointOptions, List, Method, Request};
+use ozols::score::run::{Event, run};
+use ozols::score::variant;
+use ozols::search::best::Assignment;
+use ozols::search::conditions::Symmetry;
+use ozols::view::variant_data::VariantData;
+use ozols::view::{search_csv, search_data, search_json, search_text};
+use pyo3::exceptions::PyUserWarning;
+use pyo3::prelude::*;
+use std::ffi::CString;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Variants made ready before Python takes them.
+const AHEAD: usize = 64;
+
+/// A [`Request`] as keywords of Python's; `None` where the library's default holds.
+#[derive(Debug, FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Asked {
+    max_redundant: u32,
+    max_external: Option<u32>,
+    max_harmful: Option<u32>,
+    state: Option<String>,
+    allow_loose_object: bool,
+    max_mobility: Option<i64>,
+    max_changes: Option<u32>,
+    allow_output_change: bool,
+    hold: Vec<String>,
+    unloading: Vec<(Vec<String>, Vec<String>)>,
+    options: Vec<String>,
+    allow: Vec<(String, Vec<String>)>,
+    forbid: Vec<(String, Vec<String>)>,
+    symmetry: String,
+    as_written: bool,
+    snap: Option<f64>,
+    counted: bool,
+    nodes: Option<usize>,
+    memory: Option<usize>,
+    rank: Vec<(String, f64)>,
+    pool: Option<usize>,
+    top: usize,
+    distinct: bool,
+    check: String,
+    method: String,
+    poses: usize,
+    generic_only: bool,
+    seed: u64,
+}
+
+/// What a word stands for.
+fn word<T: Copy>(what: &str, word: &str, known: &[(&str, T)]) -> PyResult<T> {
+    let found = known.iter().find(|(w, _)| *w == word);
+    found.map(|(_, t)| *t).ok_or_else(|| {
+        let known: Vec<&str> = known.iter().map(|(w, _)| *w).collect();
+        failed(format!("{what} {word:?} is none of {}", known.join(", ")))
+    })
+}
+
+impl Asked {
+    fn request(self) -> PyResult<Request> {
+        let joints = |all: Vec<(String, Vec<String>)>| {
+            let one = |(joint, names)| JointOptions { joint, names };
+            all.into_iter().map(one).collect()
+        };
+        let inserts = self.unloading.into_iter();
+        let term = |(name, weight): &(String, f64)| {
+            let term = Term::from_name(name).ok_or_else(|| {
+                let known = Term::ALL.map(Term::name).join(", ");
+                failed(format!("--rank: unknown term \"{name}\"; known: {known}"))
+            })?;
+            if !(0.0..=1e12).contains(weight) {
+                let say = format!("--rank {name}: give a weight from 0 to 1e12");
+                return Err(failed(say));
+            }
+            Ok((term, *weight))
+        };
+        let default = Request::default();
+        Ok(Request {
+            max_redundant: self.max_redundant,
+            max_external: self.max_external,
+            max_harmful: self.max_harmful,
+            state: self.state,
+            allow_loose_object: self.allow_loose_object,
+            max_mobility: self.max_mobility,
+            max_changes: self.max_changes,
+            allow_output_change: self.allow_output_change,
+            hold: self.hold,
+            unloading: inserts
+                .map(|(names, joints)| Inserts { names, joints })
+                .collect(),
+            options: self.options,
+            allow: joints(self.allow),
+            forbid: joints(self.forbid),
+            symmetry: word(
+                "symmetry",
+                &self.symmetry,
+                &[
+                    ("all", Symmetry::All),
+                    ("symmetric", Symmetry::SymmetricOnly),
+                    ("one-per-orbit", Symmetry::OnePerOrbit),
+                ],
+            )?,
+            as_written: self.as_written,
+            snap: self.snap,
+            counted: self.counted,
+            nodes: self.nodes.unwrap_or(default.nodes),
+            memory: self.memory.unwrap_or(default.memory),
+            rank: self.rank.iter().map(term).collect::<PyResult<_>>()?,
+            pool: self.pool.unwrap_or(default.pool),
+            list: List::Top(self.top),
+            distinct: self.distinct,
+            check: word(
+                "check",
+                &self.check,
+                &[
+                    ("none", Check::None),
+                    ("prime", Check::Prime),
+                    ("full", Check::Full),
+                ],
+            )?,
+            method: word(
+                "method",
+                &self.method,
+                &[("diagram", Method::Diagram), ("brute", Method::Brute)],
+            )?,
+            poses: self.poses,
+            generic_only: self.generic_only,
+            seed: self.seed,
+        })
+    }
+}
+
+/// As `ozols search`. `progress` hears layers done, layers in all, and nodes so far.
+#[pyfunction]
+pub(crate) fn search(
+    py: Python<'_>,
+    mechanism: &Bound<'_, Mechanism>,
+    asked: Asked,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Outcome> {
+    let request = &asked.request()?;
+    let m = mechanism.get().0.clone();
+    let found = patiently(
+        py,
+        |stop, tell| run(m, request, &|| stop.load(Ordering::Relaxed), tell),
+        |event| match (event, progress) {
+            (Event::Note(text), _) => {
+                let text = CString::new(text).map_err(failed)?;
+                PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 2)
+            }
+            (Event::Building(p), Some(progress)) => {
+                progress.call1((p.done, p.of, p.nodes)).map(drop)
+            }
+            (Event::Building(_) | Event::Built, _) => Ok(()),
+        },
+    )?;
+    Ok(Outcome(Arc::new(found.map_err(failed)?)))
+}
+
+/// An outcome of the library.
+#[derive(Debug)]
+#[pyclass(frozen, module = "ozols._native")]
+pub(crate) struct Outcome(Arc<ozols::Outcome>);
+
+#[pymethods]
+impl Outcome {
+    /// All but the variants, as JSON.
+    fn counts(&self, py: Python<'_>) -> PyResult<String> {
+        py.detach(|| json(&search_data::SearchData::new(&self.0)))
+    }
+
+    /// The same with the variants asked for and what is told of them: what the command prints, but for the seconds.
+    fn data(&self, py: Python<'_>) -> PyResult<String> {
+        let o = &*self.0;
+        written(py, |out| {
+            let (eased, why) = (
+                o.relaxations().map_err(failed)?,
+                o.hopeless().map_err(failed)?,
+            );
+            search_json::write(out, o, o.variants(), (&eased, &why), None).map_err(failed)
+        })
+    }
+
+    fn csv(&self, py: Python<'_>) -> PyResult<String> {
+        written(py, |out| {
+            search_csv::write(out, &self.0, self.0.variants()).map_err(failed)
+        })
+    }
+
+    fn text(&self, py: Python<'_>) -> PyResult<String> {
+        let o = &*self.0;
+        written(py, |out| {
+            let (eased, why) = (
+                o.relaxations().map_err(failed)?,
+                o.hopeless().map_err(failed)?,
+            );
+            let name = &o.search.mechanism.name;
+            search_text::write(out, o, o.variants(), (&eased, &why), name, None).map_err(failed)
+        })
+    }
+
+    /// The variants asked for; all of them where `all`; or a sample of so many.
+    fn variants(&self, all: bool, sample: Option<usize>, seed: u64) -> Variants {
+        let outcome = self.0.clone();
+        let list = match (all, sample) {
+            (_, Some(n)) => List::Sample(n),
+            (true, None) => List::All,
+            (false, None) => outcome.request.list,
+        };
+        Variants::new(outcome, list, seed)
+    }
+}
+
+fn written(
+    py: Python<'_>,
+    write: impl FnOnce(&mut Vec<u8>) -> PyResult<()> + Send,
+) -> PyResult<String> {
+    let out = py.detach(|| {
+        let mut out = Vec::new();
+        write(&mut out).map(|()| out)
+    })?;
+    String::from_utf8(out).map_err(failed)
+}
+
+/// Variants one by one, some of them made ready ahead by a thread of its own.
+#[derive(Debug)]
+#[pyclass(frozen, module = "ozols._native")]
+pub(crate) struct Variants {
+    heard: Mutex<Receiver<Variant>>,
+    stop: Arc<AtomicBool>,
+}
+
+impl Variants {
+    fn new(outcome: Arc<ozols::Outcome>, list: List, seed: u64) -> Variants {
+        let (tell, heard) = sync_channel(AHEAD);
+        let stop = Arc::new(AtomicBool::new(false));
+        let stopped = stop.clone();
+        std::thread::spawn(move || {
+            let cancelled = || stopped.load(Ordering::Relaxed);
+            for v in outcome.list_unless(list, seed, &cancelled) {
+                let told = Variant {
+                    outcome: outcome.clone(),
+                    assignment: v.assignment().clone(),
+                    position: v.position(),
+                    text: v.to_string(),
+                    data: serde_json::to_string(&VariantData::new(&outcome, &v)).ok(),
+                };
+                // Nobody is interested any more.
+                if tell.send(told).is_err() {
+                    return;
+                }
+            }
+        });
+        let heard = Mutex::new(heard);
+        Variants { heard, stop }
+    }
+}
+
+impl Drop for Variants {
+    fn drop(&mut self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+}
+
+#[pymethods]
+impl Variants {
+    fn __iter__(this: Py<Self>) -> Py<Self> {
+        this
+    }
+
+    fn __next__(&self, py: Python<'_>) -> PyResult<Option<Variant>> {
+        loop {
+            let next = || {
+                let heard = self.heard.lock().unwrap_or_else(PoisonError::into_inner);
+                heard.recv_timeout(TURN)
+            };
+            match py.detach(next) {
+                Ok(variant) => return Ok(Some(variant)),
+                Err(RecvTimeoutError::Disconnected) => return Ok(None),
+                Err(RecvTimeoutError::Timeout) => py.check_signals()?,
+            }
+        }
+    }
+}
+
+/// A variant, with the outcome it is of.
+#[derive(Debug)]
+#[pyclass(frozen, module = "ozols._native")]
+pub(crate) struct Variant {
+    outcome: Arc<ozols::Outcome>,
+    assignment: Assignment,
+    #[pyo3(get)]
+    position: usize,
+    #[pyo3(get)]
+    text: String,
+    #[pyo3(get)]
+    data: Option<String>,
+}
+
+#[pymethods]
+impl Variant {
+    fn mechanism(&self) -> Mechanism {
+        let search = &self.outcome.search;
+        Mechanism(variant::mechanism(search, &self.assignment, self.position))
+    }
+
+    fn draw(&self, py: Python<'_>, kind: &str, state: &str) -> PyResult<String> {
+        py.detach(|| {
+            let name = format!("variant {}", self.position);
+            let (realized, marks) = of_variant(&self.outcome.search, &self.assignment, &name);
+            drawn(&realized, kind, state, Some(marks))
+        })
+    }
+}

@@ -1,0 +1,126 @@
+"""A catalogue built by worker processes on this machine, of which one is killed."""
+
+import os
+import signal
+import threading
+import time
+
+import pytest
+from conftest import ozols as command
+
+import ozols
+
+distributed = pytest.importorskip("distributed")
+
+#: Sixty structures of up to eight links.
+SPEC = {"links": "4..8", "symmetries": ["mirror"], "ideas": 2}
+SHARDS = 12
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """Three worker processes of one thread each, on 127.0.0.1."""
+    with distributed.LocalCluster(
+        n_workers=3,
+        threads_per_worker=1,
+        processes=True,
+        host="127.0.0.1",
+        dashboard_address="127.0.0.1:0",
+        local_directory=str(tmp_path / "dask"),
+    ) as made:
+        yield made
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory):
+    """The same catalogue by this process alone."""
+    with ozols.catalog.build(SPEC, out=tmp_path_factory.mktemp("alone") / "alone.db") as made:
+        return made.digest()
+
+
+def a_busy_worker(client, tried=200):
+    """The process of a worker that is at a part."""
+    for _ in range(tried):
+        pids = client.run(os.getpid)
+        busy = [pids[w] for w, tasks in client.processing().items() if tasks]
+        if busy:
+            return busy[0]
+        time.sleep(0.05)
+    raise AssertionError("no worker has anything to do")
+
+
+def test_rows_survive_the_death_of_a_worker(cluster, alone, in_tmp):
+    killed, parts = [], in_tmp / "all.db.parts"
+
+    def kill():
+        with distributed.Client(cluster) as watching:
+            while len(list(parts.glob("*.json"))) < 2:
+                time.sleep(0.02)
+            killed.append(a_busy_worker(watching))
+            os.kill(killed[0], signal.SIGKILL)
+
+    # What was drawn stays beside what is built.
+    assert command("catalog", "search", "four-bar", "-o", "all.db").returncode == 0
+    killer = threading.Thread(target=kill)
+    killer.start()
+    heard = []
+    with distributed.Client(cluster) as client:
+        made = ozols.catalog.build(SPEC, out="all.db", client=client, shards=SHARDS, progress=lambda *p: heard.append(p))
+        killer.join()
+        assert killed and killed[0] not in client.run(os.getpid).values()
+    with made:
+        assert made.digest() == alone
+        assert [row["name"] for row in made.query("drawn")] == ["four-bar"]
+    assert heard[-1] == (SHARDS, SHARDS)
+    assert not parts.exists()
+
+
+def test_what_is_finished_is_not_made_again(cluster, alone, in_tmp, monkeypatch):
+    parts = in_tmp / "all.db.parts"
+
+    def enough(done, _):
+        if done == 4:
+            raise KeyboardInterrupt
+
+    with distributed.Client(cluster) as client, pytest.raises(KeyboardInterrupt):
+        ozols.catalog.build(SPEC, out="all.db", client=client, shards=SHARDS, progress=enough)
+    first = {p.name: p.stat().st_mtime_ns for p in parts.glob("*.db") if p.with_suffix(".json").exists()}
+    assert len(first) >= 4
+    # What a killed process leaves is in nobody's way.
+    (parts / "left-1-of-12.db.tmp").write_text("half of a part")
+
+    # Another scheduler, with other workers.
+    with (
+        distributed.LocalCluster(n_workers=1, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0") as other,
+        distributed.Client(other) as client,
+    ):
+        seen = {}
+
+        def look(*_):
+            seen.update({p.name: p.stat().st_mtime_ns for p in parts.glob("*.db") if p.exists()})
+
+        with ozols.catalog.build(SPEC, out="all.db", client=client, shards=SHARDS, progress=look) as made:
+            assert made.digest() == alone
+        assert {name: seen[name] for name in first} == first
+
+        # A second run does nothing.
+        before = os.stat("all.db")
+        monkeypatch.setattr(client, "submit", None)
+        with ozols.catalog.build(SPEC, out="all.db", client=client, shards=SHARDS) as made:
+            assert made.digest() == alone
+        assert os.stat("all.db") == before
+
+
+def test_a_part_that_was_spoilt_is_noticed(cluster, in_tmp):
+    import sqlite3
+
+    def spoil(done, of):
+        if done == of:
+            for part in (in_tmp / "all.db.parts").glob("*.db"):
+                with sqlite3.connect(part) as db:
+                    db.execute("UPDATE layouts SET area = area + 1")
+
+    spec = {"links": "4..6", "symmetries": ["mirror"], "ideas": 0}
+    with distributed.Client(cluster) as client, pytest.raises(ozols.Error, match="do not make the whole"):
+        ozols.catalog.build(spec, out="all.db", client=client, shards=3, progress=spoil)
+    assert not (in_tmp / "all.db").exists()
