@@ -113,10 +113,7 @@ impl<'a> Asked<'a> {
             tolerance,
         };
         let figures = stroke(&request, &pose);
-        let drive = names(self.mechanism, &self.pose)
-            .into_iter()
-            .find(|(c, _)| *c == self.drive)
-            .map_or_else(String::new, |(_, n)| n);
+        let drive = name_of(self.mechanism, &self.pose, self.drive);
         let drive = (drive, slides(&self.pose, self.drive));
         let range = request.range;
         Ok(Stroke::new(
@@ -192,6 +189,30 @@ fn drive(
         .filter(|_| driven(own))
         .collect();
     Ok((chosen, held))
+}
+
+/// The column named, or the drive, or, where there is none, the first that can move; and those that are held.
+pub(super) fn drive_or_any(
+    m: &Mechanism,
+    pose: &Pose,
+    state: StateId,
+    asked: Option<&str>,
+) -> anyhow::Result<(usize, Vec<usize>)> {
+    let driven = m.joints_in(state).any(|j| m.joints[j].drive);
+    if asked.is_some() || driven {
+        return drive(m, pose, state, asked);
+    }
+    let first = names(m, pose).into_iter().find(|(c, _)| moves(pose, *c));
+    let first = first.with_context(|| format!("nothing can move in {}", m.name))?;
+    Ok((first.0, Vec::new()))
+}
+
+/// The name of a column that can be a drive.
+pub(super) fn name_of(m: &Mechanism, pose: &Pose, column: usize) -> String {
+    let mut names = names(m, pose).into_iter();
+    names
+        .find(|(c, _)| *c == column)
+        .map_or_else(String::new, |(_, n)| n)
 }
 
 /// Whether a column can move in a pose.
