@@ -50,6 +50,17 @@ impl Outcome {
     /// The same until `cancelled`.
     #[must_use]
     pub fn variants_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
+        self.listed(self.request.distinct, cancelled)
+    }
+
+    /// As many ideas as variants were asked for, each as its first variant, until `cancelled`.
+    #[must_use]
+    pub fn ideas_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
+        self.listed(true, cancelled)
+    }
+
+    /// Either of these.
+    fn listed<'o>(&'o self, distinct: bool, cancelled: ShouldCancel<'o>) -> Variants<'o> {
         let request = &self.request;
         let wanted = match request.list {
             List::Top(k) => k,
@@ -60,7 +71,7 @@ impl Outcome {
         let unranked = |v: Assignment| (v, None);
         let source: Box<dyn Iterator<Item = (Assignment, Option<usize>)>> =
             match (&self.diagrams, &self.ranking, request.list) {
-                (Some(d), ranking, List::Top(k)) if request.distinct => {
+                (Some(d), ranking, List::Top(k)) if distinct => {
                     let found = match ranking {
                         Some(r) => {
                             let list = r.list.iter().map(|r| &r.variant);
@@ -96,7 +107,7 @@ impl Outcome {
             };
         // What is proven is a list of all variants; of ideas a diagram cut down may lack the first ones.
         let by_cost =
-            self.ranking.is_none() && !request.distinct && !matches!(request.list, List::Sample(_));
+            self.ranking.is_none() && !distinct && !matches!(request.list, List::Sample(_));
         let summary = Summary {
             proven: (by_cost && !self.is_exact()).then_some(0),
             ..Summary::default()
@@ -109,6 +120,7 @@ impl Outcome {
             stroke: self.stroke.as_ref(),
             ready: Vec::new().into_iter(),
             ideas,
+            distinct,
             room: wanted,
             summary,
             interrupted: false,
@@ -131,6 +143,7 @@ pub struct Variants<'o> {
     ready: std::vec::IntoIter<(Certified, Option<usize>)>,
     /// What each stands for, where only the first of each idea is given.
     ideas: Vec<Idea>,
+    distinct: bool,
     /// How many more may be given.
     room: usize,
     summary: Summary,
@@ -188,7 +201,7 @@ impl Variants<'_> {
         // Brute force gives none, and orbits of a list cut short are not counted one by one.
         let counted =
             o.diagrams.is_some() && (o.is_exact() || o.request.symmetry != Symmetry::OnePerOrbit);
-        let some = o.request.generic_only || o.request.distinct;
+        let some = o.request.generic_only || self.distinct;
         counted && !some && due > given.into()
     }
 
