@@ -24,6 +24,7 @@ mod load;
 mod machine;
 mod man;
 mod memory;
+mod moving;
 mod near;
 mod new;
 mod output;

@@ -15,20 +15,26 @@ mod layout;
 mod layout_penalty;
 pub mod marks;
 mod mirror;
+mod pairs;
 #[cfg(feature = "png")]
 pub mod png;
 mod projection;
 mod scheme;
 mod shapes;
 mod sheet;
+mod sight;
 mod subject;
 mod swap;
 mod symbols;
 
 pub use crate::svg::plane::Rect;
-pub use kinematic::{kinematic, kinematic_with};
+pub use kinematic::moving::{Moved, Player, RATE, kinematic_moving};
+pub use kinematic::{kinematic, kinematic_seen, kinematic_with};
+
+pub use pairs::joint_type;
 pub use scheme::{scheme, scheme_with};
 pub use sheet::{Drawing, Label};
+pub use sight::Sight;
 pub use subject::{Marks, Subject};
 pub use swap::Swap;
 

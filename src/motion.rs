@@ -3,3 +3,4 @@
 pub mod close;
 pub mod follow;
 pub mod pose;
+pub mod way;

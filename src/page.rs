@@ -37,8 +37,21 @@ pub struct Page<'a> {
     pub states: &'a [StateAnalysis],
     /// Its redesigns, or why none were searched.
     pub redesigns: Result<Redesigns<'a>, String>,
+    /// The same search as a list of ideas, each by its first variant, where the redesigns are not one already.
+    pub ideas: Option<Redesigns<'a>>,
+    /// How it moves in each state, where it does.
+    pub motions: Vec<Option<Motion>>,
     /// How to get the same from the command line.
     pub commands: Commands,
+}
+
+/// A drawing of a motion, picture by picture; see [`crate::draw::Player::Program`].
+#[derive(Debug)]
+pub struct Motion {
+    /// The drawing.
+    pub svg: String,
+    /// Whether the last picture is followed by the first, and not by the one before it.
+    pub closed: bool,
 }
 
 /// What a search found.
@@ -61,19 +74,24 @@ pub struct Commands {
     pub rows: Vec<(String, String)>,
     /// The same about one variant, with `{}` for its number; none where other commands cannot be asked the same.
     pub variant: Vec<(String, String)>,
+    /// The same about one idea.
+    pub idea: Vec<(String, String)>,
+    /// A longer list with other options at some joints: a command with `{}` for them.
+    pub longer: String,
 }
 
 const STYLE: &str = include_str!("page/page.css");
 /// What stands for the policy until all that it allows is written.
 const POLICY: &str = "default-src 'none'";
 /// The script by idea, in the order it is run.
-const SCRIPT: [&str; 7] = [
+const SCRIPT: [&str; 8] = [
     include_str!("page/script/data.js"),
     include_str!("page/script/filter.js"),
     include_str!("page/script/table.js"),
     include_str!("page/script/drawing.js"),
     include_str!("page/script/chosen.js"),
     include_str!("page/script/chart.js"),
+    include_str!("page/script/motion.js"),
     include_str!("page/script/main.js"),
 ];
 /// The sections that the table of contents names: their marks and heads.
@@ -101,7 +119,9 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
         Ok(r) if !r.variants.is_empty() => Some(variants::Found::new(page, r)?),
         _ => None,
     };
-    let data = Data::new(page, &analysis, search, swaps).script();
+    let ideas = page.ideas.as_ref().filter(|r| !r.variants.is_empty());
+    let ideas = ideas.map(|r| variants::Found::new(page, r)).transpose()?;
+    let data = Data::new(page, &analysis, [search, ideas], swaps).script();
     let section = |n: usize, inside: Markup| {
         let (mark, head) = SECTIONS[n];
         html! {
@@ -139,7 +159,7 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
                 main {
                     section id="verdict" aria-label="Verdict" { (verdict::html(page, &analysis)) }
                     (section(1, explorer::html(page)))
-                    (section(2, states::html(&analysis, &drawn)))
+                    (section(2, states::html(page, &analysis, &drawn)))
                     (section(3, certainty::html(page, &analysis)))
                     (section(4, page.commands.html()))
                     section id="sources" {

@@ -71,6 +71,31 @@ impl Terms {
     }
 }
 
+/// What an engineer has to know of a joint type beside its freedoms.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PairWords {
+    /// What it is, in a sentence.
+    pub about: String,
+    /// What its `axis` stands for.
+    pub axis: String,
+    /// What its `reference` stands for.
+    pub reference: String,
+    /// Parts that are such a joint.
+    pub hardware: Vec<String>,
+}
+
+impl PairWords {
+    /// The words of each joint type, by its name in files.
+    ///
+    /// # Panics
+    /// Never: a test reads the file.
+    #[must_use]
+    pub fn builtin() -> BTreeMap<String, PairWords> {
+        toml::from_str(include_str!("terms/joint_types.toml")).expect("a test reads the file")
+    }
+}
+
 /// A word as it is compared.
 fn fold(word: &str) -> String {
     let plain: String = word

@@ -1,9 +1,10 @@
 //! `ozols draw`.
 
 use super::args::{Args, File};
+use super::moving::Moving;
 use super::request::Which;
 use super::{Done, load, output, variant};
-use crate::draw::{self, Drawing, Size, Subject};
+use crate::draw::{self, Drawing, Player, Sight, Size, Subject};
 use crate::model::mechanism::StateId;
 use crate::redundancy::analysis::{Method, analyse};
 use anyhow::{bail, ensure};
@@ -32,6 +33,29 @@ pub(super) struct Draw {
     /// Draw variant K of the list that `ozols search FILE` gives, with the same of the options below, its changes marked.
     #[arg(long, value_name = "K", group = "chosen")]
     variant: Option<usize>,
+    /// The side a kinematic scheme is seen from: x, y, z, iso, or the direction towards the reader such as "1,-2,0.5"; the one
+    /// with least overlap where it is left out.
+    #[arg(long, value_name = "SIDE", value_parser = side, allow_hyphen_values = true)]
+    view: Option<[f64; 3]>,
+    /// What goes up on paper: x, y, z, or a direction such as "0,1,1"; z where it is left out.
+    #[arg(long, value_name = "AXIS", value_parser = axis, allow_hyphen_values = true)]
+    up: Option<[f64; 3]>,
+    /// An animated SVG of the kinematic scheme: the drive goes its way, once round or to and fro, at 30 pictures a second. It
+    /// stands still for readers who ask for less motion, and on paper.
+    #[arg(long)]
+    motion: bool,
+    /// The way of the drive from the pose of the file, such as 0:90deg:60 or -5:5:60 (lengths in the file's unit): from, to,
+    /// pictures less one. As far as it goes where it is left out.
+    #[arg(
+        long,
+        value_name = "FROM:TO:STEPS",
+        allow_hyphen_values = true,
+        requires = "motion"
+    )]
+    stroke: Option<String>,
+    /// The joint that moves, where it is not the file's drive: 0-1, or 0-1:tz for one of several freedoms.
+    #[arg(long, value_name = "JOINT", requires = "motion")]
+    drive: Option<String>,
     /// The first variant of idea K, as short texts of `ozols search FILE` number them: --distinct --variant K.
     #[arg(long, value_name = "K", group = "chosen")]
     idea: Option<usize>,
@@ -51,8 +75,47 @@ pub(super) struct Draw {
     which: Which,
 }
 
+/// The direction towards the reader that a side stands for.
+fn side(text: &str) -> Result<[f64; 3], String> {
+    match text.trim() {
+        "x" => Ok([1.0, 0.0, 0.0]),
+        // x to the right and z up
+        "y" => Ok([0.0, -1.0, 0.0]),
+        "z" => Ok([0.0, 0.0, 1.0]),
+        "iso" => Ok([1.0, 1.0, 1.0]),
+        _ => numbers(text).ok_or_else(|| {
+            "give x, y, z, iso, or three numbers that are not all zero, such as \"1,-2,0.5\""
+                .to_owned()
+        }),
+    }
+}
+
+/// The direction that goes up.
+fn axis(text: &str) -> Result<[f64; 3], String> {
+    match text.trim() {
+        "x" => Ok([1.0, 0.0, 0.0]),
+        "y" => Ok([0.0, 1.0, 0.0]),
+        "z" => Ok([0.0, 0.0, 1.0]),
+        _ => numbers(text).ok_or_else(|| {
+            "give x, y, z, or three numbers that are not all zero, such as \"0,1,1\"".to_owned()
+        }),
+    }
+}
+
+/// A direction as three numbers.
+fn numbers(text: &str) -> Option<[f64; 3]> {
+    let parts: Option<Vec<f64>> = text.split(',').map(|p| p.trim().parse().ok()).collect();
+    let direction: [f64; 3] = parts?.try_into().ok()?;
+    let size = direction.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    (size > 0.0 && size.is_finite()).then(|| direction.map(|x| x / size))
+}
+
 pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     let wanted = picture(a)?;
+    ensure!(
+        a.motion || a.kind == DrawKind::Kinematic || (a.view.is_none() && a.up.is_none()),
+        "--view and --up are for the kinematic scheme, which has coordinates: add --kind kinematic"
+    );
     let mut mechanism = load::mechanism(&a.file.file)?;
     let Some(state) = mechanism.state(&a.state) else {
         bail!(
@@ -83,9 +146,18 @@ pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
         analysis: found.first(),
         marks,
     };
-    let drawing = match a.kind {
-        DrawKind::Scheme => draw::scheme(&subject),
-        DrawKind::Kinematic => draw::kinematic(&subject),
+    let sight = Sight {
+        toward: a.view,
+        up: a.up,
+    };
+    let drawing = if a.motion {
+        let moving = Moving::new(&mechanism, state, a.stroke.as_deref(), a.drive.as_deref())?;
+        draw::kinematic_moving(&subject, &sight, &moving.moved(), Player::Itself)
+    } else {
+        match a.kind {
+            DrawKind::Scheme => draw::scheme(&subject),
+            DrawKind::Kinematic => draw::kinematic_seen(&subject, &sight),
+        }
     };
     let bytes = match wanted {
         Some(size) => png(&drawing, size)?,

@@ -87,6 +87,7 @@ pub(super) const DRAW: &str = "\
 Examples:
   ozols draw gripper-10 -o gripper.svg                   structural scheme
   ozols draw bennett --kind kinematic -o bennett.svg     kinematic scheme
+  ozols draw gripper-10 --motion -o moving.svg           the same, moving
   ozols draw gripper-10 --state clamped -o clamped.svg   with the part it holds
   ozols draw gripper-10 --variant 1 -o first.svg         the best redesign, its changes in colour";
 

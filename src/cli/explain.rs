@@ -1,18 +1,26 @@
 //! `ozols explain`.
 
+mod pair;
+
 use super::{Done, near, output};
+use crate::model::joint_type::JointType;
 use crate::terms::{Term, Terms};
 use crate::view::layout::table;
-use anyhow::bail;
+use anyhow::{bail, ensure};
 use clap::Args as ClapArgs;
 use itertools::Itertools;
 use std::io::Write;
+use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
 pub(super) struct Explain {
-    /// The term, such as sigma, σ, or redundant constraint; all terms where left out.
+    /// The term, such as sigma, σ, or redundant constraint, or a joint type, such as sphere-in-cylinder; all terms where left
+    /// out.
     #[arg(value_name = "TERM")]
     term: Vec<String>,
+    /// Draw the joint type into this file, as SVG.
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
 }
 
 /// Columns of running text where the output is no terminal.
@@ -24,19 +32,34 @@ pub(super) fn run(a: &Explain) -> anyhow::Result<Done> {
     if word.trim().is_empty() {
         return output::to(None, |out| {
             writeln!(out, "{}", all(&terms, output::width(None)))?;
-            writeln!(out, "\nozols explain TERM says more of one.")?;
+            writeln!(out, "\n{}", pair::all(output::width(None)))?;
+            writeln!(
+                out,
+                "\nozols explain TERM says more of one, and of a joint type."
+            )?;
             Ok(Done::Found)
         });
     }
+    let joint_type = JointType::NAMED
+        .iter()
+        .find(|t| t.name() == pair::word(&word));
+    if let Some(joint_type) = joint_type {
+        return pair::explain(joint_type, a.output.as_deref());
+    }
+    ensure!(
+        a.output.is_none(),
+        "-o draws a joint type, and {word:?} is none; they are: {}",
+        JointType::NAMED.iter().join(", ")
+    );
     let Some(term) = terms.find(&word) else {
         // Several words may stand for one term; each is named once.
-        let near = near::near(&word, terms.words());
+        let types: Vec<&str> = JointType::NAMED.iter().map(JointType::name).collect();
+        let near = near::near(&word, terms.words().chain(types));
         let names = near
             .iter()
-            .filter_map(|w| terms.find(w))
-            .map(|t| t.name.as_str());
+            .map(|w| terms.find(w).map_or(*w, |t| t.name.as_str()));
         bail!(
-            "no term {word:?}{} (`ozols explain` lists all)",
+            "no term and no joint type {word:?}{} (`ozols explain` lists all)",
             near::question(&names.unique().collect_vec())
         )
     };

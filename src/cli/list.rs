@@ -2,39 +2,52 @@
 
 use super::{Done, near, output};
 use crate::builtin;
-use crate::model::mechanism::{Mechanism, StateId};
+use crate::format::csv;
+use crate::model::mechanism::Mechanism;
 use crate::redundancy::figures::figures;
 use crate::view::layout::table;
 use anyhow::Context;
-use clap::Args as ClapArgs;
+use clap::{Args as ClapArgs, ValueEnum};
+use serde::Serialize;
 
 #[derive(Debug, ClapArgs)]
 pub(super) struct List {
     /// Only those with every one of these words in name, family or description.
     #[arg(value_name = "WORD")]
     words: Vec<String>,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    format: ListFormat,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ListFormat {
+    Text,
+    Json,
+    /// One state of one mechanism a line.
+    Csv,
+}
+
+/// A state of a mechanism as data; the same keys in JSON and CSV.
+#[derive(Debug, Serialize)]
+struct Row {
+    name: &'static str,
+    family: &'static str,
+    state: String,
+    links: usize,
+    joints: usize,
+    contours: usize,
+    freedoms: usize,
+    mobility: usize,
+    redundant: usize,
+    description: String,
 }
 
 /// The narrowest column that a description is worth.
 const NARROWEST: usize = 16;
 
 pub(super) fn run(a: &List) -> anyhow::Result<Done> {
-    let wanted: Vec<String> = a.words.iter().map(|w| w.to_lowercase()).collect();
-    let (mut rows, mut notes) = (Vec::new(), Vec::new());
-    for (family, names) in builtin::families() {
-        let mut heading = Some(family);
-        for name in names {
-            let m = Mechanism::builtin(name)?;
-            let about = format!("{name} {family} {}", m.description).to_lowercase();
-            if !wanted.iter().all(|w| about.contains(w)) {
-                continue;
-            }
-            let states = rows_of(name, &m)?;
-            notes.push((heading.take(), m.description));
-            notes.resize(notes.len() + states.len() - 1, (None, String::new()));
-            rows.extend(states);
-        }
-    }
+    let rows = wanted(a)?;
     if rows.is_empty() {
         let hint = near::hint(&a.words.join("-"), builtin::names());
         output::note(&format!(
@@ -43,8 +56,42 @@ pub(super) fn run(a: &List) -> anyhow::Result<Done> {
         ));
         return Ok(Done::Nothing);
     }
+    match a.format {
+        ListFormat::Text => text(a, rows),
+        ListFormat::Json => output::to(None, |out| {
+            output::json(out, &rows)?;
+            Ok(Done::Found)
+        }),
+        ListFormat::Csv => output::to(None, |out| {
+            write!(out, "{}", csv::records(rows))?;
+            Ok(Done::Found)
+        }),
+    }
+}
+
+fn text(a: &List, rows: Vec<Row>) -> anyhow::Result<Done> {
     let header = ["mechanism", "state", "n", "p", "k", "f", "W", "σ"];
-    let table = table(&header, rows, None);
+    let (mut cells, mut notes) = (Vec::new(), Vec::new());
+    let (mut family, mut name) = ("", "");
+    for r in rows {
+        let first = name != r.name;
+        let heading = (family != r.family).then_some(r.family);
+        (family, name) = (r.family, r.name);
+        let numbers = [
+            r.links,
+            r.joints,
+            r.contours,
+            r.freedoms,
+            r.mobility,
+            r.redundant,
+        ];
+        let shown = if first { r.name } else { "" };
+        let mut row = vec![shown.to_owned(), r.state];
+        row.extend(numbers.map(|n| n.to_string()));
+        cells.push(row);
+        notes.push((heading, if first { r.description } else { String::new() }));
+    }
+    let table = table(&header, cells, None);
     let width = output::width(None).map(usize::from);
     output::to(None, |out| {
         let lines: Vec<&str> = table.lines().collect();
@@ -76,26 +123,35 @@ pub(super) fn run(a: &List) -> anyhow::Result<Done> {
     })
 }
 
-/// A row for each state.
-fn rows_of(name: &str, m: &Mechanism) -> anyhow::Result<Vec<Vec<String>>> {
-    let row = |(i, state): (usize, StateId)| {
-        let s = figures(m, state).with_context(|| format!("built-in mechanism {name}"))?;
-        let first = if i == 0 { name } else { "" };
-        let mut row = vec![first.to_owned(), m.states[state].clone()];
-        row.extend(
-            [
-                s.links,
-                s.joints,
-                s.contours,
-                s.freedoms,
-                s.mobility,
-                s.redundant,
-            ]
-            .map(|n| n.to_string()),
-        );
-        Ok(row)
-    };
-    m.state_ids().enumerate().map(row).collect()
+/// A row for each state of the mechanisms wanted.
+fn wanted(a: &List) -> anyhow::Result<Vec<Row>> {
+    let words: Vec<String> = a.words.iter().map(|w| w.to_lowercase()).collect();
+    let mut rows = Vec::new();
+    for (family, names) in builtin::families() {
+        for name in names {
+            let m = Mechanism::builtin(name)?;
+            let about = format!("{name} {family} {}", m.description).to_lowercase();
+            if !words.iter().all(|w| about.contains(w)) {
+                continue;
+            }
+            for (state, of) in m.states_with_ids() {
+                let s = figures(&m, state).with_context(|| format!("built-in mechanism {name}"))?;
+                rows.push(Row {
+                    name,
+                    family,
+                    state: of.clone(),
+                    links: s.links,
+                    joints: s.joints,
+                    contours: s.contours,
+                    freedoms: s.freedoms,
+                    mobility: s.mobility,
+                    redundant: s.redundant,
+                    description: m.description.clone(),
+                });
+            }
+        }
+    }
+    Ok(rows)
 }
 
 fn measure(line: &str) -> usize {

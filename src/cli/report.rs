@@ -1,13 +1,17 @@
 //! `ozols report`.
 
 use super::args::{Args, File};
+use super::moving::Moving;
 use super::progress::{Watch, note};
 use super::request::Checked;
 use super::{Done, interrupt, load, output};
+use crate::draw::{Player, Sight, Subject, kinematic_moving};
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::page::{Commands, Page, Redesigns, html};
+use crate::page::{Commands, Motion, Page, Redesigns, html};
 use crate::redundancy::analysis::{Method, analyse};
+use crate::score::outcome::Outcome;
 use crate::score::request::{List, Request};
+use crate::score::variants::Variants;
 use crate::view::next::{file_name, flags, word};
 use anyhow::ensure;
 use clap::Args as ClapArgs;
@@ -51,11 +55,13 @@ pub(super) fn run(args: &Args, a: &Report) -> anyhow::Result<Done> {
     let states = analyse(&written, &states, method)?;
     let conditions = request.conditions(&prepared, &mut note);
     let mechanism = Arc::new(prepared.mechanism);
-    let write = |redesigns: Result<Redesigns<'_>, String>| -> anyhow::Result<Done> {
+    let write = |redesigns: Result<Redesigns<'_>, String>, ideas: Option<Redesigns<'_>>| {
         let page = html(&Page {
             mechanism: &mechanism,
             states: &states,
             redesigns,
+            ideas,
+            motions: motions(&mechanism),
             commands: commands(&mechanism, a, &request),
         })?;
         output::to(a.output.as_deref(), |out| {
@@ -66,18 +72,46 @@ pub(super) fn run(args: &Args, a: &Report) -> anyhow::Result<Done> {
     // What is known of the mechanism as it is stands, even where its coordinates do not allow a search.
     let conditions = match conditions {
         Ok(conditions) => conditions,
-        Err(why) => return write(Err(format!("{why}."))),
+        Err(why) => return write(Err(format!("{why}.")), None),
     };
     let mut watch = Watch::new(args.quiet);
     let outcome = watch.answer(mechanism.clone(), conditions, &request)?;
-    let mut given = outcome.variants_unless(&interrupt::pending);
+    let ideas = (!request.distinct).then(|| {
+        let given = outcome.ideas_unless(&interrupt::pending);
+        redesigns(&outcome, given)
+    });
+    let variants = outcome.variants_unless(&interrupt::pending);
+    write(Ok(redesigns(&outcome, variants)), ideas)
+}
+
+/// A list of the page.
+fn redesigns<'o>(found: &'o Outcome, mut given: Variants<'o>) -> Redesigns<'o> {
     let variants = given.by_ref().collect();
-    write(Ok(Redesigns {
-        found: &outcome,
+    Redesigns {
+        found,
         variants,
         summary: given.summary(),
         interrupted: given.interrupted(),
-    }))
+    }
+}
+
+/// How the mechanism moves in each state, where it does.
+fn motions(mechanism: &Mechanism) -> Vec<Option<Motion>> {
+    let one = |(n, state): (usize, StateId)| {
+        let moving = Moving::new(mechanism, state, None, None).ok()?;
+        let subject = Subject {
+            mechanism,
+            state,
+            analysis: None,
+            marks: None,
+        };
+        let (sight, player) = (Sight::default(), Player::Program(n));
+        Some(Motion {
+            svg: kinematic_moving(&subject, &sight, &moving.moved(), player).svg,
+            closed: moving.closed(),
+        })
+    };
+    mechanism.state_ids().enumerate().map(one).collect()
 }
 
 /// The commands that give what the page shows.
@@ -95,10 +129,27 @@ fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
     let more = more.iter().filter(|m| !m.is_empty()).join(" ");
     let row = |what: &str, command: String| (what.to_owned(), command);
     let named = |ending: &str| file_name(&mechanism.name, ending);
-    let of_variant = |what: &str, command: &str, rest: &str| {
-        let words = [command, &file, &list, "--variant {}", rest];
-        row(what, words.iter().filter(|w| !w.is_empty()).join(" "))
+    let of_one = |name: &str, list: &str| {
+        let row_of = |what: &str, command: &str, rest: &str| {
+            let rest = rest.replace("NAME", name);
+            let words = [command, &file, list, "--variant {}", &rest];
+            row(what, words.iter().filter(|w| !w.is_empty()).join(" "))
+        };
+        // `draw` and `export` count the lucky variants, too.
+        if request.generic_only {
+            return Vec::new();
+        }
+        vec![
+            row_of("The same drawing", "ozols draw", "-o NAME-{}.svg"),
+            row_of("It as a file", "ozols export", "--to toml -o NAME-{}.toml"),
+        ]
     };
+    let distinct = Request {
+        distinct: true,
+        ..request.clone()
+    };
+    let longer = [&list, "{}", "--top 10000"];
+    let longer = longer.iter().filter(|w| !w.is_empty()).join(" ");
     Commands {
         rows: vec![
             row(
@@ -122,18 +173,8 @@ fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
                 ),
             ),
         ],
-        // `draw` and `export` count the lucky variants, too.
-        variant: if request.generic_only {
-            Vec::new()
-        } else {
-            vec![
-                of_variant("The same drawing", "ozols draw", "-o variant-{}.svg"),
-                of_variant(
-                    "This variant as a file",
-                    "ozols export",
-                    "--to toml -o variant-{}.toml",
-                ),
-            ]
-        },
+        variant: of_one("variant", &list),
+        idea: of_one("idea", &flags(mechanism, &distinct)),
+        longer: format!("ozols report {file} {longer} -o report.html"),
     }
 }

@@ -2,12 +2,25 @@
 
 use super::sheet::{Sheet, Swatch};
 use super::subject::Subject;
+use crate::model::coupling::Coupling;
 use crate::model::mechanism::JointId;
 use crate::svg::plane::{Point, add};
 use std::fmt::Write as _;
 
 /// The class of the style sheet that the lines have.
 const CLASS: &str = "fine dash";
+
+/// Draws the line of a coupling between joints that stand at `place`.
+pub(super) fn draw_line(
+    sheet: &mut Sheet,
+    coupling: &Coupling,
+    place: impl Fn(JointId) -> Option<Point>,
+) {
+    let [a, b] = coupling.ends.map(|e| place(e.joint));
+    if let (Some(a), Some(b)) = (a, b) {
+        sheet.line(CLASS, a, b);
+    }
+}
 
 impl Subject<'_> {
     /// Draws the lines of the couplings between joints that stand at `place`.
@@ -17,10 +30,7 @@ impl Subject<'_> {
         place: impl Fn(JointId) -> Option<Point>,
     ) {
         for coupling in self.mechanism.couplings_in(self.state) {
-            let [a, b] = coupling.ends.map(|e| place(e.joint));
-            if let (Some(a), Some(b)) = (a, b) {
-                sheet.line(CLASS, a, b);
-            }
+            draw_line(sheet, coupling, &place);
         }
     }
 

@@ -1,19 +1,27 @@
 //! The kinematic scheme: links and the symbols of joints where the coordinates have them.
 
 mod axes;
+mod body;
+mod gears;
+pub(super) mod moving;
 mod naming;
+mod nest;
 mod symbol;
+use self::body::Body;
 use self::symbol::Symbol;
-use super::ground::{Ground, grounds, part};
-use super::projection::{self, View, bounds};
+use super::couplings;
+use super::ground::{Foot, Ground, grounds};
+use super::projection::places::places;
+use super::projection::{self, Place, Projection, bounds};
 use super::sheet::{Anchor, Caption, Drawing, Sheet, Swatch, plan};
+use super::sight::Sight;
 use super::subject::{Mark, Subject, roominess};
 use super::swap::{self, Swap};
-use super::symbols::{self, Pose, hull};
+use super::symbols;
 use crate::format::number::decimals;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, LinkId, Role};
-use crate::svg::plane::{Point, Rect, add, mean, polyline, scale, sub, unit};
+use crate::model::mechanism::{Joint, JointId, LinkId, Role};
+use crate::svg::plane::{Point, Rect, add, mean, norm, polyline, scale, sub, unit};
 use std::fmt::Write as _;
 
 /// The room for the joints.
@@ -24,23 +32,31 @@ const STRIP: f64 = 84.0;
 /// Draws the kinematic scheme.
 #[must_use]
 pub fn kinematic(subject: &Subject<'_>) -> Drawing {
-    Kinematic::new(subject).draw()
+    kinematic_seen(subject, &Sight::default())
+}
+
+/// Draws the kinematic scheme as seen from a side.
+#[must_use]
+pub fn kinematic_seen(subject: &Subject<'_>, sight: &Sight) -> Drawing {
+    Kinematic::new(subject, sight).draw()
 }
 
 /// The kinematic scheme with room for the symbols of other joints in place of some, and for each swap the SVG elements
 /// that stand in the group of its joint (`data-joint`) instead of those there, marked as changed.
 #[must_use]
 pub fn kinematic_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Vec<String>) {
-    let mut drawn = Kinematic::new(subject);
+    let mut drawn = Kinematic::new(subject, &Sight::default());
     let mut out = Vec::new();
     for swap in swaps {
         let (joint, option) = (swap.joint, swap.option);
+        let spot = drawn.spots.iter().find(|s| s.joint == joint);
+        let size = spot.map_or(1.0, |s| s.symbol.size);
         let symbol = Symbol::new(
             subject,
             joint,
-            &option.joint_type,
-            &option.frame,
-            &drawn.view,
+            (&option.joint_type, &projection::turned(&option.frame)),
+            &drawn.projection.view,
+            size,
         );
         let symbol = symbol.marked(Mark::Changed);
         let mut piece = Sheet::piece();
@@ -70,16 +86,16 @@ struct Kinematic<'a> {
     subject: &'a Subject<'a>,
     spots: Vec<Spot>,
     links: Vec<(LinkId, Vec<usize>)>,
+    /// How far the bar of each link bows out.
+    bows: Vec<f64>,
     grounds: Vec<Ground>,
-    view: View,
-    /// Pixels in a unit of length.
-    scale: f64,
-    /// Whether some joints stand beside their points.
-    moved: bool,
+    /// Where the joints are in space.
+    places: Vec<Place>,
+    projection: Projection,
 }
 
 impl<'a> Kinematic<'a> {
-    fn new(subject: &'a Subject<'a>) -> Kinematic<'a> {
+    fn new(subject: &'a Subject<'a>, sight: &Sight) -> Kinematic<'a> {
         let m = subject.mechanism;
         let joints: Vec<JointId> = m.joints_in(subject.state).collect();
         let mut links: Vec<(LinkId, Vec<usize>)> = Vec::new();
@@ -94,18 +110,22 @@ impl<'a> Kinematic<'a> {
         // A redesign is seen as the mechanism it came from, so that the two can be laid side by side.
         let before = subject.marks.as_ref().and_then(|m| m.before.as_ref());
         let seen = before.unwrap_or(m);
-        let places = projection::places(seen, &joints);
+        let places = places(seen, &joints);
         // symbols do not grow, so that many of them need more paper
         let more = roominess(seen, &joints) * (joints.len() as f64 / 12.0).sqrt().clamp(1.0, 3.0);
         let room = ROOM.map(|r| r * more);
-        let (view, mut at, scale) = projection::best(&places, &links, m.frame(), room);
-        let apart = part(&mut at, &links, &places, &view);
+        let projection = projection::best(&places, &links, m.frame(), room, sight);
+        let at: Vec<Point> = places.iter().map(|p| projection.flat(p.point)).collect();
+        let of: Vec<&Joint> = joints.iter().map(|&j| &m.joints[j]).collect();
+        let sizes = nest::sizes(&at, &of);
         let spots: Vec<Spot> = joints
             .iter()
             .zip(&at)
-            .map(|(&joint, &at)| {
+            .zip(sizes)
+            .map(|((&joint, &at), size)| {
                 let of = &m.joints[joint];
-                let symbol = Symbol::new(subject, joint, &of.joint_type, &of.frame, &view);
+                let of = (&of.joint_type, &projection::turned(&of.frame));
+                let symbol = Symbol::new(subject, joint, of, &projection.view, size);
                 Spot {
                     joint,
                     at,
@@ -117,29 +137,46 @@ impl<'a> Kinematic<'a> {
         let mut out = Kinematic {
             subject,
             spots,
+            bows: vec![0.0; links.len()],
             links,
             grounds: Vec::new(),
-            view,
-            scale,
-            moved: apart || places.iter().any(|p| p.moved),
+            places,
+            projection,
         };
-        let loose = out.links.iter().filter(|(l, _)| *l != m.frame());
+        let moving = (0..out.links.len()).filter(|&l| !out.is_frame(out.links[l].0));
+        let moving: Vec<usize> = moving.collect();
+        let bodies: Vec<Body> = moving.iter().map(|&l| out.body(l)).collect();
+        for (&l, bow) in moving.iter().zip(body::bows(&bodies)) {
+            out.bows[l] = bow;
+        }
+        let loose = moving.iter().map(|&l| &out.links[l].1);
         let loose: Vec<(usize, Point)> = loose
-            .filter_map(|(_, of)| Some((of[0], out.loose(of)?)))
+            .filter_map(|of| Some((of[0], out.loose(of)?)))
             .collect();
-        let rooms: Vec<(Point, Rect)> = out.spots.iter().map(|s| (s.at, s.rect)).collect();
-        out.grounds = grounds(&rooms, &out.links, m.frame(), &loose);
+        let feet: Vec<Foot> = (0..out.spots.len()).map(|i| out.foot(i)).collect();
+        out.grounds = grounds(&feet, &out.links, m.frame(), &loose);
         out
     }
 
-    /// The outline of a link: a bar, or the polygon round its joints.
-    fn outline(&self, of: &[usize]) -> Vec<Point> {
-        let points: Vec<Point> = of.iter().map(|&i| self.spots[i].at).collect();
-        if points.len() > 2 {
-            hull(points)
-        } else {
-            points
+    /// A joint as the ground has to know it: a block seen from the side has a rail.
+    fn foot(&self, i: usize) -> Foot {
+        let spot = &self.spots[i];
+        let of = &self.subject.mechanism.joints[spot.joint].joint_type;
+        let along = self.projection.view.flat(self.places[i].z);
+        let side = symbols::side_of_slide(of).filter(|_| norm(along) > 0.5);
+        Foot {
+            at: spot.at,
+            room: spot.rect,
+            slide: side.map(|side| (unit(along), side * spot.symbol.size + 2.0)),
         }
+    }
+
+    /// The shape of a link.
+    fn body(&self, link: usize) -> Body {
+        let (_, of) = &self.links[link];
+        let mut points: Vec<Point> = of.iter().map(|&i| self.spots[i].at).collect();
+        points.extend(self.loose(of));
+        Body::new(&points).bowed(self.bows[link])
     }
 
     /// The end of a link with one joint.
@@ -164,6 +201,10 @@ impl<'a> Kinematic<'a> {
         self.subject.mechanism.links[link].role == Role::Frame
     }
 
+    fn is_output(&self, link: LinkId) -> bool {
+        self.subject.mechanism.links[link].role == Role::Output
+    }
+
     fn draw(mut self) -> Drawing {
         let (places, texts) = self.place_labels();
         let mut area = bounds(&self.spots.iter().map(|s| s.at).collect::<Vec<_>>());
@@ -178,8 +219,15 @@ impl<'a> Kinematic<'a> {
         for r in all.chain(ends) {
             area = area.with(&r);
         }
+        for l in 0..self.links.len() {
+            area = area.with(&bounds(&self.body(l).points).grown(3.0));
+        }
+        let circles = self.circles();
+        for c in circles.iter().flatten() {
+            area = area.with(&bounds(c).grown(1.0));
+        }
         let title = self.subject.title();
-        let what = format!("Kinematic scheme {}", self.view.name);
+        let what = format!("Kinematic scheme {}", self.projection.view.name);
         let subtitle = self.subject.subtitle(&what);
         let caption = Caption {
             title: &title,
@@ -199,8 +247,7 @@ impl<'a> Kinematic<'a> {
         }
         let mut sheet = Sheet::new(&caption, &plan);
         self.draw_links(&mut sheet);
-        let spot = |j| self.spots.iter().find(|s| s.joint == j).map(|s| s.at);
-        self.subject.draw_couplings(&mut sheet, spot);
+        self.draw_couplings(&mut sheet, &circles, by);
         for g in &self.grounds {
             sheet.symbol(g.rect());
             g.draw(&mut sheet);
@@ -210,7 +257,10 @@ impl<'a> Kinematic<'a> {
                 sheet.line("lead", add(a, by), add(b, by));
             }
         }
-        for s in &self.spots {
+        // the larger ones of one place first
+        let mut order: Vec<&Spot> = self.spots.iter().collect();
+        order.sort_by(|a, b| b.symbol.size.total_cmp(&a.symbol.size));
+        for s in order {
             sheet.symbol(s.rect);
             let mark = self.subject.joint_mark(s.joint);
             let id = &self.subject.mechanism.joints[s.joint].id;
@@ -235,60 +285,86 @@ impl<'a> Kinematic<'a> {
     }
 
     fn draw_links(&self, sheet: &mut Sheet) {
-        for (l, of) in self.links.iter().filter(|(l, _)| !self.is_frame(*l)) {
-            let joints = of.iter().map(|&i| self.spots[i].joint);
-            let dash = if joints.clone().all(|j| self.subject.only_here(j)) {
-                " dash"
-            } else {
-                ""
-            };
-            let mark = self.subject.link_mark(*l).class();
-            let outline = self.outline(of);
-            let (class, closed) = if outline.len() > 2 {
-                ("plate", true)
-            } else {
-                ("bone", false)
-            };
-            let mut points = outline;
-            points.extend(self.loose(of));
+        for (n, (l, _)) in self.links.iter().enumerate() {
+            if self.is_frame(*l) {
+                continue;
+            }
+            let body = self.body(n);
             let id = &self.subject.mechanism.links[*l].id;
             sheet.group(("data-link", id), [0.0; 2], |s| {
-                s.path_with_tip(
-                    &format!("{class}{mark}{dash}"),
-                    &polyline(&points, closed),
-                    &format!("link {id}"),
-                );
+                if body.points.len() > 1 {
+                    s.path_with_tip(
+                        &self.look(n, &body),
+                        &polyline(&body.points, body.plate),
+                        &format!("link {id}"),
+                    );
+                }
             });
+        }
+    }
+
+    /// The classes of a link.
+    fn look(&self, link: usize, body: &Body) -> String {
+        let (l, of) = &self.links[link];
+        let here = of
+            .iter()
+            .all(|&i| self.subject.only_here(self.spots[i].joint));
+        format!(
+            "{}{}{}{}",
+            if body.plate { "plate" } else { "bone" },
+            if self.is_output(*l) { " out" } else { "" },
+            self.subject.link_mark(*l).class(),
+            if here { " dash" } else { "" }
+        )
+    }
+
+    /// The pitch circles of each coupling, in the coordinates of the spots.
+    fn circles(&self) -> Vec<Vec<Vec<Point>>> {
+        let m = self.subject.mechanism;
+        m.couplings_in(self.subject.state)
+            .map(|c| self.pitch_circles(c, &self.places))
+            .collect()
+    }
+
+    /// Gears as their pitch circles, other couplings as a line from joint to joint.
+    fn draw_couplings(&self, sheet: &mut Sheet, circles: &[Vec<Vec<Point>>], by: Point) {
+        let m = self.subject.mechanism;
+        for (coupling, circles) in m.couplings_in(self.subject.state).zip(circles) {
+            for c in circles {
+                let c: Vec<Point> = c.iter().map(|&p| add(p, by)).collect();
+                sheet.path("fine pitch", &polyline(&c, true));
+            }
+            if circles.is_empty() {
+                let place = |j| self.spots.iter().find(|s| s.joint == j).map(|s| s.at);
+                couplings::draw_line(sheet, coupling, place);
+            }
         }
     }
 
     fn legend(&self) -> Vec<(Swatch, String)> {
         let m = self.subject.mechanism;
-        let mut types: Vec<&JointType> = Vec::new();
+        // each type as the first joint of it is drawn
+        let mut types: Vec<(&JointType, &Spot)> = Vec::new();
         for s in &self.spots {
             let t = &m.joints[s.joint].joint_type;
-            if !types.contains(&t) {
-                types.push(t);
+            if !types.iter().any(|(other, _)| *other == t) {
+                types.push((t, s));
             }
         }
         let mut out: Vec<(Swatch, String)> = types
             .into_iter()
-            .map(|t| {
-                let shapes = symbols::symbol(t, &Pose::legend(), "");
+            .map(|(t, s)| {
+                let shapes = s.symbol.plain();
                 (Swatch::Shapes(shapes), format!("{t}, class {}", t.class()))
             })
             .collect();
         if self.spots.iter().any(|s| s.symbol.ring.is_some()) {
-            let draw = |s: &mut Sheet, p: Point| s.circle("line", p, 9.5);
+            let draw = |s: &mut Sheet, p: Point| symbol::drive(s, "", p, 9.5);
             out.push((Swatch::Symbol(draw), "driving pair".to_owned()));
         }
         if !self.grounds.is_empty() {
             let draw = |s: &mut Sheet, p: Point| {
-                Ground {
-                    from: add(p, [0.0, -7.0]),
-                    to: add(p, [0.0, -1.0]),
-                }
-                .draw(s);
+                Ground::pivot(add(p, [0.0, -7.0]), add(p, [0.0, -1.0])).draw(s);
             };
             out.push((
                 Swatch::Symbol(draw),
@@ -300,12 +376,29 @@ impl<'a> Kinematic<'a> {
             let state = &m.states[self.subject.state];
             out.push((Swatch::Symbol(draw), format!("in state {state} only")));
         }
-        out.extend(self.subject.coupling_row());
+        if self.links.iter().any(|(l, _)| self.is_output(*l)) {
+            let draw = |s: &mut Sheet, p: Point| {
+                s.line("bone out", add(p, [-9.0, 0.0]), add(p, [9.0, 0.0]));
+            };
+            out.push((Swatch::Symbol(draw), "output link".to_owned()));
+        }
+        let circles = self.circles();
+        if circles.iter().any(|c| !c.is_empty()) {
+            let draw = |s: &mut Sheet, p: Point| s.circle("fine pitch", p, 9.0);
+            out.push((Swatch::Symbol(draw), "pitch circle of a gear".to_owned()));
+        }
+        if circles.iter().any(Vec::is_empty) {
+            out.extend(self.subject.coupling_row());
+        }
         out.extend(self.subject.mark_rows());
-        if self.moved {
-            let none = |_: &mut Sheet, _: Point| {};
-            let text = "coincident joints are drawn apart".to_owned();
-            out.push((Swatch::Symbol(none), text));
+        let none = |_: &mut Sheet, _: Point| {};
+        if self.places.iter().any(|p| p.moved) {
+            let text = "joints that meet in a point stand farther along their axes";
+            out.push((Swatch::Symbol(none), text.to_owned()));
+        }
+        if self.bows.iter().any(|&b| b != 0.0) {
+            let text = "a straight bar bows where it would lie on another";
+            out.push((Swatch::Symbol(none), text.to_owned()));
         }
         out
     }
@@ -313,7 +406,7 @@ impl<'a> Kinematic<'a> {
     /// The drawing in words, for those who do not see it.
     fn description(&self) -> String {
         let m = self.subject.mechanism;
-        let what = format!("Kinematic scheme {}", self.view.name);
+        let what = format!("Kinematic scheme {}", self.projection.view.name);
         let mut out = self.subject.summary(&what);
         for s in &self.spots {
             let joint = &m.joints[s.joint];

@@ -1,9 +1,12 @@
 //! Where joints are shown and from which side.
 
+pub(super) mod places;
+
+use super::sight::Sight;
 use crate::geom::expr::Expr;
 use crate::geom::extent::diagonal;
 pub(super) use crate::geom::vector::{Vector, add, cross, dot, length as norm, scale, sub};
-use crate::model::joint_type::{Freedom, JointType};
+use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, LinkId, Mechanism};
 use crate::svg::plane::{Point, Rect, norm as norm2, segments_cross, sub as sub2, to_segment};
 
@@ -33,6 +36,44 @@ impl View {
 /// six digits.
 const FLAT: f64 = 1e-5;
 
+impl Sight {
+    /// The view that is asked for, if one is.
+    fn view(&self) -> Option<View> {
+        let toward = unit(self.toward?, [0.0, 0.0, 1.0]);
+        let mut all = views().into_iter();
+        if let Some(view) = all.find(|v| norm(sub(v.toward, toward)) < FLAT) {
+            return Some(self.turned(view));
+        }
+        let name = if toward
+            .iter()
+            .all(|x| (x.abs() - toward[0].abs()).abs() < FLAT)
+        {
+            "isometric"
+        } else {
+            "seen from the side asked for"
+        };
+        Some(self.turned(upright(toward, name)))
+    }
+
+    /// A view with what goes up as it is asked for.
+    fn turned(&self, view: View) -> View {
+        let Some(up) = self.up else { return view };
+        let right = cross(up, view.toward);
+        if norm(right) <= FLAT * norm(up) {
+            return view;
+        }
+        let right = unit(right, view.right);
+        View {
+            right,
+            up: cross(view.toward, right),
+            ..view
+        }
+    }
+}
+
+/// Joints nearer than this on paper, in pixels, are in one place.
+pub(super) const ONE_PLACE: f64 = 1.5;
+
 /// What the axis of a joint means for a plane of motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Turn {
@@ -59,69 +100,18 @@ pub(super) struct Place {
     pub(super) moved: bool,
 }
 
-/// Joints as they are shown: those that meet in a point with axes of different directions are moved along them.
-pub(super) fn places(mechanism: &Mechanism, joints: &[JointId]) -> Vec<Place> {
-    let mut out: Vec<Place> = joints.iter().map(|&j| frame(mechanism, j)).collect();
-    if planar(&out).is_some() {
-        return out;
-    }
-    let size = extent(&out);
-    let near = |a: Vector, b: Vector| norm(sub(a, b)) <= 1e-6 * size;
-    let step = if size > 0.0 { 0.2 * size } else { 1.0 };
-    let old = out.clone();
-    let links = |i: usize| mechanism.joints[joints[i]].links;
-    for i in 0..out.len() {
-        let group: Vec<usize> = (0..old.len())
-            .filter(|&k| k != i && near(old[k].point, old[i].point))
-            .collect();
-        if group.is_empty() {
-            continue;
-        }
-        let joint = &mechanism.joints[joints[i]];
-        let (p, z) = (old[i].point, old[i].z);
-        if matches!(joint.joint_type, JointType::Prismatic)
-            && let Some(middle) = between(mechanism, joints, &old, i)
-            && !near(middle, p)
-        {
-            (out[i].point, out[i].moved) = (middle, true);
-            continue;
-        }
-        let slides = joint
-            .joint_type
-            .freedoms()
-            .iter()
-            .all(|f| matches!(f, Freedom::Rz | Freedom::Tz | Freedom::Screw));
-        let slanted = group.iter().any(|&k| norm(cross(old[k].z, z)) > 1e-6);
-        if !slides || !slanted || joint.joint_type == JointType::Fixed {
-            continue;
-        }
-        // where the axes of joints on the same links meet this one
-        let mut meets: Vec<f64> = (0..old.len())
-            .filter(|&k| k != i && links(k).iter().any(|l| links(i).contains(l)))
-            .filter_map(|k| meet(p, z, old[k].point, old[k].z, 1e-5 * size.max(1e-12)))
-            .collect();
-        meets.sort_by(f64::total_cmp);
-        let (low, high) = match (meets.first(), meets.last()) {
-            (Some(&a), Some(&b)) => (a, b),
-            _ => (0.0, 0.0),
-        };
-        let t = if high - low > 1e-5 * size {
-            (low + high) / 2.0
-        } else {
-            let middle = middle(&old);
-            let outward = dot(sub(add(p, scale(z, low)), middle), z);
-            low + if outward < -1e-9 * size { -step } else { step }
-        };
-        let twins = group
-            .iter()
-            .filter(|&&k| k < i && norm(cross(old[k].z, z)) <= 1e-6)
-            .count();
-        let t = t * (1.0 + 0.5 * twins as f64);
-        if t.abs() > 1e-6 * size {
-            (out[i].point, out[i].moved) = (add(p, scale(z, t)), true);
+impl Place {
+    /// The same kind of joint at another point, with its axes turned.
+    pub(super) fn carried(&self, point: Vector, turn: impl Fn(Vector) -> Vector) -> Place {
+        Place {
+            point,
+            x: turn(self.x),
+            y: turn(self.y),
+            z: turn(self.z),
+            turn: self.turn,
+            moved: self.moved,
         }
     }
-    out
 }
 
 /// The place of a joint, as its coordinates have it.
@@ -168,30 +158,6 @@ pub(super) fn turned(f: &Frame) -> Place {
     }
 }
 
-/// The middle between the other joints of the two bars that a sliding pair joins.
-fn between(mechanism: &Mechanism, joints: &[JointId], at: &[Place], i: usize) -> Option<Vector> {
-    let ends = mechanism.joints[joints[i]].links.map(|l| {
-        let mut others =
-            (0..joints.len()).filter(|&k| k != i && mechanism.joints[joints[k]].links.contains(&l));
-        let one = others.next();
-        one.filter(|_| others.next().is_none())
-    });
-    let (a, b) = (at[ends[0]?].point, at[ends[1]?].point);
-    Some(scale(add(a, b), 0.5))
-}
-
-/// Where on the line p + t·z the line q + s·w meets it.
-fn meet(p: Vector, z: Vector, q: Vector, w: Vector, near: f64) -> Option<f64> {
-    let n = cross(z, w);
-    let nn = dot(n, n);
-    if nn < 1e-12 {
-        return None;
-    }
-    let apart = sub(q, p);
-    let gap = dot(apart, n).abs() / nn.sqrt();
-    (gap <= near).then(|| dot(cross(apart, w), n) / nn)
-}
-
 /// The views to choose from.
 fn views() -> Vec<View> {
     let mut out = vec![
@@ -230,9 +196,22 @@ fn views() -> Vec<View> {
     out
 }
 
-/// Towards a direction that is not z, with z going up.
+/// The first isometric view.
+pub(super) fn aslant() -> View {
+    upright([1.0, 1.0, 1.0].map(|x: f64| x / 3f64.sqrt()), "isometric")
+}
+
+/// The view along z.
+pub(super) fn along_z() -> View {
+    views()[0]
+}
+
+/// Towards a direction, with z going up, or y where the direction is z.
 fn upright(toward: Vector, name: &'static str) -> View {
-    let right = unit(cross([0.0, 0.0, 1.0], toward), [1.0, 0.0, 0.0]);
+    let right = unit(
+        cross([0.0, 0.0, 1.0], toward),
+        [toward[2].signum(), 0.0, 0.0],
+    );
     View {
         right,
         up: cross(toward, right),
@@ -257,18 +236,38 @@ fn face_on(normal: Vector) -> View {
     upright(toward, "seen face-on")
 }
 
-/// The view with least overlap, with the joints on paper in a picture of the given size.
+/// How a mechanism is put on paper.
+#[derive(Debug, Clone)]
+pub(super) struct Projection {
+    /// The side it is seen from.
+    pub(super) view: View,
+    /// Pixels in a unit of length.
+    pub(super) scale: f64,
+    /// What comes to the origin of the paper.
+    middle: Vector,
+}
+
+impl Projection {
+    /// A point on paper.
+    pub(super) fn flat(&self, p: Vector) -> Point {
+        self.view.flat(sub(p, self.middle)).map(|x| x * self.scale)
+    }
+}
+
+/// The view that is asked for, or that with least overlap, for a picture of the given size.
 pub(super) fn best(
     places: &[Place],
     links: &[(LinkId, Vec<usize>)],
     frame: LinkId,
     room: Point,
-) -> (View, Vec<Point>, f64) {
+    sight: &Sight,
+) -> Projection {
     let middle = middle(places);
-    let mut best: Option<(f64, View, Vec<Point>, f64)> = None;
-    let candidates = match planar(places) {
-        Some(normal) => vec![(face_on(normal), 0.0)],
-        None => {
+    let mut best: Option<(f64, Projection)> = None;
+    let candidates = match (sight.view(), planar(places)) {
+        (Some(view), _) => vec![(view, 0.0)],
+        (None, Some(normal)) => vec![(face_on(normal), 0.0)],
+        (None, None) => {
             let few = places.len() as f64;
             let dear = |v: &View| match v.name {
                 _ if v.axis => 1.0 + 0.15 * few,
@@ -283,6 +282,7 @@ pub(super) fn best(
         }
     };
     for (view, dear) in candidates {
+        let view = sight.turned(view);
         let on: Vec<Point> = places
             .iter()
             .map(|p| view.flat(sub(p.point, middle)))
@@ -297,14 +297,41 @@ pub(super) fn best(
         };
         let on: Vec<Point> = on.iter().map(|p| [p[0] * scale, p[1] * scale]).collect();
         let cost = dear + crowd(places, &on, links, frame);
-        if best.as_ref().is_none_or(|(least, ..)| cost < least - 1e-9) {
-            best = Some((cost, view, on, scale));
+        if best.as_ref().is_none_or(|(least, _)| cost < least - 1e-9) {
+            let scale = scale * room_for_symbols(&on);
+            let found = Projection {
+                view,
+                scale,
+                middle,
+            };
+            best = Some((cost, found));
         }
     }
-    match best {
-        Some((_, view, on, scale)) => (view, on, scale),
-        None => (views()[0], Vec::new(), 1.0),
+    best.map_or_else(
+        || Projection {
+            view: views()[0],
+            scale: 1.0,
+            middle,
+        },
+        |(_, found)| found,
+    )
+}
+
+/// How much larger than its room a drawing is, so that symbols of joints that are not in one place have room beside each
+/// other.
+fn room_for_symbols(on: &[Point]) -> f64 {
+    const APART: f64 = 30.0;
+    const MOST: f64 = 2.2;
+    let mut least = APART;
+    for (i, &a) in on.iter().enumerate() {
+        for &b in &on[..i] {
+            let d = norm2(sub2(a, b));
+            if d > ONE_PLACE {
+                least = least.min(d);
+            }
+        }
     }
+    (APART / least).min(MOST)
 }
 
 /// The common normal, in any direction, where all points lie in one plane and the mechanism moves in it; an axis of the
@@ -401,6 +428,14 @@ fn extent(places: &[Place]) -> f64 {
 fn middle(places: &[Place]) -> Vector {
     let sum = places.iter().fold([0.0; 3], |s, p| add(s, p.point));
     scale(sum, 1.0 / places.len().max(1) as f64)
+}
+
+/// A unit vector across another.
+pub(super) fn across(z: Vector) -> Vector {
+    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let [a, b] = axes.map(|e| sub(e, scale(z, dot(e, z))));
+    let longer = if norm(a) > norm(b) { a } else { b };
+    unit(longer, [1.0, 0.0, 0.0])
 }
 
 fn unit(a: Vector, or: Vector) -> Vector {

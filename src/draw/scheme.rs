@@ -1,5 +1,6 @@
 //! The structural scheme: links as polygons, joints as circles with their class, contours tinted by what is redundant.
 
+mod contours;
 mod naming;
 
 use super::graph::{Graph, ring};
@@ -12,9 +13,7 @@ use super::swap::{self, Swap};
 use crate::closure::contour::{Contour, contour_basis};
 use crate::geom::expr::Expr;
 use crate::model::mechanism::{JointId, LinkId, Role};
-use crate::svg::plane::{
-    Point, Rect, add, area, inside, mean, norm, polyline, scale, sub, to_segment,
-};
+use crate::svg::plane::{Point, Rect, add, inside, mean, norm, polyline, scale, sub, to_segment};
 use std::fmt::Write as _;
 
 /// Pixels of a bar.
@@ -170,27 +169,6 @@ impl<'a> Scheme<'a> {
         out
     }
 
-    /// What a contour goes round: its joints, and the bends of bars between them.
-    fn round(&self, c: usize) -> Vec<Point> {
-        let of = &self.parts.graph.contours[c];
-        let mut used = Vec::new();
-        let mut out = Vec::new();
-        for (i, &j) in of.iter().enumerate() {
-            out.push(self.at.joints[j]);
-            let next = of[(i + 1) % of.len()];
-            let bent = (0..self.rings.len()).find(|l| {
-                let ring = &self.rings[*l];
-                let joins = ring.len() == 2 && ring.contains(&j) && ring.contains(&next);
-                joins && j != next && !used.contains(l) && self.corners(*l).len() > 2
-            });
-            if let Some(l) = bent {
-                used.push(l);
-                out.push(self.at.hubs[l]);
-            }
-        }
-        out
-    }
-
     fn radius(&self, i: usize) -> f64 {
         if self.subject.mechanism.joints[self.parts.joints[i]].drive {
             DRIVE
@@ -225,9 +203,16 @@ impl<'a> Scheme<'a> {
             *p = add(*p, plan.shift);
         }
         let mut sheet = Sheet::new(&caption, &plan);
-        self.draw_contours(&mut sheet);
+        let order = self.contours_by_size().into_iter();
+        let (seen, hidden): (Vec<usize>, Vec<usize>) = order.partition(|&c| self.is_seen(c));
+        for c in seen {
+            self.draw_contour(&mut sheet, c, &polyline(&self.round(c), true));
+        }
         for l in 0..self.rings.len() {
             self.draw_link(&mut sheet, l);
+        }
+        for c in hidden {
+            self.draw_contour(&mut sheet, c, &self.band(c));
         }
         self.subject.draw_couplings(&mut sheet, |j| {
             let i = self.parts.joints.iter().position(|&x| x == j)?;
@@ -235,29 +220,6 @@ impl<'a> Scheme<'a> {
         });
         self.draw_labels(&mut sheet, &labels, plan.shift);
         sheet.finish(&caption, &plan)
-    }
-
-    fn draw_contours(&self, sheet: &mut Sheet) {
-        let m = self.subject.mechanism;
-        // the smallest on top, so that each stretch has the colour of the contour it is next to
-        let mut order: Vec<(f64, usize, Vec<Point>)> = Vec::new();
-        for c in 0..self.parts.contours.len() {
-            let polygon = self.round(c);
-            order.push((area(&polygon), c, polygon));
-        }
-        order.sort_by(|a, b| b.0.total_cmp(&a.0));
-        for (_, c, polygon) in order {
-            let (contour, share) = &self.parts.contours[c];
-            let redundant = share.map_or(0, |(r, _)| r).min(6);
-            let number = (c + 1).to_string();
-            sheet.group(("data-contour", &number), [0.0; 2], |s| {
-                s.path_with_tip(
-                    &format!("s s{redundant}"),
-                    &polyline(&polygon, true),
-                    &words(c, &contour.name(m), *share),
-                );
-            });
-        }
     }
 
     fn draw_link(&self, sheet: &mut Sheet, l: usize) {
@@ -353,7 +315,7 @@ impl<'a> Scheme<'a> {
         for (c, (contour, share)) in self.parts.contours.iter().enumerate() {
             let redundant = share.map_or(0, |(r, _)| r);
             let name = contour.name(m);
-            let words = words(c, &name, *share);
+            let words = Self::words(c, &name, *share);
             let words = words.split_once(": ").map_or(words.as_str(), |(_, w)| w);
             out.push((
                 Swatch::Tint(redundant, format!("{}", c + 1)),
@@ -406,7 +368,7 @@ impl<'a> Scheme<'a> {
             );
         }
         for (c, (contour, share)) in self.parts.contours.iter().enumerate() {
-            let _ = write!(out, " {}.", words(c, &contour.name(m), *share));
+            let _ = write!(out, " {}.", Self::words(c, &contour.name(m), *share));
         }
         out + &self.subject.coupling_words()
     }
@@ -425,15 +387,4 @@ fn draw_symbol(sheet: &mut Sheet, subject: &Subject<'_>, joint: JointId, class: 
     }
     sheet.circle(&look, [0.0; 2], JOINT);
     sheet.text("class", 10.0, [0.0; 2], Anchor::Middle, class);
-}
-
-/// A contour in words.
-fn words(c: usize, name: &str, share: Share) -> String {
-    match share {
-        Some((r, (low, high))) if low != high => {
-            format!("contour {}: {name}, σ = {r} ({low} to {high})", c + 1)
-        }
-        Some((r, _)) => format!("contour {}: {name}, σ = {r}", c + 1),
-        None => format!("contour {}: {name}", c + 1),
-    }
 }

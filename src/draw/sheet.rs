@@ -17,69 +17,7 @@ const WIDEST: f64 = 560.0;
 
 /// The look. Its classes are its own, so that charts and drawings may share a page; colours stand outright, since many
 /// viewers of files know no CSS variables.
-const STYLE: &str = "
-.ozd{font-family:system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif;font-size:12px}
-.ozd text{fill:#1c2126;font-variant-numeric:tabular-nums}
-.ozd .title{font-size:18px;font-weight:600}
-.ozd .sub{font-size:13px}
-.ozd .sub,.ozd .soft{fill:#59636e}
-.ozd .small{font-size:11px}
-.ozd .soft{paint-order:stroke;stroke:#fff;stroke-opacity:.7;stroke-width:2.5px;stroke-linejoin:round}
-.ozd .class{font-size:10px}
-.ozd .name{font-weight:700;paint-order:stroke;stroke:#f3f5f7;stroke-width:3px;stroke-linejoin:round}
-.ozd .bg{fill:#fff}
-.ozd .link{fill:#f3f5f7;stroke:#3b444d;stroke-width:1.3;stroke-linejoin:round}
-.ozd .bone{fill:none;stroke:#3b444d;stroke-width:2.2;stroke-linecap:round;stroke-linejoin:round}
-.ozd .plate{fill:#59636e;fill-opacity:.12;stroke:#3b444d;stroke-width:1.6;stroke-linejoin:round}
-.ozd .joint{fill:#fff;stroke:#1c2126;stroke-width:1.4;stroke-linejoin:round}
-.ozd .line{fill:none;stroke:#1c2126;stroke-width:1.2;stroke-linecap:round;stroke-linejoin:round}
-.ozd .ink{fill:#1c2126}
-.ozd .fine{fill:none;stroke:#59636e;stroke-width:.9}
-.ozd .lead{fill:none;stroke:#8b949e;stroke-width:.8}
-.ozd .dash{stroke-dasharray:4 3}
-.ozd .link.new,.ozd .plate.new{fill:#d8f0e4;stroke:#00674a}
-.ozd .bone.new{stroke:#00674a}
-.ozd .joint.new{fill:#d8f0e4;stroke:#00674a;stroke-width:2}
-.ozd .line.new{stroke:#00674a}
-.ozd .joint.changed{fill:#d4e4ff;stroke:#0b4fc4;stroke-width:2}
-.ozd .line.changed{stroke:#0b4fc4}
-.ozd .ink.changed{fill:#0b4fc4}
-.ozd text.changed{fill:#0b4fc4;font-weight:700}
-.ozd text.new{fill:#00674a;font-weight:700}
-.ozd .s{stroke:#b4bcc4;stroke-width:.6}
-.ozd .s0{fill:#eef1f4}.ozd .s1{fill:#fff0c2}.ozd .s2{fill:#ffe08f}.ozd .s3{fill:#ffc46b}
-.ozd .s4{fill:#fca35a}.ozd .s5{fill:#f2814f}.ozd .s6{fill:#dd5f45}
-.ozd .badge{fill:#fff;stroke:#59636e;stroke-width:1}
-.ozd .link-back{fill:#f3f5f7}
-@media screen and (prefers-color-scheme:dark){
-.ozd text{fill:#e8ebee}
-.ozd .sub,.ozd .soft{fill:#a3adb7}
-.ozd .bg{fill:#15191d}
-.ozd .name{stroke:#232a31}
-.ozd .soft{stroke:#15191d}
-.ozd .link{fill:#232a31;stroke:#aeb7c0}
-.ozd .bone{stroke:#aeb7c0}
-.ozd .plate{fill:#a3adb7;stroke:#aeb7c0}
-.ozd .joint{fill:#15191d;stroke:#e8ebee}
-.ozd .line{stroke:#e8ebee}
-.ozd .ink{fill:#e8ebee}
-.ozd .fine{stroke:#a3adb7}
-.ozd .lead{stroke:#7a848e}
-.ozd .link.new,.ozd .plate.new{fill:#123c2d;stroke:#5fd0a4}
-.ozd .bone.new,.ozd .line.new{stroke:#5fd0a4}
-.ozd .joint.new{fill:#123c2d;stroke:#5fd0a4}
-.ozd .joint.changed{fill:#16304f;stroke:#7db4ff}
-.ozd .line.changed{stroke:#7db4ff}
-.ozd .ink.changed{fill:#7db4ff}
-.ozd text.changed{fill:#9cc6ff}
-.ozd text.new{fill:#7fe0b8}
-.ozd .s{stroke:#4b555f}
-.ozd .s0{fill:#20262c}.ozd .s1{fill:#3d3513}.ozd .s2{fill:#554312}.ozd .s3{fill:#6b4713}
-.ozd .s4{fill:#7d4318}.ozd .s5{fill:#8b3a1c}.ozd .s6{fill:#962d22}
-.ozd .badge{fill:#15191d;stroke:#a3adb7}
-.ozd .link-back{fill:#232a31}
-}
-";
+const STYLE: &str = include_str!("sheet.css");
 
 /// A text of a drawing and the room it takes at 0.6 of its size a character.
 #[derive(Debug, Clone)]
@@ -231,6 +169,7 @@ impl Sheet {
         xml.raw("\n");
         xml.tag("desc").text(caption.description);
         xml.tag("style").open();
+        xml.raw("\n");
         xml.raw(STYLE);
         xml.end();
         xml.tag("rect")
@@ -289,6 +228,51 @@ impl Sheet {
         self.origin = add(outer, at);
         draw(self);
         self.origin = outer;
+        self.xml.end();
+    }
+
+    /// Rules beside those of every drawing.
+    pub(super) fn style(&mut self, rules: &str) {
+        self.xml.tag("style").text(rules);
+    }
+
+    /// Finished pieces with ids, shown where they are used.
+    pub(super) fn defs<'p>(&mut self, pieces: impl Iterator<Item = (String, &'p str)>) {
+        self.xml.tag("defs").open();
+        for (id, piece) in pieces {
+            // what is used elsewhere has no ancestors there but this group
+            let group = self.xml.tag("g").set("id", &id);
+            group.set("class", "ozd").open();
+            self.xml.piece(piece);
+            self.xml.end();
+        }
+        self.xml.end();
+    }
+
+    /// Shows a piece by its id, as what stands for a joint.
+    pub(super) fn joint_use(&mut self, joint: &str, id: &str, at: Point) {
+        self.xml
+            .tag("use")
+            .set("href", &format!("#{id}"))
+            .num("x", at[0])
+            .num("y", at[1])
+            .set("data-joint", joint)
+            .close();
+    }
+
+    /// One picture of several that stand in one place; one of them is seen.
+    pub(super) fn frame(&mut self, number: usize, seen: bool, draw: impl FnOnce(&mut Sheet)) {
+        let n = number.to_string();
+        let mut tag = self
+            .xml
+            .tag("g")
+            .set("class", &format!("f{n}"))
+            .set("data-frame", &n);
+        if !seen {
+            tag = tag.set("visibility", "hidden");
+        }
+        tag.open();
+        draw(self);
         self.xml.end();
     }
 

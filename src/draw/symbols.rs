@@ -16,18 +16,14 @@ pub(super) struct Pose {
 impl Pose {
     /// Of a joint seen from a side.
     pub(super) fn new(place: &Place, view: &View) -> Pose {
-        let axes = [place.x, place.y, place.z];
+        Pose::of_axes([place.x, place.y, place.z], view)
+    }
+
+    /// Of a frame with these axes.
+    pub(super) fn of_axes(axes: [Vector; 3], view: &View) -> Pose {
         Pose {
             axes: axes.map(|a| view.flat(a)),
             toward: axes.map(|a| dot(a, view.toward)),
-        }
-    }
-
-    /// As in the legend: the axis lies across, a little aslant.
-    pub(super) fn legend() -> Pose {
-        Pose {
-            axes: [[0.3, 0.2], [-0.1, -0.96], [0.95, -0.08]],
-            toward: [0.9, 0.25, 0.3],
         }
     }
 
@@ -58,8 +54,36 @@ impl Pose {
     }
 }
 
-/// The symbol of a joint round the origin; `mark` is added to the classes.
-pub(super) fn symbol(joint: &JointType, pose: &Pose, mark: &str) -> Vec<Shape> {
+/// Half the thickness of a block.
+const BLOCK: f64 = 5.0;
+/// The radius of a bush.
+const BUSH: f64 = 5.5;
+/// The radius of a tube with a ball in it.
+const TUBE: f64 = 8.5;
+/// The radius of a cross.
+const CROSS: f64 = 9.0;
+
+/// How far the side of what slides along the axis of a joint is from the axis; nothing for joints without such a slide.
+pub(super) fn side_of_slide(joint: &JointType) -> Option<f64> {
+    match joint {
+        JointType::Prismatic => Some(BLOCK),
+        JointType::Cylindrical | JointType::Helical => Some(BUSH),
+        JointType::CylindricalUniversal => Some(CROSS),
+        JointType::SphereInCylinder => Some(TUBE),
+        JointType::Revolute
+        | JointType::Universal
+        | JointType::Slotted
+        | JointType::Spherical
+        | JointType::Planar
+        | JointType::CylinderOnPlane
+        | JointType::SphereOnPlane
+        | JointType::Fixed
+        | JointType::Custom(_) => None,
+    }
+}
+
+/// The symbol of a joint round the origin, so many times its usual size; `mark` is added to the classes.
+pub(super) fn symbol(joint: &JointType, pose: &Pose, mark: &str, size: f64) -> Vec<Shape> {
     let mut s = Symbol {
         pose: *pose,
         mark: mark.to_owned(),
@@ -74,17 +98,17 @@ pub(super) fn symbol(joint: &JointType, pose: &Pose, mark: &str) -> Vec<Shape> {
         }
         JointType::Prismatic => {
             s.rod("line", 17.0);
-            s.cuboid([5.0, 5.0, 9.5]);
+            s.cuboid([BLOCK, BLOCK, 9.5]);
             s.rod_end();
         }
         JointType::Helical => {
             s.rod("line", 16.0);
-            s.cylinder(5.5, 9.0, 0.0);
+            s.cylinder(BUSH, 9.0, 0.0);
             s.wave();
         }
         JointType::Cylindrical => {
             s.rod("line", 17.0);
-            s.cylinder(5.5, 9.5, 0.0);
+            s.cylinder(BUSH, 9.5, 0.0);
             s.rod_end();
         }
         JointType::Universal => s.cross(),
@@ -100,7 +124,7 @@ pub(super) fn symbol(joint: &JointType, pose: &Pose, mark: &str) -> Vec<Shape> {
             s.ball(3.2, "ink");
         }
         JointType::Spherical => {
-            s.ball(6.5, "joint");
+            s.round_ball(6.5);
             let arc = (0..=20).map(|i| {
                 let angle = PI * (-0.2 + 1.4 * f64::from(i) / 20.0);
                 [9.5 * angle.cos(), 9.5 * angle.sin()]
@@ -113,8 +137,8 @@ pub(super) fn symbol(joint: &JointType, pose: &Pose, mark: &str) -> Vec<Shape> {
         }
         JointType::SphereInCylinder => {
             s.rod("fine", 15.0);
-            s.cylinder(8.5, 9.5, 0.0);
-            s.ball(5.0, "joint");
+            s.cylinder(TUBE, 9.5, 0.0);
+            s.round_ball(5.0);
         }
         JointType::CylinderOnPlane => {
             s.plate(10.0, -4.5);
@@ -123,7 +147,7 @@ pub(super) fn symbol(joint: &JointType, pose: &Pose, mark: &str) -> Vec<Shape> {
         }
         JointType::SphereOnPlane => {
             s.plate(10.0, -5.0);
-            s.ball(5.0, "joint");
+            s.round_ball(5.0);
         }
         JointType::Fixed => {
             s.area(
@@ -143,6 +167,15 @@ pub(super) fn symbol(joint: &JointType, pose: &Pose, mark: &str) -> Vec<Shape> {
                 vec![[0.0, -9.0], [9.0, 0.0], [0.0, 9.0], [-9.0, 0.0]],
             );
             s.ball(2.0, "ink");
+        }
+    }
+    for shape in &mut s.shapes {
+        match shape {
+            Shape::Path { points, .. } => points.iter_mut().for_each(|p| *p = scale(*p, size)),
+            Shape::Circle { at, radius, .. } => {
+                *at = scale(*at, size);
+                *radius *= size;
+            }
         }
     }
     s.shapes
@@ -193,6 +226,17 @@ impl Symbol {
         });
     }
 
+    /// A ball that does not look like a pin: with its equator.
+    fn round_ball(&mut self, radius: f64) {
+        self.ball(radius, "joint");
+        let arc = (0..=12).map(|i| {
+            let angle = PI * f64::from(i) / 12.0;
+            [radius * angle.cos(), 0.36 * radius * angle.sin()]
+        });
+        self.shapes
+            .push(Shape::line(self.class("line"), arc.collect()));
+    }
+
     /// The axis as a line.
     fn rod(&mut self, class: &str, half: f64) {
         let ends = vec![self.pose.at(0.0, 0.0, -half), self.pose.at(0.0, 0.0, half)];
@@ -202,7 +246,7 @@ impl Symbol {
     /// The end of the rod, where the axis points at the reader and the rod itself is not to be seen.
     fn rod_end(&mut self) {
         if self.pose.toward[2].abs() > 0.9 {
-            self.ball(2.0, "ink");
+            self.ball(3.0, "ink");
         }
     }
 
@@ -253,9 +297,9 @@ impl Symbol {
 
     /// The cross of a universal joint: its two axes, z and x.
     fn cross(&mut self) {
-        self.ball(9.0, "joint");
+        self.ball(CROSS, "joint");
         for axis in [2, 0] {
-            let tip = scale(self.pose.axes[axis], 9.0);
+            let tip = scale(self.pose.axes[axis], CROSS);
             let ends = vec![scale(tip, -1.0), tip];
             self.shapes.push(Shape::line(self.class("line"), ends));
             for end in [tip, scale(tip, -1.0)] {
@@ -334,6 +378,8 @@ pub(super) fn hull(mut points: Vec<Point>) -> Vec<Point> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::draw::projection;
+    use crate::geom::vector::{X, Y, Z};
 
     #[test]
     fn each_type_of_joint_has_a_symbol_of_its_own_from_every_side() {
@@ -347,10 +393,10 @@ mod tests {
             end_on,
             from_the_side,
             from_the_side.along_x(),
-            Pose::legend(),
+            Pose::of_axes([X, Y, Z], &projection::aslant()),
         ] {
             let drawn = types.each_ref().map(|t| {
-                let mut shapes = symbol(t, &pose, "");
+                let mut shapes = symbol(t, &pose, "", 1.0);
                 // what is a point on paper is not seen
                 shapes.retain(|s| {
                     let r = extent(std::slice::from_ref(s));

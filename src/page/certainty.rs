@@ -23,9 +23,17 @@ fn row(head: &str, lines: &[String]) -> Markup {
     html! {
         dt { (head) }
         dd {
-            @for (i, line) in lines.iter().enumerate() {
-                @if i > 0 { br; "\n" }
-                (line)
+            @if let Some((first, rest)) = lines.split_first() {
+                (first)
+                @if !rest.is_empty() {
+                    details {
+                        summary { "Methods and checks" }
+                        @for (i, line) in rest.iter().enumerate() {
+                            @if i > 0 { br; "\n" }
+                            (line)
+                        }
+                    }
+                }
             }
         }
     }

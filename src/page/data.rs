@@ -16,8 +16,11 @@ pub(super) struct Data<'a> {
     states: Vec<StateData<'a>>,
     joints: Vec<JointData<'a>>,
     search: Option<Found>,
+    ideas: Option<Found>,
     swaps: Vec<Swaps>,
     variant_commands: &'a [(String, String)],
+    idea_commands: &'a [(String, String)],
+    longer: &'a str,
 }
 
 #[derive(Serialize)]
@@ -51,7 +54,7 @@ impl<'a> Data<'a> {
     pub(super) fn new(
         page: &'a Page<'_>,
         analysis: &'a Analysis<'_>,
-        search: Option<Found>,
+        [search, ideas]: [Option<Found>; 2],
         swaps: Vec<Swaps>,
     ) -> Data<'a> {
         let m = page.mechanism;
@@ -62,8 +65,11 @@ impl<'a> Data<'a> {
             states: analysis.states.iter().map(StateData::new).collect(),
             joints: m.joints.iter().map(|j| JointData::new(m, j)).collect(),
             search,
+            ideas,
             swaps,
             variant_commands: &page.commands.variant,
+            idea_commands: &page.commands.idea,
+            longer: &page.commands.longer,
         }
     }
 

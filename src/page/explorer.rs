@@ -25,6 +25,13 @@ fn frame() -> Markup {
         }
         div id="explorer" hidden {
             p.note id="head" {}
+            label.lists id="list-field" {
+                "List "
+                select id="list" {
+                    option value="ideas" { "ideas: what is added, whichever joint in series has it" }
+                    option value="variants" { "single variants" }
+                }
+            }
             (filters())
             p.note id="count" role="status" {}
             div.split {
@@ -105,6 +112,7 @@ fn chosen() -> Markup {
                         option value="kinematic" { "kinematic scheme" }
                     }
                 }
+                button type="button" id="whole" { "Full size" }
             }
             figure.drawing id="drawing" tabindex="0" role="group" aria-label="Drawing of the chosen variant" {}
             div id="chosen-more" {}

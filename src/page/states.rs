@@ -1,7 +1,7 @@
 //! A mechanism as it is, state by state: figures, drawings, contours and self-stresses.
 
 use super::symbols::Drawn;
-use super::verdict;
+use super::{Motion, Page, verdict};
 use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, Mode};
 use crate::view::analysis::{Analysis, Contour, External, SelfStress, State};
@@ -25,7 +25,7 @@ pub(super) fn facts(m: &Mechanism, analysis: &Analysis<'_>) -> String {
     .join(" · ")
 }
 
-pub(super) fn html(analysis: &Analysis<'_>, drawn: &[Drawn<'_>]) -> Markup {
+pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>, drawn: &[Drawn<'_>]) -> Markup {
     let several = analysis.states.len() > 1;
     html! {
         @for (i, (s, d)) in analysis.states.iter().zip(drawn).enumerate() {
@@ -37,7 +37,24 @@ pub(super) fn html(analysis: &Analysis<'_>, drawn: &[Drawn<'_>]) -> Markup {
                 (drawing(i, s, "scheme", "Structural scheme", &d.scheme.svg))
                 (drawing(i, s, "kinematic", "Kinematic scheme", &d.kinematic.svg))
             }
+            @if let Some(Some(m)) = page.motions.get(i) { (motion(s, m)) }
             (contours(s))
+        }
+    }
+}
+
+/// A motion with its player.
+fn motion(s: &State<'_>, motion: &Motion) -> Markup {
+    let way = if motion.closed { "round" } else { "back" };
+    html! {
+        figure.drawing.motion data-motion=(way) role="group" aria-label={ "Motion, state " (s.state) } {
+            (PreEscaped(&motion.svg))
+            div.player {
+                button type="button" data-part="play" { "Play" }
+                input type="range" data-part="range" min="0" step="1" aria-label="Position of the drive";
+                label.check { input type="checkbox" data-part="loop" checked; " Again and again" }
+                span.help data-part="say" {}
+            }
         }
     }
 }

@@ -7,6 +7,7 @@ use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::AnalysisError;
 use crate::score::variant::Variant;
 use crate::search::certify::CHECKED;
+use crate::search::ideas;
 use crate::search::space::{Variable, choice_name};
 use crate::view::search_text;
 use rayon::prelude::*;
@@ -39,6 +40,11 @@ pub(super) struct Found {
     agree: Vec<Option<bool>>,
     lucky: Vec<Option<bool>>,
     notes: Vec<Option<String>>,
+    /// Whether everything was looked at, so that what ideas stand for is counted and no lower bound.
+    exact: bool,
+    /// What each idea adds in words, and how many variants it stands for; nothing for single variants.
+    adds: Vec<Option<String>>,
+    stands_for: Vec<Option<String>>,
     workload: Option<Workload>,
 }
 
@@ -155,6 +161,12 @@ impl Found {
             agree: column(r, |c| c.second().opinion().map(|o| o.agree)),
             lucky: column(r, |c| c.over_stroke().and_then(|s| s.lucky())),
             notes: column(r, search_text::note),
+            exact: r.found.is_exact(),
+            adds: column(r, |c| {
+                let added = c.idea().map(|i| &i.added);
+                added.map(|a| ideas::in_words(&search.mechanism, a))
+            }),
+            stands_for: column(r, |c| c.idea().map(|i| i.variants.to_string())),
             workload: workload(r),
         })
     }

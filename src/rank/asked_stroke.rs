@@ -77,6 +77,9 @@ pub enum AskedError {
         /// What could be driven.
         could: String,
     },
+    /// No joint can be a drive.
+    #[error("nothing can move in {0}")]
+    Still(String),
     /// A coordinate has no value.
     #[error(transparent)]
     Exact(#[from] ExactError),
@@ -168,9 +171,7 @@ impl<'a> Asked<'a> {
     /// The drive by name, and whether it slides.
     #[must_use]
     pub fn drive(&self) -> (String, bool) {
-        let mut names = names(self.mechanism, &self.pose).into_iter();
-        let drive = names.find(|(c, _)| *c == self.drive);
-        let name = drive.map_or_else(String::new, |(_, n)| n);
+        let name = name_of(self.mechanism, &self.pose, self.drive);
         (name, slides(&self.pose, self.drive))
     }
 
@@ -268,6 +269,34 @@ fn drive(
         .filter(|_| driven(own))
         .collect();
     Ok((chosen, held))
+}
+
+/// The column named, or the drive, or, where there is none, the first that can move; and those that are held.
+///
+/// # Errors
+/// Where there is no such column, or nothing can move.
+pub fn drive_or_any(
+    m: &Mechanism,
+    pose: &Pose,
+    state: StateId,
+    asked: Option<&str>,
+) -> Result<(usize, Vec<usize>), AskedError> {
+    let driven = m.joints_in(state).any(|j| m.joints[j].drive);
+    if asked.is_some() || driven {
+        return drive(m, pose, state, asked);
+    }
+    let first = names(m, pose).into_iter().find(|(c, _)| moves(pose, *c));
+    let first = first.ok_or_else(|| AskedError::Still(m.name.clone()))?;
+    Ok((first.0, Vec::new()))
+}
+
+/// The name of a column that can be a drive.
+#[must_use]
+pub fn name_of(m: &Mechanism, pose: &Pose, column: usize) -> String {
+    let mut names = names(m, pose).into_iter();
+    names
+        .find(|(c, _)| *c == column)
+        .map_or_else(String::new, |(_, n)| n)
 }
 
 /// Whether a column can move in a pose.

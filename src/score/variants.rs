@@ -50,7 +50,14 @@ impl Outcome {
     /// The same until `cancelled`.
     #[must_use]
     pub fn variants_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
-        self.list_unless(self.request.list, self.request.seed, cancelled)
+        let request = &self.request;
+        self.listed((request.list, request.distinct), request.seed, cancelled)
+    }
+
+    /// As many ideas as variants were asked for, each as its first variant, until `cancelled`.
+    #[must_use]
+    pub fn ideas_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
+        self.listed((self.request.list, true), self.request.seed, cancelled)
     }
 
     /// Another list of the same variants, until `cancelled`: all of them, or a sample by another seed. Those that further
@@ -60,6 +67,16 @@ impl Outcome {
     pub fn list_unless<'o>(
         &'o self,
         list: List,
+        seed: u64,
+        cancelled: ShouldCancel<'o>,
+    ) -> Variants<'o> {
+        self.listed((list, self.request.distinct), seed, cancelled)
+    }
+
+    /// A list, of ideas or of all variants.
+    fn listed<'o>(
+        &'o self,
+        (list, distinct): (List, bool),
         seed: u64,
         cancelled: ShouldCancel<'o>,
     ) -> Variants<'o> {
@@ -73,7 +90,7 @@ impl Outcome {
         let unranked = |v: Assignment| (v, None);
         let source: Box<dyn Iterator<Item = (Assignment, Option<usize>)>> =
             match (&self.diagrams, &self.ranking, list) {
-                (Some(d), ranking, List::Top(k)) if request.distinct => {
+                (Some(d), ranking, List::Top(k)) if distinct => {
                     let found = match ranking {
                         Some(r) => {
                             let list = r.list.iter().map(|r| &r.variant);
@@ -109,7 +126,7 @@ impl Outcome {
             };
         // What is proven is a list of all variants; of ideas a diagram cut down may lack the first ones.
         let by_cost = match list {
-            List::Top(_) | List::Nothing => self.ranking.is_none() && !request.distinct,
+            List::Top(_) | List::Nothing => self.ranking.is_none() && !distinct,
             List::All => true,
             List::Sample(_) => false,
         };
@@ -126,6 +143,7 @@ impl Outcome {
             stroke: self.stroke.as_ref(),
             ready: Vec::new().into_iter(),
             ideas,
+            distinct,
             room: wanted,
             summary,
             interrupted: false,
@@ -149,6 +167,7 @@ pub struct Variants<'o> {
     ready: std::vec::IntoIter<(Certified, Option<usize>)>,
     /// What each stands for, where only the first of each idea is given.
     ideas: Vec<Idea>,
+    distinct: bool,
     /// How many more may be given.
     room: usize,
     summary: Summary,
@@ -206,7 +225,7 @@ impl Variants<'_> {
         // Brute force gives none, and orbits of a list cut short are not counted one by one.
         let counted =
             o.diagrams.is_some() && (o.is_exact() || o.request.symmetry != Symmetry::OnePerOrbit);
-        let some = o.request.generic_only || o.request.distinct;
+        let some = o.request.generic_only || self.distinct;
         counted && !some && due > given.into()
     }
 

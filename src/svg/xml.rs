@@ -35,6 +35,11 @@ impl Xml {
         self.out.push_str(text);
     }
 
+    /// Elements that this writer has finished before.
+    pub(crate) fn piece(&mut self, elements: &str) {
+        self.out.push_str(elements);
+    }
+
     /// Ends the innermost open element.
     pub(crate) fn end(&mut self) {
         if let Some(name) = self.open.pop() {

@@ -9,6 +9,13 @@ const text = (tab, selector) => tab.locator(selector).innerText();
 const rows = (tab) => tab.locator("#variants tbody tr[data-variant]");
 const tests = [];
 const test = (name, body) => tests.push([name, body]);
+/** Turns to the list of single variants. */
+const variants = (tab) => tab.selectOption("#list", "variants");
+/** Nothing of a drawing is cut off. */
+const uncut = async (tab, selector) => {
+  const [inner, room] = await tab.locator(selector).evaluate((f) => [f.scrollWidth, f.clientWidth]);
+  assert.ok(inner <= room, `${selector}: ${inner} pixels in ${room}`);
+};
 
 const gripper = report("gripper-10", "gripper-10");
 const many = report("gripper-10-many", "gripper-10", "--top", "10000");
@@ -23,9 +30,11 @@ test("the verdict stands at the top, and every part has its words", async () => 
       assert.ok(verdict.includes(words), words);
     }
     assert.match(await text(tab, "#certainty"), /rank proven by a checked certificate/);
+    assert.doesNotMatch(await text(tab, "#certainty"), /Singular values agree/, "methods are folded away");
+    await tab.locator("#certainty summary").last().click();
     assert.match(await text(tab, "#certainty"), /Singular values agree/);
     assert.match(await text(tab, "#commands"), /ozols export gripper-10 --to sdf/);
-    assert.equal(await tab.locator("#mechanism .drawing svg").count(), 4);
+    assert.equal(await tab.locator("#mechanism .drawings svg").count(), 4);
     for (const svg of await tab.locator("svg[role=img]").all()) {
       for (const name of ["title", "desc"]) assert.ok((await svg.locator(`> ${name}`).textContent()).length > 3);
     }
@@ -52,6 +61,7 @@ test("heads sort, and say so", async () => {
 
 test("filters narrow the list, and Escape widens it again", async () => {
   await open(gripper, {}, async (tab) => {
+    await variants(tab);
     await tab.fill("#find", "2-3:spherical 7-0");
     await tab.waitForFunction(() => document.querySelector("#count").textContent.includes("pass"));
     for (const changes of await column(tab, "list")) {
@@ -60,7 +70,7 @@ test("filters narrow the list, and Escape widens it again", async () => {
     }
     await tab.fill("#find", "no such joint");
     await tab.waitForFunction(() => !document.querySelector("#variants tr[data-variant]"));
-    assert.match(await text(tab, "#variants tbody"), /No listed variant/);
+    assert.match(await text(tab, "#variants tbody"), /No variant of the 200 listed passes/);
     await tab.keyboard.press("Escape");
     await tab.waitForFunction(() => document.querySelector("#variants tr[data-variant]"));
     assert.match(await text(tab, "#count"), /^200 listed of 25,761,436/);
@@ -69,6 +79,7 @@ test("filters narrow the list, and Escape widens it again", async () => {
 
 test("a variant is chosen by mouse: changes, figures and drawing", async () => {
   await open(gripper, {}, async (tab) => {
+    await variants(tab);
     const row = rows(tab).nth(2);
     await row.click();
     assert.equal(await row.getAttribute("aria-selected"), "true");
@@ -96,6 +107,9 @@ test("a variant is chosen by mouse: changes, figures and drawing", async () => {
 
 test("by keyboard alone: skip link, table, pages, chart", async () => {
   await open(gripper, {}, async (tab) => {
+    await variants(tab);
+    await tab.evaluate(() => document.activeElement.blur());
+    await tab.evaluate(() => scrollTo(0, 0));
     await tab.keyboard.press("Tab");
     assert.equal(await tab.evaluate(() => document.activeElement.className), "skip");
     await tab.keyboard.press("Enter");
@@ -130,6 +144,7 @@ test("by keyboard alone: skip link, table, pages, chart", async () => {
 
 test("under loads: scores, reactions, and a chart of two figures", async () => {
   await open(loaded, { colorScheme: "dark" }, async (tab) => {
+    await variants(tab);
     assert.match(await text(tab, "#redesigns"), /ranked under the workload/);
     assert.match(await text(tab, "#chosen"), /What the joints bear/);
     assert.match(await text(tab, "#chosen"), /\d+th by cost: peak moment/);
@@ -151,6 +166,7 @@ test("ten thousand variants, on a small screen", async () => {
   await open(many, { viewport: { width: 360, height: 780 } }, async (tab, took) => {
     console.log(`  10,000 variants loaded in ${took} ms`);
     await fits(tab);
+    await variants(tab);
     await tab.locator("#last").click();
     const shown = await rows(tab).evaluateAll((all) => all.map((r) => r.dataset.variant));
     assert.equal(shown.at(-1), "9999");
@@ -166,6 +182,91 @@ test("ten thousand variants, on a small screen", async () => {
     await rows(tab).first().click();
     await fits(tab);
     await picture(tab, "gripper-10-360");
+  });
+});
+
+test("the first list is of ideas, and single variants are a choice away", async () => {
+  await open(gripper, {}, async (tab) => {
+    assert.match(await text(tab, "#count"), /^200 ideas; they stand for [\d,]+ of 25,761,436/);
+    assert.match((await column(tab, "list"))[0], /(turn about|slide along) [xyz].* at /s);
+    assert.match(await text(tab, "#chosen"), /Idea 1/);
+    assert.match(await text(tab, "#chosen"), /ozols draw gripper-10 --distinct --variant 1 -o idea-1.svg/);
+    await variants(tab);
+    assert.match(await text(tab, "#chosen"), /Variant 1\n/);
+    assert.match(await text(tab, "#chosen"), /ozols draw gripper-10 --variant 1 -o variant-1.svg/);
+  });
+});
+
+test("a filter that nothing passes says what would, and the command for more", async () => {
+  await open(gripper, {}, async (tab) => {
+    await variants(tab);
+    await tab.fill("#find", "5-1:cylindrical");
+    await tab.waitForFunction(() => !document.querySelector("#variants tr[data-variant]"));
+    assert.match(await text(tab, "#variants tbody"), /ozols report gripper-10 --allow '5-1=cylindrical' --top 10000/);
+    await tab.fill("#find", "5-1:glue");
+    await tab.waitForFunction(() => document.querySelector("#variants tbody").innerText.includes("glue"));
+    assert.match(await text(tab, "#variants tbody"), /Joint 5-1 may be revolute, .*glue is none of its options/);
+    await tab.fill("#find", "2-3:spherical");
+    await tab.fill("#most-cost", "1");
+    const button = tab.locator("#variants tbody button").first();
+    await button.waitFor();
+    assert.match(await button.innerText(), /^Without cost at most 1: \d+/);
+    const promised = Number((await button.innerText()).match(/(\d+)$/)[1]);
+    await button.click();
+    await tab.waitForFunction((n) => document.querySelector("#count").textContent.startsWith(`${n} of`), promised);
+  });
+});
+
+test("nothing of the chosen drawing is cut, and a tapped row leads to it", async () => {
+  for (const width of [1300, 360]) {
+    await open(gripper, { viewport: { width, height: 780 } }, async (tab) => {
+      await fits(tab);
+      await uncut(tab, "#drawing");
+      for (const figure of await tab.locator("#mechanism figure.drawing").all()) {
+        const [inner, room] = await figure.evaluate((f) => [f.scrollWidth, f.clientWidth]);
+        assert.ok(inner <= room, `${inner} in ${room}`);
+      }
+      await rows(tab).nth(3).click();
+      await tab.waitForFunction(() => {
+        const box = document.querySelector("#chosen").getBoundingClientRect();
+        return box.top >= -1 && box.top < innerHeight / 2;
+      });
+      await tab.locator("#whole").click();
+      assert.ok(await tab.locator("dialog.whole svg").isVisible());
+      await tab.keyboard.press("Escape");
+      assert.equal(await tab.locator("dialog.whole").count(), 0);
+      await picture(tab, `gripper-10-chosen-${width}`, false);
+    });
+  }
+});
+
+test("the motion plays at thirty pictures a second, and rests for who wants it to", async () => {
+  const picture = (tab) => tab.locator('.motion [data-frame]:not([visibility])').getAttribute("data-frame");
+  await open(gripper, {}, async (tab) => {
+    await tab.locator(".motion").scrollIntoViewIfNeeded();
+    await tab.waitForFunction(() => document.querySelector('[data-part="play"]').textContent === "Stop");
+    const seen = await tab.evaluate(() => new Promise((done) => {
+      const shown = [];
+      const begun = performance.now();
+      const look = () => {
+        shown.push(document.querySelector(".motion [data-frame]:not([visibility])").dataset.frame);
+        if (performance.now() - begun < 1000) requestAnimationFrame(look);
+        else done(new Set(shown).size);
+      };
+      look();
+    }));
+    console.log(`  ${seen} different pictures in a second`);
+    assert.ok(seen >= 20, `${seen}`);
+    await tab.locator('[data-part="play"]').click();
+    await tab.locator('[data-part="range"]').fill("5");
+    assert.equal(await picture(tab), "5");
+    assert.equal(await text(tab, '[data-part="play"]'), "Play");
+  });
+  await open(gripper, { reducedMotion: "reduce" }, async (tab) => {
+    await tab.locator(".motion").scrollIntoViewIfNeeded();
+    const before = await picture(tab);
+    await tab.waitForTimeout(600);
+    assert.equal(await picture(tab), before);
   });
 });
 

@@ -1,5 +1,7 @@
 //! Drawings: labels that touch nothing, well-formed SVG, the same bytes each time.
 
+mod moving;
+mod places;
 mod random;
 mod reading;
 

@@ -4,6 +4,8 @@ mod check;
 mod new;
 
 use crate::common::{out, ozols, text};
+use ozols::file::text::mechanism_from_str;
+use ozols::model::joint_type::JointType;
 use ozols::terms::Terms;
 use std::fs;
 use std::path::Path;
@@ -155,6 +157,103 @@ fn every_term_shows_itself_by_a_command_that_runs() {
         0,
         "a command wrote a file"
     );
+}
+
+#[test]
+fn the_list_is_there_as_data() {
+    let rows: serde_json::Value =
+        serde_json::from_str(&out(&["list", "gripper-10", "--format", "json"])).unwrap();
+    let rows = rows.as_array().unwrap();
+    let free = rows
+        .iter()
+        .find(|r| r["name"] == "gripper-10" && r["state"] == "free")
+        .unwrap();
+    for (key, value) in [
+        ("links", 10),
+        ("joints", 13),
+        ("contours", 4),
+        ("freedoms", 14),
+        ("mobility", 1),
+        ("redundant", 11),
+    ] {
+        assert_eq!(free[key], value, "{key}");
+    }
+    assert_eq!(free["family"], "grippers");
+    let csv = out(&["list", "gripper-10", "--format", "csv"]);
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!(
+        lines[0],
+        "name,family,state,links,joints,contours,freedoms,mobility,redundant,description"
+    );
+    assert_eq!(lines.len(), rows.len() + 1);
+    assert!(
+        lines
+            .iter()
+            .any(|l| l.starts_with("gripper-10,grippers,clamped,")),
+        "{csv}"
+    );
+}
+
+#[test]
+fn joint_types_are_explained_with_their_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    for t in JointType::NAMED {
+        let path = folder.path().join(format!("{t}.svg"));
+        let path = path.to_str().unwrap();
+        let said = out(&["explain", t.name(), "-o", path]);
+        // what is written is a joint of that type, frame and all
+        let (_, joint) = said.split_once("[[joint]]").unwrap();
+        let joint = joint.split("\n\n").next().unwrap();
+        let text = format!(
+            "name = \"x\"\n[[link]]\nid = \"1\"\nrole = \"frame\"\n[[link]]\nid = \"2\"\nrole = \"output\"\n[[joint]]{joint}\n"
+        );
+        let m = mechanism_from_str("x.toml", &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        assert_eq!(m.joints[0].joint_type, t);
+        for f in t.freedoms() {
+            assert!(
+                said.contains(&format!("{} (", f.name())),
+                "{t}: {}",
+                f.name()
+            );
+        }
+        assert!(
+            said.contains(&format!("class      {} ", t.class())),
+            "{said}"
+        );
+        let cost = t.default_cost_milli() as f64 / 1000.0;
+        assert!(said.contains(&format!("cost       {cost} ")), "{said}");
+        let svg = fs::read_to_string(path).unwrap();
+        let doc = roxmltree::Document::parse(&svg).unwrap();
+        let texts: Vec<&str> = doc
+            .descendants()
+            .filter(|n| n.has_tag_name("text"))
+            .filter_map(|n| n.text())
+            .collect();
+        // each freedom stands at its axis in both views
+        for f in t.freedoms() {
+            let at = |text: &&&str| {
+                text.split([' ', ':']).any(|w| w == f.name())
+                    && text.contains(": ")
+                    && !text.contains("class")
+            };
+            assert_eq!(
+                texts.iter().filter(at).count(),
+                2,
+                "{t}: {} in {texts:?}",
+                f.name()
+            );
+        }
+    }
+    let all = out(&["explain"]);
+    for t in JointType::NAMED {
+        assert!(all.contains(t.name()), "{t}");
+    }
+    let (code, _, said) = run(&["explain", "sphere in cilinder"]);
+    assert_eq!(code, Some(2));
+    assert!(said.contains("sphere-in-cylinder"), "{said}");
+    let (code, _, said) = run(&["explain", "sigma", "-o", "x.svg"]);
+    assert_eq!(code, Some(2));
+    assert!(said.contains("draws a joint type"), "{said}");
 }
 
 #[test]

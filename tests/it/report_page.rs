@@ -98,6 +98,32 @@ fn the_data_are_those_of_the_search() {
 }
 
 #[test]
+fn the_first_list_is_that_of_the_ideas() {
+    let page = data(&out(&["report", "gripper-10", "--top", "12"]));
+    let list = json(&[
+        "search",
+        "gripper-10",
+        "--top",
+        "12",
+        "--distinct",
+        "--format",
+        "json",
+    ]);
+    let ideas = list["variants"].as_array().unwrap();
+    assert_eq!(page["ideas"]["cost"].as_array().unwrap().len(), 12);
+    for (i, v) in ideas.iter().enumerate() {
+        assert_eq!(page["ideas"]["cost"][i], v["cost"], "{i}");
+        assert_eq!(page["ideas"]["adds"][i], v["idea"]["adds"], "{i}");
+        let stands_for = &page["ideas"]["stands_for"][i];
+        assert_eq!(stands_for, &v["idea"]["variants"], "{i}");
+    }
+    assert_eq!(page["search"]["stands_for"][0], Value::Null);
+    let distinct = data(&out(&["report", "gripper-10", "--top", "12", "--distinct"]));
+    assert_eq!(distinct["ideas"], Value::Null, "it is one list already");
+    assert_eq!(distinct["search"]["adds"], page["ideas"]["adds"]);
+}
+
+#[test]
 fn figures_of_further_states_are_those_of_the_variant_analysed() {
     let page = data(&out(&[
         "report",

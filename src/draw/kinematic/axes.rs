@@ -15,11 +15,11 @@ impl Kinematic<'_> {
         for axis in 0..3 {
             let mut unit = [0.0; 3];
             unit[axis] = 1.0;
-            let tip = scale(self.view.flat(unit), 30.0);
+            let tip = scale(self.projection.view.flat(unit), 30.0);
             let length = norm(tip);
             if length < 4.0 {
                 sheet.circle("joint", origin, 4.5);
-                if projection::dot(unit, self.view.toward) > 0.0 {
+                if projection::dot(unit, self.projection.view.toward) > 0.0 {
                     sheet.circle("ink", origin, 1.6);
                 } else {
                     let d = 3.0;
@@ -61,7 +61,7 @@ impl Kinematic<'_> {
 
     /// A bar of a round length.
     pub(super) fn draw_scale(&self, sheet: &mut Sheet, y: f64) {
-        let longest = 150.0 / self.scale;
+        let longest = 150.0 / self.projection.scale;
         let (Some(length), unit) = (
             round_below(longest),
             self.subject.mechanism.length_unit.symbol,
@@ -72,7 +72,7 @@ impl Kinematic<'_> {
             return;
         }
         let x = PAD + 130.0;
-        let end = x + length * self.scale;
+        let end = x + length * self.projection.scale;
         for [a, b] in [
             [[x, y], [end, y]],
             [[x, y - 4.0], [x, y + 4.0]],

@@ -4,8 +4,7 @@ use super::Kinematic;
 use crate::draw::ground::Ground;
 use crate::draw::labels::{self, Line, Wish};
 use crate::draw::sheet::SMALL;
-use crate::model::mechanism::LinkId;
-use crate::svg::plane::{Point, Rect, add, mean, scale, sub, unit};
+use crate::svg::plane::{Point, Rect, add, scale, sub, unit};
 use crate::svg::text::{cut, width};
 
 impl Kinematic<'_> {
@@ -21,19 +20,18 @@ impl Kinematic<'_> {
                 weight: 1.6,
             });
         };
-        for (l, of) in self.links.iter().filter(|(l, _)| !self.is_frame(*l)) {
-            let outline = self.outline(of);
-            for i in 0..outline.len() {
-                if outline.len() > 2 || i + 1 < outline.len() {
-                    add_line(outline[i], outline[(i + 1) % outline.len()]);
-                }
-            }
-            if let Some(end) = self.loose(of).filter(|_| !self.is_frame(*l)) {
-                add_line(self.spots[of[0]].at, end);
+        for (n, (l, _)) in self.links.iter().enumerate() {
+            if !self.is_frame(*l) {
+                self.body(n).lines().for_each(|(a, b)| add_line(a, b));
             }
         }
-        for g in &self.grounds {
-            add_line(g.from, g.to);
+        for (a, b) in self.grounds.iter().filter_map(Ground::stem) {
+            add_line(a, b);
+        }
+        for c in self.circles().iter().flatten() {
+            for (i, &p) in c.iter().enumerate() {
+                add_line(p, c[(i + 1) % c.len()]);
+            }
         }
         let (mut wishes, mut texts) = (Vec::new(), Vec::new());
         for s in &self.spots {
@@ -49,10 +47,10 @@ impl Kinematic<'_> {
             let mark = self.subject.joint_mark(s.joint).class();
             texts.push((format!("small soft{mark}"), SMALL, text));
         }
-        for (l, of) in &self.links {
+        for (n, (l, _)) in self.links.iter().enumerate() {
             let text = cut(&m.links[*l].id, 12.0, 150.0);
             let size = [width(&text, 12.0), 13.0];
-            let (anchor, first) = self.link_places(*l, of, size);
+            let (anchor, first) = self.link_places(n, size);
             wishes.push(Wish {
                 width: size[0],
                 height: size[1],
@@ -67,31 +65,37 @@ impl Kinematic<'_> {
     }
 
     /// What the name of a link belongs to, and middles for it.
-    fn link_places(&self, l: LinkId, of: &[usize], size: Point) -> (Point, Vec<(Point, f64)>) {
-        if self.is_frame(l) {
+    fn link_places(&self, link: usize, size: Point) -> (Point, Vec<(Point, f64)>) {
+        let (l, of) = &self.links[link];
+        if self.is_frame(*l) {
             let first = self.grounds.first();
             return (first.map_or([0.0; 2], |g| g.to), Vec::new());
         }
-        let mut outline = self.outline(of);
-        let middle = mean(outline.iter().copied());
-        if outline.len() > 2 {
+        let body = self.body(link);
+        let middle = body.middle();
+        if body.plate {
             return (middle, vec![(middle, 0.0)]);
         }
-        outline.extend(self.loose(of));
-        let (Some(&a), Some(&b)) = (outline.first(), outline.last()) else {
-            return (middle, Vec::new());
+        let (Some(&a), Some(&b), true) = (
+            body.points.first(),
+            body.points.last(),
+            body.points.len() > 1,
+        ) else {
+            // all its joints are in one place
+            return (self.spots[of[0]].at, Vec::new());
         };
+        let bow = sub(middle, scale(add(a, b), 0.5));
         let along = sub(b, a);
         let side = unit([-along[1], along[0]]);
         // so far that the box just misses the bar
         let off = (size[0] * side[0].abs() + size[1] * side[1].abs()) / 2.0 + 4.0;
         let mut first = Vec::new();
         for (n, t) in [0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74].iter().enumerate() {
-            let on = add(a, scale(along, *t));
+            let on = add(add(a, scale(along, *t)), bow);
             for s in [off, -off] {
                 first.push((add(on, scale(side, s)), 0.08 * n as f64));
             }
         }
-        (add(a, scale(along, 0.5)), first)
+        (middle, first)
     }
 }

@@ -1,18 +1,21 @@
 //! The symbol of a joint, with the ring of a drive.
 
-use crate::draw::projection::{self, View};
+use crate::draw::projection::{Place, View};
 use crate::draw::sheet::{Shape, Sheet};
 use crate::draw::subject::{Mark, Subject};
 use crate::draw::symbols::{self, Pose};
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Frame, JointId};
-use crate::svg::plane::Rect;
+use crate::model::mechanism::JointId;
+use crate::svg::plane::{Point, Rect, add, polyline};
+use std::f64::consts::PI;
 
 /// The symbol of a joint round the origin.
 pub(super) struct Symbol {
     of: JointType,
     pose: Pose,
     shapes: Vec<Shape>,
+    /// How many times the usual size it is.
+    pub(super) size: f64,
     pub(super) room: Rect,
     /// The radius of a drive's ring.
     pub(super) ring: Option<f64>,
@@ -22,32 +25,38 @@ impl Symbol {
     pub(super) fn new(
         subject: &Subject<'_>,
         joint: JointId,
-        of: &JointType,
-        frame: &Frame,
+        (of, place): (&JointType, &Place),
         view: &View,
+        size: f64,
     ) -> Symbol {
-        let pose = Pose::new(&projection::turned(frame), view);
-        let shapes = symbols::symbol(of, &pose, "");
+        let pose = Pose::new(place, view);
+        let shapes = symbols::symbol(of, &pose, "", size);
         let own = symbols::extent(&shapes);
         let reach = (own.right - own.left).max(own.bottom - own.top) / 2.0 + 3.0;
         let drive = subject.mechanism.joints[joint].drive;
-        let ring = drive.then_some(reach.min(14.0));
+        let ring = drive.then_some(reach.min(14.0 * size));
         let room = match ring {
-            Some(r) => own.with(&Rect::around([0.0; 2], 2.0 * r + 1.4, 2.0 * r + 1.4)),
+            Some(r) => own.with(&Rect::around([0.0; 2], 2.0 * r + 5.4, 2.0 * r + 5.4)),
             None => own,
         };
         Symbol {
             of: of.clone(),
             pose,
             shapes,
+            size,
             room,
             ring,
         }
     }
 
     pub(super) fn marked(mut self, mark: Mark) -> Symbol {
-        self.shapes = symbols::symbol(&self.of, &self.pose, mark.class());
+        self.shapes = symbols::symbol(&self.of, &self.pose, mark.class(), self.size);
         self
+    }
+
+    /// Its shapes in the usual size, without a mark.
+    pub(super) fn plain(&self) -> Vec<Shape> {
+        symbols::symbol(&self.of, &self.pose, "", 1.0)
     }
 
     /// How far it reaches from its middle.
@@ -66,11 +75,33 @@ impl Symbol {
         mark: Mark,
     ) {
         if let Some(r) = self.ring {
-            sheet.circle(&format!("line{}", mark.class()), [0.0; 2], r);
+            drive(sheet, mark.class(), [0.0; 2], r);
         }
         sheet.shapes(&self.shapes, [0.0; 2]);
         if subject.only_here(joint) {
-            sheet.circle("fine dash", [0.0; 2], self.ring.unwrap_or(10.0) + 2.5);
+            sheet.circle(
+                "fine dash",
+                [0.0; 2],
+                self.ring.unwrap_or(10.0 * self.size) + 2.5,
+            );
         }
     }
+}
+
+/// The arrow round a driving pair, which is no circle: that is a second joint.
+pub(super) fn drive(sheet: &mut Sheet, mark: &str, at: Point, radius: f64) {
+    const FROM: f64 = 0.25 * PI;
+    const TO: f64 = 1.85 * PI;
+    let on = |angle: f64, r: f64| add(at, [r * angle.cos(), r * angle.sin()]);
+    let arc: Vec<Point> = (0..=28)
+        .map(|i| on(FROM + (TO - FROM) * f64::from(i) / 28.0, radius))
+        .collect();
+    sheet.path(&format!("line{mark}"), &polyline(&arc, false));
+    let back = TO - 6.0 / radius;
+    let head = [
+        on(TO + 1.5 / radius, radius),
+        on(back, radius + 2.6),
+        on(back, radius - 2.6),
+    ];
+    sheet.path(&format!("ink{mark}"), &polyline(&head, true));
 }

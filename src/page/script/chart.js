@@ -100,7 +100,7 @@ function chooseInChart(i) {
 function frontPoints(svg, front, x, y) {
   const made = front.map((i, n) => {
     const [cx, cy] = point(i);
-    const label = `Variant ${i + 1}: ${x.words} ${x.show(x.values[i])}, ${y.words} ${y.show(y.values[i])}`;
+    const label = `${noun()} ${i + 1}: ${x.words} ${x.show(x.values[i])}, ${y.words} ${y.show(y.values[i])}`;
     const dot = svgElement("circle", { class: "front", cx, cy, r: 5, tabindex: n ? -1 : 0, role: "button", "aria-label": label });
     dot.append(svgElement("title", {}, label));
     dot.addEventListener("click", () => chooseInChart(i));
@@ -140,13 +140,13 @@ function drawChart() {
     for (const i of dots.values()) {
       const [cx, cy] = point(i);
       const dot = svgElement("circle", { class: "dot", cx, cy, r: 3.5, "data-variant": i });
-      dot.append(svgElement("title", {}, `${inWords(i)}. ${changeLine(i)}`));
+      dot.append(svgElement("title", {}, `${inWords(i)}. ${line(i)}`));
       dot.addEventListener("click", () => chooseInChart(i));
       svg.append(dot);
     }
     const front = paretoFront(shown, x, y);
-    const line = front.map((i) => point(i).map((p) => p.toFixed(1)).join(" "));
-    svg.append(svgElement("path", { class: "front-line", d: `M${line.join("L")}` }));
+    const corners = front.map((i) => point(i).map((p) => p.toFixed(1)).join(" "));
+    svg.append(svgElement("path", { class: "front-line", d: `M${corners.join("L")}` }));
     svg.append(svgElement("circle", { class: "ring", r: 9, visibility: "hidden" }));
     frontPoints(svg, front, x, y);
     const part = shown.length === view.order.length ? "" : `The ${grouped(shown.length)} of ${grouped(view.order.length)} variants that have both figures. `;
@@ -162,16 +162,19 @@ function drawChart() {
 }
 
 function listenToChart() {
-  const axes = [byId("axis-x"), byId("axis-y")];
-  for (const axis of axes) {
-    for (const c of columns) axis.append(element("option", { value: c.key }, c.words));
-    axis.addEventListener("change", drawChart);
-  }
-  const varies = (c) => new Set(c.values.filter((v) => v !== null)).size > 1;
+  for (const axis of ["axis-x", "axis-y"]) byId(axis).addEventListener("change", drawChart);
+}
+
+/** Offers the figures of the list, beginning with two that vary; a list without two has no chart. */
+function offerAxes() {
+  const varies = (c) => c && c.key !== "place" && new Set(c.values.filter((v) => v !== null)).size > 1;
   const wanted = work && work.ranked ? work.ranked.terms.map((t) => (t === "conditioning" ? "condit" : t)) : [];
-  const first = ["cost", "place"].map(columnOf).find(varies) || columnOf("cost");
-  const order = [...wanted, "peak-moment", "peak-force", "conditioning", "mobility", "changes"];
-  const second = order.map(columnOf).find((c) => c && c.key !== "cost" && varies(c));
-  axes[0].value = first.key;
-  axes[1].value = (second || columnOf("mobility")).key;
+  const order = [...wanted, "peak-moment", "peak-force", "conditioning", "stands", "mobility", "changes", "idle"];
+  const first = ["cost", ...order].map(columnOf).find(varies);
+  const second = order.map(columnOf).find((c) => varies(c) && c !== first);
+  byId("chart").hidden = !second;
+  for (const [id, chosen] of [["axis-x", first], ["axis-y", second]]) {
+    byId(id).replaceChildren(...columns.map((c) => element("option", { value: c.key }, c.words)));
+    byId(id).value = (chosen || columns[0]).key;
+  }
 }

@@ -93,9 +93,16 @@ function remarks(i) {
 
 function showAsItIs() {
   byId("chosen-head").textContent = "The mechanism as it is";
-  byId("chosen-words").textContent = "No variant is chosen: choose one in the table or the chart to see what it changes.";
+  byId("chosen-words").textContent = "Nothing is chosen: choose a row in the table or the chart to see what it changes.";
   byId("chosen-changes").replaceChildren();
   byId("chosen-more").replaceChildren();
+}
+
+/** Brings what is told of the choice into sight, where it does not stand beside the table. */
+function reveal() {
+  if (matchMedia("(min-width: 72rem)").matches) return;
+  const less = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  byId("chosen").scrollIntoView({ block: "start", behavior: less ? "auto" : "smooth" });
 }
 
 /** Chooses a variant, or none for null. */
@@ -108,11 +115,13 @@ function choose(i) {
     showAsItIs();
   } else {
     const changes = changesOf(i);
-    byId("chosen-head").textContent = `Variant ${i + 1}`;
-    byId("chosen-words").textContent = `${inWords(i)}.`;
+    byId("chosen-head").textContent = `${noun()} ${i + 1}`;
+    byId("chosen-words").textContent = byIdeas()
+      ? `Adds ${found.adds[i] || "nothing"}; stands for ${found.exact ? "" : "at least "}${grouped(found.stands_for[i])} variants. This is the first of them: ${inWords(i).replace(/^[^:]*: /, "")}.`
+      : `${inWords(i)}.`;
     byId("chosen-changes").replaceChildren(changeList(changes));
     const more = [figureTable(i), ...remarks(i), loadTable(i)];
-    for (const [what, command] of page.variant_commands) {
+    for (const [what, command] of byIdeas() ? page.idea_commands : page.variant_commands) {
       more.push(element("p", { class: "help" }, `${what}: `, element("code", {}, command.replaceAll("{}", i + 1))));
     }
     byId("chosen-more").replaceChildren(...more.filter(Boolean));

@@ -2,9 +2,14 @@
 // What the page knows: columns of numbers by variant, and words made of them on demand.
 
 const page = JSON.parse(document.getElementById("data").textContent);
-const found = page.search;
-const work = found && found.workload && !found.workload.failed ? found.workload : null;
-const total = found ? found.cost.length : 0;
+/** The list that is shown: ideas, each by its first variant, or single variants. */
+let found = page.ideas || page.search;
+let [work, total, columns] = [null, 0, []];
+/** What the text filter has looked at. */
+let haystacks = [];
+const byIdeas = () => found === page.ideas;
+/** What one of the list is called. */
+const noun = () => (byIdeas() ? "Idea" : "Variant");
 
 /** An element; attributes that are null are left out, text is never read as markup. */
 function element(name, attributes, ...children) {
@@ -49,6 +54,11 @@ function makeColumns() {
       out.push({ key, title, words, values, better: -1, log: false, show: String, table: true, ...more });
     }
   };
+  if (byIdeas()) {
+    const show = (n) => (n > Number.MAX_SAFE_INTEGER ? power(n) : grouped(n));
+    const title = found.exact ? "stands for" : "stands for ≥";
+    add("stands", title, "variants that an idea stands for", found.stands_for.map((n) => (n === null ? null : Number(n))), { better: 1, show });
+  }
   add("cost", "cost", "cost in revolute joints", found.cost);
   add("changes", "changes", "changed joints", found.changes);
   add("mobility", "W", "mobility W", found.mobility);
@@ -79,7 +89,16 @@ function makeColumns() {
   return out;
 }
 
-const columns = found ? makeColumns() : [];
+/** Takes a list for the one that is shown. */
+function take(list) {
+  found = list;
+  work = found.workload && !found.workload.failed ? found.workload : null;
+  total = found.cost.length;
+  haystacks = [];
+  columns = makeColumns();
+}
+
+if (found) take(found);
 const columnOf = (key) => columns.find((c) => c.key === key);
 
 /** The changes of a variant: joint, names before and after, and where the choice stands. */
@@ -113,20 +132,21 @@ function changeLine(i) {
   return parts.length ? parts.join("; ") : "none: the mechanism as it is";
 }
 
-const haystacks = [];
-
 /** What the text filter looks at. */
 function haystack(i) {
   if (haystacks[i] === undefined) {
     const words = changesOf(i).map((c) => `${c.id}:${c.to} ${c.id}: ${c.from} -> ${c.to}`);
-    haystacks[i] = words.join("; ").toLowerCase();
+    haystacks[i] = [...words, found.adds[i] || ""].join("; ").toLowerCase();
   }
   return haystacks[i];
 }
+
+/** What a row says of its variant: the changes, or what the idea adds. */
+const line = (i) => (byIdeas() ? found.adds[i] || "nothing: the mechanism as it is" : changeLine(i));
 
 /** A variant in a few words. */
 function inWords(i) {
   const n = found.changes[i];
   const parts = [`cost ${found.cost[i]}`, `${n} ${n === 1 ? "change" : "changes"}`, `W = ${found.mobility[i]}`];
-  return `Variant ${i + 1}: ${parts.join(", ")}`;
+  return `${noun()} ${i + 1}: ${parts.join(", ")}`;
 }

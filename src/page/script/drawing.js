@@ -47,7 +47,7 @@ function figures(i, state) {
 function entitle(svg, state, i, changes) {
   const now = page.states[state];
   const { mobility, redundant } = figures(i, state);
-  const name = `${page.mechanism}, variant ${i + 1}`;
+  const name = `${page.mechanism}, ${noun().toLowerCase()} ${i + 1}`;
   const added = changes.filter((c) => c.unloading).length;
   const freedoms = mobility - redundant + now.rows;
   const line = `n = ${now.links + added}, p = ${now.joints + added}, k = ${now.contours.length}, f = ${freedoms}, W = ${mobility}, σ = ${redundant}`;
@@ -82,7 +82,18 @@ function draw(i) {
   byId("drawing").replaceChildren(svg);
 }
 
+/** The drawing in its own size, over the page. */
+function showWhole() {
+  const close = element("button", {}, "Close");
+  const whole = element("dialog", { class: "whole", "aria-label": "The drawing in full size" },
+    element("form", { method: "dialog" }, close), document.querySelector("#drawing svg").cloneNode(true));
+  document.body.append(whole);
+  whole.addEventListener("close", () => whole.remove());
+  whole.showModal();
+}
+
 function listenToDrawing() {
+  byId("whole").addEventListener("click", showWhole);
   const states = byId("drawn-state");
   page.states.forEach((s, n) => states.append(element("option", { value: n }, s.name)));
   byId("drawn-state-field").hidden = page.states.length < 2;

@@ -17,16 +17,81 @@ function limit(id) {
   return value === "" || Number.isNaN(Number(value)) ? null : Number(value);
 }
 
+/** What is asked for: each part with the field it is typed in, and what passes it. */
+function criteria() {
+  const out = [];
+  for (const word of byId("find").value.replaceAll("→", "->").split(/\s+/).filter(Boolean)) {
+    out.push({ words: `“${word}”`, word, passes: (i) => haystack(i).includes(word.toLowerCase()) });
+  }
+  const limits = [["most-cost", "cost at most", found.cost], ["most-changes", "changes at most", found.changes], ["most-mobility", "W at most", found.mobility]];
+  for (const [id, words, values] of limits) {
+    const most = limit(id);
+    if (most !== null) out.push({ words: `${words} ${most}`, field: id, passes: (i) => values[i] <= most });
+  }
+  if (byId("no-idle").checked && found.idle) out.push({ words: "no idle links", field: "no-idle", passes: (i) => found.idle[i] === 0 });
+  return out;
+}
+
+/** How many of the list pass all of some criteria. */
+function countOf(list) {
+  let n = 0;
+  for (let i = 0; i < total; i += 1) n += Number(list.every((c) => c.passes(i)));
+  return n;
+}
+
+/** Takes a part of the filter away. */
+function drop(criterion) {
+  if (criterion.word) {
+    const words = byId("find").value.split(/\s+/).filter((w) => w.replaceAll("→", "->") !== criterion.word);
+    byId("find").value = words.join(" ");
+  } else if (criterion.field === "no-idle") byId("no-idle").checked = false;
+  else byId(criterion.field).value = "";
+  refresh();
+}
+
+/** What a word such as 5-1:cylindrical asks of which joint, where it does. */
+function wish(word) {
+  const at = word.lastIndexOf(":");
+  if (at < 1) return null;
+  const [id, type] = [word.slice(0, at), word.slice(at + 1).toLowerCase()];
+  for (const variable of found.variables) {
+    const n = variable.joints.findIndex((j) => page.joints[j].id.toLowerCase() === id.toLowerCase());
+    if (n >= 0) {
+      const names = variable.choices.map((c) => c.names[n]);
+      return { id: page.joints[variable.joints[n]].id, type, names, known: names.slice(1).find((name) => name.toLowerCase() === type) };
+    }
+  }
+  return { id, type, names: null, known: undefined };
+}
+
+/** For a filter that nothing passes: what would, and where there is more. */
+function insteadOfNothing() {
+  const asked = criteria();
+  const parts = [element("p", {}, `No ${noun().toLowerCase()} of the ${grouped(total)} listed passes the filter.`)];
+  const without = asked.map((c) => [c, countOf(asked.filter((other) => other !== c))]).filter(([, n]) => n > 0);
+  for (const [c, n] of asked.length > 1 ? without : []) {
+    const button = element("button", { type: "button" }, `Without ${c.words}: ${grouped(n)}`);
+    button.addEventListener("click", () => drop(c));
+    parts.push(button, " ");
+  }
+  const wishes = asked.filter((c) => c.word).map((c) => wish(c.word)).filter(Boolean);
+  for (const { id, type, names, known } of wishes) {
+    if (!names) parts.push(element("p", {}, `There is no joint ${id} that the search may change.`));
+    else if (!known) parts.push(element("p", {}, `Joint ${id} may be ${names.join(", ")}; ${type} is none of its options.`));
+  }
+  const allowed = wishes.filter((w) => w.known);
+  if (allowed.length && Number(found.admissible) > total) {
+    const flags = allowed.map((w) => `--allow '${w.id}=${w.known}'`).join(" ");
+    parts.push(element("p", {},
+      `The page lists the cheapest of ${grouped(found.admissible)}. For the cheapest in which ${allowed.map((w) => `${w.id} stays or becomes ${w.known}`).join(", ")}: `,
+      element("code", {}, page.longer.replace("{}", flags))));
+  }
+  return parts;
+}
+
 function passes() {
-  const words = byId("find").value.toLowerCase().replaceAll("→", "->").split(/\s+/).filter(Boolean);
-  const [cost, changes, mobility] = ["most-cost", "most-changes", "most-mobility"].map(limit);
-  const noIdle = byId("no-idle").checked && found.idle;
-  return (i) =>
-    (cost === null || found.cost[i] <= cost) &&
-    (changes === null || found.changes[i] <= changes) &&
-    (mobility === null || found.mobility[i] <= mobility) &&
-    (!noIdle || found.idle[i] === 0) &&
-    words.every((w) => haystack(i).includes(w));
+  const asked = criteria();
+  return (i) => asked.every((c) => c.passes(i));
 }
 
 /** Values to sort by; what is not known comes last either way. */
@@ -35,7 +100,7 @@ function compare() {
   const sign = down ? -1 : 1;
   if (key === "position") return (a, b) => sign * (a - b);
   if (key === "list") {
-    const lines = new Map(view.order.map((i) => [i, changeLine(i)]));
+    const lines = new Map(view.order.map((i) => [i, line(i)]));
     const less = (a, b) => (lines.get(a) < lines.get(b) ? -1 : Number(lines.get(a) > lines.get(b)));
     return (a, b) => sign * less(a, b) || a - b;
   }
@@ -56,11 +121,13 @@ function arrange() {
 }
 
 function tellCount() {
-  const whole = grouped(found.admissible);
-  const listed = grouped(total);
-  const shown = grouped(view.order.length);
-  const all = total === 1 ? "The only admissible variant" : `All ${listed} admissible variants`;
-  const part = `${listed} listed of ${whole} admissible variants`;
-  if (view.order.length < total) byId("count").textContent = `${shown} of the ${listed} listed variants pass the filter`;
-  else byId("count").textContent = total === Number(found.admissible) ? all : part;
+  const [whole, listed, shown] = [found.admissible, total, view.order.length].map(grouped);
+  const each = byIdeas() ? "ideas" : "variants";
+  let words = `${listed} listed of ${whole} admissible variants`;
+  if (view.order.length < total) words = `${shown} of the ${listed} listed ${each} pass the filter`;
+  else if (byIdeas()) {
+    const stand = found.stands_for.reduce((sum, n) => sum + BigInt(n || 0), 0n);
+    words = `${listed} ideas; they stand for ${found.exact ? "" : "at least "}${grouped(stand)} of ${whole} admissible variants`;
+  } else if (total === Number(found.admissible)) words = total === 1 ? "The only admissible variant" : `All ${listed} admissible variants`;
+  byId("count").textContent = words;
 }

@@ -22,7 +22,6 @@ function listenToFilters() {
   // The fields are emptied after the event.
   form.addEventListener("reset", () => setTimeout(anew, 0));
   form.addEventListener("submit", (event) => event.preventDefault());
-  byId("idle-field").hidden = !(found.idle && found.idle.some((n) => n > 0));
 }
 
 /** Escape clears a filter that is typed in, else goes back to the mechanism as it is. */
@@ -44,14 +43,33 @@ function headLine() {
   return parts.join(" ");
 }
 
+/** Another list is chosen. */
+function relist() {
+  view.sort = { key: "position", down: false };
+  view.active = 0;
+  byId("head").textContent = headLine();
+  byId("idle-field").hidden = !(found.idle && found.idle.some((n) => n > 0));
+  offerAxes();
+  refresh();
+  choose(view.order.length ? view.order[0] : null);
+}
+
+function listenToList() {
+  byId("list-field").hidden = !(page.ideas && page.search);
+  byId("list").value = byIdeas() ? "ideas" : "variants";
+  byId("list").addEventListener("change", () => {
+    take(byId("list").value === "ideas" ? page.ideas : page.search);
+    relist();
+  });
+}
+
 if (found) {
   byId("explorer").hidden = false;
-  byId("head").textContent = headLine();
   listenToFilters();
   listenToTable();
   listenToDrawing();
   listenToChart();
   listenToEscape();
-  refresh();
-  choose(view.order.length ? view.order[0] : null);
+  listenToList();
+  relist();
 }

@@ -15,7 +15,8 @@ function drawHead() {
     row.append(element("th", { scope: "col", "data-key": key, "aria-sort": order, class: numeric ? "n" : null }, button));
   };
   head("position", "№", "position", true);
-  head("list", "changed joints", "changed joints", false);
+  const what = byIdeas() ? "what it adds" : "changed joints";
+  head("list", what, what, false);
   for (const c of columns.filter((c) => c.table)) head(c.key, c.title, c.words, true);
   document.querySelector("#variants thead").replaceChildren(row);
 }
@@ -47,7 +48,7 @@ function drawRow(i, place) {
     title: found.notes[i],
   });
   row.append(element("th", { scope: "row", class: "n" }, `${i + 1}${doubt(i) && ` ${doubt(i)}`}`));
-  row.append(element("td", { class: "list" }, changeLine(i)));
+  row.append(element("td", { class: "list" }, line(i).replaceAll("; ", ";\n")));
   for (const c of columns.filter((c) => c.table)) {
     const value = c.values[i];
     row.append(element("td", { class: "n" }, value === null ? "" : c.show(value)));
@@ -55,7 +56,8 @@ function drawRow(i, place) {
   row.addEventListener("click", () => {
     view.active = place;
     choose(i);
-    focusRow();
+    focusRow(true);
+    reveal();
   });
   return row;
 }
@@ -68,20 +70,21 @@ function drawTable() {
   const body = document.querySelector("#variants tbody");
   body.replaceChildren(...shown.map((i, n) => drawRow(i, from + n)));
   if (!shown.length) {
-    const cell = element("td", { colspan: columns.length + 2 }, "No listed variant passes the filter.");
+    const cell = element("td", { colspan: columns.length + 2, class: "nothing" }, ...insteadOfNothing());
     body.append(element("tr", {}, cell));
   }
   byId("variants").setAttribute("aria-rowcount", view.order.length + 1);
   const range = shown.length ? `${grouped(from + 1)} to ${grouped(from + shown.length)} of ${grouped(view.order.length)}` : "none";
   byId("place").textContent = range;
-  byId("table-caption").textContent = `Variants ${range}; cost in revolute joints`;
+  byId("table-caption").textContent = `${noun()}s ${range}; cost in revolute joints`;
   const [first, last] = [pageNumber() === 0, pageNumber() === pages() - 1];
   for (const [id, off] of [["first", first], ["previous", first], ["next", last], ["last", last]]) byId(id).disabled = off;
 }
 
-function focusRow() {
+/** Moves the focus to the row the keyboard is at; the page stays where it is if that is asked for. */
+function focusRow(quietly = false) {
   const row = document.querySelector('#variants tbody tr[tabindex="0"]');
-  if (row) row.focus();
+  if (row) row.focus({ preventScroll: quietly });
 }
 
 /** Moves the keyboard to a place in the order. */

@@ -1,0 +1,142 @@
+//! The shape of a link: a bar where its joints are in a row, a plate where they are not.
+
+use super::nest::one_place;
+use crate::draw::symbols::hull;
+use crate::svg::plane::{Point, add, cross, dot, mean, norm, scale, sub, unit};
+
+/// A plate thinner than this, in pixels, is a bar.
+const THIN: f64 = 2.0;
+/// Bars that lie on each other over more than this, in pixels, are told apart.
+const SHARED: f64 = 8.0;
+/// How far bars that would lie on another bow out, in the order tried.
+const BOWS: [f64; 6] = [0.0, 13.0, -13.0, 24.0, -24.0, 35.0];
+
+/// A link on paper.
+#[derive(Debug, Clone)]
+pub(super) struct Body {
+    /// The corners of a plate, or the points along a bar; fewer than two where all joints of the link are in one place.
+    pub(super) points: Vec<Point>,
+    /// Whether it is a plate.
+    pub(super) plate: bool,
+}
+
+impl Body {
+    /// Of a link with joints at these points.
+    pub(super) fn new(joints: &[Point]) -> Body {
+        let mut points: Vec<Point> = Vec::new();
+        for &p in joints {
+            if !points.iter().any(|&q| one_place(p, q)) {
+                points.push(p);
+            }
+        }
+        if points.len() < 3 {
+            return Body {
+                points,
+                plate: false,
+            };
+        }
+        let corners = hull(points.clone());
+        let ends = farthest(&points);
+        let along = unit(sub(ends[1], ends[0]));
+        let off = corners.iter().map(|&p| cross(along, sub(p, ends[0])));
+        let (low, high) = off.fold((0.0f64, 0.0f64), |(l, h), d| (l.min(d), h.max(d)));
+        let plate = high - low > THIN && corners.len() > 2;
+        Body {
+            points: if plate { corners } else { ends.to_vec() },
+            plate,
+        }
+    }
+
+    /// A bar that bows out to one side in its middle.
+    pub(super) fn bowed(self, by: f64) -> Body {
+        let (&[a, b], false) = (&self.points[..], self.plate || by == 0.0) else {
+            return self;
+        };
+        let side = across(a, b);
+        let points = (0..=12).map(|i| {
+            let t = f64::from(i) / 12.0;
+            let on = add(a, scale(sub(b, a), t));
+            add(on, scale(side, by * 4.0 * t * (1.0 - t)))
+        });
+        Body {
+            points: points.collect(),
+            plate: false,
+        }
+    }
+
+    /// The segments that it is drawn with.
+    pub(super) fn lines(&self) -> impl Iterator<Item = (Point, Point)> + '_ {
+        let n = self.points.len();
+        let count = if self.plate { n } else { n.saturating_sub(1) };
+        (0..count).map(move |i| (self.points[i], self.points[(i + 1) % n]))
+    }
+
+    /// Its middle: of a bar, halfway along.
+    pub(super) fn middle(&self) -> Point {
+        if self.plate || self.points.len() < 3 {
+            return mean(self.points.iter().copied());
+        }
+        self.points[self.points.len() / 2]
+    }
+}
+
+/// How far each bar has to bow out so that none lies on another; the longer ones stay straight.
+pub(super) fn bows(bodies: &[Body]) -> Vec<f64> {
+    let bar = |i: usize| match bodies[i].points[..] {
+        [a, b] if !bodies[i].plate => Some((a, b)),
+        _ => None,
+    };
+    let mut order: Vec<usize> = (0..bodies.len()).filter(|&i| bar(i).is_some()).collect();
+    let length = |i: usize| bar(i).map_or(0.0, |(a, b)| norm(sub(b, a)));
+    order.sort_by(|&i, &j| length(j).total_cmp(&length(i)).then(i.cmp(&j)));
+    let mut out = vec![0.0; bodies.len()];
+    let mut done: Vec<usize> = Vec::new();
+    for i in order {
+        let Some(own) = bar(i) else { continue };
+        // as seen from the same side for all
+        let taken = done.iter().filter_map(|&k| {
+            let other = bar(k)?;
+            let same = dot(sub(own.1, own.0), sub(other.1, other.0)) > 0.0;
+            on_each_other(own, other).then_some(if same { out[k] } else { -out[k] })
+        });
+        let taken: Vec<f64> = taken.collect();
+        out[i] = BOWS
+            .into_iter()
+            .find(|b| !taken.contains(b))
+            .unwrap_or_default();
+        done.push(i);
+    }
+    out
+}
+
+/// Whether two segments share more than a point of the paper.
+fn on_each_other((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
+    let along = unit(sub(b, a));
+    let off = |p: Point| cross(along, sub(p, a)).abs();
+    if off(c).max(off(d)) > THIN {
+        return false;
+    }
+    let at = |p: Point| dot(along, sub(p, a));
+    let (low, high) = (at(c).min(at(d)).max(0.0), at(c).max(at(d)).min(at(b)));
+    high - low > SHARED
+}
+
+/// The unit vector to the left of a segment.
+fn across(a: Point, b: Point) -> Point {
+    let along = unit(sub(b, a));
+    [-along[1], along[0]]
+}
+
+/// The two points that are farthest from each other.
+fn farthest(points: &[Point]) -> [Point; 2] {
+    let mut best = ([points[0]; 2], -1.0);
+    for (i, &a) in points.iter().enumerate() {
+        for &b in &points[i + 1..] {
+            let d = norm(sub(a, b));
+            if d > best.1 {
+                best = ([a, b], d);
+            }
+        }
+    }
+    best.0
+}

@@ -1,0 +1,89 @@
+//! Coupled joints as what makes them move together: gears as their pitch circles, a pinion as that of its rack.
+
+use super::Kinematic;
+use crate::draw::projection::{self, Place, add, cross, dot, norm, scale, sub};
+use crate::geom::vector::Vector;
+use crate::model::coupling::Coupling;
+use crate::model::joint_type::Freedom;
+use crate::svg::plane::Point;
+use std::f64::consts::TAU;
+
+/// Gears with more than this times the distance of their axes for a radius are no gears that anyone would draw.
+const LARGEST: f64 = 6.0;
+
+/// A circle in space: its middle, its normal, its radius.
+type Circle = (Vector, Vector, f64);
+
+impl Kinematic<'_> {
+    /// The pitch circles of a coupling on paper with the joints at some places, each a closed line; none where no gears can make it.
+    pub(super) fn pitch_circles(&self, coupling: &Coupling, places: &[Place]) -> Vec<Vec<Point>> {
+        let circles = gears(self, coupling, places)
+            .or_else(|| pinion(self, coupling, places).map(|c| vec![c]));
+        let line = |(middle, normal, radius): Circle| {
+            let x = projection::across(normal);
+            let y = cross(normal, x);
+            let point = |i: i32| {
+                let angle = TAU * f64::from(i) / 60.0;
+                let off = add(scale(x, angle.cos()), scale(y, angle.sin()));
+                self.projection.flat(add(middle, scale(off, radius)))
+            };
+            (0..60).map(point).collect()
+        };
+        circles.unwrap_or_default().into_iter().map(line).collect()
+    }
+
+    fn place<'p>(&self, coupling: &Coupling, end: usize, places: &'p [Place]) -> Option<&'p Place> {
+        let joint = coupling.ends[end].joint;
+        let spot = self.spots.iter().position(|s| s.joint == joint)?;
+        Some(&places[spot])
+    }
+}
+
+/// Two gears on one carrier whose pitch circles roll on each other.
+fn gears(drawn: &Kinematic<'_>, coupling: &Coupling, places: &[Place]) -> Option<Vec<Circle>> {
+    if coupling.ends.iter().any(|e| e.freedom != Freedom::Rz) {
+        return None;
+    }
+    let m = drawn.subject.mechanism;
+    let links = coupling.ends.map(|e| m.joints[e.joint].links);
+    let carrier = links[0].into_iter().find(|l| links[1].contains(l))?;
+    let [a, b] = [
+        drawn.place(coupling, 0, places)?,
+        drawn.place(coupling, 1, places)?,
+    ];
+    if norm(cross(a.z, b.z)) > 1e-6 {
+        return None;
+    }
+    // the turns of both as seen from one side, against the carrier
+    let against = |n: usize| if links[n][0] == carrier { 1.0 } else { -1.0 };
+    let sense = against(0) * against(1) * dot(a.z, b.z).signum();
+    let ratio = coupling.ratio.to_f64() * sense;
+    let apart = sub(b.point, a.point);
+    let distance = norm(sub(apart, scale(a.z, dot(apart, a.z))));
+    // turning against each other they touch from outside, else one within the other
+    let second = distance / (1.0 - ratio).abs();
+    let radii = [second * ratio.abs(), second];
+    let drawable = |r: &f64| r.is_finite() && *r > 0.0 && *r < LARGEST * distance;
+    let circles = [(a.point, a.z, radii[0]), (b.point, a.z, radii[1])];
+    radii.iter().all(drawable).then(|| circles.to_vec())
+}
+
+/// The pinion of a rack: one turn against one slide across its axis.
+fn pinion(drawn: &Kinematic<'_>, coupling: &Coupling, places: &[Place]) -> Option<Circle> {
+    let turn = coupling
+        .ends
+        .iter()
+        .position(|e| e.freedom == Freedom::Rz)?;
+    let slide = 1 - turn;
+    if coupling.ends[slide].freedom != Freedom::Tz {
+        return None;
+    }
+    let [pin, rack] = [
+        drawn.place(coupling, turn, places)?,
+        drawn.place(coupling, slide, places)?,
+    ];
+    let ratio = coupling.ratio.to_f64().abs();
+    let radius = if turn == 0 { ratio } else { 1.0 / ratio };
+    let across = dot(pin.z, rack.z).abs() < 1e-6;
+    (across && radius.is_finite() && radius > 0.0).then_some((pin.point, pin.z, radius))
+}

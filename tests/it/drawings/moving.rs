@@ -1,0 +1,212 @@
+//! Drawings of motion: links stay rigid, what is published of a motion is seen, and readers can have it stand still.
+
+use super::reading::covers;
+use crate::common::{out, ozols};
+use std::collections::BTreeMap;
+
+type Point = [f64; 2];
+
+fn far(a: Point, b: Point) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// The pictures of a motion.
+struct Frames {
+    /// Where each joint stands, picture by picture.
+    joints: Vec<BTreeMap<String, Point>>,
+    /// The bars of each picture, in one order.
+    bars: Vec<Vec<(Point, Point)>>,
+    /// How many pictures are seen without a style sheet.
+    seen: usize,
+    svg: String,
+}
+
+fn frames(args: &[&str]) -> Frames {
+    let svg = out(&[&["draw"], args, &["--motion"]].concat());
+    let doc = roxmltree::Document::parse(&svg).unwrap();
+    let number =
+        |n: roxmltree::Node<'_, '_>, a: &str| n.attribute(a).unwrap().parse::<f64>().unwrap();
+    let groups: Vec<_> = doc
+        .descendants()
+        .filter(|n| n.has_attribute("data-frame"))
+        .collect();
+    let joints = groups.iter().map(|g| {
+        let used = g.children().filter(|c| c.has_tag_name("use"));
+        let place = |c: roxmltree::Node<'_, '_>| [number(c, "x"), number(c, "y")];
+        used.map(|c| (c.attribute("data-joint").unwrap().to_owned(), place(c)))
+            .collect()
+    });
+    let bars = groups.iter().map(|g| {
+        let paths = g
+            .children()
+            .filter(|c| c.attribute("class").is_some_and(|k| k.starts_with("bone")));
+        let ends = |d: &str| {
+            let points: Vec<Point> = d[1..]
+                .split('L')
+                .map(|p| {
+                    p.split_once(' ')
+                        .map(|(x, y)| [x.parse().unwrap(), y.parse().unwrap()])
+                        .unwrap()
+                })
+                .collect();
+            (points[0], points[points.len() - 1])
+        };
+        paths.map(|p| ends(p.attribute("d").unwrap())).collect()
+    });
+    Frames {
+        joints: joints.collect(),
+        bars: bars.collect(),
+        seen: groups
+            .iter()
+            .filter(|g| !g.has_attribute("visibility"))
+            .count(),
+        svg: svg.clone(),
+    }
+}
+
+#[test]
+fn bars_keep_their_lengths_while_joints_move() {
+    for name in [
+        "gripper-10",
+        "four-bar",
+        "jansen-leg",
+        "slider-crank-spatial",
+        "watt-straight-line",
+    ] {
+        let f = frames(&[name, "--view", "z"]);
+        assert!(f.bars.len() > 20, "{name}: {} pictures", f.bars.len());
+        assert!(!f.bars[0].is_empty(), "{name}");
+        for bars in &f.bars {
+            assert_eq!(bars.len(), f.bars[0].len(), "{name}");
+            for (now, before) in bars.iter().zip(&f.bars[0]) {
+                let change = far(now.0, now.1) - far(before.0, before.1);
+                assert!(
+                    change.abs() < 0.1,
+                    "{name}: a bar changes by {change} pixels"
+                );
+            }
+        }
+        let moved = f.joints[0]
+            .iter()
+            .map(|(id, &p)| f.joints.iter().map(|j| far(j[id], p)).fold(0.0, f64::max));
+        assert!(moved.fold(0.0, f64::max) > 20.0, "{name} stands still");
+    }
+}
+
+#[test]
+fn the_tracing_point_of_peaucellier_moves_in_a_straight_line() {
+    let f = frames(&["peaucellier", "--stroke", "-30deg:30deg:24"]);
+    assert_eq!(f.joints.len(), 25);
+    let xs: Vec<f64> = f.joints.iter().map(|j| j["6-7"][0]).collect();
+    let ys: Vec<f64> = f.joints.iter().map(|j| j["6-7"][1]).collect();
+    let spread = |v: &[f64]| {
+        v.iter().fold(f64::MIN, |m, &x| m.max(x)) - v.iter().fold(f64::MAX, |m, &x| m.min(x))
+    };
+    assert!(spread(&xs) < 0.05, "{xs:?}");
+    assert!(spread(&ys) > 50.0, "{ys:?}");
+}
+
+#[test]
+fn a_crank_goes_round_and_a_slide_goes_to_and_fro() {
+    let round = frames(&["slider-crank-spatial"]);
+    assert!(round.svg.contains("goes once round"));
+    assert!(!round.svg.contains("infinite alternate"));
+    // in equal steps round a circle
+    let crank: Vec<Point> = round.joints.iter().map(|j| j["1-2"]).collect();
+    let step = far(crank[0], crank[1]);
+    for (i, &p) in crank.iter().enumerate() {
+        let next = crank[(i + 1) % crank.len()];
+        assert!((far(p, next) - step).abs() < 0.05, "{i}");
+    }
+    let gripper = frames(&["gripper-10"]);
+    assert!(gripper.svg.contains("infinite alternate"));
+    assert!(
+        gripper.svg.contains(" cm to "),
+        "the way of a slide has a unit"
+    );
+}
+
+#[test]
+fn a_rail_lies_along_its_slide_and_is_as_long_as_the_way() {
+    for (name, joint) in [("scissor-lift", "3-0"), ("gripper-10", "0-1")] {
+        let f = frames(&[name]);
+        let doc = roxmltree::Document::parse(&f.svg).unwrap();
+        let fixed = doc.descendants().filter(|n| {
+            n.attribute("class") == Some("bone")
+                && !n.ancestors().any(|a| a.has_attribute("data-frame"))
+        });
+        let lines = fixed.map(|n| {
+            let points = covers(n);
+            (points[0], points[points.len() - 1])
+        });
+        let longest = lines.max_by(|a, b| far(a.0, a.1).total_cmp(&far(b.0, b.1)));
+        let (a, b) = longest.unwrap();
+        assert!((a[1] - b[1]).abs() < 0.05, "{name}: level, as the slide is");
+        let way: Vec<f64> = f.joints.iter().map(|j| j[joint][0]).collect();
+        let (low, high) = (a[0].min(b[0]), a[0].max(b[0]));
+        assert!(way.iter().all(|x| (low..high).contains(x)), "{name}");
+    }
+}
+
+#[test]
+fn motion_can_be_had_without_motion() {
+    let f = frames(&["gripper-10"]);
+    // without a style sheet, on paper and for those who ask for less motion, one picture is seen
+    assert_eq!(f.seen, 1);
+    let (rules, animated) = f
+        .svg
+        .split_once("@media screen and (prefers-reduced-motion:no-preference)")
+        .unwrap();
+    assert!(!rules.contains("animation:"));
+    assert_eq!(animated.matches("animation:ozf").count(), f.joints.len());
+    assert_eq!(f.svg.matches("@keyframes").count(), f.joints.len());
+    // thirty pictures a second
+    let seconds = f.joints.len() as f64 / 30.0;
+    assert!(animated.contains(&format!("ozf0 {seconds:.2}s")));
+    assert_eq!(
+        f.svg,
+        frames(&["gripper-10"]).svg,
+        "the same bytes each time"
+    );
+}
+
+#[test]
+fn what_cannot_be_drawn_is_said() {
+    for (args, what) in [
+        (vec!["gripper-10", "--stroke", "0:1:3"], "--motion"),
+        (
+            vec!["gripper-10", "--motion", "--stroke", "0:90deg:30"],
+            "the drive slides",
+        ),
+        (
+            vec!["jansen-leg", "--motion", "--stroke", "0:90deg:9999"],
+            "2 to 600",
+        ),
+        (
+            vec!["jansen-leg", "--motion", "--drive", "9-9"],
+            "no joint 9-9",
+        ),
+        (
+            vec!["gripper-10", "--motion", "--state", "clamped"],
+            "none can move",
+        ),
+        (vec!["gripper-10", "--view", "z"], "--kind kinematic"),
+        (
+            vec!["gripper-10", "--kind", "kinematic", "--view", "w"],
+            "x, y, z, iso",
+        ),
+        (
+            vec!["gripper-10", "--kind", "kinematic", "--view", "0,0,0"],
+            "not all zero",
+        ),
+        (
+            vec!["gripper-10", "--kind", "kinematic", "--up", "1,2"],
+            "three numbers",
+        ),
+    ] {
+        let done = ozols(&[&["draw"], &args[..]].concat()).output().unwrap();
+        let said = String::from_utf8_lossy(&done.stderr).into_owned();
+        assert_eq!(done.status.code(), Some(2), "{args:?}: {said}");
+        assert!(said.contains(what), "{args:?}: {said}");
+    }
+}
