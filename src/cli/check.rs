@@ -11,6 +11,7 @@ use crate::format::phrase::plural;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{Method, analyse};
+use crate::view::layout::fit;
 use crate::view::mechanism::describe;
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
@@ -52,13 +53,14 @@ pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
             0 => "valid".to_owned(),
             n => format!("valid, {}", plural(n, "warning")),
         };
-        writeln!(out, "{}: {verdict}", mechanism.name)?;
+        let mut text = format!("{}: {verdict}\n", mechanism.name);
         for line in describe(mechanism, across(mechanism)) {
-            writeln!(out, "  {line}")?;
+            text += &format!("  {line}\n");
         }
         for table in tables {
-            writeln!(out, "  workload {table}: for `ozols {table}`")?;
+            text += &format!("  workload {table}: for `ozols {table}`\n");
         }
+        write!(out, "{}", fit(&text, output::width(None)))?;
         Ok(Done::Found)
     })
 }

@@ -30,8 +30,11 @@ pub(super) struct Draw {
     #[arg(long, default_value = "free")]
     state: String,
     /// Draw variant K of the list that `ozols search FILE` gives, with the same of the options below, its changes marked.
-    #[arg(long, value_name = "K")]
+    #[arg(long, value_name = "K", group = "chosen")]
     variant: Option<usize>,
+    /// The first variant of idea K, as short texts of `ozols search FILE` number them: --distinct --variant K.
+    #[arg(long, value_name = "K", group = "chosen")]
+    idea: Option<usize>,
     /// PNG instead of SVG (where built with the feature `png`); a file named .png is one anyway.
     #[arg(long)]
     png: bool,
@@ -61,9 +64,10 @@ pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     };
     let mut marks = None;
     let searched = state != StateId::FREE;
-    let request = a.which.request(searched.then_some(a.state.as_str()))?;
+    let mut request = a.which.request(searched.then_some(a.state.as_str()))?;
     let mut tolerance = None;
-    if let Some(k) = a.variant {
+    request.distinct |= a.idea.is_some();
+    if let Some(k) = a.variant.or(a.idea) {
         let (realized, changes) = variant::kth(mechanism, request, k, |v| {
             let search = &v.outcome().search;
             draw::marks::of_variant(search, v.assignment(), &format!("variant {k}"))

@@ -4,8 +4,9 @@ use super::args::{Args, File};
 use super::progress::note;
 use super::request::Which;
 use super::{Done, load, output, variant};
-use crate::api;
-use crate::robots::formats::{self, Format};
+use crate::model::mechanism::Mechanism;
+use crate::robots::formats::{self, Format, Written};
+use crate::view::layout::fit;
 use clap::Args as ClapArgs;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use std::path::PathBuf;
@@ -18,10 +19,13 @@ pub(super) struct Export {
     #[arg(long, value_parser = written())]
     to: String,
     /// Write variant K of the list that `ozols search FILE` gives, with the same of the options below.
-    #[arg(long, value_name = "K")]
+    #[arg(long, value_name = "K", group = "chosen")]
     variant: Option<usize>,
+    /// The first variant of idea K, as short texts of `ozols search FILE` number them: --distinct --variant K.
+    #[arg(long, value_name = "K", group = "chosen")]
+    idea: Option<usize>,
     /// The state that the search takes in besides the free one.
-    #[arg(long, value_name = "STATE", requires = "variant")]
+    #[arg(long, value_name = "STATE", requires = "chosen")]
     state: Option<String>,
     #[command(flatten)]
     which: Which,
@@ -36,16 +40,33 @@ fn written() -> PossibleValuesParser {
 }
 
 pub(super) fn run(_: &Args, a: &Export) -> anyhow::Result<Done> {
-    let mut m = load::mechanism(&a.file.file)?;
-    let request = a.which.request(a.state.as_deref())?;
-    if let Some(k) = a.variant {
+    let (mut m, left_behind) = load::with_what_is_left_behind(&a.file.file)?;
+    let mut request = a.which.request(a.state.as_deref())?;
+    request.distinct |= a.idea.is_some();
+    if let Some(k) = a.variant.or(a.idea) {
         m = variant::kth(m, request, k, |v| v.mechanism())?;
     } else if request.snap.is_some() {
         m = request.snapped(&m, &mut note)?;
     }
-    let text = api::export(&m, &a.to)?;
+    let text = text(&m, &a.to, left_behind)?;
     output::to(a.output.as_deref(), |out| {
         write!(out, "{text}")?;
         Ok(Done::Found)
     })
+}
+
+/// A mechanism in a format; what is lost is said, after what was left behind before.
+pub(in crate::cli) fn text(
+    m: &Mechanism,
+    to: &str,
+    left_behind: Option<String>,
+) -> anyhow::Result<String> {
+    let Written { text, told } = formats::export(m, to)?;
+    let told = left_behind.into_iter().chain(told);
+    let told: String = told.map(|t| format!("  {t}\n")).collect();
+    if !told.is_empty() {
+        let all = format!("{} as {to}:\n{told}", m.name);
+        output::note(&fit(&all, output::error_width()));
+    }
+    Ok(text)
 }

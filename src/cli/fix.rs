@@ -6,7 +6,7 @@ use super::request::Which;
 use super::{Done, lint, output, variant};
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::format::phrase::plural;
-use crate::model::mechanism::{JointId, Mechanism};
+use crate::model::mechanism::JointId;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::release::{Release, added};
 use crate::robots::{self, Imported};
@@ -24,11 +24,14 @@ pub(super) struct Fix {
     #[command(flatten)]
     reading: Reading,
     /// A joint, loop or coupling that may be changed (repeatable); by default all but drives.
-    #[arg(long, value_name = "NAME", conflicts_with = "variant")]
+    #[arg(long, value_name = "NAME", conflicts_with = "chosen")]
     at: Vec<String>,
     /// Make variant K of the list that `ozols search FILE` gives, with the same of the options below.
-    #[arg(long, value_name = "K")]
+    #[arg(long, value_name = "K", group = "chosen")]
     variant: Option<usize>,
+    /// The first variant of idea K, as short texts of `ozols search FILE` number them: --distinct --variant K.
+    #[arg(long, value_name = "K", group = "chosen")]
+    idea: Option<usize>,
     #[command(flatten)]
     which: Which,
     /// Write to a file instead of standard output. Beside the description, so that its meshes and includes are found.
@@ -48,8 +51,8 @@ pub(super) fn run(a: &Fix) -> anyhow::Result<Done> {
     let imported = description(&a.file, &options)?;
     let m = &imported.mechanism;
     let bytes = api::bytes(&a.file, MAX_DESCRIPTION_BYTES)?;
-    let (before, plan) = match a.variant {
-        Some(k) => of_search(m, a, k)?,
+    let (before, plan) = match a.variant.or(a.idea) {
+        Some(k) => of_search(&imported, a, k)?,
         None => cheapest(&imported, &a.at)?,
     };
     let told = |release: &Release| (*release, words(m, release));
@@ -89,13 +92,16 @@ fn summary(
     releases: &[(Release, String)],
     [before, after]: [&StateAnalysis; 2],
 ) -> String {
-    let mut out = match releases.len() {
-        0 => format!(
-            "{}: nothing is redundant, nothing is changed\n",
-            file.display()
-        ),
-        n => format!("{}: {}\n", file.display(), plural(n, "release")),
-    };
+    let file = file.display();
+    if releases.is_empty() {
+        let (w, sure) = (before.mobility, before.certainty.word());
+        let redundant = match before.redundant {
+            0 => "nothing is redundant".to_owned(),
+            n => format!("{n} redundant"),
+        };
+        return format!("{file}: {redundant} (W = {w}, {sure}); written as it is\n");
+    }
+    let mut out = format!("{file}: {}\n", plural(releases.len(), "release"));
     for (_, words) in releases {
         out += &format!("  {words}\n");
     }
@@ -126,7 +132,9 @@ fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis
     }
     let wanted = |r: &Release| match *r {
         Release::Coupling(q) => at.is_empty() || at.contains(&coupled(q)),
-        Release::Freedom { joint, .. } if at.is_empty() => !m.joints[joint].drive,
+        Release::Freedom { joint, .. } if at.is_empty() => {
+            !lint::is_actuated(m, Some(&imported.origin), joint)
+        }
         Release::Freedom { joint, .. } => at.contains(&m.joints[joint].id),
     };
     let mut found = lint::look_at(m, Some(&imported.origin), &wanted)?;
@@ -161,10 +169,24 @@ fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis
     Ok((found.analysis, plan))
 }
 
-/// Those of a variant of the search.
-fn of_search(m: &Mechanism, a: &Fix, k: usize) -> anyhow::Result<(StateAnalysis, Plan)> {
-    let request = a.which.request(None)?;
+/// Those of a variant of the search. Where nothing is redundant there is nothing to mend: variants only let more move, and
+/// are made where a mobility is asked for.
+fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAnalysis, Plan)> {
+    let m = &imported.mechanism;
+    let mut request = a.which.request(None)?;
+    request.distinct |= a.idea.is_some();
     let before = api::analyze(m)?.remove(0);
+    if before.redundant == 0 && before.at_most().is_none() && request.max_mobility.is_none() {
+        note(format!(
+            "nothing is redundant: variant {k} of the search would only let more move; --max-mobility makes it all the same"
+        ));
+        let plan = Plan {
+            releases: Vec::new(),
+            mobility: before.mobility,
+            redundant: 0,
+        };
+        return Ok((before, plan));
+    }
     let (changed, w, sigma) = variant::kth(m.clone(), request, k, |v| {
         (v.mechanism(), v.mobility(), v.redundant())
     })?;
@@ -185,9 +207,6 @@ fn of_search(m: &Mechanism, a: &Fix, k: usize) -> anyhow::Result<(StateAnalysis,
             slides,
             direction,
         }));
-    }
-    if releases.is_empty() {
-        note(format!("variant {k} changes nothing"));
     }
     let plan = Plan {
         releases,

@@ -7,6 +7,7 @@ use crate::view::layout::fit;
 use crate::view::next::{self, Step};
 use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueEnum, ValueHint};
+use itertools::Itertools;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -83,6 +84,32 @@ impl Reading {
             options.loops = Some((path.display().to_string(), bytes));
         }
         Ok(options)
+    }
+
+    /// The same as they are typed.
+    pub(super) fn flags(&self) -> String {
+        let path = |p: &PathBuf| p.display().to_string();
+        let valued = [
+            ("--loops", self.loops.iter().map(path).collect()),
+            ("--pose", self.pose.clone()),
+            ("--models", self.models.iter().map(path).collect()),
+            ("--frame", self.frame.iter().cloned().collect()),
+            ("--working-link", self.working_link.clone()),
+        ];
+        let valued = valued
+            .iter()
+            .flat_map(|(flag, values): &(&str, Vec<String>)| {
+                values
+                    .iter()
+                    .map(move |v| format!("{flag} {}", next::word(v)))
+            });
+        let switches = [
+            ("--floating", self.floating),
+            ("--assemble", self.assemble),
+            ("--open", self.open),
+        ];
+        let switches = switches.iter().filter(|s| s.1).map(|s| s.0.to_owned());
+        valued.chain(switches).join(" ")
     }
 }
 

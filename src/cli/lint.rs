@@ -9,6 +9,7 @@ use crate::redundancy::release::Release;
 use crate::robots::{self, Origin};
 use crate::view::layout::fit;
 use crate::view::lint::{self, Lint as Found};
+use crate::view::next::{self, Step};
 use clap::{Args as ClapArgs, ValueEnum, ValueHint};
 use std::path::{Path, PathBuf};
 
@@ -56,6 +57,13 @@ pub(super) fn run(a: &Lint) -> anyhow::Result<Done> {
                 for lint in &all {
                     write!(out, "{}", fit(&lint.text(), width))?;
                 }
+                let mended = all
+                    .iter()
+                    .filter(|l| l.from_description && !l.cheapest.is_empty());
+                let gives = "the cheapest in your own file, all else as it is";
+                let flags = a.reading.flags();
+                let steps: Vec<Step> = mended.map(|l| Step::mend(&l.file, &flags, gives)).collect();
+                write!(out, "{}", next::text(&steps, width))?;
             }
             LintFormat::Json => output::json(out, &lint::json(&all))?,
             LintFormat::Sarif => output::json(out, &lint::sarif(&all))?,
@@ -71,9 +79,14 @@ pub(super) fn run(a: &Lint) -> anyhow::Result<Done> {
 /// What a mechanism holds twice. Drives stay as they are, and what no format has a place for.
 pub(super) fn look(m: &Mechanism, origin: Option<&Origin>) -> anyhow::Result<HeldTwice> {
     look_at(m, origin, &|r| match *r {
-        Release::Freedom { joint, .. } => !m.joints[joint].drive,
+        Release::Freedom { joint, .. } => !is_actuated(m, origin, joint),
         Release::Coupling(_) => true,
     })
+}
+
+/// Whether a joint is a drive, or moved by an actuator in a way that a mechanism has no word for.
+pub(super) fn is_actuated(m: &Mechanism, origin: Option<&Origin>, joint: JointId) -> bool {
+    m.joints[joint].drive || origin.is_some_and(|o| o.is_actuated(joint))
 }
 
 /// The same with releases that are wanted alone.

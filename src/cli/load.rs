@@ -15,11 +15,16 @@ use std::io::Read;
 
 /// Reads the mechanism that an argument names. A file wins over a built-in mechanism of the same name.
 pub(super) fn mechanism(file: &str) -> anyhow::Result<Mechanism> {
+    Ok(with_what_is_left_behind(file)?.0)
+}
+
+/// The same, with what a description says besides, in a sentence; none where it says no more.
+pub(super) fn with_what_is_left_behind(file: &str) -> anyhow::Result<(Mechanism, Option<String>)> {
     if let Some(imported) = imported(file)? {
-        return Ok(imported.mechanism);
+        return Ok((imported.mechanism, imported.report.left_behind()));
     }
     let (name, bytes) = named(file)?;
-    Ok(mechanism_from_bytes(&name, &bytes)?)
+    Ok((mechanism_from_bytes(&name, &bytes)?, None))
 }
 
 /// The name for messages and the bytes of the file that an argument names.

@@ -5,6 +5,7 @@ use super::progress::Watch;
 use super::request::Checked;
 use super::{Done, interrupt, load, machine, memory, output};
 use crate::format::number::duration;
+use crate::score::outcome::Outcome;
 use crate::score::request::{List, Method, Request};
 use crate::view::{search_csv, search_json, search_text};
 use clap::{Args as ClapArgs, ValueEnum};
@@ -49,6 +50,10 @@ pub(super) struct Search {
     /// Find the best without counting all: as fast as a search for a cost, however many variants there are.
     #[arg(long, conflicts_with_all = ["all", "sample", "count"])]
     no_count: bool,
+    /// Every variant in the text, though a short list that is the cheapest for certain would give the first of each idea only
+    /// (see --distinct).
+    #[arg(long, conflicts_with = "distinct")]
+    no_distinct: bool,
     #[command(flatten)]
     checked: Checked,
     /// Diagram, or brute force for checking.
@@ -61,6 +66,9 @@ pub(super) struct Search {
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
 }
+
+/// A list this long is one to be read.
+const SHORT: usize = 100;
 
 impl Search {
     fn request(&self, seed: u64) -> anyhow::Result<Request> {
@@ -79,6 +87,14 @@ impl Search {
             ..self.checked.request(seed)?
         })
     }
+
+    /// Whether people are given the first variant of each idea: the first rows of all variants are often one idea many times.
+    /// Not where a search was cut short: of ideas none is then proven the cheapest, of variants some may be.
+    fn tells_ideas(&self, outcome: &Outcome) -> bool {
+        let short = matches!(outcome.request.list, List::Top(1..=SHORT));
+        let text = matches!(self.format, SearchFormat::Text);
+        text && short && !self.no_distinct && outcome.ranking.is_none() && outcome.is_exact()
+    }
 }
 
 pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
@@ -86,7 +102,8 @@ pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
     let seconds = || (machine::clock() - begun).as_secs_f64();
     let mechanism = load::mechanism(&a.file.file)?;
     let request = a.request(args.seed)?;
-    let outcome = Watch::new(args.quiet).run(mechanism, &request)?;
+    let mut outcome = Watch::new(args.quiet).run(mechanism, &request)?;
+    outcome.request.distinct |= a.tells_ideas(&outcome);
     let (eased, why) = match a.format {
         SearchFormat::Text | SearchFormat::Json => (outcome.relaxations()?, outcome.hopeless()?),
         SearchFormat::Jsonl | SearchFormat::Csv => Default::default(),

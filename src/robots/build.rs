@@ -5,7 +5,7 @@ use crate::file::schema::MechanismFile;
 use crate::file::write::Comment;
 use crate::geom::rigid::Motion;
 use crate::model::joint_type::JointType;
-use crate::robots::close::{self, CLOSED, close, gaps, size, worst};
+use crate::robots::close::{self, CLOSED, ROUNDED, close, gaps, size, worst};
 use crate::robots::coupling;
 use crate::robots::emit::{self, Bodies, Content};
 use crate::robots::kinematics::{Tree, places, spanning_tree};
@@ -145,7 +145,13 @@ pub(crate) fn close_loops(
     } else {
         close(robot, tree)
     };
-    if left <= CLOSED * size {
+    if left <= CLOSED * size || (left <= ROUNDED * size && !options.open) {
+        if left > CLOSED * size {
+            let what = format!(
+                "open by {left:.1e} m wherever the joints are, as rounded coordinates leave it; taken as closed"
+            );
+            robot.report.approximate(&loops, what);
+        }
         let largest = robot
             .joints
             .iter()
@@ -274,6 +280,8 @@ pub(crate) fn entries(
             });
         }
     }
+    let limited = robot.joints.iter().filter(|j| j.limits.is_some());
+    limited.for_each(|j| report.drop("limit of a joint", Some(&j.id)));
     robot.report = report;
     let file = std::path::Path::new(file).file_name();
     let (file, comments) = emit::entries(&Content {

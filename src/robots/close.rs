@@ -9,6 +9,9 @@ use ozols_dense::{Matrix, solve_positive};
 
 /// A loop that is open by less than this fraction of the robot's size counts as closed: coordinates are rounded.
 pub(crate) const CLOSED: f64 = 1e-6;
+/// One that no motion of the joints closes further, and that is open by less than this fraction, counts as closed too: where
+/// constraints are redundant, rounded coordinates contradict one another by their last digit. It is said.
+pub(crate) const ROUNDED: f64 = 5e-4;
 /// Most unknowns; beyond them a pose has to be given.
 const MAX_UNKNOWNS: usize = 600;
 /// Most steps from one start, and most starts.
@@ -85,7 +88,7 @@ pub(crate) fn worst(gaps: &[Gap], size: f64) -> f64 {
 /// and the number of joints outside their limits.
 ///
 /// Of several starts the first that closes with all joints within their limits is taken, else the one that breaks the
-/// fewest limits, else the values stay.
+/// fewest limits, else the first that comes as near as rounded coordinates do, else the values stay.
 pub(crate) fn close(robot: &mut Robot, tree: &Tree) -> (f64, usize) {
     let size = size(robot);
     let first: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
@@ -95,13 +98,14 @@ pub(crate) fn close(robot: &mut Robot, tree: &Tree) -> (f64, usize) {
         }
     };
     let mut best: Option<(usize, f64, Vec<Vec<f64>>)> = None;
+    let mut near = None;
     for start in 0..STARTS {
         set(robot, &first);
         if start > 0 {
             begin(robot, start);
         }
         let left = descend(robot, tree, size);
-        if left > CLOSED * size {
+        if left > ROUNDED * size || (left > CLOSED * size && near.is_some()) {
             continue;
         }
         let broken = robot
@@ -110,15 +114,19 @@ pub(crate) fn close(robot: &mut Robot, tree: &Tree) -> (f64, usize) {
             .map(wind_back)
             .filter(|inside| !inside)
             .count();
+        let values = robot.joints.iter().map(|j| j.values.clone()).collect();
+        if left > CLOSED * size {
+            near = Some((broken, left, values));
+            continue;
+        }
         if best.as_ref().is_none_or(|(b, ..)| broken < *b) {
-            let values = robot.joints.iter().map(|j| j.values.clone()).collect();
             best = Some((broken, left, values));
         }
         if broken == 0 {
             break;
         }
     }
-    match best {
+    match best.or(near) {
         Some((broken, left, values)) => {
             set(robot, &values);
             (left, broken)

@@ -97,6 +97,8 @@ pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
     } else {
         ""
     };
+    let left_behind = c.robot.report.left_behind();
+    let left_behind = left_behind.map_or(String::new(), |t| format!(" {}", one_line(&t)));
     let mut merged: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
     for (l, &b) in c.bodies.of.iter().enumerate() {
         if l != b {
@@ -149,7 +151,7 @@ pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
     let file = MechanismFile {
         name: one_line(&c.robot.name),
         description: format!(
-            "Imported from {} ({}).{left_out}",
+            "Imported from {} ({}).{left_out}{left_behind}",
             one_line(c.file),
             c.format
         ),

@@ -27,7 +27,23 @@ pub struct Format {
 /// Reads the robot below the root element of a document; the files it includes are given by the reader.
 pub(crate) type Describe =
     fn(&mut Document, usize, Reader<'_>, &Options) -> Result<Robot, ImportError>;
-type Writer = fn(&Mechanism) -> Result<String, ExportError>;
+type Writer = fn(&Mechanism) -> Result<Written, ExportError>;
+
+/// A mechanism in a format.
+#[derive(Debug)]
+pub struct Written {
+    /// The text.
+    pub text: String,
+    /// What the format has no words for, and what stands there in its place, a sentence each; comments of the text say it, too.
+    pub told: Vec<String>,
+}
+
+impl From<String> for Written {
+    fn from(text: String) -> Written {
+        let told = Vec::new();
+        Written { text, told }
+    }
+}
 
 /// All formats: with the root element of what is read, and the writer of what is written.
 static FORMATS: [Format; 7] = [
@@ -37,7 +53,7 @@ static FORMATS: [Format; 7] = [
         about: "The mechanism file, every joint with its own options",
         endings: &[],
         read: None,
-        write: Some(|m| Ok(write::toml(&mechanism_file(m), &[])?)),
+        write: Some(|m| Ok(write::toml(&mechanism_file(m), &[])?.into())),
     },
     Format {
         word: "json",
@@ -45,7 +61,7 @@ static FORMATS: [Format; 7] = [
         about: "The same as JSON",
         endings: &[],
         read: None,
-        write: Some(|m| Ok(format!("{:#}\n", mechanism_file(m).json()))),
+        write: Some(|m| Ok(format!("{:#}\n", mechanism_file(m).json()).into())),
     },
     Format {
         word: "urdf",
@@ -77,7 +93,7 @@ static FORMATS: [Format; 7] = [
         about: "Graphviz",
         endings: &[],
         read: None,
-        write: Some(|m| Ok(graph::dot(m))),
+        write: Some(|m| Ok(graph::dot(m).into())),
     },
     Format {
         word: "graphml",
@@ -85,7 +101,7 @@ static FORMATS: [Format; 7] = [
         about: "GraphML, for graph programs",
         endings: &[],
         read: None,
-        write: Some(|m| Ok(graph::graphml(m))),
+        write: Some(|m| Ok(graph::graphml(m).into())),
     },
 ];
 
@@ -99,6 +115,14 @@ pub fn written() -> impl Iterator<Item = &'static Format> {
 /// # Errors
 /// Where there is no such format, or it cannot say what the mechanism has.
 pub fn write(m: &Mechanism, word: &str) -> Result<String, ExportError> {
+    Ok(export(m, word)?.text)
+}
+
+/// The same, with what is lost.
+///
+/// # Errors
+/// As [`write`].
+pub fn export(m: &Mechanism, word: &str) -> Result<Written, ExportError> {
     let format = written().find(|f| f.word == word);
     match format.and_then(|f| f.write) {
         Some(write) => write(m),

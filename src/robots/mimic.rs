@@ -1,6 +1,7 @@
 //! Couplings as mimic joints: each joint follows one other at most, so that a tree of couplings can be said, and no more.
 
 use crate::closure::tree::forest;
+use crate::model::coupling::Coupling;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 
 /// What a joint follows.
@@ -12,7 +13,7 @@ pub(crate) struct Follows {
     pub(super) ratio: f64,
 }
 
-/// For each joint what it follows, and the names of the couplings that mimic joints cannot say: those of joints that are
+/// For each joint what it follows, and a sentence for each coupling that mimic joints cannot say: those of joints that are
 /// not `written` as joints of one freedom, and those that close a loop of couplings.
 pub(crate) fn mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follows>>, Vec<String>) {
     let mut follows = vec![None; m.joints.len()];
@@ -43,7 +44,8 @@ pub(crate) fn mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follows>>, 
     }
     let left = m.couplings.iter().zip(&said).filter(|(_, s)| !**s);
     let present = left.filter(|(c, _)| m.couplings_in(StateId::FREE).any(|x| x.ends == c.ends));
-    (follows, present.map(|(c, _)| c.name(m)).collect())
+    let unsaid = |c: &Coupling| format!("coupled, which no mimic joint says: {}", c.name(m));
+    (follows, present.map(|(c, _)| unsaid(c)).collect())
 }
 
 /// Marks a place in a text that depends on a joint and is settled later; no name has such a character.

@@ -58,6 +58,12 @@ impl Origin {
         self.part(joint).closes
     }
 
+    /// Whether a joint is moved by an actuator, alone or by a tendon: it is best left as it is.
+    #[must_use]
+    pub fn is_actuated(&self, joint: JointId) -> bool {
+        self.part(joint).drive || self.part(joint).pulled
+    }
+
     /// Whether a joint can be given freedoms where it stands.
     #[must_use]
     pub fn can_be_freed(&self, joint: JointId) -> bool {

@@ -24,6 +24,8 @@ pub(crate) struct Part {
     /// Translation per radian of a screw, in metres.
     pub(super) pitch: f64,
     pub(super) drive: bool,
+    /// Whether an actuator moves it by a tendon, which others may share.
+    pub(super) pulled: bool,
     /// Whether it closes a loop by what the file says; such joints join the tree last.
     pub(super) closes: bool,
     /// Value of the one freedom in the pose drawn, subtracted from values given from outside.
@@ -57,6 +59,7 @@ impl Part {
             pitch: 0.0,
             zero: 0.0,
             drive: false,
+            pulled: false,
             closes: false,
             limits: None,
             comment: None,

@@ -3,6 +3,7 @@
 use crate::geom::vector::{Vector, real, sub};
 use crate::model::loads::Inertia;
 use crate::model::mechanism::{LinkId, Mechanism, Mode, StateId};
+use crate::robots::single_freedoms::comment;
 use itertools::Itertools;
 
 /// What a link weighs: kg, m, kg·m².
@@ -30,6 +31,16 @@ pub(crate) fn inertial(m: &Mechanism, link: LinkId, origin: Vector) -> Option<In
         centre: sub(centre, origin),
         tensor,
     })
+}
+
+/// Comments at the head of a robot description: what the mechanism says of itself, and what is told of its writing.
+pub(crate) fn head(m: &Mechanism, indent: &str, told: &[String]) -> String {
+    let own = Some(&m.description).filter(|d| !d.is_empty());
+    let plain = |s: &String| s.replace(|c: char| c.is_control(), " ");
+    let lines = own.into_iter().chain(told).map(plain);
+    lines
+        .map(|t| format!("{indent}<!-- {} -->\n", comment(&t)))
+        .collect()
 }
 
 /// What a robot description of the free state leaves out, a sentence each.

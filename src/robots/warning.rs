@@ -5,6 +5,8 @@ use std::fmt::Write;
 
 /// Names shown of each kind of dropped element.
 const SHOWN: usize = 4;
+/// Kinds told in a sentence.
+const KINDS: usize = 12;
 
 /// Something that the mechanism file cannot say exactly.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -65,6 +67,22 @@ impl Report {
         {
             names.push(n.to_owned());
         }
+    }
+
+    /// What the description says and the mechanism does not, in a sentence: masses, shapes, limits and the like.
+    #[must_use]
+    pub fn left_behind(&self) -> Option<String> {
+        let kinds = self
+            .dropped
+            .iter()
+            .map(|(kind, (n, _))| format!("{kind} ({n})"));
+        let mut kinds: Vec<String> = kinds.collect();
+        let more = kinds.len().saturating_sub(KINDS);
+        kinds.truncate(KINDS);
+        if more > 0 {
+            kinds.push(format!("{more} more kinds"));
+        }
+        (!kinds.is_empty()).then(|| format!("Left out of it: {}.", kinds.join(", ")))
     }
 
     /// The report for people.

@@ -43,6 +43,9 @@ pub struct Lint {
     pub findings: Vec<Finding>,
     /// The cheapest releases that remove them all and let nothing move; none where there are not enough.
     pub cheapest: Vec<String>,
+    /// Whether the file is a robot description, which can be mended.
+    #[serde(skip)]
+    pub from_description: bool,
 }
 
 /// A redundant constraint.
@@ -101,6 +104,7 @@ impl Lint {
                 true => found.cheapest.iter().map(|&i| words.remedy(i)).collect(),
                 false => Vec::new(),
             },
+            from_description: read.is_some(),
         }
     }
 

@@ -16,6 +16,14 @@ pub struct Step {
 }
 
 impl Step {
+    /// The command that mends a robot description in the owner's own file.
+    #[must_use]
+    pub fn mend(file: &str, more: &str, gives: &str) -> Step {
+        let (stem, ending) = file.rsplit_once('.').unwrap_or((file, "xml"));
+        let out = format!("-o {}", word(&format!("{stem}-fixed.{ending}")));
+        Step::new("fix", file, format!("{more} {out}").trim(), gives)
+    }
+
     /// A command of this program about a file.
     #[must_use]
     pub fn new(command: &str, file: &str, more: &str, gives: &str) -> Step {

@@ -1,8 +1,9 @@
 //! A search for people.
 
 use crate::format::number::grouped;
+use crate::robots::is_description;
 use crate::score::outcome::Outcome;
-use crate::score::request::List;
+use crate::score::request::{List, Request};
 use crate::score::variant::Variant;
 use crate::score::variants::Variants;
 use crate::search::certify::{NEARLY_SINGULAR, Second, Summary};
@@ -22,6 +23,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::io;
 
+/// Rows of mobilities told at most; JSON and the page have them all.
+const MOBILITIES: usize = 12;
 /// Variants a table holds at most.
 const BLOCK: usize = 1000;
 
@@ -46,16 +49,17 @@ pub fn write(
         Some(p) => ranking::head(p),
         None if sample => "drawn at random".to_owned(),
         None if outcome.request.distinct => {
-            "cheapest first, of the variants that give the same freedoms to the same joints in series the first".to_owned()
+            "ideas, cheapest first, each by its first variant; it stands for all that give the same freedoms to the same joints in series".to_owned()
         }
         None => "cheapest first".to_owned(),
     };
-    let mut footnotes = Vec::new();
+    let (mut footnotes, mut changed) = (Vec::new(), false);
     // A table is laid out as a whole, so a long list is given as several.
     loop {
         let block = given.by_ref().take(BLOCK).collect_vec();
         let Some(first) = block.first() else { break };
         if first.position() == 1 {
+            changed = first.cost_milli() > 0;
             write!(out, "{}", fit(&format!("\n  {what}:\n"), width))?;
         }
         writeln!(out, "{}", variants(outcome, &block, width))?;
@@ -86,7 +90,12 @@ pub fn write(
     // Numbers of a sample, or of a list with some left out, mean nothing to other commands.
     let steps = match outcome.request.generic_only {
         true => Vec::new(),
-        false => next(outcome, if sample { 0 } else { summary.given }, eased, file),
+        false => next(
+            outcome,
+            (if sample { 0 } else { summary.given }, changed),
+            eased,
+            file,
+        ),
     };
     write!(out, "{}", next::text(&steps, width))
 }
@@ -178,13 +187,24 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
             sum(&admissible.by_mobility),
         ]
     };
-    let each = shown.iter().map(|w| row(w.to_string(), &[*w]));
+    // Long tables are of robots with many joints; the least mobilities are those that let the least move idly.
+    let told = if shown.len() > MOBILITIES {
+        MOBILITIES - 1
+    } else {
+        shown.len()
+    };
+    let (told, folded) = shown.split_at(told);
+    let each = told.iter().map(|w| row(w.to_string(), &[*w]));
+    let folded = match folded {
+        [least, .., most] => Some(row(format!("{least} to {most}"), folded)),
+        _ => None,
+    };
     let left_out = match (rest.first(), rest.last()) {
         (Some(least), Some(most)) if least == most => Some(row(least.to_string(), &rest)),
         (Some(least), Some(most)) => Some(row(format!("rest, {least} to {most}"), &rest)),
         _ => None,
     };
-    let rows = each.chain(left_out);
+    let rows = each.chain(folded).chain(left_out);
     if !mobilities.is_empty() {
         let _ = writeln!(
             out,
@@ -273,27 +293,50 @@ fn marked(mut notes: Vec<String>) -> Vec<String> {
 
 /// What to do after a search: look at the first variant given, or ease a condition. `file` is the search's own, as
 /// are the flags, so that the commands are about the same list.
-fn next(outcome: &Outcome, given: usize, eased: &[(Relaxation, BigUint)], file: &str) -> Vec<Step> {
-    let flags = &next::flags(&outcome.search.mechanism, &outcome.request);
+fn next(
+    outcome: &Outcome,
+    (given, changed): (usize, bool),
+    eased: &[(Relaxation, BigUint)],
+    file: &str,
+) -> Vec<Step> {
+    // `--idea` says that ideas are meant.
+    let request = Request {
+        distinct: false,
+        ..outcome.request.clone()
+    };
+    let flags = &next::flags(&outcome.search.mechanism, &request);
+    let number = match outcome.request.distinct {
+        true => "idea",
+        false => "variant",
+    };
     let joined = |more: &str| format!("{flags} {more}").trim().to_owned();
     let mechanism = &outcome.search.mechanism.name;
     if given > 0 {
-        let svg = file_name(&format!("{mechanism}-variant-1"), "svg");
-        let toml = file_name(&format!("{mechanism}-variant-1"), "toml");
-        return vec![
+        let svg = file_name(&format!("{mechanism}-{number}-1"), "svg");
+        let toml = file_name(&format!("{mechanism}-{number}-1"), "toml");
+        // Whose first variant changes nothing has nothing to mend.
+        let own = (changed && is_description(file)).then(|| {
+            Step::mend(
+                file,
+                &joined(&format!("--{number} 1")),
+                "the first of the list in your own file",
+            )
+        });
+        let steps = [
             Step::new(
                 "draw",
                 file,
-                &joined(&format!("--variant 1 -o {svg}")),
+                &joined(&format!("--{number} 1 -o {svg}")),
                 "the first of the list, its changes in colour",
             ),
             Step::new(
                 "export",
                 file,
-                &joined(&format!("--variant 1 --to toml -o {toml}")),
+                &joined(&format!("--{number} 1 --to toml -o {toml}")),
                 "the first of the list as a mechanism file of its own",
             ),
         ];
+        return own.into_iter().chain(steps).collect();
     }
     if !outcome.admissible.total.is_zero() {
         return vec![Step::new(

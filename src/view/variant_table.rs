@@ -40,7 +40,8 @@ pub(super) fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u1
         row.push(in_words(&outcome.search, &v.changes()));
         row
     });
-    let mut head = vec!["", "cost", "W", "σ"];
+    let number = if outcome.request.distinct { "idea" } else { "" };
+    let mut head = vec![number, "cost", "W", "σ"];
     head.extend(outcome.search.conditions.state.map(|_| "harmful"));
     head.extend(checked.then_some("cond."));
     head.extend(ranking.into_iter().flat_map(ranking::columns));

@@ -271,7 +271,10 @@ fn graphs() {
 #[test]
 fn the_command() {
     for to in ["toml", "json", "urdf", "mjcf", "sdf", "dot", "graphml"] {
-        assert!(out(&["export", "four-bar", "--to", to]).len() > 200, "{to}");
+        assert!(
+            out(&["export", "four-bar", "--to", to, "-q"]).len() > 200,
+            "{to}"
+        );
     }
     let o = ozols(&["export", "nowhere", "--to", "dot"])
         .output()
@@ -309,4 +312,61 @@ fn the_workload_survives() {
     }
     let forces = |m: &Mechanism| format!("{:?}", m.loads.forces);
     assert_eq!(forces(&back), forces(&shears));
+}
+
+/// A description in which every kind of thing stands that a mechanism has no words for.
+const RICH: &str = "<mujoco><option timestep='0.001'/><asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/></asset>
+  <worldbody><body name='a'><inertial pos='0 0 0' mass='3' diaginertia='1 1 1'/>
+    <joint name='j1' range='-90 90' damping='2' armature='0.1'/><geom name='shape' type='mesh' mesh='m'/>
+    <body name='b' pos='1 0 0'><joint name='j2' type='slide' axis='1 0 0'/><geom name='end' size='0.1'/></body></body></worldbody>
+  <actuator><position name='servo' joint='j1' kp='100'/></actuator><sensor><jointpos joint='j1'/></sensor></mujoco>";
+
+// What is lost on the way from one description to another is named in the file and on standard error, also by way of a
+// mechanism file.
+#[test]
+fn what_is_lost_is_named() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = |name: &str| dir.path().join(name).display().to_string();
+    std::fs::write(path("rich.xml"), RICH).unwrap();
+    let lost = [
+        "Imported from rich.xml (MJCF)",
+        "armature (1)",
+        "asset (1)",
+        "damping (1)",
+        "data of an actuator (1)",
+        "geom (2)",
+        "inertial (1)",
+        "limit of a joint (1)",
+        "option (1)",
+        "sensor (1)",
+    ];
+    let run = |words: &[&str]| {
+        let found = ozols(words).output().unwrap();
+        let told = String::from_utf8(found.stderr).unwrap();
+        assert!(found.status.success(), "{told}");
+        told
+    };
+    run(&["import", &path("rich.xml"), "-o", &path("rich.toml")]);
+    for (to, made_up) in [
+        ("urdf", "has limits of 1 m"),
+        ("sdf", "weigh 1 kg"),
+        ("mjcf", "weigh a gram"),
+        ("toml", ""),
+    ] {
+        for from in ["rich.xml", "rich.toml"] {
+            let file = path(&format!("out.{to}"));
+            let told = run(&["export", &path(from), "--to", to, "-o", &file]);
+            let text = std::fs::read_to_string(&file).unwrap();
+            for what in lost {
+                assert!(text.contains(what), "{from} as {to}: {what}\n{text}");
+            }
+            assert!(
+                text.contains(made_up) && told.contains(made_up),
+                "{to}: {told}"
+            );
+            // Of a mechanism file this is no news.
+            assert_eq!(told.contains("geom (2)"), from == "rich.xml", "{told}");
+            assert!(run(&["export", &path(from), "--to", to, "-o", &file, "-q"]).is_empty());
+        }
+    }
 }

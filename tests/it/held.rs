@@ -99,7 +99,7 @@ fn the_conditions_in_a_state_are_said() {
         "{text}"
     );
     assert!(
-        text.contains("ozols draw gripper-10 --max-external 2 --max-harmful 0 --variant 1"),
+        text.contains("ozols draw gripper-10 --max-external 2 --max-harmful 0 --idea 1"),
         "{text}"
     );
 }

@@ -1,6 +1,6 @@
 //! Ideas against a slow twin: every variant listed, its pattern made of cycles found by walking.
 
-use crate::common::{count, json, out};
+use crate::common::{count, json, out, run, text};
 use itertools::Itertools;
 use num_bigint::BigUint;
 use ozols::geom::vector::{cross, real, unit};
@@ -248,4 +248,45 @@ fn an_idea_says_what_is_added_where() {
             .collect_vec()
     };
     assert_eq!(ids(series("2-4")), ["2-4", "4-5", "5-1"]);
+}
+
+/// The text gives ideas where all variants are counted and the list is a short one, and says how to go on with them.
+#[test]
+fn people_are_told_ideas_and_programs_variants() {
+    let search = |more: &[&str]| {
+        let args = ["search", "four-bar", "--quiet"];
+        let o = run(&[&args, more].concat());
+        assert_eq!(o.status.code(), Some(0), "{more:?}");
+        text(&o.stdout)
+    };
+    let plain = search(&[]);
+    assert_eq!(plain, search(&["--distinct"]));
+    assert!(
+        plain.contains("stands for") && plain.contains("--idea 1"),
+        "{plain}"
+    );
+    let every = search(&["--no-distinct"]);
+    assert!(
+        !every.contains("stands for") && every.contains("--variant 1"),
+        "{every}"
+    );
+    let data = |more: &[&str]| search(&[&["--format", "json"], more].concat());
+    assert!(!data(&[]).contains("\"idea\""));
+    assert!(data(&["--distinct"]).contains("\"idea\""));
+    // A long list is not for reading, and one cut short proves nothing of ideas.
+    assert!(!search(&["--top", "101"]).contains("stands for"));
+    let cut = run(&["search", "gripper-10", "--nodes", "60", "--top", "3"]);
+    assert!(!text(&cut.stdout).contains("stands for"));
+    let exported = |which: &[&str]| {
+        let o = run(&[&["export", "four-bar", "--to", "toml"], which].concat());
+        assert_eq!(o.status.code(), Some(0), "{which:?}");
+        text(&o.stdout)
+    };
+    assert_eq!(
+        exported(&["--idea", "2"]),
+        exported(&["--distinct", "--variant", "2"])
+    );
+    assert_ne!(exported(&["--idea", "2"]), exported(&["--variant", "2"]));
+    let both = run(&["draw", "four-bar", "--idea", "2", "--variant", "2"]);
+    assert_eq!(both.status.code(), Some(2));
 }

@@ -313,3 +313,102 @@ fn searches_offer_releases_where_loops_close() {
         assert_eq!(figures(&out, &[]).1, 0);
     }
 }
+
+// Where nothing is redundant there is nothing to mend: the file is written as it is, whatever variant of the search is named,
+// unless a mobility is asked for.
+#[test]
+fn nothing_redundant_is_nothing_to_mend() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = |name: &str| dir.path().join(name).display().to_string();
+    let (file, out) = (path("arm.xml"), path("out.xml"));
+    let text = "\u{feff}<mujoco><worldbody>\r\n<body name='a'><joint name='j1'/>\t<body name='b' pos='1 0 0'><joint name='j2'/></body></body></worldbody></mujoco>\r\n";
+    std::fs::write(&file, text).unwrap();
+    for more in [&[][..], &["--variant", "1"], &["--variant", "2"]] {
+        let _ = std::fs::remove_file(&out);
+        let (code, _, told) = run(&[&["fix", &file, "-o", &out], more].concat());
+        assert_eq!(code, Some(0), "{more:?}: {told}");
+        assert!(told.contains("nothing is redundant (W = 2"), "{told}");
+        assert_eq!(std::fs::read_to_string(&out).unwrap(), text, "{more:?}");
+    }
+    let asked = [
+        "fix",
+        &file,
+        "--variant",
+        "2",
+        "--max-mobility",
+        "3",
+        "-o",
+        &out,
+    ];
+    let (code, _, told) = run(&[&asked[..], &["--allow-output-change"]].concat());
+    assert_eq!(code, Some(0), "{told}");
+    assert_eq!(figures(&out, &[]), (3, 0));
+}
+
+// What lint and search end with is a command that mends, whatever the file is called and however it is read.
+#[test]
+fn the_next_command_mends() {
+    let dir = tempfile::tempdir().unwrap();
+    let bar = folder().join("epr_5bar_linkage");
+    let file = dir.path().join("five bar.urdf").display().to_string();
+    std::fs::copy(bar.join("robot.urdf"), &file).unwrap();
+    let side = bar.join("robot.yaml").display().to_string();
+    let next = |words: &[&str]| {
+        let (_, out, told) = run(words);
+        let line = out
+            .lines()
+            .find(|l| l.trim_start().starts_with("ozols fix"));
+        line.unwrap_or_else(|| panic!("{out}{told}"))
+            .trim()
+            .to_owned()
+    };
+    let loops = next(&["lint", &file, "--loops", &side]);
+    let plain = next(&["search", &gripper(), "--top", "1"]);
+    let (plain, _) = plain.split_once(" -o ").unwrap();
+    let plain = format!("{plain} -o {}", dir.path().join("gripper.xml").display());
+    for line in [loops, plain] {
+        let words = line.strip_prefix("ozols ").unwrap().split('\'').enumerate();
+        // What stands in quotes is one word.
+        let words = words.flat_map(|(i, part)| match i % 2 {
+            0 => part.split_whitespace().map(str::to_owned).collect(),
+            _ => vec![part.to_owned()],
+        });
+        let words: Vec<String> = words.collect();
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        let (code, _, told) = run(&words);
+        assert_eq!(code, Some(0), "{line}: {told}");
+        assert!(told.contains("redundant 0"), "{told}");
+    }
+    // Nothing to mend, nothing to type.
+    let (_, out, _) = run(&[
+        "lint",
+        &dir.path().join("five bar-fixed.urdf").display().to_string(),
+        "--loops",
+        &side,
+    ]);
+    assert!(!out.contains("Next:"), "{out}");
+}
+
+// The published gripper has one actuator that pulls both drivers by a tendon: these stay as they are, unless they are named.
+#[test]
+fn joints_that_an_actuator_pulls_stay_as_they_are() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("hand.xml").display().to_string();
+    let text = std::fs::read_to_string(gripper()).unwrap();
+    let pulls = "<tendon><fixed name='split'><joint joint='right_driver_joint' coef='0.5'/>\
+        <joint joint='left_driver_joint' coef='0.5'/></fixed></tendon>\
+        <actuator><general name='fingers' tendon='split'/></actuator></mujoco>";
+    std::fs::write(&file, text.replace("</mujoco>", pulls)).unwrap();
+    let out = dir.path().join("out.xml").display().to_string();
+    let (code, _, told) = run(&["fix", &file, "-o", &out]);
+    assert!(code == Some(0) && !told.contains("driver_joint"), "{told}");
+    assert_eq!(figures(&out, &[]), (1, 0));
+    let (_, found, _) = run(&["lint", &file]);
+    assert!(!found.contains("let right_driver_joint"), "{found}");
+    let named = ["--at", "right_driver_joint", "--at", "left_driver_joint"];
+    let (code, _, told) = run(&[&["fix", &file, "-o", &out][..], &named].concat());
+    assert!(
+        code == Some(0) && told.contains("let left_driver_joint slide"),
+        "{told}"
+    );
+}

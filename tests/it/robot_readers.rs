@@ -349,3 +349,41 @@ fn nothing_is_said_that_need_not_be() {
         assert_eq!(String::from_utf8(o.stderr).unwrap(), "", "{command}");
     }
 }
+
+// A four-bar in an oblique plane, written with five decimals: its sites miss each other across the plane, where no joint moves.
+// One that is open by more than digits explain is refused.
+#[test]
+fn loops_that_rounding_leaves_open() {
+    let text = |slip: f64| {
+        let (u, v) = ([0.48, 0.6, 0.64], [-0.8, 0.6, 0.037_5]);
+        let axis = [
+            u[1] * v[2] - u[2] * v[1],
+            u[2] * v[0] - u[0] * v[2],
+            u[0] * v[1] - u[1] * v[0],
+        ];
+        let at = |x: f64, y: f64| {
+            let c = |i: usize| format!("{:.5}", x * u[i] + y * v[i] + slip * axis[i]);
+            format!("{} {} {}", c(0), c(1), c(2))
+        };
+        let plain = |x: f64, y: f64| {
+            let c = |i: usize| format!("{:.5}", x * u[i] + y * v[i]);
+            format!("{} {} {}", c(0), c(1), c(2))
+        };
+        let z = axis.map(|a| format!("{a:.5}")).join(" ");
+        format!(
+            "<mujoco><default><joint axis='{z}'/></default><worldbody>
+              <body name='a'><joint/><body name='b' pos='{}'><joint/><site name='s' pos='{}'/></body></body>
+              <body name='c' pos='{}'><joint/><site name='t' pos='{}'/></body></worldbody>
+              <equality><connect site1='s' site2='t'/></equality></mujoco>",
+            plain(0.217, 0.913),
+            at(2.113, 0.5371),
+            plain(2.031, 0.0),
+            plain(0.299, 1.4501),
+        )
+    };
+    let rounded = import("m.xml", text(3e-5).as_bytes(), &none, &Options::default()).unwrap();
+    assert_eq!(figures(&rounded, 1e-3)[4..], [1, 1]);
+    let doubts = rounded.report.doubts();
+    assert!(doubts.contains("1 loop: open by"), "{doubts}");
+    assert!(refused("m.xml", &text(5e-3)).contains("the loops do not close"));
+}

@@ -1,6 +1,7 @@
 //! Tables say what they leave out, and one name stands for one thing.
 
-use crate::common::out;
+use crate::common::{out, run};
+use crate::robots::folder;
 
 /// The rows of a table after a head that begins with `first`.
 fn rows<'a>(text: &'a str, first: &str) -> (Vec<&'a str>, Vec<Vec<&'a str>>) {
@@ -47,4 +48,27 @@ fn conditionings_have_their_own_names() {
     );
     assert!(!text.contains("condit."), "{text}");
     assert!(text.contains("cond. held: as cond."), "{text}");
+}
+
+/// A robot of many joints has variants of many mobilities: the least are told one by one, the others in a row, and all add up.
+#[test]
+fn long_tables_of_mobilities_are_folded() {
+    let file = folder().join("epr_digit_like/robot.urdf");
+    let args = [
+        "search",
+        file.to_str().unwrap(),
+        "--count",
+        "--nodes",
+        "2000",
+        "--check",
+        "none",
+    ];
+    let found = String::from_utf8(run(&args).stdout).unwrap();
+    let (_, body) = rows(&found, "W ");
+    assert_eq!(body.len(), 13, "{found}");
+    assert_eq!((body[0][0], body[10][0]), ("27", "37"), "{found}");
+    assert_eq!((body[11][0], body[12][0]), ("38 to 80", "81"), "{found}");
+    let sum: u64 = body.iter().map(|r| count(r[2])).sum();
+    let head = found.split("at least ").nth(1).unwrap();
+    assert_eq!(count(head.split(' ').next().unwrap()), sum);
 }

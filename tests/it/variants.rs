@@ -95,8 +95,8 @@ fn an_exported_variant_has_the_figures_of_the_list() {
 #[test]
 fn variants_in_every_format_and_drawn() {
     for to in ["toml", "json", "urdf", "sdf", "dot", "graphml"] {
-        let v = out(&["export", "gripper-10", "--variant", "2", "--to", to]);
-        assert_ne!(v, out(&["export", "gripper-10", "--to", to]), "{to}");
+        let v = out(&["export", "gripper-10", "--variant", "2", "--to", to, "-q"]);
+        assert_ne!(v, out(&["export", "gripper-10", "--to", to, "-q"]), "{to}");
         assert!(v.contains("gripper-10-variant-2"), "{to}: {v}");
     }
     // The ranked list, not that of cost.
@@ -142,9 +142,9 @@ fn a_search_says_what_to_do_next() {
     );
     let flags = "--max-mobility 1 --hold 5";
     for part in [
-        format!("\n    ozols draw gripper-10 {flags} --variant 1 -o gripper-10-variant-1.svg\n"),
+        format!("\n    ozols draw gripper-10 {flags} --idea 1 -o gripper-10-idea-1.svg\n"),
         format!(
-            "\n    ozols export gripper-10 {flags} --variant 1 --to toml -o gripper-10-variant-1.toml\n"
+            "\n    ozols export gripper-10 {flags} --idea 1 --to toml -o gripper-10-idea-1.toml\n"
         ),
     ] {
         assert!(text.contains(&part), "no {part:?} in {text}");

@@ -73,6 +73,22 @@ class Model:
         names = [mujoco.mj_id2name(m, mujoco.mjtObj.mjOBJ_BODY, b) for b in range(m.nbody)]
         return {n: self.data.xpos[b].copy() for b, n in enumerate(names) if n}
 
+    def reach(self, q):
+        """How far each body with a name reaches from its origin: to joints, sites, shapes and the bodies on it."""
+        self.jacobian(q)
+        m, d = self.model, self.data
+        out = np.zeros(m.nbody)
+
+        def take(bodies, at, more=0.0):
+            for b, p, r in zip(bodies, at, np.broadcast_to(more, len(bodies))):
+                out[b] = max(out[b], np.linalg.norm(p - d.xpos[b]) + r)
+
+        take(m.body_parentid[1:], d.xpos[1:])
+        take(m.jnt_bodyid, d.xanchor)
+        take(m.site_bodyid, d.site_xpos)
+        take(m.geom_bodyid, d.geom_xpos, m.geom_rbound)
+        return {n: float(out[mujoco.mj_name2id(m, mujoco.mjtObj.mjOBJ_BODY, n)]) for n in self.places(q)}
+
     def marks(self, q, points):
         """Points that bodies carry, given in the world at a pose: by body, in its own frame."""
         self.jacobian(q)

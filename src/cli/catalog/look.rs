@@ -6,7 +6,6 @@ use crate::catalog::store::Store;
 use crate::model::mechanism::Mechanism;
 use crate::page::catalogue::catalogue;
 use crate::redundancy::analysis::exact_field;
-use crate::robots::formats;
 use crate::search::conditions::{Conditions, Search};
 use crate::view::structures::{Answer, StructureData, show_text};
 use anyhow::Context;
@@ -93,7 +92,7 @@ pub(in crate::cli) struct Export {
     /// Carry out the first variant of idea K.
     #[arg(long, value_name = "K")]
     variant: Option<usize>,
-    /// Format: toml, json, urdf, sdf, dot or graphml.
+    /// Format: toml, json, urdf, mjcf, sdf, dot or graphml.
     #[arg(long, value_name = "FORMAT", default_value = "toml")]
     to: String,
     /// Write to a file instead of standard output.
@@ -112,7 +111,7 @@ pub(super) fn export(a: &Export) -> anyhow::Result<Done> {
     })?;
     let text = match a.variant {
         None if a.to == "toml" => text,
-        None => formats::write(&Mechanism::from_toml(&text)?, &a.to)?,
+        None => crate::cli::export::text(&Mechanism::from_toml(&text)?, &a.to, None)?,
         Some(k) => {
             let choices = store
                 .choices(&id, k)?
@@ -122,7 +121,7 @@ pub(super) fn export(a: &Export) -> anyhow::Result<Done> {
             let search = Search::new(field, mechanism, Conditions::default())?;
             let mut made = search.realize(&choices);
             made.name = format!("{id}-idea-{k}");
-            formats::write(&made, &a.to)?
+            crate::cli::export::text(&made, &a.to, None)?
         }
     };
     output::to(a.output.as_deref(), |out| {

@@ -61,17 +61,47 @@ pub(crate) fn read(
                         .iter_mut()
                         .find(|j| Some(j.id.as_str()) == joint)
                     {
-                        Some(j) => j.drive = true,
-                        None => robot.report.drop("actuator", a.attribute("name")),
+                        Some(j) => {
+                            j.drive = true;
+                            robot
+                                .report
+                                .drop("data of an actuator", a.attribute("name"));
+                        }
+                        None => {
+                            let pulled = of_tendon(root, a);
+                            let pulled = |j: &&mut Part| pulled.contains(&j.id.as_str());
+                            robot
+                                .joints
+                                .iter_mut()
+                                .filter(pulled)
+                                .for_each(|j| j.pulled = true);
+                            robot.report.drop("actuator", a.attribute("name"));
+                        }
                     }
                 }
             }
             "deformable" => return Err(section.unsupported("deformable bodies", "remove them")),
-            other if section.children().next().is_some() => robot.report.drop(other, None),
-            _ => {}
+            other => robot.report.drop(other, None),
         }
     }
     Ok(robot)
+}
+
+/// Names of the joints that an actuator moves by a fixed tendon.
+fn of_tendon<'a>(root: Element<'a>, actuator: Element<'a>) -> Vec<&'a str> {
+    let Some(name) = actuator.attribute("tendon") else {
+        return Vec::new();
+    };
+    let mut out = Vec::new();
+    for section in root.named("tendon") {
+        for fixed in section
+            .named("fixed")
+            .filter(|f| f.attribute("name") == Some(name))
+        {
+            out.extend(fixed.named("joint").filter_map(|j| j.attribute("joint")));
+        }
+    }
+    out
 }
 
 fn bodies<'a>(
@@ -282,6 +312,17 @@ fn joint<'a>(
         part.zero = look.numbers::<1>("ref")?.map_or(0.0, |[x]| x * unit);
         if let Some([low, high]) = look.numbers::<2>("range")? {
             part.limits = (low < high).then_some((low * unit - part.zero, high * unit - part.zero));
+        }
+    }
+    for key in [
+        "damping",
+        "stiffness",
+        "springdamper",
+        "armature",
+        "frictionloss",
+    ] {
+        if look.attribute(key).is_some() {
+            robot.report.drop(key, Some(&id));
         }
     }
     robot.report.map(word);

@@ -5,7 +5,8 @@ use crate::closure::tree::spanning_tree;
 use crate::geom::vector::{Vector, sub};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
-use crate::robots::physical::{inertial, left_out};
+use crate::robots::formats::Written;
+use crate::robots::physical::{head, inertial, left_out};
 use crate::robots::problem::ExportError;
 use crate::robots::single_freedoms::{
     Names, Single, comment, escape, number, numbers, place, singles,
@@ -20,7 +21,7 @@ const LIGHT: &str = "mass=\"1e-3\" diaginertia=\"1e-6 1e-6 1e-6\"";
 ///
 /// # Errors
 /// Never, as far as is known.
-pub(crate) fn mjcf(m: &Mechanism) -> Result<String, ExportError> {
+pub(crate) fn mjcf(m: &Mechanism) -> Result<Written, ExportError> {
     let mut w = Writer {
         m,
         bodies: vec![None; m.links.len()],
@@ -67,9 +68,7 @@ pub(crate) fn mjcf(m: &Mechanism) -> Result<String, ExportError> {
     {
         told.push("links without a mass weigh a gram, for MuJoCo's sake".to_owned());
     }
-    for t in told {
-        let _ = writeln!(out, "  <!-- {} -->", comment(&t));
-    }
+    out += &head(m, "  ", &told);
     out += "  <compiler angle=\"radian\"/>\n  <worldbody>\n";
     out += &bodies;
     out += "  </worldbody>\n";
@@ -85,7 +84,8 @@ pub(crate) fn mjcf(m: &Mechanism) -> Result<String, ExportError> {
     if !motors.is_empty() {
         let _ = writeln!(out, "  <actuator>\n{motors}  </actuator>");
     }
-    Ok(out + "</mujoco>\n")
+    out += "</mujoco>\n";
+    Ok(Written { text: out, told })
 }
 
 struct Writer<'a> {

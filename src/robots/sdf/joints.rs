@@ -115,6 +115,27 @@ pub(crate) fn joint(
     ];
     let mut part = Part::new(&name, [parent, child], sides, joint_type).said_by(e);
     robot.report.map(word);
+    let known = [
+        "pose",
+        "parent",
+        "child",
+        "axis",
+        "axis2",
+        "screw_thread_pitch",
+        "thread_pitch",
+    ];
+    let axes = e
+        .children()
+        .filter(|c| ["axis", "axis2"].contains(&c.name()));
+    let within = ["xyz", "limit", "mimic", "use_parent_model_frame"];
+    let besides = axes.flat_map(|a| a.children().filter(|c| !within.contains(&c.name())));
+    let besides = e
+        .children()
+        .filter(|c| !known.contains(&c.name()))
+        .chain(besides);
+    for c in besides.collect::<Vec<_>>() {
+        robot.report.drop(c.name(), Some(&name));
+    }
     match word {
         "ball" | "fixed" | "floating" => {}
         "universal" | "revolute2" => {

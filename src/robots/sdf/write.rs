@@ -2,8 +2,9 @@
 
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
+use crate::robots::formats::Written;
 use crate::robots::mimic::{Follows, mimics, settled, stand_in};
-use crate::robots::physical::{inertial, left_out};
+use crate::robots::physical::{head, inertial, left_out};
 use crate::robots::single_freedoms::{
     Names, Place, Single, comment, escape, number, numbers, place, singles,
 };
@@ -11,8 +12,7 @@ use std::fmt::Write;
 
 /// The mechanism's free state as SDF 1.9. All links have the global axes; joints of several freedoms that SDF does not
 /// know become joints in series through links without mass.
-#[must_use]
-pub(crate) fn sdf(m: &Mechanism) -> String {
+pub(crate) fn sdf(m: &Mechanism) -> Written {
     // Mimic joints are of 1.11.
     let version = if m.couplings_in(StateId::FREE).next().is_some() {
         "1.11"
@@ -25,12 +25,15 @@ pub(crate) fn sdf(m: &Mechanism) -> String {
         "  <model name=\"{}\">",
         escape(&m.name.replace("::", ":"))
     );
-    for what in left_out(m) {
-        let _ = writeln!(out, "    <!-- {} -->", comment(&what));
-    }
     let joints: Vec<JointId> = m.joints_in(StateId::FREE).collect();
     let written: Vec<bool> = m.joint_ids().map(|j| joints.contains(&j)).collect();
     let (follows, unsaid) = mimics(m, &written);
+    let mut told = left_out(m);
+    told.extend(unsaid);
+    if m.links.iter().any(|l| l.mass.is_none()) {
+        told.push("links without a mass weigh 1 kg, as SDF has it".to_owned());
+    }
+    out += &head(m, "    ", &told);
     let mut ids = vec![String::new(); m.joints.len()];
     let mut names = Names::default();
     let world = names.fit("world");
@@ -116,14 +119,10 @@ pub(crate) fn sdf(m: &Mechanism) -> String {
             write_joint(&mut body, &id, "fixed", ends, p.point, "");
         }
     }
-    for name in unsaid {
-        let what = format!("coupled, which no mimic joint says: {name}");
-        let _ = writeln!(body, "    <!-- {} -->", comment(&what));
-    }
     // Joints may follow later ones, whose names were not settled yet.
     out.push_str(&settled(&body, |j| escape(&ids[j])));
     out.push_str("  </model>\n</sdf>\n");
-    out
+    Written { text: out, told }
 }
 
 fn follow(f: Follows) -> String {

@@ -57,7 +57,10 @@ pub(crate) fn read(
     for e in root.named("transmission") {
         for j in e.named("joint").filter_map(|j| j.attribute("name")) {
             match robot.joints.iter_mut().find(|p| p.id == j) {
-                Some(p) => p.drive = true,
+                Some(p) => {
+                    p.drive = true;
+                    robot.report.drop("data of a transmission", Some(j));
+                }
                 None => robot.report.drop("transmission", Some(j)),
             }
         }

@@ -4,8 +4,9 @@ use crate::closure::tree::spanning_tree;
 use crate::geom::vector::sub;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::robots::formats::Written;
 use crate::robots::mimic::{mimics, settled, stand_in};
-use crate::robots::physical::{inertial, left_out};
+use crate::robots::physical::{self, inertial, left_out};
 use crate::robots::problem::ExportError;
 use crate::robots::single_freedoms::{
     Names, Single, comment, escape, number, numbers, place, singles,
@@ -16,7 +17,7 @@ use std::fmt::Write;
 ///
 /// # Errors
 /// Where a joint screws: URDF has no such joint.
-pub(crate) fn urdf(m: &Mechanism) -> Result<String, ExportError> {
+pub(crate) fn urdf(m: &Mechanism) -> Result<Written, ExportError> {
     let joints: Vec<JointId> = m.joints_in(StateId::FREE).collect();
     let mut names = Names::default();
     let mut links: Vec<Option<(String, [f64; 3])>> = vec![None; m.links.len()];
@@ -26,9 +27,6 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<String, ExportError> {
     let mut ids = vec![String::new(); m.joints.len()];
     let mut single = vec![false; m.joints.len()];
     let frame = m.frame();
-    for what in left_out(m) {
-        let _ = writeln!(head, "  <!-- {} -->", comment(&what));
-    }
     let link = |l: LinkId, at: [f64; 3], head: &mut String, names: &mut Names| {
         let n = names.fit(&m.links[l].id);
         let weight = inertial(m, l, at).map_or("/>".to_owned(), |i| {
@@ -131,9 +129,10 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<String, ExportError> {
         }
     }
     let (follows, unsaid) = mimics(m, &single);
-    for name in unsaid {
-        let what = format!("coupled, which no mimic joint says: {name}");
-        let _ = writeln!(body, "  <!-- {} -->", comment(&what));
+    let mut told = left_out(m);
+    told.extend(unsaid);
+    if body.contains(LIMIT) {
+        told.push("what slides has limits of 1 m that are made up: URDF wants some".to_owned());
     }
     // Only now is it known which joints are of the tree, and what they are called.
     let body = settled(&body, |j| {
@@ -143,11 +142,14 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<String, ExportError> {
             format!("    <mimic joint=\"{leader}\" multiplier=\"{ratio}\" offset=\"0\"/>\n")
         })
     });
-    let name = escape(&m.name);
-    Ok(format!(
-        "<?xml version=\"1.0\"?>\n<robot name=\"{name}\">\n{head}{body}</robot>\n"
-    ))
+    let (name, above) = (escape(&m.name), physical::head(m, "  ", &told));
+    let text =
+        format!("<?xml version=\"1.0\"?>\n<robot name=\"{name}\">\n{above}{head}{body}</robot>\n");
+    Ok(Written { text, told })
 }
+
+/// URDF wants limits of what slides; the mechanism has none.
+const LIMIT: &str = "    <limit lower=\"-1\" upper=\"1\" effort=\"0\" velocity=\"0\"/>\n";
 
 type Kind = (&'static str, Option<[f64; 3]>);
 
@@ -191,9 +193,8 @@ fn tree_joint(
     let axis = axis.map_or(String::new(), |d| {
         format!("    <axis xyz=\"{}\"/>\n", numbers(d))
     });
-    // URDF wants limits of what slides; the mechanism has none.
     let limit = match kind {
-        "prismatic" => "    <limit lower=\"-1\" upper=\"1\" effort=\"0\" velocity=\"0\"/>\n",
+        "prismatic" => LIMIT,
         _ => "",
     };
     format!(

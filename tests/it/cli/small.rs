@@ -128,7 +128,7 @@ fn a_dash_is_standard_output() {
     for args in [
         &["search", "four-bar", "--format", "csv"][..],
         &["analyze", "four-bar"],
-        &["export", "four-bar", "--to", "urdf"],
+        &["export", "four-bar", "--to", "urdf", "-q"],
     ] {
         let mut command = ozols(&[args, &["-o", "-"]].concat());
         let o = command.current_dir(&folder).output().unwrap();
