@@ -2,6 +2,7 @@
 
 mod axes;
 mod body;
+mod carried;
 mod gears;
 pub(super) mod moving;
 mod naming;

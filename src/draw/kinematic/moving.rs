@@ -1,6 +1,7 @@
 //! A kinematic scheme over the way of its drive: one picture a pose, shown one after the other.
 
 use super::body::Body;
+use super::carried::Carried;
 use super::symbol::Symbol;
 use super::{Kinematic, STRIP};
 use crate::draw::projection::{
@@ -74,25 +75,6 @@ struct Moving<'a> {
     closed: bool,
     /// The way of each output link's point.
     traces: Vec<Vec<Point>>,
-}
-
-/// Where a link has carried what is fixed to it.
-struct Carried<'p> {
-    pose: &'p Pose,
-    links: &'p [Motion],
-}
-
-impl Carried<'_> {
-    fn point(&self, link: LinkId, p: Vector) -> Vector {
-        let (middle, length) = (self.pose.middle, self.pose.length);
-        let there = self.links[link].point(times(sub3(p, middle), 1.0 / length));
-        add3(middle, times(there, length))
-    }
-
-    fn place(&self, link: LinkId, frame: LinkId, place: &Place) -> Place {
-        let turn = |v| self.links[frame].direction(v);
-        place.carried(self.point(link, place.point), turn)
-    }
 }
 
 impl<'a> Moving<'a> {
@@ -359,8 +341,8 @@ impl Kinematic<'_> {
 
     /// Rails are as long as what slides along them needs.
     fn lengthen_rails(&mut self, slides: &[Option<[f64; 2]>]) {
-        for i in 0..self.spots.len() {
-            let (Some(range), Some(axis)) = (slides[i], self.slide_axis(i)) else {
+        for (i, &range) in slides.iter().enumerate() {
+            let (Some(range), Some(axis)) = (range, self.slide_axis(i)) else {
                 continue;
             };
             if !self.is_frame(self.carriers(i).1) {
@@ -430,8 +412,8 @@ impl Kinematic<'_> {
             bodies.push((l, Body::new(&points).bowed(self.bows[l])));
         }
         let mut guides = Vec::new();
-        for i in 0..self.spots.len() {
-            let (Some(range), Some(axis)) = (slides[i], self.slide_axis(i)) else {
+        for (i, &range) in slides.iter().enumerate() {
+            let (Some(range), Some(axis)) = (range, self.slide_axis(i)) else {
                 continue;
             };
             let (_, link) = self.carriers(i);
