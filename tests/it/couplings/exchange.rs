@@ -147,14 +147,17 @@ fn equalities_of_mujoco() {
 }
 
 #[test]
-fn drawn_as_a_dashed_line() {
-    for kind in ["scheme", "kinematic"] {
+fn drawn_as_a_dashed_line_or_as_the_gears_that_they_are() {
+    for (kind, legend) in [
+        ("scheme", "coupled joints"),
+        ("kinematic", "pitch circle of a gear"),
+    ] {
         let o = ozols(&["draw", "geared-gripper", "--kind", kind])
             .output()
             .unwrap();
         let svg = String::from_utf8(o.stdout).unwrap();
         assert!(
-            svg.contains("coupled joints") && svg.contains("Coupled: 0-1 ~ 0-4, ratio -1."),
+            svg.contains(legend) && svg.contains("Coupled: 0-1 ~ 0-4, ratio -1."),
             "{kind}"
         );
     }
