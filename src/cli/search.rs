@@ -89,11 +89,14 @@ impl Search {
     }
 
     /// Whether people are given the first variant of each idea: the first rows of all variants are often one idea many times.
-    /// Not where a search was cut short: of ideas none is then proven the cheapest, of variants some may be.
+    /// Not where a search was cut short: of ideas none is then proven the cheapest, of variants some may be. Nor where further poses
+    /// are looked at: the first variant of an idea may owe its place to this one, and the next not.
     fn tells_ideas(&self, outcome: &Outcome) -> bool {
         let short = matches!(outcome.request.list, List::Top(1..=SHORT));
         let text = matches!(self.format, SearchFormat::Text);
-        text && short && !self.no_distinct && outcome.ranking.is_none() && outcome.is_exact()
+        let one_pose = outcome.request.poses == 0 && !outcome.request.generic_only;
+        let plain = outcome.ranking.is_none() && one_pose && outcome.is_exact();
+        text && short && plain && !self.no_distinct
     }
 }
 

@@ -46,7 +46,7 @@ pub(crate) fn catalog_build(
     let index = index - 1;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     let pool = pool.build().map_err(failed)?;
-    let built = patiently(
+    patiently(
         py,
         |stop, tell| {
             pool.install(|| {
@@ -80,8 +80,7 @@ pub(crate) fn catalog_build(
             Some(progress) => progress.call1((done, all)).map(drop),
             None => Ok(()),
         },
-    )?;
-    built
+    )?
 }
 
 /// As `ozols catalog merge`; how many structures were added.

@@ -121,7 +121,7 @@ pub fn write(m: &Mechanism, word: &str) -> Result<String, ExportError> {
 /// The same, with what is lost.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn export(m: &Mechanism, word: &str) -> Result<Written, ExportError> {
     let format = written().find(|f| f.word == word);
     match format.and_then(|f| f.write) {
