@@ -145,7 +145,9 @@ names = ["rz", "tz", "rx", "ry", "tx", "ty"]
 import itertools
 options = [{"freedoms": ["rz", *c], "name": "o" + "".join(c)} for k in (1, 2, 3) for c in itertools.combinations(names[1:], k)]
 d = m.to_dict()
-for j in d["joint"]:
+for i, j in enumerate(d["joint"]):
+    # Axes in all directions, so that few nodes are alike.
+    j["axis"], j["point"] = [i % 3 - 1, i * i % 7 - 3, 1 + i % 5], [i * i % 11, 3 * i % 13, i * i * i % 17]
     if not j.get("drive") and "state" not in j:
         j["options"] = options
 d["search"] = {"options": options}
