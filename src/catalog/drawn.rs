@@ -45,7 +45,7 @@ pub struct Drawn {
 }
 
 /// The figure with the weakest word that is true of it.
-fn known(finite: &Finite) -> String {
+pub(super) fn known(finite: &Finite) -> String {
     let word = match finite.how {
         _ if finite.numeric => "numeric",
         _ if finite.is_proven() => "proven",

@@ -1,8 +1,9 @@
 //! A row as entries of the tables.
 
-use crate::catalog::drawn::Drawn;
+use crate::catalog::drawn::{Drawn, known};
 use crate::catalog::row::{IdeaRow, Laid, Row};
 use crate::format::number::significant;
+use crate::geom::vector::sides;
 use crate::model::ranking::Term;
 use crate::motion::follow::Why;
 use crate::synthesis::structure::Structure;
@@ -95,7 +96,7 @@ fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<(
         end(f.ends[1]),
         number(laid.as_built.0),
         number(laid.as_built.1),
-        format!("{}, proven", laid.finite.figure()),
+        known(&laid.finite),
         count(&laid.determinate(None)),
         count(&laid.determinate(Some(1))),
         certainty(laid.exact),
@@ -183,10 +184,7 @@ impl Laid {
     fn size(&self) -> f64 {
         let points = self.layout.at.iter().chain(&self.layout.tips);
         let points: Vec<[f64; 2]> = points.map(|p| p.map(f64::from)).collect();
-        let side = |k: usize| {
-            let all = points.iter().map(|p| p[k]);
-            all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
-        };
-        side(0) * side(1)
+        let [width, height] = sides(&points);
+        width * height
     }
 }

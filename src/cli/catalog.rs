@@ -1,6 +1,7 @@
 //! `ozols catalog`.
 
 mod build;
+mod built;
 mod chains;
 mod drawn;
 mod format;

@@ -3,6 +3,7 @@
 use super::args::{Args, File};
 use super::moving::Moving;
 use super::request::Which;
+use super::variant::Chosen;
 use super::{Done, load, output, variant};
 use crate::draw::{self, Drawing, Player, Sight, Size, Subject};
 use crate::model::mechanism::StateId;
@@ -30,9 +31,8 @@ pub(super) struct Draw {
     /// A state named in the file.
     #[arg(long, default_value = "free")]
     state: String,
-    /// Draw variant K of the list that `ozols search FILE` gives, with the same of the options below, its changes marked.
-    #[arg(long, value_name = "K", group = "chosen")]
-    variant: Option<usize>,
+    #[command(flatten)]
+    chosen: Chosen,
     /// The side a kinematic scheme is seen from: x, y, z, iso, or the direction towards the reader such as "1,-2,0.5"; the one
     /// with least overlap where it is left out.
     #[arg(long, value_name = "SIDE", value_parser = side, allow_hyphen_values = true)]
@@ -56,9 +56,6 @@ pub(super) struct Draw {
     /// The joint that moves, where it is not the file's drive: 0-1, or 0-1:tz for one of several freedoms.
     #[arg(long, value_name = "JOINT", requires = "motion")]
     drive: Option<String>,
-    /// The first variant of idea K, as short texts of `ozols search FILE` number them: --distinct --variant K.
-    #[arg(long, value_name = "K", group = "chosen")]
-    idea: Option<usize>,
     /// PNG instead of SVG (where built with the feature `png`); a file named .png is one anyway.
     #[arg(long)]
     png: bool,
@@ -127,10 +124,10 @@ pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     };
     let mut marks = None;
     let searched = state != StateId::FREE;
-    let mut request = a.which.request(searched.then_some(a.state.as_str()))?;
+    let request = a.which.request(searched.then_some(a.state.as_str()))?;
+    let request = a.chosen.of(request);
     let mut tolerance = None;
-    request.distinct |= a.idea.is_some();
-    if let Some(k) = a.variant.or(a.idea) {
+    if let Some(k) = a.chosen.place() {
         let (realized, changes) = variant::kth(mechanism, request, k, |v| {
             let search = &v.outcome().search;
             draw::marks::of_variant(search, v.assignment(), &format!("variant {k}"))

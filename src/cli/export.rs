@@ -3,6 +3,7 @@
 use super::args::{Args, File};
 use super::progress::note;
 use super::request::Which;
+use super::variant::Chosen;
 use super::{Done, load, output, variant};
 use crate::model::mechanism::Mechanism;
 use crate::robots::formats::{self, Format, Written};
@@ -18,12 +19,8 @@ pub(super) struct Export {
     /// The format.
     #[arg(long, value_parser = written())]
     to: String,
-    /// Write variant K of the list that `ozols search FILE` gives, with the same of the options below.
-    #[arg(long, value_name = "K", group = "chosen")]
-    variant: Option<usize>,
-    /// The first variant of idea K, as short texts of `ozols search FILE` number them: --distinct --variant K.
-    #[arg(long, value_name = "K", group = "chosen")]
-    idea: Option<usize>,
+    #[command(flatten)]
+    chosen: Chosen,
     /// The state that the search takes in besides the free one.
     #[arg(long, value_name = "STATE", requires = "chosen")]
     state: Option<String>,
@@ -41,9 +38,8 @@ fn written() -> PossibleValuesParser {
 
 pub(super) fn run(_: &Args, a: &Export) -> anyhow::Result<Done> {
     let (mut m, left_behind) = load::with_what_is_left_behind(&a.file.file)?;
-    let mut request = a.which.request(a.state.as_deref())?;
-    request.distinct |= a.idea.is_some();
-    if let Some(k) = a.variant.or(a.idea) {
+    let request = a.chosen.of(a.which.request(a.state.as_deref())?);
+    if let Some(k) = a.chosen.place() {
         m = variant::kth(m, request, k, |v| v.mechanism())?;
     } else if request.snap.is_some() {
         m = request.snapped(&m, &mut note)?;

@@ -3,6 +3,7 @@
 use super::import::{Reading, description};
 use super::progress::note;
 use super::request::Which;
+use super::variant::Chosen;
 use super::{Done, lint, output, variant};
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::format::phrase::plural;
@@ -26,12 +27,8 @@ pub(super) struct Fix {
     /// A joint, loop or coupling that may be changed (repeatable); by default all but drives.
     #[arg(long, value_name = "NAME", conflicts_with = "chosen")]
     at: Vec<String>,
-    /// Make variant K of the list that `ozols search FILE` gives, with the same of the options below.
-    #[arg(long, value_name = "K", group = "chosen")]
-    variant: Option<usize>,
-    /// The first variant of idea K, as short texts of `ozols search FILE` number them: --distinct --variant K.
-    #[arg(long, value_name = "K", group = "chosen")]
-    idea: Option<usize>,
+    #[command(flatten)]
+    chosen: Chosen,
     #[command(flatten)]
     which: Which,
     /// Write to a file instead of standard output. Beside the description, so that its meshes and includes are found.
@@ -51,7 +48,7 @@ pub(super) fn run(a: &Fix) -> anyhow::Result<Done> {
     let imported = description(&a.file, &options)?;
     let m = &imported.mechanism;
     let bytes = api::bytes(&a.file, MAX_DESCRIPTION_BYTES)?;
-    let (before, plan) = match a.variant.or(a.idea) {
+    let (before, plan) = match a.chosen.place() {
         Some(k) => of_search(&imported, a, k)?,
         None => cheapest(&imported, &a.at)?,
     };
@@ -173,8 +170,7 @@ fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis
 /// are made where a mobility is asked for.
 fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAnalysis, Plan)> {
     let m = &imported.mechanism;
-    let mut request = a.which.request(None)?;
-    request.distinct |= a.idea.is_some();
+    let request = a.chosen.of(a.which.request(None)?);
     let before = api::analyze(m)?.remove(0);
     if before.redundant == 0 && before.at_most().is_none() && request.max_mobility.is_none() {
         note(format!(

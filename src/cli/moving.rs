@@ -7,7 +7,7 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::follow::slides;
 use crate::motion::pose::Pose;
 use crate::motion::way::{Way, way};
-use crate::rank::asked_stroke::{drive_or_any, name_of};
+use crate::rank::asked_stroke::{drive_or_any, lengths_where_it_slides, name_of};
 use anyhow::{bail, ensure};
 
 /// Pictures of a motion where nobody says how many: at 30 a second, 2.4 seconds.
@@ -36,11 +36,10 @@ impl Moving {
         let slide = slides(&pose, drive);
         let unit = if slide { pose.length } else { 1.0 };
         let asked = match range {
-            Some(text) if slide && (text.contains("deg") || text.contains("rad")) => bail!(
-                "--stroke {text:?} is in angles, but the drive slides; give lengths in the file's unit, {}",
-                m.length_unit.symbol
-            ),
-            Some(text) => Some(stroke(text)?),
+            Some(text) => {
+                lengths_where_it_slides(m, slide, text)?;
+                Some(stroke(text)?)
+            }
             // the file's own is that of its first drive
             None => m.loads.stroke.filter(|_| named.is_none()),
         };

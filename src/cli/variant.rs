@@ -6,6 +6,34 @@ use crate::score::request::{Check, List, Request};
 use crate::score::run::{Event, run};
 use crate::score::variant::Variant;
 use anyhow::{Context, ensure};
+use clap::Args as ClapArgs;
+
+/// Which of a search's list is meant.
+#[derive(Debug, ClapArgs)]
+#[group(id = "chosen", multiple = false)]
+pub(super) struct Chosen {
+    /// Variant K of the list that `ozols search FILE` gives, with the same of the options below.
+    #[arg(long, value_name = "K")]
+    variant: Option<usize>,
+    /// The first variant of idea K, as short texts of `ozols search FILE` number them: --distinct --variant K.
+    #[arg(long, value_name = "K")]
+    idea: Option<usize>,
+}
+
+impl Chosen {
+    /// Its place in the list, where one is meant.
+    pub(super) fn place(&self) -> Option<usize> {
+        self.variant.or(self.idea)
+    }
+
+    /// The request whose list it is of.
+    pub(super) fn of(&self, request: Request) -> Request {
+        Request {
+            distinct: request.distinct || self.idea.is_some(),
+            ..request
+        }
+    }
+}
 
 /// What `with` makes of variant `k` of the list that `ozols search` gives for the same request: the cheapest first, or in
 /// the order of the ranking that the file or the request asks for.

@@ -83,6 +83,15 @@ pub fn norm(v: [f64; 2]) -> f64 {
     v[0].hypot(v[1])
 }
 
+/// The sides of the box round points of the plane; infinite below zero where there are none.
+#[must_use]
+pub fn sides(points: &[[f64; 2]]) -> [f64; 2] {
+    [0, 1].map(|k| {
+        let all = points.iter().map(|p| p[k]);
+        all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
+    })
+}
+
 /// The unit vector; not finite where there is none.
 #[must_use]
 pub fn unit<const N: usize>(a: [f64; N]) -> [f64; N] {

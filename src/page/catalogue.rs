@@ -2,7 +2,7 @@
 
 use super::{POLICY, STYLE, policy};
 use crate::catalog::store::{Store, StoreError};
-use crate::geom::vector::real;
+use crate::geom::vector::{real, sides};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, Mechanism, Role, StateId};
 use maud::{DOCTYPE, PreEscaped, html};
@@ -102,12 +102,8 @@ fn drawing(text: &str) -> Option<Value> {
 /// How many times larger a drawing is to be made: layouts are about as large as symbols are drawn for, whatever units a
 /// drawn mechanism is in.
 fn scale(points: &[[f64; 2]]) -> f64 {
-    let extent = |k: usize| {
-        let all = points.iter().map(|p| p[k]);
-        all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
-    };
-    let size = extent(0).max(extent(1));
-    match size {
+    let [width, height] = sides(points);
+    match width.max(height) {
         s if s > 0.0 && !(60.0..=400.0).contains(&s) => 160.0 / s,
         _ => 1.0,
     }

@@ -141,11 +141,7 @@ impl<'a> Asked<'a> {
         let pose = Pose::of_file(m, state)?;
         let (drive, held) = drive(m, &pose, state, named)?;
         let slide = slides(&pose, drive);
-        if slide && (text.contains("deg") || text.contains("rad")) {
-            let unit = m.length_unit.symbol;
-            let range = text.to_owned();
-            return Err(AskedError::Angles { range, unit });
-        }
+        lengths_where_it_slides(m, slide, text)?;
         let far = 1e3 * if slide { pose.length } else { 1.0 };
         if range.steps > MOST || range.from.abs() > far || range.to.abs() > far {
             return Err(AskedError::Far(far));
@@ -288,6 +284,19 @@ pub fn drive_or_any(
     let first = names(m, pose).into_iter().find(|(c, _)| moves(pose, *c));
     let first = first.ok_or_else(|| AskedError::Still(m.name.clone()))?;
     Ok((first.0, Vec::new()))
+}
+
+/// Whether a range, as it was written, is in lengths where the drive slides.
+///
+/// # Errors
+/// Where it is in angles.
+pub fn lengths_where_it_slides(m: &Mechanism, slides: bool, text: &str) -> Result<(), AskedError> {
+    let wrong = slides && (text.contains("deg") || text.contains("rad"));
+    let angles = || AskedError::Angles {
+        range: text.to_owned(),
+        unit: m.length_unit.symbol,
+    };
+    if wrong { Err(angles()) } else { Ok(()) }
 }
 
 /// The name of a column that can be a drive.

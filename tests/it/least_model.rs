@@ -1,6 +1,7 @@
 //! Diagrams without the rows that no choice changes, against those with all rows, brute force and the slow twin.
 
 use crate::twin::{look, variants};
+use crate::varied::links_of;
 use num_bigint::BigUint;
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
@@ -129,14 +130,7 @@ fn in_a_plane() -> impl Strategy<Value = String> {
                 n[0] * e[1] - n[1] * e[0],
             ];
             let mut out = String::from("name = \"in a plane\"\n");
-            for l in 0..links {
-                let role = match l {
-                    0 => "role = \"frame\"",
-                    _ if l == links - 1 => "role = \"output\"",
-                    _ => "",
-                };
-                out += &format!("[[link]]\nid = \"{l}\"\n{role}\n");
-            }
+            out += &links_of(links);
             let tree = (1..links).map(|l| (tree[l - 1].0.index(l), l, tree[l - 1].1));
             let more = more.iter().map(|(a, b, j)| (a.index(links), b.index(links), *j));
             for (i, (a, b, (kind, x, y))) in tree.chain(more).filter(|(a, b, _)| a != b).enumerate() {

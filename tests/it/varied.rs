@@ -69,6 +69,17 @@ fn entry(id: &str, links: [&str; 2], (kind, point, axis, pitch): Draw, turned: b
     )
 }
 
+/// So many links: the frame first, the output last.
+pub(crate) fn links_of(links: usize) -> String {
+    let role = |l| match l {
+        0 => "role = \"frame\"",
+        _ if l == links - 1 => "role = \"output\"",
+        _ => "",
+    };
+    let entry = |l| format!("[[link]]\nid = \"{l}\"\n{}\n", role(l));
+    (0..links).map(entry).collect()
+}
+
 /// A random mechanism: links, joints, whether planar and in which plane, and a held link.
 fn random() -> impl Strategy<Value = String> {
     let index = any::<prop::sample::Index>;
@@ -87,14 +98,7 @@ fn random() -> impl Strategy<Value = String> {
             if let Some(hold) = hold {
                 out += &format!("[search]\nhold = [\"{}\"]\n", 1 + hold.index(links - 1));
             }
-            for l in 0..links {
-                let role = match l {
-                    0 => "role = \"frame\"",
-                    _ if l == links - 1 => "role = \"output\"",
-                    _ => "",
-                };
-                out += &format!("[[link]]\nid = \"{l}\"\n{role}\n");
-            }
+            out += &links_of(links);
             let tree = (1..links).map(|l| (tree[l - 1].0.index(l), l, tree[l - 1].1));
             let more = more
                 .iter()

@@ -100,6 +100,18 @@ def by_exudyn(file):
     return figures(*found) + coupled(file)
 
 
+def row(name, file, last):
+    """What each says of a file."""
+    return [
+        name,
+        timed(lambda: ozols(file)),
+        timed(lambda: by_mujoco(file)),
+        by_pinocchio(file),
+        timed(lambda: by_exudyn(file)),
+        last(),
+    ]
+
+
 def rows(models):
     with tempfile.TemporaryDirectory() as t:
         for kind in generate.KINDS:
@@ -109,24 +121,9 @@ def rows(models):
             file.write_text(tree.text())
             name = kind.__name__.replace("_", "-")
             bars = BARS.get(name)
-            yield [
-                name,
-                timed(lambda: ozols(file)),
-                timed(lambda: by_mujoco(file)),
-                by_pinocchio(file),
-                timed(lambda: by_exudyn(file)),
-                timed(lambda: bars and f"W {other_figures.pylinkage(bars)}"),
-            ]
+            yield row(name, file, lambda: timed(lambda: bars and f"W {other_figures.pylinkage(bars)}"))
     for name, file in REAL.items():
-        file = models / file
-        yield [
-            name,
-            timed(lambda: ozols(file)),
-            timed(lambda: by_mujoco(file)),
-            by_pinocchio(file),
-            timed(lambda: by_exudyn(file)),
-            "—",
-        ]
+        yield row(name, models / file, lambda: "—")
     for name, folder in URDF.items():
         file, side = (models / folder / f"robot.{e}" for e in ("urdf", "yaml"))
 

@@ -2,11 +2,11 @@
 
 use super::super::args::Args;
 use super::super::progress::Bar;
-use super::super::{Done, interrupt, output};
+use super::super::{Done, interrupt};
+use super::built::built;
 use crate::catalog::build::{Shard, build, work};
 use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;
-use crate::view::structures::built_text;
 use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueHint};
 use std::ops::ControlFlow;
@@ -126,26 +126,10 @@ pub(super) fn run(args: &Args, a: &Build) -> anyhow::Result<Done> {
     if let Some(Some(e)) = ended {
         return Err(e.into());
     }
-    output::to(None, |out| {
-        write!(
-            out,
-            "{}",
-            built_text(
-                &store,
-                &a.output,
-                (count, "structures"),
-                output::width(None)
-            )?
-        )?;
-        if interrupt::pending() {
-            let path = a.output.display();
-            writeln!(
-                out,
-                "\nInterrupted: the same command carries on with {path}."
-            )?;
-        }
-        Ok(Done::Found)
-    })
+    let path = a.output.display();
+    let interrupted =
+        interrupt::pending().then(|| format!("the same command carries on with {path}."));
+    built(&store, &a.output, (count, "structures"), interrupted)
 }
 
 #[derive(Debug, ClapArgs)]
@@ -167,17 +151,5 @@ pub(super) fn merge(a: &Merge) -> anyhow::Result<Done> {
     );
     let added = Store::merge(&a.output, &a.parts)?;
     let store = Store::open(&a.output)?;
-    output::to(None, |out| {
-        write!(
-            out,
-            "{}",
-            built_text(
-                &store,
-                &a.output,
-                (added, "structures"),
-                output::width(None)
-            )?
-        )?;
-        Ok(Done::Found)
-    })
+    built(&store, &a.output, (added, "structures"), None)
 }

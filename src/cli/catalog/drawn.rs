@@ -2,12 +2,12 @@
 
 use super::super::args::Args;
 use super::super::progress::Bar;
-use super::super::{Done, interrupt, load, output};
+use super::super::{Done, interrupt, load};
+use super::built::built;
 use crate::builtin;
 use crate::catalog::drawn::drawn;
 use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;
-use crate::view::structures::built_text;
 use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueHint};
 use std::path::PathBuf;
@@ -58,21 +58,8 @@ pub(super) fn search(args: &Args, a: &Search) -> anyhow::Result<Done> {
     for row in &rows {
         added += usize::from(store.add_drawn(row)?);
     }
-    output::to(None, |out| {
-        write!(
-            out,
-            "{}",
-            built_text(
-                &store,
-                &a.output,
-                (added, "mechanisms"),
-                output::width(None)
-            )?
-        )?;
-        if interrupt::pending() {
-            let (done, all) = (rows.len(), files.len());
-            writeln!(out, "\nInterrupted: {done} of {all} mechanisms are there.")?;
-        }
-        Ok(Done::Found)
-    })
+    let (done, all) = (rows.len(), files.len());
+    let interrupted =
+        interrupt::pending().then(|| format!("{done} of {all} mechanisms are there."));
+    built(&store, &a.output, (added, "mechanisms"), interrupted)
 }
