@@ -21,6 +21,7 @@ import pinocchio_figures
 STEPS = 60
 # The same place, as a fraction of a model's size.
 SAME = 1e-6
+HOWS = ["connect", "weld", "yaml", "loop_joint", "sdf"]
 
 failures = []
 notes = []
@@ -242,30 +243,34 @@ def one(task):
     return list(rows), list(failures), list(notes), time.perf_counter() - began
 
 
-def generated(name, text, exact):
-    """A generated model, and where its digits are full the same by way of a URDF with loop joints and of an SDF."""
+def generated(name, kind, number, how, digits):
+    """A generated model in one joining; the figures to be had are those of MuJoCo of the model in full digits."""
+    whole, model = generate.tree(kind, number), generate.tree(kind, number, digits)
     with tempfile.TemporaryDirectory() as t:
-        file = pathlib.Path(t) / f"{name}.xml"
-        file.write_text(text)
-        truth = None
-        if exact is not None:
-            other = pathlib.Path(t) / f"{name}-exact.xml"
-            other.write_text(exact)
-            peer = mujoco_figures.Model(other)
-            truth = peer.figures(peer.close(peer.model.qpos0)[0])
-        mjcf(name, file, truth, 10.0 ** -float(name.split("-")[2]))
-        if not name.endswith(f"-connect-{generate.FULL}"):
+        folder = pathlib.Path(t)
+
+        def put(ending, text):
+            file = folder / f"{name}{ending}"
+            file.write_text(text)
+            return file
+
+        def figures(way):
+            peer = mujoco_figures.Model(put("-exact.xml", whole.mjcf(way)))
+            return peer.figures(peer.close(peer.model.qpos0)[0])
+
+        if how in ["connect", "site", "weld"]:
+            rounded = digits < generate.FULL
+            mjcf(name, put(".xml", model.mjcf(how)), figures(how) if rounded else None, 10.0**-digits)
             return
-        peer = mujoco_figures.Model(file)
-        figures = peer.figures(peer.close(peer.model.qpos0)[0])
-        for to in ["urdf", "sdf"]:
-            other = file.with_suffix(f".{to}")
-            code, _, err = ozols("export", file, "--to", to, "-o", other)
-            expect(f"{name}.{to}", "export", code, 0)
-            unsaid = err.count("which no mimic joint says")
-            if unsaid:
-                notes.append(f"{name}.{to}: {unsaid} of its couplings cannot be said: a joint of {to} follows one other")
-            through(f"{name}.{to}", other, (), (figures["w"], figures["redundant"] - unsaid))
+        if how == "yaml":
+            text, side = model.urdf(beside=True)
+            urdf(name, put(".urdf", text), put(".yaml", side))
+            return
+        truth = figures("weld")
+        if whole.unsaid:
+            notes.append(f"{name}: {whole.unsaid} of its couplings cannot be said: a mimic joint follows one other")
+        text = model.sdf() if how == "sdf" else model.urdf()[0]
+        through(name, put(".sdf" if how == "sdf" else ".urdf", text), (), (truth["w"], truth["redundant"] - whole.unsaid))
 
 
 def unread(name, file):
@@ -296,8 +301,12 @@ def tasks(models):
         # One of them has no joint that moves.
         if "mesh" not in file.name:
             yield "through", file.name.split(".")[0], file
-    for name, text, exact in generate.models():
-        yield "generated", name, text, exact
+    # Each kind in a pose of its own for each way to join it, and rounded in each of the ways by turns.
+    for k, kind in enumerate(generate.KINDS):
+        digits = 4 + k % 5
+        rounded = ["connect", "weld", "site"][k % 3]
+        for number, (how, d) in enumerate([(h, generate.FULL) for h in HOWS] + [(rounded, digits)]):
+            yield "generated", f"{kind}-{how}" + f"-{d}" * (d < generate.FULL), kind, number, how, d
 
 
 def main():
