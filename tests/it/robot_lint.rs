@@ -126,7 +126,7 @@ fn lint_does_not_decide_what_digits_leave_open() {
     );
 }
 
-// Four legs with a loop each, nothing redundant: lint says so, and a search of billions of variants has its answer, the
+// Four legs with a loop each, nothing redundant: lint says so, and a search of millions of variants has its answer, the
 // mechanism as it is, within a few thousand nodes.
 #[test]
 fn nothing_redundant_is_said_at_once() {
@@ -137,20 +137,12 @@ fn nothing_redundant_is_said_at_once() {
         out.contains("nothing is redundant (σ = 0, W = 12)"),
         "{out}"
     );
-    let (code, out, told) = run_on(
-        "search",
-        "m.xml",
-        &text,
-        &["--nodes", "20000", "--top", "3"],
-    );
+    let more = ["--nodes", "20000", "--top", "3", "--allow-output-change"];
+    let (code, out, told) = run_on("search", "m.xml", &text, &more);
     assert_eq!(code, Some(0), "{told}");
     assert!(out.contains("none: the mechanism as it is"), "{out}");
-    let counts: Vec<&str> = out
-        .split(" variants")
-        .next()
-        .unwrap()
-        .rsplit(' ')
-        .take(3)
-        .collect();
-    assert_eq!(counts[0], counts[2], "{out}");
+    assert!(
+        out.contains("16,777,216 of 16,777,216 variants have σ = 0"),
+        "{out}"
+    );
 }

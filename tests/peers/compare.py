@@ -1,7 +1,7 @@
 """Lints and fixes models with ozols, and asks MuJoCo and Pinocchio what became of them.
 
 usage: compare.py OZOLS MODELS [PATTERN]
-MODELS is a folder of real models, one folder each; PATTERN is of the names of those wanted. Ends with 1 where a figure differs.
+MODELS is a folder of published models, one folder each, which may not be there; PATTERN is of the names of those wanted. Ends with 1 where a figure differs.
 """
 
 import json
@@ -21,6 +21,7 @@ import pinocchio_figures
 STEPS = 60
 # The same place, as a fraction of a model's size.
 SAME = 1e-6
+OWN = pathlib.Path(__file__).parent.parent / "data/robots"
 HOWS = ["connect", "weld", "yaml", "loop_joint", "sdf"]
 
 failures = []
@@ -282,7 +283,7 @@ def unread(name, file):
         mjcf(name, other)
 
 
-def tasks(models):
+def published(models):
     """Kind of comparison, name and the rest, the longest first."""
     beest = models / "drake_strandbeest"
     more = ["--loops", beest / "strandbeest_ball_constraints.json"]
@@ -301,6 +302,20 @@ def tasks(models):
         # One of them has no joint that moves.
         if "mesh" not in file.name:
             yield "through", file.name.split(".")[0], file
+
+
+def own():
+    """The models that the other tests read."""
+    yield "mjcf", "gripper", OWN / "gripper.xml"
+    yield "urdf", "five_bar", OWN / "five_bar.urdf", OWN / "five_bar.yaml"
+    yield "through", "leg", OWN / "leg.urdf", ["--loops", OWN / "leg.yaml"]
+    yield "through", "mimic_gripper", OWN / "mimic_gripper.urdf"
+    for name in ["four_bar_loop", "four_bar_weld"]:
+        yield "through", name, OWN / f"{name}.sdf", ["--assemble"], (1, 3)
+
+
+def kinds():
+    """The generated models."""
     # Each kind in a pose of its own for each way to join it, and rounded in each of the ways by turns.
     for k, kind in enumerate(generate.KINDS):
         digits = 4 + k % 5
@@ -310,7 +325,11 @@ def tasks(models):
 
 
 def main():
-    wanted = [t for t in tasks(pathlib.Path(MODELS)) if re.search(ONLY, t[1])]
+    models = pathlib.Path(MODELS)
+    tasks = list(published(models)) if models.is_dir() else []
+    if not tasks:
+        print(f"{models} is not there: no published models")
+    wanted = [t for t in [*tasks, *own(), *kinds()] if re.search(ONLY, t[1])]
     total, wrong, told = 0, [], 0
     print(f"{'model':32} {'peer W':>6} {'red.':>5} {'our W':>6} {'red.':>5}  lint, all in s")
     with multiprocessing.Pool() as pool:
