@@ -90,11 +90,11 @@ fn texts_of_robots_fit() {
                 .output()
                 .unwrap();
             let said = String::from_utf8(o.stdout).unwrap();
-            assert!(
-                o.status.code() == Some(2) || o.stderr.is_empty(),
-                "{args:?}"
-            );
-            assert!(o.status.code() == Some(2) || !said.is_empty(), "{args:?}");
+            // Statics refuses what it has no forces for.
+            if o.status.code() != Some(2) || command[0] != "statics" {
+                assert!(matches!(o.status.code(), Some(0 | 1)), "{args:?}");
+                assert!(o.stderr.is_empty() && !said.is_empty(), "{args:?}");
+            }
             let wide = said.lines().find(|l| l.chars().count() > 80);
             assert_eq!(wide, None, "{args:?}");
         }
