@@ -1,7 +1,8 @@
 """Lints and fixes models with ozols, and asks MuJoCo and Pinocchio what became of them.
 
 usage: compare.py OZOLS MODELS [PATTERN]
-MODELS is a folder of published models, one folder each, which may not be there; PATTERN is of the names of those wanted. Ends with 1 where a figure differs.
+MODELS is a folder of published models, one folder each, which may not be there; PATTERN is of the names of those wanted. Ends
+with 1 where a figure differs.
 """
 
 import json
@@ -316,11 +317,11 @@ def own():
 
 def kinds():
     """The generated models."""
-    # Each kind in a pose of its own for each way to join it, and rounded in each of the ways by turns.
+    # Each kind in a pose of its own for each way to join it, and for each number of digits, joined in MuJoCo's ways by turns.
     for k, kind in enumerate(generate.KINDS):
-        digits = 4 + k % 5
-        rounded = ["connect", "weld", "site"][k % 3]
-        for number, (how, d) in enumerate([(h, generate.FULL) for h in HOWS] + [(rounded, digits)]):
+        ways = [(how, generate.FULL) for how in HOWS]
+        ways += [(["connect", "weld", "site"][(k + digits) % 3], digits) for digits in range(4, 9)]
+        for number, (how, d) in enumerate(ways):
             yield "generated", f"{kind}-{how}" + f"-{d}" * (d < generate.FULL), kind, number, how, d
 
 

@@ -119,7 +119,8 @@ class Tree:
         return f"<mujoco>\n<compiler angle='radian'/>\n<worldbody>\n{world}\n</worldbody>\n<equality>\n{closed}\n</equality>\n</mujoco>\n"
 
     def urdf_link(self, name):
-        return f"<link name='{name}'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>"
+        inertia = "<mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>"
+        return f"<link name='{name}'><inertial>{inertia}</inertial></link>"
 
     def urdf_joints(self, j, on, link, leave=0, mimics=()):
         """The joints in series from one link to another, without the last ones; the link that they end at."""
@@ -155,7 +156,10 @@ class Tree:
                 ends = [(a, at), (b, self.local(b, j.at))]
                 for end, (link, place) in zip("ab", ends):
                     out.append(f"<link name='end{i}{end}'/>")
-                    out.append(f"<joint name='cut{i}{end}' type='fixed'><parent link='{link}'/><child link='end{i}{end}'/><origin xyz='{place}'/></joint>")
+                    out.append(
+                        f"<joint name='cut{i}{end}' type='fixed'><parent link='{link}'/><child link='end{i}{end}'/>"
+                        f"<origin xyz='{place}'/></joint>"
+                    )
                 pairs.append([f"cut{i}a", f"cut{i}b"])
                 types.append("3d" if ball else "6d")
                 continue

@@ -144,7 +144,10 @@ def joints(*rows, couple=(), shift=0.02):
     def make(random):
         return Kind(
             [
-                Joint(f"{kind.lower()}{i}", kind, (a, b), np.array(at, float) + shift * random.uniform(-1, 1, 3), [along(x, at) for x in axes])
+                Joint(
+                    f"{kind.lower()}{i}", kind, (a, b),
+                    np.array(at, float) + shift * random.uniform(-1, 1, 3), [along(x, at) for x in axes],
+                )
                 for i, (kind, a, b, at, *axes) in enumerate(rows)
             ],
             list(couple),
@@ -200,7 +203,9 @@ KINDS = {
     # Linkages of the plane.
     "crossed-four-bar": planar("AD AB BC CD", A=(0, 0), B=(1.4, 0.9), C=(0.3, 1.2), D=(1, 0)),
     "parallelogram": planar("AD AB BC CD", shift=0, A=(0, 0), B=(0.3, 0.8), C=(1.8, 0.8), D=(1.5, 0)),
-    "three-crank-parallelogram": planar("ADE AB BCF CD EF", shift=0, A=(0, 0), B=(0.3, 0.8), C=(1.3, 0.8), D=(1, 0), E=(2, 0.5), F=(2.3, 1.3)),
+    "three-crank-parallelogram": planar(
+        "ADE AB BCF CD EF", shift=0, A=(0, 0), B=(0.3, 0.8), C=(1.3, 0.8), D=(1, 0), E=(2, 0.5), F=(2.3, 1.3)
+    ),
     "antiparallelogram": planar("PR PS SQ QR", shift=0, P=(0, 0), Q=(2, 0), R=(1.6, 1), S=(0.4, 1)),
     "five-bar": planar("AE AB BC CD DE", A=(0, 0), B=(-0.3, 0.8), C=(0.6, 1.5), D=(1.4, 0.9), E=(1, 0)),
     "watt": planar("AD AB BCE CDF EG FG", A=(0, 0), B=(0.2, 0.9), C=(1.6, 1.2), D=(1.4, 0), E=(1, 2), F=(2.4, 0.9), G=(2.2, 2.2)),
@@ -241,9 +246,13 @@ KINDS = {
     ),
     "rssr": chain(("R", (0, 0, 0), "z"), ("S", (0.5, 0.1, 0)), ("S", (1.4, 0.6, 0.9)), ("R", (1.5, 0, 1), "y")),
     "rscr": chain(("R", (0, 0, 0), "z"), ("S", (0.5, 0.1, 0)), ("C", (1.4, 0.6, 0.9), (1, 0.3, 0.2)), ("R", (1.5, 0, 1), "y")),
-    "rccc": chain(("R", (0, 0, 0), "z"), ("C", (0.9, 0, 0.1), (0.2, 0.5, 1)), ("C", (1, 1, 0.3), (1, 0.3, -0.4)), ("C", (0, 0.9, 0), (0.4, -1, 0.3))),
+    "rccc": chain(
+        ("R", (0, 0, 0), "z"), ("C", (0.9, 0, 0.1), (0.2, 0.5, 1)),
+        ("C", (1, 1, 0.3), (1, 0.3, -0.4)), ("C", (0, 0.9, 0), (0.4, -1, 0.3)),
+    ),
     "cardan-shaft": chain(
-        ("R", (0, 0, 0), "x"), ("U", (0.5, 0, 0), "y", "z"), ("P", (1, 0.2, 0.1), (1, 0.3, 0.2)), ("U", (1.5, 0.3, 0.2), "z", "y"), ("R", (2, 0.3, 0.2), "x")
+        ("R", (0, 0, 0), "x"), ("U", (0.5, 0, 0), "y", "z"), ("P", (1, 0.2, 0.1), (1, 0.3, 0.2)),
+        ("U", (1.5, 0.3, 0.2), "z", "y"), ("R", (2, 0.3, 0.2), "x"),
     ),
     # Platforms and what carries them.
     "linear-delta": legs(3, "P z 1 0 0, U tz 1 0 0.1, S - 0.3 0 -0.9", top="T"),
