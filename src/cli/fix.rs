@@ -138,7 +138,7 @@ fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis
     let (_, most) = found.range();
     ensure!(
         found.analysis.at_most().is_none(),
-        "what is redundant is not decided: coordinates are rounded too coarsely; give more digits (`ozols check` names the coordinates)"
+        "what is redundant is not decided: coordinates are rounded too coarsely, or the pose is next to a special one; look at another pose (--pose), or give more digits (`ozols check` names the coordinates)"
     );
     let some = found.cheapest.len();
     if some < most {

@@ -59,7 +59,7 @@ pub(super) fn run(a: &Lint) -> anyhow::Result<Done> {
                 }
                 let mended = all
                     .iter()
-                    .filter(|l| l.from_description && !l.cheapest.is_empty());
+                    .filter(|l| l.from_description && l.is_decided() && !l.cheapest.is_empty());
                 let gives = "the cheapest in your own file, all else as it is";
                 let flags = a.reading.flags();
                 let steps: Vec<Step> = mended.map(|l| Step::mend(&l.file, &flags, gives)).collect();

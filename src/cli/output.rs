@@ -4,7 +4,7 @@ use super::working;
 use crate::api;
 use crate::file::problem::ImportError;
 use anyhow::Context;
-use std::io::{BufWriter, IsTerminal, Write};
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -122,17 +122,26 @@ pub(super) fn json(out: &mut dyn Write, value: &impl serde::Serialize) -> anyhow
     Ok(writeln!(out, "{}", serde_json::to_string_pretty(value)?)?)
 }
 
-/// Width of the terminal that standard output is, if it is one.
+/// No text is fitted to less.
+const NARROWEST: u16 = 40;
+
+/// Width that standard output is fitted to: that of its terminal, or the one that the environment says.
 pub(super) fn width(path: Option<&Path>) -> Option<u16> {
-    (file(path).is_none() && std::io::stdout().is_terminal())
-        .then(|| console::Term::stdout().size().1.max(40))
+    match file(path) {
+        None => fitted(&console::Term::stdout()),
+        Some(_) => None,
+    }
 }
 
-/// Width of the terminal that standard error is, if it is one.
+/// The same of standard error.
 pub(super) fn error_width() -> Option<u16> {
-    std::io::stderr()
-        .is_terminal()
-        .then(|| console::Term::stderr().size().1.max(40))
+    fitted(&console::Term::stderr())
+}
+
+fn fitted(to: &console::Term) -> Option<u16> {
+    let said = std::env::var("COLUMNS").ok().and_then(|c| c.parse().ok());
+    let found = said.or_else(|| to.is_term().then(|| to.size().1));
+    found.map(|w: u16| w.max(NARROWEST))
 }
 
 /// Whether the reader of our output has gone away.

@@ -4,15 +4,16 @@ use comfy_table::{ColumnConstraint, ContentArrangement, Table, TableComponent, W
 use console::measure_text_width;
 use itertools::Itertools;
 
-/// A plain table. Where the output is a terminal of `width` columns, columns of words are wrapped, numbers and names never
-/// are; a table too wide for that is given in parts, one below the other, each with the first column.
+/// A plain table. Where the output is a terminal of `width` columns, columns of words are wrapped, numbers and names are not
+/// but where one takes more than half of the width; a table too wide for that is given in parts, one below the other, each with
+/// the first column.
 #[must_use]
 pub fn table(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> String {
     let Some(width) = width.map(usize::from) else {
         return render(header, rows, None);
     };
     let columns: Vec<Column> = (0..header.len())
-        .map(|c| Column::new(header[c], rows.iter().filter_map(|r| r.get(c))))
+        .map(|c| Column::new(header[c], rows.iter().filter_map(|r| r.get(c)), width / 2))
         .collect();
     let parts = parts(&columns, width);
     let part = |part: &Vec<usize>| {
@@ -57,20 +58,20 @@ fn taken(widths: &[usize]) -> usize {
     widths.iter().map(|w| w + PADDING + 1).sum()
 }
 
-/// How wide a column is, and how narrow it may be: its longest word.
+/// How wide a column is, and how narrow it may be: its longest word, where that is not wider than words may be.
 struct Column {
     most: usize,
     least: usize,
 }
 
 impl Column {
-    fn new<'a>(head: &'a str, cells: impl Iterator<Item = &'a String>) -> Column {
+    fn new<'a>(head: &'a str, cells: impl Iterator<Item = &'a String>, widest: usize) -> Column {
         // No column of a table is narrower than this.
         let mut out = Column { most: 1, least: 1 };
         for text in std::iter::once(head).chain(cells.map(String::as_str)) {
             out.most = out.most.max(measure_text_width(text));
             let words = text.split_whitespace().map(measure_text_width);
-            out.least = out.least.max(words.max().unwrap_or(0));
+            out.least = out.least.max(words.max().unwrap_or(0).min(widest));
         }
         out
     }
@@ -179,6 +180,28 @@ mod tests {
             widest(&narrow) <= 20 && narrow.contains("moment"),
             "{narrow}"
         );
+    }
+
+    // A contour of a robot is called by all of its links.
+    #[test]
+    fn names_wider_than_half_the_table_are_broken() {
+        let name = "foot-roll-crank-rod-toe-".repeat(6);
+        let row = |i: usize| {
+            vec![
+                name.clone(),
+                format!("joint{i}, joint{}", i + 1),
+                "12".to_owned(),
+            ]
+        };
+        let text = table(
+            &["contour", "joints", "rank"],
+            vec![row(1), row(3)],
+            Some(60),
+        );
+        assert!(widest(&text) <= 60, "{text}");
+        assert!(text.contains("joint4") && text.contains("12"), "{text}");
+        let first = text.lines().map(|l| l.get(..30).unwrap_or(l).trim());
+        assert!(first.collect::<String>().contains(&name), "{text}");
     }
 
     #[test]

@@ -114,6 +114,12 @@ impl Lint {
         self.redundant_at_most == 0
     }
 
+    /// Whether σ is one number.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        self.redundant == self.redundant_at_most
+    }
+
     /// The findings, a paragraph each.
     #[must_use]
     pub fn text(&self) -> String {
@@ -127,7 +133,11 @@ impl Lint {
         let sigma = self.sigma();
         let mut out = format!("{file}: {sigma}, W = {mobility}{}\n", self.left_out());
         if let Some(over) = &self.over_motion {
-            out += &format!("  redundant {over}\n");
+            let what = match self.is_decided() {
+                true => "redundant",
+                false => "what is redundant is so",
+            };
+            out += &format!("  {what} {over}\n");
         }
         for f in &self.findings {
             let place = match (&f.file, f.line, f.column) {
@@ -165,7 +175,7 @@ impl Lint {
     /// "2 redundant constraints (σ = 2)", "0 to 2 redundant constraints (...)".
     fn sigma(&self) -> String {
         let (least, most) = (self.redundant, self.redundant_at_most);
-        match least == most {
+        match self.is_decided() {
             true => format!(
                 "{} (σ = {most}, {})",
                 plural(most, "redundant constraint"),
@@ -315,7 +325,7 @@ pub fn sarif(all: &[Lint]) -> Value {
         };
         json!({
             "ruleId": "redundant-constraint",
-            "level": if lint.redundant == lint.redundant_at_most { "warning" } else { "note" },
+            "level": if lint.is_decided() { "warning" } else { "note" },
             "message": { "text": format!("{}{more}", f.message) },
             "locations": [{ "physicalLocation": place }],
         })

@@ -1,7 +1,8 @@
 //! The README and the guide say what the program says.
 //!
 //! Every line `$ ozols ...` in a block marked `console` is run in a fresh folder per document, in order; what it prints
-//! on standard output must be what follows it there, `...` standing for lines left out and `[..]` for part of a line.
+//! on standard output, or on standard error where it prints nothing else, must be what follows it there, `...` standing for
+//! lines left out and `[..]` for part of a line. A block marked with a name, as `xml NAME`, is a file in that folder.
 
 use assert_cmd::Command;
 use snapbox::Assert;
@@ -35,11 +36,24 @@ fn examples(text: &str) -> Vec<Example> {
     found
 }
 
+/// Names and texts of the files that a document shows.
+fn files(text: &str) -> Vec<(&str, &str)> {
+    let blocks = text.split("\n```").skip(1).step_by(2);
+    let named = blocks.filter_map(|b| {
+        let (fence, body) = b.split_once('\n')?;
+        Some((fence.split_once(' ')?.1, body))
+    });
+    named.collect()
+}
+
 /// Runs the examples of a document; how many there are, and what went otherwise than written.
 fn run(document: &str) -> (usize, Vec<String>) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let text = fs::read_to_string(root.join(document)).unwrap();
     let folder = tempfile::tempdir().unwrap();
+    for (name, body) in files(&text) {
+        fs::write(folder.path().join(name), body).unwrap();
+    }
     let found = examples(&text);
     let mut wrong = Vec::new();
     for example in &found {
@@ -52,14 +66,19 @@ fn run(document: &str) -> (usize, Vec<String>) {
             .output()
             .unwrap();
         let place = format!("{document}:{}: {}", example.line, example.command);
-        if !output.status.success() {
+        // 1 says that lint found something.
+        if !matches!(output.status.code(), Some(0 | 1)) {
             let complaints = String::from_utf8_lossy(&output.stderr);
             wrong.push(format!("{place}\n{complaints}"));
             continue;
         }
+        let said = match output.stdout.is_empty() {
+            true => output.stderr,
+            false => output.stdout,
+        };
         let compared = Assert::new().action(Action::Verify).try_eq(
             Some(&place),
-            String::from_utf8(output.stdout).unwrap().into(),
+            String::from_utf8(said).unwrap().into(),
             example.output.clone().into(),
         );
         wrong.extend(compared.err().map(|e| format!("{place}\n{e}")));

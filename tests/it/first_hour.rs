@@ -79,9 +79,10 @@ fn run_examples(command: &str) {
     assert!(!examples.is_empty(), "{command} has no examples");
     let folder = tempfile::tempdir().unwrap();
     // What users bring along themselves.
-    let robot = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/robots/epr_5bar_linkage");
-    for file in ["robot.urdf", "robot.yaml"] {
-        fs::copy(robot.join(file), folder.path().join(file)).unwrap();
+    let robots = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/robots");
+    for ending in ["urdf", "yaml"] {
+        let (from, to) = (format!("five_bar.{ending}"), format!("robot.{ending}"));
+        fs::copy(robots.join(from), folder.path().join(to)).unwrap();
     }
     for line in examples {
         run_line(&line, folder.path());

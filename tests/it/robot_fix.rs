@@ -1,4 +1,4 @@
-//! `ozols lint` and `ozols fix`: what a description holds twice, by line, and the owner's own file with it let go.
+//! `ozols fix`: the owner's own file with what it holds twice let go.
 
 use crate::common::ozols;
 use crate::robots::folder;
@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::path::Path;
 use std::process::Output;
 
-fn run(words: &[&str]) -> (Option<i32>, String, String) {
+pub(crate) fn run(words: &[&str]) -> (Option<i32>, String, String) {
     let Output {
         status,
         stdout,
@@ -16,11 +16,8 @@ fn run(words: &[&str]) -> (Option<i32>, String, String) {
     (status.code(), text(stdout), text(stderr))
 }
 
-fn gripper() -> String {
-    folder()
-        .join("robotiq_2f85_v4/2f85.nomesh.xml")
-        .display()
-        .to_string()
+pub(crate) fn gripper() -> String {
+    folder().join("gripper.xml").display().to_string()
 }
 
 /// W and σ that lint finds.
@@ -31,69 +28,6 @@ fn figures(file: &str, more: &[&str]) -> (u64, u64) {
     let of = |key: &str| v["files"][0][key].as_u64().unwrap();
     assert_eq!(of("redundant"), of("redundant_at_most"), "{file}");
     (of("mobility"), of("redundant"))
-}
-
-// Each connect of the Robotiq 2F-85 closes a planar loop of three hinges: its row across the plane is held twice.
-#[test]
-fn lint_names_each_redundant_row_with_its_line() {
-    let (code, out, _) = run(&["lint", &gripper(), "--format", "json"]);
-    assert_eq!(code, Some(1));
-    let v: Value = serde_json::from_str(&out).unwrap();
-    let file = &v["files"][0];
-    let found: Vec<(&str, &str, u64)> = file["findings"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|f| {
-            (
-                f["constraint"].as_str().unwrap(),
-                f["row"].as_str().unwrap(),
-                f["line"].as_u64().unwrap(),
-            )
-        })
-        .collect();
-    assert_eq!(found, [("connect-1", "y", 83), ("connect-2", "y", 84)]);
-    assert_eq!(
-        file["findings"][0]["duplicates"],
-        serde_json::json!([
-            "right_driver_joint",
-            "right_spring_link_joint",
-            "right_follower_joint"
-        ])
-    );
-    assert_eq!(file["findings"][0]["assembly"], "force along y");
-    // Its coordinates are decimals: nothing is proven over the motion.
-    assert_eq!(file["over_motion_kind"], "seen");
-    let remedies = file["findings"][0]["remedies"].as_array().unwrap();
-    assert!(
-        remedies[0]
-            .as_str()
-            .unwrap()
-            .contains("slide along y: revolute -> cylindrical")
-    );
-}
-
-#[test]
-fn lint_is_for_machines_too() {
-    let (code, out, _) = run(&["lint", &gripper(), "--format", "sarif"]);
-    assert_eq!(code, Some(1));
-    let v: Value = serde_json::from_str(&out).unwrap();
-    assert_eq!(v["version"], "2.1.0");
-    let result = &v["runs"][0]["results"][0];
-    assert_eq!(result["level"], "warning");
-    let place = &result["locations"][0]["physicalLocation"];
-    assert_eq!(place["artifactLocation"]["uri"], gripper());
-    assert_eq!(place["region"]["startLine"], 83);
-    // Nothing redundant: 0, and nothing is searched. Not readable: 2.
-    let urdf = folder().join("robotiq_ros_urdf/robotiq_arg2f_85_model.expanded.urdf");
-    let (code, out, _) = run(&["lint", urdf.to_str().unwrap()]);
-    assert_eq!(code, Some(0));
-    assert!(out.contains("nothing is redundant (σ = 0, W = 1)"), "{out}");
-    assert_eq!(run(&["lint", "nowhere.xml"]).0, Some(2));
-    // Mechanism files have names, too.
-    let (code, out, _) = run(&["lint", "gripper-10"]);
-    assert_eq!(code, Some(1));
-    assert!(out.contains("11 redundant constraints"), "{out}");
 }
 
 // What is there stays, byte for byte: lines are put in, and attributes that are named changed.
@@ -205,6 +139,24 @@ fn fix_lets_go_at_each_kind_of_equality() {
     }
 }
 
+// A class may say that joints have limits, and each joint which: MuJoCo wants both of a new one that the class is of.
+#[test]
+fn classes_that_limit_joints_do_not_limit_new_ones() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = |name: &str| dir.path().join(name).display().to_string();
+    let connect = "<connect name='e' body1='b' body2='c' anchor='2 0.5 0'/>";
+    for class in ["limited='true'", "actuatorfrclimited='true'"] {
+        let text = four_bar(connect, ["", ""]).replace("range='-2 2' stiffness='3'", class);
+        let (file, out) = (path("four.xml"), path("fixed.xml"));
+        std::fs::write(&file, text).unwrap();
+        let (code, _, told) = run(&["fix", &file, "-o", &out]);
+        assert_eq!(code, Some(0), "{told}");
+        let new = std::fs::read_to_string(&out).unwrap();
+        let taken_back = class.replace("'true'", "\"false\"");
+        assert!(new.contains(&taken_back), "{new}");
+    }
+}
+
 // Loops of URDF: in the file, or in one beside it that names joints; and the loops of joints of SDF.
 #[test]
 fn fix_puts_links_in_between() {
@@ -226,17 +178,18 @@ fn fix_puts_links_in_between() {
         assert_eq!(code, Some(0), "{at}: {told}");
         assert_eq!(figures(&out, &[]), (1, 0), "{at}");
     }
-    let bar = folder().join("epr_5bar_linkage");
-    let (file, side) = (bar.join("robot.urdf"), bar.join("robot.yaml"));
+    let (file, side) = (
+        folder().join("five_bar.urdf"),
+        folder().join("five_bar.yaml"),
+    );
     let more = ["--loops", side.to_str().unwrap()];
     let words = [&["fix", file.to_str().unwrap(), "-o", &out], &more[..]].concat();
     let (code, _, told) = run(&words);
     assert_eq!(code, Some(0), "{told}");
     assert_eq!(figures(&out, &more), (3, 0));
-    let bars = folder().join("drake_four_bar");
     let out = path("fixed.sdf");
     for (file, w) in [("four_bar_loop.sdf", 1), ("four_bar_weld.sdf", 1)] {
-        let file = bars.join(file);
+        let file = folder().join(file);
         let words = ["fix", file.to_str().unwrap(), "--assemble", "-o", &out];
         let (code, _, told) = run(&words);
         assert_eq!(code, Some(0), "{told}");
@@ -349,10 +302,9 @@ fn nothing_redundant_is_nothing_to_mend() {
 #[test]
 fn the_next_command_mends() {
     let dir = tempfile::tempdir().unwrap();
-    let bar = folder().join("epr_5bar_linkage");
     let file = dir.path().join("five bar.urdf").display().to_string();
-    std::fs::copy(bar.join("robot.urdf"), &file).unwrap();
-    let side = bar.join("robot.yaml").display().to_string();
+    std::fs::copy(folder().join("five_bar.urdf"), &file).unwrap();
+    let side = folder().join("five_bar.yaml").display().to_string();
     let next = |words: &[&str]| {
         let (_, out, told) = run(words);
         let line = out
@@ -389,26 +341,26 @@ fn the_next_command_mends() {
     assert!(!out.contains("Next:"), "{out}");
 }
 
-// The published gripper has one actuator that pulls both drivers by a tendon: these stay as they are, unless they are named.
+// One actuator pulls both cranks by a tendon: these stay as they are, unless they are named.
 #[test]
 fn joints_that_an_actuator_pulls_stay_as_they_are() {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("hand.xml").display().to_string();
     let text = std::fs::read_to_string(gripper()).unwrap();
-    let pulls = "<tendon><fixed name='split'><joint joint='right_driver_joint' coef='0.5'/>\
-        <joint joint='left_driver_joint' coef='0.5'/></fixed></tendon>\
+    let pulls = "<tendon><fixed name='split'><joint joint='right_crank_joint' coef='0.5'/>\
+        <joint joint='left_crank_joint' coef='0.5'/></fixed></tendon>\
         <actuator><general name='fingers' tendon='split'/></actuator></mujoco>";
     std::fs::write(&file, text.replace("</mujoco>", pulls)).unwrap();
     let out = dir.path().join("out.xml").display().to_string();
     let (code, _, told) = run(&["fix", &file, "-o", &out]);
-    assert!(code == Some(0) && !told.contains("driver_joint"), "{told}");
+    assert!(code == Some(0) && !told.contains("crank_joint"), "{told}");
     assert_eq!(figures(&out, &[]), (1, 0));
     let (_, found, _) = run(&["lint", &file]);
-    assert!(!found.contains("let right_driver_joint"), "{found}");
-    let named = ["--at", "right_driver_joint", "--at", "left_driver_joint"];
+    assert!(!found.contains("let right_crank_joint"), "{found}");
+    let named = ["--at", "right_crank_joint", "--at", "left_crank_joint"];
     let (code, _, told) = run(&[&["fix", &file, "-o", &out][..], &named].concat());
     assert!(
-        code == Some(0) && told.contains("let left_driver_joint slide"),
+        code == Some(0) && told.contains("let left_crank_joint slide"),
         "{told}"
     );
 }

@@ -51,6 +51,25 @@ pub(crate) fn refused(name: &str, text: &str) -> String {
     e.to_string()
 }
 
+/// Legs side by side, each a crank that moves a foot by a rod with two balls: W = 3, σ = 0 and one contour each. Names are long.
+pub(crate) fn legs(n: usize) -> String {
+    let leg = |i: usize| {
+        format!(
+            "<body name='upper-part-of-leg-{i}' pos='0 {i} 0'><joint name='hip-of-leg-{i}' axis='0 1 0'/>
+             <body name='crank-that-moves-leg-{i}' pos='0.1 0 0'><joint name='motor-of-leg-{i}' axis='0 0 1'/>
+             <body name='rod-within-leg-{i}' pos='0.5 0.1 0'><joint name='ball-of-leg-{i}' type='ball'/></body></body>
+             <body name='lower-part-of-leg-{i}' pos='1.6 0 1'><joint name='knee-of-leg-{i}' axis='0 1 0'/></body></body>"
+        )
+    };
+    let close = |i: usize| {
+        format!(
+            "<connect name='end-of-rod-of-leg-{i}' body1='rod-within-leg-{i}' body2='lower-part-of-leg-{i}' anchor='0.8 0.5 0.9'/>"
+        )
+    };
+    let (bodies, closed): (String, String) = (0..n).map(|i| (leg(i), close(i))).unzip();
+    format!("<mujoco><worldbody>{bodies}</worldbody><equality>{closed}</equality></mujoco>")
+}
+
 // The joint's place is composed along the chain: q at (0, 0, 1) turned by a quarter about z.
 pub(crate) const ARM: &str = r#"<robot name="arm">
   <link name="base"/><link name="a"/><link name="b"/><link name="tip"/>
@@ -198,7 +217,13 @@ fn errors_name_the_element_and_the_line() {
 #[test]
 fn hostile_xml() {
     let bomb = r#"<?xml version="1.0"?><!DOCTYPE r [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;">]><robot name="&b;"/>"#;
-    assert!(refused("x.urdf", bomb).contains("declares entities"));
+    for name in ["x.urdf", "x.xml", "x.sdf"] {
+        let e = refused(name, bomb);
+        assert!(
+            e.contains("declares entities") && e.contains(&format!("{name}:1:")),
+            "{e}"
+        );
+    }
     assert!(refused("x.urdf", "<robot name=\"&b;\"/>").contains("not well-formed"));
     let deep = "<robot>".to_owned() + &"<a>".repeat(100_000);
     assert!(refused("x.urdf", &deep).contains("4000 deep"));
@@ -246,7 +271,7 @@ fn too_many_links() {
 
 #[test]
 fn the_command() {
-    let file = folder().join("robotiq_ros_urdf/robotiq_arg2f_85_model.expanded.urdf");
+    let file = folder().join("mimic_gripper.urdf");
     let out = tempfile::tempdir().unwrap();
     let target = out.path().join("gripper.toml");
     let run = |more: &[&str]| {

@@ -1,7 +1,7 @@
 //! Tables say what they leave out, and one name stands for one thing.
 
-use crate::common::{out, run};
-use crate::robots::folder;
+use crate::common::{out, ozols, run_on};
+use crate::robots::{folder, legs};
 
 /// The rows of a table after a head that begins with `first`.
 fn rows<'a>(text: &'a str, first: &str) -> (Vec<&'a str>, Vec<Vec<&'a str>>) {
@@ -53,22 +53,50 @@ fn conditionings_have_their_own_names() {
 /// A robot of many joints has variants of many mobilities: the least are told one by one, the others in a row, and all add up.
 #[test]
 fn long_tables_of_mobilities_are_folded() {
-    let file = folder().join("epr_digit_like/robot.urdf");
-    let args = [
-        "search",
-        file.to_str().unwrap(),
-        "--count",
-        "--nodes",
-        "2000",
-        "--check",
-        "none",
-    ];
-    let found = String::from_utf8(run(&args).stdout).unwrap();
+    let more = ["--count", "--allow-output-change", "--check", "none"];
+    let (_, found, _) = run_on("search", "m.xml", &legs(4), &more);
     let (_, body) = rows(&found, "W ");
-    assert_eq!(body.len(), 13, "{found}");
-    assert_eq!((body[0][0], body[10][0]), ("27", "37"), "{found}");
-    assert_eq!((body[11][0], body[12][0]), ("38 to 80", "81"), "{found}");
+    assert_eq!(body.len(), 12, "{found}");
+    assert_eq!((body[0][0], body[10][0]), ("12", "22"), "{found}");
+    assert_eq!(body[11][0], "23 to 36", "{found}");
     let sum: u64 = body.iter().map(|r| count(r[2])).sum();
-    let head = found.split("at least ").nth(1).unwrap();
+    let head = found.split("robot: ").nth(1).unwrap();
     assert_eq!(count(head.split(' ').next().unwrap()), sum);
+}
+
+/// What is told of robots with long names fits the width that COLUMNS says, and standard error stays silent with -q.
+#[test]
+fn texts_of_robots_fit() {
+    let folder_of_own = tempfile::tempdir().unwrap();
+    let legs_file = folder_of_own.path().join("legs.xml");
+    std::fs::write(&legs_file, legs(3)).unwrap();
+    for file in [
+        legs_file,
+        folder().join("gripper.xml"),
+        folder().join("leg.urdf"),
+    ] {
+        let (of, name) = (file.parent().unwrap(), file.file_name().unwrap());
+        for command in [
+            &["analyze"][..],
+            &["check"],
+            &["lint"],
+            &["search", "--top", "3", "--nodes", "20000"],
+            &["statics"],
+        ] {
+            let args = [command, &[name.to_str().unwrap(), "-q"]].concat();
+            let o = ozols(&args)
+                .current_dir(of)
+                .env("COLUMNS", "80")
+                .output()
+                .unwrap();
+            let said = String::from_utf8(o.stdout).unwrap();
+            // Statics refuses what it has no forces for.
+            if o.status.code() != Some(2) || command[0] != "statics" {
+                assert!(matches!(o.status.code(), Some(0 | 1)), "{args:?}");
+                assert!(o.stderr.is_empty() && !said.is_empty(), "{args:?}");
+            }
+            let wide = said.lines().find(|l| l.chars().count() > 80);
+            assert_eq!(wide, None, "{args:?}");
+        }
+    }
 }

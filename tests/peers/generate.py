@@ -1,7 +1,18 @@
-"""Closed-loop models as MJCF: kinds of mechanisms in random poses, joined in each way that MuJoCo has, turned at random,
-rounded on purpose."""
+"""Closed-loop models of the kinds of mechanisms, each in a random pose that MuJoCo moved it to, turned at random, joined in each
+way that MJCF, URDF and SDF have, and rounded on purpose."""
 
+import tempfile
+import zlib
+
+import mujoco
+import mujoco_figures
 import numpy as np
+from kinds import GROUND, KINDS, X, Y, Z, Kind
+
+FULL = 17
+# What is built in what order, so that balls close the loops where there are some.
+ORDER = "FTPCURS"
+MASS = "mass='1' diaginertia='1 1 1'"
 
 
 def turn(random):
@@ -17,223 +28,224 @@ def turn(random):
     )
 
 
-def turn_about(axis, angle):
-    x, y, z = axis
-    k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * k @ k
+def freedoms(joint, on=None):
+    """Names, kinds and axes of the turns and slides of a joint, in series from one of its links; a ball is three turns."""
+    each = {"R": "h", "P": "s", "C": "sh", "U": "hh", "S": "hhh", "T": "sss", "F": "f"}[joint.kind]
+    axes = {"C": joint.axes * 2, "S": [X, Y, Z], "T": [X, Y, Z], "F": [X]}.get(joint.kind, joint.axes)
+    word = {"h": "hinge", "s": "slide", "f": "free"}
+    found = [(joint.name + f"_{i}" * (i > 0), word[k], a) for i, (k, a) in enumerate(zip(each, axes))]
+    return found if on in (None, joint.links[0]) else found[::-1]
 
 
 class Tree:
-    """Bodies whose frames are the world's, turned as a whole, each number rounded where it is written."""
+    """A mechanism as bodies that hang on one another, each with its frame at the joint that holds it and parallel to the world,
+    and the joints that close its loops; numbers are rounded where they are written."""
 
-    def __init__(self, rotation, digits, seed):
-        self.rotation, self.digits = rotation, digits
-        self.random = np.random.default_rng(seed)
-        self.bodies = {}
-        self.children = {"": []}
-        self.on = {}
-        self.equalities = []
-        self.couplings = []
+    def __init__(self, kind, digits=FULL):
+        self.kind, self.digits = kind, digits
+        self.origin, self.holds, self.closing = {GROUND: np.zeros(3)}, {}, []
+        group = {link: link for j in kind.joints for link in j.links}
 
-    def angle(self, most=0.4):
-        """Some angle, for a pose."""
-        return self.random.uniform(-most, most)
+        def root(link):
+            return link if group[link] == link else root(group[link])
 
-    def near(self, x, y):
-        """A place in the plane near one."""
-        return np.array([x, y, 0]) + np.append(self.random.uniform(-0.1, 0.1, size=2), 0)
+        tree = []
+        for j in sorted(kind.joints, key=lambda j: ORDER.index(j.kind)):
+            a, b = map(root, j.links)
+            if a == b:
+                self.closing.append(j)
+            else:
+                group[a] = b
+                tree.append(j)
+        waiting = [GROUND]
+        for link in waiting:
+            for j in tree:
+                if link in j.links and j not in self.holds.values():
+                    other = j.links[j.links[0] == link]
+                    self.holds[other] = j
+                    self.origin[other] = j.at
+                    waiting.append(other)
+        self.on = {c: j.links[j.links[0] == c] for c, j in self.holds.items()}
+        # A mimic joint follows one other; couplings that cannot be said so are counted.
+        self.mimics, self.unsaid = {}, 0
+        for a, b, ratio in kind.couplings:
+            ways = [(f, w) for f, w in ((a, (b, ratio)), (b, (a, 1 / ratio))) if f not in self.mimics]
+            self.mimics.update(ways[:1])
+            self.unsaid += not ways
 
     def numbers(self, v):
         return " ".join(f"{round(float(x), self.digits):.17g}" for x in v)
 
-    def body(self, name, on, at, joints):
-        self.bodies[name] = (np.array(at, float), joints)
-        self.children.setdefault(on, []).append(name)
-        self.children.setdefault(name, [])
-        self.on[name] = on
+    def local(self, link, at):
+        return self.numbers(at - self.origin[link])
 
-    def couple(self, follows, leads, ratio):
-        """The joint of one body turns `ratio` times as fast as that of another."""
-        self.couplings.append((follows, leads, ratio))
+    def mjcf_joints(self, j, on):
+        if j.kind in "SF":
+            return [f"<joint name='{j.name}' type='{'ball' if j.kind == 'S' else 'free'}'/>"]
+        return [f"<joint name='{n}' type='{k}' axis='{self.numbers(a)}'/>" for n, k, a in freedoms(j, on)]
 
-    def join(self, a, b, at, how):
-        self.equalities.append((a, b, np.array(at, float), how))
-
-    def write(self, name, sites):
-        out = [f"  <body name='{name}' pos='{self.numbers(self.local(name))}'>"]
-        out.append("    <inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>")
-        for kind, axis in self.bodies[name][1]:
-            along = "" if axis is None else f" axis='{self.numbers(self.rotation @ np.array(axis, float))}'"
-            out.append(f"    <joint name='{name}_{len(out) - 1}' type='{kind}'{along}/>")
-        out += sites.get(name, [])
-        for c in self.children[name]:
-            out.append(self.write(c, sites))
-        out.append("  </body>")
-        return "\n".join(out)
-
-    def local(self, name):
-        at, _ = self.bodies[name]
-        on = self.on[name]
-        from_ = self.bodies[on][0] if on else np.zeros(3)
-        return self.rotation @ (at - from_)
-
-    def text(self):
-        sites, lines = {}, []
-        for i, (a, b, at, how) in enumerate(self.equalities):
-            here = {n: self.rotation @ (at - (self.bodies[n][0] if n else np.zeros(3))) for n in (a, b)}
-            if how == "site":
-                for end, n in enumerate((a, b)):
-                    sites.setdefault(n, []).append(f"    <site name='s{i}_{end}' pos='{self.numbers(here[n])}'/>")
-                lines.append(f"    <connect site1='s{i}_0' site2='s{i}_1'/>")
-            elif how == "connect":
-                second = f"body2='{b}'" if b else ""
-                lines.append(f"    <connect body1='{a}' {second} anchor='{self.numbers(here[a])}'/>")
+    def mjcf(self, how):
+        """With `connect` at bodies or at sites, or with `weld` of a small body on the joint that closes."""
+        inside, lines = {link: [] for link in self.origin}, []
+        for i, j in enumerate(self.closing):
+            a, b = j.links
+            if how == "weld" or j.kind not in "RUS":
+                body = [f"<body name='{j.name}_end' pos='{self.local(b, j.at)}'>", f"<inertial pos='0 0 0' {MASS}/>"]
+                inside[b] += [*body, *self.mjcf_joints(j, b), "</body>"]
+                second = "" if a == GROUND else f"body2='{a}'"
+                lines.append(f"<weld body1='{j.name}_end' {second}/>")
+            elif how == "site":
+                for link in j.links:
+                    inside[link].append(f"<site name='s{i}_{link}' pos='{self.local(link, j.at)}'/>")
+                lines.append(f"<connect site1='s{i}_{a}' site2='s{i}_{b}'/>")
             else:
-                second = f"body2='{b}'" if b else ""
-                lines.append(f"    <weld body1='{a}' {second}/>")
-        for follows, leads, ratio in self.couplings:
-            lines.append(f"    <joint joint1='{follows}_1' joint2='{leads}_1' polycoef='0 {ratio} 0 0 0'/>")
-        world = "\n".join([*sites.get("", []), *(self.write(c, sites) for c in self.children[""])])
-        return (
-            "<mujoco>\n  <compiler angle='radian'/>\n  <worldbody>\n"
-            + world
-            + "\n  </worldbody>\n  <equality>\n"
-            + "\n".join(lines)
-            + "\n  </equality>\n</mujoco>\n"
-        )
+                first, second = (b, a) if a == GROUND else (a, b)
+                second = "" if second == GROUND else f"body2='{second}'"
+                lines.append(f"<connect body1='{first}' {second} anchor='{self.local(first, j.at)}'/>")
+        for follows, leads, ratio in self.kind.couplings:
+            lines.append(f"<joint joint1='{follows}' joint2='{leads}' polycoef='0 {ratio} 0 0 0'/>")
+
+        def below(link):
+            own = []
+            if link != GROUND:
+                own = [f"<body name='{link}' pos='{self.local(self.on[link], self.origin[link])}'>", f"<inertial pos='0 0 0' {MASS}/>"]
+                own += self.mjcf_joints(self.holds[link], self.on[link])
+            own += inside[link]
+            for c, on in self.on.items():
+                own += below(c) if on == link else []
+            return own + ["</body>"] * (link != GROUND)
+
+        world, closed = "\n".join(below(GROUND)), "\n".join(lines)
+        return f"<mujoco>\n<compiler angle='radian'/>\n<worldbody>\n{world}\n</worldbody>\n<equality>\n{closed}\n</equality>\n</mujoco>\n"
+
+    def urdf_link(self, name):
+        inertia = "<mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>"
+        return f"<link name='{name}'><inertial>{inertia}</inertial></link>"
+
+    def urdf_joints(self, j, on, link, leave=0, mimics=()):
+        """The joints in series from one link to another, without the last ones; the link that they end at."""
+        out, at = [], self.local(on, j.at)
+        all = freedoms(j, on)
+        word = {"hinge": "continuous", "slide": "prismatic", "free": "floating"}
+        for i, (name, k, a) in enumerate(all[: len(all) - leave]):
+            child = link if link and i + 1 == len(all) else f"{name}_end"
+            if child != link:
+                out.append(self.urdf_link(child))
+            more = "<limit lower='-9' upper='9' effort='1' velocity='1'/>" if k == "slide" else ""
+            if name in mimics:
+                more += "<mimic joint='{}' multiplier='{}'/>".format(*mimics[name])
+            out.append(
+                f"<joint name='{name}' type='{word[k]}'><parent link='{on}'/><child link='{child}'/>"
+                f"<origin xyz='{at}'/><axis xyz='{self.numbers(a)}'/>{more}</joint>"
+            )
+            on, at = child, "0 0 0"
+        return out, on, at
+
+    def urdf(self, beside=False):
+        """With `<loop_joint>`, or `beside` it a robot.yaml, where a ball stands for what turns; then without couplings, which
+        Pinocchio leaves out."""
+        out, pairs, types = [self.urdf_link(link) for link in self.origin], [], []
+        for link, j in self.holds.items():
+            out += self.urdf_joints(j, self.on[link], link, mimics={} if beside else self.mimics)[0]
+        for i, j in enumerate(self.closing):
+            a, b = j.links
+            ball = j.kind == "S" or beside and j.kind in "RU"
+            more, a, at = ([], a, self.local(a, j.at)) if ball else self.urdf_joints(j, a, "", leave=0 if beside else 1)
+            out += more
+            if beside:
+                ends = [(a, at), (b, self.local(b, j.at))]
+                for end, (link, place) in zip("ab", ends):
+                    out.append(f"<link name='end{i}{end}'/>")
+                    out.append(
+                        f"<joint name='cut{i}{end}' type='fixed'><parent link='{link}'/><child link='end{i}{end}'/>"
+                        f"<origin xyz='{place}'/></joint>"
+                    )
+                pairs.append([f"cut{i}a", f"cut{i}b"])
+                types.append("3d" if ball else "6d")
+                continue
+            _, k, axis = ("", "ball", X) if ball else freedoms(j)[-1]
+            word = {"ball": "spherical", "hinge": "revolute", "slide": "prismatic"}[k]
+            out.append(
+                f"<loop_joint name='{j.name}' type='{word}'><link1 link='{a}' xyz='{at}' rpy='0 0 0'/>"
+                f"<link2 link='{b}' xyz='{self.local(b, j.at)}' rpy='0 0 0'/><axis xyz='{self.numbers(axis)}'/></loop_joint>"
+            )
+        text = "<robot name='kind'>\n" + "\n".join(out) + "\n</robot>\n"
+        return text, f"closed_loop: {pairs}\ntype: {types}\n"
+
+    def sdf(self):
+        """With every joint as it is, or in series."""
+        out = []
+        for link in self.origin:
+            if link != GROUND:
+                out.append(f"<link name='{link}'><pose>{self.numbers(self.origin[link])} 0 0 0</pose></link>")
+        words = {"R": "revolute", "P": "prismatic", "U": "universal", "S": "ball", "hinge": "revolute", "slide": "prismatic"}
+        for j in self.kind.joints:
+            a, b = ["world" if link == GROUND else link for link in j.links]
+            if j.kind == "F":
+                continue
+            series = [(j.name, j.kind, j.axes)] if j.kind in words else [(n, k, [x]) for n, k, x in freedoms(j)]
+            for i, (name, k, axes) in enumerate(series):
+                child = b if i + 1 == len(series) else f"{name}_end"
+                if child != b:
+                    out.append(f"<link name='{child}'><pose>{self.numbers(j.at)} 0 0 0</pose></link>")
+                tags = zip(["axis", "axis2"], axes)
+                follows = "<mimic joint='{}' axis='axis'><multiplier>{}</multiplier></mimic>"
+                follows = follows.format(*self.mimics[name]) if name in self.mimics else ""
+                ways = "".join(f"<{t}><xyz expressed_in='__model__'>{self.numbers(x)}</xyz>{follows}</{t}>" for t, x in tags)
+                out.append(
+                    f"<joint name='{name}' type='{words[k]}'><pose relative_to='__model__'>{self.numbers(j.at)} 0 0 0</pose>"
+                    f"<parent>{a}</parent><child>{child}</child>{ways}</joint>"
+                )
+                a = child
+        return "<sdf version='1.11'>\n<model name='kind'>\n" + "\n".join(out) + "\n</model>\n</sdf>\n"
 
 
-Z = (0, 0, 1)
+def load(text):
+    with tempfile.NamedTemporaryFile("w", suffix=".xml") as t:
+        t.write(text)
+        t.flush()
+        return mujoco_figures.Model(t.name)
 
 
-def four_bar(t, how):
-    elbow, end = t.near(0.2, 0.9), t.near(2.3, 1.4)
-    t.body("a", "", (0, 0, 0), [("hinge", Z)])
-    t.body("b", "a", elbow, [("hinge", Z)])
-    t.body("c", "", (2, 0, 0), [("hinge", Z)])
-    if how == "weld":
-        t.body("d", "c", end, [("hinge", Z)])
-        t.join("b", "d", end, how)
-    else:
-        t.join("b", "c", end, how)
+def moved(kind, random, steps=25):
+    """The mechanism where a random motion leads it."""
+    m = load(Tree(kind).mjcf("weld"))
+    q, gap = m.close(m.model.qpos0)
+    assert gap < 1e-12, f"its table is open by {gap}"
+    v = random.normal(size=m.model.nv)
+    for _ in range(steps):
+        j, _ = m.jacobian(q)
+        v = v - np.linalg.pinv(j, rcond=1e-6) @ (j @ v)
+        if np.abs(v).max() < 1e-9:
+            break
+        v = v / np.abs(v).max()
+        mujoco_figures.integrate(m.model, q, 0.02 * v)
+        q, _ = m.close(q)
+    m.jacobian(q)
+
+    def now(j):
+        names = [j.name, *(f"{j.name}_{i}" for i in range(1, 3))]
+        found = [mujoco.mj_name2id(m.model, mujoco.mjtObj.mjOBJ_JOINT, n) for n in names]
+        found = [i for i in found if i >= 0]
+        axes = [m.data.xaxis[i].copy() for i in found][: len(j.axes)]
+        return j._replace(at=m.data.xanchor[found[-1]].copy(), axes=axes)
+
+    return Kind([now(j) for j in kind.joints], kind.couplings)
 
 
-def slider_crank(t, how):
-    elbow = t.near(0.3, 0.4)
-    t.body("crank", "", (0, 0, 0), [("hinge", Z)])
-    t.body("rod", "crank", elbow, [("hinge", Z)])
-    t.body("slider", "", (1.5, 0, 0), [("slide", (1, 0, 0))])
-    if how == "weld":
-        t.body("pin", "slider", (1.5, 0, 0), [("hinge", Z)])
-        t.join("rod", "pin", (1.5, 0, 0), how)
-    else:
-        t.join("rod", "slider", (1.5, 0, 0), how)
+def turned(kind, rotation):
+    """The mechanism turned as a whole; what slides in all directions or is free stays so."""
+    each = [j._replace(at=rotation @ j.at, axes=[rotation @ a for a in j.axes]) for j in kind.joints]
+    return Kind(each, kind.couplings)
 
 
-def gripper(t, how):
-    """Two fingers, a four-bar each."""
-    for n, side in (("l", -1), ("r", 1)):
-        outer, inner = t.near(side * 0.5, 0.8), t.near(side * 0.9, 0.7)
-        t.body(f"{n}1", "", (side * 0.3, 0, 0), [("hinge", Z)])
-        t.body(f"{n}2", "", (side * 0.6, 0.1, 0), [("hinge", Z)])
-        t.body(f"{n}3", f"{n}1", outer, [("hinge", Z)])
-        if how == "weld":
-            t.body(f"{n}4", f"{n}2", inner, [("hinge", Z)])
-            t.join(f"{n}3", f"{n}4", inner, how)
-        else:
-            t.join(f"{n}3", f"{n}2", inner, how)
+def plain(name):
+    """A kind as its table has it."""
+    return Tree(KINDS[name](np.random.default_rng(1))).mjcf("connect")
 
 
-def delta(t, how):
-    """Three arms on a platform that cannot turn; each forearm stands for a parallelogram, with a universal joint at either end."""
-    for i in range(3):
-        a = 2 * np.pi * i / 3
-        out, across = np.array([np.cos(a), np.sin(a), 0]), np.array([-np.sin(a), np.cos(a), 0])
-        lift = t.angle() - 0.6
-        t.body(f"arm{i}", "", out, [("hinge", across)])
-        elbow = out * (1 + 0.5 * np.cos(lift)) + np.array([0, 0, 0.5 * np.sin(lift)])
-        t.body(f"fore{i}", f"arm{i}", elbow, [("hinge", across), ("hinge", Z)])
-    t.body("platform", "", (0, 0, -1.5), [("slide", (1, 0, 0)), ("slide", (0, 1, 0)), ("slide", Z)])
-    for i in range(3):
-        a = 2 * np.pi * i / 3
-        out, across = np.array([np.cos(a), np.sin(a), 0]), np.array([-np.sin(a), np.cos(a), 0])
-        at = out * 0.3 + np.array([0, 0, -1.5])
-        if how == "weld":
-            t.body(f"wrist{i}", f"fore{i}", at, [("hinge", Z), ("hinge", across)])
-            t.join(f"wrist{i}", "platform", at, how)
-        else:
-            t.join(f"fore{i}", "platform", at, how)
-
-
-def stewart(t, how):
-    t.body("top", "", (0, 0, 1), [("free", None)])
-    shift = np.append(t.random.uniform(-0.2, 0.2, size=2), 1)
-    tilt = turn_about((1, 0, 0), t.angle()) @ turn_about((0, 1, 0), t.angle())
-    for i in range(6):
-        a, b = np.pi / 3 * i + 0.2 * (-1) ** i, np.pi / 3 * i - 0.35 * (-1) ** i
-        foot = np.array([np.cos(a), np.sin(a), 0])
-        head = shift + tilt @ np.array([0.6 * np.cos(b), 0.6 * np.sin(b), 0])
-        along = head - foot
-        along = along / np.linalg.norm(along)
-        first = np.cross(along, Z)
-        first = first / np.linalg.norm(first)
-        t.body(f"leg{i}", "", foot, [("hinge", first), ("hinge", np.cross(along, first)), ("slide", along)])
-        if how == "weld":
-            t.body(f"ball{i}", f"leg{i}", head, [("ball", None)])
-            t.join(f"ball{i}", "top", head, how)
-        else:
-            t.join(f"leg{i}", "top", head, how)
-
-
-def ankle(t, how):
-    """A foot on two hinges, pushed by two cranks through rods."""
-    t.body("foot", "", (0, 0, 0), [("hinge", (1, 0, 0)), ("hinge", (0, 1, 0))])
-    for n, side in (("l", -1), ("r", 1)):
-        swing = t.angle()
-        elbow = np.array([0.05 - 0.1 * np.cos(swing), side * 0.06, 0.4 + 0.1 * np.sin(swing)])
-        heel = (-0.06, side * 0.06, 0.02)
-        t.body(f"{n}crank", "", (0.05, side * 0.06, 0.4), [("hinge", (0, 1, 0))])
-        t.body(f"{n}rod", f"{n}crank", elbow, [("ball", None)])
-        if how == "weld":
-            t.body(f"{n}end", f"{n}rod", heel, [("hinge", (1, 0, 0)), ("hinge", (0, 1, 0)), ("hinge", Z)])
-            t.join(f"{n}end", "foot", heel, how)
-        else:
-            t.join(f"{n}rod", "foot", heel, how)
-
-
-def differential(t, how):
-    """A carrier with two side gears and two planets between them; one shaft of two bearings is joined to its gear."""
-    x, y = (1, 0, 0), (0, 1, 0)
-    t.body("carrier", "", (0, 0, 0), [("hinge", x)])
-    t.body("left", "carrier", (-0.3, 0, 0), [("hinge", x)])
-    t.body("right", "carrier", (0.3, 0, 0), [("hinge", x)])
-    for n, side in (("front", 1), ("back", -1)):
-        t.body(n, "carrier", (0, 0.2 * side, 0), [("hinge", y)])
-        t.couple(n, "left", side)
-        t.couple(n, "right", -side)
-    t.body("shaft", "", (-0.8, 0, 0), [("hinge", x)])
-    t.join("left", "shaft", (-0.5, 0.1, 0.05), how)
-
-
-KINDS = [four_bar, slider_crank, gripper, delta, stewart, ankle, differential]
-HOWS = ["connect", "weld", "site"]
-FULL = 17
-
-
-def models():
-    """Name, text, and the text in full digits where this one is rounded."""
-    for k, kind in enumerate(KINDS):
-        each = [(how, FULL) for how in HOWS]
-        # Rounded ones are joined in the three ways by turns.
-        each += [(HOWS[(k + digits) % 3], digits) for digits in range(4, 9)]
-        for how, digits in each:
-            seed = 100 * k + 10 * HOWS.index(how) + digits
-            whole = digits == FULL and k % 2 == 0
-            rotation = np.eye(3) if whole else turn(np.random.default_rng(seed))
-
-            def text(digits):
-                tree = Tree(rotation, digits, seed)
-                kind(tree, how)
-                return tree.text()
-
-            yield f"{kind.__name__}-{how}-{digits}", text(digits), None if digits == FULL else text(FULL)
+def tree(name, number, digits=FULL):
+    """A kind in its pose of a number; the first is not turned."""
+    random = np.random.default_rng([zlib.crc32(name.encode()), number])
+    kind = moved(KINDS[name](random), random)
+    return Tree(turned(kind, turn(random)) if number else kind, digits)

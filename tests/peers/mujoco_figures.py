@@ -12,7 +12,9 @@ def integrate(model, q, v):
 
 
 class Model:
-    def __init__(self, path):
+    def __init__(self, path, zero=ZERO):
+        """What is relatively less than `zero` counts as nothing where the model is closed and moved."""
+        self.zero = zero
         self.model = mujoco.MjModel.from_xml_path(str(path))
         flags = mujoco.mjtDisableBit
         for name in ("mjDSBL_CONTACT", "mjDSBL_LIMIT", "mjDSBL_FRICTIONLOSS"):
@@ -37,7 +39,7 @@ class Model:
             if len(gap) == 0 or np.abs(gap).max() < 1e-13:
                 break
             dv = np.zeros(self.model.nv)
-            dv[free] = -np.linalg.lstsq(j[:, free], gap, rcond=1e-6)[0]
+            dv[free] = -np.linalg.lstsq(j[:, free], gap, rcond=self.zero)[0]
             dv *= min(1.0, 0.3 / max(np.abs(dv).max(), 1e-12))
             integrate(self.model, q, dv)
         _, gap = self.jacobian(q)

@@ -104,16 +104,20 @@ impl<'a> File<'a> {
         }
         let look = self.defaults.of(around, "joint", class)?;
         let mut out = String::new();
+        let says = |set: &&str| look.attribute(set).is_some();
         for (set, back) in [
-            ("range", "limited=\"false\""),
-            ("stiffness", "stiffness=\"0\""),
-            ("springdamper", "springdamper=\"0 0\""),
-            ("frictionloss", "frictionloss=\"0\""),
-            ("ref", "ref=\"0\""),
-            ("springref", "springref=\"0\""),
-            ("actuatorfrcrange", "actuatorfrclimited=\"false\""),
+            (&["range", "limited"][..], "limited=\"false\""),
+            (&["stiffness"], "stiffness=\"0\""),
+            (&["springdamper"], "springdamper=\"0 0\""),
+            (&["frictionloss"], "frictionloss=\"0\""),
+            (&["ref"], "ref=\"0\""),
+            (&["springref"], "springref=\"0\""),
+            (
+                &["actuatorfrcrange", "actuatorfrclimited"],
+                "actuatorfrclimited=\"false\"",
+            ),
         ] {
-            if look.attribute(set).is_some() {
+            if set.iter().any(says) {
                 out += &format!(" {back}");
             }
         }

@@ -8,7 +8,7 @@
 //! OZOLS_FUZZ_SECONDS=600 OZOLS_FUZZ_KEEP=1 cargo test --test integration fuzz::corpus -- --nocapture
 //! ```
 //!
-//! An input that makes a reader panic is told by its file `tests/corpus/TARGET/failed`; of one that hangs or aborts, the file
+//! `OZOLS_FUZZ_ONLY=robots` takes one of the targets alone. An input that makes a reader panic is told by its file `tests/corpus/TARGET/failed`; of one that hangs or aborts, the file
 //! `current` of the build's temporary folder has the bytes.
 
 use super::{certificates, edits, expressions, mechanism_files, robot_files, spoilt};
@@ -150,7 +150,9 @@ fn what_is_kept_and_what_comes_of_it() {
     let said = |name| std::env::var(name).ok();
     let seconds = said("OZOLS_FUZZ_SECONDS").map_or(1.0, |s| s.parse().unwrap());
     let keep = said("OZOLS_FUZZ_KEEP").is_some();
-    for target in &TARGETS {
+    let only = said("OZOLS_FUZZ_ONLY");
+    let wanted = |t: &&Target| only.as_ref().is_none_or(|o| o == t.name);
+    for target in TARGETS.iter().filter(wanted) {
         let (executions, kinds) = target.run(Duration::from_secs_f64(seconds), keep);
         eprintln!(
             "{}: {executions} executions, {kinds} kinds of answers",

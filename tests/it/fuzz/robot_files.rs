@@ -13,38 +13,26 @@ type Input = (
     Option<(&'static str, &'static str)>,
 );
 
-const FILES: [Input; 6] = [
+const FILES: [Input; 5] = [
+    ("a.xml", include_str!("../../data/robots/gripper.xml"), None),
     (
-        "a.xml",
-        include_str!("../../data/robots/robotiq_2f85_v4/2f85.nomesh.xml"),
-        None,
-    ),
-    (
-        "b.xml",
-        include_str!("../../data/robots/xarm7_hand/hand.nomesh.xml"),
+        "b.urdf",
+        include_str!("../../data/robots/mimic_gripper.urdf"),
         None,
     ),
     (
         "c.urdf",
-        include_str!("../../data/robots/epr_5bar_linkage/robot.urdf"),
-        Some((
-            "s.yaml",
-            include_str!("../../data/robots/epr_5bar_linkage/robot.yaml"),
-        )),
+        include_str!("../../data/robots/leg.urdf"),
+        Some(("s.yaml", include_str!("../../data/robots/leg.yaml"))),
     ),
     (
-        "d.urdf",
-        include_str!("../../data/robots/robotiq_ros_urdf/robotiq_arg2f_85_model.expanded.urdf"),
+        "d.sdf",
+        include_str!("../../data/robots/four_bar_loop.sdf"),
         None,
     ),
     (
         "e.sdf",
-        include_str!("../../data/robots/drake_four_bar/four_bar_loop.sdf"),
-        None,
-    ),
-    (
-        "f.sdf",
-        include_str!("../../data/robots/drake_four_bar/four_bar_weld.sdf"),
+        include_str!("../../data/robots/four_bar_weld.sdf"),
         None,
     ),
 ];

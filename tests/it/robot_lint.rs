@@ -1,0 +1,148 @@
+//! `ozols lint`: what a description holds twice, by line, where on its motion, and how sure that is.
+
+use crate::common::run_on;
+use crate::robot_fix::{gripper, run};
+use crate::robot_mjcf::mjcf;
+use crate::robots::{folder, legs};
+use serde_json::Value;
+
+// Each connect of the gripper closes a planar loop of three hinges: its row across the plane is held twice.
+#[test]
+fn lint_names_each_redundant_row_with_its_line() {
+    let (code, out, _) = run(&["lint", &gripper(), "--format", "json"]);
+    assert_eq!(code, Some(1));
+    let v: Value = serde_json::from_str(&out).unwrap();
+    let file = &v["files"][0];
+    let found: Vec<(&str, &str, u64)> = file["findings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|f| {
+            (
+                f["constraint"].as_str().unwrap(),
+                f["row"].as_str().unwrap(),
+                f["line"].as_u64().unwrap(),
+            )
+        })
+        .collect();
+    assert_eq!(found, [("connect-1", "y", 65), ("connect-2", "y", 66)]);
+    assert_eq!(
+        file["findings"][0]["duplicates"],
+        serde_json::json!([
+            "right_crank_joint",
+            "right_rocker_joint",
+            "right_finger_joint"
+        ])
+    );
+    assert_eq!(file["findings"][0]["assembly"], "force along y");
+    // Its coordinates are decimals: nothing is proven over the motion.
+    assert_eq!(file["over_motion_kind"], "seen");
+    let remedies = file["findings"][0]["remedies"].as_array().unwrap();
+    assert!(
+        remedies[0]
+            .as_str()
+            .unwrap()
+            .contains("slide along y: revolute -> cylindrical")
+    );
+}
+
+#[test]
+fn lint_is_for_machines_too() {
+    let (code, out, _) = run(&["lint", &gripper(), "--format", "sarif"]);
+    assert_eq!(code, Some(1));
+    let v: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(v["version"], "2.1.0");
+    let result = &v["runs"][0]["results"][0];
+    assert_eq!(result["level"], "warning");
+    let place = &result["locations"][0]["physicalLocation"];
+    assert_eq!(place["artifactLocation"]["uri"], gripper());
+    assert_eq!(place["region"]["startLine"], 65);
+    // Nothing redundant: 0, and nothing is searched. Not readable: 2.
+    let urdf = folder().join("mimic_gripper.urdf");
+    let (code, out, _) = run(&["lint", urdf.to_str().unwrap()]);
+    assert_eq!(code, Some(0));
+    assert!(out.contains("nothing is redundant (σ = 0, W = 1)"), "{out}");
+    assert_eq!(run(&["lint", "nowhere.xml"]).0, Some(2));
+    // Mechanism files have names, too.
+    let (code, out, _) = run(&["lint", "gripper-10"]);
+    assert_eq!(code, Some(1));
+    assert!(out.contains("11 redundant constraints"), "{out}");
+}
+
+/// A four-bar of hinges at these places, closed by a connect at an anchor of its second link.
+fn four_bar(ends: [&str; 3], anchor: &str) -> String {
+    let [elbow, other, axis] = ends;
+    mjcf(&format!(
+        "<worldbody>
+        <body name='a'><joint name='j1'/><body name='b' pos='{elbow}'><joint name='j2'/></body></body>
+        <body name='c' pos='{other}'><joint name='j3' axis='{axis}'/></body></worldbody>
+        <equality><connect name='e' body1='b' body2='c' anchor='{anchor}'/></equality>"
+    ))
+}
+
+// Of lengths 1, 2, 1.5 and 1.5, with all pins in a line: there the row along the line is held twice, and no further on.
+#[test]
+fn lint_tells_a_special_pose_from_the_motion() {
+    let text = four_bar(["1 0 0", "1.5 0 0", "0 0 1"], "2 0 0");
+    let (code, out, _) = run_on("lint", "m.xml", &text, &["--format", "json"]);
+    assert_eq!(code, Some(1));
+    let v: Value = serde_json::from_str(&out).unwrap();
+    let file = &v["files"][0];
+    assert_eq!(
+        (&file["redundant"], &file["over_motion_kind"]),
+        (&2.into(), &"pose".into())
+    );
+    let rows = file["findings"].as_array().unwrap().iter();
+    let rows: Vec<&str> = rows.map(|f| f["row"].as_str().unwrap()).collect();
+    assert_eq!(rows, ["z", "x"]);
+    let (_, out, _) = run_on("lint", "m.xml", &text, &[]);
+    assert!(out.contains("elsewhere on the motion 1"), "{out}");
+}
+
+// Axes that are parallel but for their last digits: nobody can say whether they are meant to be. No command is offered that
+// would be refused.
+#[test]
+fn lint_does_not_decide_what_digits_leave_open() {
+    let text = four_bar(
+        ["0 1 0", "2.00003 0 0", "0 0.00002 1"],
+        "1.70002 0.3 0.00001",
+    );
+    let (code, out, _) = run_on("lint", "m.xml", &text, &[]);
+    assert_eq!(code, Some(1));
+    assert!(
+        out.contains("0 to 1 redundant constraints (undecided"),
+        "{out}"
+    );
+    assert!(
+        out.contains("what is redundant is so at this pose"),
+        "{out}"
+    );
+    assert!(!out.contains("ozols fix"), "{out}");
+    let (code, _, told) = run_on("fix", "m.xml", &text, &[]);
+    assert_eq!(code, Some(2));
+    assert!(
+        told.contains("not decided") && told.contains("--pose"),
+        "{told}"
+    );
+}
+
+// Four legs with a loop each, nothing redundant: lint says so, and a search of millions of variants has its answer, the
+// mechanism as it is, within a few thousand nodes.
+#[test]
+fn nothing_redundant_is_said_at_once() {
+    let text = legs(4);
+    let (code, out, _) = run_on("lint", "m.xml", &text, &[]);
+    assert_eq!(code, Some(0), "{out}");
+    assert!(
+        out.contains("nothing is redundant (σ = 0, W = 12)"),
+        "{out}"
+    );
+    let more = ["--nodes", "20000", "--top", "3", "--allow-output-change"];
+    let (code, out, told) = run_on("search", "m.xml", &text, &more);
+    assert_eq!(code, Some(0), "{told}");
+    assert!(out.contains("none: the mechanism as it is"), "{out}");
+    assert!(
+        out.contains("16,777,216 of 16,777,216 variants have σ = 0"),
+        "{out}"
+    );
+}
