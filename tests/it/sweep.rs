@@ -326,7 +326,10 @@ fn a_table_has_the_same_bytes_however_it_was_made() {
 
     let threads = rayon_of(1);
     threads.install(|| all(&sweep, Some(&at("one.jsonl"))));
-    assert!(fs::read(at("one.jsonl")).unwrap() == bytes, "with one thread");
+    assert!(
+        fs::read(at("one.jsonl")).unwrap() == bytes,
+        "with one thread"
+    );
 
     // A second run does nothing.
     let before = fs::metadata(&whole).unwrap().modified().unwrap();
@@ -337,7 +340,10 @@ fn a_table_has_the_same_bytes_however_it_was_made() {
     for part in [0, 1, 100, bytes.len() / 3, bytes.len() / 2, bytes.len() - 1] {
         fs::write(at("torn.jsonl"), &bytes[..part]).unwrap();
         all(&sweep, Some(&at("torn.jsonl")));
-        assert!(fs::read(at("torn.jsonl")).unwrap() == bytes, "after {part} bytes");
+        assert!(
+            fs::read(at("torn.jsonl")).unwrap() == bytes,
+            "after {part} bytes"
+        );
     }
     // And so it is where it was told to end.
     let path = at("ended.jsonl");
@@ -361,7 +367,10 @@ fn a_table_has_the_same_bytes_however_it_was_made() {
     }
     let reversed: Vec<_> = parts.iter().rev().cloned().collect();
     let merged = merge(&reversed, &at("merged.jsonl")).unwrap();
-    assert!(fs::read(at("merged.jsonl")).unwrap() == bytes, "in three parts");
+    assert!(
+        fs::read(at("merged.jsonl")).unwrap() == bytes,
+        "in three parts"
+    );
     assert_eq!(merged.digest, table_digest(&whole));
     let names: Vec<_> = fs::read_dir(folder.path())
         .unwrap()

@@ -58,7 +58,7 @@ class Sweep(Told):
         return Digest({"rows": foot["rows"]}, int(foot["digest"], 16))
 
     def plot(self, quantity: str = "redundant", over: Iterable[str] = ()) -> Drawing:
-        """``redundant``, ``mobility``, ``peak-force`` or ``best-cost`` over two parameters, or over one."""
+        """``redundant``, ``mobility``, ``force`` or ``best-cost`` over two parameters, or over one."""
         return Drawing(_native.sweep_plot(self.path, quantity, list(over)))
 
     def _repr_svg_(self) -> str:

@@ -25,7 +25,7 @@ impl Quantity {
     pub const ALL: [(&'static str, Quantity); 4] = [
         ("redundant", Quantity::Redundant),
         ("mobility", Quantity::Mobility),
-        ("peak-force", Quantity::PeakForce),
+        ("force", Quantity::PeakForce),
         ("best-cost", Quantity::BestCost),
     ];
 

@@ -14,14 +14,7 @@ fn the_command_writes_a_table_a_flat_one_and_a_plot() {
     let (file, table, flat, plot) = (at("swept.toml"), at("t.jsonl"), at("t.csv"), at("t.svg"));
     let words = ["sweep", &file, "--grid", "3", "-q", "-o", &table];
     let more = [
-        "--csv",
-        &flat,
-        "--svg",
-        &plot,
-        "--plot",
-        "peak-force",
-        "--format",
-        "json",
+        "--csv", &flat, "--svg", &plot, "--plot", "force", "--format", "json",
     ];
     let told: Value = serde_json::from_str(&out(&[&words[..], &more].concat())).unwrap();
     assert_eq!(
@@ -117,7 +110,7 @@ fn over_one_parameter_a_plot_is_a_chart() {
         "--svg",
         plot.to_str().unwrap(),
         "--plot",
-        "peak-force",
+        "force",
     ];
     let (code, _, err) = run_on("sweep", "one.toml", &one, &flags);
     assert_eq!(code, Some(0), "{err}");
