@@ -75,9 +75,10 @@ impl Contours {
             Some((left + at.0 * (right - left), bottom - at.1 * HEIGHT, value))
         };
         let nodes: Vec<Option<Node>> = self.samples.iter().map(place).collect();
-        if let (false, Some(grid)) = (self.counts, self.grid()) {
-            self.lines(&mut xml, &values, &nodes, &grid);
-        }
+        let labels = match self.grid().filter(|_| !self.counts) {
+            Some(grid) => lines(&mut xml, &values, &nodes, &grid),
+            None => Vec::new(),
+        };
         let radius = radius(nodes.iter().flatten());
         for (node, &(a, b, value)) in nodes.iter().zip(&self.samples) {
             let Some((px, py, share)) = *node else {
@@ -90,6 +91,9 @@ impl Contours {
             };
             let tip = format!("{}, {}: {said}", tooltip(a), tooltip(b));
             mark(&mut xml, (px, py), radius, share, &tip);
+        }
+        for (x, y, label) in &labels {
+            frame::tick(&mut xml, label, (*x, y - 4.0), "middle", "halo");
         }
         for (n, (label, share)) in legend.iter().enumerate() {
             let y = top + 12.0 + ROW * n as f64;
@@ -108,6 +112,14 @@ impl Contours {
 
     /// Values told beside the plot, with their fractions: all counts where they are few, otherwise round numbers.
     fn legend(&self, values: &Ruler) -> Vec<(Label, f64)> {
+        let mut out = self.shades(values);
+        if self.samples.iter().any(|s| !s.2.is_finite()) {
+            out.push((Label::plain("none".to_owned()), f64::NAN));
+        }
+        out
+    }
+
+    fn shades(&self, values: &Ruler) -> Vec<(Label, f64)> {
         let mut counts: Vec<f64> = self
             .samples
             .iter()
@@ -149,53 +161,6 @@ impl Contours {
         out.iter().flatten().all(|&i| i < usize::MAX).then_some(out)
     }
 
-    /// Lines of equal value over a grid, each with its value once.
-    fn lines(&self, xml: &mut Xml, values: &Ruler, nodes: &[Option<Node>], grid: &[Vec<usize>]) {
-        let node = |r: usize, c: usize| nodes[grid[r][c]].filter(|n| !n.2.is_nan());
-        let mut labels: Vec<(f64, f64, &Label)> = Vec::new();
-        for tick in &values.ticks {
-            let (mut path, mut ends) = (String::new(), Vec::new());
-            for r in 1..grid.len() {
-                for c in 1..grid[r].len() {
-                    let corners = [
-                        node(r - 1, c - 1),
-                        node(r - 1, c),
-                        node(r, c),
-                        node(r, c - 1),
-                    ];
-                    for [a, b, c] in [[0, 1, 2], [0, 2, 3]] {
-                        let (Some(a), Some(b), Some(c)) = (corners[a], corners[b], corners[c])
-                        else {
-                            continue;
-                        };
-                        let sides = [(a, b), (b, c), (c, a)];
-                        let mut met = sides
-                            .into_iter()
-                            .filter_map(|(p, q)| crossing(p, q, tick.at));
-                        if let (Some(from), Some(to)) = (met.next(), met.next()) {
-                            let at = [from.0, from.1, to.0, to.1].map(number);
-                            path += &format!("M{} {}L{} {}", at[0], at[1], at[2], at[3]);
-                            ends.push(from);
-                        }
-                    }
-                }
-            }
-            if path.is_empty() {
-                continue;
-            }
-            xml.tag("path")
-                .set("class", "line c4")
-                .set("d", &path)
-                .close();
-            if let (Some(&(x, y)), Some(label)) = (ends.get(ends.len() / 2), &tick.label) {
-                labels.push((x, y, label));
-            }
-        }
-        for (x, y, label) in labels {
-            frame::tick(xml, label, (x, y - 4.0), "middle", "halo");
-        }
-    }
-
     /// What a screen reader says.
     fn about(&self) -> String {
         let seen = self.samples.iter().map(|s| s.2).filter(|v| v.is_finite());
@@ -220,6 +185,50 @@ impl Contours {
         );
         text.trim_start().to_owned()
     }
+}
+
+/// Draws lines of equal value over a grid; a place on each, and its value.
+fn lines(
+    xml: &mut Xml,
+    values: &Ruler,
+    nodes: &[Option<Node>],
+    grid: &[Vec<usize>],
+) -> Vec<(f64, f64, Label)> {
+    let node = |i: usize| nodes[i].filter(|n| !n.2.is_nan());
+    let mut labels = Vec::new();
+    for tick in &values.ticks {
+        let (mut path, mut ends) = (String::new(), Vec::new());
+        for rows in grid.windows(2) {
+            for (low, high) in rows[0].windows(2).zip(rows[1].windows(2)) {
+                let corners = [low[0], low[1], high[1], high[0]].map(node);
+                for [a, b, c] in [[0, 1, 2], [0, 2, 3]] {
+                    let (Some(a), Some(b), Some(c)) = (corners[a], corners[b], corners[c]) else {
+                        continue;
+                    };
+                    let sides = [(a, b), (b, c), (c, a)];
+                    let mut met = sides
+                        .into_iter()
+                        .filter_map(|(p, q)| crossing(p, q, tick.at));
+                    if let (Some(from), Some(to)) = (met.next(), met.next()) {
+                        let at = [from.0, from.1, to.0, to.1].map(number);
+                        path += &format!("M{} {}L{} {}", at[0], at[1], at[2], at[3]);
+                        ends.push(from);
+                    }
+                }
+            }
+        }
+        if path.is_empty() {
+            continue;
+        }
+        xml.tag("path")
+            .set("class", "line c4")
+            .set("d", &path)
+            .close();
+        if let (Some(&(x, y)), Some(label)) = (ends.get(ends.len() / 2), &tick.label) {
+            labels.push((x, y, label.clone()));
+        }
+    }
+    labels
 }
 
 /// Where a level is met between two places, its end not included, so that each is met once.

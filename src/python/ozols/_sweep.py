@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -45,16 +45,16 @@ class Sweep(Told):
         super().__init__(_native.sweep_read(self.path))
 
     @property
-    def rows(self) -> list[View]:  # type: ignore[override]
+    def rows(self) -> list[View]:
         """All that is known of each sample, in order of the samples."""
         return [View(json.loads(line)) for line in self._lines()[1:-1]]
 
-    def _lines(self) -> Iterator[str] | list[str]:
+    def _lines(self) -> list[str]:
         return self.path.read_text(encoding="utf-8").splitlines()
 
     def digest(self) -> Digest:
         """How many rows, and a hash of them that does not depend on their order."""
-        foot = json.loads(list(self._lines())[-1])
+        foot = json.loads(self._lines()[-1])
         return Digest({"rows": foot["rows"]}, int(foot["digest"], 16))
 
     def plot(self, quantity: str = "redundant", over: Iterable[str] = ()) -> Drawing:

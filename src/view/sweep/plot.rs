@@ -38,8 +38,9 @@ impl Quantity {
         }
     }
 
+    /// Whether it goes in steps, so that there is nothing between two of its values.
     fn is_count(self) -> bool {
-        matches!(self, Quantity::Redundant | Quantity::Mobility)
+        self != Quantity::PeakForce
     }
 
     #[allow(clippy::cast_precision_loss, reason = "counts are small")]

@@ -106,8 +106,8 @@ impl Sweep<'_> {
             say(line);
             match &best.everywhere[..] {
                 _ if best.samples == 0 => {}
-                [] => say("  Everywhere: none".to_owned()),
-                all => say(format!("  Everywhere: {}", some(all.to_vec(), " | "))),
+                [] => say("  At all of these: none".to_owned()),
+                all => say(format!("  At all of these: {}", some(all.to_vec(), " | "))),
             }
             if best.anywhere.len() > best.everywhere.len() {
                 let row =

@@ -175,14 +175,14 @@ fn lines_of_equal_value_are_where_the_value_is_equal() {
             "{line:?}"
         );
     }
-    // Between counts there is nothing, nor round a place without a value.
+    // Between counts there is nothing, nor round a place without a value, which is hollow and in the legend.
     assert!(lines(&plane(true, |x, _| x.round()).svg()).is_empty());
     let hole = plane(
         false,
         |x, y| if (x, y) == (2.0, 2.0) { f64::NAN } else { x },
     );
     assert!(lines(&hole.svg()).iter().flatten().count() < upright.iter().flatten().count());
-    assert_eq!(hole.svg().matches("class=\"hollow c5\"").count(), 1);
+    assert_eq!(hole.svg().matches("class=\"hollow c5\"").count(), 2);
     // Where samples are no grid there are none.
     let mut few = plane(false, |x, _| x);
     few.samples.pop();
