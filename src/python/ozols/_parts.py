@@ -108,7 +108,8 @@ def build(
 
 def shared_out(client: distributed.Client, pieces: int) -> int:
     """Parts so many that slow ones do not keep all others waiting at the end."""
-    return max(1, min(pieces, 8 * sum(client.nthreads().values())))
+    threads: int = sum(client.nthreads().values())
+    return max(1, min(pieces, 8 * threads))
 
 
 def part(make: Make, asked: Any, at: str, part: tuple[int, int], threads: int) -> tuple[str, dict[str, int], str]:
