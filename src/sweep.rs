@@ -4,6 +4,7 @@
 //! What is found holds at the samples. Nothing is said of what lies between them.
 
 pub mod forces;
+pub mod known;
 pub mod redesigns;
 pub mod row;
 pub mod space;

@@ -13,7 +13,7 @@ use crate::sweep::table::{Table, Watch, make, merge};
 use crate::sweep::{Asked, Spec, Sweep};
 use crate::view;
 use crate::view::next::{self, Step};
-use crate::view::sweep::Quantity;
+use crate::view::sweep::plot::Quantity;
 use anyhow::{Context, bail, ensure};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args as ClapArgs, ValueHint};

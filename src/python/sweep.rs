@@ -10,7 +10,7 @@ use ozols::sweep::space::Sampling;
 use ozols::sweep::table::{Head, Watch, make, merge, read};
 use ozols::sweep::{Asked, Spec, Sweep, SweepError};
 use ozols::view;
-use ozols::view::sweep::Quantity;
+use ozols::view::sweep::plot::Quantity;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};

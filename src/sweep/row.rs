@@ -10,6 +10,7 @@ use crate::rank::registry;
 use crate::redundancy::analysis::{AnalysisError, Method, StateAnalysis, analyse};
 use crate::sweep::Sweep;
 use crate::sweep::forces::{Forces, forces};
+use crate::sweep::known::Known;
 use crate::sweep::redesigns::{Redesigns, redesigns};
 use crate::sweep::space::Sample;
 use crate::sweep::stroke::{OverStroke, over_stroke};
@@ -44,46 +45,6 @@ pub struct Row {
     /// What each rank method is worth in the free state, where that was asked and the truth is proven.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub methods: BTreeMap<String, String>,
-}
-
-/// Something that is known, or why it is not.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum Known<T> {
-    /// Why not.
-    Not {
-        /// In words.
-        unknown: String,
-    },
-    /// It.
-    Yes(T),
-}
-
-impl<T> Known<T> {
-    /// It, where it is known.
-    pub fn get(&self) -> Option<&T> {
-        match self {
-            Known::Yes(found) => Some(found),
-            Known::Not { .. } => None,
-        }
-    }
-
-    /// Why it is not.
-    pub fn why(&self) -> Option<&str> {
-        match self {
-            Known::Yes(_) => None,
-            Known::Not { unknown } => Some(unknown),
-        }
-    }
-
-    pub(super) fn of<E: ToString>(found: Result<T, E>) -> Known<T> {
-        match found {
-            Ok(found) => Known::Yes(found),
-            Err(why) => Known::Not {
-                unknown: why.to_string(),
-            },
-        }
-    }
 }
 
 /// The structure of a state; see [`StateAnalysis`].

@@ -1,10 +1,8 @@
 //! A sweep as JSON, as text, as a flat table and as a plot; the keys of JSON are a stable contract.
 
 mod csv;
-mod plot;
+pub mod plot;
 mod text;
-
-pub use plot::{Plotted, Quantity};
 
 use crate::sweep::row::Row;
 use crate::sweep::summary::{Best, Peaks, Redundant, Summary, Tally};
