@@ -100,7 +100,18 @@ proptest! {
         }
         m.outputs = outputs.iter().map(|o| 1 + o % (m.links - 1)).collect();
         let conditions = Conditions { max_redundant, keep_output, ..Conditions::default() };
-        let (s, d) = search(&m.text(), conditions);
+        let (s, d) = search(&m.text(), conditions.clone());
+        // The cheapest alone, under a ceiling that is raised.
+        let few = Conditions { nodes: 300, cheapest: 6, counted: false, ..conditions };
+        let (bounded, proven) = search(&m.text(), few);
+        if let Some(known) = proven.known_up_to() {
+            let up_to = |s: &Search, d: &Diagrams| -> Vec<_> {
+                let milli = |key| s.steps.milli(key);
+                let all = s.cheapest(d, 6).map(|v| (milli(v.key.cost()), v.choices));
+                all.filter(|(cost, _)| *cost <= known).collect()
+            };
+            prop_assert_eq!(up_to(&bounded, &proven), up_to(&s, &d));
+        }
         let brute = s.brute().unwrap();
         for (found, expected) in [
             (s.counts(&d.determinate, false), brute.0),
@@ -175,5 +186,26 @@ fn what_hangs_on_a_link_aside_costs_what_it_costs_alone() {
     let (one, eight) = (hung(1), hung(8));
     for i in 0..2 {
         assert!(eight[i] <= 8 * one[i], "{one:?} {eight:?}");
+    }
+}
+
+#[test]
+fn a_long_open_chain_aside_is_no_burden() {
+    let with_tail = |n: u32| {
+        let mut m = Written::new(FOUR);
+        let [rocker, coupler, _] = m.four_bar(0, 0, [0, 0, 1]);
+        m.outputs.push(rocker);
+        let mut at = coupler;
+        for i in 0..n {
+            let next = m.link();
+            m.hinge([at, next], [i64::from(i), 3, 1], AXES[i as usize % 4]);
+            at = next;
+        }
+        figures(&search(&m.text(), Conditions::default()))
+    };
+    let (none, long) = (with_tail(0), with_tail(60));
+    for i in 0..2 {
+        assert_eq!(long.1[i], &none.1[i] * BigUint::from(4u32).pow(60));
+        assert_eq!(long.0[i], none.0[i] + 60);
     }
 }
