@@ -1,4 +1,4 @@
-//! Charts as self-contained SVG: lines on linear or log axes, verdict matrices, bands, and a page that gathers them.
+//! Charts as self-contained SVG: lines on linear or log axes, contours, verdict matrices, bands, and a page that gathers them.
 //!
 //! The SVG is written by a helper of our own: plotters and charts-rs fix the colours, so that one picture cannot be both
 //! light and dark, poloto has no log axis, charming runs V8, none keeps names at line ends apart, and the `svg` crate puts
@@ -10,6 +10,7 @@
 
 mod axis;
 mod bands;
+mod contours;
 mod drawn;
 mod frame;
 mod labels;
@@ -137,4 +138,23 @@ pub struct Bands {
     pub x: Axis,
     /// The name of each row with its bands.
     pub rows: Vec<(String, Vec<Band>)>,
+}
+
+/// A quantity over two others, sample by sample.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contours {
+    /// What is shown.
+    pub title: String,
+    /// One sentence under the title, or nothing.
+    pub subtitle: String,
+    /// The axis across.
+    pub x: Axis,
+    /// The axis up.
+    pub y: Axis,
+    /// The quantity, with its unit.
+    pub value: String,
+    /// x, y and value; a value that is not finite is none.
+    pub samples: Vec<(f64, f64, f64)>,
+    /// Whether values are counts, between which there is nothing.
+    pub counts: bool,
 }

@@ -33,6 +33,7 @@ mod report;
 mod request;
 mod search;
 mod statics;
+mod sweep;
 mod variant;
 mod verify;
 mod working;
@@ -91,6 +92,7 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         args::Command::Accuracy(a) => accuracy::run(&args, a),
         args::Command::Bench(a) => bench::run(&args, a),
         args::Command::Catalog(a) => catalog::run(&args, a),
+        args::Command::Sweep(a) => sweep::run(&args, a),
         args::Command::Check(a) => check::run(&args, a),
         args::Command::New(a) => new::run(&args, a),
         args::Command::List(a) => list::run(a),

@@ -26,5 +26,6 @@ pub mod stroke;
 #[cfg(feature = "cli")]
 pub mod structures;
 pub mod suggestions;
+pub mod sweep;
 pub mod variant_data;
 mod variant_table;

@@ -5,33 +5,12 @@ use crate::catalog::spec::Spec;
 use crate::chains::chain::Chain;
 use crate::chains::enumerate::{ChainsError, chains};
 use crate::chains::roles::Subject;
+use crate::shard::Shard;
 use crate::synthesis::structure::{Structure, structures};
 use rayon::prelude::*;
-use sha2::{Digest, Sha256};
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use thiserror::Error;
-
-/// A part of a catalogue, by a hash of the structures' names: part `index` of `of`, from 0.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Shard {
-    /// Which.
-    pub index: u64,
-    /// Of how many.
-    pub of: u64,
-}
-
-impl Shard {
-    /// The whole.
-    pub const WHOLE: Shard = Shard { index: 0, of: 1 };
-
-    fn has(self, structure: &Structure) -> bool {
-        let digest = Sha256::digest(structure.name());
-        let mut first = [0; 8];
-        first.copy_from_slice(&digest[8..16]);
-        u64::from_be_bytes(first) % self.of.max(1) == self.index
-    }
-}
 
 /// Why a catalogue cannot be built.
 #[derive(Debug, Error)]
@@ -67,7 +46,7 @@ pub fn work(spec: &Spec, shard: Shard) -> Result<Vec<Work>, BuildError> {
             let (chain, automorphisms) = chain.canonical();
             let subject = Subject::new(&chain, &automorphisms);
             let mut structures = structures(&subject, &forms);
-            structures.retain(|s| shard.has(s));
+            structures.retain(|s| shard.has(&s.name()));
             Work {
                 structures,
                 automorphisms,

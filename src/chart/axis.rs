@@ -54,6 +54,11 @@ pub(super) enum Room {
 }
 
 impl Label {
+    /// A number as it is.
+    pub(super) fn plain(base: String) -> Label {
+        Label { base, power: None }
+    }
+
     /// Its width in pixels.
     pub(super) fn width(&self) -> f64 {
         let power = self.power.as_deref().unwrap_or_default();

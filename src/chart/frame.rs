@@ -126,3 +126,26 @@ pub(super) fn across(xml: &mut Xml, ruler: &Ruler, name: &str, plot: &Rect) {
         .num("y", bottom + 38.0);
     at.set("text-anchor", "end").text(&name);
 }
+
+/// The axis up: lines over the plot and labels before it.
+pub(super) fn up(xml: &mut Xml, ruler: &Ruler, plot: &Rect) {
+    let &Rect {
+        left,
+        top,
+        right,
+        bottom,
+    } = plot;
+    let height = |at: f64| bottom - at * (bottom - top);
+    for at in &ruler.fine {
+        stroke(xml, "fine", (left, height(*at)), (right, height(*at)));
+    }
+    for tick in &ruler.ticks {
+        let y = height(tick.at);
+        let zero = tick.label.as_ref().is_some_and(|l| l.base == "0");
+        let class = if zero { "axis" } else { "grid" };
+        stroke(xml, class, (left, y), (right, y));
+        if let Some(label) = &tick.label {
+            self::tick(xml, label, (left - 8.0, y + 4.0), "end", "yt");
+        }
+    }
+}

@@ -8,7 +8,6 @@ use super::{Chart, Series, Style};
 use crate::format::csv;
 use crate::svg::plane::Rect;
 use crate::svg::text;
-use crate::svg::xml::Xml;
 
 impl Chart {
     /// The chart as a self-contained SVG element, for a file of its own or inside HTML.
@@ -86,7 +85,7 @@ impl Chart {
         let label = text::cut(&self.y.label, TICK, WIDTH - 2.0 * PAD);
         let text = xml.tag("text").set("class", "name").num("x", PAD);
         text.num("y", top - 14.0).text(&label);
-        up(&mut xml, &y, &plot);
+        frame::up(&mut xml, &y, &plot);
         frame::across(&mut xml, &x, &self.x.label, &plot);
         frame::stroke(&mut xml, "axis", (left, bottom), (right, bottom));
         let place = |p: (f64, f64)| {
@@ -154,28 +153,5 @@ impl Chart {
             n => format!(" {n} of {all} points cannot be shown."),
         };
         format!("{sentence}{y} over {x}. Series: {names}.{missing}")
-    }
-}
-
-/// The axis up: lines over the plot and labels before it.
-fn up(xml: &mut Xml, ruler: &Ruler, plot: &Rect) {
-    let &Rect {
-        left,
-        top,
-        right,
-        bottom,
-    } = plot;
-    let height = |at: f64| bottom - at * (bottom - top);
-    for at in &ruler.fine {
-        frame::stroke(xml, "fine", (left, height(*at)), (right, height(*at)));
-    }
-    for tick in &ruler.ticks {
-        let y = height(tick.at);
-        let zero = tick.label.as_ref().is_some_and(|l| l.base == "0");
-        let class = if zero { "axis" } else { "grid" };
-        frame::stroke(xml, class, (left, y), (right, y));
-        if let Some(label) = &tick.label {
-            frame::tick(xml, label, (left - 8.0, y + 4.0), "end", "yt");
-        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{
     accuracy, analyze, bench, catalog, check, completions, draw, drive, examples, explain, export,
-    fix, grip, import, lint, list, man, new, report, search, statics, verify,
+    fix, grip, import, lint, list, man, new, report, search, statics, sweep, verify,
 };
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum, ValueHint};
 
@@ -80,6 +80,9 @@ pub(super) enum Command {
     /// The structures that a mechanism can have, before it is drawn: chains, and grippers made of them.
     #[command(after_help = examples::CATALOG)]
     Catalog(catalog::Catalog),
+    /// Take the parameters of a mechanism file over a grid or at random: where σ changes, which redesigns are best, peak forces.
+    #[command(after_help = examples::SWEEP)]
+    Sweep(sweep::SweepArgs),
     /// Write a commented mechanism file to start from.
     #[command(after_help = examples::NEW)]
     New(new::New),

@@ -89,7 +89,7 @@ pub(super) struct Which {
     /// Memory that a search may hold, in bytes or such as 500M or 2G; by default a quarter of the machine's. Where it does not
     /// suffice, counts are lower bounds, as with --nodes.
     #[arg(long, value_name = "BYTES", value_parser = memory::bytes)]
-    memory: Option<usize>,
+    pub(super) memory: Option<usize>,
 }
 
 /// Which variants, the state meant, and how they are checked.

@@ -2,6 +2,8 @@
 
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
+use crate::geom::expr::{Expr, ExprError};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A problem and the path of the item it concerns.
 pub type Finding = (Vec<Step>, ProblemKind);
@@ -9,14 +11,45 @@ pub type Finding = (Vec<Step>, ProblemKind);
 /// Most problems that are told; a file of a few megabytes can hold a hundred thousand, and each is looked up and drawn.
 pub const TOLD: usize = 100;
 
-/// Problems found so far, with where they stand: the first of them, and how many more there are.
+/// Problems found so far, with where they stand: the first of them, and how many more there are. They are found where
+/// expressions are read, so this knows the numbers that have names, too.
 #[derive(Default)]
 pub(crate) struct Findings {
     told: Vec<Finding>,
     more: usize,
+    /// What the file's parameters stand for.
+    names: BTreeMap<String, Expr>,
+    /// Those that an expression has.
+    used: BTreeSet<String>,
 }
 
 impl Findings {
+    /// From now on these are numbers with names.
+    pub(crate) fn know(&mut self, names: BTreeMap<String, Expr>) {
+        self.names = names;
+    }
+
+    /// The value of an expression.
+    pub(crate) fn expression(&mut self, text: &str) -> Result<Expr, ExprError> {
+        let (names, used) = (&self.names, &mut self.used);
+        Expr::with_names(text, &mut |word| {
+            let found = names.get(word)?;
+            used.insert(word.to_owned());
+            Some(found.clone())
+        })
+    }
+
+    /// Names that no expression had so far.
+    pub(crate) fn unused(&self) -> Vec<String> {
+        let all = self.names.keys().filter(|n| !self.used.contains(*n));
+        all.cloned().collect()
+    }
+
+    /// The names there are.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.names.keys().map(String::as_str)
+    }
+
     pub(crate) fn add(&mut self, path: &[Step], kind: ProblemKind) {
         if self.told.len() < TOLD {
             self.told.push((path.to_vec(), kind));

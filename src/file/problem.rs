@@ -165,6 +165,32 @@ pub enum ProblemKind {
         columns: usize,
         limit: usize,
     },
+    #[error(
+        "no parameter can be named {name:?}; a name is a letter, and letters, digits or _ after it, but not pi, deg, sqrt, cos, sin, tan or cot"
+    )]
+    BadParameter { name: String },
+    #[error(
+        "the range of parameter \"{name}\" is empty: from {from} to {to}; give the lesser number first"
+    )]
+    EmptyRange {
+        name: String,
+        from: String,
+        to: String,
+    },
+    #[error(
+        "parameter \"{name}\" has nothing to be; give a range such as [10, 20], or values such as [10, 12, 15]"
+    )]
+    NoValues { name: String },
+    #[error("the default {value} of parameter \"{name}\" is not {of}; choose one that is")]
+    BadDefault {
+        name: String,
+        value: String,
+        of: &'static str,
+    },
+    #[error(
+        "nothing depends on parameter \"{name}\"; use it in an expression in quotes, such as \"2*{name}\", or remove it"
+    )]
+    UnusedParameter { name: String },
     #[error("the file has {count} {what}, more than the {limit} allowed")]
     TooMany {
         what: &'static str,

@@ -15,6 +15,7 @@ mod mode;
 pub mod motion;
 mod names;
 mod options;
+pub mod parameters;
 pub(crate) mod quantity;
 pub mod ranking;
 pub(crate) mod resolve;
@@ -24,13 +25,14 @@ pub mod trajectory;
 mod unit;
 pub mod workload;
 
-use crate::file::findings::{Finding, Findings};
+use crate::file::findings::Finding;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
 use crate::file::read::coupling::couplings;
 use crate::file::read::drive::drive;
 use crate::file::read::grip::grip;
 use crate::file::read::loads::loads;
+use crate::file::read::parameters::{Values, knowing, unused};
 use crate::file::read::ranking::{joint_types, ranking};
 use crate::file::read::unit::length_unit;
 use crate::file::schema::MechanismFile;
@@ -46,12 +48,17 @@ use mode::mode;
 use search::search;
 use size::size;
 
-/// Builds a mechanism.
+/// Builds a mechanism, its parameters at their defaults.
 ///
 /// # Errors
 /// The problems found, the first hundred of them.
 pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
-    let mut out = Findings::default();
+    build_at(file, &Values::new())
+}
+
+/// Builds a mechanism at values of its parameters; those not given have their defaults.
+pub(crate) fn build_at(file: &MechanismFile, values: &Values) -> Result<Mechanism, Vec<Finding>> {
+    let mut out = knowing(file, values);
     for (what, count, limit) in [
         ("links", file.link.len(), LIMITS.0),
         ("joints", file.joint.len(), LIMITS.1),
@@ -109,5 +116,8 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     by_type.sort_by(|a, b| a.0.cmp(&b.0));
     by_type.dedup_by(|later, first| later.0 == first.0);
     mechanism.expected = expected(file, &mechanism, &mut out);
+    if out.count() == 0 {
+        unused(&mut out);
+    }
     out.unless(mechanism)
 }

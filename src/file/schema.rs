@@ -3,6 +3,7 @@
 mod drive;
 mod grip;
 mod number;
+mod parameter;
 mod ranking;
 mod words;
 mod workload;
@@ -10,6 +11,7 @@ mod workload;
 pub use drive::DriveEntry;
 pub use grip::{DiameterSteps, Diameters, Gravity, GripEntry};
 pub use number::{Coordinate, Quantities, Quantity};
+pub use parameter::{ParameterEntry, VariedEntry};
 pub use ranking::{JointTypeEntry, LimitEntry, RankingEntry, TermEntry};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -41,6 +43,10 @@ pub struct MechanismFile {
     /// Normal of the plane of motion in planar mode; z by default.
     #[serde(default)]
     pub plane_normal: Option<[Coordinate; 3]>,
+    /// Numbers by name, for expressions: `[parameter]` with `height = 40`, or what `ozols sweep` varies,
+    /// `height = { range = [30, 50], default = 40 }`.
+    #[serde(default)]
+    pub parameter: BTreeMap<String, ParameterEntry>,
     /// The rigid bodies.
     #[serde(default)]
     pub link: Vec<LinkEntry>,

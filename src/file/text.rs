@@ -1,10 +1,11 @@
 //! Reading a mechanism from text.
 
 use crate::file::controls::controls;
-use crate::file::findings::Finding;
+use crate::file::findings::{Finding, Findings};
 use crate::file::locate::Document;
 use crate::file::problem::{ImportError, Problem, ProblemKind};
-use crate::file::read::build;
+use crate::file::read::parameters::{Parameter, Values, parameters};
+use crate::file::read::{build, build_at};
 use crate::file::schema::MechanismFile;
 use crate::model::mechanism::Mechanism;
 
@@ -25,6 +26,26 @@ pub fn mechanism_from_bytes(name: &str, bytes: &[u8]) -> Result<Mechanism, Impor
 /// Every problem found, each with its place.
 pub fn mechanism_from_str(name: &str, text: &str) -> Result<Mechanism, ImportError> {
     read(name, text, build)
+}
+
+/// The same at values of its parameters; those not given have their defaults.
+///
+/// # Errors
+/// Every problem found, each with its place.
+pub fn mechanism_at(name: &str, text: &str, values: &Values) -> Result<Mechanism, ImportError> {
+    read(name, text, |file| build_at(file, values))
+}
+
+/// The parameters of a file by name, ascending.
+///
+/// # Errors
+/// Every problem with them, each with its place.
+pub fn parameters_of(name: &str, text: &str) -> Result<Vec<Parameter>, ImportError> {
+    read(name, text, |file| {
+        let mut out = Findings::default();
+        let found = parameters(file, &mut out);
+        out.unless(found)
+    })
 }
 
 /// The text in the bytes of a file that is not too large.

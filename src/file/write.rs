@@ -40,6 +40,7 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
         length_unit: Some(m.length_unit.symbol.to_owned()),
         mode,
         plane_normal,
+        parameter: BTreeMap::new(),
         link: m
             .links
             .iter()

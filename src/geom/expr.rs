@@ -14,6 +14,7 @@ mod write;
 pub use error::ExprError;
 pub use node::Expr;
 pub(crate) use node::{Function, Kind};
+pub(crate) use parse::WORDS;
 pub use parse::{MAX_ANGLE_DENOMINATOR, MAX_EXPONENT, MAX_NESTING, MAX_POWER, MAX_TEXT};
 pub(crate) use rational::rational_sqrt;
 use rational::{MAX_BITS, bits, decimal};

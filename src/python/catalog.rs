@@ -2,9 +2,10 @@
 
 use crate::told::failed;
 use crate::waiting::patiently;
-use ozols::catalog::build::{Shard, build, work};
+use ozols::catalog::build::{build, work};
 use ozols::catalog::spec::Spec;
 use ozols::catalog::store::Store;
+use ozols::shard::Shard;
 use pyo3::prelude::*;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -39,11 +40,7 @@ pub(crate) fn catalog_build(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<usize> {
     let spec = &spec(json)?;
-    let (index, of) = part;
-    if !(1..=of).contains(&index) {
-        return Err(failed("a part is written 1/7, the first of seven"));
-    }
-    let index = index - 1;
+    let shard = Shard::nth(part.0, part.1).map_err(failed)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     let pool = pool.build().map_err(failed)?;
     patiently(
@@ -52,7 +49,7 @@ pub(crate) fn catalog_build(
             pool.install(|| {
                 let mut store = Store::create(&path, spec).map_err(failed)?;
                 let there = store.ids().map_err(failed)?;
-                let work = work(spec, Shard { index, of }).map_err(failed)?;
+                let work = work(spec, shard).map_err(failed)?;
                 let all: usize = work.iter().map(|w| w.structures.len()).sum();
                 let mut added = 0;
                 let stopped = || stop.load(Ordering::Relaxed);

@@ -3,9 +3,11 @@
 
 mod analysis;
 mod catalog;
+mod chart;
 mod mechanism;
 mod search;
 mod statics;
+mod sweep;
 mod told;
 mod waiting;
 
@@ -20,11 +22,15 @@ mod _native {
     #[pymodule_export]
     use crate::catalog::{catalog_build, catalog_merge, catalog_plan};
     #[pymodule_export]
-    use crate::mechanism::{Mechanism, builtin_names};
+    use crate::chart::chart;
+    #[pymodule_export]
+    use crate::mechanism::{Mechanism, builtin_names, builtin_text};
     #[pymodule_export]
     use crate::search::{Outcome, Variant, Variants, search};
     #[pymodule_export]
     use crate::statics::statics;
+    #[pymodule_export]
+    use crate::sweep::{sweep_make, sweep_merge, sweep_plan, sweep_plot, sweep_read};
     #[pymodule_export]
     use crate::told::Error;
 

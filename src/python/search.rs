@@ -57,7 +57,7 @@ pub(crate) struct Asked {
 }
 
 /// What a word stands for.
-fn word<T: Copy>(what: &str, word: &str, known: &[(&str, T)]) -> PyResult<T> {
+pub(crate) fn word<T: Copy>(what: &str, word: &str, known: &[(&str, T)]) -> PyResult<T> {
     let found = known.iter().find(|(w, _)| *w == word);
     found.map(|(_, t)| *t).ok_or_else(|| {
         let known: Vec<&str> = known.iter().map(|(w, _)| *w).collect();
@@ -66,7 +66,12 @@ fn word<T: Copy>(what: &str, word: &str, known: &[(&str, T)]) -> PyResult<T> {
 }
 
 impl Asked {
-    fn request(self) -> PyResult<Request> {
+    /// The memory it asks for, in bytes.
+    pub(crate) fn memory(&self) -> Option<usize> {
+        self.memory
+    }
+
+    pub(crate) fn request(self) -> PyResult<Request> {
         let joints = |all: Vec<(String, Vec<String>)>| {
             let one = |(joint, names)| JointOptions { joint, names };
             all.into_iter().map(one).collect()

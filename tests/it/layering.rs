@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers, lowest first; modules of one row do not import each other, except where a row says so by order.
-const LAYERS: [&[&str]; 18] = [
-    &["format"],
+const LAYERS: [&[&str]; 19] = [
+    &["format", "shard"],
     &["linalg", "terms", "guide", "builtin"],
     &["geom", "verify", "chains"],
     &["svg"],
@@ -20,6 +20,7 @@ const LAYERS: [&[&str]; 18] = [
     &["search", "robots", "synthesis"],
     &["score", "draw"],
     &["accuracy", "catalog"],
+    &["sweep"],
     &["api"],
     &["view"],
     &["page"],

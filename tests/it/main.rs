@@ -57,6 +57,7 @@ mod stroke;
 mod stroke_poses;
 mod structure;
 mod suggest;
+mod sweep;
 mod tables;
 mod twin;
 mod unilateral;

@@ -2,6 +2,9 @@
 
 import os
 import signal
+import socket
+import subprocess
+import sys
 import threading
 import time
 
@@ -124,3 +127,102 @@ def test_a_part_that_was_spoilt_is_noticed(cluster, in_tmp):
     with distributed.Client(cluster) as client, pytest.raises(ozols.Error, match="do not make the whole"):
         ozols.catalog.build(spec, out="all.db", client=client, shards=3, progress=spoil)
     assert not (in_tmp / "all.db").exists()
+
+
+def free_port():
+    with socket.socket() as s:
+        s.bind(("127.0.0.1", 0))
+        return s.getsockname()[1]
+
+
+def started(what, *words):
+    """A process of Dask on 127.0.0.1."""
+    words = [sys.executable, "-m", f"distributed.cli.dask_{what}", *words, "--host", "127.0.0.1", "--no-dashboard"]
+    return subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+def test_rows_survive_the_death_of_the_scheduler_and_of_a_worker(alone, in_tmp):
+    port = str(free_port())
+    address = f"tcp://127.0.0.1:{port}"
+    there = []
+
+    def scheduler():
+        there.append(started("scheduler", "--port", port))
+        return there[-1]
+
+    def worker():
+        there.append(started("worker", address, "--nthreads", "1", "--no-nanny", "--local-directory", str(in_tmp)))
+        return there[-1]
+
+    parts, restarted = in_tmp / "all.db.parts", []
+
+    def done():
+        return {p.name: p.stat().st_mtime_ns for p in parts.glob("*.db") if p.with_suffix(".json").exists()}
+
+    def kill(first, workers):
+        while len(done()) < 2:
+            time.sleep(0.02)
+        workers[0].kill()
+        while len(done()) < 4:
+            time.sleep(0.02)
+        first.kill()
+        first.wait()
+        restarted.append(done())
+        scheduler()
+        for _ in range(3):
+            worker()
+
+    try:
+        first, workers = scheduler(), [worker() for _ in range(3)]
+        with distributed.Client(address, timeout=60) as client:
+            client.wait_for_workers(3, timeout=60)
+            killer = threading.Thread(target=kill, args=(first, workers))
+            killer.start()
+            seen = {}
+
+            def look(*_):
+                seen.update({p.name: p.stat().st_mtime_ns for p in parts.glob("*.db") if p.exists()})
+
+            with ozols.catalog.build(SPEC, out="all.db", client=client, shards=SHARDS, progress=look) as made:
+                assert made.digest() == alone
+            killer.join()
+            # What was finished before was not made again.
+            assert len(restarted[0]) >= 4
+            assert {name: seen[name] for name in restarted[0]} == restarted[0]
+            # A second run does nothing.
+            before = os.stat("all.db")
+            ozols.catalog.build(SPEC, out="all.db", client=client, shards=SHARDS).close()
+            assert os.stat("all.db") == before
+    finally:
+        for process in there:
+            process.kill()
+            process.wait()
+
+
+def test_a_sweep_on_workers_has_the_rows_of_one_process(cluster, in_tmp):
+    asked = {"grid": 4, "search": {"max_mobility": 1}, "seed": 3}
+    here = ozols.sweep("parallelogram-3-rods", out="here.jsonl", **asked)
+    killed, parts = [], in_tmp / "there.jsonl.parts"
+
+    def kill():
+        with distributed.Client(cluster) as watching:
+            while not list(parts.glob("*.json")):
+                time.sleep(0.005)
+            killed.append(a_busy_worker(watching))
+            os.kill(killed[0], signal.SIGKILL)
+
+    killer = threading.Thread(target=kill)
+    killer.start()
+    with distributed.Client(cluster) as client:
+        there = ozols.sweep("parallelogram-3-rods", out="there.jsonl", client=client, shards=8, **asked)
+        killer.join()
+        assert killed
+        assert there.digest() == here.digest()
+        assert there.path.read_bytes() == here.path.read_bytes()
+        assert not parts.exists()
+        # A second run does nothing, and says the same.
+        before = os.stat("there.jsonl")
+        again = ozols.sweep("parallelogram-3-rods", out="there.jsonl", client=client, shards=8, **asked)
+        assert (os.stat("there.jsonl"), str(again)) == (before, str(there))
+        with pytest.raises(ozols.Error, match="another sweep"):
+            ozols.sweep("parallelogram-3-rods", out="there.jsonl", client=client, grid=3)

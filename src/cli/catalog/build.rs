@@ -4,9 +4,10 @@ use super::super::args::Args;
 use super::super::progress::Bar;
 use super::super::{Done, interrupt};
 use super::built::built;
-use crate::catalog::build::{Shard, build, work};
+use crate::catalog::build::{build, work};
 use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;
+use crate::shard::Shard;
 use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueHint};
 use std::ops::ControlFlow;
@@ -45,20 +46,11 @@ pub(in crate::cli) struct Build {
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     spec: Option<PathBuf>,
     /// Make part I of N alone, from 1; `ozols catalog merge` puts the parts together.
-    #[arg(long, value_name = "I/N", value_parser = shard)]
+    #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
     /// The database; where there is one of the same catalogue, what it has not is added.
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     output: PathBuf,
-}
-
-fn shard(text: &str) -> Result<Shard, String> {
-    let parts = text.split_once('/');
-    let numbers = parts.and_then(|(i, n)| Some((i.parse::<u64>().ok()?, n.parse::<u64>().ok()?)));
-    match numbers {
-        Some((i, of)) if i >= 1 && i <= of => Ok(Shard { index: i - 1, of }),
-        _ => Err("a part is written 1/7, the first of seven".to_owned()),
-    }
 }
 
 impl Build {

@@ -206,7 +206,15 @@ fn angle_text(text: &str) -> Option<(Coordinate, f64)> {
     if let Some(t) = text.strip_suffix("rad") {
         return Some((expression(t), 1.0));
     }
-    let Some((before, after)) = text.split_once("pi") else {
+    let in_word = |c: Option<char>| c.is_some_and(|c| c.is_ascii_alphanumeric() || c == '_');
+    // Not the beginning of another word, such as the name of a parameter.
+    let pi = text
+        .match_indices("pi")
+        .map(|(at, _)| (&text[..at], &text[at + 2..]));
+    let alone = |(before, after): &(&str, &str)| {
+        !in_word(before.chars().next_back()) && !in_word(after.chars().next())
+    };
+    let Some((before, after)) = pi.into_iter().find(alone) else {
         return Some((expression(text), 1f64.to_radians()));
     };
     let factor = match before.trim() {

@@ -4,7 +4,7 @@ use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
 use crate::file::schema::{Coordinate, OptionEntry, OptionTable};
-use crate::geom::expr::Expr;
+use crate::geom::expr::{Expr, ExprError};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, JointOption, StateId};
 use itertools::Itertools;
@@ -31,7 +31,7 @@ pub(crate) fn number(c: &Coordinate, path: &[Step], out: &mut Findings) -> Expr 
     let parsed = match c {
         Coordinate::Integer(i) => Ok(Expr::from(*i)),
         Coordinate::Decimal(x) => Expr::from_f64(*x),
-        Coordinate::Expression(s) => s.parse::<Expr>(),
+        Coordinate::Expression(s) => out.expression(s),
     };
     match parsed {
         Ok(e) => {
@@ -53,12 +53,15 @@ pub(crate) fn number(c: &Coordinate, path: &[Step], out: &mut Findings) -> Expr 
             e
         }
         Err(e) => {
-            out.add(
-                path,
-                ProblemKind::BadNumber {
-                    message: e.to_string(),
-                },
-            );
+            let known = out.names().join(", ");
+            let parameters = match e {
+                ExprError::UnknownWord { .. } if !known.is_empty() => {
+                    format!(", and the parameters {known}")
+                }
+                _ => String::new(),
+            };
+            let message = format!("{e}{parameters}");
+            out.add(path, ProblemKind::BadNumber { message });
             Expr::from(0)
         }
     }

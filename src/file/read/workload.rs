@@ -6,6 +6,7 @@ use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::read::build;
 use crate::file::read::drive::drive;
 use crate::file::read::grip::grip;
+use crate::file::read::parameters::{Values, knowing};
 use crate::file::read::unit::length_unit;
 use crate::file::schema::MechanismFile;
 use crate::file::text::{read, text_of};
@@ -69,7 +70,7 @@ pub fn tables_alone(
         if tables.is_empty() || !file.link.is_empty() || !file.joint.is_empty() {
             return Ok(None);
         }
-        let mut out = Findings::default();
+        let mut out = knowing(file, &Values::new());
         let unit = length_unit(file, &mut out).metres;
         grip(file, unit, None, &mut out);
         drive(file, unit, None, &mut out);
@@ -92,7 +93,7 @@ fn workload<T>(
     table: impl Fn(&MechanismFile, f64, Option<&Mechanism>, &mut Findings) -> Option<T>,
     missing: ProblemKind,
 ) -> Result<Workload<T>, Vec<Finding>> {
-    let mut out = Findings::default();
+    let mut out = knowing(file, &Values::new());
     let mechanism = match file.link.is_empty() && file.joint.is_empty() {
         true => None,
         false => Some(build(file)?),

@@ -19,6 +19,12 @@ pub const MAX_POWER: i64 = 64;
 /// The largest denominator of an angle in turns; finer angles leave no primes of 61 bits to compute with.
 pub const MAX_ANGLE_DENOMINATOR: u64 = 1 << 44;
 
+/// What a word that is none of an expression's own stands for, where it stands for a number.
+pub(crate) type Names<'n> = &'n mut dyn FnMut(&str) -> Option<Expr>;
+
+/// The words of expressions, which no number can have for a name.
+pub(crate) const WORDS: [&str; 7] = ["pi", "deg", "sqrt", "cos", "sin", "tan", "cot"];
+
 impl FromStr for Expr {
     type Err = ExprError;
 
@@ -27,6 +33,16 @@ impl FromStr for Expr {
     /// # Errors
     /// An [`ExprError`] naming the byte where the text is malformed, out of limits, or has no real value.
     fn from_str(text: &str) -> Result<Expr, ExprError> {
+        Expr::with_names(text, &mut |_| None)
+    }
+}
+
+impl Expr {
+    /// Reads an expression in which words may be names of numbers.
+    ///
+    /// # Errors
+    /// As [`Expr::from_str`].
+    pub(crate) fn with_names(text: &str, names: Names<'_>) -> Result<Expr, ExprError> {
         if text.len() > MAX_TEXT {
             return Err(ExprError::TooLong { len: text.len() });
         }
@@ -34,6 +50,7 @@ impl FromStr for Expr {
             text,
             pos: 0,
             depth: 0,
+            names,
         };
         if parser.peek().is_none() {
             return Err(ExprError::Empty);
@@ -80,14 +97,15 @@ fn angle(turns: BigRational, at: usize) -> Result<Value, ExprError> {
     }
 }
 
-struct Parser<'a> {
+struct Parser<'a, 'n> {
     text: &'a str,
     /// Always on a character boundary: only ASCII is ever consumed.
     pos: usize,
     depth: usize,
+    names: Names<'n>,
 }
 
-impl<'a> Parser<'a> {
+impl<'a> Parser<'a, '_> {
     /// The next byte that is not white space.
     fn peek(&mut self) -> Option<u8> {
         while self.here().is_some_and(|b| b.is_ascii_whitespace()) {
@@ -360,10 +378,15 @@ impl<'a> Parser<'a> {
             "tan" => (Function::Tan, "tan"),
             "cot" => (Function::Tan, "cot"),
             _ => {
-                return Err(ExprError::UnknownWord {
+                let unknown = || ExprError::UnknownWord {
                     at,
                     word: word.to_owned(),
-                });
+                };
+                let named = (self.names)(word).ok_or_else(unknown)?;
+                return match named.rational_ref() {
+                    Some(_) => self.degrees(named),
+                    None => Ok(Value::Number(named)),
+                };
             }
         };
         let turns = match self.parentheses()? {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import os
 import warnings
@@ -34,6 +35,31 @@ def _pairs(rules: Mapping[str, Iterable[str]] | Iterable[str]) -> list[tuple[str
 
 def _range(stroke: str | tuple[float, float, int]) -> str:
     return stroke if isinstance(stroke, str) else ":".join(map(str, stroke))
+
+
+def _asked(given: Mapping[str, Any]) -> dict[str, Any]:
+    """The keywords of a search as the library takes them."""
+    rank = given["rank"]
+    terms = rank.items() if isinstance(rank, Mapping) else ((t, 1.0) for t in _names(rank))
+    return {
+        **given,
+        "hold": _names(given["hold"]),
+        "unloading": [([k], v) for k, v in _pairs(given["unloading"])],
+        "options": _names(given["options"]),
+        "allow": _pairs(given["allow"] or {}),
+        "forbid": _pairs(given["forbid"]),
+        "rank": [(t, float(w)) for t, w in terms],
+    }
+
+
+def asked(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Some keywords of :meth:`Mechanism.search`, the others at their defaults, as the library takes them."""
+    known = inspect.signature(Mechanism.search).parameters.values()
+    every = {p.name: p.default for p in known if p.name not in ("self", "progress")}
+    unknown = [name for name in given if name not in every]
+    if unknown:
+        raise TypeError(f"a search has no keyword {unknown[0]!r}; it has {', '.join(every)}")
+    return _asked({**every, **given})
 
 
 class Mechanism:
@@ -227,38 +253,8 @@ class Mechanism:
         >>> found.determinate, found.admissible, found[0].cost
         (136800, 6240, 11.5)
         """
-        terms = rank.items() if isinstance(rank, Mapping) else ((t, 1.0) for t in _names(rank))
-        asked = {
-            "max_redundant": max_redundant,
-            "max_external": max_external,
-            "max_harmful": max_harmful,
-            "state": state,
-            "allow_loose_object": allow_loose_object,
-            "max_mobility": max_mobility,
-            "max_changes": max_changes,
-            "allow_output_change": allow_output_change,
-            "hold": _names(hold),
-            "unloading": [([k], v) for k, v in _pairs(unloading)],
-            "options": _names(options),
-            "allow": _pairs(allow or {}),
-            "forbid": _pairs(forbid),
-            "symmetry": symmetry,
-            "as_written": as_written,
-            "snap": snap,
-            "counted": counted,
-            "nodes": nodes,
-            "memory": memory,
-            "rank": [(t, float(w)) for t, w in terms],
-            "pool": pool,
-            "top": top,
-            "distinct": distinct,
-            "check": check,
-            "method": method,
-            "poses": poses,
-            "generic_only": generic_only,
-            "seed": seed,
-        }
-        return Outcome(_native.search(self._native, asked, progress))
+        given = {name: value for name, value in locals().items() if name not in ("self", "progress")}
+        return Outcome(_native.search(self._native, _asked(given), progress))
 
     def __repr__(self) -> str:
         data = self.to_dict()

@@ -13,13 +13,20 @@ __all__ = [
     "Variants",
     "analyze",
     "builtin_names",
+    "builtin_text",
     "catalog_build",
     "catalog_merge",
     "catalog_plan",
+    "chart",
     "command",
     "search",
     "statics",
     "stroke",
+    "sweep_make",
+    "sweep_merge",
+    "sweep_plan",
+    "sweep_plot",
+    "sweep_read",
 ]
 
 VERSION: str
@@ -77,6 +84,7 @@ class Variant:
     def draw(self, kind: str, state: str) -> str: ...
 
 def builtin_names() -> list[str]: ...
+def builtin_text(name: str) -> str | None: ...
 def analyze(mechanism: Mechanism, named: str, method: str, tolerance: float | None) -> _Told: ...
 def stroke(mechanism: Mechanism, range: str, drive: str | None, named: str, tolerance: float | None) -> _Told: ...
 def statics(mechanism: Mechanism, named: str, stroke: str | None, spatial: bool, unilateral: bool) -> _Told: ...
@@ -90,4 +98,22 @@ def catalog_build(
     progress: Callable[[int, int], object] | None,
 ) -> int: ...
 def catalog_merge(path: _Path, parts: Sequence[_Path]) -> int: ...
+def sweep_plan(asked: dict[str, Any]) -> tuple[str, int]: ...
+def sweep_make(
+    asked: dict[str, Any],
+    path: _Path,
+    part: tuple[int, int],
+    threads: int,
+    progress: Callable[[int, int], object] | None,
+) -> tuple[int, str, int]: ...
+def sweep_merge(path: _Path, parts: Sequence[_Path]) -> tuple[int, str]: ...
+def sweep_read(path: _Path) -> _Told: ...
+def sweep_plot(path: _Path, quantity: str, over: Sequence[str]) -> str: ...
+def chart(
+    title: str,
+    subtitle: str,
+    x: tuple[str, bool],
+    y: tuple[str, bool],
+    lines: Sequence[tuple[str, Sequence[tuple[float, float]]]],
+) -> str: ...
 def command(words: Sequence[str]) -> int: ...

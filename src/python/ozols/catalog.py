@@ -10,15 +10,15 @@ import hashlib
 import json
 import os
 import shutil
-import socket
 import sqlite3
-import uuid
 from collections.abc import Callable, Mapping
 from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _native
+from ._parts import Digest, shared_out
+from ._parts import build as build_parts
 
 if TYPE_CHECKING:
     import distributed
@@ -165,26 +165,6 @@ class Catalog:
         return f"<ozols.catalog.Catalog {self.path}: {len(self)} structures>"
 
 
-class Digest:
-    """Numbers of rows by table, and the sum of the SHA-256 of all rows modulo 2^256: those of parts add up to the whole's."""
-
-    def __init__(self, rows: Mapping[str, int], total: int) -> None:
-        self.rows = dict(rows)
-        self.total = total % (1 << 256)
-
-    def __add__(self, other: Digest) -> Digest:
-        return Digest({t: self.rows[t] + other.rows[t] for t in BUILT}, self.total + other.total)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Digest) and (self.rows, self.total) == (other.rows, other.total)
-
-    def __hash__(self) -> int:
-        return hash(self.total)
-
-    def __repr__(self) -> str:
-        return f"Digest({self.rows}, 0x{self.total:064x})"
-
-
 def build(
     spec: Mapping[str, Any] | None = None,
     *,
@@ -213,79 +193,36 @@ def build(
                 raise _native.Error(f"{out} holds another catalogue; choose another file, or the same specification")
             if there.ids() == ids:
                 return open(out)
-    folder = out.with_name(out.name + ".parts").resolve()
-    folder.mkdir(parents=True, exist_ok=True)
     if shards is None:
-        shards = max(1, min(len(ids), 8 * sum(client.nthreads().values())))
-    parts = _parts(client, words, canonical, folder, shards, threads or 1, progress)
-    whole = folder / "whole.tmp"
-    whole.unlink(missing_ok=True)
-    if out.exists():
-        shutil.copyfile(out, whole)
-    _native.catalog_merge(whole, [path for path, _ in parts])
-    with open(whole) as made:
-        expected = sum((digest for _, digest in parts), Digest(dict.fromkeys(BUILT, 0), 0))
-        if made.ids() != ids or made.digest() != expected:
-            raise _native.Error(f"the parts in {folder} do not make the whole: delete it, and build again")
-    os.replace(whole, out)
-    # A worker that was given up may still be at a part.
-    shutil.rmtree(folder, ignore_errors=True)
-    return open(out)
+        shards = shared_out(client, len(ids))
+
+    def merge(whole: Path, made_of: list[Path]) -> Digest:
+        # What was drawn stays beside what is built.
+        if out.exists():
+            shutil.copyfile(out, whole)
+        _native.catalog_merge(whole, made_of)
+        with open(whole) as made:
+            return made.digest()
+
+    build_parts(
+        client,
+        _part,
+        words,
+        what="catalog",
+        name=canonical,
+        out=out,
+        merge=merge,
+        shards=shards,
+        threads=threads or 1,
+        progress=progress,
+    )
+    made = open(out)
+    if made.ids() != ids:
+        raise _native.Error(f"{out} does not have the structures of its specification: delete it, and build again")
+    return made
 
 
-def _parts(
-    client: distributed.Client,
-    words: str,
-    canonical: str,
-    folder: Path,
-    shards: int,
-    threads: int,
-    progress: Callable[[int, int], object] | None,
-) -> list[tuple[Path, Digest]]:
-    from distributed import as_completed
-
-    name = hashlib.sha256(canonical.encode()).hexdigest()[:8]
-    tasks = [
-        client.submit(
-            build_part,
-            *(words, name, os.fspath(folder), (i, shards), threads),
-            key=f"ozols-catalog-part-{name}-{i}-of-{shards}",
-        )
-        for i in range(1, shards + 1)
-    ]
-    try:
-        for done, task in enumerate(as_completed(tasks), 1):
-            task.result()
-            if progress is not None:
-                progress(done, shards)
-        found = client.gather(tasks)
-    finally:
-        client.cancel(tasks)
-    return [(Path(path), Digest(rows, int(total, 16))) for path, rows, total in found]
-
-
-def build_part(words: str, name: str, folder: str, part: tuple[int, int], threads: int = 1) -> tuple[str, dict[str, int], str]:
-    """Makes part ``(i, n)`` of a specification, given as JSON and a name for it, in a folder; its path and digest. Finished ones
-    stay.
-
-    It is written under a name of its own and renamed when it is whole, so that the same part may be made twice at a time.
-    """
-    path = Path(folder) / f"{name}-{part[0]}-of-{part[1]}.db"
-    mark = path.with_suffix(".json")
-    if path.exists() and mark.exists():
-        rows, total = json.loads(mark.read_text())
-        return os.fspath(path), rows, total
-    own = f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex[:8]}.tmp"
-    made, told = (Path(f"{p}.{own}") for p in (path, mark))
-    try:
-        _native.catalog_build(words, made, part, threads, None)
-        with open(made) as catalog:
-            digest = catalog.digest()
-        found = digest.rows, f"{digest.total:064x}"
-        told.write_text(json.dumps(found))
-        os.replace(made, path)
-        os.replace(told, mark)
-    finally:
-        for left in (made, told, Path(f"{made}-journal")):
-            left.unlink(missing_ok=True)
-    return os.fspath(path), *found
+def _part(words: str, path: Path, part: tuple[int, int], threads: int) -> Digest:
+    _native.catalog_build(words, path, part, threads, None)
+    with open(path) as made:
+        return made.digest()

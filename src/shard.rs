@@ -1,0 +1,130 @@
+//! Parts of a long work that many machines share: by a hash of the names of its pieces, so that each can tell its own, and
+//! with a digest of rows, so that it can be told whether the parts make the whole.
+
+use num_bigint::BigUint;
+use sha2::{Digest as _, Sha256};
+use std::fmt;
+use std::str::FromStr;
+use thiserror::Error;
+
+/// A part of a work: part `index` of `of`, from 0. In words it is counted from 1: `1/7`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// Which.
+    pub index: u64,
+    /// Of how many.
+    pub of: u64,
+}
+
+/// What is no part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("a part is written 1/7, the first of seven")]
+pub struct NoShard;
+
+impl Shard {
+    /// The whole.
+    pub const WHOLE: Shard = Shard { index: 0, of: 1 };
+
+    /// Part `index` of `of`, from 1.
+    ///
+    /// # Errors
+    /// Where there is no such part.
+    pub fn nth(index: u64, of: u64) -> Result<Shard, NoShard> {
+        match index.checked_sub(1) {
+            Some(index) if index < of => Ok(Shard { index, of }),
+            _ => Err(NoShard),
+        }
+    }
+
+    /// Whether a piece of this name belongs to it. Every piece belongs to one of the parts.
+    #[must_use]
+    pub fn has(self, name: &str) -> bool {
+        let digest = Sha256::digest(name);
+        let mut first = [0; 8];
+        first.copy_from_slice(&digest[8..16]);
+        u64::from_be_bytes(first) % self.of.max(1) == self.index
+    }
+}
+
+impl FromStr for Shard {
+    type Err = NoShard;
+
+    fn from_str(text: &str) -> Result<Shard, NoShard> {
+        let (index, of) = text.split_once('/').ok_or(NoShard)?;
+        let number = |t: &str| t.parse::<u64>().map_err(|_| NoShard);
+        Shard::nth(number(index)?, number(of)?)
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.index + 1, self.of)
+    }
+}
+
+/// How many rows, and the sum of their SHA-256 modulo 2^256: it does not depend on their order, and those of parts add up to
+/// the whole's.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Digest {
+    /// How many.
+    pub rows: usize,
+    sum: BigUint,
+}
+
+impl Digest {
+    /// Takes in a row.
+    pub fn add(&mut self, row: &str) {
+        self.rows += 1;
+        self.sum += BigUint::from_bytes_be(&Sha256::digest(row));
+        self.sum = &self.sum % (BigUint::from(1u8) << 256);
+    }
+
+    /// The sum in 64 hexadecimal digits.
+    #[must_use]
+    pub fn hex(&self) -> String {
+        format!("{:0>64}", self.sum.to_str_radix(16))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_piece_is_in_one_part() {
+        for of in 1..7 {
+            let parts = |name: &str| {
+                (0..of)
+                    .filter(|&index| Shard { index, of }.has(name))
+                    .count()
+            };
+            assert!((0..100).all(|i| parts(&i.to_string()) == 1));
+        }
+    }
+
+    #[test]
+    fn parts_are_counted_from_one() {
+        assert_eq!("2/7".parse(), Ok(Shard { index: 1, of: 7 }));
+        assert_eq!(Shard { index: 1, of: 7 }.to_string(), "2/7");
+        for wrong in ["0/7", "8/7", "1/0", "7", "a/b", "-1/2", "1/2/3"] {
+            assert_eq!(wrong.parse::<Shard>(), Err(NoShard), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_digest_does_not_depend_on_the_order() {
+        let of = |rows: &[&str]| {
+            let mut digest = Digest::default();
+            rows.iter().for_each(|r| digest.add(r));
+            digest
+        };
+        assert_eq!(of(&["a", "b"]), of(&["b", "a"]));
+        assert_ne!(of(&["a", "b"]), of(&["a", "c"]));
+        assert_eq!(of(&[]).hex(), "0".repeat(64));
+        // SHA-256 of "abc", FIPS 180-2.
+        assert_eq!(
+            of(&["abc"]).hex(),
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
+        );
+    }
+}

@@ -1,0 +1,78 @@
+//! Parts put together.
+
+use super::error::TableError;
+use super::lines::{Output, read};
+use super::rows::Table;
+use crate::shard::{Digest, Shard};
+use itertools::Itertools;
+use std::path::{Path, PathBuf};
+
+/// Puts the parts of a sweep together; every part must be there once, whole and of the same sweep. The table is, byte for byte,
+/// the one that is made at once, and appears under its name once it is complete.
+///
+/// # Errors
+/// Where a part is missing, not finished, changed or of another sweep, or the whole cannot be written.
+pub fn merge(parts: &[PathBuf], whole: &Path) -> Result<Table, TableError> {
+    let mut all: Option<Table> = None;
+    let mut seen: Vec<(u64, u64)> = Vec::new();
+    for path in parts {
+        let part = read(path)?;
+        let of: Shard = part
+            .head
+            .shard
+            .parse()
+            .map_err(|_| TableError::Other(path.clone()))?;
+        seen.push((of.index, of.of));
+        match &mut all {
+            None => all = Some(part),
+            Some(all) => {
+                if let Some((what, there, asked)) = part.head.differs(&all.head) {
+                    let path = path.clone();
+                    return Err(TableError::Differs {
+                        path,
+                        what,
+                        there,
+                        asked,
+                    });
+                }
+                all.rows.extend(part.rows);
+            }
+        }
+    }
+    let fail = |why: String| TableError::Parts(why);
+    let mut all = all.ok_or_else(|| fail("there are none".to_owned()))?;
+    let of = seen[0].1;
+    let (missing, twice) = (
+        (0..of).find(|i| !seen.contains(&(*i, of))),
+        seen.iter().duplicates().next(),
+    );
+    match (missing, twice, seen.iter().find(|s| s.1 != of)) {
+        (.., Some(other)) => {
+            let why = format!("one is of {of}, another of {}", other.1);
+            return Err(fail(why));
+        }
+        (_, Some((i, of)), _) => return Err(fail(format!("{}/{of} is there twice", i + 1))),
+        (Some(i), ..) => return Err(fail(format!("{}/{of} is missing", i + 1))),
+        (None, None, None) => {}
+    }
+    all.rows.sort_by_key(|r| r.sample);
+    if !all.rows.iter().map(|r| r.sample).eq(0..all.head.samples) {
+        return Err(fail("some samples are missing".to_owned()));
+    }
+    all.head.shard = Shard::WHOLE.to_string();
+    let rows = std::mem::take(&mut all.rows);
+    all.digest = Digest::default();
+    let text = all.add(rows);
+    let mut beside = whole.as_os_str().to_owned();
+    beside.push(format!(".{}.tmp", std::process::id()));
+    let beside = PathBuf::from(beside);
+    let written = Output::open(&beside, &all.head).and_then(|mut out| {
+        out.add(&text)?;
+        out.finish(&all.digest)
+    });
+    let placed = written.and_then(|()| Output::wrap(whole, std::fs::rename(&beside, whole)));
+    if placed.is_err() {
+        let _ = std::fs::remove_file(&beside);
+    }
+    placed.map(|()| all)
+}
