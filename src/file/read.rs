@@ -2,6 +2,7 @@
 
 mod connected;
 mod contours;
+pub(crate) mod costs;
 mod coupling;
 pub mod drive;
 mod expected;
@@ -15,6 +16,7 @@ mod mode;
 pub mod motion;
 mod names;
 mod options;
+mod points;
 pub(crate) mod quantity;
 pub mod ranking;
 pub(crate) mod resolve;
@@ -43,6 +45,7 @@ use joints::{joints, states};
 use limits::LIMITS;
 use links::links;
 use mode::mode;
+use points::points;
 use search::search;
 use size::size;
 
@@ -57,6 +60,7 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
         ("joints", file.joint.len(), LIMITS.1),
         ("contours", file.contour.len(), LIMITS.1),
         ("couplings", file.coupling.len(), LIMITS.1),
+        ("points", file.point.len(), LIMITS.1),
     ] {
         if count > limit {
             return Err(vec![(
@@ -88,6 +92,7 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
         loads: Loads::default(),
         ranking: None,
         joint_types: Vec::new(),
+        points: Vec::new(),
         expected: Vec::new(),
     };
     connected(&mechanism, &mut out);
@@ -108,6 +113,7 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     // [search.costs] come first and win.
     by_type.sort_by(|a, b| a.0.cmp(&b.0));
     by_type.dedup_by(|later, first| later.0 == first.0);
+    mechanism.points = points(file, &mechanism, &mut out);
     mechanism.expected = expected(file, &mechanism, &mut out);
     out.unless(mechanism)
 }

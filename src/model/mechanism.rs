@@ -33,6 +33,17 @@ pub struct Link {
     pub mass: Option<MassProperties>,
 }
 
+/// A point fixed to a link that drawings show: the foot of a leg, the face of a jaw.
+#[derive(Debug, Clone)]
+pub struct PointOfInterest {
+    /// The name used in the file.
+    pub id: String,
+    /// The link that it is fixed to.
+    pub link: LinkId,
+    /// Where it is at the pose of the file, in its length unit.
+    pub point: [Expr; 3],
+}
+
 /// Where a joint is and how it is turned: z = `axis`, x = `reference` made perpendicular to it, y = z × x.
 #[derive(Debug, Clone)]
 pub struct Frame {
@@ -192,6 +203,8 @@ pub struct Mechanism {
     pub ranking: Option<Ranking>,
     /// What the file says of joint types.
     pub joint_types: Vec<TypeOverride>,
+    /// Points of interest.
+    pub points: Vec<PointOfInterest>,
     /// Known figures.
     pub expected: Vec<Expected>,
 }

@@ -4,7 +4,7 @@
 //! Exact ranks take every digit at its word, so an axis that is parallel to another but for the last digit counts as
 //! tilted, and constraints that are redundant in truth count as independent.
 
-use crate::geom::expr::Expr;
+use crate::geom::expr::{Expr, PI_DIGITS};
 use crate::geom::vector::{length, real};
 use crate::model::mechanism::{Frame, Mechanism, Mode};
 use num_bigint::BigInt;
@@ -70,8 +70,8 @@ impl fmt::Display for Rounded {
 struct Seen {
     /// Units of long lengths, and of long components of directions.
     units: [Vec<f64>; 2],
-    /// Number, place and value of the first coordinate, for those that look measured and for all.
-    first: [Option<(usize, String, f64)>; 2],
+    /// Number, place and value as text of the first coordinate, for those that look measured and for all.
+    first: [Option<(usize, String, String)>; 2],
     digits: Option<usize>,
 }
 
@@ -98,7 +98,7 @@ impl Seen {
         }
         for (first, counts) in self.first.iter_mut().zip([measured, true]) {
             if counts {
-                first.get_or_insert_with(|| (0, place(), v.to_f64())).0 += 1;
+                first.get_or_insert_with(|| (0, place(), text(v))).0 += 1;
             }
         }
     }
@@ -115,6 +115,15 @@ impl Seen {
             }
         }
         self.see(&f.pitch, 0.0, &|| format!("pitch of {}", at()));
+    }
+}
+
+/// A coordinate as it is told.
+fn text(v: &Expr) -> String {
+    if v.has_pi() {
+        format!("{v}, with {PI_DIGITS} decimals of pi")
+    } else {
+        format!("{:?}", v.to_f64())
     }
 }
 
@@ -159,7 +168,7 @@ pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
     Some(Rounded {
         coordinates,
         place,
-        value: format!("{value:?}"),
+        value,
         units: Units {
             length: shared(lengths),
             direction: shared(directions),
@@ -183,10 +192,16 @@ impl Decimal {
     }
 }
 
-/// A decimal as such; `None` for roots, for fractions that no decimal ends (and halves of halves, which are written as
+/// A decimal as such, and what has decimals of pi in it; `None` for roots, for fractions that no decimal ends (and halves of halves, which are written as
 /// fractions), and for whole numbers.
 fn decimal(expr: &Expr) -> Option<Decimal> {
-    let r = expr.rational_ref()?;
+    let Some(r) = expr.rational_ref() else {
+        let places = u32::try_from(PI_DIGITS).unwrap_or(u32::MAX);
+        return expr.has_pi().then_some(Decimal {
+            digits: PI_DIGITS,
+            places,
+        });
+    };
     let (five, mut rest, mut fives) = (BigInt::from(5), r.denom().clone(), 0u32);
     let twos = rest.trailing_zeros().unwrap_or(0);
     rest >>= twos;

@@ -66,6 +66,9 @@ pub struct State<'a> {
     pub method: &'static str,
     pub certainty: String,
     pub certainty_kind: &'static str,
+    /// The primes that ranks were found modulo, as text: they are beyond what a double holds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub primes: Option<[String; 2]>,
     pub choice: Option<&'a str>,
     pub snapped: &'a [String],
     pub as_written: Option<AsWritten>,
@@ -279,6 +282,7 @@ impl<'a> State<'a> {
                 s.certainty.describe()
             },
             certainty_kind: s.certainty.word(),
+            primes: s.certainty.primes().map(|p| p.map(|p| p.to_string())),
             choice: s.choice.as_deref(),
             snapped: &s.snapped,
             as_written: s.as_written.map(|rank| AsWritten {

@@ -163,7 +163,8 @@ impl Lint {
     }
 
     /// "2 redundant constraints (σ = 2)", "0 to 2 redundant constraints (...)".
-    fn sigma(&self) -> String {
+    #[must_use]
+    pub fn sigma(&self) -> String {
         let (least, most) = (self.redundant, self.redundant_at_most);
         match least == most {
             true => format!(

@@ -4,7 +4,7 @@ use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
 use crate::file::schema::{Coordinate, OptionEntry, OptionTable};
-use crate::geom::expr::Expr;
+use crate::geom::expr::{Expr, ExprError};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, JointOption, StateId};
 use itertools::Itertools;
@@ -28,10 +28,44 @@ pub(crate) fn zero3() -> [Expr; 3] {
 const RANGE: (f64, f64) = (1e-40, 1e12);
 
 pub(crate) fn number(c: &Coordinate, path: &[Step], out: &mut Findings) -> Expr {
+    read_number(c, str::parse, path, out)
+}
+
+/// The pitch of a screw, per radian, from that or from its lead, which is per turn; none where neither stands.
+pub(crate) fn pitch(
+    [pitch, lead]: [Option<&Coordinate>; 2],
+    path: &[Step],
+    out: &mut Findings,
+) -> Option<Expr> {
+    if pitch.is_some() && lead.is_some() {
+        let (key, other) = ("lead", "pitch");
+        out.add(
+            &self::key(path, key),
+            ProblemKind::KeyExcludes { key, other },
+        );
+    }
+    if let Some(c) = pitch {
+        let at = key(path, "pitch");
+        return Some(read_number(c, Expr::with_pi, &at, out));
+    }
+    let lead = number(lead?, &key(path, "lead"), out);
+    let turn = Expr::from(2) * Expr::pi();
+    if lead.is_zero_rational() {
+        return Some(lead);
+    }
+    lead.div(&turn)
+}
+
+fn read_number(
+    c: &Coordinate,
+    read: impl Fn(&str) -> Result<Expr, ExprError>,
+    path: &[Step],
+    out: &mut Findings,
+) -> Expr {
     let parsed = match c {
         Coordinate::Integer(i) => Ok(Expr::from(*i)),
         Coordinate::Decimal(x) => Expr::from_f64(*x),
-        Coordinate::Expression(s) => s.parse::<Expr>(),
+        Coordinate::Expression(s) => read(s),
     };
     match parsed {
         Ok(e) => {
@@ -285,10 +319,8 @@ pub(crate) fn option(
         (None, None) => Some(present.reference.clone()),
         (None, Some(_)) => None,
     };
-    let pitch = table.pitch.as_ref().map_or_else(
-        || present.pitch.clone(),
-        |c| number(c, &key(&at, "pitch"), out),
-    );
+    let stated = [table.pitch.as_ref(), table.lead.as_ref()];
+    let pitch = pitch(stated, &at, out).unwrap_or_else(|| present.pitch.clone());
     let point = table.point.as_ref();
     let frame = frame(
         joint,

@@ -27,24 +27,39 @@ impl FromStr for Expr {
     /// # Errors
     /// An [`ExprError`] naming the byte where the text is malformed, out of limits, or has no real value.
     fn from_str(text: &str) -> Result<Expr, ExprError> {
-        if text.len() > MAX_TEXT {
-            return Err(ExprError::TooLong { len: text.len() });
-        }
-        let mut parser = Parser {
-            text,
-            pos: 0,
-            depth: 0,
-        };
-        if parser.peek().is_none() {
-            return Err(ExprError::Empty);
-        }
-        let start = parser.pos;
-        let value = parser.sum()?;
-        if parser.peek().is_some() {
-            return Err(parser.unexpected("an operator or the end"));
-        }
-        number(value, start)
+        parse(text, false)
     }
+}
+
+impl Expr {
+    /// Reads the same, and `pi` as a number, too ([`Expr::pi`]): `5/(2*pi)`.
+    ///
+    /// # Errors
+    /// As [`Expr::from_str`].
+    pub fn with_pi(text: &str) -> Result<Expr, ExprError> {
+        parse(text, true)
+    }
+}
+
+fn parse(text: &str, pi_is_a_number: bool) -> Result<Expr, ExprError> {
+    if text.len() > MAX_TEXT {
+        return Err(ExprError::TooLong { len: text.len() });
+    }
+    let mut parser = Parser {
+        text,
+        pos: 0,
+        depth: 0,
+        pi_is_a_number,
+    };
+    if parser.peek().is_none() {
+        return Err(ExprError::Empty);
+    }
+    let start = parser.pos;
+    let value = parser.sum()?;
+    if parser.peek().is_some() {
+        return Err(parser.unexpected("an operator or the end"));
+    }
+    number(value, start)
 }
 
 /// What a part of the text stands for.
@@ -85,6 +100,8 @@ struct Parser<'a> {
     /// Always on a character boundary: only ASCII is ever consumed.
     pos: usize,
     depth: usize,
+    /// Outside angles.
+    pi_is_a_number: bool,
 }
 
 impl<'a> Parser<'a> {
@@ -347,6 +364,7 @@ impl<'a> Parser<'a> {
         let at = self.pos;
         let word = self.take_while(|b| b.is_ascii_alphanumeric() || b == b'_');
         let (function, name) = match word {
+            "pi" if self.pi_is_a_number => return Ok(Value::Number(Expr::pi())),
             "pi" => return Ok(Value::Angle(BigRational::new(1.into(), 2.into()))),
             "sqrt" => {
                 let inner = number(self.parentheses()?, at)?;
@@ -366,7 +384,10 @@ impl<'a> Parser<'a> {
                 });
             }
         };
-        let turns = match self.parentheses()? {
+        let outside = std::mem::replace(&mut self.pi_is_a_number, false);
+        let argument = self.parentheses()?;
+        self.pi_is_a_number = outside;
+        let turns = match argument {
             Value::Angle(t) => t,
             Value::Number(e) if e.is_zero_rational() => BigRational::zero(),
             Value::Number(_) => return Err(ExprError::NotAnAngle { at, function: name }),
