@@ -4,13 +4,14 @@ mod axes;
 mod body;
 mod carried;
 mod gears;
+mod marked;
 pub(super) mod moving;
 mod naming;
 mod nest;
 mod points;
 mod symbol;
 use self::body::Body;
-use self::points::{Marked, marked};
+use self::marked::{Marked, marked};
 use self::symbol::Symbol;
 use super::couplings;
 use super::ground::{Foot, Ground, grounds};
@@ -267,8 +268,8 @@ impl<'a> Kinematic<'a> {
         }
         self.shift_points(by);
         let mut sheet = Sheet::new(&caption, &plan);
-        self.draw_traces(&mut sheet);
         self.draw_links(&mut sheet);
+        self.draw_traces(&mut sheet);
         self.draw_couplings(&mut sheet, &circles, by);
         for g in &self.grounds {
             sheet.symbol(g.rect());
@@ -377,7 +378,7 @@ impl<'a> Kinematic<'a> {
         let mut out: Vec<(Swatch, String)> = types
             .into_iter()
             .map(|(t, s)| {
-                let shapes = s.symbol.plain();
+                let shapes = symbols::fitted(&s.symbol.plain());
                 (Swatch::Shapes(shapes), format!("{t}, class {}", t.class()))
             })
             .collect();
@@ -389,10 +390,7 @@ impl<'a> Kinematic<'a> {
             let draw = |s: &mut Sheet, p: Point| {
                 Ground::pivot(add(p, [0.0, -7.0]), add(p, [0.0, -1.0])).draw(s);
             };
-            out.push((
-                Swatch::Symbol(draw),
-                format!("frame {}", m.links[m.frame()].id),
-            ));
+            out.push((Swatch::Symbol(draw), m.frame_words()));
         }
         if self.spots.iter().any(|s| self.subject.only_here(s.joint)) {
             let draw = |s: &mut Sheet, p: Point| s.circle("fine dash", p, 9.5);

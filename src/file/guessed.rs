@@ -75,7 +75,7 @@ fn of_option(table: &OptionTable, entry: &JointEntry, joint: &Joint) -> Option<(
     let present = &joint.joint_type;
     let line = match present {
         JointType::Slotted => "the pin",
-        JointType::Spherical => "the z axis of a ball, which means nothing",
+        JointType::Spherical => "z",
         JointType::Universal => "the first pin",
         _ => "the joint's own axis",
     };

@@ -289,6 +289,21 @@ impl Mechanism {
             .expect("a validated mechanism has a frame")
     }
 
+    /// Whether digits of π stand in the pitch of a screw, so that nothing about the mechanism is exact.
+    #[must_use]
+    pub fn has_pi(&self) -> bool {
+        self.joints.iter().any(|j| j.frame.pitch.has_pi())
+    }
+
+    /// "frame 0", in words for people; a link that is called "frame" is not called it twice.
+    #[must_use]
+    pub fn frame_words(&self) -> String {
+        match self.links[self.frame()].id.as_str() {
+            "frame" => "frame".to_owned(),
+            id => format!("frame {id}"),
+        }
+    }
+
     /// The link with this id.
     #[must_use]
     pub fn link(&self, id: &str) -> Option<LinkId> {

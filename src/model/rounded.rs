@@ -41,6 +41,8 @@ pub struct Rounded {
     pub value: String,
     /// The unit in their last place.
     pub units: Units,
+    /// Whether digits of π make it look so.
+    pub pi: bool,
     /// The fewest digits among those that look measured, [`DIGITS`] or more; none where no coordinate does.
     pub digits: Option<usize>,
 }
@@ -73,6 +75,8 @@ struct Seen {
     /// Number, place and value as text of the first coordinate, for those that look measured and for all.
     first: [Option<(usize, String, String)>; 2],
     digits: Option<usize>,
+    /// Whether the first that looks measured has π.
+    pi: bool,
 }
 
 impl Seen {
@@ -90,6 +94,7 @@ impl Seen {
         let of = if direction { norm } else { 1.0 };
         self.units[usize::from(direction)].push(decimal.unit() / of);
         let measured = decimal.digits >= DIGITS;
+        self.pi |= measured && self.first[0].is_none() && v.has_pi();
         if measured {
             self.digits = Some(
                 self.digits
@@ -173,6 +178,7 @@ pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
             length: shared(lengths),
             direction: shared(directions),
         },
+        pi: seen.pi,
         digits: seen.digits,
     })
 }
@@ -265,6 +271,7 @@ mod tests {
                 length: 0.0,
                 direction: 0.0,
             },
+            pi: false,
             digits,
         };
         assert_eq!(with(Some(16)).tolerance(), Some(1e-9));

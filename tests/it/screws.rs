@@ -31,7 +31,10 @@ fn what_has_pi_is_not_called_exact() {
     assert!(of("pitch = \"4/5\"").contains("exact geometry"));
     let said = of("lead = 5");
     assert!(!said.contains("exact geometry"), "{said}");
-    assert!(said.contains("5/(2*pi)"), "{said}");
+    assert!(said.contains("pi to 40 decimals"), "{said}");
+    let state = analysed(&jack("lead = 5"))["states"][0].clone();
+    assert!(state["choice"].to_string().contains("5/(2*pi)"), "{state}");
+    assert_ne!(state["certainty_kind"], "proven");
 }
 
 /// Two screws of 5 and 10 mm a turn: 17 digits of each would not have the ratio 2.

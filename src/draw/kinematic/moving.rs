@@ -2,7 +2,7 @@
 
 use super::body::Body;
 use super::carried::Carried;
-use super::points::draw_mark;
+use super::marked::draw_mark;
 use super::symbol::Symbol;
 use super::{Kinematic, STRIP};
 use crate::draw::projection::{
