@@ -1,6 +1,6 @@
 //! The variants of a search as CSV, one a line, a column for each joint that has a choice.
 
-use crate::format::csv::cell;
+use crate::format::csv::encoded;
 use crate::format::number::cost;
 use crate::model::mechanism::JointId;
 use crate::score::outcome::Outcome;
@@ -11,6 +11,7 @@ use crate::search::diagram::Stop;
 use crate::search::over_stroke::OverStroke;
 use crate::search::space::choice_name;
 use itertools::Itertools;
+use std::fmt::{self, Write as _};
 use std::io::{self, Write};
 
 /// Columns before the joints.
@@ -61,69 +62,90 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, mut variants: Variants<'_>)
 }
 
 fn rows(out: &mut dyn Write, outcome: &Outcome, variants: &mut Variants<'_>) -> io::Result<()> {
-    let mut out = csv::Writer::from_writer(out);
     let search = &outcome.search;
     let joints = columns(search);
-    let mut row: Vec<String> = FIGURES.map(str::to_owned).to_vec();
-    row.extend(
-        joints
-            .iter()
-            .map(|&(_, j)| cell(&search.mechanism.joints[j].id).into_owned()),
-    );
-    row.extend(OPINIONS.map(str::to_owned));
+    let mut heads: Vec<&str> = FIGURES.to_vec();
+    let names = joints
+        .iter()
+        .map(|&(_, j)| search.mechanism.joints[j].id.as_str());
+    heads.extend(names);
+    heads.extend(OPINIONS);
     if outcome.ranking.is_some() {
-        row.extend(SCORES.map(str::to_owned));
+        heads.extend(SCORES);
     }
-    row.extend(MORE.map(str::to_owned));
-    out.write_record(&row).map_err(of_writer)?;
+    heads.extend(MORE);
+    writeln!(out, "{}", heads.into_iter().map(encoded).join(","))?;
+    // Most of a line is what was chosen, the same few words again and again.
+    let chosen: Vec<(usize, Vec<String>)> = joints
+        .iter()
+        .map(|&(variable, j)| {
+            let choices = search.space.variables[variable].choices.iter();
+            let cell = |c| encoded(&choice_name(&search.mechanism, j, c));
+            (variable, choices.map(cell).collect())
+        })
+        .collect();
+    let mut line = String::new();
     for v in variants {
-        row.clear();
-        row.extend([
-            v.position().to_string(),
-            cost(v.cost_milli()),
-            v.mobility().to_string(),
-            v.redundant().to_string(),
-            told(v.external_redundant()),
-            v.change_count().to_string(),
-        ]);
-        let choices = &v.assignment().choices;
-        row.extend(joints.iter().map(|&(variable, j)| {
-            let choice = &search.space.variables[variable].choices[choices[variable]];
-            cell(&choice_name(&search.mechanism, j, choice)).into_owned()
-        }));
-        let opinion = v.second().opinion();
-        row.extend([
-            told(opinion.map(|o| format!("{:e}", o.conditioning))),
-            told(opinion.map(|o| o.agree)),
-            told(v.over_stroke().and_then(OverStroke::lucky)),
-        ]);
-        if outcome.ranking.is_some() {
-            row.extend(match v.ranked() {
-                Some(r) => [
-                    r.by_cost.to_string(),
-                    r.scores.force.utilisation.to_string(),
-                    r.scores.moment.utilisation.to_string(),
-                    r.scores.conditioning.to_string(),
-                    r.scores.output_error.to_string(),
-                    r.scores.idle.to_string(),
-                    told(r.total),
-                    told(r.front),
-                ],
-                None => Default::default(),
-            });
-        }
-        row.extend([told(v.external_harmful()), cell(&contours(&v)).into_owned()]);
-        out.write_record(&row).map_err(of_writer)?;
+        line.clear();
+        figures(&mut line, outcome, &chosen, &v).map_err(io::Error::other)?;
+        out.write_all(line.as_bytes())?;
     }
-    out.flush()
+    Ok(())
 }
 
-/// The writer's own error, by which a closed pipe is known.
-fn of_writer(e: csv::Error) -> io::Error {
-    match e.into_kind() {
-        csv::ErrorKind::Io(e) => e,
-        other => io::Error::other(format!("{other:?}")),
+/// Writes the line of a variant; `chosen` are a column's variable and its cells, by choice.
+fn figures(
+    line: &mut String,
+    outcome: &Outcome,
+    chosen: &[(usize, Vec<String>)],
+    v: &Variant<'_>,
+) -> fmt::Result {
+    write!(
+        line,
+        "{},{},{},{},{},{}",
+        v.position(),
+        cost(v.cost_milli()),
+        v.mobility(),
+        v.redundant(),
+        told(v.external_redundant()),
+        v.change_count()
+    )?;
+    let choices = &v.assignment().choices;
+    for (variable, cells) in chosen {
+        line.push(',');
+        line.push_str(&cells[choices[*variable]]);
     }
+    let opinion = v.second().opinion();
+    write!(
+        line,
+        ",{},{},{}",
+        told(opinion.map(|o| format!("{:e}", o.conditioning))),
+        told(opinion.map(|o| o.agree)),
+        told(v.over_stroke().and_then(OverStroke::lucky))
+    )?;
+    if outcome.ranking.is_some() {
+        match v.ranked() {
+            Some(r) => write!(
+                line,
+                ",{},{},{},{},{},{},{},{}",
+                r.by_cost,
+                r.scores.force.utilisation,
+                r.scores.moment.utilisation,
+                r.scores.conditioning,
+                r.scores.output_error,
+                r.scores.idle,
+                told(r.total),
+                told(r.front)
+            )?,
+            None => line.push_str(&",".repeat(SCORES.len())),
+        }
+    }
+    writeln!(
+        line,
+        ",{},{}",
+        told(v.external_harmful()),
+        encoded(&contours(v))
+    )
 }
 
 fn told<T: ToString>(value: Option<T>) -> String {
