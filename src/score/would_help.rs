@@ -78,7 +78,14 @@ impl Outcome {
 /// The cheapest type that has what a joint is to be given.
 fn one(m: &Mechanism, joint: JointId, freed: &[(bool, Vector)]) -> Option<JointOptions> {
     let here = &m.joints[joint];
-    let cheap = types().sorted_by_key(|t| t.default_cost_milli());
+    // A contact at a point or a line has to be pressed together.
+    let pressed = |t: &JointType| {
+        matches!(
+            t,
+            JointType::SphereOnPlane | JointType::CylinderOnPlane
+        )
+    };
+    let cheap = types().sorted_by_key(|t| (pressed(t), t.default_cost_milli()));
     let mut fits = cheap.filter(|t| {
         let option = |of: &JointType| JointOption {
             name: of.name().to_owned(),
