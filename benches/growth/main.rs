@@ -39,10 +39,9 @@ fn all() -> Vec<Family> {
         ("planar ladder", of(&several, &|n| ladder(n, false))),
         ("spatial ladder", of(&several, &|n| ladder(n, true))),
         (
-            "planar grid, two rows",
+            "planar grid of two rows",
             of(&[2, 3, 4, 5, 6, 7], &|n| grid(2, n)),
         ),
-        ("planar grid, square", of(&[2, 3, 4], &|n| grid(n, n))),
         (
             "planar legs of three hinges",
             of(&[2, 3, 4, 5, 6, 7, 8], &|n| parallel_robot(n, 3, false)),
@@ -125,8 +124,9 @@ fn main() {
     };
     let chart = Chart {
         title: "How diagrams grow".to_owned(),
-        subtitle: "Nodes of both diagrams, four options a joint, general position; each line ends where 200,000 do not do"
-            .to_owned(),
+        subtitle:
+            "Nodes of both diagrams, four options a joint; each line ends where 200,000 are too few"
+                .to_owned(),
         x: axis("independent contours"),
         y: axis("nodes"),
         series,

@@ -177,3 +177,24 @@ fn what_hangs_on_a_link_aside_costs_what_it_costs_alone() {
         assert!(eight[i] <= 8 * one[i], "{one:?} {eight:?}");
     }
 }
+
+#[test]
+fn a_long_open_chain_aside_is_no_burden() {
+    let with_tail = |n: u32| {
+        let mut m = Written::new(FOUR);
+        let [rocker, coupler, _] = m.four_bar(0, 0, [0, 0, 1]);
+        m.outputs.push(rocker);
+        let mut at = coupler;
+        for i in 0..n {
+            let next = m.link();
+            m.hinge([at, next], [i64::from(i), 3, 1], AXES[i as usize % 4]);
+            at = next;
+        }
+        figures(&search(&m.text(), Conditions::default()))
+    };
+    let (none, long) = (with_tail(0), with_tail(60));
+    for i in 0..2 {
+        assert_eq!(long.1[i], &none.1[i] * BigUint::from(4u32).pow(60));
+        assert_eq!(long.0[i], none.0[i] + 60);
+    }
+}
