@@ -41,7 +41,7 @@ pub struct Rounded {
     pub value: String,
     /// The unit in their last place.
     pub units: Units,
-    /// Whether digits of π make it look so.
+    /// Whether digits of π make it look so, and nothing else.
     pub pi: bool,
     /// The fewest digits among those that look measured, [`DIGITS`] or more; none where no coordinate does.
     pub digits: Option<usize>,
@@ -75,8 +75,8 @@ struct Seen {
     /// Number, place and value as text of the first coordinate, for those that look measured and for all.
     first: [Option<(usize, String, String)>; 2],
     digits: Option<usize>,
-    /// Whether the first that looks measured has π.
-    pi: bool,
+    /// How many of those that look measured have π.
+    pi: usize,
 }
 
 impl Seen {
@@ -94,7 +94,7 @@ impl Seen {
         let of = if direction { norm } else { 1.0 };
         self.units[usize::from(direction)].push(decimal.unit() / of);
         let measured = decimal.digits >= DIGITS;
-        self.pi |= measured && self.first[0].is_none() && v.has_pi();
+        self.pi += usize::from(measured && v.has_pi());
         if measured {
             self.digits = Some(
                 self.digits
@@ -168,6 +168,7 @@ pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
         }
     }
     let [measured, any] = seen.first;
+    let pi = measured.as_ref().is_some_and(|m| m.0 == seen.pi);
     let (coordinates, place, value) = measured.or(any)?;
     let [lengths, directions] = seen.units;
     Some(Rounded {
@@ -178,7 +179,7 @@ pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
             length: shared(lengths),
             direction: shared(directions),
         },
-        pi: seen.pi,
+        pi,
         digits: seen.digits,
     })
 }

@@ -23,8 +23,13 @@ impl Outcome {
     #[must_use]
     pub fn would_help(&self) -> Option<Request> {
         let m = &self.search.mechanism;
+        // What no type has could not be named.
         let free = |r: &Release| match *r {
-            Release::Freedom { joint, .. } => !m.joints[joint].drive,
+            Release::Freedom {
+                joint,
+                slides,
+                direction,
+            } => !m.joints[joint].drive && one(m, joint, &[(slides, direction)]).is_some(),
             Release::Coupling(_) => false,
         };
         let held = held_twice(m, &|_| false, &free).ok()?;
@@ -79,12 +84,8 @@ impl Outcome {
 fn one(m: &Mechanism, joint: JointId, freed: &[(bool, Vector)]) -> Option<JointOptions> {
     let here = &m.joints[joint];
     // A contact at a point or a line has to be pressed together.
-    let pressed = |t: &JointType| {
-        matches!(
-            t,
-            JointType::SphereOnPlane | JointType::CylinderOnPlane
-        )
-    };
+    let pressed =
+        |t: &JointType| matches!(t, JointType::SphereOnPlane | JointType::CylinderOnPlane);
     let cheap = types().sorted_by_key(|t| (pressed(t), t.default_cost_milli()));
     let mut fits = cheap.filter(|t| {
         let option = |of: &JointType| JointOption {
