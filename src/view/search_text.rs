@@ -367,7 +367,7 @@ fn next(
             "search",
             file,
             &next::flags(&outcome.search.mechanism, &wider),
-            "with joint types that are not offered now; these do, others may, too",
+            "Offer more options: with these joint types there are variants, and with others there may be",
         ),
         None => Step {
             command: "Offer more options under [search], or at the joints".to_owned(),
