@@ -11,7 +11,6 @@ use crate::search::diagram::Stop;
 use crate::search::over_stroke::OverStroke;
 use crate::search::space::choice_name;
 use itertools::Itertools;
-use std::fmt::{self, Write as _};
 use std::io::{self, Write};
 
 /// Columns before the joints.
@@ -76,80 +75,88 @@ fn rows(out: &mut dyn Write, outcome: &Outcome, variants: &mut Variants<'_>) -> 
     heads.extend(MORE);
     writeln!(out, "{}", heads.into_iter().map(encoded).join(","))?;
     // Most of a line is what was chosen, the same few words again and again.
-    let chosen: Vec<(usize, Vec<String>)> = joints
-        .iter()
-        .map(|&(variable, j)| {
-            let choices = search.space.variables[variable].choices.iter();
-            let cell = |c| encoded(&choice_name(&search.mechanism, j, c));
-            (variable, choices.map(cell).collect())
-        })
-        .collect();
-    let mut line = String::new();
+    let cells = |&(variable, j): &(usize, JointId)| {
+        let choices = search.space.variables[variable].choices.iter();
+        let cell = |c| encoded(&choice_name(&search.mechanism, j, c));
+        (variable, choices.map(cell).collect())
+    };
+    let mut line = Line {
+        text: String::new(),
+        chosen: joints.iter().map(cells).collect(),
+        cost: (0, cost(0)),
+        digits: itoa::Buffer::new(),
+    };
     for v in variants {
-        line.clear();
-        figures(&mut line, outcome, &chosen, &v).map_err(io::Error::other)?;
-        out.write_all(line.as_bytes())?;
+        line.write(outcome, &v);
+        out.write_all(line.text.as_bytes())?;
     }
     Ok(())
 }
 
-/// Writes the line of a variant; `chosen` are a column's variable and its cells, by choice.
-fn figures(
-    line: &mut String,
-    outcome: &Outcome,
-    chosen: &[(usize, Vec<String>)],
-    v: &Variant<'_>,
-) -> fmt::Result {
-    write!(
-        line,
-        "{},{},{},{},{},{}",
-        v.position(),
-        cost(v.cost_milli()),
-        v.mobility(),
-        v.redundant(),
-        told(v.external_redundant()),
-        v.change_count()
-    )?;
-    let choices = &v.assignment().choices;
-    for (variable, cells) in chosen {
-        line.push(',');
-        line.push_str(&cells[choices[*variable]]);
-    }
-    let opinion = v.second().opinion();
-    write!(
-        line,
-        ",{},{},{}",
-        told(opinion.map(|o| format!("{:e}", o.conditioning))),
-        told(opinion.map(|o| o.agree)),
-        told(v.over_stroke().and_then(OverStroke::lucky))
-    )?;
-    if outcome.ranking.is_some() {
-        match v.ranked() {
-            Some(r) => write!(
-                line,
-                ",{},{},{},{},{},{},{},{}",
-                r.by_cost,
-                r.scores.force.utilisation,
-                r.scores.moment.utilisation,
-                r.scores.conditioning,
-                r.scores.output_error,
-                r.scores.idle,
-                told(r.total),
-                told(r.front)
-            )?,
-            None => line.push_str(&",".repeat(SCORES.len())),
-        }
-    }
-    writeln!(
-        line,
-        ",{},{}",
-        told(v.external_harmful()),
-        encoded(&contours(v))
-    )
+/// The line of a variant, in memory that the next one takes over.
+struct Line {
+    text: String,
+    /// For each column the variable, and what its choices are called.
+    chosen: Vec<(usize, Vec<String>)>,
+    /// The last cost, which is often that of the next variant, too.
+    cost: (i64, String),
+    digits: itoa::Buffer,
 }
 
-fn told<T: ToString>(value: Option<T>) -> String {
-    value.map_or_else(String::new, |x| x.to_string())
+impl Line {
+    fn write(&mut self, outcome: &Outcome, v: &Variant<'_>) {
+        self.text.clear();
+        self.text.push_str(self.digits.format(v.position()));
+        if self.cost.0 != v.cost_milli() {
+            self.cost = (v.cost_milli(), cost(v.cost_milli()));
+        }
+        self.text.push(',');
+        self.text.push_str(&self.cost.1);
+        self.number(v.mobility());
+        self.number(v.redundant());
+        self.some(v.external_redundant());
+        self.number(v.change_count());
+        let choices = &v.assignment().choices;
+        for (variable, cells) in &self.chosen {
+            self.text.push(',');
+            self.text.push_str(&cells[choices[*variable]]);
+        }
+        let opinion = v.second().opinion();
+        self.some(opinion.map(|o| format!("{:e}", o.conditioning)));
+        self.some(opinion.map(|o| o.agree));
+        self.some(v.over_stroke().and_then(OverStroke::lucky));
+        if outcome.ranking.is_some() {
+            match v.ranked() {
+                Some(r) => {
+                    self.number(r.by_cost);
+                    self.some(Some(r.scores.force.utilisation));
+                    self.some(Some(r.scores.moment.utilisation));
+                    self.some(Some(r.scores.conditioning));
+                    self.some(Some(r.scores.output_error));
+                    self.number(r.scores.idle);
+                    self.some(r.total);
+                    self.some(r.front);
+                }
+                None => self.text.extend(SCORES.map(|_| ',')),
+            }
+        }
+        self.some(v.external_harmful());
+        self.text.push(',');
+        self.text.push_str(&encoded(&contours(v)));
+        self.text.push('\n');
+    }
+
+    fn number(&mut self, n: impl itoa::Integer) {
+        self.text.push(',');
+        self.text.push_str(self.digits.format(n));
+    }
+
+    fn some(&mut self, value: Option<impl ToString>) {
+        self.text.push(',');
+        if let Some(x) = value {
+            self.text.push_str(&x.to_string());
+        }
+    }
 }
 
 /// "0-1-2-3: 1 (0 to 1); 0-1-6-7: 0 (0 to 1)": σ of the contours that may have any, in the order they are added in.

@@ -100,7 +100,18 @@ proptest! {
         }
         m.outputs = outputs.iter().map(|o| 1 + o % (m.links - 1)).collect();
         let conditions = Conditions { max_redundant, keep_output, ..Conditions::default() };
-        let (s, d) = search(&m.text(), conditions);
+        let (s, d) = search(&m.text(), conditions.clone());
+        // The cheapest alone, under a ceiling that is raised.
+        let few = Conditions { nodes: 300, cheapest: 6, counted: false, ..conditions };
+        let (bounded, proven) = search(&m.text(), few);
+        if let Some(known) = proven.known_up_to() {
+            let up_to = |s: &Search, d: &Diagrams| -> Vec<_> {
+                let milli = |key| s.steps.milli(key);
+                let all = s.cheapest(d, 6).map(|v| (milli(v.key.cost()), v.choices));
+                all.filter(|(cost, _)| *cost <= known).collect()
+            };
+            prop_assert_eq!(up_to(&bounded, &proven), up_to(&s, &d));
+        }
         let brute = s.brute().unwrap();
         for (found, expected) in [
             (s.counts(&d.determinate, false), brute.0),
