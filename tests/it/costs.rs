@@ -42,7 +42,6 @@ fn the_costs_of_a_file_stand_where_the_table_says_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let own = out(&["show", "gripper-10"]) + "\n[search.costs]\nlink = 7\nspherical = 3\n";
-    let own = own.replacen("[search.costs]\nlink", "[search.costs]\nlink", 1);
     fs::write(at("own.toml"), own).unwrap();
     fs::write(at("costs.toml"), "spherical = 2\n").unwrap();
     let cost = |more: &[&str]| {

@@ -31,8 +31,8 @@ struct Sheets(BTreeMap<&'static str, Vec<(String, String)>>);
 impl Sheets {
     fn add(&mut self, name: &str, caption: &str, svg: &str) {
         let family = builtin::families().into_iter();
-        let family = family.filter(|(_, names)| names.contains(&name));
-        let (family, _) = family.last().unwrap();
+        let mut family = family.filter(|(_, names)| names.contains(&name));
+        let (family, _) = family.next_back().unwrap();
         let pictures = self.0.entry(family).or_default();
         pictures.push((caption.to_owned(), svg.to_owned()));
     }

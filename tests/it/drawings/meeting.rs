@@ -96,10 +96,11 @@ fn residual(all: &[[f64; 4]]) -> f64 {
         let Some(row) = best.filter(|&r| a[r][column].abs() > 1e-9 * size) else {
             continue;
         };
+        let pivot = a[row];
         for r in (0..3).filter(|&r| r != row) {
-            let by = a[r][column] / a[row][column];
-            for k in 0..4 {
-                a[r][k] -= by * a[row][k];
+            let by = a[r][column] / pivot[column];
+            for (x, p) in a[r].iter_mut().zip(pivot) {
+                *x -= by * p;
             }
         }
         pivots.push((row, column));
