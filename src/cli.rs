@@ -34,8 +34,10 @@ mod request;
 mod search;
 mod statics;
 mod sweep;
+mod tone;
 mod variant;
 mod verify;
+mod watch;
 mod working;
 
 use clap::Parser;
@@ -88,6 +90,7 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         args::Command::Fix(a) => fix::run(a),
         args::Command::Draw(a) => draw::run(&args, a),
         args::Command::Report(a) => report::run(&args, a),
+        args::Command::Watch(a) => watch::run(&args, a),
         args::Command::Export(a) => export::run(&args, a),
         args::Command::Accuracy(a) => accuracy::run(&args, a),
         args::Command::Bench(a) => bench::run(&args, a),

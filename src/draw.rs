@@ -28,7 +28,7 @@ mod swap;
 mod symbols;
 
 pub use crate::svg::plane::Rect;
-pub use kinematic::moving::{Moved, Player, RATE, kinematic_moving};
+pub use kinematic::moving::{Moved, Player, RATE, kinematic_along, kinematic_moving};
 pub use kinematic::{kinematic, kinematic_seen, kinematic_with};
 
 pub use pairs::joint_type;

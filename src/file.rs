@@ -2,7 +2,9 @@
 //! back, looked over, and made into templates.
 
 mod controls;
+pub mod costs;
 pub mod findings;
+mod guessed;
 pub mod lint;
 pub mod locate;
 pub mod problem;

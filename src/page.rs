@@ -35,6 +35,8 @@ pub struct Page<'a> {
     pub mechanism: &'a Mechanism,
     /// Its figures in every state, in order.
     pub states: &'a [StateAnalysis],
+    /// Whether the page is written anew when the mechanism changes, and is to show that.
+    pub live: bool,
     /// Its redesigns, or why none were searched.
     pub redesigns: Result<Redesigns<'a>, String>,
     /// The same search as a list of ideas, each by its first variant, where the redesigns are not one already.
@@ -94,6 +96,8 @@ const SCRIPT: [&str; 8] = [
     include_str!("page/script/motion.js"),
     include_str!("page/script/main.js"),
 ];
+/// What a page that is written anew does besides.
+const LIVE: &str = include_str!("page/script/live.js");
 /// The sections that the table of contents names: their marks and heads.
 const SECTIONS: [(&str, &str); 5] = [
     ("verdict", "Verdict"),
@@ -170,6 +174,7 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
                 svg.store aria-hidden="true" width="0" height="0" { defs { (store) } }
                 script type="application/json" id="data" { (PreEscaped(data)) }
                 script { @for part in SCRIPT { (PreEscaped(part)) } }
+                @if page.live { script { (PreEscaped(LIVE)) } }
             }
         }
         "\n"

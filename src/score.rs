@@ -27,6 +27,7 @@
 
 pub mod bearing;
 pub mod cases;
+pub mod costs;
 pub mod elimination;
 pub mod evaluate;
 pub mod joint_types;
@@ -42,5 +43,7 @@ pub mod slow;
 pub mod spectrum;
 pub mod table;
 pub mod terms;
+mod unlisted;
 pub mod variant;
 pub mod variants;
+mod would_help;

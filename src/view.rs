@@ -5,6 +5,8 @@ pub mod analysis;
 pub mod bench;
 pub mod catalog;
 pub mod conditions;
+#[cfg(feature = "cli")]
+pub mod costs;
 pub mod drive;
 pub mod early;
 pub mod grip;

@@ -1,6 +1,7 @@
 //! `ozols analyze`.
 
 use super::args::{AnalyzeFormat, Args, File};
+use super::tone::{Tone, toned};
 use super::{Done, load, output, verify};
 use crate::file::read::motion::stroke;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -9,8 +10,8 @@ use crate::rank::method::{MobilityMethod, RankOfJ};
 use crate::rank::registry;
 use crate::rank::verdict::verdict;
 use crate::redundancy::analysis::{Method, analyse};
-use crate::view::analysis::Analysis;
 use crate::view::analysis::next::next as steps;
+use crate::view::analysis::{Analysis, State};
 use crate::view::layout::fit;
 use crate::view::mobility::ByMethod;
 use crate::view::next;
@@ -136,7 +137,9 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
         match a.format {
             AnalyzeFormat::Json => output::json(out, &analysis)?,
             AnalyzeFormat::Text => {
-                write!(out, "{}", analysis.text(width))?;
+                let verdicts = analysis.states.iter().map(|s| (s.verdict(), tone(s)));
+                let text = toned(analysis.text(width), a.output.as_deref(), verdicts);
+                write!(out, "{text}")?;
                 if let Some(s) = &analysis.stroke {
                     write!(out, "\n{}", fit(&s.text(width), width))?;
                 }
@@ -147,6 +150,15 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
         let stopped = analysis.stroke.is_some_and(|s| s.stop.is_some());
         Ok(if stopped { Done::Nothing } else { Done::Found })
     })
+}
+
+/// Whether a verdict is good news.
+fn tone(s: &State<'_>) -> Tone {
+    match (s.redundant, s.redundant_at_most) {
+        (_, Some(_)) => Tone::Doubtful,
+        (0, None) => Tone::Good,
+        _ => Tone::Bad,
+    }
 }
 
 /// By a method that gives a mobility and nothing else.

@@ -2,7 +2,7 @@
 
 use super::{
     accuracy, analyze, bench, catalog, check, completions, draw, drive, examples, explain, export,
-    fix, grip, import, lint, list, man, new, report, search, statics, sweep, verify,
+    fix, grip, import, lint, list, man, new, report, search, statics, sweep, verify, watch,
 };
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum, ValueHint};
 
@@ -68,6 +68,9 @@ pub(super) enum Command {
     /// One HTML page: the verdict, drawings, contours, and the variants to sort, filter and look at.
     #[command(after_help = examples::REPORT)]
     Report(report::Report),
+    /// Write the report anew whenever FILE changes, until Ctrl-C: a page to keep open beside an editor.
+    #[command(after_help = examples::WATCH)]
+    Watch(watch::Watch),
     /// Write a mechanism in another format: TOML, JSON, URDF, MJCF, SDF, Graphviz DOT, GraphML.
     #[command(after_help = examples::EXPORT)]
     Export(export::Export),
@@ -92,7 +95,7 @@ pub(super) enum Command {
     /// The built-in mechanisms.
     #[command(after_help = examples::LIST)]
     List(list::List),
-    /// Print the file of a built-in mechanism.
+    /// Print the file of a built-in mechanism, or the table of costs.
     #[command(after_help = examples::SHOW)]
     Show(check::Show),
     /// Print the JSON Schema of the mechanism file.

@@ -1,6 +1,7 @@
 //! `ozols check`, `show` and `schema`.
 
 use super::args::{Args, File};
+use super::tone::{Tone, toned};
 use super::{Done, load, output};
 use crate::builtin;
 use crate::file::lint::{Checked, across, check};
@@ -11,14 +12,18 @@ use crate::format::phrase::plural;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{Method, analyse};
+use crate::view::costs;
 use crate::view::layout::fit;
 use crate::view::mechanism::describe;
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
 
+/// What `show` calls the table of costs; no built-in mechanism has this name.
+const COSTS: &str = "costs";
+
 #[derive(Debug, ClapArgs)]
 pub(super) struct Show {
-    /// The name of a built-in mechanism.
+    /// The name of a built-in mechanism; or `costs`, for the table of default costs that --costs takes.
     #[arg(value_name = "NAME")]
     name: String,
 }
@@ -60,7 +65,12 @@ pub(super) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
         for table in tables {
             text += &format!("  workload {table}: for `ozols {table}`\n");
         }
-        write!(out, "{}", fit(&text, output::width(None)))?;
+        let tone = match warnings.warnings.len() {
+            0 => Tone::Good,
+            _ => Tone::Doubtful,
+        };
+        let text = fit(&text, output::width(None));
+        write!(out, "{}", toned(text, None, [(verdict, tone)]))?;
         Ok(Done::Found)
     })
 }
@@ -133,7 +143,8 @@ fn stale(m: &Mechanism, warnings: &mut Warnings) {
 }
 
 pub(super) fn show(a: &Show) -> anyhow::Result<Done> {
-    let Some(text) = builtin::text(&a.name) else {
+    let costs = (a.name == COSTS).then(costs::toml);
+    let Some(text) = costs.as_deref().or_else(|| builtin::text(&a.name)) else {
         bail!(load::no_built_in(&a.name))
     };
     output::to(None, |out| {

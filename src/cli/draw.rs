@@ -45,16 +45,12 @@ pub(super) struct Draw {
     #[arg(long)]
     motion: bool,
     /// The way of the drive from the pose of the file, such as 0:90deg:60 or -5:5:60 (lengths in the file's unit): from, to,
-    /// pictures less one. As far as it goes where it is left out.
-    #[arg(
-        long,
-        value_name = "FROM:TO:STEPS",
-        allow_hyphen_values = true,
-        requires = "motion"
-    )]
+    /// pictures less one. As far as it goes where it is left out. Without --motion the kinematic scheme stands still, with the
+    /// ways of its points over the stroke.
+    #[arg(long, value_name = "FROM:TO:STEPS", allow_hyphen_values = true)]
     stroke: Option<String>,
     /// The joint that moves, where it is not the file's drive: 0-1, or 0-1:tz for one of several freedoms.
-    #[arg(long, value_name = "JOINT", requires = "motion")]
+    #[arg(long, value_name = "JOINT")]
     drive: Option<String>,
     /// PNG instead of SVG (where built with the feature `png`); a file named .png is one anyway.
     #[arg(long)]
@@ -70,6 +66,13 @@ pub(super) struct Draw {
     output: Option<PathBuf>,
     #[command(flatten, next_help_heading = "The list that --variant is of")]
     which: Which,
+}
+
+impl Draw {
+    /// Whether a motion is shown, which only the kinematic scheme can.
+    fn moves(&self) -> bool {
+        self.motion || self.stroke.is_some() || self.drive.is_some()
+    }
 }
 
 /// The direction towards the reader that a side stands for.
@@ -110,7 +113,7 @@ fn numbers(text: &str) -> Option<[f64; 3]> {
 pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     let wanted = picture(a)?;
     ensure!(
-        a.motion || a.kind == DrawKind::Kinematic || (a.view.is_none() && a.up.is_none()),
+        a.moves() || a.kind == DrawKind::Kinematic || (a.view.is_none() && a.up.is_none()),
         "--view and --up are for the kinematic scheme, which has coordinates: add --kind kinematic"
     );
     let mut mechanism = load::mechanism(&a.file.file)?;
@@ -147,9 +150,13 @@ pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
         toward: a.view,
         up: a.up,
     };
-    let drawing = if a.motion {
+    let drawing = if a.moves() {
         let moving = Moving::new(&mechanism, state, a.stroke.as_deref(), a.drive.as_deref())?;
-        draw::kinematic_moving(&subject, &sight, &moving.moved(), Player::Itself)
+        if a.motion {
+            draw::kinematic_moving(&subject, &sight, &moving.moved(), Player::Itself)
+        } else {
+            draw::kinematic_along(&subject, &sight, &moving.moved())
+        }
     } else {
         match a.kind {
             DrawKind::Scheme => draw::scheme(&subject),

@@ -75,6 +75,11 @@ pub(super) fn be_patient() {
     PATIENT.store(true, Ordering::SeqCst);
 }
 
+/// From now on every signal ends the program at once, as before [`be_patient`].
+pub(super) fn be_impatient() {
+    PATIENT.store(false, Ordering::SeqCst);
+}
+
 /// Whether to end early.
 pub(super) fn pending() -> bool {
     PENDING.load(Ordering::Relaxed)

@@ -1,6 +1,7 @@
 //! `ozols lint`.
 
 use super::import::{Reading, description};
+use super::tone::{Tone, toned};
 use super::{Done, load, output};
 use crate::file::text::mechanism_from_bytes;
 use crate::model::mechanism::{JointId, Mechanism};
@@ -55,7 +56,12 @@ pub(super) fn run(a: &Lint) -> anyhow::Result<Done> {
         match a.format {
             LintFormat::Text => {
                 for lint in &all {
-                    write!(out, "{}", fit(&lint.text(), width))?;
+                    let text = fit(&lint.text(), width);
+                    let verdict = match lint.is_clean() {
+                        true => ("nothing is redundant".to_owned(), Tone::Good),
+                        false => (lint.sigma(), Tone::Bad),
+                    };
+                    write!(out, "{}", toned(text, a.output.as_deref(), [verdict]))?;
                 }
                 let mended = all
                     .iter()

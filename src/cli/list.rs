@@ -5,7 +5,7 @@ use crate::builtin;
 use crate::format::csv;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::figures::figures;
-use crate::view::layout::table;
+use crate::view::layout::{fit, table};
 use anyhow::Context;
 use clap::{Args as ClapArgs, ValueEnum};
 use rayon::prelude::*;
@@ -97,7 +97,10 @@ fn text(a: &List, rows: Vec<Row>) -> anyhow::Result<Done> {
     output::to(None, |out| {
         let lines: Vec<&str> = table.lines().collect();
         let (head, body) = lines.split_at(2);
-        writeln!(out, "{}", head.join("\n"))?;
+        for line in head {
+            let room = width.unwrap_or(usize::MAX);
+            writeln!(out, "{}", console::truncate_str(line, room, ""))?;
+        }
         let columns = lines.iter().map(|l| measure(l)).max().unwrap_or(0) + 2;
         for (line, (heading, description)) in body.iter().zip(&notes) {
             if let Some(heading) = heading {
@@ -115,10 +118,8 @@ fn text(a: &List, rows: Vec<Row>) -> anyhow::Result<Done> {
             }
         }
         if a.words.is_empty() {
-            writeln!(
-                out,
-                "\nn links, p joints, k contours, f freedoms, W mobility, σ redundant constraints; see `ozols explain`"
-            )?;
+            let signs = "\nn links, p joints, k contours, f freedoms, W mobility, σ redundant constraints; see `ozols explain`\n";
+            write!(out, "{}", fit(signs, output::width(None)))?;
         }
         Ok(Done::Found)
     })

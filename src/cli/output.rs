@@ -172,10 +172,13 @@ pub(super) fn note(text: &str) {
 /// Says what went wrong, in colour where standard error is a terminal that wants it (NO_COLOR, CLICOLOR_FORCE), as the
 /// parser of the arguments does.
 pub(super) fn complain(e: &anyhow::Error) {
-    let file = match e.downcast_ref::<api::Error>() {
-        Some(api::Error::File(problems)) => Some(problems),
-        _ => e.downcast_ref::<ImportError>(),
-    };
+    // What went wrong with a file may be why a search went wrong.
+    let file = e
+        .chain()
+        .find_map(|c| match c.downcast_ref::<api::Error>() {
+            Some(api::Error::File(problems)) => Some(problems),
+            _ => c.downcast_ref::<ImportError>(),
+        });
     let text = match file {
         Some(import) => import.render(true),
         None => {

@@ -12,31 +12,43 @@ use crate::redundancy::analysis::{Method, analyse};
 use crate::score::outcome::Outcome;
 use crate::score::request::{List, Request};
 use crate::score::variants::Variants;
+use crate::view::analysis::{Analysis, State};
 use crate::view::next::{file_name, flags, word};
 use anyhow::ensure;
 use clap::Args as ClapArgs;
 use itertools::Itertools;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 #[derive(Debug, ClapArgs)]
 pub(super) struct Report {
     #[command(flatten)]
-    file: File,
+    pub(super) file: File,
     /// How many of the best variants the page holds, 10000 at most.
     #[arg(long, value_name = "K", default_value_t = 200)]
     top: usize,
     #[command(flatten)]
-    checked: Checked,
+    pub(super) checked: Checked,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
+    pub(super) output: Option<PathBuf>,
 }
 
 /// A page with more variants than this is of no use to anybody.
 const MOST: usize = 10_000;
 
 pub(super) fn run(args: &Args, a: &Report) -> anyhow::Result<Done> {
+    write(args, a, a.output.as_deref(), false)?;
+    Ok(Done::Found)
+}
+
+/// Writes the page, which looks for newer ones where it is `live`, and gives the verdict on each state in a few words.
+pub(super) fn write(
+    args: &Args,
+    a: &Report,
+    path: Option<&Path>,
+    live: bool,
+) -> anyhow::Result<String> {
     ensure!(
         (1..=MOST).contains(&a.top),
         "--top must be from 1 to {MOST} in a report; `ozols search` gives longer lists"
@@ -53,18 +65,22 @@ pub(super) fn run(args: &Args, a: &Report) -> anyhow::Result<Done> {
         tolerance: request.snap,
     };
     let states = analyse(&written, &states, method)?;
+    let figures = Analysis::new(&written, &states, &[]).states;
+    let words = |s: &State<'_>| format!("{}: {}, W = {}", s.state, s.verdict(), s.mobility);
+    let verdict = figures.iter().map(words).join("; ");
     let conditions = request.conditions(&prepared, &mut note);
     let mechanism = Arc::new(prepared.mechanism);
     let write = |redesigns: Result<Redesigns<'_>, String>, ideas: Option<Redesigns<'_>>| {
         let page = html(&Page {
             mechanism: &mechanism,
             states: &states,
+            live,
             redesigns,
             ideas,
             motions: motions(&mechanism),
             commands: commands(&mechanism, a, &request),
         })?;
-        output::to(a.output.as_deref(), |out| {
+        output::to(path, |out| {
             out.write_all(page.as_bytes())?;
             Ok(Done::Found)
         })
@@ -72,7 +88,10 @@ pub(super) fn run(args: &Args, a: &Report) -> anyhow::Result<Done> {
     // What is known of the mechanism as it is stands, even where its coordinates do not allow a search.
     let conditions = match conditions {
         Ok(conditions) => conditions,
-        Err(why) => return write(Err(format!("{why}.")), None),
+        Err(why) => {
+            write(Err(format!("{why}.")), None)?;
+            return Ok(verdict);
+        }
     };
     let mut watch = Watch::new(args.quiet);
     let outcome = watch.answer(mechanism.clone(), conditions, &request)?;
@@ -81,7 +100,8 @@ pub(super) fn run(args: &Args, a: &Report) -> anyhow::Result<Done> {
         redesigns(&outcome, given)
     });
     let variants = outcome.variants_unless(&interrupt::pending);
-    write(Ok(redesigns(&outcome, variants)), ideas)
+    write(Ok(redesigns(&outcome, variants)), ideas)?;
+    Ok(verdict)
 }
 
 /// A list of the page.
@@ -129,10 +149,20 @@ fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
     let more = more.iter().filter(|m| !m.is_empty()).join(" ");
     let row = |what: &str, command: String| (what.to_owned(), command);
     let named = |ending: &str| file_name(&mechanism.name, ending);
-    let of_one = |name: &str, list: &str| {
+    // `--idea` says that ideas are meant.
+    let plain = flags(
+        mechanism,
+        &Request {
+            distinct: false,
+            ..request.clone()
+        },
+    );
+    let of_one = |name: &str| {
         let row_of = |what: &str, command: &str, rest: &str| {
             let rest = rest.replace("NAME", name);
-            let words = [command, &file, list, "--variant {}", &rest];
+            let number = if request.distinct { "idea" } else { name };
+            let number = format!("--{number} {{}}");
+            let words = [command, &file, &plain, &number, &rest];
             row(what, words.iter().filter(|w| !w.is_empty()).join(" "))
         };
         // `draw` and `export` count the lucky variants, too.
@@ -143,10 +173,6 @@ fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
             row_of("The same drawing", "ozols draw", "-o NAME-{}.svg"),
             row_of("It as a file", "ozols export", "--to toml -o NAME-{}.toml"),
         ]
-    };
-    let distinct = Request {
-        distinct: true,
-        ..request.clone()
     };
     let longer = [&list, "{}", "--top 10000"];
     let longer = longer.iter().filter(|w| !w.is_empty()).join(" ");
@@ -173,8 +199,8 @@ fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
                 ),
             ),
         ],
-        variant: of_one("variant", &list),
-        idea: of_one("idea", &flags(mechanism, &distinct)),
+        variant: of_one("variant"),
+        idea: of_one("idea"),
         longer: format!("ozols report {file} {longer} -o report.html"),
     }
 }

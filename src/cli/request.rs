@@ -1,11 +1,14 @@
 //! What is asked of a search, in arguments: the same for every command that searches.
 
 use super::memory;
+use crate::api;
+use crate::file::text::{MAX_BYTES, text_of};
 use crate::model::ranking::Term;
-use crate::score::request::{self, Inserts, JointOptions, POOL, Request};
+use crate::score::request::{self, CostFile, Inserts, JointOptions, POOL, Request};
 use crate::search::conditions::Symmetry;
 use anyhow::{Context, bail};
 use clap::{Args as ClapArgs, ValueEnum};
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Check {
@@ -54,7 +57,8 @@ pub(super) struct Which {
     /// Another link that must not gain a motion, or an object that must be held (repeatable).
     #[arg(long, value_name = "LINK")]
     hold: Vec<String>,
-    /// Use these of the file's options everywhere, by name: revolute,spherical.
+    /// Use these of the file's options everywhere, by name: revolute,spherical. Joint types that the file does not list are
+    /// offered in the joints' own frames.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     options: Vec<String>,
     /// Options allowed at a joint: 2-3=revolute,spherical (repeatable). The present joint always is.
@@ -67,6 +71,10 @@ pub(super) struct Which {
     /// the searched state adds (repeatable).
     #[arg(long, value_name = "NAMES[=JOINTS]")]
     unloading: Vec<String>,
+    /// Costs of joint types and changes, in place of the defaults and of [search.costs] in FILE: a TOML file such as
+    /// `ozols show costs` prints.
+    #[arg(long, value_name = "COSTS", value_hint = clap::ValueHint::FilePath)]
+    pub(super) costs: Option<PathBuf>,
     /// Only variants that are their own mirror image.
     #[arg(long)]
     symmetric: bool,
@@ -96,7 +104,7 @@ pub(super) struct Which {
 #[derive(Debug, ClapArgs)]
 pub(super) struct Checked {
     #[command(flatten)]
-    which: Which,
+    pub(super) which: Which,
     /// The state that takes part besides the free one, its joints among what is searched; the file's first where only
     /// --max-external or --max-harmful is given.
     #[arg(long, value_name = "STATE")]
@@ -151,6 +159,7 @@ impl Which {
             options: self.options.clone(),
             allow: self.allow.iter().map(joint_options).collect(),
             forbid: self.forbid.iter().map(joint_options).collect(),
+            costs: self.costs.as_deref().map(cost_file).transpose()?,
             symmetry: match (self.symmetric, self.one_per_orbit) {
                 (true, _) => Symmetry::SymmetricOnly,
                 (_, true) => Symmetry::OnePerOrbit,
@@ -170,6 +179,16 @@ impl Which {
             ..Request::default()
         })
     }
+}
+
+/// A file of costs.
+fn cost_file(path: &Path) -> anyhow::Result<CostFile> {
+    let name = path.display().to_string();
+    let bytes = api::bytes(path, MAX_BYTES).map_err(|e| {
+        anyhow::anyhow!("--costs: {e}; `ozols show costs > {name}` writes one to start from")
+    })?;
+    let text = text_of(&name, &bytes)?.to_owned();
+    Ok(CostFile { name, text })
 }
 
 /// A term with its weight.

@@ -3,8 +3,9 @@
 use super::args::{Args, File};
 use super::progress::Watch;
 use super::request::Checked;
+use super::tone::{Tone, toned};
 use super::{Done, interrupt, load, machine, memory, output};
-use crate::format::number::duration;
+use crate::format::number::{duration, grouped};
 use crate::score::outcome::Outcome;
 use crate::score::request::{List, Method, Request};
 use crate::view::{search_csv, search_json, search_text};
@@ -117,7 +118,19 @@ pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
         match a.format {
             SearchFormat::Text => {
                 let width = output::width(a.output.as_deref());
-                search_text::write(out, &outcome, variants, none, &a.file.file, width)?;
+                let file = &a.file.file;
+                if request.list == List::All {
+                    search_text::write(out, &outcome, variants, none, file, width)?;
+                } else {
+                    let mut text = Vec::new();
+                    search_text::write(&mut text, &outcome, variants, none, file, width)?;
+                    let text = String::from_utf8(text)?;
+                    write!(
+                        out,
+                        "{}",
+                        toned(text, a.output.as_deref(), [verdict(&outcome)])
+                    )?;
+                }
             }
             SearchFormat::Json => {
                 search_json::write(out, &outcome, variants, none, Some(&seconds))?;
@@ -140,4 +153,14 @@ pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
         output::note(&format!("Searched in {}{held}.\n", duration(seconds())));
     }
     Ok(done)
+}
+
+/// How many there are, and whether that is good news.
+fn verdict(outcome: &Outcome) -> (String, Tone) {
+    let total = &outcome.admissible.total;
+    if total.is_zero() {
+        ("none".to_owned(), Tone::Bad)
+    } else {
+        (grouped(&total.to_string()), Tone::Good)
+    }
 }

@@ -41,6 +41,8 @@ pub(super) fn write(
     for (&state, s) in states.iter().zip(found) {
         let certificate = if s.as_written.is_some() || s.at_most().is_some() {
             Err("a certificate is of what is written, and rounded coordinates mean something else; write roots or expressions".to_owned())
+        } else if m.has_pi() {
+            Err("a certificate is of exact numbers, and digits of pi stand in a pitch".to_owned())
         } else {
             certify(m, state).map_err(|reason| reason.to_string())
         };

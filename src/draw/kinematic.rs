@@ -4,11 +4,14 @@ mod axes;
 mod body;
 mod carried;
 mod gears;
+mod marked;
 pub(super) mod moving;
 mod naming;
 mod nest;
+mod points;
 mod symbol;
 use self::body::Body;
+use self::marked::{Marked, marked};
 use self::symbol::Symbol;
 use super::couplings;
 use super::ground::{Foot, Ground, grounds};
@@ -92,6 +95,10 @@ struct Kinematic<'a> {
     grounds: Vec<Ground>,
     /// Where the joints are in space.
     places: Vec<Place>,
+    /// The points of interest of links that are there.
+    points: Vec<Marked>,
+    /// The ways of points over a motion, and whether each ends where it began.
+    traces: (Vec<Vec<Point>>, bool),
     projection: Projection,
 }
 
@@ -115,7 +122,13 @@ impl<'a> Kinematic<'a> {
         // symbols do not grow, so that many of them need more paper
         let more = roominess(seen, &joints) * (joints.len() as f64 / 12.0).sqrt().clamp(1.0, 3.0);
         let room = ROOM.map(|r| r * more);
-        let projection = projection::best(&places, &links, m.frame(), room, sight);
+        let mut points = marked(m, &links);
+        let more: Vec<_> = points.iter().map(|p| p.place).collect();
+        let seen = (places.as_slice(), more.as_slice());
+        let projection = projection::best(seen, &links, m.frame(), room, sight);
+        for p in &mut points {
+            p.at = projection.flat(p.place);
+        }
         let at: Vec<Point> = places.iter().map(|p| projection.flat(p.point)).collect();
         let of: Vec<&Joint> = joints.iter().map(|&j| &m.joints[j]).collect();
         let sizes = nest::sizes(&at, &of);
@@ -142,6 +155,8 @@ impl<'a> Kinematic<'a> {
             links,
             grounds: Vec::new(),
             places,
+            points,
+            traces: (Vec::new(), false),
             projection,
         };
         let moving = (0..out.links.len()).filter(|&l| !out.is_frame(out.links[l].0));
@@ -150,9 +165,9 @@ impl<'a> Kinematic<'a> {
         for (&l, bow) in moving.iter().zip(body::bows(&bodies)) {
             out.bows[l] = bow;
         }
-        let loose = moving.iter().map(|&l| &out.links[l].1);
+        let loose = moving.iter().map(|&l| &out.links[l]);
         let loose: Vec<(usize, Point)> = loose
-            .filter_map(|of| Some((of[0], out.loose(of)?)))
+            .filter_map(|link| Some((link.1[0], out.loose(link)?)))
             .collect();
         let feet: Vec<Foot> = (0..out.spots.len()).map(|i| out.foot(i)).collect();
         out.grounds = grounds(&feet, &out.links, m.frame(), &loose);
@@ -174,15 +189,19 @@ impl<'a> Kinematic<'a> {
 
     /// The shape of a link.
     fn body(&self, link: usize) -> Body {
-        let (_, of) = &self.links[link];
+        let (l, of) = &self.links[link];
         let mut points: Vec<Point> = of.iter().map(|&i| self.spots[i].at).collect();
-        points.extend(self.loose(of));
+        points.extend(self.points_of(*l).map(|p| p.at));
+        points.extend(self.loose(&self.links[link]));
         Body::new(&points).bowed(self.bows[link])
     }
 
-    /// The end of a link with one joint.
-    fn loose(&self, of: &[usize]) -> Option<Point> {
-        let &[only] = of else { return None };
+    /// The end of a link with one joint, and no point of interest that it leads to.
+    fn loose(&self, (link, of): &(LinkId, Vec<usize>)) -> Option<Point> {
+        let &[only] = of.as_slice() else { return None };
+        if self.points_of(*link).next().is_some() {
+            return None;
+        }
         let at = self.spots[only].at;
         let others = self
             .links
@@ -212,16 +231,17 @@ impl<'a> Kinematic<'a> {
         let all = self.spots.iter().map(|s| s.rect);
         let all = all.chain(self.grounds.iter().map(Ground::rect));
         let all = all.chain(places.iter().map(|p| p.rect));
-        let ends = self
-            .links
-            .iter()
-            .filter_map(|(l, of)| self.loose(of).filter(|_| !self.is_frame(*l)));
+        let moving = self.links.iter().filter(|(l, _)| !self.is_frame(*l));
+        let ends = moving.filter_map(|link| self.loose(link));
         let ends: Vec<Rect> = ends.map(|p| Rect::around(p, 8.0, 8.0)).collect();
         for r in all.chain(ends) {
             area = area.with(&r);
         }
         for l in 0..self.links.len() {
             area = area.with(&bounds(&self.body(l).points).grown(3.0));
+        }
+        for p in self.points.iter().map(|p| p.at).chain(self.traced()) {
+            area = area.with(&Rect::around(p, 10.0, 10.0));
         }
         let circles = self.circles();
         for c in circles.iter().flatten() {
@@ -246,8 +266,10 @@ impl<'a> Kinematic<'a> {
             g.from = add(g.from, by);
             g.to = add(g.to, by);
         }
+        self.shift_points(by);
         let mut sheet = Sheet::new(&caption, &plan);
         self.draw_links(&mut sheet);
+        self.draw_traces(&mut sheet);
         self.draw_couplings(&mut sheet, &circles, by);
         for g in &self.grounds {
             sheet.symbol(g.rect());
@@ -258,6 +280,7 @@ impl<'a> Kinematic<'a> {
                 sheet.line("lead", add(a, by), add(b, by));
             }
         }
+        self.draw_points(&mut sheet);
         // the larger ones of one place first
         let mut order: Vec<&Spot> = self.spots.iter().collect();
         order.sort_by(|a, b| b.symbol.size.total_cmp(&a.symbol.size));
@@ -355,7 +378,7 @@ impl<'a> Kinematic<'a> {
         let mut out: Vec<(Swatch, String)> = types
             .into_iter()
             .map(|(t, s)| {
-                let shapes = s.symbol.plain();
+                let shapes = symbols::fitted(&s.symbol.plain());
                 (Swatch::Shapes(shapes), format!("{t}, class {}", t.class()))
             })
             .collect();
@@ -367,10 +390,7 @@ impl<'a> Kinematic<'a> {
             let draw = |s: &mut Sheet, p: Point| {
                 Ground::pivot(add(p, [0.0, -7.0]), add(p, [0.0, -1.0])).draw(s);
             };
-            out.push((
-                Swatch::Symbol(draw),
-                format!("frame {}", m.links[m.frame()].id),
-            ));
+            out.push((Swatch::Symbol(draw), m.frame_words()));
         }
         if self.spots.iter().any(|s| self.subject.only_here(s.joint)) {
             let draw = |s: &mut Sheet, p: Point| s.circle("fine dash", p, 9.5);
@@ -383,6 +403,7 @@ impl<'a> Kinematic<'a> {
             };
             out.push((Swatch::Symbol(draw), "output link".to_owned()));
         }
+        out.extend(self.point_rows());
         let circles = self.circles();
         if circles.iter().any(|c| !c.is_empty()) {
             let draw = |s: &mut Sheet, p: Point| s.circle("fine pitch", p, 9.0);

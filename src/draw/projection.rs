@@ -127,18 +127,15 @@ fn frame(mechanism: &Mechanism, joint: JointId) -> Place {
     }
 }
 
+/// A vector in numbers; those that are none count as 0.
+pub(super) fn real(v: &[Expr; 3]) -> Vector {
+    let fits = |x: f64| x.is_finite() && x.abs() < 1e120;
+    v.each_ref()
+        .map(|e| Some(e.to_f64()).filter(|&x| fits(x)).unwrap_or_default())
+}
+
 /// A joint's frame in numbers; those that are none count as 0.
 pub(super) fn turned(f: &Frame) -> Place {
-    let real = |v: &[Expr; 3]| {
-        [0, 1, 2].map(|i| {
-            let x = v[i].to_f64();
-            if x.is_finite() && x.abs() < 1e120 {
-                x
-            } else {
-                0.0
-            }
-        })
-    };
     let z = unit(real(&f.axis), [0.0, 0.0, 1.0]);
     let reference = real(&f.reference);
     let other = if z[0].abs() < 0.9 {
@@ -254,9 +251,10 @@ impl Projection {
     }
 }
 
-/// The view that is asked for, or that with least overlap, for a picture of the given size.
+/// The view that is asked for, or that with least overlap, for a picture of the given size that has room for some more points,
+/// too.
 pub(super) fn best(
-    places: &[Place],
+    (places, more): (&[Place], &[Vector]),
     links: &[(LinkId, Vec<usize>)],
     frame: LinkId,
     room: Point,
@@ -287,7 +285,8 @@ pub(super) fn best(
             .iter()
             .map(|p| view.flat(sub(p.point, middle)))
             .collect();
-        let area = bounds(&on);
+        let beside = more.iter().map(|&p| view.flat(sub(p, middle)));
+        let area = bounds(&on.iter().copied().chain(beside).collect::<Vec<_>>());
         let (w, h) = (area.right - area.left, area.bottom - area.top);
         let scale = (room[0] / w.max(1e-300)).min(room[1] / h.max(1e-300));
         let scale = if w.max(h) > 0.0 && scale.is_finite() {

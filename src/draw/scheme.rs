@@ -337,10 +337,7 @@ impl<'a> Scheme<'a> {
             s.path("link", &rounded(&ends, 7.0));
             s.path("fine", &hatch_with(&ends, 6.4, 4.0));
         };
-        out.push((
-            Swatch::Symbol(frame),
-            format!("frame {}", m.links[m.frame()].id),
-        ));
+        out.push((Swatch::Symbol(frame), m.frame_words()));
         if any(&|j| self.subject.only_here(j)) {
             let draw = |s: &mut Sheet, p: Point| s.circle("joint dash", p, 9.5);
             let state = &m.states[self.subject.state];

@@ -10,7 +10,8 @@ pub(super) const PAD: f64 = 20.0;
 pub(super) const SMALL: f64 = 11.0;
 /// The size of the legend.
 const TEXT: f64 = 12.0;
-const ROW: f64 = 22.0;
+/// The height of a row of the legend.
+pub(super) const ROW: f64 = 22.0;
 const SWATCH: f64 = 40.0;
 /// A legend's row is cut beyond this.
 const WIDEST: f64 = 560.0;

@@ -1,7 +1,7 @@
 //! The symbols of joints, turned as the joints are.
 
 use super::projection::{Place, Vector, View, dot};
-use super::sheet::Shape;
+use super::sheet::{ROW, Shape};
 use crate::model::joint_type::JointType;
 use crate::svg::plane::{Point, Rect, add, cross, norm, scale, sub, unit};
 use std::f64::consts::{PI, TAU};
@@ -179,6 +179,30 @@ pub(super) fn symbol(joint: &JointType, pose: &Pose, mark: &str, size: f64) -> V
         }
     }
     s.shapes
+}
+
+/// Shapes made small enough for a row of the legend.
+pub(super) fn fitted(shapes: &[Shape]) -> Vec<Shape> {
+    let own = extent(shapes);
+    let by = (ROW - 2.0) / (own.bottom - own.top).max(1e-9);
+    let scaled = |p: &Point| scale(*p, by.min(1.0));
+    let one = |s: &Shape| match s {
+        Shape::Path {
+            class,
+            points,
+            closed,
+        } => Shape::Path {
+            class: class.clone(),
+            points: points.iter().map(scaled).collect(),
+            closed: *closed,
+        },
+        Shape::Circle { at, radius, class } => Shape::Circle {
+            at: scaled(at),
+            radius: radius * by.min(1.0),
+            class: class.clone(),
+        },
+    };
+    shapes.iter().map(one).collect()
 }
 
 /// The rectangle round some shapes.

@@ -29,10 +29,14 @@ impl Findings {
         self.names = names;
     }
 
-    /// The value of an expression.
-    pub(crate) fn expression(&mut self, text: &str) -> Result<Expr, ExprError> {
+    /// The value of an expression; where `pi_is_a_number`, outside of angles, too.
+    pub(crate) fn expression(
+        &mut self,
+        text: &str,
+        pi_is_a_number: bool,
+    ) -> Result<Expr, ExprError> {
         let (names, used) = (&self.names, &mut self.used);
-        Expr::with_names(text, &mut |word| {
+        Expr::with_names(text, pi_is_a_number, &mut |word| {
             let found = names.get(word)?;
             used.insert(word.to_owned());
             Some(found.clone())

@@ -1,13 +1,14 @@
 //! What is doubtful in a file that can be used: likely slips, and what has no effect.
 
 use crate::closure::contour::{Contour, contour_basis};
+use crate::file::guessed::guessed;
 use crate::file::locate::Step;
 use crate::file::problem::ImportError;
 use crate::file::read::build;
 use crate::file::read::resolve::{index, key};
 use crate::file::read::workload::workload_tables;
 use crate::file::rounding;
-use crate::file::schema::{MechanismFile, OptionEntry, Unloading};
+use crate::file::schema::{LinkEntry, MechanismFile, OptionEntry, Unloading};
 use crate::file::text::{read, text_of};
 use crate::file::warning::{WarningKind, Warnings};
 use crate::format::number::significant;
@@ -80,8 +81,9 @@ fn find(file: &MechanismFile, m: &Mechanism) -> Found {
     }
     lengths(file, m, &mut out);
     contours(m, &mut out);
-    structure(m, &mut out);
+    structure(file, m, &mut out);
     search(file, m, &mut out);
+    out.extend(guessed(file, m));
     workload(file, m, &mut out);
     out
 }
@@ -191,7 +193,11 @@ fn contours(m: &Mechanism, out: &mut Found) {
     }
 }
 
-fn structure(m: &Mechanism, out: &mut Found) {
+fn structure(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
+    let marked = |l: &LinkEntry| l.role.as_deref() == Some("output");
+    if !file.link.iter().any(marked) {
+        out.push((root("link"), WarningKind::NoOutput));
+    }
     for (l, link) in m.links_with_ids() {
         if link.role != Role::Object {
             continue;

@@ -110,8 +110,6 @@ pub enum ProblemKind {
     NoFrame,
     #[error("link \"{second}\" is a second frame after \"{first}\"; keep one role = \"frame\"")]
     SecondFrame { first: String, second: String },
-    #[error("no link has the role \"output\"; mark the working link: role = \"output\"")]
-    NoOutput,
     #[error(
         "the joints of this contour do not form one closed walk; list them in order round the contour"
     )]

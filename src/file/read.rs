@@ -2,6 +2,7 @@
 
 mod connected;
 mod contours;
+pub(crate) mod costs;
 mod coupling;
 pub mod drive;
 mod expected;
@@ -16,6 +17,7 @@ pub mod motion;
 mod names;
 mod options;
 pub mod parameters;
+mod points;
 pub(crate) mod quantity;
 pub mod ranking;
 pub(crate) mod resolve;
@@ -45,6 +47,7 @@ use joints::{joints, states};
 use limits::LIMITS;
 use links::links;
 use mode::mode;
+use points::points;
 use search::search;
 use size::size;
 
@@ -64,6 +67,7 @@ pub(crate) fn build_at(file: &MechanismFile, values: &Values) -> Result<Mechanis
         ("joints", file.joint.len(), LIMITS.1),
         ("contours", file.contour.len(), LIMITS.1),
         ("couplings", file.coupling.len(), LIMITS.1),
+        ("points", file.point.len(), LIMITS.1),
     ] {
         if count > limit {
             return Err(vec![(
@@ -95,6 +99,7 @@ pub(crate) fn build_at(file: &MechanismFile, values: &Values) -> Result<Mechanis
         loads: Loads::default(),
         ranking: None,
         joint_types: Vec::new(),
+        points: Vec::new(),
         expected: Vec::new(),
     };
     connected(&mechanism, &mut out);
@@ -115,6 +120,7 @@ pub(crate) fn build_at(file: &MechanismFile, values: &Values) -> Result<Mechanis
     // [search.costs] come first and win.
     by_type.sort_by(|a, b| a.0.cmp(&b.0));
     by_type.dedup_by(|later, first| later.0 == first.0);
+    mechanism.points = points(file, &mechanism, &mut out);
     mechanism.expected = expected(file, &mechanism, &mut out);
     if out.count() == 0 {
         unused(&mut out);

@@ -18,7 +18,7 @@ const TOLD: usize = 5;
 /// What is doubtful.
 pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
     let mut out = Vec::new();
-    if let Some(rounded) = looks_rounded(m).filter(|r| r.digits.is_some()) {
+    if let Some(rounded) = looks_rounded(m).filter(|r| r.digits.is_some() && !r.pi) {
         let what = rounded.to_string();
         out.push(WarningKind::Measured { what });
     }

@@ -59,6 +59,9 @@ pub struct MechanismFile {
     /// A basis of contours, where a particular one is wanted.
     #[serde(default)]
     pub contour: Vec<ContourEntry>,
+    /// Points of interest on links, which drawings show, with their way over a stroke.
+    #[serde(default)]
+    pub point: Vec<PointEntry>,
     /// What a search may do.
     #[serde(default)]
     pub search: SearchEntry,
@@ -119,7 +122,10 @@ pub struct JointEntry {
     /// Direction that x is made from; by default the first of the global x, y, z not parallel to the axis.
     #[serde(default)]
     pub reference: Option<[Coordinate; 3]>,
-    /// Translation per radian of a helical joint.
+    /// Translation per turn of a helical joint: what catalogues of screws call its lead.
+    #[serde(default)]
+    pub lead: Option<Coordinate>,
+    /// Translation per radian of a helical joint, in place of its lead; may have pi in it: "5/(2*pi)".
     #[serde(default)]
     pub pitch: Option<Coordinate>,
     /// Whether the mechanism is driven here; a driven joint is not changed unless it has options of its own.
@@ -184,7 +190,10 @@ pub struct OptionTable {
     /// Direction of x, the joint's own by default.
     #[serde(default)]
     pub reference: Option<[Coordinate; 3]>,
-    /// Translation per radian of a helical joint.
+    /// Translation per turn of a helical joint: what catalogues of screws call its lead.
+    #[serde(default)]
+    pub lead: Option<Coordinate>,
+    /// Translation per radian of a helical joint, in place of its lead; may have pi in it: "5/(2*pi)".
     #[serde(default)]
     pub pitch: Option<Coordinate>,
     /// Name shown in results.
@@ -215,6 +224,18 @@ pub struct CouplingEntry {
 pub struct ContourEntry {
     /// The joints.
     pub joints: Vec<String>,
+}
+
+/// A point of interest: the foot of a leg, the face of a jaw.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PointEntry {
+    /// Name, unique among points.
+    pub id: String,
+    /// The link that it is fixed to.
+    pub link: String,
+    /// Where it is at the pose of the file.
+    pub point: [Coordinate; 3],
 }
 
 /// What a search may do.

@@ -87,6 +87,16 @@ pub enum WarningKind {
     )]
     UselessOption { option: String },
     #[error(
+        "the {what} of option \"{option}\" is taken along {along} at {joints}, as nobody states it; write a table with `{key}` if another is meant: {{ type = \"{option}\", {key} = [...] }}"
+    )]
+    Guessed {
+        option: String,
+        what: &'static str,
+        along: &'static str,
+        key: &'static str,
+        joints: String,
+    },
+    #[error(
         "no joint allows an unloading joint, so this list has no effect; write unloading = true at a joint"
     )]
     UnloadingNowhere,
@@ -100,6 +110,10 @@ pub enum WarningKind {
     ForbidsNothing { joint: String, option: String },
     #[error("no joint is a drive, so {what} has nothing to move; mark one: drive = true")]
     NoDrive { what: &'static str },
+    #[error(
+        "no link has the role \"output\", so that each counts as one, and no motion as idle; mark the working link: role = \"output\""
+    )]
+    NoOutput,
     #[error("no link has a mass, so gravity has no effect; add mass and centre to the links")]
     GravityAlone,
     #[error(

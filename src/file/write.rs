@@ -5,10 +5,11 @@ mod grip;
 mod quantity;
 mod ranking;
 
+use crate::file::read::resolve::motion_name;
 use crate::file::schema::{
     ContactEntry, ContourEntry, Coordinate, CouplingEntry, ExpectedEntry, ForceEntry, InertiaEntry,
     JointEntry, LinkEntry, MechanismFile, MisalignmentEntry, MomentEntry, OptionEntry, OptionTable,
-    Quantities, Quantity, SearchEntry, StiffnessEntry, StrokeEntry, Unloading, Words,
+    PointEntry, Quantities, Quantity, SearchEntry, StiffnessEntry, StrokeEntry, Unloading, Words,
     WorkloadEntry,
 };
 use crate::geom::expr::Expr;
@@ -58,6 +59,15 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
             .contours
             .iter()
             .map(|c| ContourEntry { joints: ids(c) })
+            .collect(),
+        point: m
+            .points
+            .iter()
+            .map(|p| PointEntry {
+                id: p.id.clone(),
+                link: m.links[p.link].id.clone(),
+                point: vector(&p.point),
+            })
             .collect(),
         search: search(m),
         workload: workload(m),
@@ -197,9 +207,10 @@ fn states(m: &Mechanism, of: Option<&Vec<StateId>>) -> Option<Words> {
 }
 
 fn joint(m: &Mechanism, j: &Joint) -> JointEntry {
-    // The present joint is understood, unless it has a cost of its own.
-    let priced = j.options.first().is_some_and(|o| o.cost_milli.is_some());
-    let listed = j.options.iter().skip(usize::from(!priced));
+    // The present joint is understood, unless it has a name or a cost of its own.
+    let own = |o: &JointOption| o.cost_milli.is_some() || o.name != motion_name(&o.joint_type);
+    let listed = j.options.iter();
+    let listed = listed.skip(usize::from(!j.options.first().is_some_and(own)));
     let options: Vec<OptionEntry> = listed.map(|o| option(m, o, &j.frame)).collect();
     let options = (!options.is_empty()).then_some(options);
     let unloading = (!j.unloading.is_empty())
@@ -212,6 +223,7 @@ fn joint(m: &Mechanism, j: &Joint) -> JointEntry {
         point: vector(&j.frame.point),
         axis: Some(vector(&j.frame.axis)),
         reference: (!is_default(&j.frame)).then(|| vector(&j.frame.reference)),
+        lead: None,
         pitch: screws(&j.joint_type).then(|| coordinate(&j.frame.pitch)),
         drive: j.drive,
         state: states(m, j.states.as_ref()),
@@ -246,6 +258,7 @@ fn option(m: &Mechanism, o: &JointOption, present: &Frame) -> OptionEntry {
         axis: turned.then(|| vector(&f.axis)),
         reference: (turned || !same(&f.reference, &present.reference))
             .then(|| vector(&f.reference)),
+        lead: None,
         pitch: (screws(&o.joint_type) && f.pitch.to_string() != present.pitch.to_string())
             .then(|| coordinate(&f.pitch)),
         name: Some(o.name.clone()).filter(|n| n != o.joint_type.name()),

@@ -2,6 +2,9 @@
 //!
 //! An [`Expr`] is a tree over rationals, square roots and cosines of rational angles. Every node carries a rigorous
 //! 256-bit enclosure of its value, so that signs, and an `f64` that survives cancellation, come for free.
+//!
+//! π is in none of the fields that these span. Where a pitch needs it, its first [`PI_DIGITS`] decimals stand for it, the same
+//! everywhere, so that ratios of pitches are exact; [`Expr::has_pi`] tells, and what is found with it is not called exact.
 
 mod enclosure;
 mod error;
@@ -16,8 +19,9 @@ pub use node::Expr;
 pub(crate) use node::{Function, Kind};
 pub(crate) use parse::WORDS;
 pub use parse::{MAX_ANGLE_DENOMINATOR, MAX_EXPONENT, MAX_NESTING, MAX_POWER, MAX_TEXT};
-pub(crate) use rational::rational_sqrt;
+pub use rational::PI_DIGITS;
 use rational::{MAX_BITS, bits, decimal};
+pub(crate) use rational::{PI, rational_sqrt};
 
 use num_integer::Integer;
 use num_rational::BigRational;
@@ -62,6 +66,19 @@ impl Expr {
     #[must_use]
     pub fn as_rational(&self) -> Option<BigRational> {
         self.rational_ref().cloned()
+    }
+
+    /// π to [`PI_DIGITS`] decimals.
+    #[must_use]
+    pub fn pi() -> Expr {
+        Expr::new(Kind::Pi)
+    }
+
+    /// Whether digits stand for π in it.
+    #[must_use]
+    pub fn has_pi(&self) -> bool {
+        let leaf = |e: &&Expr| matches!(e.kind(), Kind::Pi);
+        self.rational_ref().is_none() && self.post_order().iter().any(leaf)
     }
 
     /// Whether the expression has been folded to the rational 0. O(1).

@@ -33,6 +33,17 @@ pub struct Link {
     pub mass: Option<MassProperties>,
 }
 
+/// A point fixed to a link that drawings show: the foot of a leg, the face of a jaw.
+#[derive(Debug, Clone)]
+pub struct PointOfInterest {
+    /// The name used in the file.
+    pub id: String,
+    /// The link that it is fixed to.
+    pub link: LinkId,
+    /// Where it is at the pose of the file, in its length unit.
+    pub point: [Expr; 3],
+}
+
 /// Where a joint is and how it is turned: z = `axis`, x = `reference` made perpendicular to it, y = z × x.
 #[derive(Debug, Clone)]
 pub struct Frame {
@@ -203,6 +214,8 @@ pub struct Mechanism {
     pub ranking: Option<Ranking>,
     /// What the file says of joint types.
     pub joint_types: Vec<TypeOverride>,
+    /// Points of interest.
+    pub points: Vec<PointOfInterest>,
     /// Known figures.
     pub expected: Vec<Expected>,
 }
@@ -285,6 +298,21 @@ impl Mechanism {
         self.link_ids()
             .find(|&l| self.links[l].role == Role::Frame)
             .expect("a validated mechanism has a frame")
+    }
+
+    /// Whether digits of π stand in the pitch of a screw, so that nothing about the mechanism is exact.
+    #[must_use]
+    pub fn has_pi(&self) -> bool {
+        self.joints.iter().any(|j| j.frame.pitch.has_pi())
+    }
+
+    /// "frame 0", in words for people; a link that is called "frame" is not called it twice.
+    #[must_use]
+    pub fn frame_words(&self) -> String {
+        match self.links[self.frame()].id.as_str() {
+            "frame" => "frame".to_owned(),
+            id => format!("frame {id}"),
+        }
     }
 
     /// The link with this id.

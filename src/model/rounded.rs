@@ -4,7 +4,7 @@
 //! Exact ranks take every digit at its word, so an axis that is parallel to another but for the last digit counts as
 //! tilted, and constraints that are redundant in truth count as independent.
 
-use crate::geom::expr::Expr;
+use crate::geom::expr::{Expr, PI_DIGITS};
 use crate::geom::vector::{length, real};
 use crate::model::mechanism::{Frame, Mechanism, Mode};
 use num_bigint::BigInt;
@@ -41,6 +41,8 @@ pub struct Rounded {
     pub value: String,
     /// The unit in their last place.
     pub units: Units,
+    /// Whether digits of π make it look so, and nothing else.
+    pub pi: bool,
     /// The fewest digits among those that look measured, [`DIGITS`] or more; none where no coordinate does.
     pub digits: Option<usize>,
 }
@@ -70,9 +72,11 @@ impl fmt::Display for Rounded {
 struct Seen {
     /// Units of long lengths, and of long components of directions.
     units: [Vec<f64>; 2],
-    /// Number, place and value of the first coordinate, for those that look measured and for all.
-    first: [Option<(usize, String, f64)>; 2],
+    /// Number, place and value as text of the first coordinate, for those that look measured and for all.
+    first: [Option<(usize, String, String)>; 2],
     digits: Option<usize>,
+    /// How many of those that look measured have π.
+    pi: usize,
 }
 
 impl Seen {
@@ -90,6 +94,7 @@ impl Seen {
         let of = if direction { norm } else { 1.0 };
         self.units[usize::from(direction)].push(decimal.unit() / of);
         let measured = decimal.digits >= DIGITS;
+        self.pi += usize::from(measured && v.has_pi());
         if measured {
             self.digits = Some(
                 self.digits
@@ -98,7 +103,7 @@ impl Seen {
         }
         for (first, counts) in self.first.iter_mut().zip([measured, true]) {
             if counts {
-                first.get_or_insert_with(|| (0, place(), v.to_f64())).0 += 1;
+                first.get_or_insert_with(|| (0, place(), text(v))).0 += 1;
             }
         }
     }
@@ -115,6 +120,15 @@ impl Seen {
             }
         }
         self.see(&f.pitch, 0.0, &|| format!("pitch of {}", at()));
+    }
+}
+
+/// A coordinate as it is told.
+fn text(v: &Expr) -> String {
+    if v.has_pi() {
+        format!("{v}, with {PI_DIGITS} decimals of pi")
+    } else {
+        format!("{:?}", v.to_f64())
     }
 }
 
@@ -154,16 +168,18 @@ pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
         }
     }
     let [measured, any] = seen.first;
+    let pi = measured.as_ref().is_some_and(|m| m.0 == seen.pi);
     let (coordinates, place, value) = measured.or(any)?;
     let [lengths, directions] = seen.units;
     Some(Rounded {
         coordinates,
         place,
-        value: format!("{value:?}"),
+        value,
         units: Units {
             length: shared(lengths),
             direction: shared(directions),
         },
+        pi,
         digits: seen.digits,
     })
 }
@@ -183,10 +199,16 @@ impl Decimal {
     }
 }
 
-/// A decimal as such; `None` for roots, for fractions that no decimal ends (and halves of halves, which are written as
+/// A decimal as such, and what has decimals of pi in it; `None` for roots, for fractions that no decimal ends (and halves of halves, which are written as
 /// fractions), and for whole numbers.
 fn decimal(expr: &Expr) -> Option<Decimal> {
-    let r = expr.rational_ref()?;
+    let Some(r) = expr.rational_ref() else {
+        let places = u32::try_from(PI_DIGITS).unwrap_or(u32::MAX);
+        return expr.has_pi().then_some(Decimal {
+            digits: PI_DIGITS,
+            places,
+        });
+    };
     let (five, mut rest, mut fives) = (BigInt::from(5), r.denom().clone(), 0u32);
     let twos = rest.trailing_zeros().unwrap_or(0);
     rest >>= twos;
@@ -250,6 +272,7 @@ mod tests {
                 length: 0.0,
                 direction: 0.0,
             },
+            pi: false,
             digits,
         };
         assert_eq!(with(Some(16)).tolerance(), Some(1e-9));

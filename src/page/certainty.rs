@@ -52,9 +52,9 @@ fn search(r: &Redesigns<'_>) -> Vec<String> {
     let mut lines = Vec::new();
     match found.check {
         Some(PrimeCheck {
-            primes: [p, q],
             verdict: Verdict::Agree,
-        }) => lines.push(format!("Checked: modulo {p} and {q} the same")),
+            ..
+        }) => lines.push("Checked: modulo two primes the same".to_owned()),
         Some(_) => lines.push("Not checked by a second prime: interrupted".to_owned()),
         None => lines.push("One prime, without a second opinion".to_owned()),
     }
@@ -73,6 +73,11 @@ fn search(r: &Redesigns<'_>) -> Vec<String> {
         lines.push(format!("The coordinates look rounded ({why}); {searched}"));
     }
     lines.extend(search_text::notes(&r.summary));
+    lines.extend(
+        found
+            .check
+            .map(|c| format!("Primes: {} and {}", c.primes[0], c.primes[1])),
+    );
     if r.interrupted {
         lines.push(format!("Interrupted after {} variants", r.variants.len()));
     }

@@ -105,6 +105,7 @@ impl Asked {
             options: self.options,
             allow: joints(self.allow),
             forbid: joints(self.forbid),
+            costs: None,
             symmetry: word(
                 "symmetry",
                 &self.symmetry,

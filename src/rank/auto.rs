@@ -85,6 +85,7 @@ fn line(found: &Verdict) -> String {
     };
     let measured = found.rounded.as_ref().is_some_and(|r| r.digits.is_some());
     let why = match &found.rounded {
+        Some(r) if r.pi => format!("pi is no exact number ({r}); "),
         Some(r) if measured => format!("coordinates look measured ({r}); "),
         Some(r) if !found.is_as_written() => format!("coordinates look rounded ({r}); "),
         _ => String::new(),

@@ -69,11 +69,12 @@ impl Certainty {
         match self {
             Certainty::Counted => "counted, whatever the geometry".to_owned(),
             Certainty::Exact => "exact arithmetic".to_owned(),
-            Certainty::Proven { primes: [p, q] } => format!(
-                "exact geometry; rank proven by a checked certificate (--certificate), and modulo {p} and {q}"
-            ),
-            Certainty::Modular { primes: [p, q] } => {
-                format!("exact geometry; ranks modulo {p} and {q} agree")
+            Certainty::Proven { .. } => {
+                "exact geometry; rank proven by a checked certificate (--certificate), and the same modulo two primes"
+                    .to_owned()
+            }
+            Certainty::Modular { .. } => {
+                "exact geometry; ranks modulo two primes agree".to_owned()
             }
             Certainty::Numeric {
                 values,
@@ -93,6 +94,15 @@ impl Certainty {
                 "undecided: rank {as_written} as written, {near} if digits are left over from rounding (singular values \
                  {kept:.1e} above the gap, {dropped:.1e} below it)"
             ),
+        }
+    }
+
+    /// The primes that ranks were found modulo.
+    #[must_use]
+    pub fn primes(&self) -> Option<[u64; 2]> {
+        match *self {
+            Certainty::Proven { primes } | Certainty::Modular { primes } => Some(primes),
+            _ => None,
         }
     }
 

@@ -223,6 +223,7 @@ fn joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, String>) -
         reference: about(&[Freedom::Rx])
             .filter(|_| universal)
             .map(|x| direction(x).map(number)),
+        lead: None,
         pitch: screws.then(|| number(p.pitch)),
         drive: p.drive,
         state: None,

@@ -1,8 +1,8 @@
 //! What a request holds, offers, allows and forbids at single links and joints.
 
-use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
 use crate::score::request::{Inserts, JointOptions, Request, RequestError};
+use crate::score::unlisted::types;
 use itertools::Itertools;
 
 impl Request {
@@ -29,7 +29,10 @@ impl Request {
                 flag,
                 mechanism: name(),
                 option: option.clone(),
-                known: known.iter().map(|k| (*k).to_owned()).collect(),
+                known: (known.iter().map(|k| (*k).to_owned()))
+                    .chain(types().map(|t| t.name().to_owned()))
+                    .unique()
+                    .collect(),
             }),
         };
         check(&self.options, "--options")?;
@@ -146,15 +149,12 @@ fn offer(mechanism: &mut Mechanism, at: JointId, name: &str) -> Result<(), Reque
         known.state = None;
         return Ok(());
     }
-    // A thread needs a pitch, and a fixed joint relieves nothing.
-    let fits = |t: &JointType| !t.freedoms().is_empty() && !t.freedoms().contains(&Freedom::Screw);
-    let Some(joint_type) = JointType::from_name(name).filter(fits) else {
-        let types = JointType::NAMED.iter().filter(|t| fits(t));
+    let Some(joint_type) = types().find(|t| t.name() == name).cloned() else {
         let named = joint.unloading.iter().map(|u| u.name.clone());
         return Err(RequestError::NoUnloading {
             joint: joint.id.clone(),
             word: name.to_owned(),
-            known: named.chain(types.map(|t| t.name().to_owned())).collect(),
+            known: named.chain(types().map(|t| t.name().to_owned())).collect(),
         });
     };
     joint.unloading.push(JointOption {

@@ -49,10 +49,16 @@ impl Prepared {
             let measured = |w: &Rounded| w.digits.is_some();
             let meant = settled.verdicts.iter().all(Verdict::is_as_written);
             if let (Some(w), true, false) = (why.as_ref().filter(|w| measured(w)), meant, snapped) {
-                tell(format!(
-                    "warning: the coordinates of {name} look measured ({w}). Exact and tolerant ranks agree on it as it \
+                tell(if w.pi {
+                    format!(
+                        "note: pi is no exact number ({w}); its digits are taken at their word, and no rounding of them changes a figure"
+                    )
+                } else {
+                    format!(
+                        "warning: the coordinates of {name} look measured ({w}). Exact and tolerant ranks agree on it as it \
                      is, but the search takes every digit at its word; {CURE}"
-                ));
+                    )
+                });
             }
             return Ok(told(why.filter(|w| measured(w) || !meant)));
         };

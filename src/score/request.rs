@@ -1,6 +1,7 @@
 //! What is asked of a search, in the words of a file or a command line: everything that decides the list of variants, and
 //! how its answer is checked.
 
+use crate::file::problem::ImportError;
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::model::ranking::{Ranking, Term};
@@ -24,6 +25,15 @@ pub struct JointOptions {
     pub joint: String,
     /// Names of options; none where all changes are meant.
     pub names: Vec<String>,
+}
+
+/// A file of costs, which are read where the mechanism is known that they are for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CostFile {
+    /// Its name.
+    pub name: String,
+    /// Its text; see [`costs_from_str`](crate::file::costs::costs_from_str).
+    pub text: String,
 }
 
 /// Unloading joints offered at some joints, all by name.
@@ -103,12 +113,15 @@ pub struct Request {
     pub hold: Vec<String>,
     /// Unloading joints offered besides those of the file.
     pub unloading: Vec<Inserts>,
-    /// The options used everywhere, by name; all of the file where there are none.
+    /// The options used everywhere, by name; all of the file where there are none. Joint types that the file does not list are
+    /// offered in the joints' own frames.
     pub options: Vec<String>,
     /// Options allowed at single joints.
     pub allow: Vec<JointOptions>,
     /// Options forbidden at single joints.
     pub forbid: Vec<JointOptions>,
+    /// Costs in place of the file's and the defaults; what stands at an option of the file stays.
+    pub costs: Option<CostFile>,
     /// Mirror symmetry.
     pub symmetry: Symmetry,
     /// Whether a file whose coordinates are rounded is searched exactly as it is written, though something else is meant.
@@ -158,6 +171,7 @@ impl Default for Request {
             options: Vec::new(),
             allow: Vec::new(),
             forbid: Vec::new(),
+            costs: None,
             symmetry: Symmetry::All,
             counted: true,
             as_written: false,
@@ -206,7 +220,7 @@ pub enum RequestError {
         joint: String,
     },
     /// No such option.
-    #[error("{flag}: no joint of {mechanism} has an option named {option}; there are: {}", known.join(", "))]
+    #[error("{flag}: no joint of {mechanism} has an option named {option}, and no joint type is named so; there are: {}", known.join(", "))]
     NoOption {
         /// Which part of the request.
         flag: &'static str,
@@ -216,6 +230,18 @@ pub enum RequestError {
         option: String,
         /// The options that there are.
         known: Vec<String>,
+    },
+    /// A type that no joint can take.
+    #[error(
+        "{flag}: {option} does not allow the present motion of a joint of {mechanism} that it is meant for; name another type, or joints that it suits"
+    )]
+    LosesMotion {
+        /// Which part of the request.
+        flag: &'static str,
+        /// Name of the mechanism.
+        mechanism: String,
+        /// The type.
+        option: String,
     },
     /// A joint to which nothing is allowed.
     #[error("--allow needs names of options: --allow {joint}=revolute,spherical")]
@@ -279,6 +305,9 @@ pub enum RequestError {
         /// The states that there are.
         known: Vec<String>,
     },
+    /// A file of costs that cannot be used.
+    #[error("{0}")]
+    Costs(#[from] ImportError),
     /// Coordinates that are rounded, where that changes the figures.
     #[error("{0}; {CURE}, or search the file --as-written")]
     Rounded(String),
@@ -312,6 +341,8 @@ impl Request {
                 .open
                 .get_or_insert((i, settled.verdicts[i].as_written));
         }
+        self.price(&mut out)?;
+        self.offer_unlisted(&mut out, tell)?;
         self.restrict(&mut out)?;
         self.insert(&mut out)?;
         Ok(Prepared {

@@ -1,9 +1,10 @@
 //! A variant: its place, figures, changes, opinions and scores, and the mechanism that it is.
 
 use crate::closure::matrix::Closure;
+use crate::file::read::resolve::contains;
 use crate::geom::exact::ExactError;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::model::mechanism::{Joint, JointId, Mechanism, StateId};
 use crate::redundancy::share::{ContourShare, shares};
 use crate::score::outcome::Outcome;
 use crate::score::ranking::Ranked;
@@ -213,10 +214,49 @@ pub fn mechanism(search: &Search, assignment: &Assignment, position: usize) -> M
         in_words(search, &changes(search, assignment))
     );
     out.name = format!("{}-variant-{position}", out.name);
-    // Options are gone, and their names with them.
-    out.joint_types
-        .retain(|t| t.name == "custom" || JointType::from_name(&t.name).is_some());
+    offer_again(search, assignment, &mut out);
     out
+}
+
+/// Puts back what a search may still choose, so that a variant can be searched again: what was offered at a joint and allows
+/// what that joint does now, its costs and mirror images, under the same names.
+fn offer_again(search: &Search, assignment: &Assignment, out: &mut Mechanism) {
+    let old = &search.mechanism;
+    let mut chosen = vec![(0, None); old.joints.len()];
+    for (v, &choice) in search.space.variables.iter().zip(&assignment.choices) {
+        let Some(c) = v.choices.get(choice) else {
+            continue;
+        };
+        for &j in &v.joints {
+            chosen[j] = (c.option, c.unloading);
+        }
+    }
+    for (j, joint) in old.joints_with_ids() {
+        let (option, unloading) = chosen[j.index()];
+        let Some(present) = joint.options.get(option) else {
+            continue;
+        };
+        let more = joint
+            .options
+            .iter()
+            .skip(1)
+            .filter(|o| o.name != present.name && contains(o, present) == Some(true));
+        out.joints[j].options = std::iter::once(present).chain(more).cloned().collect();
+        if unloading.is_none() {
+            out.joints[j].unloading.clone_from(&joint.unloading);
+        }
+    }
+    let offered = |name: &str| {
+        let mut all = out.joints.iter().flat_map(Joint::offered);
+        JointType::from_name(name).is_some() || all.any(|o| o.name == name)
+    };
+    let mut spec = old.search.clone();
+    spec.costs.by_type_milli.retain(|(name, _)| offered(name));
+    let images = |&(a, b): &(JointId, JointId)| chosen[a.index()] == chosen[b.index()];
+    spec.mirror.retain(images);
+    out.joint_types
+        .retain(|t| t.name == "custom" || offered(&t.name));
+    out.search = spec;
 }
 
 /// The joints that a choice of options changes, in file order.

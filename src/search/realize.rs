@@ -74,6 +74,7 @@ impl Search {
             loads: old.loads.clone(),
             ranking: old.ranking.clone(),
             joint_types: old.joint_types.clone(),
+            points: old.points.clone(),
             expected: Vec::new(),
         }
     }

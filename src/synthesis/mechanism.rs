@@ -73,6 +73,7 @@ pub fn mechanism_file(
             point: whole(layout.at[i]),
             axis: Some(axis.map(Coordinate::Integer)),
             reference: None,
+            lead: None,
             pitch: None,
             drive: input,
             state: None,

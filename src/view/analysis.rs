@@ -3,6 +3,7 @@
 pub mod next;
 mod text;
 
+use crate::geom::expr::PI_DIGITS;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::share::{ContourShare, CouplingShare};
@@ -66,6 +67,9 @@ pub struct State<'a> {
     pub method: &'static str,
     pub certainty: String,
     pub certainty_kind: &'static str,
+    /// The primes that ranks were found modulo, as text: they are beyond what a double holds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub primes: Option<[String; 2]>,
     pub choice: Option<&'a str>,
     pub snapped: &'a [String],
     pub as_written: Option<AsWritten>,
@@ -273,12 +277,9 @@ impl<'a> State<'a> {
                 })
                 .collect(),
             method: s.method,
-            certainty: if s.as_written.is_some() {
-                format!("as meant: {}", s.certainty.describe())
-            } else {
-                s.certainty.describe()
-            },
+            certainty: certainty(mechanism, s),
             certainty_kind: s.certainty.word(),
+            primes: s.certainty.primes().map(|p| p.map(|p| p.to_string())),
             choice: s.choice.as_deref(),
             snapped: &s.snapped,
             as_written: s.as_written.map(|rank| AsWritten {
@@ -366,5 +367,18 @@ impl<'a> Wrench<'a> {
             forces: axes(w.forces),
             share: w.share,
         }
+    }
+}
+
+/// How sure the figures are; π is not exact, whatever the rest.
+fn certainty(m: &Mechanism, s: &StateAnalysis) -> String {
+    let words = s.certainty.describe();
+    match (s.as_written.is_some(), m.has_pi()) {
+        (true, _) => format!("as meant: {words}"),
+        (false, true) => {
+            let digits = format!("pi to {PI_DIGITS} decimals, all else exact");
+            words.replacen("exact geometry", &digits, 1)
+        }
+        (false, false) => words,
     }
 }

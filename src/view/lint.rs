@@ -173,7 +173,8 @@ impl Lint {
     }
 
     /// "2 redundant constraints (σ = 2)", "0 to 2 redundant constraints (...)".
-    fn sigma(&self) -> String {
+    #[must_use]
+    pub fn sigma(&self) -> String {
         let (least, most) = (self.redundant, self.redundant_at_most);
         match self.is_decided() {
             true => format!(

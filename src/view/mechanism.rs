@@ -32,7 +32,7 @@ fn links(m: &Mechanism, across: f64) -> String {
         let with = m.links.iter().filter(move |l| l.role == role);
         with.map(|l| l.id.as_str()).collect_vec()
     };
-    let mut roles = vec![format!("frame {}", names(of(Role::Frame)))];
+    let mut roles = vec![m.frame_words()];
     for (role, word) in [(Role::Output, "output"), (Role::Object, "object")] {
         let with = of(role);
         if !with.is_empty() {

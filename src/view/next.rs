@@ -85,6 +85,7 @@ pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
         ("max-changes", r.max_changes.map(|c| c.to_string())),
         ("rank", list(rank.collect())),
         ("pool", pool),
+        ("costs", r.costs.as_ref().map(|c| c.name.clone())),
     ]
     .into_iter()
     .chain(r.hold.iter().map(|l| ("hold", Some(l.clone()))))

@@ -42,6 +42,7 @@ pub fn write(
     width: Option<u16>,
 ) -> io::Result<()> {
     write!(out, "{}", counts(outcome, width))?;
+    let helps = why.least_redundant.and_then(|_| outcome.would_help());
     let why = hopeless(&outcome.search.mechanism, why);
     write!(out, "{}", fit(&why, width))?;
     let sample = matches!(outcome.request.list, List::Sample(_));
@@ -93,7 +94,7 @@ pub fn write(
         false => next(
             outcome,
             (if sample { 0 } else { summary.given }, changed),
-            eased,
+            (eased, helps),
             file,
         ),
     };
@@ -154,9 +155,8 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
         );
     }
     if let Some(check) = outcome.check {
-        let [p, q] = check.primes;
         let _ = match check.verdict {
-            Verdict::Agree => writeln!(out, "  Checked: modulo {p} and {q} the same"),
+            Verdict::Agree => writeln!(out, "  Checked: modulo two primes the same"),
             Verdict::Interrupted => writeln!(out, "  Not checked by a second prime: interrupted"),
         };
     }
@@ -296,7 +296,7 @@ fn marked(mut notes: Vec<String>) -> Vec<String> {
 fn next(
     outcome: &Outcome,
     (given, changed): (usize, bool),
-    eased: &[(Relaxation, BigUint)],
+    (eased, helps): (&[(Relaxation, BigUint)], Option<Request>),
     file: &str,
 ) -> Vec<Step> {
     // `--idea` says that ideas are meant.
@@ -362,9 +362,17 @@ fn next(
         let kept = without(flags, &name);
         Step::new("search", file, format!("{kept} {flag}").trim(), &least)
     });
-    let options = Step {
-        command: "Offer more options under [search], or at the joints".to_owned(),
-        gives: "the search chooses from those in the file alone".to_owned(),
+    let options = match helps {
+        Some(wider) => Step::new(
+            "search",
+            file,
+            &next::flags(&outcome.search.mechanism, &wider),
+            "Offer more options: with these joint types there are variants, and with others there may be",
+        ),
+        None => Step {
+            command: "Offer more options under [search], or at the joints".to_owned(),
+            gives: "the search chooses from those in the file, and from joint types named in --options and --allow".to_owned(),
+        },
     };
     steps.chain([options]).collect()
 }

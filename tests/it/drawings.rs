@@ -1,5 +1,7 @@
 //! Drawings: labels that touch nothing, well-formed SVG, the same bytes each time.
 
+mod interest;
+mod meeting;
 mod moving;
 mod places;
 mod random;
@@ -13,16 +15,54 @@ use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
 use ozols::search::conditions::{Conditions, InState, Search};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
 
 fn built_in(name: &str) -> Mechanism {
     mechanism_from_str(&format!("{name}.toml"), builtin::text(name).unwrap()).unwrap()
+}
+
+/// Contact sheets, one a family, to look at: `contact-sheets` in the folder that cargo gives tests.
+#[derive(Default)]
+struct Sheets(BTreeMap<&'static str, Vec<(String, String)>>);
+
+impl Sheets {
+    fn add(&mut self, name: &str, caption: &str, svg: &str) {
+        let family = builtin::families().into_iter();
+        let mut family = family.filter(|(_, names)| names.contains(&name));
+        let (family, _) = family.next_back().unwrap();
+        let pictures = self.0.entry(family).or_default();
+        pictures.push((caption.to_owned(), svg.to_owned()));
+    }
+
+    fn write(&self) {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("contact-sheets");
+        fs::create_dir_all(&folder).unwrap();
+        for (family, pictures) in &self.0 {
+            let mut page = format!("<!doctype html><meta charset=utf-8><title>{family}</title>");
+            page +=
+                "<style>figure{display:inline-block;margin:4px;width:420px}img{width:100%}</style>";
+            for (caption, svg) in pictures {
+                let file = format!("{}.svg", caption.replace(' ', "."));
+                fs::write(folder.join(&file), svg).unwrap();
+                let _ = write!(
+                    page,
+                    "<figure><img src=\"{file}\" alt=\"\"><figcaption>{caption}</figcaption></figure>"
+                );
+            }
+            let sheet = format!("{}.html", family.to_lowercase().replace([' ', ','], "-"));
+            fs::write(folder.join(sheet), page).unwrap();
+        }
+    }
 }
 
 #[test]
 fn every_built_in_is_drawn_right() {
     let mut wrong = Vec::new();
     let mut drawn = 0;
+    let mut sheets = Sheets::default();
     for name in builtin::names() {
         let m = built_in(name);
         let states: Vec<StateId> = m.state_ids().collect();
@@ -39,6 +79,9 @@ fn every_built_in_is_drawn_right() {
                 ("kinematic", kinematic(&subject)),
             ] {
                 drawn += 1;
+                let state = &m.states[state];
+                sheets.add(name, &format!("{name} {state} {kind}"), &d.svg);
+                let state = m.state(state).unwrap();
                 let joints = m.joints_in(state).count();
                 assert!(
                     d.symbols.len() >= joints,
@@ -55,6 +98,7 @@ fn every_built_in_is_drawn_right() {
             }
         }
     }
+    sheets.write();
     assert!(drawn >= 212, "{drawn}");
     assert!(wrong.is_empty(), "{wrong:#?}");
 }

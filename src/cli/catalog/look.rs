@@ -8,9 +8,9 @@ use crate::page::catalogue::catalogue;
 use crate::redundancy::analysis::exact_field;
 use crate::search::conditions::{Conditions, Search};
 use crate::view::structures::{Answer, StructureData, show_text};
-use anyhow::Context;
+use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueHint};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What is shown where no question is asked: the best of each kind first.
 const BEST: &str = "SELECT * FROM (SELECT id, links, input, symmetry AS layout, parallel, jaw_a_motion AS jaws, force_mean AS force, \
@@ -34,8 +34,18 @@ pub(in crate::cli) struct Query {
     output: Option<PathBuf>,
 }
 
+/// The catalogue in a file.
+fn open(file: &Path) -> anyhow::Result<Store> {
+    ensure!(
+        file.exists(),
+        "there is no file {0}; `ozols catalog build -o {0}` makes a catalogue",
+        file.display()
+    );
+    Ok(Store::open(file)?)
+}
+
 pub(super) fn query(a: &Query) -> anyhow::Result<Done> {
-    let store = Store::open(&a.file)?;
+    let store = open(&a.file)?;
     let (names, rows) = store.query(a.sql.as_deref().unwrap_or(BEST), None)?;
     let answer = Answer { names, rows };
     let path = a.output.as_deref();
@@ -69,7 +79,7 @@ pub(in crate::cli) struct Show {
 }
 
 pub(super) fn show(a: &Show) -> anyhow::Result<Done> {
-    let store = Store::open(&a.file)?;
+    let store = open(&a.file)?;
     let data = StructureData::read(&store, &store.find(&a.id)?)?;
     let path = a.output.as_deref();
     output::to(path, |out| {
@@ -101,7 +111,7 @@ pub(in crate::cli) struct Export {
 }
 
 pub(super) fn export(a: &Export) -> anyhow::Result<Done> {
-    let store = Store::open(&a.file)?;
+    let store = open(&a.file)?;
     let id = store.find(&a.id)?;
     let text = store.mechanism(&id)?.with_context(|| {
         format!(
@@ -141,7 +151,7 @@ pub(in crate::cli) struct Page {
 }
 
 pub(super) fn page(a: &Page) -> anyhow::Result<Done> {
-    let store = Store::open(&a.file)?;
+    let store = open(&a.file)?;
     let page = catalogue(&store, &a.file.display().to_string())?;
     output::to(Some(&a.output), |out| {
         out.write_all(page.as_bytes())?;

@@ -61,8 +61,8 @@ pub(super) fn explain(of: &JointType, picture: Option<&Path>) -> anyhow::Result<
             .map(|f| format!("{} {}", f.name(), meaning(*f)))
             .join(", "),
     };
-    let pitch = of.freedoms().contains(&Freedom::Screw);
-    let own = if pitch { "\npitch = 0.795775" } else { "" };
+    let screws = of.freedoms().contains(&Freedom::Screw);
+    let own = if screws { "\nlead = 5" } else { "" };
     let needs = !w.reference.starts_with("does not matter");
     let reference = if needs { "\nreference = [1, 0, 0]" } else { "" };
     let lines = [
@@ -76,7 +76,7 @@ pub(super) fn explain(of: &JointType, picture: Option<&Path>) -> anyhow::Result<
         row(
             "cost",
             &format!(
-                "{} by default, in revolute joints; [search.costs] of a file states others",
+                "{} by default, in revolute joints; [search.costs] of a file or --costs states others (`ozols show costs`)",
                 cost(of.default_cost_milli())
             ),
         ),

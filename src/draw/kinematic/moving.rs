@@ -2,15 +2,15 @@
 
 use super::body::Body;
 use super::carried::Carried;
+use super::marked::draw_mark;
 use super::symbol::Symbol;
 use super::{Kinematic, STRIP};
 use crate::draw::projection::{
     Place, Vector, add as add3, bounds, dot, scale as times, sub as sub3,
 };
-use crate::draw::sheet::{Caption, Drawing, Sheet, Swatch, plan};
+use crate::draw::sheet::{Caption, Drawing, Sheet, plan};
 use crate::draw::sight::Sight;
 use crate::draw::subject::Subject;
-use crate::geom::rigid::Motion;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::LinkId;
 use crate::motion::pose::Pose;
@@ -55,8 +55,33 @@ pub fn kinematic_moving(
     Moving::new(Kinematic::new(subject, sight), moved).draw(player)
 }
 
+/// Draws the kinematic scheme at the pose of the file, with the ways of its points over a motion.
+#[must_use]
+pub fn kinematic_along(subject: &Subject<'_>, sight: &Sight, moved: &Moved<'_>) -> Drawing {
+    let mut rest = Kinematic::new(subject, sight);
+    let poses = poses(moved);
+    rest.traces = (rest.ways(&poses), moved.way.closed);
+    rest.draw()
+}
+
+/// The poses of a motion, each once.
+fn poses<'m>(moved: &Moved<'m>) -> Vec<Carried<'m>> {
+    let links = moved.way.links.iter().map(Vec::as_slice);
+    let of = links.map(|links| Carried {
+        pose: moved.pose,
+        links,
+    });
+    let mut poses: Vec<Carried<'_>> = of.collect();
+    if moved.way.closed {
+        poses.pop();
+    }
+    poses
+}
+
 /// One picture.
 struct Frame {
+    /// Where the points of interest are.
+    points: Vec<Point>,
     /// Where each joint stands, with its frame.
     places: Vec<Place>,
     at: Vec<Point>,
@@ -73,30 +98,16 @@ struct Moving<'a> {
     frames: Vec<Frame>,
     start: usize,
     closed: bool,
-    /// The way of each output link's point.
-    traces: Vec<Vec<Point>>,
 }
 
 impl<'a> Moving<'a> {
     fn new(mut rest: Kinematic<'a>, moved: &Moved<'a>) -> Moving<'a> {
-        let mut poses: Vec<&[Motion]> = moved.way.links.iter().map(Vec::as_slice).collect();
-        if moved.way.closed {
-            poses.pop();
-        }
-        let pose = moved.pose;
-        let poses: Vec<Carried<'_>> = poses
-            .into_iter()
-            .map(|links| Carried { pose, links })
-            .collect();
+        let poses = poses(moved);
         let slides = rest.slides(&poses);
         rest.lengthen_rails(&slides);
         let frames: Vec<Frame> = poses.iter().map(|c| rest.frame(c, &slides)).collect();
-        let traces = rest.tips().into_iter().map(|(link, tip)| {
-            let at = |c: &Carried<'_>| rest.projection.flat(c.point(link, tip));
-            poses.iter().map(at).collect()
-        });
+        rest.traces = (rest.ways(&poses), moved.way.closed);
         Moving {
-            traces: traces.collect(),
             frames,
             words: moved.words,
             start: moved.way.start,
@@ -131,26 +142,17 @@ impl<'a> Moving<'a> {
         for g in &rest.grounds {
             area = area.with(&g.rect());
         }
-        for p in self.traces.iter().flatten() {
-            area = area.with(&Rect::around(*p, 6.0, 6.0));
+        for p in rest.traced().chain(rest.points.iter().map(|p| p.at)) {
+            area = area.with(&Rect::around(p, 6.0, 6.0));
         }
         let title = subject.title();
         let what = format!("Kinematic scheme {}", rest.projection.view.name);
         let [what, _] = subject.subtitle(&what);
-        let mut legend = rest.legend();
-        if !self.traces.is_empty() {
-            let draw =
-                |s: &mut Sheet, p: Point| s.line("trace", add(p, [-9.0, 0.0]), add(p, [9.0, 0.0]));
-            legend.push((
-                Swatch::Symbol(draw),
-                "way of a point of the output".to_owned(),
-            ));
-        }
         let caption = Caption {
             title: &title,
             subtitle: [&what, self.words],
             description: &format!("{} Moving: {}.", rest.description(), self.words),
-            legend,
+            legend: rest.legend(),
         };
         let plan = plan(&caption, area, STRIP);
         self.shift(plan.shift);
@@ -162,9 +164,7 @@ impl<'a> Moving<'a> {
             }
             Player::Program(n) => format!("m{n}-"),
         };
-        for trace in &self.traces {
-            sheet.path("trace", &polyline(trace, self.closed));
-        }
+        self.rest.draw_traces(&mut sheet);
         for g in &self.rest.grounds {
             sheet.symbol(g.rect());
             g.draw(&mut sheet);
@@ -181,13 +181,12 @@ impl<'a> Moving<'a> {
         for g in &mut self.rest.grounds {
             (g.from, g.to) = (add(g.from, by), add(g.to, by));
         }
-        for p in self.traces.iter_mut().flatten() {
-            *p = add(*p, by);
-        }
+        self.rest.shift_points(by);
         for f in &mut self.frames {
             let bodies = f.bodies.iter_mut().flat_map(|(_, b)| &mut b.points);
             let circles = f.circles.iter_mut().flatten();
-            for p in f.at.iter_mut().chain(bodies).chain(circles) {
+            let points = f.points.iter_mut();
+            for p in f.at.iter_mut().chain(bodies).chain(circles).chain(points) {
                 *p = add(*p, by);
             }
             for (a, b) in &mut f.guides {
@@ -246,6 +245,9 @@ impl<'a> Moving<'a> {
                 }
                 for c in &f.circles {
                     s.path("fine pitch", &polyline(c, true));
+                }
+                for &p in &f.points {
+                    draw_mark(s, p);
                 }
                 for &i in &order {
                     let id = &m.joints[rest.spots[i].joint].id;
@@ -363,10 +365,23 @@ impl Kinematic<'_> {
         }
     }
 
-    /// The points of output links: the free end of one with a single joint, else its joints but those of the frame.
+    /// The way of each point that is shown.
+    fn ways(&self, poses: &[Carried<'_>]) -> Vec<Vec<Point>> {
+        let tips = self.tips().into_iter();
+        let of = tips.map(|(link, tip)| {
+            let at = |c: &Carried<'_>| self.projection.flat(c.point(link, tip));
+            poses.iter().map(at).collect()
+        });
+        of.collect()
+    }
+
+    /// The points of interest; of output links that have none the free end of one with a single joint, else its joints but those of the frame.
     fn tips(&self) -> Vec<(LinkId, Vector)> {
-        let mut out = Vec::new();
-        for (l, of) in self.links.iter().filter(|(l, _)| self.is_output(*l)) {
+        let moving = self.points.iter().filter(|p| !self.is_frame(p.link));
+        let mut out: Vec<(LinkId, Vector)> = moving.map(|p| (p.link, p.place)).collect();
+        let bare = |l: LinkId| self.is_output(l) && self.points_of(l).next().is_none();
+        for link in self.links.iter().filter(|(l, _)| bare(*l)) {
+            let (l, of) = link;
             let mut seen: Vec<Point> = Vec::new();
             for &i in of {
                 let spot = &self.spots[i];
@@ -377,14 +392,15 @@ impl Kinematic<'_> {
                     out.push((*l, self.places[i].point));
                 }
             }
-            out.extend(self.loose_in_space(of).map(|p| (*l, p)));
+            out.extend(self.loose_in_space(link).map(|p| (*l, p)));
         }
         out
     }
 
     /// The free end of a link with one joint.
-    fn loose_in_space(&self, of: &[usize]) -> Option<Vector> {
-        let off = sub(self.loose(of)?, self.spots[of[0]].at);
+    fn loose_in_space(&self, link: &(LinkId, Vec<usize>)) -> Option<Vector> {
+        let of = &link.1;
+        let off = sub(self.loose(link)?, self.spots[of[0]].at);
         let (view, scale) = (&self.projection.view, self.projection.scale);
         let across = add3(
             times(view.right, off[0] / scale),
@@ -402,12 +418,14 @@ impl Kinematic<'_> {
             })
             .collect();
         let mut bodies = Vec::new();
-        for (l, (link, of)) in self.links.iter().enumerate() {
+        for (l, whole) in self.links.iter().enumerate() {
+            let (link, of) = whole;
             if self.is_frame(*link) {
                 continue;
             }
             let own = of.iter().map(|&i| self.places[i].point);
-            let own = own.chain(self.loose_in_space(of));
+            let own = own.chain(self.points_of(*link).map(|p| p.place));
+            let own = own.chain(self.loose_in_space(whole));
             let points: Vec<Point> = own.map(|p| flat(carried.point(*link, p))).collect();
             bodies.push((l, Body::new(&points).bowed(self.bows[l])));
         }
@@ -431,6 +449,11 @@ impl Kinematic<'_> {
             .flat_map(|c| self.pitch_circles(c, &places))
             .collect();
         Frame {
+            points: self
+                .points
+                .iter()
+                .map(|p| flat(carried.point(p.link, p.place)))
+                .collect(),
             at: places.iter().map(|p| flat(p.point)).collect(),
             places,
             bodies,

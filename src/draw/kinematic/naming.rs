@@ -33,6 +33,10 @@ impl Kinematic<'_> {
                 add_line(p, c[(i + 1) % c.len()]);
             }
         }
+        taken.extend(self.points.iter().map(|p| Rect::around(p.at, 9.0, 9.0)));
+        for way in &self.traces.0 {
+            way.windows(2).for_each(|w| add_line(w[0], w[1]));
+        }
         let (mut wishes, mut texts) = (Vec::new(), Vec::new());
         for s in &self.spots {
             let text = cut(&m.joints[s.joint].id, SMALL, 150.0);
@@ -60,6 +64,17 @@ impl Kinematic<'_> {
             });
             let mark = self.subject.link_mark(*l).class();
             texts.push((format!("name{mark}"), 12.0, text));
+        }
+        for p in &self.points {
+            let text = cut(&p.id, SMALL, 150.0);
+            wishes.push(Wish {
+                width: width(&text, SMALL),
+                height: 12.0,
+                anchor: p.at,
+                clear: 5.0,
+                first: Vec::new(),
+            });
+            texts.push(("small soft".to_owned(), SMALL, text));
         }
         (labels::place(&wishes, &mut taken, &lines), texts)
     }

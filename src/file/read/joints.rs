@@ -7,7 +7,7 @@ use crate::file::read::limits::LIMITS;
 use crate::file::read::names::{check_id, link_by_id};
 use crate::file::read::options::options;
 use crate::file::read::resolve::{
-    frame, index, joint_type, key, motion_name, number, option, vector, zero3,
+    frame, index, joint_type, key, motion_name, option, pitch, vector,
 };
 use crate::file::schema::{JointEntry, MechanismFile, Unloading, Words};
 use crate::geom::expr::Expr;
@@ -179,9 +179,14 @@ fn place(entry: &JointEntry, joint_type: &JointType, at: &[Step], out: &mut Find
         .as_ref()
         .map(|v| vector(v, &key(at, "reference"), out));
     let screws = joint_type.freedoms().contains(&Freedom::Screw);
-    match (&entry.pitch, screws) {
+    let stated = [
+        ("pitch", entry.pitch.is_some()),
+        ("lead", entry.lead.is_some()),
+    ];
+    match (stated.into_iter().find(|s| s.1), screws) {
         (None, true) => {
-            let what = "a pitch, the translation per radian";
+            let what =
+                "a lead, the translation per turn, such as lead = 5 (or a pitch, per radian)";
             out.add(
                 at,
                 ProblemKind::Missing {
@@ -191,22 +196,16 @@ fn place(entry: &JointEntry, joint_type: &JointType, at: &[Step], out: &mut Find
                 },
             );
         }
-        (Some(_), false) => {
+        (Some((what, _)), false) => {
             let (joint, kind) = (entry.id.clone(), entry.kind.clone());
             out.add(
-                &key(at, "pitch"),
-                ProblemKind::Superfluous {
-                    joint,
-                    kind,
-                    what: "pitch",
-                },
+                &key(at, what),
+                ProblemKind::Superfluous { joint, kind, what },
             );
         }
         _ => {}
     }
-    let pitch = entry
-        .pitch
-        .as_ref()
-        .map_or_else(|| zero3()[0].clone(), |c| number(c, &key(at, "pitch"), out));
+    let pitch = pitch([entry.pitch.as_ref(), entry.lead.as_ref()], at, out);
+    let pitch = pitch.unwrap_or_else(|| Expr::from(0));
     frame(&entry.id, point, axis, reference, pitch, at, out)
 }

@@ -6,8 +6,9 @@ use crate::file::problem::ProblemKind;
 use crate::file::read::loads::mass;
 use crate::file::read::names::check_id;
 use crate::file::read::resolve::key;
-use crate::file::schema::MechanismFile;
+use crate::file::schema::{MechanismFile, Words};
 use crate::model::mechanism::{Link, Role};
+use std::collections::BTreeSet;
 
 pub(crate) fn links(file: &MechanismFile, out: &mut Findings) -> Vec<Link> {
     let mut links: Vec<Link> = Vec::new();
@@ -58,7 +59,23 @@ pub(crate) fn links(file: &MechanismFile, out: &mut Findings) -> Vec<Link> {
         out.add(&[Step::Key("link".to_owned())], ProblemKind::NoFrame);
     }
     if !has(Role::Output) {
-        out.add(&[Step::Key("link".to_owned())], ProblemKind::NoOutput);
+        outputs(file, &mut links);
     }
     links
+}
+
+/// Where no link is said to be an output, all are that move in the free state: nothing then is idle, and a search keeps all
+/// motions.
+fn outputs(file: &MechanismFile, links: &mut [Link]) {
+    let free = file.joint.iter().filter(|j| match &j.state {
+        None => true,
+        Some(Words::One(state)) => state == "free",
+        Some(Words::Many(states)) => states.iter().any(|s| s == "free"),
+    });
+    let there: BTreeSet<&String> = free.flat_map(|j| &j.links).collect();
+    for link in links {
+        if link.role == Role::Inner && there.contains(&link.id) {
+            link.role = Role::Output;
+        }
+    }
 }

@@ -56,6 +56,7 @@ pub(crate) fn options(
             option.joint_type == present.joint_type && contains(&option, present) == Some(true);
         if same && options.len() == 1 + n {
             // The present joint, listed: keep its name and cost.
+            options[0].name = option.name;
             options[0].cost_milli = option.cost_milli.or(options[0].cost_milli);
             continue;
         }

@@ -28,10 +28,39 @@ pub(crate) fn zero3() -> [Expr; 3] {
 const RANGE: (f64, f64) = (1e-40, 1e12);
 
 pub(crate) fn number(c: &Coordinate, path: &[Step], out: &mut Findings) -> Expr {
+    read_number(c, false, path, out)
+}
+
+/// The pitch of a screw, per radian, from that or from its lead, which is per turn; none where neither stands.
+pub(crate) fn pitch(
+    [pitch, lead]: [Option<&Coordinate>; 2],
+    path: &[Step],
+    out: &mut Findings,
+) -> Option<Expr> {
+    if pitch.is_some() && lead.is_some() {
+        let (key, other) = ("lead", "pitch");
+        out.add(
+            &self::key(path, key),
+            ProblemKind::KeyExcludes { key, other },
+        );
+    }
+    if let Some(c) = pitch {
+        let at = key(path, "pitch");
+        return Some(read_number(c, true, &at, out));
+    }
+    let lead = number(lead?, &key(path, "lead"), out);
+    let turn = Expr::from(2) * Expr::pi();
+    if lead.is_zero_rational() {
+        return Some(lead);
+    }
+    lead.div(&turn)
+}
+
+fn read_number(c: &Coordinate, pi_is_a_number: bool, path: &[Step], out: &mut Findings) -> Expr {
     let parsed = match c {
         Coordinate::Integer(i) => Ok(Expr::from(*i)),
         Coordinate::Decimal(x) => Expr::from_f64(*x),
-        Coordinate::Expression(s) => out.expression(s),
+        Coordinate::Expression(s) => out.expression(s, pi_is_a_number),
     };
     match parsed {
         Ok(e) => {
@@ -293,10 +322,8 @@ pub(crate) fn option(
         (None, None) => Some(present.reference.clone()),
         (None, Some(_)) => None,
     };
-    let pitch = table.pitch.as_ref().map_or_else(
-        || present.pitch.clone(),
-        |c| number(c, &key(&at, "pitch"), out),
-    );
+    let stated = [table.pitch.as_ref(), table.lead.as_ref()];
+    let pitch = pitch(stated, &at, out).unwrap_or_else(|| present.pitch.clone());
     let point = table.point.as_ref();
     let frame = frame(
         joint,

@@ -4,15 +4,14 @@ use crate::closure::mirror::Plane;
 use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
+use crate::file::read::costs::costs;
 use crate::file::read::names::{joint_by_id, link_by_id};
-use crate::file::read::resolve::{cost, index, key};
+use crate::file::read::resolve::{index, key};
 use crate::file::schema::MechanismFile;
 use crate::geom::extent::diagonal;
 use crate::geom::vector::real;
-use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Mechanism, SearchSpec};
 use itertools::Itertools;
-use std::collections::BTreeSet;
 
 /// Off by more than this, as an angle and as a fraction of the mechanism's size, joints are no mirror images, however their
 /// coordinates were rounded.
@@ -76,36 +75,6 @@ pub(crate) fn search(
         }
     }
     images(mechanism, &spec.mirror, &at, out);
-    let options = mechanism.joints.iter().flat_map(|j| &j.options);
-    let unloading = mechanism.joints.iter().flat_map(|j| &j.unloading);
-    let option_names: BTreeSet<&str> = options.chain(unloading).map(|o| o.name.as_str()).collect();
-    for (name, &value) in &file.search.costs {
-        let path = key(&key(&at, "costs"), name);
-        let Some(milli) = cost(value, &path, out) else {
-            continue;
-        };
-        match name.as_str() {
-            "change" => spec.costs.change_milli = Some(milli),
-            "link" => spec.costs.link_milli = Some(milli),
-            "harmful" => spec.costs.harmful_milli = Some(milli),
-            n if JointType::from_name(n).is_some() || option_names.contains(n) => {
-                spec.costs.by_type_milli.push((name.clone(), milli));
-            }
-            _ => {
-                let known = ["change", "link", "harmful"]
-                    .into_iter()
-                    .chain(JointType::NAMED.iter().map(JointType::name))
-                    .join(", ");
-                out.add(
-                    &path,
-                    ProblemKind::UnknownWord {
-                        what: "cost",
-                        word: name.clone(),
-                        known,
-                    },
-                );
-            }
-        }
-    }
+    spec.costs = costs(&file.search.costs, mechanism, &key(&at, "costs"), out);
     spec
 }

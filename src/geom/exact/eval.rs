@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use super::error::ExactError;
 use super::quadratic::denested;
 use super::radical::{Radical, radical};
-use crate::geom::expr::{Expr, Function, Kind};
+use crate::geom::expr::{Expr, Function, Kind, PI};
 
 /// A ring with the angles and roots of some expressions, under one consistent choice of roots.
 pub(crate) trait Target {
@@ -56,6 +56,7 @@ pub(crate) fn eval<T: Target>(target: &T, expr: &Expr) -> Result<T::Number, Exac
         let inverse = |x: &T::Number| target.inverse(x).ok_or_else(divides);
         let value = match e.kind() {
             Kind::Rational(r) => target.rational(r).ok_or_else(divides)?,
+            Kind::Pi => target.rational(&PI).ok_or_else(divides)?,
             Kind::Add(a, b) => target.sum(at(a), at(b)),
             Kind::Sub(a, b) => target.difference(at(a), at(b)),
             Kind::Mul(a, b) => target.product(at(a), at(b)),

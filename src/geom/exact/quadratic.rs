@@ -154,7 +154,7 @@ fn quadratic(expr: &Expr) -> Option<Quadratic> {
                 let g = k.gcd(&n);
                 Quadratic::cos(k / g, n / g)?
             }
-            Kind::Trig(Function::Tan, ..) => return None,
+            Kind::Trig(Function::Tan, ..) | Kind::Pi => return None,
         };
         memo.insert(e.id(), value);
     }

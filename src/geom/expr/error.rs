@@ -90,7 +90,7 @@ pub enum ExprError {
     /// An angle (`pi`, `36deg`) used as a number.
     #[error(
         "the angle at byte {at} is used as a plain number; `pi` and `deg` may only stand inside cos, sin, tan or cot, \
-         and angles may only be added to angles and scaled by rationals"
+         angles may only be added to angles and scaled by rationals, and of lengths only a pitch may have pi"
     )]
     AngleOutside {
         /// Byte offset.

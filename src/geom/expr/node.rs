@@ -1,10 +1,12 @@
 //! The nodes of the tree.
 
 use super::enclosure::Enclosure;
+use super::rational::PI;
 use num_rational::BigRational;
 use std::sync::Arc;
 
-/// An exact real number: rationals, square roots, cosines of rational angles. Clones share the tree.
+/// An exact real number: rationals, square roots, cosines of rational angles; and pi to [`PI_DIGITS`](super::PI_DIGITS) digits.
+/// Clones share the tree.
 #[derive(Clone)]
 pub struct Expr(pub(super) Arc<Node>);
 
@@ -35,12 +37,15 @@ pub(crate) enum Kind {
     Sqrt(Expr),
     /// The function of `k/n` turns, in lowest terms, `0 <= k < n`.
     Trig(Function, u64, u64),
+    /// π, which no number here is: its first digits stand for it, and the tree remembers that they do.
+    Pi,
 }
 
 impl Expr {
     pub(super) fn new(kind: Kind) -> Expr {
         let enclosure = match &kind {
             Kind::Rational(r) => Enclosure::rational(r),
+            Kind::Pi => Enclosure::rational(&PI),
             Kind::Add(a, b) => a.0.enclosure.add(&b.0.enclosure),
             Kind::Sub(a, b) => a.0.enclosure.add(&b.0.enclosure.neg()),
             Kind::Mul(a, b) => a.0.enclosure.mul(&b.0.enclosure),
@@ -68,7 +73,7 @@ impl Expr {
 impl Kind {
     pub(super) fn children(&self) -> [Option<&Expr>; 2] {
         match self {
-            Kind::Rational(_) | Kind::Trig(..) => [None, None],
+            Kind::Rational(_) | Kind::Trig(..) | Kind::Pi => [None, None],
             Kind::Add(a, b) | Kind::Sub(a, b) | Kind::Mul(a, b) | Kind::Div(a, b) => {
                 [Some(a), Some(b)]
             }
@@ -78,11 +83,11 @@ impl Kind {
 
     /// Moves the children out, leaving a leaf.
     fn take_children(&mut self, into: &mut Vec<Expr>) {
-        if matches!(self, Kind::Rational(_) | Kind::Trig(..)) {
+        if matches!(self, Kind::Rational(_) | Kind::Trig(..) | Kind::Pi) {
             return;
         }
         match std::mem::replace(self, Kind::Trig(Function::Cos, 0, 1)) {
-            Kind::Rational(_) | Kind::Trig(..) => {}
+            Kind::Rational(_) | Kind::Trig(..) | Kind::Pi => {}
             Kind::Add(a, b) | Kind::Sub(a, b) | Kind::Mul(a, b) | Kind::Div(a, b) => {
                 into.extend([a, b])
             }

@@ -33,16 +33,21 @@ impl FromStr for Expr {
     /// # Errors
     /// An [`ExprError`] naming the byte where the text is malformed, out of limits, or has no real value.
     fn from_str(text: &str) -> Result<Expr, ExprError> {
-        Expr::with_names(text, &mut |_| None)
+        Expr::with_names(text, false, &mut |_| None)
     }
 }
 
 impl Expr {
-    /// Reads an expression in which words may be names of numbers.
+    /// Reads an expression in which words may be names of numbers, and `pi` one outside angles ([`Expr::pi`]):
+    /// `5/(2*pi)`.
     ///
     /// # Errors
     /// As [`Expr::from_str`].
-    pub(crate) fn with_names(text: &str, names: Names<'_>) -> Result<Expr, ExprError> {
+    pub(crate) fn with_names(
+        text: &str,
+        pi_is_a_number: bool,
+        names: Names<'_>,
+    ) -> Result<Expr, ExprError> {
         if text.len() > MAX_TEXT {
             return Err(ExprError::TooLong { len: text.len() });
         }
@@ -50,6 +55,7 @@ impl Expr {
             text,
             pos: 0,
             depth: 0,
+            pi_is_a_number,
             names,
         };
         if parser.peek().is_none() {
@@ -102,6 +108,8 @@ struct Parser<'a, 'n> {
     /// Always on a character boundary: only ASCII is ever consumed.
     pos: usize,
     depth: usize,
+    /// Outside angles.
+    pi_is_a_number: bool,
     names: Names<'n>,
 }
 
@@ -365,6 +373,7 @@ impl<'a> Parser<'a, '_> {
         let at = self.pos;
         let word = self.take_while(|b| b.is_ascii_alphanumeric() || b == b'_');
         let (function, name) = match word {
+            "pi" if self.pi_is_a_number => return Ok(Value::Number(Expr::pi())),
             "pi" => return Ok(Value::Angle(BigRational::new(1.into(), 2.into()))),
             "sqrt" => {
                 let inner = number(self.parentheses()?, at)?;
@@ -389,7 +398,10 @@ impl<'a> Parser<'a, '_> {
                 };
             }
         };
-        let turns = match self.parentheses()? {
+        let outside = std::mem::replace(&mut self.pi_is_a_number, false);
+        let argument = self.parentheses()?;
+        self.pi_is_a_number = outside;
+        let turns = match argument {
             Value::Angle(t) => t,
             Value::Number(e) if e.is_zero_rational() => BigRational::zero(),
             Value::Number(_) => return Err(ExprError::NotAnAngle { at, function: name }),

@@ -3,9 +3,19 @@
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Signed;
+use std::sync::LazyLock;
 
 /// Rationals wider than this stay unevaluated, so that repeated squaring cannot exhaust memory.
 pub(super) const MAX_BITS: u64 = 1 << 14;
+
+/// Decimals of π that stand for it, far more than any double has.
+pub const PI_DIGITS: usize = 40;
+
+/// The first digits of π.
+pub(crate) static PI: LazyLock<BigRational> = LazyLock::new(|| {
+    let digits = BigInt::from(31_415_926_535_897_932_384_626_433_832_795_028_841_u128) * 1000 + 971;
+    BigRational::new(digits, BigInt::from(10).pow(40))
+});
 
 pub(super) fn bits(r: &BigRational) -> u64 {
     r.numer().bits() + r.denom().bits()

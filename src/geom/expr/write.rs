@@ -101,6 +101,10 @@ impl fmt::Display for Expr {
                     }
                     continue;
                 }
+                Kind::Pi => {
+                    f.write_str("pi")?;
+                    continue;
+                }
                 Kind::Add(a, b) => (SUM, vec![Tree(b, PRODUCT), Text("+"), Tree(a, SUM)]),
                 Kind::Sub(a, b) => (SUM, vec![Tree(b, PRODUCT), Text("-"), Tree(a, SUM)]),
                 Kind::Mul(a, b) => (PRODUCT, vec![Tree(b, UNARY), Text("*"), Tree(a, PRODUCT)]),

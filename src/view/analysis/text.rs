@@ -156,12 +156,16 @@ impl State<'_> {
         idle::told_once(self.idle.iter().map(|i| i.text.clone()))
     }
 
-    /// Which method was chosen and why, and what it did to the coordinates.
+    /// Which method was chosen and why, what it did to the coordinates, and last the primes.
     pub fn method_lines(&self) -> impl Iterator<Item = String> {
         let choice = self.choice.iter().map(|c| format!("method: {c}"));
         let snapped = self.snapped.iter().map(|moved| format!("snapped: {moved}"));
         let written = self.as_written.iter().map(AsWritten::words);
-        choice.chain(snapped).chain(written)
+        let primes = self
+            .primes
+            .iter()
+            .map(|p| format!("primes: {}", p.join(" and ")));
+        choice.chain(snapped).chain(written).chain(primes)
     }
 }
 

@@ -216,16 +216,6 @@ fn error_second_frame() {
 }
 
 #[test]
-fn error_no_output() {
-    bad_file(
-        "bad.toml",
-        &with("role = \"output\"", ""),
-        "[[link]]",
-        &["no link has the role \"output\""],
-    );
-}
-
-#[test]
 fn error_open_contour() {
     let text = with(
         "\"0-1\", \"1-2\", \"2-3\", \"3-0\"",

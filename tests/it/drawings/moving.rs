@@ -173,7 +173,6 @@ fn motion_can_be_had_without_motion() {
 #[test]
 fn what_cannot_be_drawn_is_said() {
     for (args, what) in [
-        (vec!["gripper-10", "--stroke", "0:1:3"], "--motion"),
         (
             vec!["gripper-10", "--motion", "--stroke", "0:90deg:30"],
             "the drive slides",

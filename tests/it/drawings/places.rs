@@ -9,7 +9,7 @@ use ozols::geom::expr::Expr;
 use ozols::model::mechanism::{JointId, Mechanism, Role, StateId};
 use std::collections::BTreeMap;
 
-type Point = [f64; 2];
+pub(super) type Point = [f64; 2];
 
 fn sub(a: Point, b: Point) -> Point {
     [a[0] - b[0], a[1] - b[1]]
@@ -25,13 +25,15 @@ fn cross(a: Point, b: Point) -> f64 {
 }
 
 /// What a kinematic scheme shows, read back from its SVG.
-struct Shown {
+pub(super) struct Shown {
     /// Where each joint stands.
-    joints: BTreeMap<String, Point>,
+    pub(super) joints: BTreeMap<String, Point>,
     /// The filled shapes of each joint's symbol.
     symbols: BTreeMap<String, Vec<Vec<Point>>>,
     /// The corners of each link, and whether it is a plate.
     links: BTreeMap<String, (Vec<Point>, bool)>,
+    /// Where each point of interest stands.
+    points: BTreeMap<String, Point>,
 }
 
 /// The corners of a shape; of a circle, those of a polygon in it.
@@ -52,7 +54,7 @@ fn outline(n: roxmltree::Node<'_, '_>) -> Vec<Point> {
     (0..24).map(corner).collect()
 }
 
-fn shown(d: &Drawing) -> Shown {
+pub(super) fn shown(d: &Drawing) -> Shown {
     let doc = roxmltree::Document::parse(&d.svg).unwrap();
     let groups = |name: &'static str| {
         doc.descendants()
@@ -80,25 +82,32 @@ fn shown(d: &Drawing) -> Shown {
         assert_eq!(plate, path.attribute("d").unwrap().ends_with('Z'));
         Some((id, (covers(path), plate)))
     });
+    let points = groups("data-point").map(|(n, id)| {
+        let corners = covers(n.first_element_child().unwrap());
+        let [x, y] = [0, 1].map(|i| corners.iter().map(|c| c[i]).sum::<f64>());
+        let all = corners.len() as f64;
+        (id, [x / all, y / all])
+    });
     Shown {
+        points: points.collect(),
         joints: joints.collect(),
         symbols: symbols.collect(),
         links: links.collect(),
     }
 }
 
-fn point(m: &Mechanism, j: JointId) -> [f64; 3] {
+pub(super) fn point(m: &Mechanism, j: JointId) -> [f64; 3] {
     m.joints[j].frame.point.each_ref().map(Expr::to_f64)
 }
 
-fn axis(m: &Mechanism, j: JointId) -> [f64; 3] {
+pub(super) fn axis(m: &Mechanism, j: JointId) -> [f64; 3] {
     let z = m.joints[j].frame.axis.each_ref().map(Expr::to_f64);
     let size = z.iter().map(|x| x * x).sum::<f64>().sqrt();
     z.map(|x| x / size)
 }
 
 /// Each built-in mechanism in each state, drawn.
-fn all(mut look: impl FnMut(&str, &Mechanism, StateId, &Drawing, &Shown)) {
+pub(super) fn all(mut look: impl FnMut(&str, &Mechanism, StateId, &Drawing, &Shown)) {
     for name in builtin::names() {
         let m = mechanism_from_str(&format!("{name}.toml"), builtin::text(name).unwrap()).unwrap();
         for state in m.state_ids() {
@@ -180,10 +189,12 @@ fn links_join_the_places_of_their_joints() {
     let (mut bars, mut plates) = (0, 0);
     all(|name, m, state, _, shown| {
         for (l, link) in m.links_with_ids() {
+            let own = m.points.iter().filter(|p| p.link == l);
             let places: Vec<Point> = m
                 .joints_in(state)
                 .filter(|&j| m.joints[j].links.contains(&l))
                 .map(|j| shown.joints[&m.joints[j].id])
+                .chain(own.filter_map(|p| shown.points.get(&p.id).copied()))
                 .collect();
             let Some((corners, plate)) = shown.links.get(&link.id) else {
                 let one = places.iter().all(|&p| far(p, places[0]) < 2.0);

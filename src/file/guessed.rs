@@ -1,0 +1,115 @@
+//! Directions of options that nobody stated, and that are taken from the joint's own, where they mean something else.
+
+use crate::file::locate::Step;
+use crate::file::read::resolve::{index, key};
+use crate::file::schema::{JointEntry, MechanismFile, OptionEntry, OptionTable};
+use crate::file::warning::WarningKind;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Joint, Mechanism};
+use itertools::Itertools;
+
+/// Joints named of a list.
+const SHOWN: usize = 8;
+
+/// What is guessed of an option at a joint: the direction, what it is taken along, and the key that would state it.
+type Guess = (&'static str, &'static str, &'static str);
+
+/// Each option with guessed directions, told once with the joints where it has them.
+pub(super) fn guessed(file: &MechanismFile, m: &Mechanism) -> Vec<(Vec<Step>, WarningKind)> {
+    let mut found: Vec<(Vec<Step>, String, Guess, Vec<&str>)> = Vec::new();
+    for (i, (entry, joint)) in file.joint.iter().zip(&m.joints).enumerate() {
+        let (list, at) = match &entry.options {
+            Some(list) => (list, index(&[Step::Key("joint".to_owned())], i)),
+            None => (&file.search.options, vec![Step::Key("search".to_owned())]),
+        };
+        for (n, item) in list.iter().enumerate() {
+            let path = index(&key(&at, "options"), n);
+            let word;
+            let table = match item {
+                OptionEntry::Table(table) => table.as_ref(),
+                OptionEntry::Word(kind) => {
+                    word = OptionTable {
+                        kind: Some(kind.clone()),
+                        ..OptionTable::default()
+                    };
+                    &word
+                }
+            };
+            let Some((name, guess)) = of_option(table, entry, joint) else {
+                continue;
+            };
+            let same = found.iter_mut().find(|f| f.0 == path && f.2 == guess);
+            match same {
+                Some(same) => same.3.push(&joint.id),
+                None => found.push((path, name, guess, vec![&joint.id])),
+            }
+        }
+    }
+    let told = found.into_iter().map(|(path, option, guess, joints)| {
+        let (what, along, key) = guess;
+        let more = match joints.len().saturating_sub(SHOWN) {
+            0 => String::new(),
+            n => format!(" and {n} more"),
+        };
+        let joints = format!("{}{more}", joints.iter().take(SHOWN).join(", "));
+        let kind = WarningKind::Guessed {
+            option,
+            what,
+            along,
+            key,
+            joints,
+        };
+        (path, kind)
+    });
+    told.collect()
+}
+
+/// The name of an option that is offered at a joint, and what is guessed of it there.
+fn of_option(table: &OptionTable, entry: &JointEntry, joint: &Joint) -> Option<(String, Guess)> {
+    let kind = table.kind.as_deref()?;
+    let option = JointType::from_name(kind)?;
+    let name = table.name.as_deref().unwrap_or(kind);
+    if !joint.options.iter().skip(1).any(|o| o.name == name) {
+        return None;
+    }
+    let present = &joint.joint_type;
+    let line = match present {
+        JointType::Slotted => "the pin",
+        JointType::Spherical => "z",
+        JointType::Universal => "the first pin",
+        _ => "the joint's own axis",
+    };
+    let ball = *present == JointType::Spherical && entry.axis.is_none();
+    let guess = match option {
+        JointType::CylinderOnPlane | JointType::SphereOnPlane
+            if table.axis.is_none() && !faces(present) =>
+        {
+            ("normal of the plane", line, "axis")
+        }
+        JointType::SphereInCylinder if table.axis.is_none() && ball => ("tube", line, "axis"),
+        JointType::Slotted | JointType::CylinderOnPlane
+            if table.reference.is_none() && entry.reference.is_none() =>
+        {
+            let what = if option == JointType::Slotted {
+                "slot"
+            } else {
+                "axis of the roller"
+            };
+            (
+                what,
+                "the first of the axes x, y, z that is across",
+                "reference",
+            )
+        }
+        _ => return None,
+    };
+    Some((name.to_owned(), guess))
+}
+
+/// Whether the axis of a type is the normal of a plane.
+fn faces(of: &JointType) -> bool {
+    matches!(
+        of,
+        JointType::Planar | JointType::CylinderOnPlane | JointType::SphereOnPlane
+    )
+}

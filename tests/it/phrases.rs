@@ -1,0 +1,288 @@
+//! What commands say, phrase by phrase: verdicts first and digits last, directions named, remedies that work.
+
+use crate::common::{changed, json, out, ozols, run, run_on, text};
+use std::fs;
+
+fn coloured(args: &[&str], variable: (&str, &str)) -> String {
+    let mut command = ozols(args);
+    command.env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE");
+    text(&command.env(variable.0, variable.1).output().unwrap().stdout)
+}
+
+#[test]
+fn verdicts_have_colour_where_a_person_looks() {
+    for (args, verdict) in [
+        (
+            &["analyze", "gripper-10"][..],
+            "\u{1b}[1m\u{1b}[31m11 redundant constraints\u{1b}[0m",
+        ),
+        (
+            &["analyze", "rssr"],
+            "\u{1b}[1m\u{1b}[32mstatically determinate\u{1b}[0m",
+        ),
+        (
+            &["lint", "four-bar"],
+            "\u{1b}[1m\u{1b}[31m3 redundant constraints",
+        ),
+        (&["check", "four-bar"], "\u{1b}[1m\u{1b}[32mvalid\u{1b}[0m"),
+        (&["search", "four-bar", "--top", "1"], "\u{1b}[1m\u{1b}[3"),
+    ] {
+        let forced = coloured(args, ("CLICOLOR_FORCE", "1"));
+        assert!(forced.contains(verdict), "{args:?}: {forced}");
+        let plain = coloured(args, ("NO_COLOR", "1"));
+        assert!(!plain.contains('\u{1b}'), "{args:?}");
+        let bare = forced.replace("\u{1b}[1m", "").replace("\u{1b}[0m", "");
+        let bare = bare.replace("\u{1b}[31m", "").replace("\u{1b}[32m", "");
+        assert_eq!(bare, plain, "{args:?}");
+    }
+    // not into a file
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.txt");
+    coloured(
+        &["analyze", "four-bar", "-o", path.to_str().unwrap()],
+        ("CLICOLOR_FORCE", "1"),
+    );
+    assert!(!fs::read_to_string(path).unwrap().contains('\u{1b}'));
+}
+
+#[test]
+fn verdicts_come_first_and_primes_last() {
+    let said = out(&["analyze", "four-bar"]);
+    let first = said.lines().next().unwrap();
+    assert!(first.contains("3 redundant constraints"), "{first}");
+    let digits: Vec<&str> = said
+        .lines()
+        .filter(|l| l.contains("2305843009213693"))
+        .collect();
+    assert_eq!(digits.len(), 1, "{digits:?}");
+    let block = said.split("\n\n").nth(1).unwrap();
+    assert_eq!(block.lines().last(), Some(digits[0]));
+    let data = json(&["analyze", "four-bar", "--format", "json"]);
+    assert!(
+        data["states"][0]["primes"][0]
+            .as_str()
+            .unwrap()
+            .starts_with("2305843009213693")
+    );
+    assert!(!out(&["search", "four-bar", "--options", "spherical"]).contains("2305843009213693"));
+    let page = out(&["report", "four-bar"]);
+    let sure = page.split("How sure</h2>").nth(1).unwrap();
+    let open = sure.split("<details>").next().unwrap();
+    assert!(
+        open.contains("rank proven") && !open.contains("23058430"),
+        "{open}"
+    );
+}
+
+/// A slide across a frame, with an output that does not move with it.
+const SLIDE: &str = r#"
+name = "slide"
+length_unit = "mm"
+[[link]]
+id = "0"
+role = "frame"
+[[link]]
+id = "1"
+role = "output"
+[[link]]
+id = "2"
+[[joint]]
+id = "hinge"
+links = ["0", "1"]
+type = "revolute"
+point = [0, 0, 0]
+axis = [0, 0, 1]
+[[joint]]
+id = "slide"
+links = ["0", "2"]
+type = "prismatic"
+point = [1, 0, 0]
+axis = AXIS
+"#;
+
+#[test]
+fn idle_motions_name_their_direction() {
+    let idle = |axis: &str| {
+        let (_, said, err) = run_on("analyze", "slide.toml", &SLIDE.replace("AXIS", axis), &[]);
+        let found = said
+            .lines()
+            .find_map(|l| l.trim().strip_prefix("idle: ").map(str::to_owned));
+        found.unwrap_or_else(|| panic!("{said}{err}"))
+    };
+    assert_eq!(idle("[0, 1, 0]"), "link 2 slides along y");
+    assert_eq!(idle("[0, -2, 4]"), "link 2 slides along [0, 1, -2]");
+    assert_eq!(
+        idle("[\"sqrt(2)\", 1, 0]"),
+        "link 2 slides along the axis of slide"
+    );
+}
+
+#[test]
+fn a_mechanism_without_an_output_can_be_analysed() {
+    let own = changed(&out(&["show", "four-bar"]), "role = \"output\"", "");
+    let (code, said, _) = run_on("analyze", "own.toml", &own, &["--format", "json"]);
+    assert_eq!(code, Some(0));
+    let found: serde_json::Value = serde_json::from_str(&said).unwrap();
+    let known = json(&["analyze", "four-bar", "--format", "json"]);
+    for key in [
+        "mobility",
+        "redundant",
+        "working_mobility",
+        "local_mobility",
+    ] {
+        assert_eq!(found["states"][0][key], known["states"][0][key], "{key}");
+    }
+    let (code, _, err) = run_on("check", "own.toml", &own, &[]);
+    assert_eq!(code, Some(0));
+    assert!(err.contains("no link has the role \"output\""), "{err}");
+    let (code, said, err) = run_on(
+        "search",
+        "own.toml",
+        &own,
+        &["--options", "spherical,cylindrical", "--top", "1"],
+    );
+    assert_eq!(code, Some(0), "{said}{err}");
+}
+
+#[test]
+fn options_may_name_types_that_the_file_does_not_list() {
+    let own = out(&["show", "four-bar"]);
+    assert!(!own.contains("sphere-in-cylinder"));
+    let search = |more: &[&str]| {
+        let args = [
+            &["search", "four-bar", "--format", "json", "--top", "3"],
+            more,
+        ]
+        .concat();
+        let o = run(&args);
+        (o.status.code(), text(&o.stdout), text(&o.stderr))
+    };
+    let (code, said, err) = search(&["--options", "sphere-in-cylinder"]);
+    assert_eq!(code, Some(0), "{err}");
+    assert!(said.contains("sphere-in-cylinder"));
+    assert!(
+        err.contains("sphere-in-cylinder is not in the file"),
+        "{err}"
+    );
+    let (code, said, _) = search(&["--allow", "2-3=sphere-in-cylinder"]);
+    assert!(code.is_some_and(|c| c < 2), "{said}");
+    // a type that loses the present motion, and no type at all
+    let (code, _, err) = search(&["--options", "prismatic"]);
+    assert_eq!(code, Some(2));
+    assert!(
+        err.contains("prismatic does not allow the present motion"),
+        "{err}"
+    );
+    let (code, _, err) = search(&["--options", "nonsuch"]);
+    assert_eq!(code, Some(2));
+    assert!(
+        err.contains("no joint type is named so; there are: "),
+        "{err}"
+    );
+}
+
+#[test]
+fn where_nothing_is_found_types_that_would_help_are_named_and_do() {
+    let o = run(&["search", "four-bar", "--options", "cylindrical"]);
+    assert_eq!(o.status.code(), Some(1));
+    let said = text(&o.stdout);
+    let command = said
+        .lines()
+        .map(str::trim)
+        .find(|l| l.starts_with("ozols search") && l.contains("--allow"));
+    let command = command.unwrap_or_else(|| panic!("{said}"));
+    let words: Vec<&str> = command.split_whitespace().skip(1).collect();
+    let again = run(&words);
+    assert_eq!(
+        again.status.code(),
+        Some(0),
+        "{command}: {}",
+        text(&again.stderr)
+    );
+}
+
+#[test]
+fn exported_variants_can_be_searched_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("v.toml");
+    let path = path.to_str().unwrap();
+    for (name, more) in [
+        ("gripper-10", &[][..]),
+        ("parallelogram-gripper", &[]),
+        ("gripper-10", &["--state", "clamped"]),
+    ] {
+        let args = [
+            &["export", name, "--variant", "2", "--to", "toml", "-o", path],
+            more,
+        ]
+        .concat();
+        assert_eq!(run(&args).status.code(), Some(0), "{name}");
+        let o = run(&["check", path]);
+        assert_eq!(o.status.code(), Some(0), "{name}: {}", text(&o.stderr));
+        let said = fs::read_to_string(path).unwrap();
+        assert!(
+            said.contains(&format!("Variant 2 of {name}")) && said.contains("options = "),
+            "{name}"
+        );
+        // what it has now needs no change, and more can be chosen
+        let args = [
+            "search",
+            path,
+            "--top",
+            "1",
+            "--check",
+            "none",
+            "--no-count",
+            "--format",
+            "json",
+        ];
+        let again = json(&args);
+        assert_eq!(again["variants"][0]["cost"], 0, "{name}");
+        let total: String = again["space"].as_str().unwrap().to_owned();
+        assert!(total.len() > 1, "{name}: {total}");
+    }
+}
+
+#[test]
+fn a_catalogue_that_is_not_there_says_how_to_make_one() {
+    for command in [&["query"][..], &["show"], &["export"]] {
+        let id = [&["x"][..], &[]][usize::from(command == ["query"])];
+        let o = run(&[&["catalog"], command, &["none.db"], id].concat());
+        assert_eq!(o.status.code(), Some(2));
+        let err = text(&o.stderr);
+        assert!(
+            err.contains("`ozols catalog build -o none.db` makes a catalogue"),
+            "{err}"
+        );
+    }
+    assert!(!std::path::Path::new("none.db").exists());
+}
+
+#[test]
+fn directions_that_are_guessed_are_told() {
+    let own = out(&["show", "four-bar"]);
+    let pin = changed(
+        &own,
+        "[search]",
+        "[[joint]]\nid = \"pin\"\nlinks = [\"0\", \"2\"]\ntype = \"slotted\"\npoint = [50, 50, 0]\naxis = [0, 0, 1]\nreference = [1, 0, 0]\n\
+         options = [OPTION]\n[search]",
+    );
+    let told = |option: &str| run_on("check", "pin.toml", &pin.replace("OPTION", option), &[]).2;
+    let guessed = told("\"cylinder-on-plane\"");
+    let words = guessed.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        words.contains(
+            "the normal of the plane of option \"cylinder-on-plane\" is taken along the pin at pin"
+        ),
+        "{words}"
+    );
+    let stated = told("{ type = \"cylinder-on-plane\", axis = [0, 1, 0], reference = [0, 0, 1] }");
+    assert!(!stated.contains("taken along"), "{stated}");
+}
+
+#[test]
+fn the_commands_of_a_page_ask_for_ideas() {
+    let page = out(&["report", "four-bar", "--options", "spherical,cylindrical"]);
+    assert!(page.contains("--idea {}") && page.contains("--variant {}"));
+    assert!(!page.contains("--distinct --variant"));
+}

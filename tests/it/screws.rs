@@ -1,0 +1,103 @@
+//! Screws by their lead or their pitch: π is no number that is exact here, and nothing that has it is called exact.
+
+use crate::common::{changed, json, out, run_on};
+
+fn jack(pitch: &str) -> String {
+    let own = out(&["show", "screw-jack"]);
+    let old = own.lines().find(|l| l.starts_with("pitch = ")).unwrap();
+    changed(&own, old, pitch)
+}
+
+fn analysed(file: &str) -> serde_json::Value {
+    let (code, said, err) = run_on("analyze", "jack.toml", file, &["--format", "json"]);
+    assert_eq!(code, Some(0), "{err}");
+    serde_json::from_str(&said).unwrap()
+}
+
+#[test]
+fn a_lead_and_its_pitch_are_one() {
+    let by = |pitch: &str| analysed(&jack(pitch))["states"][0].clone();
+    let (lead, pitch) = (by("lead = 5"), by("pitch = \"5/(2*pi)\""));
+    assert_eq!(lead, pitch);
+    let rational = by("pitch = \"4/5\"");
+    for key in ["mobility", "redundant", "rank"] {
+        assert_eq!(lead[key], rational[key], "{key}");
+    }
+}
+
+#[test]
+fn what_has_pi_is_not_called_exact() {
+    let of = |pitch: &str| analysed(&jack(pitch))["states"][0]["certainty"].to_string();
+    assert!(of("pitch = \"4/5\"").contains("exact geometry"));
+    let said = of("lead = 5");
+    assert!(!said.contains("exact geometry"), "{said}");
+    assert!(said.contains("pi to 40 decimals"), "{said}");
+    let state = analysed(&jack("lead = 5"))["states"][0].clone();
+    assert!(state["choice"].to_string().contains("5/(2*pi)"), "{state}");
+    assert_ne!(state["certainty_kind"], "proven");
+}
+
+/// Two screws of 5 and 10 mm a turn: 17 digits of each would not have the ratio 2.
+#[test]
+fn ratios_of_leads_are_exact() {
+    let file = |first: &str, second: &str| {
+        format!(
+            "name = \"turnbuckle\"\nlength_unit = \"mm\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n\
+             [[link]]\nid = \"2\"\nrole = \"output\"\n\
+             [[joint]]\nid = \"a\"\nlinks = [\"0\", \"1\"]\ntype = \"helical\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n{first}\n\
+             [[joint]]\nid = \"b\"\nlinks = [\"0\", \"1\"]\ntype = \"helical\"\npoint = [0, 0, 9]\naxis = [0, 0, 2]\n{second}\n\
+             [[joint]]\nid = \"c\"\nlinks = [\"1\", \"2\"]\ntype = \"spherical\"\npoint = [0, 0, 20]\n"
+        )
+    };
+    let w =
+        |first: &str, second: &str| analysed(&file(first, second))["states"][0]["mobility"].clone();
+    assert_eq!(w("lead = 5", "pitch = \"10/(4*pi)\""), 4);
+    assert_eq!(w("lead = \"5/3\"", "lead = \"10/6\""), 4);
+    assert_eq!(w("lead = 5", "lead = 6"), 3);
+}
+
+#[test]
+fn a_written_pitch_reads_back() {
+    let (code, said, err) = run_on("export", "jack.toml", &jack("lead = -5"), &["--to", "toml"]);
+    assert_eq!(code, Some(0), "{err}");
+    assert!(said.contains("pitch = \"-5/(2*pi)\""), "{said}");
+    assert_eq!(
+        analysed(&said)["states"],
+        analysed(&jack("lead = -5"))["states"]
+    );
+}
+
+#[test]
+fn what_is_wrong_with_a_screw_is_told() {
+    for (pitch, said) in [
+        ("lead = 5\npitch = 1", "lead cannot stand beside pitch"),
+        ("# none", "needs a lead, the translation per turn"),
+        ("pitch = \"5/(2*pie)\"", "unknown word `pie`"),
+        ("pitch = \"5/(pi-pi)\"", "division by zero"),
+        ("lead = \"5*pi\"", "only a pitch may have pi"),
+    ] {
+        let (code, _, err) = run_on("check", "jack.toml", &jack(pitch), &[]);
+        assert_eq!(code, Some(2), "{pitch}");
+        let err = err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(err.contains(said), "{pitch}: {err}");
+    }
+    let hinge = changed(
+        &out(&["show", "four-bar"]),
+        "drive = true",
+        "drive = true\nlead = 5",
+    );
+    let (code, _, err) = run_on("check", "four.toml", &hinge, &[]);
+    assert_eq!(code, Some(2));
+    assert!(err.contains("takes no lead"), "{err}");
+    // in degrees it is an angle, and still exact
+    let turned = changed(
+        &jack("lead = 5"),
+        "axis = [0, 0, 1]",
+        "axis = [0, 0, \"2*cos(pi/3)\"]",
+    );
+    assert_eq!(
+        analysed(&turned)["states"][0]["mobility"],
+        analysed(&jack("lead = 5"))["states"][0]["mobility"]
+    );
+    let _ = json(&["analyze", "screw-jack", "--format", "json"]);
+}
