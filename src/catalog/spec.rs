@@ -198,9 +198,11 @@ impl Spec {
     /// # Errors
     /// Where a name is none.
     pub fn menu(&self) -> Result<Menu, SpecError> {
-        let known = OPTIONS.map(|o| (o, o));
-        let entry = |what, name: &String| {
-            Ok(match word(what, name, &known)? {
+        let known: Vec<(&str, &str)> = OPTIONS.map(|o| (o, o)).into();
+        // A slide along the hinge's axis does not double its turn.
+        let in_series = [&known[..], &[("prismatic", "prismatic")]].concat();
+        let entry = |what, name: &String, known| {
+            Ok(match word(what, name, known)? {
                 "universal-y" => OptionEntry::Table(Box::new(OptionTable {
                     kind: Some("universal".to_owned()),
                     reference: Some([0, 1, 0].map(crate::file::schema::Coordinate::Integer)),
@@ -212,10 +214,12 @@ impl Spec {
         };
         let mut options = vec![OptionEntry::Word("revolute".to_owned())];
         for name in self.options.iter().filter(|n| *n != "revolute").unique() {
-            options.push(entry("options", name)?);
+            options.push(entry("options", name, &known)?);
         }
         let unloading = self.unloading.iter().unique();
-        let unloading = unloading.map(|n| entry("unloading", n)).try_collect()?;
+        let unloading = unloading
+            .map(|n| entry("unloading", n, &in_series))
+            .try_collect()?;
         Ok(Menu { options, unloading })
     }
 

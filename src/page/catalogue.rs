@@ -167,6 +167,10 @@ pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
                 main {
                     noscript { p { "The cards need scripts; " code { "ozols catalog query " (file) } " lists the same." } }
                     (filters())
+                    p.help {
+                        "Green: the driver. Blue: the jaws; red arrows: how their tips close on the part, dashed. "
+                        "Triangles on a line: hinges in the frame; two lines: a guide in it."
+                    }
                     p.note id="count" role="status" {}
                     ul id="cards" tabindex="-1" {}
                     p id="more" hidden { button type="button" { "Show more" } }

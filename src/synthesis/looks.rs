@@ -1,6 +1,6 @@
 //! What a layout looks like, and how well it moves: the figures by which it is judged.
 
-use crate::chains::layout_symmetry::Input;
+use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::geom::vector::{cross_plane, dot, length, sub};
 use crate::synthesis::skeleton::{Point, Skeleton};
 use crate::synthesis::velocities::Velocity;
@@ -11,6 +11,9 @@ const NEAR: f64 = 14.0;
 const LONG: f64 = 75.0;
 /// A pin nearer than this to a link that it is no part of lies on it.
 const ON: f64 = 6.0;
+
+/// A pin nearer than this to the middle of the part that is held is in its way.
+const PART: f64 = 25.0;
 
 /// What a layout must be like to be taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -177,7 +180,7 @@ impl Skeleton<'_> {
         out
     }
 
-    /// Crossings of links and pins on links that they are no part of, and what they cost.
+    /// Crossings of links and pins on links that they are no part of, and what they and splinters cost.
     fn crossings(&self, at: &[Point]) -> (usize, f64) {
         let sides = self.sides(at);
         let (mut count, mut penalty) = (0, 0.0);
@@ -188,12 +191,13 @@ impl Skeleton<'_> {
                 count += usize::from(apart && crosses(side, [at[c], at[d]]));
             }
             for (p, &place) in at.iter().enumerate() {
-                if self.members[l] >> p & 1 == 1 || is_far(place, side, ON) {
+                if p == a || p == b || is_far(place, side, ON) {
                     continue;
                 }
                 let near = distance(place, side);
                 if near < ON {
-                    count += 1;
+                    // A point of the link itself makes it a splinter, which is no crossing.
+                    count += usize::from(self.members[l] >> p & 1 == 0);
                     penalty += beyond(ON - near, ON);
                 }
             }
@@ -207,7 +211,16 @@ impl Skeleton<'_> {
     fn places(&self, at: &[Point]) -> f64 {
         let (pins, tips) = at.split_at(self.rules.pins.len());
         if self.structure.is_round() {
-            return pins.iter().map(|p| beyond(length(*p) - 80.0, 25.0)).sum();
+            // Pins where the part is are in its way, but for those of a drive behind it.
+            let within = match self.structure.form.symmetry {
+                Symmetry::Generic => PART,
+                _ => 0.0,
+            };
+            let pin = |p: &Point| {
+                let far = length(*p);
+                beyond(far - 80.0, 25.0) + beyond(within - far, 10.0)
+            };
+            return pins.iter().map(pin).sum();
         }
         let mut penalty = 0.0;
         for &i in &self.of_link[self.structure.roles.frame] {

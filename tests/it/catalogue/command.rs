@@ -304,8 +304,8 @@ fn drawn_mechanisms_stand_beside_the_structures() {
     );
 }
 
-/// A joint in series adds its freedoms and a link: more variants than without, and each that is listed is determinate when it
-/// is carried out.
+/// Balls alone make no four-bar determinate, which needs a slide along its hinges: one in series with a hinge, on a link of its
+/// own.
 #[test]
 fn unloading_joints_are_on_the_menu() {
     let folder = tempdir().unwrap();
