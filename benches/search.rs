@@ -1,4 +1,4 @@
-//! Where the time goes: one candidate, the diagram against brute force, big spaces, the k best, and growth.
+//! Where the time goes: one candidate, the diagram against brute force, big spaces, and the k best.
 //!
 //! `cargo bench --bench search`; node counts are printed beside the times.
 
@@ -18,7 +18,6 @@ use ozols::model::mechanism::{JointOption, Mechanism, StateId};
 use ozols::rank::{modular, numeric};
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::conditions::{Conditions, Search};
-use std::fmt::Write;
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -165,64 +164,12 @@ fn spaces(c: &mut Criterion) {
     group.finish();
 }
 
-/// A slider 1 that drives `m` fingers, each a contour 0-1-rod-finger with all revolute joints: m coupled contours.
-fn fingers(m: usize) -> Mechanism {
-    let mut out = String::from(
-        "name = \"fingers\"\n[search]\noptions = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]\n\
-         [[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n\
-         [[joint]]\nid = \"drive\"\nlinks = [\"0\", \"1\"]\ntype = \"cylindrical\"\npoint = [0, 0, 0]\naxis = [1, 0, 0]\ndrive = true\n",
-    );
-    for i in 0..m {
-        let _ = write!(
-            out,
-            "[[link]]\nid = \"r{i}\"\n[[link]]\nid = \"f{i}\"\nrole = \"output\"\n"
-        );
-        let (x, ends) = (
-            2 * i,
-            [
-                ("1", format!("r{i}")),
-                ("f", format!("r{i}")),
-                ("0", format!("f{i}")),
-            ],
-        );
-        let points = [(i, 1 + i % 5), (3 + x, 3 + i % 7), (4 + i, i % 3)];
-        for (n, ((a, b), (px, py))) in ends.iter().zip(points).enumerate() {
-            let a = if *a == "f" {
-                format!("f{i}")
-            } else {
-                (*a).to_owned()
-            };
-            let _ = write!(
-                out,
-                "[[joint]]\nid = \"{i}-{n}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = [{px}, {py}, 0]\naxis = [0, 0, 1]\n"
-            );
-        }
-    }
-    mechanism_from_str("fingers.toml", &out).expect("valid")
-}
-
-fn growth(c: &mut Criterion) {
-    let mut group = c.benchmark_group("growth: m coupled contours, 4 options a joint");
-    for m in [2, 4, 8, 12, 20, 40] {
-        let mechanism = fingers(m);
-        println!(
-            "m = {m}: {} variants, (nodes, largest layer) = {:?}",
-            search(&mechanism, false).size(),
-            whole(&mechanism, 0)
-        );
-        group.bench_function(BenchmarkId::from_parameter(m), |b| {
-            b.iter(|| whole(&mechanism, 0))
-        });
-    }
-    group.finish();
-}
-
 criterion_group! {
     name = benches;
     config = Criterion::default()
         .sample_size(10)
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_millis(1500));
-    targets = rank, twins, spaces, growth
+    targets = rank, twins, spaces
 }
 criterion_main!(benches);

@@ -7,6 +7,7 @@
 
 pub mod approximate;
 pub mod best;
+mod blocks;
 pub mod brute;
 mod budget;
 pub mod building;

@@ -3,11 +3,12 @@
 use super::{Done, near, output};
 use crate::builtin;
 use crate::format::csv;
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::figures::figures;
 use crate::view::layout::table;
 use anyhow::Context;
 use clap::{Args as ClapArgs, ValueEnum};
+use rayon::prelude::*;
 use serde::Serialize;
 
 #[derive(Debug, ClapArgs)]
@@ -126,32 +127,39 @@ fn text(a: &List, rows: Vec<Row>) -> anyhow::Result<Done> {
 /// A row for each state of the mechanisms wanted.
 fn wanted(a: &List) -> anyhow::Result<Vec<Row>> {
     let words: Vec<String> = a.words.iter().map(|w| w.to_lowercase()).collect();
-    let mut rows = Vec::new();
-    for (family, names) in builtin::families() {
-        for name in names {
-            let m = Mechanism::builtin(name)?;
-            let about = format!("{name} {family} {}", m.description).to_lowercase();
-            if !words.iter().all(|w| about.contains(w)) {
-                continue;
-            }
-            for (state, of) in m.states_with_ids() {
-                let s = figures(&m, state).with_context(|| format!("built-in mechanism {name}"))?;
-                rows.push(Row {
-                    name,
-                    family,
-                    state: of.clone(),
-                    links: s.links,
-                    joints: s.joints,
-                    contours: s.contours,
-                    freedoms: s.freedoms,
-                    mobility: s.mobility,
-                    redundant: s.redundant,
-                    description: m.description.clone(),
-                });
-            }
-        }
+    let of = |(family, name)| rows(&words, family, name);
+    let families = builtin::families();
+    let all: Vec<_> = families
+        .into_iter()
+        .flat_map(|(family, names)| names.into_iter().map(move |name| (family, name)))
+        .collect();
+    let rows: anyhow::Result<Vec<Vec<Row>>> = all.into_par_iter().map(of).collect();
+    Ok(rows?.into_iter().flatten().collect())
+}
+
+/// The rows of a mechanism; none where it has not all the words.
+fn rows(words: &[String], family: &'static str, name: &'static str) -> anyhow::Result<Vec<Row>> {
+    let m = Mechanism::builtin(name)?;
+    let about = format!("{name} {family} {}", m.description).to_lowercase();
+    if !words.iter().all(|w| about.contains(w)) {
+        return Ok(Vec::new());
     }
-    Ok(rows)
+    let row = |(state, of): (StateId, &String)| {
+        let s = figures(&m, state).with_context(|| format!("built-in mechanism {name}"))?;
+        Ok(Row {
+            name,
+            family,
+            state: of.clone(),
+            links: s.links,
+            joints: s.joints,
+            contours: s.contours,
+            freedoms: s.freedoms,
+            mobility: s.mobility,
+            redundant: s.redundant,
+            description: m.description.clone(),
+        })
+    };
+    m.states_with_ids().map(row).collect()
 }
 
 fn measure(line: &str) -> usize {

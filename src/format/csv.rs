@@ -12,8 +12,18 @@ pub(crate) fn cell(text: &str) -> Cow<'_, str> {
     Cow::Borrowed(text)
 }
 
-/// A table with the heads of its columns, as text. What is too long to be held as a whole is written row by row with
-/// [`csv::Writer`], whose defaults these are, and [`cell`].
+/// A [`cell`] as it stands in a line, quoted where it must be: for lines that are put together by hand.
+pub(crate) fn encoded(text: &str) -> String {
+    if text.is_empty() {
+        return String::new();
+    }
+    let mut line = table::<[&str; 1], &str>(&[text], []);
+    line.pop();
+    line
+}
+
+/// A table with the heads of its columns, as text. What is too long to be held as a whole is written row by row of
+/// [`encoded`] cells.
 pub(crate) fn table<Row, Cell>(heads: &[&str], rows: impl IntoIterator<Item = Row>) -> String
 where
     Row: IntoIterator<Item = Cell>,
@@ -47,7 +57,7 @@ fn text(written: csv::Result<()>, out: csv::Writer<Vec<u8>>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::table;
+    use super::{encoded, table};
 
     #[test]
     fn no_word_is_taken_for_a_formula() {
@@ -61,6 +71,13 @@ mod tests {
             table(&["=a", "b"], rows),
             "'=a,b\n'=HYPERLINK(1),-1.5e-3\n'@a,-\n'+b,-inf\n'-c,x=1\n"
         );
+    }
+
+    #[test]
+    fn a_line_of_encoded_cells_is_that_of_a_table() {
+        let cells = ["1,5", "", "=a", "say \"x\"", "plain", "two\nlines", "-1"];
+        let line = cells.map(encoded).join(",") + "\n";
+        assert_eq!(line, table::<[&str; 0], &str>(&cells, []));
     }
 
     #[test]

@@ -69,6 +69,12 @@ impl Expr {
         self.rational_ref().is_some_and(Zero::is_zero)
     }
 
+    /// Whether two expressions are one, or the same rational; `false` says nothing. O(1).
+    pub(crate) fn is_same(&self, other: &Expr) -> bool {
+        let rationals = (self.rational_ref(), other.rational_ref());
+        Arc::ptr_eq(&self.0, &other.0) || matches!(rationals, (Some(a), Some(b)) if a == b)
+    }
+
     pub(crate) fn rational_ref(&self) -> Option<&BigRational> {
         match &self.0.kind {
             Kind::Rational(r) => Some(r),

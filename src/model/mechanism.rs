@@ -46,6 +46,17 @@ pub struct Frame {
     pub pitch: Expr,
 }
 
+impl Frame {
+    /// Whether two frames are written alike; `false` says nothing.
+    pub(crate) fn is_same(&self, other: &Frame) -> bool {
+        let same = |a: &[Expr; 3], b: &[Expr; 3]| a.iter().zip(b).all(|(a, b)| a.is_same(b));
+        same(&self.point, &other.point)
+            && same(&self.axis, &other.axis)
+            && same(&self.reference, &other.reference)
+            && self.pitch.is_same(&other.pitch)
+    }
+}
+
 /// A realizable joint that a search may put at a place.
 #[derive(Debug, Clone)]
 pub struct JointOption {

@@ -1,6 +1,6 @@
 //! The diagrams that answer a question: of the determinate variants, and of the admissible ones.
 
-use crate::model::mechanism::LinkId;
+use crate::search::blocks::Block;
 use crate::search::budget;
 use crate::search::conditions::Search;
 use crate::search::diagram::{self, Diagram, Progress, Stop};
@@ -68,28 +68,20 @@ impl Search {
     /// Finds the orders of both diagrams; they do not depend on the prime, and a twin over another may be given them.
     #[must_use]
     pub fn orders(&self) -> Orders {
-        let order = |variables: &[usize], pinned: &[LinkId]| {
+        let order = |blocks: &[Block]| {
             variable_order(
                 &self.exact,
                 &self.mechanism,
                 &self.least.whole.space,
-                variables,
-                pinned,
+                blocks,
                 self.conditions.max_redundant,
             )
         };
-        let variables = 0..self.space.variables.len();
-        let free: Vec<usize> = variables
-            .filter(|&v| !self.space.variables[v].external)
-            .collect();
-        let determinate = order(&free, &[]);
-        let both: Vec<usize> = free
-            .into_iter()
-            .filter(|&v| !self.space.variables[v].alone)
-            .collect();
+        let [determinate, common] = &self.blocks;
+        let determinate = order(determinate);
         let common = match self.one_diagram() {
             true => determinate.clone(),
-            false => order(&both, &[self.mechanism.frame()]),
+            false => order(common),
         };
         Orders {
             determinate,

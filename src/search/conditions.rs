@@ -6,11 +6,12 @@ use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::redundancy::motion::joint_motion;
+use crate::search::blocks::{Block, blocks};
 use crate::search::cost::CostTable;
 use crate::search::held::{Grasp, grasps, is_free, loose};
 use crate::search::least_model::LeastModel;
 use crate::search::mirror::{self, MirrorError};
-use crate::search::space::Space;
+use crate::search::space::{Space, Variable};
 use crate::search::tally::{Key, Steps};
 use itertools::Itertools;
 use num_bigint::BigUint;
@@ -150,6 +151,10 @@ pub struct Search {
     pub(super) kept: (Vec<LinkId>, Vec<Vec<Residue>>),
     /// What must be held in the searched state.
     pub(super) grasps: Vec<Grasp>,
+    /// Links whose motion the diagram of admissible variants keeps to its end.
+    pub(super) pinned: Vec<LinkId>,
+    /// The blocks of the diagram of determinate variants, and of the other.
+    pub(super) blocks: [Vec<Block>; 2],
 }
 
 impl Search {
@@ -200,6 +205,21 @@ impl Search {
         let rows = i64::try_from(rows).unwrap_or(i64::MAX);
         let searched = conditions.state.iter();
         let grasps = searched.flat_map(|s| grasps(&mechanism, s.state, s.hold_objects));
+        let mut pinned = vec![mechanism.frame()];
+        pinned.extend(kept.iter().filter(|_| conditions.keep_output));
+        let later = space.variables.iter().filter(|v| v.alone || v.external);
+        let later = later.flat_map(|v| &v.joints);
+        pinned.extend(later.flat_map(|&j| mechanism.joints[j].links));
+        pinned.sort_unstable();
+        pinned.dedup();
+        let variables = |wanted: fn(&Variable) -> bool| -> Vec<usize> {
+            let all = 0..space.variables.len();
+            all.filter(|&v| wanted(&space.variables[v])).collect()
+        };
+        let free = variables(|v| !v.external);
+        let common = variables(|v| !v.external && !v.alone);
+        let blocks = [(free, &[][..]), (common, &pinned[..])]
+            .map(|(of, pinned)| blocks(&mechanism, &space, &of, pinned, &contours));
         Ok(Search {
             least: LeastModel::new(
                 &exact,
@@ -209,6 +229,8 @@ impl Search {
                 conditions.whole_twists,
             )?,
             grasps: grasps.collect(),
+            pinned,
+            blocks,
             mechanism,
             conditions,
             space,

@@ -4,8 +4,9 @@
 //! hash table.
 
 use crate::geom::exact::ExactField;
-use crate::linalg::modp::Field;
+use crate::linalg::modp::{Field, Residue};
 use crate::search::growth::{Grown, grown};
+use crate::search::lanes::Move;
 use crate::search::lookahead::Lookahead;
 pub use crate::search::merge::DEAD;
 use crate::search::merge::{CUT, Merge, Nodes};
@@ -100,8 +101,10 @@ pub(super) fn build(
         let mut merge = Merge::new((room, bytes), stop, nodes.len() * choices.len());
         let growth = grown(exact.field(), space, stage);
         // Children that are not merged yet may take an eighth of the memory; one is about as large as its parent.
-        let each = nodes.bytes() / nodes.len().max(1) * choices.len();
-        let size = (allowed / 8 / each.max(1)).clamp(CUT, BATCH);
+        let each = nodes.bytes() / nodes.len().max(1);
+        let size = (allowed / 8 / (each * choices.len()).max(1))
+            .min(BATCH / (effort(space.dim, stage, each) * choices.len()).max(1))
+            .clamp(CUT, MOST);
         for batch in (0..nodes.len()).step_by(size) {
             let batch = batch..(batch + size).min(nodes.len());
             for part in expand(
@@ -187,7 +190,17 @@ pub(super) fn build(
 }
 
 /// Nodes expanded at most before their children are merged.
-const BATCH: usize = 1 << 14;
+const MOST: usize = 1 << 14;
+/// Field operations on them at most, so that whoever cancels need not wait: some tenths of a second.
+const BATCH: usize = 1 << 27;
+
+/// About how many field operations a child takes of a node that has so many bytes.
+fn effort(dim: usize, stage: &Stage, bytes: usize) -> usize {
+    let numbers = bytes / size_of::<Residue>();
+    let of = |m: &Move| numbers * (numbers / (m.step.width * dim).max(1)).max(1);
+    stage.moves.iter().map(of).sum()
+}
+
 /// Fewer children than this are not worth waking threads for.
 const PARALLEL: usize = 1024;
 

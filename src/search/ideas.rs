@@ -11,7 +11,7 @@ use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
 use crate::search::best::Assignment;
 use crate::search::building::Diagrams;
 use crate::search::conditions::Search;
-use crate::search::diagram::DEAD;
+use crate::search::diagram::{DEAD, Diagram};
 use crate::search::mirror;
 use crate::search::tally::Key;
 use itertools::Itertools;
@@ -104,6 +104,22 @@ impl Patterns {
                 out
             }
         }
+    }
+
+    /// After each layer of a diagram, how often each freedom can still be added.
+    fn to_come(&self, diagram: &Diagram) -> Vec<Pattern> {
+        let mut most = vec![0u8; self.items.len()];
+        let mut out = Vec::with_capacity(diagram.layers.len());
+        for layer in diagram.layers.iter().rev() {
+            out.push(most.clone());
+            let here = &self.of[layer.variable];
+            for (i, n) in most.iter_mut().enumerate() {
+                let times = here.iter().map(|choice| choice[i]).max();
+                *n = n.saturating_add(times.unwrap_or(0));
+            }
+        }
+        out.reverse();
+        out
     }
 
     fn added(&self, pattern: &Pattern) -> Vec<Added> {
@@ -323,19 +339,21 @@ impl Search {
     fn with_pattern(&self, diagrams: &Diagrams, patterns: &Patterns, pattern: &Pattern) -> BigUint {
         let diagram = &diagrams.admissible;
         let steps = self.steps.only(self.limited());
+        let to_come = patterns.to_come(diagram);
         let mut here: BTreeMap<(usize, Pattern, Key), BigUint> = BTreeMap::new();
         here.insert((0, pattern.clone(), Key::default()), BigUint::from(1u8));
-        for layer in &diagram.layers {
+        for (layer, to_come) in diagram.layers.iter().zip(&to_come) {
             let mut next: BTreeMap<(usize, Pattern, Key), BigUint> = BTreeMap::new();
             for ((node, left, key), n) in here {
                 for choice in 0..layer.choices {
                     let to = layer.edges[node * layer.choices + choice];
-                    if to == DEAD {
+                    let takes = &patterns.of[layer.variable][choice];
+                    // No more than is left, and no less than what comes later can take.
+                    let mut all = left.iter().zip(takes).zip(to_come);
+                    if to == DEAD || !all.all(|((a, b), most)| b <= a && a - b <= *most) {
                         continue;
                     }
-                    let takes = left.iter().zip(&patterns.of[layer.variable][choice]);
-                    let left: Option<Pattern> = takes.map(|(a, b)| a.checked_sub(*b)).collect();
-                    let Some(left) = left else { continue };
+                    let left = left.iter().zip(takes).map(|(a, b)| a - b).collect();
                     let key = Key(key.0 + steps.keys[layer.variable][choice].0);
                     *next.entry((to as usize, left, key)).or_default() += &n;
                 }

@@ -3,6 +3,7 @@
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId};
+use crate::search::blocks::Block;
 use crate::search::building::Orders;
 use crate::search::conditions::Search;
 use crate::search::lanes::{Lane, Move, ways};
@@ -11,6 +12,7 @@ use crate::search::lookahead::lookahead;
 use crate::search::plan::{At, plan};
 use crate::search::spent::Limits;
 use crate::search::stage::{self, Collapse, Stage};
+use std::collections::BTreeMap;
 
 /// The stages and limits of both diagrams; of one where both are the same.
 pub(super) struct Laid {
@@ -30,11 +32,19 @@ impl Search {
     pub(super) fn laid(&self, orders: &Orders, model: &Model) -> Laid {
         let state = self.conditions.state.as_ref();
         let order = orders.determinate.clone();
-        let at = |order: &[usize]| -> Vec<At> {
-            let joints = order.iter().flat_map(|&v| &self.space.variables[v].joints);
-            joints.map(|&joint| At { joint, lane: 0 }).collect()
+        let at = |order: &[usize], lane: &dyn Fn(usize) -> usize| -> Vec<At> {
+            let joints = |v: usize| self.space.variables[v].joints.iter();
+            let of = |&v: &usize| {
+                let lane = lane(v);
+                joints(v).map(move |&joint| At { joint, lane })
+            };
+            order.iter().flat_map(of).collect()
         };
-        let whole = plan(&self.mechanism, &at(&order), &[], &[]);
+        let [lanes, common_lanes] = self.blocks.each_ref().map(|blocks| {
+            let of = |b: &Block| b.variables.iter().map(|&v| (v, b.lane)).collect::<Vec<_>>();
+            blocks.iter().flat_map(of).collect::<BTreeMap<_, _>>()
+        });
+        let whole = plan(&self.mechanism, &at(&order, &|v| lanes[&v]), &[], &[]);
         let limits = Limits {
             already: model.already(&self.exact, &order, &whole),
             internal: self.conditions.max_redundant,
@@ -60,15 +70,10 @@ impl Search {
         }
         let is_alone = |v: &usize| self.space.variables[*v].alone;
         let alone: Vec<usize> = free.iter().copied().filter(is_alone).collect();
-        let mut pinned = vec![self.mechanism.frame()];
-        pinned.extend(self.kept.0.iter().filter(|_| self.conditions.keep_output));
-        let later = at(&alone).into_iter().chain(at(&added));
-        pinned.extend(later.flat_map(|at| self.mechanism.joints[at.joint].links));
-        pinned.sort_unstable();
-        pinned.dedup();
         let frame = self.mechanism.frame();
         let mut order = orders.common.clone();
-        let first = plan(&self.mechanism, &at(&order), &pinned, &[]);
+        let joined = at(&order, &|v| common_lanes[&v]);
+        let first = plan(&self.mechanism, &joined, &self.pinned, &[]);
         let mut stages = stage::stages(&model.space, &order, &first);
         let mut limits = limits;
         if let Some(state) = state {
@@ -97,7 +102,9 @@ impl Search {
             }
         }
         if self.conditions.keep_output {
-            self.look_ahead(model, &mut stages[..free.len()], alone.is_empty());
+            // What comes first has no say in how the kept links move.
+            let silent = order.iter().filter(|&v| common_lanes[v] > 0).count();
+            self.look_ahead(model, &mut stages[silent..free.len()], alone.is_empty());
         }
         order.extend(alone);
         order.extend(added);

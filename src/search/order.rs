@@ -10,6 +10,7 @@
 
 use crate::geom::exact::ExactField;
 use crate::model::mechanism::{LinkId, Mechanism};
+use crate::search::blocks::Block;
 use crate::search::canonical::canonical;
 use crate::search::space::Space;
 use crate::search::trial::{Trial, Trials};
@@ -22,13 +23,47 @@ const STARTS: usize = 16;
 /// Ways tried for each further one.
 const EARS: usize = 6;
 
-/// An order of the given variables whose diagram, with two choices a variable and links in `pinned` live to the end, is
-/// among the smallest found.
+/// An order of the variables of some blocks, block by block, whose diagram, with two choices a variable, is among the smallest
+/// found; of those that join the mechanism's own links, the frame stays to the end, and they come last.
 ///
 /// # Complexity
 /// O(contours · BEAM · EARS) trials of an ear.
 #[must_use]
-pub fn variable_order(
+pub(super) fn variable_order(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    space: &Space,
+    blocks: &[Block],
+    max_redundant: u32,
+) -> Vec<usize> {
+    let all: Vec<usize> = blocks.iter().flat_map(|b| b.variables.clone()).collect();
+    let place = canonical(mechanism, space, &all);
+    let mut block_of = BTreeMap::new();
+    for (b, block) in blocks.iter().enumerate() {
+        block_of.extend(block.variables.iter().map(|&v| (v, b)));
+    }
+    let mut sorted: Vec<Vec<usize>> = vec![Vec::new(); blocks.len()];
+    let mut met = Vec::new();
+    for v in place {
+        let b = block_of[&v];
+        if sorted[b].is_empty() {
+            met.push(b);
+        }
+        sorted[b].push(v);
+    }
+    met.sort_by_key(|&b| blocks[b].lane == 0);
+    let of = |b: usize| {
+        let pinned = match blocks[b].lane {
+            0 => &[mechanism.frame()][..],
+            _ => &[],
+        };
+        order_of_block(exact, mechanism, space, &sorted[b], pinned, max_redundant)
+    };
+    met.into_iter().flat_map(of).collect()
+}
+
+/// The order of one block, whose variables are given in the canonical order.
+fn order_of_block(
     exact: &ExactField,
     mechanism: &Mechanism,
     space: &Space,
@@ -36,14 +71,16 @@ pub fn variable_order(
     pinned: &[LinkId],
     max_redundant: u32,
 ) -> Vec<usize> {
-    let variables = canonical(mechanism, space, variables);
+    if let [_] = variables {
+        return variables.to_vec();
+    }
     let (mut trials, start) =
-        Trials::new(exact, mechanism, space, &variables, pinned, max_redundant);
+        Trials::new(exact, mechanism, space, variables, pinned, max_redundant);
     let mut beam = vec![start];
     while beam.iter().any(|t| t.order.len() < variables.len()) {
         let mut next: BTreeMap<BTreeSet<usize>, Trial> = BTreeMap::new();
         for trial in beam {
-            for ear in ears(&trials, &variables, &trial) {
+            for ear in ears(&trials, variables, &trial) {
                 let mut grown = trial.clone();
                 ear.iter().for_each(|&v| trials.add(&mut grown, v));
                 let set: BTreeSet<usize> = grown.order.iter().copied().collect();
@@ -64,7 +101,7 @@ pub fn variable_order(
         beam.truncate(BEAM);
     }
     let best = beam.into_iter().next();
-    best.map_or(variables, |t| t.order)
+    best.map_or(variables.to_vec(), |t| t.order)
 }
 
 /// Ways to go on: ears, the shortest first, or where no contour is left the next joint; nothing more for a whole order.

@@ -1,6 +1,6 @@
 //! The variants of a search as CSV, one a line, a column for each joint that has a choice.
 
-use crate::format::csv::cell;
+use crate::format::csv::encoded;
 use crate::format::number::cost;
 use crate::model::mechanism::JointId;
 use crate::score::outcome::Outcome;
@@ -61,73 +61,102 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, mut variants: Variants<'_>)
 }
 
 fn rows(out: &mut dyn Write, outcome: &Outcome, variants: &mut Variants<'_>) -> io::Result<()> {
-    let mut out = csv::Writer::from_writer(out);
     let search = &outcome.search;
     let joints = columns(search);
-    let mut row: Vec<String> = FIGURES.map(str::to_owned).to_vec();
-    row.extend(
-        joints
-            .iter()
-            .map(|&(_, j)| cell(&search.mechanism.joints[j].id).into_owned()),
-    );
-    row.extend(OPINIONS.map(str::to_owned));
+    let mut heads: Vec<&str> = FIGURES.to_vec();
+    let names = joints
+        .iter()
+        .map(|&(_, j)| search.mechanism.joints[j].id.as_str());
+    heads.extend(names);
+    heads.extend(OPINIONS);
     if outcome.ranking.is_some() {
-        row.extend(SCORES.map(str::to_owned));
+        heads.extend(SCORES);
     }
-    row.extend(MORE.map(str::to_owned));
-    out.write_record(&row).map_err(of_writer)?;
+    heads.extend(MORE);
+    writeln!(out, "{}", heads.into_iter().map(encoded).join(","))?;
+    // Most of a line is what was chosen, the same few words again and again.
+    let cells = |&(variable, j): &(usize, JointId)| {
+        let choices = search.space.variables[variable].choices.iter();
+        let cell = |c| encoded(&choice_name(&search.mechanism, j, c));
+        (variable, choices.map(cell).collect())
+    };
+    let mut line = Line {
+        text: String::new(),
+        chosen: joints.iter().map(cells).collect(),
+        cost: (0, cost(0)),
+        digits: itoa::Buffer::new(),
+    };
     for v in variants {
-        row.clear();
-        row.extend([
-            v.position().to_string(),
-            cost(v.cost_milli()),
-            v.mobility().to_string(),
-            v.redundant().to_string(),
-            told(v.external_redundant()),
-            v.change_count().to_string(),
-        ]);
-        let choices = &v.assignment().choices;
-        row.extend(joints.iter().map(|&(variable, j)| {
-            let choice = &search.space.variables[variable].choices[choices[variable]];
-            cell(&choice_name(&search.mechanism, j, choice)).into_owned()
-        }));
-        let opinion = v.second().opinion();
-        row.extend([
-            told(opinion.map(|o| format!("{:e}", o.conditioning))),
-            told(opinion.map(|o| o.agree)),
-            told(v.over_stroke().and_then(OverStroke::lucky)),
-        ]);
-        if outcome.ranking.is_some() {
-            row.extend(match v.ranked() {
-                Some(r) => [
-                    r.by_cost.to_string(),
-                    r.scores.force.utilisation.to_string(),
-                    r.scores.moment.utilisation.to_string(),
-                    r.scores.conditioning.to_string(),
-                    r.scores.output_error.to_string(),
-                    r.scores.idle.to_string(),
-                    told(r.total),
-                    told(r.front),
-                ],
-                None => Default::default(),
-            });
+        line.write(outcome, &v);
+        out.write_all(line.text.as_bytes())?;
+    }
+    Ok(())
+}
+
+/// The line of a variant, in memory that the next one takes over.
+struct Line {
+    text: String,
+    /// For each column the variable, and what its choices are called.
+    chosen: Vec<(usize, Vec<String>)>,
+    /// The last cost, which is often that of the next variant, too.
+    cost: (i64, String),
+    digits: itoa::Buffer,
+}
+
+impl Line {
+    fn write(&mut self, outcome: &Outcome, v: &Variant<'_>) {
+        self.text.clear();
+        self.text.push_str(self.digits.format(v.position()));
+        if self.cost.0 != v.cost_milli() {
+            self.cost = (v.cost_milli(), cost(v.cost_milli()));
         }
-        row.extend([told(v.external_harmful()), cell(&contours(&v)).into_owned()]);
-        out.write_record(&row).map_err(of_writer)?;
+        self.text.push(',');
+        self.text.push_str(&self.cost.1);
+        self.number(v.mobility());
+        self.number(v.redundant());
+        self.some(v.external_redundant());
+        self.number(v.change_count());
+        let choices = &v.assignment().choices;
+        for (variable, cells) in &self.chosen {
+            self.text.push(',');
+            self.text.push_str(&cells[choices[*variable]]);
+        }
+        let opinion = v.second().opinion();
+        self.some(opinion.map(|o| format!("{:e}", o.conditioning)));
+        self.some(opinion.map(|o| o.agree));
+        self.some(v.over_stroke().and_then(OverStroke::lucky));
+        if outcome.ranking.is_some() {
+            match v.ranked() {
+                Some(r) => {
+                    self.number(r.by_cost);
+                    self.some(Some(r.scores.force.utilisation));
+                    self.some(Some(r.scores.moment.utilisation));
+                    self.some(Some(r.scores.conditioning));
+                    self.some(Some(r.scores.output_error));
+                    self.number(r.scores.idle);
+                    self.some(r.total);
+                    self.some(r.front);
+                }
+                None => self.text.extend(SCORES.map(|_| ',')),
+            }
+        }
+        self.some(v.external_harmful());
+        self.text.push(',');
+        self.text.push_str(&encoded(&contours(v)));
+        self.text.push('\n');
     }
-    out.flush()
-}
 
-/// The writer's own error, by which a closed pipe is known.
-fn of_writer(e: csv::Error) -> io::Error {
-    match e.into_kind() {
-        csv::ErrorKind::Io(e) => e,
-        other => io::Error::other(format!("{other:?}")),
+    fn number(&mut self, n: impl itoa::Integer) {
+        self.text.push(',');
+        self.text.push_str(self.digits.format(n));
     }
-}
 
-fn told<T: ToString>(value: Option<T>) -> String {
-    value.map_or_else(String::new, |x| x.to_string())
+    fn some(&mut self, value: Option<impl ToString>) {
+        self.text.push(',');
+        if let Some(x) = value {
+            self.text.push_str(&x.to_string());
+        }
+    }
 }
 
 /// "0-1-2-3: 1 (0 to 1); 0-1-6-7: 0 (0 to 1)": σ of the contours that may have any, in the order they are added in.

@@ -5,6 +5,7 @@ mod accuracy;
 mod adding;
 mod bench;
 mod beyond_budget;
+mod blocks;
 mod cam;
 mod catalogs;
 mod catalogue;

@@ -78,15 +78,20 @@ fn is_zero(v: &[Expr; 3]) -> bool {
 
 /// Whether two directions are parallel: exactly for rationals, to 1e-12 of their lengths otherwise.
 fn parallel(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
-    let cross = |i: usize, j: usize| &a[i] * &b[j] - &a[j] * &b[i];
-    let scale = real(a).iter().map(|x| x.abs()).fold(0.0, f64::max)
-        * real(b).iter().map(|x| x.abs()).fold(0.0, f64::max);
-    [cross(1, 2), cross(2, 0), cross(0, 1)]
-        .iter()
-        .all(|e| match e.as_rational() {
+    let (x, y) = (real(a), real(b));
+    let largest = |v: [f64; 3]| v.iter().map(|x| x.abs()).fold(0.0, f64::max);
+    let scale = largest(x) * largest(y);
+    [(1, 2), (2, 0), (0, 1)].into_iter().all(|(i, j)| {
+        // What is far from zero in floating point needs no exact look.
+        if (x[i] * y[j] - x[j] * y[i]).abs() > 1e-9 * scale {
+            return false;
+        }
+        let e = &a[i] * &b[j] - &a[j] * &b[i];
+        match e.as_rational() {
             Some(_) => e.is_zero_rational(),
             None => e.to_f64().abs() <= 1e-12 * scale,
-        })
+        }
+    })
 }
 
 /// The frame with these parts; problems are reported at `path`.
@@ -337,6 +342,10 @@ pub(crate) fn contains(wide: &JointOption, narrow: &JointOption) -> Option<bool>
     use crate::geom::exact::ExactField;
     use crate::linalg::echelon::Echelon;
     if wide.joint_type == narrow.joint_type && wide.joint_type == JointType::Spherical {
+        return Some(true);
+    }
+    let freedoms = [wide, narrow].map(|o| o.joint_type.freedoms());
+    if wide.frame.is_same(&narrow.frame) && freedoms[1].iter().all(|f| freedoms[0].contains(f)) {
         return Some(true);
     }
     let parts = |o: &JointOption| {

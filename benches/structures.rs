@@ -1,7 +1,7 @@
 //! What structures cost by their number of links: to list them all, and to lay one out, follow its stroke and search it.
 //!
-//! `cargo bench --bench growth -- [-o DIR] [--links 4..12] [--sample N]` prints a table and writes `growth.svg` and
-//! `growth.md` to the folder. Where there are more than N structures, a sample stands for them: chains drawn evenly, of each a
+//! `cargo bench --bench structures -- [-o DIR] [--links 4..12] [--sample N]` prints a table and writes `structures.svg` and
+//! `structures.md` to the folder. Where there are more than N structures, a sample stands for them: chains drawn evenly, of each a
 //! structure drawn evenly, always the same ones. One thread, wall time.
 
 #![allow(
@@ -237,7 +237,7 @@ fn main() {
     print!("{}", table(&all));
     if let Some(folder) = folder {
         std::fs::create_dir_all(&folder).expect("the folder");
-        std::fs::write(folder.join("growth.md"), table(&all)).expect("the table");
-        std::fs::write(folder.join("growth.svg"), chart(&all).svg()).expect("the chart");
+        std::fs::write(folder.join("structures.md"), table(&all)).expect("the table");
+        std::fs::write(folder.join("structures.svg"), chart(&all).svg()).expect("the chart");
     }
 }

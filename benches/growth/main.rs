@@ -1,0 +1,136 @@
+//! How diagrams grow with the mechanism: nodes and time of both diagrams against the number of contours, family by family,
+//! with the rows that choices differ in and with all rows.
+//!
+//! `cargo bench --bench growth [FOLDER]` writes growth.svg and growth.md there, by default into target/growth. A family ends
+//! with the first member that does not fit the budget.
+
+#![allow(
+    clippy::print_stdout,
+    missing_docs,
+    reason = "a bench reports what it measures"
+)]
+
+mod families;
+
+use families::{fingers, grid, ladder, parallel_robot, row};
+use ozols::chart::{Axis, Chart, Scale, Series, Style};
+use ozols::closure::contour::contour_basis;
+use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::redundancy::analysis::exact_field;
+use ozols::search::conditions::{Conditions, Search};
+use ozols::search::diagram::Stop;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// A name, and its members from small to large.
+type Family = (&'static str, Vec<Mechanism>);
+
+fn all() -> Vec<Family> {
+    let of = |sizes: &[usize], make: &dyn Fn(usize) -> Mechanism| {
+        sizes.iter().map(|&n| make(n)).collect()
+    };
+    let several = [1, 2, 3, 4, 5, 6, 7, 8];
+    vec![
+        (
+            "fingers of one slide",
+            of(&[1, 2, 4, 8, 12, 20, 40, 80], &fingers),
+        ),
+        ("four-bars one on another", of(&[1, 2, 4, 8, 16, 32], &row)),
+        ("planar ladder", of(&several, &|n| ladder(n, false))),
+        ("spatial ladder", of(&several, &|n| ladder(n, true))),
+        (
+            "planar grid of two rows",
+            of(&[2, 3, 4, 5, 6, 7], &|n| grid(2, n)),
+        ),
+        (
+            "planar legs of three hinges",
+            of(&[2, 3, 4, 5, 6, 7, 8], &|n| parallel_robot(n, 3, false)),
+        ),
+        (
+            "spatial legs of six hinges",
+            of(&[2, 3, 4, 5, 6], &|n| parallel_robot(n, 6, true)),
+        ),
+    ]
+}
+
+/// Of both diagrams: nodes, milliseconds (the best of three where it is short), and whether they are whole.
+fn built(m: &Mechanism, whole_twists: bool) -> (usize, f64, bool) {
+    let mut best = f64::INFINITY;
+    loop {
+        let conditions = Conditions {
+            whole_twists,
+            nodes: 200_000,
+            memory: 4 << 30,
+            ..Conditions::default()
+        };
+        let start = Instant::now();
+        let search = Search::new(exact_field(m, 0).expect("exact"), m, conditions).expect("valid");
+        let d = search.build(&|| false, &mut |_| {});
+        let took = start.elapsed().as_secs_f64() * 1000.0;
+        let nodes = d.determinate.nodes + d.admissible.nodes;
+        if took > 300.0 || best < f64::INFINITY {
+            return (nodes, best.min(took), d.stop() == Stop::Exhausted);
+        }
+        best = took;
+    }
+}
+
+fn main() {
+    let mut args = std::env::args().skip(1).filter(|a| !a.starts_with("--"));
+    let folder = args
+        .next()
+        .map_or(PathBuf::from("target/growth"), PathBuf::from);
+    std::fs::create_dir_all(&folder).expect("a folder to write to");
+    let mut table = String::from(
+        "| family | contours | variants | nodes | time | time with all rows |\n|---|---|---|---|---|---|\n",
+    );
+    let mut series = Vec::new();
+    for (name, members) in all() {
+        let mut points = Vec::new();
+        for m in members {
+            let contours = contour_basis(&m, StateId::FREE).len();
+            let variants: f64 = m
+                .joints
+                .iter()
+                .map(|j| (j.options.len() as f64).log10())
+                .sum();
+            let (nodes, least, whole) = built(&m, false);
+            let all_rows = built(&m, true);
+            let said = |(ms, whole): (f64, bool)| match whole {
+                true => format!("{ms:.1} ms"),
+                false => "over 200,000 nodes".to_owned(),
+            };
+            let line = format!(
+                "| {name} | {contours} | 10^{variants:.0} | {nodes} | {} | {} |\n",
+                said((least, whole)),
+                said((all_rows.1, all_rows.2))
+            );
+            print!("{line}");
+            table.push_str(&line);
+            if !whole {
+                break;
+            }
+            points.push((contours as f64, nodes as f64));
+        }
+        series.push(Series {
+            name: name.to_owned(),
+            points,
+            style: Style::Line,
+        });
+    }
+    let axis = |label: &str| Axis {
+        label: label.to_owned(),
+        scale: Scale::Log,
+    };
+    let chart = Chart {
+        title: "How diagrams grow".to_owned(),
+        subtitle:
+            "Nodes of both diagrams, four options a joint; each line ends where 200,000 are too few"
+                .to_owned(),
+        x: axis("independent contours"),
+        y: axis("nodes"),
+        series,
+    };
+    std::fs::write(folder.join("growth.svg"), chart.svg()).expect("written");
+    std::fs::write(folder.join("growth.md"), table).expect("written");
+}
