@@ -47,18 +47,20 @@ impl Rules {
         let at = |u: usize, v: usize| pins.iter().position(|&p| p == (u.min(v), u.max(v)));
         let mut rules = vec![Rule::Free; pins.len()];
         for first in 0..pins.len() {
+            // Images of a pin before.
+            if rules[first] != Rule::Free {
+                continue;
+            }
             let (mut of, mut times) = (first, 0);
             loop {
                 let (u, v) = pins[of];
                 (of, times) = (at(swap[u], swap[v])?, times + 1);
-                if of <= first {
+                if of == first {
                     break;
                 }
                 rules[of] = Rule::Image { of: first, times };
             }
             rules[first] = match symmetry {
-                // Another was first.
-                _ if of < first => continue,
                 Symmetry::Mirror if times == 1 => Rule::OnLine,
                 Symmetry::HalfTurn | Symmetry::Threefold if times == 1 => Rule::Centre,
                 _ => Rule::Free,
