@@ -81,8 +81,7 @@ fn a_search_of_drawn_mechanisms_carries_on_too() {
     let folder = tempdir().unwrap();
     let (whole_file, killed) = (at(&folder, "whole.db"), at(&folder, "killed.db"));
     fn drawn<'a>(file: &'a str, ideas: &'a str) -> Vec<&'a str> {
-        let words =
-            "catalog search tongs lever-gripper geared-gripper four-bar gripper-10 --quiet --ideas";
+        let words = "catalog search tongs geared-gripper four-bar four-bar-planar spherical-four-bar --quiet --ideas";
         words.split(' ').chain([ideas, "-o", file]).collect()
     }
     let begun = Instant::now();
