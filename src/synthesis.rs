@@ -2,12 +2,14 @@
 //!
 //! A structure is a chain with its roles, the way its driver moves, and the symmetry it is to have. A layout gives its
 //! pins places in the plane: symmetric exactly, regular, moving as a gripper does, and as well proportioned as a search
-//! finds. All lengths are whole millimetres.
+//! finds. Places are whole millimetres, or what a third of a turn makes of them.
 
 pub mod figures;
 pub mod layout;
 pub mod looks;
 pub mod mechanism;
+pub mod place;
 pub mod rules;
+pub mod skeleton;
 pub mod structure;
 pub mod velocities;

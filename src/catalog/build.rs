@@ -45,7 +45,7 @@ pub fn work(spec: &Spec, shard: Shard) -> Result<Vec<Work>, BuildError> {
         out.par_extend(all.into_par_iter().map(|chain| {
             let (chain, automorphisms) = chain.canonical();
             let subject = Subject::new(&chain, &automorphisms);
-            let mut structures = structures(&subject, &forms);
+            let mut structures = structures(&subject, spec.jaws, &forms);
             structures.retain(|s| shard.has(&s.name()));
             Work {
                 structures,

@@ -40,6 +40,8 @@ pub struct Drawn {
     pub admissible: BigUint,
     /// Whether every count is exact; lower bounds otherwise.
     pub exact: bool,
+    /// How many ideas were to be kept.
+    pub ideas_asked: usize,
     /// The best ideas among these, cheapest first.
     pub ideas: Vec<IdeaRow>,
 }
@@ -56,18 +58,31 @@ pub(super) fn known(finite: &Finite) -> String {
     format!("{}, {word}", finite.figure())
 }
 
+/// A mechanism as a file, and the id that follows from it.
+fn named(mechanism: &Mechanism) -> Result<(String, String), RowError> {
+    let file = formats::write(mechanism, "toml").map_err(|e| RowError::File {
+        structure: mechanism.name.clone(),
+        why: e.to_string(),
+    })?;
+    let digest = Sha256::digest(&file);
+    let hash: String = digest[..4].iter().map(|b| format!("{b:02x}")).collect();
+    Ok((format!("drawn-{hash}"), file))
+}
+
+/// The id of a drawn mechanism in a catalogue.
+///
+/// # Errors
+/// Where it cannot be written as a file.
+pub fn id(mechanism: &Mechanism) -> Result<String, RowError> {
+    Ok(named(mechanism)?.0)
+}
+
 /// Searches a drawn mechanism.
 ///
 /// # Errors
 /// Where it cannot be analysed, searched or written.
 pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<Drawn, RowError> {
-    let refused = |why: String| RowError::File {
-        structure: mechanism.name.clone(),
-        why,
-    };
-    let file = formats::write(&mechanism, "toml").map_err(|e| refused(e.to_string()))?;
-    let digest = Sha256::digest(&file);
-    let hash: String = digest[..4].iter().map(|b| format!("{b:02x}")).collect();
+    let (id, file) = named(&mechanism)?;
     let method = Method::Auto { tolerance: None };
     let as_built = analyse(&mechanism, &[StateId::FREE], method)?.swap_remove(0);
     let joints = mechanism.joints_in(StateId::FREE).count();
@@ -101,7 +116,7 @@ pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<Drawn, Ro
     let size = [links.count(), joints, contours];
     let outcome = run(mechanism, &request, &|| false, &mut |_| {})?;
     Ok(Drawn {
-        id: format!("drawn-{hash}"),
+        id,
         name,
         description,
         file,
@@ -113,6 +128,7 @@ pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<Drawn, Ro
         counts: outcome.determinate.by_mobility_and_changes.clone(),
         admissible: outcome.admissible.total.clone(),
         exact: outcome.is_exact(),
+        ideas_asked: top,
         ideas: ideas(&outcome, top),
     })
 }

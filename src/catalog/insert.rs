@@ -36,7 +36,7 @@ fn count(n: &BigUint) -> ToSqlOutput<'static> {
 fn structure(t: &Transaction<'_>, row: &Row) -> rusqlite::Result<()> {
     let (s, r) = (&row.structure, &row.structure.roles);
     t.prepare_cached(
-        "INSERT OR REPLACE INTO structures VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16)",
+        "INSERT OR REPLACE INTO structures VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17)",
     )?
     .execute(params![
         s.id(),
@@ -48,6 +48,7 @@ fn structure(t: &Transaction<'_>, row: &Row) -> rusqlite::Result<()> {
         number(r.driver),
         number(r.jaws[0]),
         number(r.jaws[1]),
+        r.jaws.get(2).map(|&l| number(l)),
         s.form.input.name(),
         s.form.symmetry.name(),
         s.form.parallel,
@@ -67,9 +68,11 @@ fn rounded(x: f64) -> f64 {
 fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<()> {
     let (l, f, id) = (&laid.layout.looks, &laid.figures, s.id());
     let end = |w: Option<Why>| w.map(Why::word);
+    let tip = |n: usize, k: usize| l.tips.get(n).map(|t| rounded(t[k]));
+    let turn = f.turns.iter().fold(0.0, |m: f64, t| m.max(*t));
     t.prepare_cached(
         "INSERT OR REPLACE INTO layouts VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, \
-         ?19, ?20, ?21, ?22, ?23, ?24, ?25, ?26, ?27, ?28, ?29)",
+         ?19, ?20, ?21, ?22, ?23, ?24, ?25, ?26, ?27, ?28, ?29, ?30, ?31, ?32)",
     )?
     .execute(params![
         id,
@@ -87,11 +90,14 @@ fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<(
         rounded(f.force[2]),
         f.jaws[0].name(),
         f.jaws[1].name(),
-        rounded(l.tips[0][0]),
-        rounded(l.tips[0][1]),
-        rounded(l.tips[1][0]),
-        rounded(l.tips[1][1]),
-        rounded(f.turns[0].max(f.turns[1]).to_degrees()),
+        f.jaws.get(2).map(|m| m.name()),
+        tip(0, 0),
+        tip(0, 1),
+        tip(1, 0),
+        tip(1, 1),
+        tip(2, 0),
+        tip(2, 1),
+        rounded(turn.to_degrees()),
         end(f.ends[0]),
         end(f.ends[1]),
         number(laid.as_built.0),
@@ -109,7 +115,7 @@ fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<(
 pub(super) fn drawn(t: &Transaction<'_>, d: &Drawn) -> rusqlite::Result<()> {
     let all: BigUint = d.counts.values().sum();
     t.prepare_cached(
-        "INSERT OR REPLACE INTO drawn VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16)",
+        "INSERT OR REPLACE INTO drawn VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17)",
     )?
     .execute(params![
         d.id,
@@ -127,8 +133,16 @@ pub(super) fn drawn(t: &Transaction<'_>, d: &Drawn) -> rusqlite::Result<()> {
         count(&all),
         count(&d.admissible),
         certainty(d.exact),
+        number(d.ideas_asked),
         d.ideas.first().map(|i| milli(i.cost_milli)),
     ])?;
+    // Another search of the same mechanism may have kept more.
+    for table in ["counts", "ideas"] {
+        t.execute(
+            &format!("DELETE FROM {table} WHERE structure = ?1"),
+            [&d.id],
+        )?;
+    }
     found(t, &d.id, &d.counts, &d.ideas)
 }
 
@@ -183,7 +197,7 @@ impl Laid {
     /// Area of the box round pins and tips, in square millimetres.
     fn size(&self) -> f64 {
         let points = self.layout.at.iter().chain(&self.layout.tips);
-        let points: Vec<[f64; 2]> = points.map(|p| p.map(f64::from)).collect();
+        let points: Vec<[f64; 2]> = points.map(|p| p.real()).collect();
         let [width, height] = sides(&points);
         width * height
     }

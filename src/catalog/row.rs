@@ -35,7 +35,7 @@ pub struct Row {
     pub structure: Structure,
     /// How many of the jaws are joined to the frame.
     pub jaws_at_frame: usize,
-    /// Whether it makes a truss with a part hinged to both jaws.
+    /// Whether it makes a truss with a part hinged to both jaws, where there are two.
     pub truss: bool,
     /// Whether its graph is symmetric, jaw for jaw.
     pub graph_symmetric: bool,
@@ -157,7 +157,7 @@ fn lay(
     layout: Layout,
     spec: &Spec,
 ) -> Result<Result<Laid, NoLayout>, RowError> {
-    let file = mechanism_file(structure, &layout, &spec.options()?);
+    let file = mechanism_file(structure, &layout, &spec.menu()?);
     let built = mechanism(structure, &file)?;
     let figures = figures(structure, &layout, &built)?;
     let method = Method::Auto { tolerance: None };

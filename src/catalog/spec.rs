@@ -3,6 +3,7 @@
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::file::schema::{OptionEntry, OptionTable};
 use crate::synthesis::looks::Limits;
+use crate::synthesis::mechanism::Menu;
 use crate::synthesis::structure::Form;
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
@@ -18,14 +19,18 @@ pub const MOST_LINKS: usize = 12;
 pub struct Spec {
     /// Links from and to, both included: "4..8".
     pub links: String,
+    /// Jaws of each structure: 2 or 3.
+    pub jaws: usize,
     /// Inputs: "slide", "turn".
     pub inputs: Vec<String>,
-    /// Symmetries: "generic", "mirror", "half-turn".
+    /// Symmetries: "generic", "mirror", "half-turn", and for three jaws "threefold".
     pub symmetries: Vec<String>,
     /// Whether layouts with the jaws on parallelograms are made too: "with", "without" or "only".
     pub parallel: String,
     /// What may be put in place of a hinge, by name.
     pub options: Vec<String>,
+    /// What may be put in series with a hinge, an unloading joint with a link of its own, by name; nothing by default.
+    pub unloading: Vec<String>,
     /// Ideas kept of each structure.
     pub ideas: usize,
     /// Seed of the layouts.
@@ -46,8 +51,9 @@ impl Default for Spec {
         let limits = Limits::default();
         Spec {
             links: "4..6".to_owned(),
+            jaws: 2,
             inputs: words(&["slide", "turn"]),
-            symmetries: words(&["generic", "mirror", "half-turn"]),
+            symmetries: words(&["generic", "mirror", "half-turn", "threefold"]),
             parallel: "with".to_owned(),
             options: words(&[
                 "cylindrical",
@@ -56,6 +62,7 @@ impl Default for Spec {
                 "spherical",
                 "sphere-in-cylinder",
             ]),
+            unloading: Vec::new(),
             ideas: 10,
             seed: 1,
             ratio: limits.ratio,
@@ -96,7 +103,11 @@ pub enum SpecError {
         to: u64,
     },
     /// No form is left.
-    #[error("no layout is asked for: a mirror image needs a slide, half a turn a turning input")]
+    #[error(
+        "no layout is asked for: with two jaws a mirror image needs a slide and half a turn a turning input; three jaws are \
+         generic, or threefold with a turning input, since in the plane no slide is its own image after a third of a turn; they \
+         stand on no parallelograms"
+    )]
     Nothing,
 }
 
@@ -174,6 +185,7 @@ impl Spec {
             inputs.contains(&f.input)
                 && symmetries.contains(&f.symmetry)
                 && parallel.is_none_or(|p| p == f.parallel)
+                && f.suits(self.jaws)
         };
         let forms: Vec<Form> = Form::all().filter(asked).collect();
         (!forms.is_empty())
@@ -181,15 +193,16 @@ impl Spec {
             .ok_or(SpecError::Nothing)
     }
 
-    /// What may be put in place of a hinge, the hinge first.
+    /// What may be done to a hinge.
     ///
     /// # Errors
     /// Where a name is none.
-    pub fn options(&self) -> Result<Vec<OptionEntry>, SpecError> {
-        let known = OPTIONS.map(|o| (o, o));
-        let mut out = vec![OptionEntry::Word("revolute".to_owned())];
-        for name in self.options.iter().filter(|n| *n != "revolute").unique() {
-            out.push(match word("options", name, &known)? {
+    pub fn menu(&self) -> Result<Menu, SpecError> {
+        let known: Vec<(&str, &str)> = OPTIONS.map(|o| (o, o)).into();
+        // A slide along the hinge's axis does not double its turn.
+        let in_series = [&known[..], &[("prismatic", "prismatic")]].concat();
+        let entry = |what, name: &String, known| {
+            Ok(match word(what, name, known)? {
                 "universal-y" => OptionEntry::Table(Box::new(OptionTable {
                     kind: Some("universal".to_owned()),
                     reference: Some([0, 1, 0].map(crate::file::schema::Coordinate::Integer)),
@@ -197,9 +210,17 @@ impl Spec {
                     ..OptionTable::default()
                 })),
                 plain => OptionEntry::Word(plain.to_owned()),
-            });
+            })
+        };
+        let mut options = vec![OptionEntry::Word("revolute".to_owned())];
+        for name in self.options.iter().filter(|n| *n != "revolute").unique() {
+            options.push(entry("options", name, &known)?);
         }
-        Ok(out)
+        let unloading = self.unloading.iter().unique();
+        let unloading = unloading
+            .map(|n| entry("unloading", n, &in_series))
+            .try_collect()?;
+        Ok(Menu { options, unloading })
     }
 
     /// What a layout must be like.
@@ -222,6 +243,7 @@ impl Spec {
             let ok = (from..=to).contains(&n);
             ok.then_some(()).ok_or(SpecError::Range { what, from, to })
         };
+        range("jaws", self.jaws, 2, 3)?;
         range("ideas", self.ideas, 0, 1000)?;
         range("nodes", self.nodes, 1, 100_000_000)?;
         let positive = |what, x: f64, to: u64| {
@@ -234,14 +256,19 @@ impl Spec {
         positive("transmission", self.transmission, 90)?;
         self.links()?;
         self.forms()?;
-        self.options().map(|_| ())
+        self.menu().map(|_| ())
     }
 
     /// The specification as TOML: the same for the same catalogue, whatever the order of its words.
     #[must_use]
     pub fn canonical(&self) -> String {
         let mut same = self.clone();
-        for list in [&mut same.inputs, &mut same.symmetries, &mut same.options] {
+        for list in [
+            &mut same.inputs,
+            &mut same.symmetries,
+            &mut same.options,
+            &mut same.unloading,
+        ] {
             list.sort();
             list.dedup();
         }

@@ -16,7 +16,7 @@ use thiserror::Error;
 /// What marks a file as a catalogue: "ozcg".
 const APPLICATION: i64 = 0x6f7a_6367;
 /// Version of the tables.
-const VERSION: i64 = 2;
+const VERSION: i64 = 3;
 
 /// The tables, each column with what it holds; the file carries these words, too (`.schema` shows them).
 pub const TABLES: &str = include_str!("tables.sql");
@@ -228,18 +228,28 @@ impl Store {
         self.ok(done)
     }
 
-    /// Adds a drawn mechanism; whether it was not there yet.
+    /// Whether a drawn mechanism is there, searched for so many ideas.
+    ///
+    /// # Errors
+    /// Where the file cannot be read.
+    pub fn has_drawn(&self, id: &str, ideas: usize) -> Stored<bool> {
+        let sql = "SELECT count(*) FROM drawn WHERE id = ?1 AND ideas_asked = ?2";
+        let ideas = i64::try_from(ideas).unwrap_or(i64::MAX);
+        let there = self
+            .db
+            .query_row(sql, params![id, ideas], |r| r.get::<_, i64>(0));
+        Ok(self.ok(there)? > 0)
+    }
+
+    /// Adds a drawn mechanism with all that is known of it, at once or not at all, in place of an earlier search of it.
     ///
     /// # Errors
     /// Where the file cannot be written.
-    pub fn add_drawn(&mut self, drawn: &Drawn) -> Stored<bool> {
-        let mut all = || -> rusqlite::Result<bool> {
+    pub fn add_drawn(&mut self, drawn: &Drawn) -> Stored<()> {
+        let mut all = || -> rusqlite::Result<()> {
             let t = self.db.transaction()?;
-            let sql = "SELECT count(*) FROM drawn WHERE id = ?1";
-            let there: i64 = t.query_row(sql, [&drawn.id], |r| r.get(0))?;
             insert::drawn(&t, drawn)?;
-            t.commit()?;
-            Ok(there == 0)
+            t.commit()
         };
         let done = all();
         self.ok(done)
@@ -327,13 +337,15 @@ impl Store {
                          + (SELECT count(*) FROM part.drawn WHERE id NOT IN (SELECT id FROM main.drawn))";
             let added: i64 = self.db.query_row(count, [], |r| r.get(0))?;
             self.db.execute_batch(
+                // What is there already stays as it is, with no idea of another search of it.
                 "BEGIN IMMEDIATE;
-                 INSERT OR IGNORE INTO main.structures SELECT * FROM part.structures;
-                 INSERT OR IGNORE INTO main.layouts SELECT * FROM part.layouts;
-                 INSERT OR IGNORE INTO main.drawn SELECT * FROM part.drawn;
-                 INSERT OR IGNORE INTO main.counts SELECT * FROM part.counts;
-                 INSERT OR IGNORE INTO main.ideas SELECT * FROM part.ideas;
-                 COMMIT; DETACH DATABASE part;",
+                 CREATE TEMP TABLE there AS SELECT id FROM main.structures UNION ALL SELECT id FROM main.drawn;
+                 INSERT INTO main.structures SELECT * FROM part.structures WHERE id NOT IN there;
+                 INSERT INTO main.drawn SELECT * FROM part.drawn WHERE id NOT IN there;
+                 INSERT INTO main.layouts SELECT * FROM part.layouts WHERE structure NOT IN there;
+                 INSERT INTO main.counts SELECT * FROM part.counts WHERE structure NOT IN there;
+                 INSERT INTO main.ideas SELECT * FROM part.ideas WHERE structure NOT IN there;
+                 DROP TABLE there; COMMIT; DETACH DATABASE part;",
             )?;
             Ok(usize::try_from(added).unwrap_or(0))
         };

@@ -12,11 +12,12 @@ CREATE TABLE structures (
   driver INTEGER NOT NULL,
   jaw_a INTEGER NOT NULL,
   jaw_b INTEGER NOT NULL,
+  jaw_c INTEGER,                   -- NULL where there are two
   input TEXT NOT NULL,             -- slide, turn
-  symmetry TEXT NOT NULL,          -- generic, mirror, half-turn
+  symmetry TEXT NOT NULL,          -- generic, mirror, half-turn, threefold
   parallel INTEGER NOT NULL,       -- 1: each jaw stands on a parallelogram
   jaws_at_frame INTEGER NOT NULL,  -- how many jaws are joined to the frame
-  truss INTEGER NOT NULL,          -- 1: a truss with a part hinged to both jaws, and nothing less is
+  truss INTEGER NOT NULL,          -- 1: a truss with a part hinged to both jaws, and nothing less is; of two jaws alone
   graph_symmetric INTEGER NOT NULL,
   no_layout TEXT                   -- why it has no layout; NULL where it has one
 ) WITHOUT ROWID;
@@ -28,7 +29,7 @@ CREATE TABLE layouts (
   link_ratio REAL NOT NULL,        -- longest link over shortest
   transmission REAL NOT NULL,      -- worst transmission angle of a rod, degrees
   area REAL NOT NULL,              -- of the box round pins and tips, mm2
-  opening_min REAL NOT NULL,       -- of the stroke followed, mm
+  opening_min REAL NOT NULL,       -- of the stroke followed, mm; of three jaws twice the tips' mean distance from the middle
   opening_max REAL NOT NULL,
   travel REAL NOT NULL,            -- of the drive between them, mm or rad
   force_min REAL NOT NULL,         -- force of each jaw over the drive's, without friction; N for 1 Nm where it turns
@@ -36,10 +37,13 @@ CREATE TABLE layouts (
   force_max REAL NOT NULL,
   jaw_a_motion TEXT NOT NULL,      -- parallel, swinging, floating
   jaw_b_motion TEXT NOT NULL,
+  jaw_c_motion TEXT,
   tip_a_dx REAL NOT NULL,          -- how the tips move as they close, mm for 1 mm or 1 rad of the drive
   tip_a_dy REAL NOT NULL,
   tip_b_dx REAL NOT NULL,
   tip_b_dy REAL NOT NULL,
+  tip_c_dx REAL,
+  tip_c_dy REAL,
   jaw_turn REAL NOT NULL,          -- the most that a jaw turns over the stroke, degrees
   ends_closing TEXT,               -- why the stroke ends before the jaws are closed; NULL where it does not
   ends_opening TEXT,
@@ -67,6 +71,7 @@ CREATE TABLE drawn (               -- mechanisms that were drawn, searched with 
   determinate NOT NULL,            -- variants with sigma = 0
   admissible NOT NULL,             -- of these, those that keep the output motion and have no more mobility than is there at most
   certainty TEXT NOT NULL,         -- exact, or at least
+  ideas_asked INTEGER NOT NULL,    -- how many ideas were to be kept
   best_cost REAL                   -- of the cheapest of these; of those found, where the certainty is at least
 ) WITHOUT ROWID;
 CREATE TABLE counts (

@@ -41,6 +41,12 @@ pub struct Grippers {
     pub half_turn: u64,
     /// With three jaws, essential or not.
     pub three_jaws: u64,
+    /// Of these, the essential ones.
+    pub three_essential: u64,
+    /// Of the essential ones, those with an automorphism that keeps frame and driver and carries the jaws round.
+    pub three_symmetric: u64,
+    /// Those that move in places symmetric by a third of a turn with a turning input.
+    pub threefold: u64,
 }
 
 impl AddAssign for Grippers {
@@ -54,6 +60,9 @@ impl AddAssign for Grippers {
         self.mirror += o.mirror;
         self.half_turn += o.half_turn;
         self.three_jaws += o.three_jaws;
+        self.three_essential += o.three_essential;
+        self.three_symmetric += o.three_symmetric;
+        self.threefold += o.threefold;
     }
 }
 
@@ -92,7 +101,18 @@ impl Grippers {
                 out.half_turn += works((Symmetry::HalfTurn, Input::Turn));
             }
         }
-        out.three_jaws = subject.grippers(3).len() as u64;
+        for roles in subject.grippers(3) {
+            out.three_jaws += 1;
+            if !subject.is_essential(&roles) {
+                continue;
+            }
+            out.three_essential += 1;
+            if subject.swaps(&roles).next().is_some() {
+                out.three_symmetric += 1;
+                let of = (Symmetry::Threefold, Input::Turn);
+                out.threefold += u64::from(working_swap(subject, &roles, of).is_ok());
+            }
+        }
         out
     }
 }

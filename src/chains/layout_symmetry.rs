@@ -9,6 +9,7 @@ use crate::linalg::echelon::relations;
 use crate::linalg::modp::{Field, Residue};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
+use itertools::Itertools;
 use thiserror::Error;
 
 /// How a structure lies on itself.
@@ -20,14 +21,17 @@ pub enum Symmetry {
     Mirror,
     /// By half a turn about a centre, about which the driver turns.
     HalfTurn,
+    /// By a third of a turn about a centre, about which the driver turns: three jaws.
+    Threefold,
 }
 
 impl Symmetry {
     /// Every symmetry with its word.
-    pub const ALL: [(Symmetry, &'static str); 3] = [
+    pub const ALL: [(Symmetry, &'static str); 4] = [
         (Symmetry::Generic, "generic"),
         (Symmetry::Mirror, "mirror"),
         (Symmetry::HalfTurn, "half-turn"),
+        (Symmetry::Threefold, "threefold"),
     ];
 
     /// The word used for it.
@@ -36,13 +40,24 @@ impl Symmetry {
         Symmetry::ALL[self as usize].1
     }
 
-    /// Whether the input joint may move so: a mirror image needs a slide, half a turn a hinge.
+    /// Whether the input joint may move so: a mirror image needs a slide, half a turn or a third a hinge, since in the plane no
+    /// slide is its own image then.
     #[must_use]
     pub fn suits(self, input: Input) -> bool {
         match self {
             Symmetry::Generic => true,
             Symmetry::Mirror => input == Input::Slide,
-            Symmetry::HalfTurn => input == Input::Turn,
+            Symmetry::HalfTurn | Symmetry::Threefold => input == Input::Turn,
+        }
+    }
+
+    /// How many jaws it carries to each other, where it does.
+    #[must_use]
+    pub fn jaws(self) -> Option<usize> {
+        match self {
+            Symmetry::Generic => None,
+            Symmetry::Mirror | Symmetry::HalfTurn => Some(2),
+            Symmetry::Threefold => Some(3),
         }
     }
 }
@@ -71,8 +86,8 @@ impl Input {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum NoGripper {
-    /// No automorphism of the chain keeps frame and driver and swaps the jaws.
-    #[error("nothing of the chain swaps the jaws")]
+    /// No automorphism of the chain keeps frame and driver and carries the jaws to each other.
+    #[error("nothing of the chain carries the jaws to each other")]
     Unsymmetric,
     /// More than one motion.
     #[error("{0} motions where there should be one")]
@@ -91,7 +106,9 @@ pub enum NoGripper {
 /// 2^61 - 1.
 const PRIME: u64 = (1 << 61) - 1;
 
-/// Pins in places that a symmetry carries to each other, by links; `swap` is the identity where there is none.
+/// Pins in places that a symmetry carries to each other, by links; `swap` is the identity where there is none. A third of a
+/// turn is (x, y) to (-y, x - y): coordinates along two axes at 120°, which stretching the plane makes of square ones, and
+/// motions of hinges are as many in a stretched plane.
 fn pins(
     subject: &Subject<'_>,
     swap: &[usize],
@@ -105,18 +122,29 @@ fn pins(
         if places[i].is_some() {
             continue;
         }
-        let image = (swap[u].min(swap[v]), swap[u].max(swap[v]));
-        let other = joints.iter().position(|&j| j == image).unwrap_or(i);
         let mut draw = || field.from_i64((random.next_u64() >> 4).cast_signed());
         let (x, y) = (draw(), draw());
-        let [own, far] = match symmetry {
-            Symmetry::Generic => [[x, y]; 2],
-            Symmetry::Mirror if other == i => [[x, field.zero()]; 2],
-            Symmetry::Mirror => [[x, y], [x, field.neg(y)]],
-            Symmetry::HalfTurn if other == i => [[field.zero(); 2]; 2],
-            Symmetry::HalfTurn => [[x, y], [field.neg(x), field.neg(y)]],
+        let image = |(u, v): (usize, usize)| (swap[u].min(swap[v]), swap[u].max(swap[v]));
+        let mut at = match symmetry {
+            _ if image((u, v)) != (u, v) => [x, y],
+            Symmetry::Generic => [x, y],
+            Symmetry::Mirror => [x, field.zero()],
+            Symmetry::HalfTurn | Symmetry::Threefold => [field.zero(); 2],
         };
-        (places[i], places[other]) = (Some(own), Some(far));
+        let mut joint = (u, v);
+        while let Some(n) = joints.iter().position(|&j| j == joint)
+            && places[n].is_none()
+        {
+            places[n] = Some(at);
+            let [x, y] = at;
+            at = match symmetry {
+                Symmetry::Generic => [x, y],
+                Symmetry::Mirror => [x, field.neg(y)],
+                Symmetry::HalfTurn => [field.neg(x), field.neg(y)],
+                Symmetry::Threefold => [field.neg(y), field.sub(x, y)],
+            };
+            joint = image(joint);
+        }
     }
     let placed = joints.into_iter().zip(places);
     placed
@@ -173,7 +201,7 @@ fn motions(
     relations(field, &columns).into_iter().map(links).collect()
 }
 
-/// Whether a gripper laid out so that `swap` is its symmetry has one motion, in which the input moves, and the two jaws
+/// Whether a gripper laid out so that `swap` is its symmetry has one motion, in which the input moves, and the jaws
 /// against each other.
 ///
 /// # Errors
@@ -194,20 +222,20 @@ pub fn moves(
     let [motion] = &found[..] else {
         return Err(NoGripper::Motions(found.len()));
     };
-    let [a, b] = [roles.jaws[0], roles.jaws[1]].map(|l| motion[l]);
+    let jaws = || roles.jaws.iter().map(|&l| motion[l]);
     if motion[roles.driver] == rest {
         Err(NoGripper::DeadDrive)
-    } else if a == rest || b == rest {
+    } else if jaws().any(|j| j == rest) {
         Err(NoGripper::DeadJaw)
-    } else if a == b {
+    } else if jaws().tuple_combinations().any(|(a, b)| a == b) {
         Err(NoGripper::Together)
     } else {
         Ok(())
     }
 }
 
-/// The automorphism by which a structure moves as a gripper: the first of those that swap the jaws, or the identity where no
-/// symmetry is asked for.
+/// The automorphism by which a structure moves as a gripper: the first of those that carry the jaws to each other, or the
+/// identity where no symmetry is asked for.
 ///
 /// # Errors
 /// What is wrong with the last of them.
@@ -220,10 +248,13 @@ pub fn working_swap(
     of: (Symmetry, Input),
 ) -> Result<Vec<usize>, NoGripper> {
     let identity: Vec<usize> = (0..subject.chain.links()).collect();
-    if of.0 == Symmetry::Generic {
+    let Some(jaws) = of.0.jaws() else {
         return moves(subject, roles, of, &identity).map(|()| identity);
-    }
+    };
     let mut why = NoGripper::Unsymmetric;
+    if roles.jaws.len() != jaws {
+        return Err(why);
+    }
     for swap in subject.swaps(roles) {
         match moves(subject, roles, of, swap) {
             Ok(()) => return Ok(swap.clone()),

@@ -120,11 +120,14 @@ impl<'a> Subject<'a> {
         self.moving_parts().iter().all(|part| part & links != links)
     }
 
-    /// Whether the part, hinged to both jaws, makes a truss of the whole and of nothing less.
+    /// Whether the part, hinged to both jaws, makes a truss of the whole and of nothing less; hinged to three, it is held more
+    /// than once.
     #[must_use]
     pub fn is_truss(&self, roles: &Roles) -> bool {
         let jaws = roles.jaws.iter().fold(0, |bits, &l| bits | 1 << l);
-        let (a, b) = (roles.jaws[0], roles.jaws[1]);
+        let &[a, b] = &roles.jaws[..] else {
+            return false;
+        };
         let both = |part: &u32| part & jaws == jaws;
         !self.chain.joined(a, b) && !self.moving_parts().iter().any(both)
     }
@@ -136,12 +139,15 @@ impl<'a> Subject<'a> {
         roles.jaws.iter().filter(joined).count()
     }
 
-    /// The automorphisms that, done twice, change nothing, keep frame and driver and swap the two jaws.
+    /// The automorphisms that keep frame and driver, carry each jaw to the next and the last to the first, and change nothing
+    /// when they are done as often as there are jaws: those that swap two.
     pub fn swaps<'b>(&'b self, roles: &'b Roles) -> impl Iterator<Item = &'b Vec<usize>> {
-        let [a, b] = [roles.jaws[0], roles.jaws[1]];
+        let jaws = &roles.jaws;
         self.automorphisms.iter().filter(move |s| {
             let kept = s[roles.frame] == roles.frame && s[roles.driver] == roles.driver;
-            kept && s[a] == b && (0..s.len()).all(|l| s[s[l]] == l)
+            let next = || jaws.iter().cycle().skip(1);
+            let back = |l: usize| jaws.iter().fold(l, |l, _| s[l]) == l;
+            kept && jaws.iter().zip(next()).all(|(&a, &b)| s[a] == b) && (0..s.len()).all(back)
         })
     }
 }

@@ -52,8 +52,26 @@ impl Pose {
     ///
     /// # Complexity
     /// O((6k)²·f) a step.
-    pub fn close(&self, mut q: Vec<f64>, hold: &[usize]) -> Result<Vec<f64>, PoseError> {
+    pub fn close(&self, q: Vec<f64>, hold: &[usize]) -> Result<Vec<f64>, PoseError> {
+        self.close_within(q, hold, f64::INFINITY)
+    }
+
+    /// As [`Pose::close`], where only coordinates no farther than `most` from `q` are of use: once a step leads twice as far, no
+    /// more are taken.
+    ///
+    /// # Errors
+    /// As [`Pose::close`].
+    ///
+    /// # Complexity
+    /// As [`Pose::close`].
+    pub fn close_within(
+        &self,
+        mut q: Vec<f64>,
+        hold: &[usize],
+        most: f64,
+    ) -> Result<Vec<f64>, PoseError> {
         let closed = self.closed();
+        let start = q.clone();
         // Errors of the coordinates must not be mended by running along the motion.
         let floor = (1e3 * self.accuracy()).clamp(1e-11, 1e-2);
         let (mut residual, mut before) = (f64::INFINITY, f64::INFINITY);
@@ -85,6 +103,14 @@ impl Pose {
             let shorten = (0.5 / length).min(1.0);
             for (x, s) in q.iter_mut().zip(&step) {
                 *x -= shorten * s;
+            }
+            let far = q
+                .iter()
+                .zip(&start)
+                .map(|(a, b)| (a - b) * (a - b))
+                .sum::<f64>();
+            if far.sqrt() > 2.0 * most {
+                break;
             }
         }
         if best.0 < closed {

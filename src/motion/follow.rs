@@ -238,9 +238,10 @@ impl Follower {
         }
         let mut hold = self.held.clone();
         hold.push(self.drive);
-        let q = self.anchor.close(guess.clone(), &hold).ok()?;
+        let most = CORRECTION * ahead.abs() * norm(&self.tangent.speeds);
+        let q = self.anchor.close_within(guess.clone(), &hold, most).ok()?;
         let correction: Vec<f64> = q.iter().zip(&guess).map(|(a, b)| a - b).collect();
-        if norm(&correction) > CORRECTION * ahead.abs() * norm(&self.tangent.speeds) {
+        if norm(&correction) > most {
             return None;
         }
         let next = self.tangent_at(&q, Some(&self.tangent));

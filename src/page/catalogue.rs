@@ -19,8 +19,8 @@ const SCRIPT: [&str; 3] = [
 
 /// What a card is made of, but for its drawing and its ideas.
 const CARD: &str = "SELECT id, name, links, input, symmetry, parallel, jaws_at_frame, truss, mechanism, crossings, link_ratio, transmission, \
-     opening_min, opening_max, travel, force_min, force_mean, force_max, jaw_a_motion, jaw_b_motion, jaw_turn, ends_closing, \
-     ends_opening, tip_a_dx, tip_a_dy, tip_b_dx, tip_b_dy, mobility, redundant, finite, CAST(determinate AS TEXT) AS determinate, \
+     opening_min, opening_max, travel, force_min, force_mean, force_max, jaw_a_motion, jaw_b_motion, jaw_c_motion, jaw_turn, ends_closing, \
+     ends_opening, tip_a_dx, tip_a_dy, tip_b_dx, tip_b_dy, tip_c_dx, tip_c_dy, mobility, redundant, finite, CAST(determinate AS TEXT) AS determinate, \
      CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost, id IN (SELECT id FROM front) AS front FROM structures JOIN layouts ON structure = id \
      ORDER BY links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id";
 /// What a card of a drawn mechanism is made of.
@@ -83,7 +83,7 @@ fn drawing(text: &str) -> Option<Value> {
         Some([x, y])
     };
     let tips: Option<Vec<[f64; 2]>> = jaws.iter().map(tip).collect();
-    let tips = tips.filter(|t| t.len() == 2);
+    let tips = tips.filter(|t| (2..=3).contains(&t.len()));
     let scaled = scale(&[&pins[..], tips.as_deref().unwrap_or_default()].concat());
     let place = |p: &[f64; 2]| p.map(|x| x * scaled);
     Some(json!({
@@ -159,7 +159,7 @@ pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
                 header {
                     h1 { (title) }
                     p.lead {
-                        "Kinematic chains with a frame, a driver and two jaws, each laid out in a plane and searched for the redesigns "
+                        "Kinematic chains with a frame, a driver and jaws, each laid out in a plane and searched for the redesigns "
                         "without redundant constraints. Counts are of all joint assignments; costs are per joint changed."
                     }
                     p.meta { (cards.len()) " grippers from " code { (file) } @if left_out > 0 { "; " (left_out) " structures have no layout" } }
@@ -167,6 +167,10 @@ pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
                 main {
                     noscript { p { "The cards need scripts; " code { "ozols catalog query " (file) } " lists the same." } }
                     (filters())
+                    p.help {
+                        "Green: the driver. Blue: the jaws; red arrows: how their tips close on the part, dashed. "
+                        "Triangles on a line: hinges in the frame; two lines: a guide in it."
+                    }
                     p.note id="count" role="status" {}
                     ul id="cards" tabindex="-1" {}
                     p id="more" hidden { button type="button" { "Show more" } }
@@ -207,7 +211,7 @@ fn filters() -> maud::Markup {
         form id="filters" aria-label="Filter the grippers" {
             label { "Links " select id="links" { option value="" { "all" } } }
             (select("input", "Driver", &[("", "all"), ("slide", "slides"), ("turn", "turns")]))
-            (select("symmetry", "Layout", &[("", "all"), ("mirror", "mirror image"), ("half-turn", "half turn"), ("generic", "generic"), ("drawn", "drawn")]))
+            (select("symmetry", "Layout", &[("", "all"), ("mirror", "mirror image"), ("half-turn", "half turn"), ("threefold", "threefold"), ("generic", "generic"), ("drawn", "drawn")]))
             (select("jaws", "Jaws", &[("", "all"), ("parallel", "parallel"), ("swinging", "swinging"), ("floating", "floating")]))
             label { "Cost at most " input type="number" id="cost" min="0" step="0.5" inputmode="decimal"; }
             label { "Transmission angle from " input type="number" id="transmission" min="0" max="90" step="5" inputmode="numeric"; }

@@ -1,11 +1,13 @@
 //! What a laid-out gripper does over its stroke: how far it opens, with what force it closes, how the jaws move.
 
 use crate::geom::exact::ExactError;
+use crate::geom::vector::{dot, sub, unit as unit_vector};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::follow::{Follower, Why, slides};
 use crate::motion::pose::Pose;
 use crate::synthesis::layout::Layout;
 use crate::synthesis::mechanism::link_names;
+use crate::synthesis::skeleton::{Point, middle};
 use crate::synthesis::structure::Structure;
 
 /// Steps over the drawn opening.
@@ -51,9 +53,9 @@ pub struct Figures {
     /// Where the drive turns, newtons for a newton metre.
     pub force: [f64; 3],
     /// How each jaw moves.
-    pub jaws: [JawMotion; 2],
+    pub jaws: Vec<JawMotion>,
     /// How far each jaw turns over the stroke, in rad.
-    pub turns: [f64; 2],
+    pub turns: Vec<f64>,
     /// Why the stroke ends before the jaws have closed, and before they have opened so far.
     pub ends: [Option<Why>; 2],
 }
@@ -74,23 +76,30 @@ pub fn figures(
     let names = link_names(structure);
     let drive = |j: JointId| mechanism.joints[j].drive;
     let drive = (0..pose.columns.len()).find(|&c| drive(pose.columns[c].joint));
-    let jaws = [0, 1].map(|n| mechanism.link(&names[structure.roles.jaws[n]]));
-    let (Some(drive), [Some(a), Some(b)]) = (drive, jaws) else {
-        unreachable!("the file of a layout has a drive and two jaws");
+    let jaws = structure.roles.jaws.iter();
+    let jaws: Option<Vec<LinkId>> = jaws.map(|&j| mechanism.link(&names[j])).collect();
+    let (Some(drive), Some(jaws)) = (drive, jaws) else {
+        unreachable!("the file of a layout has a drive and its jaws");
     };
     let unit = if slides(&pose, drive) {
         pose.length
     } else {
         1.0
     };
+    let tips: Vec<Point> = layout.tips.iter().map(|t| t.real()).collect();
+    let centre = middle(&tips);
+    #[allow(clippy::cast_precision_loss, reason = "two or three")]
+    let pairs = jaws.len() as f64 / 2.0;
+    // Twice the tips' mean distance from where they close, which for two is their distance.
     let opening = |p: &Pose| {
-        let tip = |jaw: LinkId, n: usize| {
-            let [x, y] = layout.tips[n].map(f64::from);
+        let out = jaws.iter().zip(&tips).map(|(&jaw, tip)| {
             let [u, v, w] = pose.middle;
-            let place = [x - u, y - v, -w].map(|x| x / pose.length);
-            p.links[jaw].point(place)[1] * pose.length
-        };
-        tip(a, 0) - tip(b, 1)
+            let place = [tip[0] - u, tip[1] - v, -w].map(|x| x / pose.length);
+            let [x, y, _] = p.links[jaw].point(place).map(|x| x * pose.length);
+            let outward = unit_vector(sub(*tip, centre));
+            dot(sub([x + u, y + v], centre), outward)
+        });
+        out.sum::<f64>() / pairs
     };
     let turn = |p: &Pose, jaw: LinkId| {
         let m = &p.links[jaw];
@@ -109,7 +118,7 @@ pub fn figures(
         }
     };
     let mut way = vec![(0.0, drawn)];
-    let mut turns = [0.0_f64; 2];
+    let mut turns = vec![0.0_f64; jaws.len()];
     let mut ends = [None; 2];
     for (n, until) in OPENINGS.into_iter().enumerate() {
         let direction = if n == 0 { sign } else { -sign };
@@ -130,7 +139,9 @@ pub fn figures(
             }
             last = now;
             way.push((to * unit, now));
-            turns = [turns[0].max(turn(&here, a)), turns[1].max(turn(&here, b))];
+            for (most, &jaw) in turns.iter_mut().zip(&jaws) {
+                *most = most.max(turn(&here, jaw));
+            }
             if (now <= until * drawn) == (n == 0) {
                 break;
             }
@@ -141,7 +152,7 @@ pub fn figures(
     let metre = if slides(&pose, drive) { 1.0 } else { 1000.0 };
     let ratios: Vec<f64> = way
         .windows(2)
-        .map(|w| metre * (w[1].0 - w[0].0).abs() / (w[1].1 - w[0].1))
+        .map(|w| metre / pairs * (w[1].0 - w[0].0).abs() / (w[1].1 - w[0].1))
         .collect();
     #[allow(clippy::cast_precision_loss, reason = "a few")]
     let count = ratios.len().max(1) as f64;
@@ -164,7 +175,7 @@ pub fn figures(
             ratios.iter().sum::<f64>() / count,
             ratios.iter().copied().fold(0.0, f64::max),
         ],
-        jaws: [motion(0), motion(1)],
+        jaws: (0..jaws.len()).map(motion).collect(),
         turns,
         ends,
     })

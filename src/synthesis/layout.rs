@@ -5,8 +5,11 @@
 use crate::chains::layout_symmetry::{NoGripper, working_swap};
 use crate::chains::roles::Subject;
 use crate::closure::tree::forest;
-use crate::synthesis::looks::{Limits, Looks, Point, looks, middle, tips};
+use crate::geom::vector::add_scaled;
+use crate::synthesis::looks::{Limits, Looks};
+use crate::synthesis::place::Place;
 use crate::synthesis::rules::{Rule, Rules};
+use crate::synthesis::skeleton::{Point, Skeleton, middle};
 use crate::synthesis::structure::Structure;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -27,12 +30,12 @@ const GOOD: f64 = 3.0;
 pub struct Layout {
     /// The links of each pin, by canonical numbers; the input joint is among them.
     pub pins: Vec<(usize, usize)>,
-    /// Their places in millimetres, whole numbers.
-    pub at: Vec<[i32; 2]>,
+    /// Their places, in millimetres.
+    pub at: Vec<Place>,
     /// Joints that are images of each other, by their places in the list.
     pub images: Vec<(usize, usize)>,
     /// Where the tips of the jaws are.
-    pub tips: [[i32; 2]; 2],
+    pub tips: Vec<Place>,
     /// The figures it was taken for.
     pub looks: Looks,
     /// The start it was found from.
@@ -85,6 +88,8 @@ pub fn layout(
     let of = (structure.form.symmetry, structure.form.input);
     let swap = working_swap(subject, &structure.roles, of)?;
     let rules = Rules::new(structure, &swap).ok_or(NoLayout::Parallelograms)?;
+    let skeleton = Skeleton::new(structure, rules);
+    let rules = &skeleton.rules;
     let within = |l: &Looks| {
         l.ratio <= limits.ratio
             && l.transmission >= limits.transmission
@@ -93,7 +98,7 @@ pub fn layout(
     };
     let mut best: Option<(bool, Looks, Vec<Point>, u32)> = None;
     for start in 0..STARTS {
-        let (at, found) = anneal(structure, &rules, &mut random(structure, seed, start));
+        let (at, found) = anneal(&skeleton, &mut random(structure, seed, start));
         let Some(found) = found else { continue };
         let better = best
             .as_ref()
@@ -119,13 +124,11 @@ pub fn layout(
             straightness: 100.0 * looks.straightness,
         });
     }
-    #[allow(clippy::cast_possible_truncation, reason = "whole and small")]
-    let whole = |p: Point| p.map(|x| x.round() as i32);
     Ok(Layout {
         pins: rules.pins.clone(),
-        at: at.into_iter().map(whole).collect(),
+        at: rules.places(&at),
+        tips: structure.tips(),
         images: rules.images().collect(),
-        tips: tips(structure).map(whole),
         looks,
         start,
     })
@@ -153,10 +156,11 @@ fn bell(random: &mut ChaCha8Rng) -> f64 {
     (0..12).map(|_| unit(random)).sum::<f64>() - 6.0
 }
 
-/// Links between frame and jaws as far ahead as they are joints away, each pin between its two links.
-fn first_places(structure: &Structure, rules: &Rules, random: &mut ChaCha8Rng) -> Vec<Point> {
+/// Links between frame and jaws as far ahead as they are joints away, each pin between its two links; the tips after them.
+fn first_places(skeleton: &Skeleton<'_>, random: &mut ChaCha8Rng) -> Vec<Point> {
+    let (structure, rules) = (skeleton.structure, &skeleton.rules);
     let c = &structure.chain;
-    let joints: Vec<[usize; 2]> = c.joints().into_iter().map(|(u, v)| [u, v]).collect();
+    let joints: Vec<[usize; 2]> = rules.pins.iter().map(|&(u, v)| [u, v]).collect();
     // Joints on a shortest way from a link to each.
     let far = |from: usize| {
         let (_, steps) = forest(c.links(), joints.iter().copied(), |_| false, [from]);
@@ -166,44 +170,45 @@ fn first_places(structure: &Structure, rules: &Rules, random: &mut ChaCha8Rng) -
         }
         away
     };
-    let (frame, jaws) = (
-        far(structure.roles.frame),
-        [0, 1].map(|n| far(structure.roles.jaws[n])),
-    );
-    let tips = tips(structure);
+    let frame = far(structure.roles.frame);
+    let jaws: Vec<Vec<f64>> = structure.roles.jaws.iter().map(|&j| far(j)).collect();
+    let ahead_most = middle(&skeleton.tips);
     let place = |l: usize| -> Point {
-        let near = jaws[0][l].min(jaws[1][l]);
+        let away = || jaws.iter().map(|j| j[l]);
+        let near = away().fold(f64::INFINITY, f64::min);
         let ahead = frame[l] / (frame[l] + near).max(1.0);
-        // The nearer jaw draws a link to its side.
-        let side = (jaws[1][l] - jaws[0][l]) / (jaws[1][l] + jaws[0][l]).max(1.0);
-        let tip = middle(&tips);
-        [tip[0] * 0.8 * ahead, 40.0 * side + tip[1] * ahead]
+        // The nearer jaws draw a link to their side.
+        let all = away().sum::<f64>();
+        #[allow(clippy::cast_precision_loss, reason = "two or three")]
+        let mean = all / jaws.len() as f64;
+        let start = [0.8 * ahead * ahead_most[0], ahead * ahead_most[1]];
+        let sides = away().zip(&skeleton.inward);
+        sides.fold(start, |place, (away, inward)| {
+            add_scaled(place, 40.0 * (away - mean) / all.max(1.0), *inward)
+        })
     };
-    let mut at: Vec<Point> = Vec::with_capacity(rules.pins.len());
+    let mut at: Vec<Point> = Vec::with_capacity(rules.pins.len() + skeleton.tips.len());
     for &(u, v) in &rules.pins {
         let [x, y] = middle(&[place(u), place(v)]);
         at.push([x + 12.0 * bell(random), y + 12.0 * bell(random)].map(f64::round));
     }
+    at.extend(&skeleton.tips);
     rules.settle(&mut at);
     at
 }
 
-fn anneal(
-    structure: &Structure,
-    rules: &Rules,
-    random: &mut ChaCha8Rng,
-) -> (Vec<Point>, Option<Looks>) {
-    let mut at = first_places(structure, rules, random);
+/// The places at the end of one search, with the tips after the pins, and what they are like.
+fn anneal(skeleton: &Skeleton<'_>, random: &mut ChaCha8Rng) -> (Vec<Point>, Option<Looks>) {
+    let rules = &skeleton.rules;
+    let mut at = first_places(skeleton, random);
     let movable: Vec<usize> = rules.movable().collect();
-    let cost = |at: &[Point], moving: bool| {
-        looks(structure, rules, at, moving).map_or(f64::INFINITY, |l| l.penalty)
-    };
-    let mut now = cost(&at, false);
-    let mut best = (f64::INFINITY, at.clone());
+    let (mut now, mut best) = (f64::INFINITY, (f64::INFINITY, at.clone()));
+    let mut before = at.clone();
     for step in 0..MOVES {
         let moving = step + MOVING >= MOVES;
         if step + MOVING == MOVES {
-            now = cost(&at, true);
+            let cost = skeleton.penalty(&at, true, f64::INFINITY);
+            now = cost.unwrap_or(f64::INFINITY);
             best = (now, at.clone());
         }
         #[allow(clippy::cast_precision_loss, reason = "a few thousand")]
@@ -211,7 +216,7 @@ fn anneal(
         let (heat, reach) = (2.0 * left * left, 2.0 + 18.0 * left);
         #[allow(clippy::cast_possible_truncation, reason = "the remainder is an index")]
         let pin = movable[(random.next_u64() % movable.len() as u64) as usize];
-        let before = at.clone();
+        before.copy_from_slice(&at);
         at[pin] = match rules.rules[pin] {
             Rule::OnLine => [at[pin][0] + reach * bell(random), 0.0],
             _ => [
@@ -221,16 +226,18 @@ fn anneal(
         }
         .map(f64::round);
         rules.settle(&mut at);
-        let then = cost(&at, moving);
-        if then <= now || unit(random) < ((now - then) / heat.max(1e-9)).exp() {
-            now = then;
-            if moving && now < best.0 {
-                best = (now, at.clone());
+        // Taken where exp((now - then) / heat) is above a random number: what is too dear is not looked at to the end.
+        let most = now - heat * unit(random).ln();
+        match skeleton.penalty(&at, moving, most) {
+            Some(then) => {
+                now = then;
+                if moving && now < best.0 {
+                    best = (now, at.clone());
+                }
             }
-        } else {
-            at = before;
+            None => at.copy_from_slice(&before),
         }
     }
-    let found = looks(structure, rules, &best.1, true);
+    let found = skeleton.looks(&best.1);
     (best.1, found)
 }

@@ -1,24 +1,19 @@
 //! What a layout looks like, and how well it moves: the figures by which it is judged.
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
-use crate::geom::vector::{add_scaled, cross_plane, dot, length, sub};
-use crate::synthesis::rules::Rules;
-use crate::synthesis::structure::Structure;
-use crate::synthesis::velocities::{Velocity, velocities};
+use crate::geom::vector::{cross_plane, dot, length, sub};
+use crate::synthesis::skeleton::{Point, Skeleton};
+use crate::synthesis::velocities::Velocity;
 
-/// A point of the plane, in millimetres.
-pub type Point = [f64; 2];
-
-/// Where the tips of the jaws are: far in front, and apart by the part that is held.
-pub const REACH: f64 = 120.0;
-/// Half of the drawn opening.
-pub const HALF_OPENING: f64 = 15.0;
 /// Pins nearer to each other than this run into each other.
 const NEAR: f64 = 14.0;
 /// Links longer than this are long.
 const LONG: f64 = 75.0;
 /// A pin nearer than this to a link that it is no part of lies on it.
 const ON: f64 = 6.0;
+
+/// A pin nearer than this to the middle of the part that is held is in its way.
+const PART: f64 = 25.0;
 
 /// What a layout must be like to be taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,7 +37,7 @@ impl Default for Limits {
 }
 
 /// Figures of a layout at the pose it is drawn in.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Looks {
     /// Crossings of links, and pins on links that they are no part of.
     pub crossings: usize,
@@ -51,71 +46,14 @@ pub struct Looks {
     /// The least angle between a rod and the motion across it at its ends: 90° is best, 0 is a dead point. In degrees; 90
     /// where there are no rods.
     pub transmission: f64,
-    /// How fast the tips approach each other for a unit of the drive: millimetres a millimetre or a radian.
+    /// How fast the opening shrinks for a unit of the drive: millimetres a millimetre or a radian.
     pub closing: f64,
     /// Share of the tips' motion that closes them.
     pub straightness: f64,
-    /// How the two tips move as they close, for a unit of the drive.
-    pub tips: [Point; 2],
-    /// What the places cost besides, 0 at best.
+    /// How the tips move as they close, for a unit of the drive.
+    pub tips: Vec<Point>,
+    /// What the places cost, 0 at best.
     pub penalty: f64,
-}
-
-/// The tips of the two jaws.
-#[must_use]
-pub fn tips(structure: &Structure) -> [Point; 2] {
-    match structure.form.symmetry {
-        // The part lies over the centre, and the jaws beside it.
-        Symmetry::HalfTurn => [[0.0, HALF_OPENING], [0.0, -HALF_OPENING]],
-        Symmetry::Generic | Symmetry::Mirror => [[REACH, HALF_OPENING], [REACH, -HALF_OPENING]],
-    }
-}
-
-/// Each link with the places of its pins, those of a jaw with its tip; each by its number, those of the tips last.
-#[must_use]
-pub fn outlines(structure: &Structure, rules: &Rules, at: &[Point]) -> Vec<Vec<(usize, Point)>> {
-    let mut out = vec![Vec::new(); structure.chain.links()];
-    for (i, &(u, v)) in rules.pins.iter().enumerate() {
-        out[u].push((i, at[i]));
-        out[v].push((i, at[i]));
-    }
-    for (n, (&jaw, tip)) in structure.roles.jaws.iter().zip(tips(structure)).enumerate() {
-        out[jaw].push((rules.pins.len() + n, tip));
-    }
-    out
-}
-
-/// The edges of the convex hull of points, by their numbers.
-#[must_use]
-pub fn hull(points: &[(usize, Point)]) -> Vec<[(usize, Point); 2]> {
-    if let [a, b] = points {
-        return vec![[*a, *b]];
-    }
-    let mut edges = Vec::new();
-    for &a in points {
-        for &b in points.iter().filter(|b| b.0 != a.0) {
-            let side = |c: &(usize, Point)| cross_plane(sub(b.1, a.1), sub(c.1, a.1));
-            // All others on the left: an edge of the hull, once round.
-            if points
-                .iter()
-                .all(|c| c.0 == a.0 || c.0 == b.0 || side(c) > 0.0)
-            {
-                edges.push([a, b]);
-            }
-        }
-    }
-    edges
-}
-
-fn crosses([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
-    let side = |p: Point, q: Point, r: Point| cross_plane(sub(q, p), sub(r, p)) > 0.0;
-    side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
-}
-
-fn distance(p: Point, [a, b]: [Point; 2]) -> f64 {
-    let (along, to) = (sub(b, a), sub(p, a));
-    let t = (dot(to, along) / dot(along, along).max(1e-9)).clamp(0.0, 1.0);
-    length(sub(to, [along[0] * t, along[1] * t]))
 }
 
 /// Pins whose coordinates differ by less than this are nearly in line.
@@ -126,162 +64,252 @@ fn beyond(over: f64, width: f64) -> f64 {
     (over.max(0.0) / width).powi(2)
 }
 
-/// The figures of places, with `moving` those of its velocities; `None` where the pose is singular.
-///
-/// # Complexity
-/// O(p²) for p pins, and O(n³) for n links where velocities are asked for.
-#[must_use]
-pub fn looks(structure: &Structure, rules: &Rules, at: &[Point], moving: bool) -> Option<Looks> {
-    let outlines = outlines(structure, rules, at);
-    let frame = structure.roles.frame;
-    let mut penalty = 0.0;
-    let mut all: Vec<(usize, Point)> = at.iter().copied().enumerate().collect();
-    all.extend(
-        tips(structure)
-            .into_iter()
-            .enumerate()
-            .map(|(n, p)| (at.len() + n, p)),
-    );
-    for (i, a) in all.iter().enumerate() {
-        for b in &all[..i] {
-            penalty += 4.0 * beyond(NEAR - length(sub(a.1, b.1)), NEAR);
-        }
-    }
-    // Pins level with each other, or square above each other, have an axis in common: a special place that costs redesigns.
-    for (i, a) in at.iter().enumerate() {
-        for (j, b) in at[..i].iter().enumerate() {
-            let forced = rules.follows(i) || rules.follows(j);
-            for k in (0..2).filter(|_| !forced) {
-                penalty += 0.5 * beyond(ALIGNED - (a[k] - b[k]).abs(), ALIGNED);
-            }
-        }
-    }
-    let (mut longest, mut shortest) = (0.0_f64, f64::INFINITY);
-    let mut edges = Vec::new();
-    for (l, points) in outlines.iter().enumerate().filter(|(l, _)| *l != frame) {
-        for (i, a) in points.iter().enumerate() {
-            for b in &points[..i] {
-                let d = length(sub(a.1, b.1));
-                (longest, shortest) = (longest.max(d), shortest.min(d));
-                penalty += beyond(d - LONG, 25.0) + beyond(18.0 - d, 10.0);
-            }
-        }
-        edges.extend(hull(points).into_iter().map(|[a, b]| (l, [a, b])));
-    }
-    let mut crossings = 0;
-    for (i, (l, [a, b])) in edges.iter().enumerate() {
-        for (m, [c, d]) in &edges[..i] {
-            let apart = l != m && [a.0, b.0].iter().all(|p| *p != c.0 && *p != d.0);
-            crossings += usize::from(apart && crosses([a.1, b.1], [c.1, d.1]));
-        }
-        for (p, place) in &all {
-            let own = outlines[*l].iter().any(|(q, _)| q == p);
-            let near = distance(*place, [a.1, b.1]);
-            if !own && near < ON {
-                crossings += 1;
-                penalty += beyond(ON - near, ON);
-            }
-        }
-    }
-    #[allow(clippy::cast_precision_loss, reason = "a few")]
-    let count = crossings as f64;
-    penalty += 1.5 * count;
-    penalty += places(structure, &outlines, at);
-    let mut out = Looks {
-        crossings,
-        ratio: longest / shortest,
-        transmission: 90.0,
-        closing: 0.0,
-        straightness: 1.0,
-        tips: [[0.0; 2]; 2],
-        penalty,
-    };
-    if moving {
-        let velocities = velocities(structure, rules, at)?;
-        motion(structure, &outlines, &velocities, &mut out);
-    }
-    Some(out)
+fn crosses([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
+    let side = |p: Point, q: Point, r: Point| cross_plane(sub(q, p), sub(r, p)) > 0.0;
+    side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
 }
 
-/// The frame behind, the jaws in front, pins beside the middle.
-fn places(structure: &Structure, outlines: &[Vec<(usize, Point)>], at: &[Point]) -> f64 {
-    let mut penalty = 0.0;
-    if structure.form.symmetry == Symmetry::HalfTurn {
-        return at.iter().map(|p| beyond(length(*p) - 80.0, 25.0)).sum();
-    }
-    for (_, [x, _]) in &outlines[structure.roles.frame] {
-        penalty += beyond(x - 50.0, 25.0) + beyond(-x, 25.0);
-    }
-    for [x, y] in at {
-        // Nothing but the tips is where the part is.
-        penalty += beyond(x - 95.0, 10.0);
-        penalty += beyond(y.abs() - 60.0, 25.0) + beyond(-x, 25.0);
-    }
-    for (n, &jaw) in structure.roles.jaws.iter().enumerate() {
-        let sign = if n == 0 { 1.0 } else { -1.0 };
-        for (_, [x, y]) in &outlines[jaw] {
-            penalty += beyond(30.0 - x, 25.0) + 0.3 * beyond(-sign * y, 25.0);
-        }
-    }
-    penalty
+fn distance(p: Point, [a, b]: [Point; 2]) -> f64 {
+    let (along, to) = (sub(b, a), sub(p, a));
+    let t = (dot(to, along) / dot(along, along).max(1e-9)).clamp(0.0, 1.0);
+    length(sub(to, along.map(|x| x * t)))
 }
 
-/// The figures of a motion, and what they cost.
-fn motion(
-    structure: &Structure,
-    outlines: &[Vec<(usize, Point)>],
-    velocities: &[Velocity],
-    out: &mut Looks,
-) {
-    let [a, b] = [structure.roles.jaws[0], structure.roles.jaws[1]].map(|j| velocities[j]);
-    let [p, q] = tips(structure);
-    let (va, vb) = (a.at(p), b.at(q));
-    out.closing = (vb[1] - va[1]).abs();
-    let closes = (vb[1] - va[1]).signum();
-    out.tips = [va, vb].map(|v| v.map(|x| closes * x));
-    let all = length(va) + length(vb);
-    out.straightness = out.closing / all.max(1e-12);
-    if va[1] * vb[1] >= 0.0 {
-        // Both go the same way: one of them runs after the other.
-        out.straightness = 0.0;
+/// Whether a point is outside the box round two others by a margin, and so farther from all between them.
+fn is_far(p: Point, [a, b]: [Point; 2], margin: f64) -> bool {
+    (0..2).any(|k| p[k] < a[k].min(b[k]) - margin || p[k] > a[k].max(b[k]) + margin)
+}
+
+/// What velocities say of a layout.
+struct Motion {
+    closing: f64,
+    straightness: f64,
+    tips: Vec<Point>,
+    transmission: f64,
+    penalty: f64,
+}
+
+/// The figures of points: pins, then tips.
+impl Skeleton<'_> {
+    /// What places cost, with `moving` their velocities, too; `None` where that is more than `most`, or the pose is singular.
+    /// Every part of it only adds, so that what is too dear is known early.
+    ///
+    /// # Complexity
+    /// O(p²) for p points, and O(n³) for n links where velocities are asked for.
+    #[must_use]
+    pub fn penalty(&self, at: &[Point], moving: bool, most: f64) -> Option<f64> {
+        let cheap = |sum: f64| (sum <= most).then_some(sum);
+        let mut sum = cheap(self.places(at) + self.lengths(at).1)?;
+        sum = cheap(sum + self.spacing(at))?;
+        sum = cheap(sum + self.crossings(at).1)?;
+        if moving {
+            sum = cheap(sum + self.motion(at)?.penalty)?;
+        }
+        Some(sum)
     }
-    let even = (va[1] / vb[1]).abs().max(1e-9).ln().abs();
-    out.penalty += 8.0 * beyond(0.8 - out.straightness, 0.8) + 0.5 * beyond(even - 0.5, 1.0);
-    // The drive: a millimetre for half to four millimetres of closing, a radian for 15 to 120.
-    let drive = match structure.form.input {
-        Input::Slide => out.closing,
-        Input::Turn => out.closing / 30.0,
-    };
-    out.penalty += beyond((drive.max(1e-9) / 1.5).ln().abs() - 0.9, 0.5).min(20.0);
-    let fastest = velocities
-        .iter()
-        .map(|v| v.turning.abs())
-        .fold(0.0, f64::max);
-    out.penalty += beyond(fastest * 40.0 / out.closing.max(1e-9) - 2.0, 1.5).min(20.0);
-    for (l, points) in outlines.iter().enumerate() {
-        let rod = l != structure.roles.driver && l != structure.roles.frame;
-        if let ([(_, a), (_, b)], true) = (&points[..], rod) {
-            let along = sub(*b, *a);
-            let (va, vb) = (velocities[l].at(*a), velocities[l].at(*b));
-            let speed = length(va).max(length(vb));
-            // Along the rod both ends are equally fast. A rod from the frame pulls nothing: its end goes across it.
-            let least = length(va).min(length(vb));
-            if least < 1e-6 * speed.max(1e-9) {
-                continue;
+
+    /// All figures; `None` where the pose is singular.
+    ///
+    /// # Complexity
+    /// As [`Skeleton::penalty`].
+    #[must_use]
+    pub fn looks(&self, at: &[Point]) -> Option<Looks> {
+        let motion = self.motion(at)?;
+        Some(Looks {
+            crossings: self.crossings(at).0,
+            ratio: self.lengths(at).0,
+            transmission: motion.transmission,
+            closing: motion.closing,
+            straightness: motion.straightness,
+            tips: motion.tips,
+            penalty: self.penalty(at, true, f64::INFINITY)?,
+        })
+    }
+
+    /// Points that run into each other, and pins in line.
+    fn spacing(&self, at: &[Point]) -> f64 {
+        let mut penalty = 0.0;
+        let pins = self.rules.pins.len();
+        for (i, a) in at.iter().enumerate() {
+            for (j, b) in at[..i].iter().enumerate() {
+                let apart = sub(*a, *b);
+                let square = dot(apart, apart);
+                if square < NEAR * NEAR {
+                    penalty += 4.0 * beyond(NEAR - square.sqrt(), NEAR);
+                }
+                // Pins level with each other, or square above each other, have an axis in common: a special place that costs
+                // redesigns.
+                if i < pins && !self.rules.follows(i) && !self.rules.follows(j) {
+                    penalty += apart
+                        .iter()
+                        .map(|x| 0.5 * beyond(ALIGNED - x.abs(), ALIGNED))
+                        .sum::<f64>();
+                }
             }
-            let sine = (dot(va, along) / length(along).max(1e-9) / speed.max(1e-12)).abs();
-            out.transmission = out.transmission.min(sine.min(1.0).asin().to_degrees());
         }
+        penalty
     }
-    out.penalty += beyond(40.0 - out.transmission, 20.0);
+
+    /// The longest link over the shortest, and what long and short ones cost.
+    fn lengths(&self, at: &[Point]) -> (f64, f64) {
+        let (mut longest, mut shortest, mut penalty) = (0.0_f64, f64::INFINITY, 0.0);
+        let frame = self.structure.roles.frame;
+        for (_, points) in self.of_link.iter().enumerate().filter(|(l, _)| *l != frame) {
+            for (i, &a) in points.iter().enumerate() {
+                for &b in &points[..i] {
+                    let d = length(sub(at[a], at[b]));
+                    (longest, shortest) = (longest.max(d), shortest.min(d));
+                    penalty += beyond(d - LONG, 25.0) + beyond(18.0 - d, 10.0);
+                }
+            }
+        }
+        (longest / shortest, penalty)
+    }
+
+    /// The sides of the links but the frame, each with its link.
+    fn sides(&self, at: &[Point]) -> Vec<(usize, [usize; 2])> {
+        let mut out = Vec::with_capacity(3 * at.len());
+        let frame = self.structure.roles.frame;
+        for (l, points) in self.of_link.iter().enumerate().filter(|(l, _)| *l != frame) {
+            match points[..] {
+                [a, b] => out.push((l, [a, b])),
+                [a, b, c] => out.extend([[a, b], [b, c], [c, a]].map(|e| (l, e))),
+                _ => out.extend(hull(points, at).map(|e| (l, e))),
+            }
+        }
+        out
+    }
+
+    /// Crossings of links and pins on links that they are no part of, and what they and splinters cost.
+    fn crossings(&self, at: &[Point]) -> (usize, f64) {
+        let sides = self.sides(at);
+        let (mut count, mut penalty) = (0, 0.0);
+        for (i, &(l, [a, b])) in sides.iter().enumerate() {
+            let side = [at[a], at[b]];
+            for &(m, [c, d]) in &sides[..i] {
+                let apart = l != m && a != c && a != d && b != c && b != d;
+                count += usize::from(apart && crosses(side, [at[c], at[d]]));
+            }
+            for (p, &place) in at.iter().enumerate() {
+                if p == a || p == b || is_far(place, side, ON) {
+                    continue;
+                }
+                let near = distance(place, side);
+                if near < ON {
+                    // A point of the link itself makes it a splinter, which is no crossing.
+                    count += usize::from(self.members[l] >> p & 1 == 0);
+                    penalty += beyond(ON - near, ON);
+                }
+            }
+        }
+        #[allow(clippy::cast_precision_loss, reason = "a few")]
+        let all = count as f64;
+        (count, penalty + 1.5 * all)
+    }
+
+    /// The frame behind, the jaws in front, pins beside the middle; or all of it round the part.
+    fn places(&self, at: &[Point]) -> f64 {
+        let (pins, tips) = at.split_at(self.rules.pins.len());
+        if self.structure.is_round() {
+            // Pins where the part is are in its way, but for those of a drive behind it.
+            let within = match self.structure.form.symmetry {
+                Symmetry::Generic => PART,
+                _ => 0.0,
+            };
+            let pin = |p: &Point| {
+                let far = length(*p);
+                beyond(far - 80.0, 25.0) + beyond(within - far, 10.0)
+            };
+            return pins.iter().map(pin).sum();
+        }
+        let mut penalty = 0.0;
+        for &i in &self.of_link[self.structure.roles.frame] {
+            penalty += beyond(at[i][0] - 50.0, 25.0) + beyond(-at[i][0], 25.0);
+        }
+        for [x, y] in pins {
+            // Nothing but the tips is where the part is.
+            penalty += beyond(x - 95.0, 10.0);
+            penalty += beyond(y.abs() - 60.0, 25.0) + beyond(-x, 25.0);
+        }
+        for (&jaw, tip) in self.structure.roles.jaws.iter().zip(tips) {
+            for &i in &self.of_link[jaw] {
+                let [x, y] = at[i];
+                penalty += beyond(30.0 - x, 25.0) + 0.3 * beyond(-tip[1].signum() * y, 25.0);
+            }
+        }
+        penalty
+    }
+
+    /// The figures of the motion, and what they cost.
+    fn motion(&self, at: &[Point]) -> Option<Motion> {
+        let velocities = self.contours.velocities(at)?;
+        let jaws = self.structure.roles.jaws.iter().zip(&self.tips);
+        let tips: Vec<Point> = jaws.map(|(&j, tip)| velocities[j].at(*tip)).collect();
+        let closing = tips.iter().zip(&self.inward).map(|(v, i)| dot(*v, *i));
+        let (sum, all) = (
+            closing.clone().sum::<f64>(),
+            tips.iter().map(|v| length(*v)).sum::<f64>(),
+        );
+        let slowest = closing.clone().map(f64::abs).fold(f64::INFINITY, f64::min);
+        let fastest = closing.clone().map(f64::abs).fold(0.0, f64::max);
+        // Where one opens, it runs before the other.
+        let closes = closing.clone().all(|c| c * sum > 0.0);
+        #[allow(clippy::cast_precision_loss, reason = "two or three")]
+        let pairs = tips.len() as f64 / 2.0;
+        let mut out = Motion {
+            closing: sum.abs() / pairs,
+            straightness: if closes {
+                sum.abs() / all.max(1e-12)
+            } else {
+                0.0
+            },
+            transmission: 90.0,
+            tips: tips.iter().map(|v| v.map(|x| sum.signum() * x)).collect(),
+            penalty: 0.0,
+        };
+        let even = (fastest / slowest.max(1e-9 * fastest)).max(1.0).ln();
+        out.penalty += 8.0 * beyond(0.8 - out.straightness, 0.8) + 0.5 * beyond(even - 0.5, 1.0);
+        // The drive: a millimetre for half to four millimetres of closing, a radian for 15 to 120.
+        let drive = match self.structure.form.input {
+            Input::Slide => out.closing,
+            Input::Turn => out.closing / 30.0,
+        };
+        out.penalty += beyond((drive.max(1e-9) / 1.5).ln().abs() - 0.9, 0.5).min(20.0);
+        let turning = velocities.iter().map(|v| v.turning.abs());
+        let turning = turning.fold(0.0, f64::max);
+        out.penalty += beyond(turning * 40.0 / out.closing.max(1e-9) - 2.0, 1.5).min(20.0);
+        for &(l, ends) in &self.rods {
+            let ends = ends.map(|i| at[i]);
+            out.transmission = out.transmission.min(transmission(&velocities[l], ends));
+        }
+        out.penalty += beyond(40.0 - out.transmission, 20.0);
+        Some(out)
+    }
 }
 
-/// The middle of points.
-#[must_use]
-pub fn middle(points: &[Point]) -> Point {
-    #[allow(clippy::cast_precision_loss, reason = "a few")]
-    let n = points.len().max(1) as f64;
-    points
-        .iter()
-        .fold([0.0, 0.0], |m, p| add_scaled(m, 1.0 / n, *p))
+/// The transmission angle of a rod: between it and the motion across it at its faster end, in degrees.
+fn transmission(velocity: &Velocity, [a, b]: [Point; 2]) -> f64 {
+    let along = sub(b, a);
+    let (va, vb) = (velocity.at(a), velocity.at(b));
+    let speed = length(va).max(length(vb));
+    // Along the rod both ends are equally fast. A rod from the frame pulls nothing: its end goes across it.
+    let least = length(va).min(length(vb));
+    if least < 1e-6 * speed.max(1e-9) {
+        return 90.0;
+    }
+    let sine = (dot(va, along) / length(along).max(1e-9) / speed.max(1e-12)).abs();
+    sine.min(1.0).asin().to_degrees()
+}
+
+/// The edges of the convex hull of points, by their numbers.
+fn hull<'a>(points: &'a [usize], at: &'a [Point]) -> impl Iterator<Item = [usize; 2]> + 'a {
+    let pairs = points.iter().flat_map(move |&a| {
+        let others = points.iter().filter(move |&&b| b != a);
+        others.map(move |&b| [a, b])
+    });
+    // All others on the left: an edge of the hull, once round.
+    pairs.filter(move |&[a, b]| {
+        let left = |c: usize| cross_plane(sub(at[b], at[a]), sub(at[c], at[a])) > 0.0;
+        points.iter().all(|&c| c == a || c == b || left(c))
+    })
 }

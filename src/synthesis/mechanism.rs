@@ -3,15 +3,16 @@
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::file::schema::{
     Coordinate, ForceEntry, JointEntry, LinkEntry, MechanismFile, OptionEntry, SearchEntry,
-    WorkloadEntry,
+    Unloading, WorkloadEntry,
 };
 use crate::synthesis::layout::Layout;
+use crate::synthesis::place::Place;
 use crate::synthesis::structure::Structure;
 
 /// The force with which the jaws hold the part, in N.
-pub const CLOSING_FORCE: i64 = 100;
-/// The weight of the part on each jaw, square to the plane, in N: the hardest attitude. The part has about 1 kg.
-const WEIGHT: i64 = 5;
+pub const CLOSING_FORCE: i32 = 100;
+/// The weight of the part, shared by the jaws, square to the plane, in N: the hardest attitude. The part has about 1 kg.
+const WEIGHT: i64 = 10;
 
 /// What each link is called: frame, slider or crank, the jaws, and the rest by their numbers.
 #[must_use]
@@ -23,24 +24,56 @@ pub fn link_names(structure: &Structure) -> Vec<String> {
             Input::Slide => "slider".to_owned(),
             Input::Turn => "crank".to_owned(),
         },
-        l if l == r.jaws[0] => "jaw-a".to_owned(),
-        l if l == r.jaws[1] => "jaw-b".to_owned(),
-        l => format!("link-{l}"),
+        l => match r.jaws.iter().position(|&j| j == l) {
+            Some(n) => ["jaw-a", "jaw-b", "jaw-c"][n].to_owned(),
+            None => format!("link-{l}"),
+        },
     };
     (0..structure.chain.links()).map(name).collect()
 }
 
-fn whole([x, y]: [i32; 2]) -> [Coordinate; 3] {
-    [i64::from(x), i64::from(y), 0].map(Coordinate::Integer)
+/// The coordinates of a place, exactly.
+fn coordinates(
+    Place {
+        whole: [x, y],
+        thirds,
+    }: Place,
+) -> [Coordinate; 2] {
+    // (a + b √3) / 2, where not both are zero.
+    let surd = |a: i32, b: i32| match (a, b) {
+        (_, 0) if a % 2 == 0 => Coordinate::Integer(i64::from(a / 2)),
+        (_, 0) => Coordinate::Expression(format!("{a}/2")),
+        (0, _) => Coordinate::Expression(format!("{b}*sqrt(3)/2")),
+        _ => Coordinate::Expression(format!(
+            "({a} {} {}*sqrt(3))/2",
+            if b < 0 { '-' } else { '+' },
+            b.abs()
+        )),
+    };
+    match thirds {
+        0 => [x, y].map(|x| Coordinate::Integer(i64::from(x))),
+        1 => [surd(-x, -y), surd(-y, x)],
+        _ => [surd(-x, y), surd(-y, -x)],
+    }
 }
 
-/// The entries of the file: what `options` may be put in place of each hinge.
+fn point(place: Place) -> [Coordinate; 3] {
+    let [x, y] = coordinates(place);
+    [x, y, Coordinate::Integer(0)]
+}
+
+/// What a search may do to the hinges.
+#[derive(Debug, Clone, Default)]
+pub struct Menu {
+    /// What each may be, the hinge itself first.
+    pub options: Vec<OptionEntry>,
+    /// What may be put in series with each, by a link more; with the input joint nothing is.
+    pub unloading: Vec<OptionEntry>,
+}
+
+/// The entries of the file.
 #[must_use]
-pub fn mechanism_file(
-    structure: &Structure,
-    layout: &Layout,
-    options: &[OptionEntry],
-) -> MechanismFile {
+pub fn mechanism_file(structure: &Structure, layout: &Layout, menu: &Menu) -> MechanismFile {
     let names = link_names(structure);
     let r = &structure.roles;
     let links = names.iter().enumerate().map(|(l, name)| LinkEntry {
@@ -70,7 +103,7 @@ pub fn mechanism_file(
             links: [names[u].clone(), names[v].clone()],
             kind: if slides { "prismatic" } else { "revolute" }.to_owned(),
             freedoms: None,
-            point: whole(layout.at[i]),
+            point: point(layout.at[i]),
             axis: Some(axis.map(Coordinate::Integer)),
             reference: None,
             lead: None,
@@ -79,17 +112,25 @@ pub fn mechanism_file(
             state: None,
             options: None,
             forbid: Vec::new(),
-            unloading: None,
+            unloading: (!input && !menu.unloading.is_empty()).then_some(Unloading::Allowed(true)),
         }
     });
-    let force = |n: usize, sign: i64| ForceEntry {
-        link: names[r.jaws[n]].clone(),
-        point: whole(layout.tips[n]),
-        force: [0, sign * CLOSING_FORCE, -WEIGHT].map(Coordinate::Integer),
-        from: None,
-        to: None,
-        state: None,
+    let weight = match r.jaws.len() {
+        2 => Coordinate::Integer(-WEIGHT / 2),
+        n => Coordinate::Expression(format!("-{WEIGHT}/{n}")),
     };
+    let forces = structure.outward(CLOSING_FORCE).into_iter().enumerate();
+    let forces = forces.map(|(n, force)| {
+        let [x, y] = coordinates(force);
+        ForceEntry {
+            link: names[r.jaws[n]].clone(),
+            point: point(layout.tips[n]),
+            force: [x, y, weight.clone()],
+            from: None,
+            to: None,
+            state: None,
+        }
+    });
     MechanismFile {
         name: structure.id(),
         description: format!(
@@ -101,20 +142,21 @@ pub fn mechanism_file(
         link: links.collect(),
         joint: joints.collect(),
         search: SearchEntry {
-            options: options.to_vec(),
+            options: menu.options.clone(),
+            unloading: menu.unloading.clone(),
             mirror: match structure.form.symmetry {
                 Symmetry::Mirror => layout
                     .images
                     .iter()
                     .map(|&(a, b)| [joint_name(a), joint_name(b)])
                     .collect(),
-                // Half a turn is no mirror image.
-                Symmetry::Generic | Symmetry::HalfTurn => Vec::new(),
+                // Turns are no mirror images.
+                Symmetry::Generic | Symmetry::HalfTurn | Symmetry::Threefold => Vec::new(),
             },
             ..SearchEntry::default()
         },
         workload: WorkloadEntry {
-            force: vec![force(0, 1), force(1, -1)],
+            force: forces.collect(),
             ..WorkloadEntry::default()
         },
         ..MechanismFile::default()

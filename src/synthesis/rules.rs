@@ -1,6 +1,7 @@
 //! Which pins of a layout are free to be placed, and which follow from them.
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
+use crate::synthesis::place::{Place, third};
 use crate::synthesis::structure::{Ring, Structure};
 
 /// Where a pin is.
@@ -10,10 +11,15 @@ pub enum Rule {
     Free,
     /// On the line of the mirror, or of the slide.
     OnLine,
-    /// At the centre of half a turn.
+    /// At the centre of half a turn, or of a third.
     Centre,
-    /// The image of another pin.
-    Image(usize),
+    /// What another pin becomes when the symmetry is done so often.
+    Image {
+        /// The other.
+        of: usize,
+        /// How often: once or twice.
+        times: u8,
+    },
     /// The fourth corner of a parallelogram: from the first pin to the second as from the third to this one.
     Parallelogram([usize; 3]),
 }
@@ -40,33 +46,41 @@ impl Rules {
         let symmetry = structure.form.symmetry;
         let at = |u: usize, v: usize| pins.iter().position(|&p| p == (u.min(v), u.max(v)));
         let mut rules = vec![Rule::Free; pins.len()];
-        if symmetry != Symmetry::Generic {
-            for (i, &(u, v)) in pins.iter().enumerate() {
-                let image = at(swap[u], swap[v])?;
-                rules[i] = match symmetry {
-                    _ if image < i => Rule::Image(image),
-                    Symmetry::Mirror if image == i => Rule::OnLine,
-                    Symmetry::HalfTurn if image == i => Rule::Centre,
-                    _ => Rule::Free,
-                };
+        for first in 0..pins.len() {
+            // Images of a pin before.
+            if rules[first] != Rule::Free {
+                continue;
             }
+            let (mut of, mut times) = (first, 0);
+            loop {
+                let (u, v) = pins[of];
+                (of, times) = (at(swap[u], swap[v])?, times + 1);
+                if of == first {
+                    break;
+                }
+                rules[of] = Rule::Image { of: first, times };
+            }
+            rules[first] = match symmetry {
+                Symmetry::Mirror if times == 1 => Rule::OnLine,
+                Symmetry::HalfTurn | Symmetry::Threefold if times == 1 => Rule::Centre,
+                _ => Rule::Free,
+            };
         }
         let input = at(structure.roles.frame, structure.roles.driver)?;
         if structure.form.input == Input::Slide {
             rules[input] = Rule::OnLine;
         }
         if structure.form.parallel {
-            let [first, second] = structure.rings()?;
             let corners = |r: Ring| {
                 let [p, q] = r.rods;
                 Some([at(p, r.base)?, at(q, r.base)?, at(p, r.jaw)?, at(q, r.jaw)?])
             };
-            for ring in [first, second] {
+            for ring in structure.rings()? {
                 let [a, b, c, d] = corners(ring)?;
-                // Any corner can be the one that follows; of a symmetric second ring all do already.
+                // Any corner can be the one that follows; of a ring that is an image all do already.
                 let corners = [[a, b, c, d], [b, a, d, c], [c, d, a, b], [d, c, b, a]];
                 let free = corners.iter().find(|k| rules[k[3]] == Rule::Free);
-                let image = |i: usize| matches!(rules[i], Rule::Image(_));
+                let image = |i: usize| matches!(rules[i], Rule::Image { .. });
                 match free {
                     Some(&[a, b, c, d]) => rules[d] = Rule::Parallelogram([a, b, c]),
                     None if [a, b, c, d].into_iter().any(image)
@@ -92,7 +106,7 @@ impl Rules {
                 Rule::Free => at[i],
                 Rule::OnLine => [at[i][0], 0.0],
                 Rule::Centre => [0.0, 0.0],
-                Rule::Image(of) => self.image(at[of]),
+                Rule::Image { of, times } => (0..times).fold(at[of], |p, _| self.image(p)),
                 Rule::Parallelogram([a, b, c]) => [0, 1].map(|k| at[b][k] + at[c][k] - at[a][k]),
             };
         }
@@ -105,7 +119,23 @@ impl Rules {
             Symmetry::Generic => [x, y],
             Symmetry::Mirror => [x, -y],
             Symmetry::HalfTurn => [-x, -y],
+            Symmetry::Threefold => third([x, y]),
         }
+    }
+
+    /// Places of whole millimetres as what they are exactly.
+    #[must_use]
+    pub fn places(&self, at: &[[f64; 2]]) -> Vec<Place> {
+        #[allow(clippy::cast_possible_truncation, reason = "whole and small")]
+        let whole = |i: usize| at[i].map(|x| x.round() as i32);
+        let place = |(i, rule): (usize, &Rule)| match (rule, self.symmetry) {
+            (&Rule::Image { of, times }, Symmetry::Threefold) => Place {
+                whole: whole(of),
+                thirds: times,
+            },
+            _ => Place::from(whole(i)),
+        };
+        self.rules.iter().enumerate().map(place).collect()
     }
 
     /// Whether a pin is where others have it.
@@ -123,7 +153,7 @@ impl Rules {
     /// The pairs of joints that are images of each other.
     pub fn images(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let pair = |(i, r): (usize, &Rule)| match r {
-            Rule::Image(of) => Some((*of, i)),
+            Rule::Image { of, .. } => Some((*of, i)),
             _ => None,
         };
         self.rules.iter().enumerate().filter_map(pair)
@@ -138,7 +168,7 @@ fn in_order(rules: &[Rule]) -> Option<Vec<usize>> {
         let ready = |&i: &usize| {
             !done(&i)
                 && match rules[i] {
-                    Rule::Image(of) => done(&of),
+                    Rule::Image { of, .. } => done(&of),
                     Rule::Parallelogram(of) => of.iter().all(done),
                     Rule::Free | Rule::OnLine | Rule::Centre => true,
                 }

@@ -4,6 +4,7 @@ use crate::chains::chain::Chain;
 use crate::chains::graph6;
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::chains::roles::{Roles, Subject};
+use crate::synthesis::place::Place;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 
@@ -32,6 +33,12 @@ impl Form {
                 })
             })
             .filter(|f| f.symmetry.suits(f.input))
+    }
+
+    /// Whether a gripper of so many jaws can have it. Parallelograms for three jaws need more than ten links.
+    #[must_use]
+    pub fn suits(self, jaws: usize) -> bool {
+        self.symmetry.jaws().is_none_or(|n| n == jaws) && (jaws == 2 || !self.parallel)
     }
 
     /// The form in words: "slide mirror parallel".
@@ -81,20 +88,20 @@ impl Structure {
     }
 }
 
-/// The essential grippers of two jaws of a chain that a form can be asked of: for a symmetric one those whose graph is
+/// The essential grippers of so many jaws of a chain that a form can be asked of: for a symmetric one those whose graph is
 /// symmetric, for a parallel one those whose jaws stand on rings of four links with the frame or a sliding driver.
 ///
 /// # Complexity
 /// A step for each choice of roles and each form.
 #[must_use]
-pub fn structures(subject: &Subject<'_>, forms: &[Form]) -> Vec<Structure> {
+pub fn structures(subject: &Subject<'_>, jaws: usize, forms: &[Form]) -> Vec<Structure> {
     let mut out = Vec::new();
-    for roles in subject.grippers(2) {
+    for roles in subject.grippers(jaws) {
         if !subject.is_essential(&roles) {
             continue;
         }
         let symmetric = subject.swaps(&roles).next().is_some();
-        for &form in forms {
+        for &form in forms.iter().filter(|f| f.suits(jaws)) {
             let structure = Structure {
                 chain: subject.chain.clone(),
                 roles: roles.clone(),
@@ -120,10 +127,48 @@ pub struct Ring {
     pub jaw: usize,
 }
 
+/// How far ahead the tips of jaws in front are, in millimetres.
+const REACH: i32 = 120;
+/// Half of the drawn opening, in millimetres.
+const HALF_OPENING: i32 = 15;
+
 impl Structure {
+    /// Whether the jaws close on a part over the centre, all of the gripper round it, instead of in front.
+    #[must_use]
+    pub fn is_round(&self) -> bool {
+        self.form.symmetry == Symmetry::HalfTurn || self.roles.jaws.len() > 2
+    }
+
+    /// Where the tips of the jaws are, in millimetres.
+    #[must_use]
+    pub fn tips(&self) -> Vec<Place> {
+        let ahead = if self.is_round() { 0 } else { REACH };
+        self.outward(HALF_OPENING)
+            .into_iter()
+            .map(|p| Place {
+                whole: [p.whole[0] + ahead, p.whole[1]],
+                ..p
+            })
+            .collect()
+    }
+
+    /// What is so long and points from the part to each jaw: opposite ways for two, at 120° for three.
+    #[must_use]
+    pub fn outward(&self, length: i32) -> Vec<Place> {
+        match self.roles.jaws.len() {
+            2 => [[0, length], [0, -length]].map(Place::from).into(),
+            _ => (0..3)
+                .map(|thirds| Place {
+                    whole: [0, length],
+                    thirds,
+                })
+                .collect(),
+        }
+    }
+
     /// A ring for each jaw, or `None` where one has none. The first by numbers, base before rods.
     #[must_use]
-    pub fn rings(&self) -> Option<[Ring; 2]> {
+    pub fn rings(&self) -> Option<Vec<Ring>> {
         let (c, r) = (&self.chain, &self.roles);
         let ring = |jaw: usize| {
             let sliding = (self.form.input == Input::Slide).then_some(r.driver);
@@ -140,6 +185,6 @@ impl Structure {
                 Some(Ring { base, rods, jaw })
             })
         };
-        Some([ring(r.jaws[0])?, ring(r.jaws[1])?])
+        r.jaws.iter().map(|&jaw| ring(jaw)).collect()
     }
 }

@@ -28,6 +28,9 @@ pub struct CensusData {
     mirror_possible: Option<u64>,
     half_turn_possible: Option<u64>,
     three_jaws: Option<u64>,
+    three_essential: Option<u64>,
+    three_symmetric: Option<u64>,
+    threefold_possible: Option<u64>,
 }
 
 impl CensusData {
@@ -52,6 +55,9 @@ impl CensusData {
             mirror_possible: g.map(|g| g.mirror),
             half_turn_possible: g.map(|g| g.half_turn),
             three_jaws: g.map(|g| g.three_jaws),
+            three_essential: g.map(|g| g.three_essential),
+            three_symmetric: g.map(|g| g.three_symmetric),
+            threefold_possible: g.map(|g| g.threefold),
         }
     }
 
@@ -72,6 +78,9 @@ impl CensusData {
             ("    mirror, sliding input", self.mirror_possible),
             ("    half turn, turning input", self.half_turn_possible),
             ("grippers of three jaws", self.three_jaws),
+            ("  essential", self.three_essential),
+            ("    graph symmetric", self.three_symmetric),
+            ("    threefold, turning input", self.threefold_possible),
         ]
     }
 }
@@ -81,8 +90,8 @@ All up to isomorphism.
 Drive: a frame, and a driver joined to it. Jaws are neither.
 Essential: no smaller moving part holds frame, driver and jaws.
 Truss: with a part hinged to both jaws nothing moves any more, and no smaller part is rigid.
-Graph symmetric: swapping the jaws twice changes nothing, frame and driver in place.
-Mirror, half turn: in places so symmetric, otherwise generic (drawn at random modulo a prime), there is one motion; input
+Graph symmetric: swapping the jaws twice, or carrying three round once, changes nothing, frame and driver in place.
+Mirror, half turn, threefold: in places so symmetric, otherwise generic (drawn at random modulo a prime), there is one motion; input
 and jaws move, and the jaws against each other.
 ";
 

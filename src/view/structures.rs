@@ -149,16 +149,23 @@ fn drawn_text(row: &Map<String, Value>) -> String {
 fn structure_text(d: &StructureData) -> String {
     let s = of(&d.structure);
     let mut out = format!("{}: {}\n", s("id"), s("name"));
+    // A third jaw, where there is one.
+    let third = |row: &Map<String, Value>, key: &str| row.get(key).is_some_and(|v| !v.is_null());
+    let (jaws, both) = match third(&d.structure, "jaw_c") {
+        false => (format!("{} and {}", s("jaw_a"), s("jaw_b")), ""),
+        true => (
+            format!("{}, {} and {}", s("jaw_a"), s("jaw_b"), s("jaw_c")),
+            " round the part",
+        ),
+    };
     let _ = writeln!(
         out,
-        "{} links, {} joints; frame {}, driver {} ({}), jaws {} and {}, {} of them at the frame; laid out {}{}",
+        "{} links, {} joints; frame {}, driver {} ({}), jaws {jaws}{both}, {} of them at the frame; laid out {}{}",
         s("links"),
         s("joints"),
         s("frame"),
         s("driver"),
         s("input"),
-        s("jaw_a"),
-        s("jaw_b"),
         s("jaws_at_frame"),
         s("symmetry"),
         if s("parallel") == "1" {
@@ -182,9 +189,16 @@ fn structure_text(d: &StructureData) -> String {
     );
     let _ = writeln!(
         out,
-        "Jaws: {} and {}, {} to {} mm apart for {} {} of the drive; they turn by {}° at most",
-        l("jaw_a_motion"),
-        l("jaw_b_motion"),
+        "Jaws: {}, {} to {} mm apart for {} {} of the drive; they turn by {}° at most",
+        match third(layout, "jaw_c_motion") {
+            false => format!("{} and {}", l("jaw_a_motion"), l("jaw_b_motion")),
+            true => format!(
+                "{}, {} and {}",
+                l("jaw_a_motion"),
+                l("jaw_b_motion"),
+                l("jaw_c_motion")
+            ),
+        },
         l("opening_min"),
         l("opening_max"),
         l("travel"),

@@ -1,7 +1,7 @@
 // The page of a catalogue: cards, filters, the gripper that is chosen.
 
 import assert from "node:assert/strict";
-import { catalogue, fits, open, picture } from "./pages.mjs";
+import { catalogue, fits, multiplied, open, picture } from "./pages.mjs";
 
 export function catalogueTests(test) {
   const file = catalogue("grippers", "--links", "4..6", "--ideas", "3");
@@ -40,6 +40,73 @@ export function catalogueTests(test) {
       await tab.selectOption("#sort", "force_mean");
       await tab.waitForFunction(() => document.querySelectorAll("#cards .card").length >= 60);
     });
+  });
+
+  // Work is counted, not timed: cards made, and how often the list is made anew.
+  const MANY = 2400, STEP = 60;
+  const watch = (tab) =>
+    tab.evaluate(() => {
+      window.work = { made: 0, anew: 0 };
+      const count = (records) => {
+        for (const r of records) {
+          work.made += [...r.addedNodes].length;
+          work.anew += r.removedNodes.length > 0 ? 1 : 0;
+        }
+      };
+      new MutationObserver(count).observe(document.getElementById("cards"), { childList: true });
+    });
+  const work = async (tab) => {
+    await tab.waitForTimeout(400);
+    const done = await tab.evaluate(() => window.work);
+    await tab.evaluate(() => Object.assign(window.work, { made: 0, anew: 0 }));
+    return done;
+  };
+
+  test("thousands of cards are drawn a page at a time", async () => {
+    const many = multiplied(file, MANY);
+    for (const options of [{}, { colorScheme: "dark", viewport: { width: 360, height: 740 } }]) {
+      await open(many, options, async (tab, took) => {
+        await cards(tab).first().waitFor();
+        console.log(`    first card of ${MANY}: ${took} ms`);
+        await fits(tab);
+        assert.ok((await cards(tab).count()) <= 2 * STEP);
+        assert.ok((await tab.evaluate(() => document.querySelectorAll("*").length)) < 15000);
+        await watch(tab);
+        // Typed in one go: the list is made anew once, or twice.
+        await tab.locator("#find").pressSequentially("6-", { delay: 10 });
+        let done = await work(tab);
+        assert.ok(done.anew >= 1 && done.anew <= 2 && done.made <= 2 * done.anew * STEP, JSON.stringify(done));
+        await tab.fill("#find", "");
+        await work(tab);
+        await tab.selectOption("#sort", "force_mean");
+        done = await work(tab);
+        assert.ok(done.anew === 1 && done.made <= 2 * STEP, JSON.stringify(done));
+        const forces = await tab.locator("#cards .card").evaluateAll((all) => {
+          const of = new Map(data.cards.map((c) => [c.id, c.force_mean]));
+          return all.map((card) => of.get(card.dataset.id));
+        });
+        assert.deepEqual(forces, [...forces].sort((a, b) => b - a));
+        assert.equal(forces[0], Math.max(...(await tab.evaluate(() => data.cards.map((c) => c.force_mean)))));
+        // By keyboard through the first cards, and on: more come before the last is reached.
+        const before = await cards(tab).count();
+        await cards(tab).nth(before - 1).focus();
+        await tab.waitForFunction((n) => document.querySelectorAll("#cards .card").length > n, before);
+        done = await work(tab);
+        assert.ok(done.anew === 0 && done.made <= 2 * STEP, JSON.stringify(done));
+        await tab.keyboard.press("Tab");
+        assert.ok(await cards(tab).nth(before).evaluate((e) => e === document.activeElement));
+        await tab.keyboard.press("Enter");
+        assert.ok(await tab.locator("#chosen").isVisible());
+        await tab.keyboard.press("Escape");
+        done = await work(tab);
+        assert.equal(done.made + done.anew, 0, "a choice redraws no card");
+        // None of it is thrown away: the last of them can be reached.
+        for (let i = 0; i <= MANY / STEP && (await tab.locator("#more").isVisible()); i += 1) {
+          await tab.locator("#more button").evaluate((b) => b.click());
+        }
+        assert.equal(await cards(tab).count(), MANY);
+      });
+    }
   });
 
   test("a gripper is chosen by keyboard, its ideas are drawn, and Escape comes back", async () => {

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { rmSync } from "node:fs";
+import { readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";
 import { pathToFileURL } from "node:url";
@@ -27,6 +27,24 @@ export function catalogue(name, ...args) {
   run("build", "--quiet", ...args, "-o", db);
   run("page", db, "-o", file);
   return file;
+}
+
+/** Makes a page of so many cards of a catalogue's, each many times under names and with figures of its own; gives its path. */
+export function multiplied(file, count) {
+  const html = readFileSync(file, "utf8");
+  const [before, begin] = [html.indexOf('<script id="data"'), html.indexOf(">", html.indexOf('<script id="data"')) + 1];
+  const end = html.indexOf("</script>", begin);
+  assert.ok(before > 0 && end > begin);
+  const data = JSON.parse(html.slice(begin, end));
+  const own = data.cards;
+  data.cards = Array.from({ length: count }, (_, i) => ({
+    ...own[i % own.length],
+    id: `${own[i % own.length].id}-${i}`,
+    force_mean: ((i * 7919) % count) / 100,
+  }));
+  const many = file.replace(".html", `-${count}.html`);
+  writeFileSync(many, html.slice(0, begin) + JSON.stringify(data).replaceAll("<", "\\u003c") + html.slice(end));
+  return many;
 }
 
 export const browser = await chromium.launch({

@@ -1,7 +1,10 @@
 //! Structures laid out: exactly symmetric, one motion that closes the jaws, determinate variants as published.
 
+mod carried_on;
 mod command;
 mod out_of_plane;
+mod rows;
+mod three_jaws;
 
 use itertools::Itertools;
 use num_bigint::BigUint;
@@ -23,12 +26,22 @@ use ozols::synthesis::{layout, mechanism::mechanism_file};
 use ozols::{Request, analyze};
 use std::collections::BTreeMap;
 
-/// Calls with every structure of some forms of all chains of so many links.
-fn each(links: usize, forms: &[Form], mut with: impl FnMut(&Subject<'_>, Structure)) {
+/// Calls with every structure of two jaws and some forms of all chains of so many links.
+fn each(links: usize, forms: &[Form], with: impl FnMut(&Subject<'_>, Structure)) {
+    each_of(links, 2, forms, with);
+}
+
+/// Calls with every structure of so many jaws and some forms of all chains of so many links.
+fn each_of(
+    links: usize,
+    jaws: usize,
+    forms: &[Form],
+    mut with: impl FnMut(&Subject<'_>, Structure),
+) {
     for chain in chains(links, 1).unwrap() {
         let (chain, automorphisms) = chain.canonical();
         let subject = Subject::new(&chain, &automorphisms);
-        for s in structures(&subject, forms) {
+        for s in structures(&subject, jaws, forms) {
             with(&subject, s);
         }
     }
@@ -52,7 +65,9 @@ fn plain(ideas: usize) -> Spec {
 /// A structure a test lays out: places by joint.
 fn places(s: &Structure, l: &layout::Layout) -> BTreeMap<(usize, usize), [i32; 2]> {
     assert_eq!(l.pins, s.chain.joints());
-    l.pins.iter().copied().zip(l.at.iter().copied()).collect()
+    assert!(l.at.iter().all(|p| p.thirds == 0));
+    let whole = l.at.iter().map(|p| p.whole);
+    l.pins.iter().copied().zip(whole).collect()
 }
 
 #[test]
@@ -156,13 +171,15 @@ fn the_drive_closes_the_jaws_as_fast_as_the_layout_says() {
             s.name()
         );
         // Against each other: the sum of both tips' speeds is more than either.
-        let [a, b] = l.looks.tips;
+        let [a, b] = l.looks.tips[..] else {
+            panic!("two tips")
+        };
         assert!(a[1] < 0.0 && b[1] > 0.0, "{:?}", l.looks);
     });
 }
 
 /// Where the tips are when the drive has moved: unknown are a turn and a shift of each link.
-fn moved(s: &Structure, l: &layout::Layout, drive: f64) -> [[f64; 2]; 2] {
+fn moved(s: &Structure, l: &layout::Layout, drive: f64) -> Vec<[f64; 2]> {
     let n = s.chain.links();
     let place = |x: &[f64], link: usize, p: [f64; 2]| {
         if link == s.roles.frame {
@@ -183,7 +200,7 @@ fn moved(s: &Structure, l: &layout::Layout, drive: f64) -> [[f64; 2]; 2] {
                 out.extend([50.0 * x[3 * d], x[3 * d + 1] - drive, x[3 * d + 2]]);
                 continue;
             }
-            let p = at.map(f64::from);
+            let p = at.real();
             let (a, b) = (place(x, u, p), place(x, v, p));
             out.extend([a[0] - b[0], a[1] - b[1]]);
         }
@@ -211,7 +228,8 @@ fn moved(s: &Structure, l: &layout::Layout, drive: f64) -> [[f64; 2]; 2] {
         let dx = gauss(&columns, &r);
         x.iter_mut().zip(dx).for_each(|(a, d)| *a -= d);
     }
-    [0, 1].map(|k| place(&x, s.roles.jaws[k], l.tips[k].map(f64::from)))
+    let tips = s.roles.jaws.iter().zip(&l.tips);
+    tips.map(|(&jaw, tip)| place(&x, jaw, tip.real())).collect()
 }
 
 /// Solves a square system given by columns.
@@ -238,8 +256,9 @@ fn gauss(columns: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
 /// The mechanism with its pins moved by less than half a millimetre, so that no two axes through them coincide: the
 /// published counts are those of generic places, and whole millimetres may be special.
 fn generic(s: &Structure, l: &layout::Layout, change_input: bool) -> Mechanism {
-    let mut file = mechanism_file(s, l, &Spec::default().options().unwrap());
-    for (i, (joint, [x, y])) in file.joint.iter_mut().zip(&l.at).enumerate() {
+    let mut file = mechanism_file(s, l, &Spec::default().menu().unwrap());
+    for (i, (joint, at)) in file.joint.iter_mut().zip(&l.at).enumerate() {
+        let [x, y] = &at.whole;
         // The golden ratio's multiples are spread evenly.
         let off = |k: usize| (((2 * i + k + 1) * 6_180_339) % 10_000_000) as i64;
         let exact = |whole: i32, k| format!("{whole} + {}/20000000", off(k));
@@ -262,7 +281,7 @@ fn with_the_input_unchanged(links: usize) -> Vec<(Chain, (usize, usize), BigUint
     for chain in chains(links, 1).unwrap() {
         let (chain, automorphisms) = chain.canonical();
         let subject = Subject::new(&chain, &automorphisms);
-        let first = structures(&subject, &turning).swap_remove(0);
+        let first = structures(&subject, 2, &turning).swap_remove(0);
         let l = layout::layout(&subject, &first, &Limits::default(), 1).unwrap();
         for (frame, driver) in subject.inputs() {
             let jaws = (0..links).filter(|l| ![frame, driver].contains(l)).take(2);

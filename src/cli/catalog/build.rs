@@ -18,10 +18,14 @@ pub(in crate::cli) struct Build {
     /// Numbers of links, the last included; chains of mobility 1 have an even number.
     #[arg(long, value_name = "N..M")]
     links: Option<String>,
+    /// Jaws: 2 or 3, these at 120°; 2 by default.
+    #[arg(long, value_name = "N")]
+    jaws: Option<usize>,
     /// How the driver moves: slide, turn; both by default.
     #[arg(long, value_name = "INPUT", value_delimiter = ',')]
     input: Vec<String>,
-    /// How structures are laid out: generic, mirror (with a slide), half-turn (with a turning input); all by default.
+    /// How structures are laid out: generic, mirror (with a slide), half-turn (with a turning input), threefold (three jaws and a
+    /// turning input); all by default.
     #[arg(long, value_name = "SYMMETRY", value_delimiter = ',')]
     symmetry: Vec<String>,
     /// Layouts with each jaw on a parallelogram: with, without or only.
@@ -30,6 +34,9 @@ pub(in crate::cli) struct Build {
     /// What may be put in place of a hinge.
     #[arg(long, value_name = "TYPES", value_delimiter = ',')]
     options: Vec<String>,
+    /// What may be put in series with a hinge, on a link of its own; nothing by default.
+    #[arg(long, value_name = "TYPES", value_delimiter = ',')]
+    unloading: Vec<String>,
     /// Ideas kept of each structure; 10 by default.
     #[arg(long, value_name = "K")]
     ideas: Option<usize>,
@@ -70,6 +77,7 @@ impl Build {
             (&self.input, &mut spec.inputs),
             (&self.symmetry, &mut spec.symmetries),
             (&self.options, &mut spec.options),
+            (&self.unloading, &mut spec.unloading),
         ];
         for (given, there) in lists {
             if !given.is_empty() {
@@ -79,6 +87,7 @@ impl Build {
         if let Some(word) = &self.parallel {
             spec.parallel.clone_from(word);
         }
+        spec.jaws = self.jaws.unwrap_or(spec.jaws);
         spec.ideas = self.ideas.unwrap_or(spec.ideas);
         spec.ratio = self.ratio.unwrap_or(spec.ratio);
         spec.transmission = self.transmission.unwrap_or(spec.transmission);

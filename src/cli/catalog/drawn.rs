@@ -5,7 +5,7 @@ use super::super::progress::Bar;
 use super::super::{Done, interrupt, load};
 use super::built::built;
 use crate::builtin;
-use crate::catalog::drawn::drawn;
+use crate::catalog::drawn::{drawn, id};
 use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;
 use anyhow::{Context, ensure};
@@ -42,24 +42,25 @@ pub(super) fn search(args: &Args, a: &Search) -> anyhow::Result<Done> {
         .iter()
         .map(|f| load::mechanism(f).with_context(|| f.clone()))
         .collect::<anyhow::Result<_>>()?;
-    let mut rows = Vec::new();
+    let mut store = Store::writable(&a.output)?;
+    let mut added = 0;
     interrupt::be_patient();
     let mut bar = Bar::new(args.quiet);
-    for (file, mechanism) in files.iter().zip(mechanisms) {
+    for (i, (file, mechanism)) in files.iter().zip(mechanisms).enumerate() {
         if interrupt::pending() {
             break;
         }
-        rows.push(drawn(mechanism, a.ideas, Spec::default().nodes).with_context(|| file.clone())?);
-        bar.step("mechanisms", rows.len(), files.len());
+        let id = id(&mechanism).with_context(|| file.clone())?;
+        if !store.has_drawn(&id, a.ideas)? {
+            let row = drawn(mechanism, a.ideas, Spec::default().nodes);
+            store.add_drawn(&row.with_context(|| file.clone())?)?;
+            added += 1;
+        }
+        bar.step("mechanisms", i + 1, files.len());
     }
     bar.clear();
-    let mut store = Store::writable(&a.output)?;
-    let mut added = 0;
-    for row in &rows {
-        added += usize::from(store.add_drawn(row)?);
-    }
-    let (done, all) = (rows.len(), files.len());
+    let path = a.output.display();
     let interrupted =
-        interrupt::pending().then(|| format!("{done} of {all} mechanisms are there."));
+        interrupt::pending().then(|| format!("the same command carries on with {path}."));
     built(&store, &a.output, (added, "mechanisms"), interrupted)
 }

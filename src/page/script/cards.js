@@ -20,7 +20,8 @@ function text(name, content, attributes) {
 }
 
 const least = (c) => (c.certainty === 'exact' ? '' : 'at least ');
-const jawsOf = (c) => (c.jaw_a_motion === c.jaw_b_motion ? c.jaw_a_motion : c.jaw_a_motion + ' and ' + c.jaw_b_motion);
+const motions = (c) => [c.jaw_a_motion, c.jaw_b_motion, c.jaw_c_motion].filter((m) => m);
+const jawsOf = (c) => [...new Set(motions(c))].join(' and ');
 const unit = (c) => (c.input === 'slide' ? 'N per N' : 'N per Nm');
 const formOf = (c) => c.drawn ? `drawn (${c.mode}), ${c.contours} contours${c.input ? ', driver ' + c.input + 's' : ''}` : `${c.input === 'slide' ? 'sliding' : 'turning'} driver, ${c.symmetry}${c.parallel ? ', parallelograms' : ''}`;
 
@@ -31,7 +32,7 @@ function cardOf(c) {
     gripper(c, `Gripper ${c.drawn ? c.name : c.id}`),
     text('b', c.drawn ? c.name : c.id),
     text('span', `${c.links} links, ${formOf(c)}`),
-    text('span', c.drawn ? c.description : `jaws ${jawsOf(c)}, ${short(c.force_mean)} ${unit(c)}`),
+    text('span', c.drawn ? c.description : `${c.jaw_c_motion ? 'three jaws' : 'jaws'} ${jawsOf(c)}, ${short(c.force_mean)} ${unit(c)}`),
     text('span', `W ${c.mobility}, σ ${c.redundant}; ${least(c)}${grouped(c.determinate_w1)} redesign${c.determinate_w1 === '1' ? '' : 's'}, from cost ${short(c.best_cost)}`),
   );
   button.addEventListener('click', () => choose(c, button));
@@ -41,21 +42,21 @@ function cardOf(c) {
 
 let shown = [], given = 0;
 
-function wanted(c) {
-  const word = (id) => by(id).value;
-  const number = (id) => (by(id).value === '' ? null : Number(by(id).value));
-  const find = word('find').trim().toLowerCase();
-  return (
-    (!word('links') || String(c.links) === word('links')) &&
-    (!word('input') || c.input === word('input')) &&
-    (!word('symmetry') || (c.drawn ? 'drawn' : c.symmetry) === word('symmetry')) &&
-    (!word('jaws') || (c.jaw_a_motion === word('jaws') && c.jaw_b_motion === word('jaws'))) &&
-    (number('cost') === null || (c.best_cost !== null && c.best_cost <= number('cost'))) &&
-    (number('transmission') === null || c.transmission >= number('transmission')) &&
-    (number('force') === null || c.force_mean >= number('force')) &&
-    (!by('front').checked || c.front === 1) &&
-    (!find || c.name.toLowerCase().includes(find) || c.id.includes(find))
-  );
+// What the filters ask for, read once for all cards.
+function wanted() {
+  const [links, input, symmetry, jaws] = ['links', 'input', 'symmetry', 'jaws'].map((id) => by(id).value);
+  const [cost, transmission, force] = ['cost', 'transmission', 'force'].map((id) => (by(id).value === '' ? null : Number(by(id).value)));
+  const front = by('front').checked, find = by('find').value.trim().toLowerCase();
+  return (c) =>
+    (!links || String(c.links) === links) &&
+    (!input || c.input === input) &&
+    (!symmetry || (c.drawn ? 'drawn' : c.symmetry) === symmetry) &&
+    (!jaws || (!c.drawn && motions(c).every((m) => m === jaws))) &&
+    (cost === null || (c.best_cost !== null && c.best_cost <= cost)) &&
+    (transmission === null || c.transmission >= transmission) &&
+    (force === null || c.force_mean >= force) &&
+    (!front || c.front === 1) &&
+    (!find || c.name.toLowerCase().includes(find) || c.id.includes(find));
 }
 
 function more() {
@@ -66,7 +67,7 @@ function more() {
 }
 
 function show() {
-  shown = data.cards.filter(wanted);
+  shown = data.cards.filter(wanted());
   const key = by('sort').value;
   if (key) {
     const sign = BIGGEST_FIRST.includes(key) ? -1 : 1;

@@ -56,8 +56,8 @@ function gripper(card, title, changed) {
   });
   // The part that is held.
   if (tips.length) {
-    const middle = [0, 1].map((k) => (tips[0][k] + tips[1][k]) / 2);
-    const radius = Math.abs(tips[0][1] - tips[1][1]) / 2;
+    const middle = [0, 1].map((k) => tips.reduce((sum, t) => sum + t[k], 0) / tips.length);
+    const radius = Math.hypot(tips[0][0] - middle[0], tips[0][1] - middle[1]);
     out.push(element('circle', { class: 'part', cx: middle[0], cy: middle[1], r: radius }));
   }
   d.links[d.frame].forEach((i) => {
@@ -72,7 +72,7 @@ function gripper(card, title, changed) {
   pins.forEach(([x, y], i) => {
     if (i !== slidePin) out.push(element('circle', { class: 'pin', cx: x, cy: y, r: 2.6 }));
   });
-  const moves = card.drawn ? [] : [[card.tip_a_dx, card.tip_a_dy], [card.tip_b_dx, card.tip_b_dy]].map(flip);
+  const moves = card.drawn ? [] : ['a', 'b', 'c'].map((jaw) => [card[`tip_${jaw}_dx`], card[`tip_${jaw}_dy`]]).filter((v) => v[0] !== null).map(flip);
   const fastest = Math.max(...moves.map((v) => Math.hypot(...v)), 1e-9);
   moves.forEach((move, n) => {
     const [x, y] = tips[n], v = move.map((c) => (c / fastest) * 13), length = Math.hypot(...v);

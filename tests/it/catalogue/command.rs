@@ -1,17 +1,14 @@
 //! `ozols catalog build`, `query`, `show`, `export`, `merge` and `page` as commands.
 
 use crate::common::{ozols, run, text};
-use assert_cmd::cargo::CommandCargoExt as _;
 use std::path::Path;
-use std::process::{Command, Stdio};
-use std::time::Duration;
 use tempfile::{TempDir, tempdir};
 
-fn at(folder: &TempDir, name: &str) -> String {
+pub(super) fn at(folder: &TempDir, name: &str) -> String {
     folder.path().join(name).display().to_string()
 }
 
-fn ok(args: &[&str]) -> String {
+pub(super) fn ok(args: &[&str]) -> String {
     let o = run(args);
     assert_eq!(o.status.code(), Some(0), "{args:?}: {}", text(&o.stderr));
     text(&o.stdout)
@@ -28,10 +25,11 @@ fn fails(args: &[&str], says: &str) {
 }
 
 /// All that a catalogue holds, table by table, in order.
-fn whole(file: &str) -> String {
+pub(super) fn whole(file: &str) -> String {
     [
         "structures ORDER BY id",
         "layouts ORDER BY structure",
+        "drawn ORDER BY id",
         "counts ORDER BY structure, mobility, changes",
         "ideas ORDER BY structure, place",
     ]
@@ -63,58 +61,13 @@ const SMALL: [&str; 10] = [
     "-o",
 ];
 
-fn small<'a>(file: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+pub(super) fn small<'a>(file: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     SMALL
         .iter()
         .copied()
         .chain([file])
         .chain(more.iter().copied())
         .collect()
-}
-
-#[test]
-fn a_catalogue_is_the_same_whatever_the_threads_and_the_shards() {
-    let folder = tempdir().unwrap();
-    let one = at(&folder, "one.db");
-    ok(&small(&one, &["--threads", "1"]));
-    let rows = whole(&one);
-    assert!(rows.contains("slide,mirror") && rows.contains("turn,half-turn"));
-    let eight = at(&folder, "eight.db");
-    ok(&small(&eight, &["--threads", "8"]));
-    assert_eq!(whole(&eight), rows);
-    let mut merge = vec!["catalog".to_owned(), "merge".to_owned()];
-    for i in 1..=3 {
-        let part = at(&folder, &format!("{i}.db"));
-        ok(&small(&part, &["--shard", &format!("{i}/3")]));
-        merge.push(part);
-    }
-    let merged = at(&folder, "merged.db");
-    merge.extend(["-o".to_owned(), merged.clone()]);
-    ok(&merge.iter().map(String::as_str).collect::<Vec<_>>());
-    assert_eq!(whole(&merged), rows);
-    // What is there already is not made again.
-    assert!(ok(&small(&one, &[])).contains("0 structures added"));
-}
-
-#[cfg(unix)]
-#[test]
-fn killed_at_any_moment_it_carries_on() {
-    let folder = tempdir().unwrap();
-    let (whole_file, killed) = (at(&folder, "whole.db"), at(&folder, "killed.db"));
-    ok(&small(&whole_file, &[]));
-    for i in 0..6 {
-        let mut child = Command::cargo_bin("ozols")
-            .unwrap()
-            .args(small(&killed, &[]))
-            .stdout(Stdio::null())
-            .spawn()
-            .unwrap();
-        std::thread::sleep(Duration::from_millis(37 * i));
-        child.kill().unwrap();
-        child.wait().unwrap();
-    }
-    ok(&small(&killed, &[]));
-    assert_eq!(whole(&killed), whole(&whole_file));
 }
 
 #[test]
@@ -278,58 +231,6 @@ fn what_cannot_be_done_is_said() {
     );
 }
 
-/// The rows that no other is as good as in all figures and better than in one; larger is worse.
-fn unbeaten(rows: &[(String, String, Vec<f64>)]) -> Vec<&str> {
-    let beats = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(x, y)| x <= y) && a != b;
-    let free = rows.iter().filter(|(_, group, row)| {
-        !rows
-            .iter()
-            .any(|(_, g, other)| g == group && beats(other, row))
-    });
-    free.map(|(id, ..)| id.as_str()).collect()
-}
-
-#[test]
-fn the_fronts_are_what_no_other_beats() {
-    let folder = tempdir().unwrap();
-    let file = at(&folder, "all.db");
-    ok(&[
-        "catalog", "build", "--links", "4..6", "--ideas", "6", "--quiet", "-o", &file,
-    ]);
-    let rows = |sql: &str| -> Vec<(String, String, Vec<f64>)> {
-        let csv = ok(&["catalog", "query", &file, sql, "--format", "csv"]);
-        let row = |line: &str| {
-            let mut cells = line.split(',').map(str::to_owned);
-            let [id, group] = [cells.next().unwrap(), cells.next().unwrap()];
-            (id, group, cells.map(|c| c.parse().unwrap()).collect())
-        };
-        csv.lines().skip(1).map(row).collect()
-    };
-    let structures = rows(
-        "SELECT id, input, links, best_cost, -force_mean, -transmission, jaw_turn FROM structures JOIN layouts \
-         ON structure = id WHERE best_cost IS NOT NULL ORDER BY id",
-    );
-    let front = rows("SELECT id, input FROM front ORDER BY id");
-    let front: Vec<&str> = front.iter().map(|(id, ..)| id.as_str()).collect();
-    assert_eq!(front, unbeaten(&structures));
-    assert!(
-        !front.is_empty() && 2 * front.len() < structures.len(),
-        "{} of {}",
-        front.len(),
-        structures.len()
-    );
-    let ideas = rows(
-        "SELECT structure || ' ' || place, structure, cost, peak_force, peak_moment, output_error FROM ideas \
-         WHERE peak_force IS NOT NULL ORDER BY structure, place",
-    );
-    let best = rows(
-        "SELECT structure || ' ' || place, structure FROM idea_front ORDER BY structure, place",
-    );
-    let best: Vec<&str> = best.iter().map(|(id, ..)| id.as_str()).collect();
-    assert_eq!(best, unbeaten(&ideas));
-    assert!(best.len() < ideas.len());
-}
-
 #[test]
 fn drawn_mechanisms_stand_beside_the_structures() {
     let folder = tempdir().unwrap();
@@ -401,4 +302,45 @@ fn drawn_mechanisms_stand_beside_the_structures() {
             .unwrap()
             .contains("\"name\":\"tongs\"")
     );
+}
+
+/// Balls alone make no four-bar determinate, which needs a slide along its hinges: one in series with a hinge, on a link of its
+/// own.
+#[test]
+fn unloading_joints_are_on_the_menu() {
+    let folder = tempdir().unwrap();
+    let count = |name: &str, more: &[&str]| -> (String, u64) {
+        let file = at(&folder, name);
+        let line = "catalog build --links 4 --input turn --options spherical --quiet --ideas 9 -o";
+        let words: Vec<&str> = line.split(' ').chain([file.as_str()]).collect();
+        ok(&[&words[..], more].concat());
+        let sql = "SELECT determinate_w1 FROM layouts";
+        let csv = ok(&["catalog", "query", &file, sql, "--format", "csv"]);
+        (file, csv.lines().nth(1).unwrap().parse().unwrap())
+    };
+    assert_eq!(count("plain.db", &[]).1, 0);
+    let (file, more) = count("more.db", &["--unloading", "prismatic"]);
+    assert!(more > 0);
+    let sql = "SELECT structure, place FROM ideas";
+    let with = ok(&["catalog", "query", &file, sql, "--format", "csv"]);
+    let (id, place) = with.lines().nth(1).unwrap().split_once(',').unwrap();
+    let toml = at(&folder, "v.toml");
+    ok(&[
+        "catalog",
+        "export",
+        &file,
+        id,
+        "--variant",
+        place,
+        "-o",
+        &toml,
+    ]);
+    let said: serde_json::Value =
+        serde_json::from_str(&ok(&["analyze", &toml, "--format", "json"])).unwrap();
+    let free = &said["states"][0];
+    assert_eq!(
+        (&free["mobility"], &free["redundant"]),
+        (&1.into(), &0.into())
+    );
+    assert_eq!(free["links"], 5);
 }

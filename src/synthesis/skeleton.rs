@@ -1,0 +1,76 @@
+//! What of a structure does not depend on where its pins are, gathered once for the many places that are tried.
+
+use crate::geom::vector::{add_scaled, sub, unit};
+use crate::synthesis::rules::Rules;
+use crate::synthesis::structure::Structure;
+use crate::synthesis::velocities::Contours;
+
+/// A point of the plane, in millimetres.
+pub type Point = [f64; 2];
+
+/// A structure with the rules of its pins. Points are numbered: pins in the order of the chain's joints, then the tips.
+#[derive(Debug)]
+pub struct Skeleton<'a> {
+    /// The structure.
+    pub structure: &'a Structure,
+    /// Which pins may be moved.
+    pub rules: Rules,
+    /// Points of each link: its pins, and of a jaw its tip.
+    pub of_link: Vec<Vec<usize>>,
+    /// The same as bits.
+    pub members: Vec<u32>,
+    /// Where the tips of the jaws are.
+    pub tips: Vec<Point>,
+    /// Which way each tip closes, of length 1.
+    pub inward: Vec<Point>,
+    /// Links that only push and pull: of two pins, neither frame nor driver nor jaw.
+    pub rods: Vec<(usize, [usize; 2])>,
+    /// What its velocities need.
+    pub contours: Contours,
+}
+
+/// The middle of points.
+#[must_use]
+pub fn middle(points: &[Point]) -> Point {
+    #[allow(clippy::cast_precision_loss, reason = "a few")]
+    let n = points.len().max(1) as f64;
+    points
+        .iter()
+        .fold([0.0, 0.0], |m, p| add_scaled(m, 1.0 / n, *p))
+}
+
+impl<'a> Skeleton<'a> {
+    /// Of a structure.
+    #[must_use]
+    pub fn new(structure: &'a Structure, rules: Rules) -> Skeleton<'a> {
+        let mut of_link = vec![Vec::new(); structure.chain.links()];
+        for (i, &(u, v)) in rules.pins.iter().enumerate() {
+            of_link[u].push(i);
+            of_link[v].push(i);
+        }
+        let tips: Vec<Point> = structure.tips().iter().map(|t| t.real()).collect();
+        let centre = middle(&tips);
+        let r = &structure.roles;
+        for (n, &jaw) in r.jaws.iter().enumerate() {
+            of_link[jaw].push(rules.pins.len() + n);
+        }
+        let rods = of_link.iter().enumerate().filter_map(|(l, points)| {
+            let [a, b] = points[..] else { return None };
+            let pulls = l != r.frame && l != r.driver;
+            pulls.then_some((l, [a, b]))
+        });
+        Skeleton {
+            structure,
+            rods: rods.collect(),
+            members: of_link
+                .iter()
+                .map(|points| points.iter().fold(0, |bits, p| bits | 1 << p))
+                .collect(),
+            of_link,
+            inward: tips.iter().map(|t| unit(sub(centre, *t))).collect(),
+            tips,
+            contours: Contours::new(structure),
+            rules,
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! Rows of a catalogue against the plain commands, and its fronts against a slow look at all.
+
+use super::carried_on::scattered;
+use super::command::{at, ok};
+use itertools::Itertools;
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
+use tempfile::{TempDir, tempdir};
+
+/// All structures of four and six links, made once for the tests that look at them.
+fn all_of_six() -> &'static str {
+    static FILE: OnceLock<(TempDir, String)> = OnceLock::new();
+    let (_, file) = FILE.get_or_init(|| {
+        let folder = tempdir().unwrap();
+        let file = at(&folder, "all.db");
+        ok(&[
+            "catalog", "build", "--links", "4..6", "--ideas", "6", "--quiet", "-o", &file,
+        ]);
+        (folder, file)
+    });
+    file
+}
+
+#[test]
+fn rows_that_are_exported_have_the_same_figures_by_the_plain_commands() {
+    let file = all_of_six();
+    let folder = tempdir().unwrap();
+    let sql = "SELECT id, mobility, redundant, finite, determinate, determinate_w1, best_cost FROM structures JOIN layouts \
+               ON structure = id ORDER BY id";
+    let rows: serde_json::Value =
+        serde_json::from_str(&ok(&["catalog", "query", file, sql, "--format", "json"])).unwrap();
+    let rows = rows.as_array().unwrap();
+    let count = u64::try_from(rows.len()).unwrap();
+    let drawn: BTreeSet<u64> = scattered(2).map(|x| x % count).unique().take(20).collect();
+    for row in drawn.iter().map(|&i| &rows[usize::try_from(i).unwrap()]) {
+        let id = row["id"].as_str().unwrap();
+        let toml = at(&folder, &format!("{id}.toml"));
+        ok(&["catalog", "export", file, id, "-o", &toml]);
+        let said = |args: &[&str]| -> serde_json::Value {
+            serde_json::from_str(&ok(&[args, &["--format", "json"]].concat())).unwrap()
+        };
+        let free = &said(&["analyze", &toml])["states"][0];
+        assert_eq!(
+            (&free["mobility"], &free["redundant"]),
+            (&row["mobility"], &row["redundant"]),
+            "{id}"
+        );
+        assert_eq!(row["finite"], "1, proven");
+        assert_eq!(
+            (&free["finite_mobility"], &free["finite_mobility_proven"]),
+            (&1.into(), &true.into()),
+            "{id}"
+        );
+        let found = said(&["search", &toml, "--max-mobility", "1", "--quiet"]);
+        let number = |key: &str| row[key].to_string();
+        assert_eq!(
+            found["determinate"].as_str().unwrap(),
+            number("determinate"),
+            "{id}"
+        );
+        assert_eq!(
+            found["admissible"].as_str().unwrap(),
+            number("determinate_w1"),
+            "{id}"
+        );
+        assert_eq!(
+            found["by_mobility"]["1"].as_str().unwrap(),
+            number("determinate_w1"),
+            "{id}"
+        );
+        assert_eq!(
+            found["variants"][0]["cost"].as_f64(),
+            row["best_cost"].as_f64(),
+            "{id}"
+        );
+    }
+}
+
+/// The rows that no other is as good as in all figures and better than in one; larger is worse.
+fn unbeaten(rows: &[(String, String, Vec<f64>)]) -> Vec<&str> {
+    let beats = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(x, y)| x <= y) && a != b;
+    let free = rows.iter().filter(|(_, group, row)| {
+        !rows
+            .iter()
+            .any(|(_, g, other)| g == group && beats(other, row))
+    });
+    free.map(|(id, ..)| id.as_str()).collect()
+}
+
+#[test]
+fn the_fronts_are_what_no_other_beats() {
+    let file = all_of_six();
+    let rows = |sql: &str| -> Vec<(String, String, Vec<f64>)> {
+        let csv = ok(&["catalog", "query", file, sql, "--format", "csv"]);
+        let row = |line: &str| {
+            let mut cells = line.split(',').map(str::to_owned);
+            let [id, group] = [cells.next().unwrap(), cells.next().unwrap()];
+            (id, group, cells.map(|c| c.parse().unwrap()).collect())
+        };
+        csv.lines().skip(1).map(row).collect()
+    };
+    let structures = rows(
+        "SELECT id, input, links, best_cost, -force_mean, -transmission, jaw_turn FROM structures JOIN layouts \
+         ON structure = id WHERE best_cost IS NOT NULL ORDER BY id",
+    );
+    let front = rows("SELECT id, input FROM front ORDER BY id");
+    let front: Vec<&str> = front.iter().map(|(id, ..)| id.as_str()).collect();
+    assert_eq!(front, unbeaten(&structures));
+    assert!(
+        !front.is_empty() && 2 * front.len() < structures.len(),
+        "{} of {}",
+        front.len(),
+        structures.len()
+    );
+    let ideas = rows(
+        "SELECT structure || ' ' || place, structure, cost, peak_force, peak_moment, output_error FROM ideas \
+         WHERE peak_force IS NOT NULL ORDER BY structure, place",
+    );
+    let best = rows(
+        "SELECT structure || ' ' || place, structure FROM idea_front ORDER BY structure, place",
+    );
+    let best: Vec<&str> = best.iter().map(|(id, ..)| id.as_str()).collect();
+    assert_eq!(best, unbeaten(&ideas));
+    assert!(best.len() < ideas.len());
+}

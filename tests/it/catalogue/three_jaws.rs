@@ -1,0 +1,272 @@
+//! Three jaws: as many structures as move in threefold places, laid out exactly so, closing together.
+
+use super::{each_of, form, moved, plain};
+use crate::common::run;
+use itertools::Itertools;
+use ozols::catalog::row::row;
+use ozols::chains::layout_symmetry::{Input, Symmetry};
+use ozols::chains::roles::Subject;
+use ozols::geom::vector::real;
+use ozols::model::mechanism::Mechanism;
+use ozols::synthesis::layout::layout;
+use ozols::synthesis::looks::Limits;
+use ozols::synthesis::structure::Structure;
+use std::collections::BTreeMap;
+
+fn third([x, y]: [f64; 2]) -> [f64; 2] {
+    let (sine, cosine) = (2.0 * std::f64::consts::PI / 3.0).sin_cos();
+    [cosine * x - sine * y, sine * x + cosine * y]
+}
+
+/// How many motions the links have with hinges at these places and the frame at rest, and whether driver and jaws move in
+/// the only one: by eliminating in floating point. Shares nothing with the program's own look modulo a prime.
+fn motions(s: &Structure, at: &BTreeMap<(usize, usize), [f64; 2]>) -> (usize, bool) {
+    let n = 3 * s.chain.links();
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    let mut row = |entries: &[(usize, f64)]| {
+        let mut row = vec![0.0; n];
+        entries.iter().for_each(|(i, x)| row[*i] += x);
+        rows.push(row);
+    };
+    (0..3).for_each(|k| row(&[(3 * s.roles.frame + k, 1.0)]));
+    for (&(u, v), [x, y]) in at {
+        row(&[
+            (3 * u, -y),
+            (3 * u + 1, 1.0),
+            (3 * v, *y),
+            (3 * v + 1, -1.0),
+        ]);
+        row(&[
+            (3 * u, *x),
+            (3 * u + 2, 1.0),
+            (3 * v, -x),
+            (3 * v + 2, -1.0),
+        ]);
+    }
+    let mut pivots: Vec<(usize, usize)> = Vec::new();
+    for c in 0..n {
+        let free = |r: &usize| pivots.iter().all(|p| p.0 != *r);
+        let size = |r: &usize| rows[*r][c].abs();
+        let best = (0..rows.len())
+            .filter(free)
+            .max_by(|a, b| size(a).total_cmp(&size(b)));
+        let Some(p) = best.filter(|p| size(p) > 1e-9) else {
+            continue;
+        };
+        let own = rows[p].clone();
+        for (_, other) in rows.iter_mut().enumerate().filter(|(r, _)| *r != p) {
+            let factor = other[c] / own[c];
+            other
+                .iter_mut()
+                .zip(&own)
+                .for_each(|(x, o)| *x -= factor * o);
+        }
+        pivots.push((p, c));
+    }
+    let free = (0..n)
+        .filter(|c| pivots.iter().all(|p| p.1 != *c))
+        .collect_vec();
+    let [only] = free[..] else {
+        return (free.len(), false);
+    };
+    let mut motion = vec![0.0; n];
+    motion[only] = 1.0;
+    for (r, c) in pivots {
+        motion[c] = -rows[r][only] / rows[r][c];
+    }
+    let moves = |l: &usize| motion[3 * l..3 * l + 3].iter().any(|x| x.abs() > 1e-9);
+    (1, moves(&s.roles.driver) && s.roles.jaws.iter().all(moves))
+}
+
+/// Places that look random, carried to each other by thirds of a turn.
+fn scattered(subject: &Subject<'_>, s: &Structure) -> BTreeMap<(usize, usize), [f64; 2]> {
+    let turn = subject.swaps(&s.roles).next().unwrap();
+    let mut at = BTreeMap::new();
+    for (i, &joint) in s.chain.joints().iter().enumerate() {
+        let image = |(u, v): (usize, usize)| (turn[u].min(turn[v]), turn[u].max(turn[v]));
+        let off = |k: usize| ((3 * i + k) as f64 * 0.618_034).fract() - 0.5;
+        let mut place = if image(joint) == joint {
+            [0.0; 2]
+        } else {
+            [off(1), off(2)]
+        };
+        let mut joint = joint;
+        while !at.contains_key(&joint) {
+            at.insert(joint, place);
+            (joint, place) = (image(joint), third(place));
+        }
+    }
+    at
+}
+
+#[test]
+fn threefold_structures_are_those_that_move_in_threefold_places() {
+    let threefold = [form(Input::Turn, Symmetry::Threefold, false)];
+    for (links, symmetric, possible) in [(6, 0, 0), (8, 2, 2), (10, 10, 0)] {
+        let (mut all, mut by_twin, mut laid) = (0, 0, 0);
+        each_of(links, 3, &threefold, |subject, s| {
+            all += 1;
+            let (count, moving) = motions(&s, &scattered(subject, &s));
+            by_twin += usize::from(count == 1 && moving);
+            match layout(subject, &s, &Limits::default(), 1) {
+                Ok(_) => laid += 1,
+                Err(why) => assert!(!moving, "{}: {why}", s.name()),
+            }
+        });
+        assert_eq!(
+            (all, by_twin, laid),
+            (symmetric, possible, possible),
+            "{links}"
+        );
+    }
+}
+
+#[test]
+fn threefold_layouts_are_exact_and_their_jaws_close_together() {
+    let threefold = [form(Input::Turn, Symmetry::Threefold, false)];
+    let mut seen = 0;
+    each_of(8, 3, &threefold, |subject, s| {
+        let row = row(subject, &s, &plain(3)).unwrap();
+        let laid = row.laid.unwrap();
+        seen += 1;
+        let m = Mechanism::from_toml(&laid.file).unwrap();
+        let turn = subject.swaps(&s.roles).next().unwrap();
+        let places: BTreeMap<(usize, usize), [f64; 2]> = m
+            .joints
+            .iter()
+            .zip(&laid.layout.pins)
+            .map(|(j, &pin)| {
+                let [x, y, _] = real(&j.frame.point);
+                (pin, [x, y])
+            })
+            .collect();
+        for (&(u, v), &place) in &places {
+            let (p, q) = (turn[u].min(turn[v]), turn[u].max(turn[v]));
+            let [x, y] = third(place);
+            let image = places[&(p, q)];
+            assert!(
+                (x - image[0]).hypot(y - image[1]) < 1e-12,
+                "{place:?} {image:?}"
+            );
+        }
+        // Over the rationals with a root of three, not over rounded places.
+        assert_eq!(
+            (laid.finite.figure().as_str(), laid.finite.is_proven()),
+            ("1", true)
+        );
+        assert!(laid.exact && !laid.ideas.is_empty());
+        // All three tips as fast towards the middle, as the layout says.
+        let step = 1e-5;
+        let (ahead, back) = (
+            moved(&s, &laid.layout, step),
+            moved(&s, &laid.layout, -step),
+        );
+        let radius = |t: &[f64; 2]| t[0].hypot(t[1]);
+        for (a, b) in ahead.iter().zip(&back) {
+            let speed = (radius(a) - radius(b)).abs() / (2.0 * step);
+            let stated = laid.layout.looks.closing / 2.0;
+            assert!((speed - stated).abs() < 1e-4 * stated, "{speed} {stated}");
+        }
+        // Work in is work out: three jaws, whose openings are twice their ways.
+        let f = &laid.figures;
+        let work = f.force[1] * 1.5 * (f.openings[1] - f.openings[0]) / 1000.0;
+        assert!(work > 0.5 * f.travel && work < 2.0 * f.travel, "{f:?}");
+        assert!(
+            f.turns.iter().all(|t| (t - f.turns[0]).abs() < 1e-6),
+            "{f:?}"
+        );
+    });
+    assert_eq!(seen, 2);
+}
+
+#[test]
+fn generic_structures_of_three_jaws_close_on_the_part() {
+    let generic = [Input::Slide, Input::Turn].map(|i| form(i, Symmetry::Generic, false));
+    let (mut laid, mut all) = (0, 0);
+    each_of(6, 3, &generic, |subject, s| {
+        all += 1;
+        let Ok(l) = layout(subject, &s, &Limits::default(), 1) else {
+            return;
+        };
+        laid += 1;
+        let step = 1e-5;
+        let (ahead, back) = (moved(&s, &l, step), moved(&s, &l, -step));
+        let radius = |t: &[f64; 2]| t[0].hypot(t[1]);
+        let speeds = ahead
+            .iter()
+            .zip(&back)
+            .map(|(a, b)| radius(a) - radius(b))
+            .collect_vec();
+        assert!(
+            speeds.iter().all(|v| v * speeds[0] > 0.0),
+            "{}: {speeds:?}",
+            s.name()
+        );
+    });
+    // Two inputs of each.
+    assert_eq!(all, 2 * 31);
+    assert!(3 * laid > 2 * all, "{laid} of {all}");
+}
+
+#[test]
+fn the_command_takes_three_jaws() {
+    let folder = tempfile::tempdir().unwrap();
+    let db = folder.path().join("three.db").display().to_string();
+    let said = |args: &[&str], code: i32| {
+        let o = run(&[&["catalog"], args].concat());
+        assert_eq!(o.status.code(), Some(code), "{args:?}: {o:?}");
+        String::from_utf8(if code == 0 { o.stdout } else { o.stderr }).unwrap()
+    };
+    let build = [
+        "build",
+        "--links",
+        "8",
+        "--symmetry",
+        "threefold",
+        "--ideas",
+        "2",
+        "--quiet",
+        "-o",
+        &db,
+    ];
+    let told = said(&[&build[..], &["--jaws", "3"]].concat(), 0);
+    assert!(told.contains("threefold"), "{told}");
+    let sql = "SELECT id FROM structures JOIN layouts ON structure = id WHERE jaws_at_frame = 3";
+    let id = said(&["query", &db, sql, "--format", "csv"], 0)
+        .lines()
+        .nth(1)
+        .unwrap()
+        .to_owned();
+    let shown = said(&["show", &db, &id], 0);
+    assert!(
+        shown.contains("round the part, 3 of them at the frame; laid out threefold"),
+        "{shown}"
+    );
+    assert!(shown.contains("swinging, swinging and swinging"), "{shown}");
+    let toml = folder.path().join("g.toml").display().to_string();
+    said(&["export", &db, &id, "--variant", "1", "-o", &toml], 0);
+    let analysed = run(&["analyze", &toml, "--format", "json"]);
+    let analysed: serde_json::Value = serde_json::from_slice(&analysed.stdout).unwrap();
+    assert_eq!(
+        (
+            &analysed["states"][0]["mobility"],
+            &analysed["states"][0]["redundant"]
+        ),
+        (&1.into(), &0.into())
+    );
+    let page = folder.path().join("g.html").display().to_string();
+    said(&["page", &db, "-o", &page], 0);
+    let html = std::fs::read_to_string(&page).unwrap();
+    assert!(html.contains("\"tip_c_dx\":") && html.contains(&id));
+    for (more, says) in [
+        (&["--jaws", "4"][..], "jaws must be from 2 to 3"),
+        (
+            &["--jaws", "3", "--input", "slide"],
+            "no slide is its own image",
+        ),
+        (&["--jaws", "2"], "no layout is asked for"),
+    ] {
+        let told = said(&[&build[..], more].concat(), 2);
+        assert!(told.contains(says), "{told}");
+    }
+}
