@@ -56,11 +56,10 @@ impl Pose {
         self.close_within(q, hold, f64::INFINITY)
     }
 
-    /// As [`Pose::close`], where only coordinates no farther than `most` from `q` are of use: once a step leads twice as far, no
-    /// more are taken.
+    /// As [`Pose::close`], where only coordinates no farther than `most` from `q` are of use.
     ///
     /// # Errors
-    /// As [`Pose::close`].
+    /// As [`Pose::close`], and once a step leads twice as far: what nearly closes on the way there need not close nearby.
     ///
     /// # Complexity
     /// As [`Pose::close`].
@@ -110,7 +109,10 @@ impl Pose {
                 .map(|(a, b)| (a - b) * (a - b))
                 .sum::<f64>();
             if far.sqrt() > 2.0 * most {
-                break;
+                return Err(PoseError::Open {
+                    steps: STEPS,
+                    residual: best.0,
+                });
             }
         }
         if best.0 < closed {

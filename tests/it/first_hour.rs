@@ -11,13 +11,14 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 24] = [
+const COMMANDS: [&str; 25] = [
     "lint",
     "fix",
     "report",
     "watch",
     "analyze",
     "search",
+    "sweep",
     "statics",
     "grip",
     "drive",
