@@ -125,7 +125,7 @@ pub(super) fn json(out: &mut dyn Write, value: &impl serde::Serialize) -> anyhow
 /// No text is fitted to less.
 const NARROWEST: u16 = 40;
 
-/// Width that standard output is fitted to: that of its terminal, or the one that the environment says.
+/// Width that standard output is fitted to: what `OZOLS_WIDTH` says, else that of its terminal.
 pub(super) fn width(path: Option<&Path>) -> Option<u16> {
     match file(path) {
         None => fitted(&console::Term::stdout()),
@@ -139,7 +139,10 @@ pub(super) fn error_width() -> Option<u16> {
 }
 
 fn fitted(to: &console::Term) -> Option<u16> {
-    let said = std::env::var("COLUMNS").ok().and_then(|c| c.parse().ok());
+    // Not COLUMNS: whoever uses readline, as Python's shell does, hands it to programs whose output is kept.
+    let said = std::env::var("OZOLS_WIDTH")
+        .ok()
+        .and_then(|c| c.parse().ok());
     let found = said.or_else(|| to.is_term().then(|| to.size().1));
     found.map(|w: u16| w.max(NARROWEST))
 }

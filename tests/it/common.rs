@@ -8,7 +8,7 @@ use std::process::Output;
 pub(crate) fn ozols(args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_ozols"));
     // What the tests are started in is not to fold what they read.
-    command.args(args).env_remove("COLUMNS");
+    command.args(args).env_remove("OZOLS_WIDTH");
     command
 }
 

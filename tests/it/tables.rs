@@ -64,7 +64,7 @@ fn long_tables_of_mobilities_are_folded() {
     assert_eq!(count(head.split(' ').next().unwrap()), sum);
 }
 
-/// What is told of robots with long names fits the width that COLUMNS says, and standard error stays silent with -q.
+/// What is told of robots with long names fits the width that OZOLS_WIDTH says, and standard error stays silent with -q.
 #[test]
 fn texts_of_robots_fit() {
     let folder_of_own = tempfile::tempdir().unwrap();
@@ -86,7 +86,7 @@ fn texts_of_robots_fit() {
             let args = [command, &[name.to_str().unwrap(), "-q"]].concat();
             let o = ozols(&args)
                 .current_dir(of)
-                .env("COLUMNS", "80")
+                .env("OZOLS_WIDTH", "80")
                 .output()
                 .unwrap();
             let said = String::from_utf8(o.stdout).unwrap();
