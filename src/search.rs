@@ -3,7 +3,8 @@
 //! A *variant* chooses one option at each joint. A diagram node is what a partly chosen mechanism looks like to the
 //! joints not chosen yet: the space of motions of the links that still have joints to come, plus the redundancy
 //! spent so far. Different choices with the same node have the same futures, so a space of 10^10 variants folds into
-//! some thousand nodes and is counted without visiting any variant.
+//! some thousand nodes and is counted without visiting any variant. Where such nodes are too many, those that have the same
+//! futures all the same are found by building from both ends.
 
 pub mod approximate;
 pub mod best;
@@ -21,12 +22,14 @@ pub mod estimate;
 mod growth;
 pub mod held;
 pub mod ideas;
+mod join;
 mod laid;
 pub mod lanes;
 mod least_model;
 pub mod listing;
 pub mod lookahead;
 mod merge;
+mod minimal;
 pub mod mirror;
 mod missing;
 pub mod order;
@@ -45,4 +48,5 @@ pub mod suggest;
 pub mod tally;
 mod transition;
 mod trial;
+mod two_sided;
 pub mod written_out;

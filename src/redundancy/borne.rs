@@ -1,4 +1,4 @@
-//! How much of a self-stress each joint bears.
+//! What each joint bears of a self-stress, and how much of it.
 //!
 //! The self-stresses are exact, modulo a prime, and residues have no size. But each is told, up to a factor, by where it is
 //! zero (and, of friction at the contacts, by what it does not do to the faces): the bases are in reduced form, so that no
@@ -7,7 +7,7 @@
 use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactError;
 use crate::geom::scalars::Reals;
-use crate::geom::vector::{dot, sub};
+use crate::geom::vector::{Vector, dot, scale, sub};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::joint_wrench::JointWrenches;
@@ -24,6 +24,24 @@ pub(super) struct Faces<'a> {
     pub(super) joints: &'a [JointId],
     /// The one at which moments are judged.
     pub(super) reference: Option<JointId>,
+}
+
+/// What a joint carries of a self-stress, in global axes: the wrench on the second of its links, and so the opposite of that on
+/// the first. The unit of force is such that Σ |f|² + |m|²/ℓ² over the joints is 1.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Borne {
+    /// The moment about the joint's point, in the unit of force times ℓ, the length that makes both comparable.
+    pub moment: Vector,
+    /// The force.
+    pub force: Vector,
+}
+
+impl Borne {
+    /// Its part of Σ |f|² + |m|²/ℓ² over the joints, about their own points.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        dot(self.force, self.force) + dot(self.moment, self.moment)
+    }
 }
 
 /// Shares of the joints in self-stresses, one after the other.
@@ -82,12 +100,21 @@ impl<'a> Shares<'a> {
         }
     }
 
-    /// By joint, its part of Σ |f|² + |m|²/ℓ²; `None` where the numbers do not tell the self-stress from others, or there
+    /// ℓ, the size of the mechanism: the root mean square distance of the joints from their middle.
+    pub(super) fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// What each joint carries; `None` where the numbers do not tell the self-stress from others, or there
     /// are too many of them.
     ///
     /// # Complexity
     /// O(r² f) for r rows that are not zero and f freedoms in their contours.
-    pub(super) fn of(&mut self, stress: &[Residue], faces: Option<Faces<'_>>) -> Option<Vec<f64>> {
+    pub(super) fn of(
+        &mut self,
+        stress: &[Residue],
+        faces: Option<Faces<'_>>,
+    ) -> Option<Vec<Borne>> {
         let rows: Vec<usize> = (0..stress.len()).filter(|&r| stress[r] != 0).collect();
         let equation = |column: &Vec<f64>| -> Vec<f64> {
             rows.iter()
@@ -115,18 +142,20 @@ impl<'a> Shares<'a> {
         for (&r, x) in rows.iter().zip(&found) {
             real[r] = x * self.unit(r);
         }
-        let mut out = vec![0.0; self.mechanism.joints.len()];
+        let mut out = vec![Borne::default(); self.mechanism.joints.len()];
         for j in self.mechanism.joints_in(self.closure.state) {
             let w = self.wrenches.at(&real, j);
-            let moment = self
-                .wrenches
-                .moment_at(j, &w)
-                .map(|x| x / self.wrenches.scale().unwrap_or(1.0) / self.size);
-            let force = [w[3], w[4], w[5]];
-            out[j] = dot(force, force) + dot(moment, moment);
+            let unit = self.wrenches.scale().unwrap_or(1.0) * self.size;
+            out[j] = Borne {
+                moment: scale(self.wrenches.moment_at(j, &w), 1.0 / unit),
+                force: [w[3], w[4], w[5]],
+            };
         }
-        let sum: f64 = out.iter().sum();
-        (sum > 0.0).then(|| out.into_iter().map(|x| x / sum).collect())
+        let whole = out.iter().map(Borne::share).sum::<f64>().sqrt();
+        for b in &mut out {
+            (b.moment, b.force) = (scale(b.moment, 1.0 / whole), scale(b.force, 1.0 / whole));
+        }
+        (whole > 0.0).then_some(out)
     }
 }
 

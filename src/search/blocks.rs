@@ -9,9 +9,9 @@
 //! Blocks and cut vertices: Harary, "Graph Theory" (1969), chapter 3.
 
 use crate::closure::contour::Contour;
+use crate::closure::tied::tied;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::search::space::Space;
-use petgraph::unionfind::UnionFind;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Variables that a question takes together.
@@ -39,29 +39,23 @@ pub(super) fn blocks(
         .iter()
         .flat_map(|&v| joints(v).map(move |j| (j, v)))
         .collect();
-    let mut sets = UnionFind::new(space.variables.len());
+    let of = |joints: &mut dyn Iterator<Item = JointId>| -> Vec<usize> {
+        joints.filter_map(|j| variable.get(&j).copied()).collect()
+    };
     let contours = contours
         .iter()
-        .map(|c| c.joints.iter().map(|(j, _)| *j).collect());
+        .map(|c| of(&mut c.joints.iter().map(|(j, _)| *j)));
     let couplings = mechanism
         .couplings
         .iter()
-        .map(|c| c.ends.iter().map(|e| e.joint).collect());
-    for tied in contours.chain(couplings) {
-        let tied: Vec<JointId> = tied;
-        let of: Vec<usize> = tied
-            .iter()
-            .filter_map(|j| variable.get(j).copied())
-            .collect();
-        of.windows(2).for_each(|w| {
-            sets.union(w[0], w[1]);
-        });
-    }
+        .map(|c| of(&mut c.ends.iter().map(|e| e.joint)));
+    let each = variables.iter().map(|&v| vec![v]);
     let links = |of: &[usize]| -> BTreeSet<LinkId> {
         let joints = of.iter().flat_map(|&v| joints(v));
         joints.flat_map(|j| mechanism.joints[j].links).collect()
     };
-    let mut left: Vec<(Vec<usize>, BTreeSet<LinkId>)> = classes(&sets, variables)
+    let mut left: Vec<(Vec<usize>, BTreeSet<LinkId>)> = tied(contours.chain(couplings).chain(each))
+        .into_iter()
         .map(|of| {
             let links = links(&of);
             (of, links)
@@ -92,22 +86,17 @@ pub(super) fn blocks(
             break;
         }
     }
-    let mut at: BTreeMap<LinkId, usize> = BTreeMap::new();
+    let mut at: BTreeMap<LinkId, Vec<usize>> = BTreeMap::new();
     for (of, links) in &left {
-        for &l in links.iter().filter(|l| **l != mechanism.frame()) {
-            sets.union(*at.entry(l).or_insert(of[0]), of[0]);
-        }
+        let shared = links.iter().filter(|l| **l != mechanism.frame());
+        shared.for_each(|&l| at.entry(l).or_default().push(of[0]));
     }
-    let rest: Vec<usize> = left.into_iter().flat_map(|(of, _)| of).collect();
-    out.extend(classes(&sets, &rest).map(|variables| Block { variables, lane: 0 }));
+    let rest = left.into_iter().map(|(of, _)| of);
+    let beside = tied(rest.chain(at.into_values()));
+    out.extend(
+        beside
+            .into_iter()
+            .map(|variables| Block { variables, lane: 0 }),
+    );
     out
-}
-
-/// The sets of some variables.
-fn classes(sets: &UnionFind<usize>, variables: &[usize]) -> impl Iterator<Item = Vec<usize>> {
-    let mut out: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for &v in variables {
-        out.entry(sets.find(v)).or_default().push(v);
-    }
-    out.into_values()
 }

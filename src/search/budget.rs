@@ -14,19 +14,16 @@ fn rungs() -> impl Iterator<Item = usize> {
     tens.flat_map(|n| [1, 2, 5].into_iter().filter_map(move |k| n.checked_mul(k)))
 }
 
-/// A whole diagram, or the best of those within round budgets, by what it is `worth`.
+/// The best, by what it is `worth`, of a diagram cut down to its limits and of those within round budgets.
 ///
 /// # Complexity
 /// Twice the largest of them, and the worth of each.
 pub(super) fn best(
     limits: &Limits,
+    whole: Diagram,
     build: &mut dyn FnMut(&Limits) -> Diagram,
     worth: &dyn Fn(&Diagram) -> BigUint,
 ) -> Diagram {
-    let whole = build(limits);
-    if matches!(whole.stop, Stop::Exhausted | Stop::Interrupted) {
-        return whole;
-    }
     let why = whole.stop;
     let mut best: Option<(BigUint, Diagram)> = None;
     for nodes in rungs().take_while(|&n| n < limits.nodes) {

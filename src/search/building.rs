@@ -5,6 +5,7 @@ use crate::search::budget;
 use crate::search::conditions::Search;
 use crate::search::diagram::{self, Diagram, Progress, Stop};
 use crate::search::estimate::Estimate;
+use crate::search::least_model::Model;
 use crate::search::missing::{Ceiling, Missing};
 use crate::search::order::variable_order;
 use crate::search::product::product;
@@ -56,8 +57,11 @@ impl Diagrams {
 
 /// Stages of a diagram, and its limits.
 type Question<'a> = (&'a [Stage], &'a Limits);
-/// Builds a diagram, under a ceiling or not.
-type Build<'a> = &'a mut dyn FnMut(Question<'_>, Option<&mut Ceiling<'_>>) -> Diagram;
+/// Builds a diagram under a ceiling.
+type Build<'a> = &'a mut dyn FnMut(Question<'_>, &mut Ceiling<'_>) -> Diagram;
+
+/// Nodes from one end before a diagram is tried from both.
+const AT_ONCE: usize = 200_000;
 
 /// Whether a diagram is cut down to its limits.
 fn is_cut(stop: Stop) -> bool {
@@ -113,17 +117,27 @@ impl Search {
         if let Some(out) = self.build_parts(orders, cancelled, progress) {
             return out;
         }
-        let laid = self.laid(orders, &self.least.whole);
-        let mut build = |(stages, limits): Question<'_>, ceiling: Option<&mut Ceiling<'_>>| {
-            let (exact, space) = (&self.exact, &self.least.whole.space);
-            let within = (limits, ceiling);
-            diagram::build(exact, space, stages, within, cancelled, progress)
-        };
+        let model = &self.least.whole;
+        let laid = self.laid(orders, model);
         let first = (&laid.determinate.0[..], &laid.determinate.1);
-        let determinate = self.whole(first, false, &mut build);
+        let mut whole = |question: Question<'_>, admissible: bool| {
+            if !self.conditions.counted {
+                return self.uncounted(question, cancelled, progress);
+            }
+            let built = self.built(model, question, admissible, cancelled, progress);
+            if !is_cut(built.stop) {
+                return built;
+            }
+            let (stages, limits) = question;
+            let build = &mut |limits: &Limits| {
+                self.one_end(model, (stages, limits), None, cancelled, progress)
+            };
+            budget::best(limits, built, build, &|d| self.total(d, admissible))
+        };
+        let determinate = whole(first, false);
         let second = laid.admissible.as_ref().map(|(s, l)| (&s[..], l));
         let admissible = match second {
-            Some(second) => self.whole(second, true, &mut build),
+            Some(second) => whole(second, true),
             None => determinate.clone(),
         };
         let mut out = Diagrams {
@@ -139,7 +153,10 @@ impl Search {
         } else {
             0
         };
-        self.prove(&mut out, second, kept, &mut build);
+        let build = &mut |question: Question<'_>, ceiling: &mut Ceiling<'_>| {
+            self.one_end(model, question, Some(ceiling), cancelled, progress)
+        };
+        self.prove(&mut out, second, kept, build);
         let estimate = |(stages, limits): Question<'_>, end, stop, filter| {
             let seed = self.conditions.estimate.filter(|_| is_cut(stop))?;
             let missing = Missing::new(&self.least.whole.space, stages, limits, end);
@@ -166,18 +183,19 @@ impl Search {
             .as_ref()
             .filter(|_| self.conditions.counted)?;
         let laid = parts.each_ref().map(|part| self.laid(orders, part));
-        let mut built = |part: usize, (stages, limits): &(Vec<Stage>, Limits)| {
-            let (exact, space) = (&self.exact, &parts[part].space);
-            let d = diagram::build(exact, space, stages, (limits, None), cancelled, progress);
-            (d.stop == Stop::Exhausted).then_some(d)
-        };
-        let mut both = |[one, two]: [&(Vec<Stage>, Limits); 2]| {
-            product([&built(0, one)?, &built(1, two)?], &one.1)
+        let mut both = |questions: [&(Vec<Stage>, Limits); 2], admissible: bool| {
+            let mut built = |part: usize| {
+                let (stages, limits) = questions[part];
+                let question = (&stages[..], limits);
+                let d = self.built(&parts[part], question, admissible, cancelled, progress);
+                (d.stop == Stop::Exhausted).then_some(d)
+            };
+            product([&built(0)?, &built(1)?], &questions[0].1)
         };
         let [one, two] = &laid;
-        let determinate = both([&one.determinate, &two.determinate])?;
+        let determinate = both([&one.determinate, &two.determinate], false)?;
         let admissible = match (&one.admissible, &two.admissible) {
-            (Some(one), Some(two)) => both([one, two])?,
+            (Some(one), Some(two)) => both([one, two], true)?,
             _ => determinate.clone(),
         };
         Some(Diagrams {
@@ -189,17 +207,64 @@ impl Search {
         })
     }
 
-    /// The diagram of a question, or where it does not fit the limits the best of those cut down, which are worth the variants
-    /// they count; `filter` applies the conditions on mobility and changes to these.
-    fn whole(&self, (stages, limits): Question<'_>, filter: bool, build: Build<'_>) -> Diagram {
-        let build = &mut |limits: &Limits| build((stages, limits), None);
-        if self.conditions.counted {
-            return budget::best(limits, build, &|d| self.total(d, filter));
+    /// The diagram of a question from one end, cut down to its limits where it does not fit them; under a ceiling or not.
+    fn one_end(
+        &self,
+        model: &Model,
+        (stages, limits): Question<'_>,
+        ceiling: Option<&mut Ceiling<'_>>,
+        cancelled: &(dyn Fn() -> bool + Sync),
+        progress: &mut (dyn FnMut(Progress) + Send),
+    ) -> Diagram {
+        let (exact, space, within) = (&self.exact, &model.space, (limits, ceiling));
+        diagram::build(exact, space, stages, within, cancelled, progress)
+    }
+
+    /// The diagram of a question: from one end; where that takes many nodes, from both; cut down to the limits where neither
+    /// fits.
+    fn built(
+        &self,
+        model: &Model,
+        (stages, limits): Question<'_>,
+        admissible: bool,
+        cancelled: &(dyn Fn() -> bool + Sync),
+        progress: &mut (dyn FnMut(Progress) + Send),
+    ) -> Diagram {
+        let has_halves = self.conditions.state.is_none() && limits.already >= limits.internal;
+        let at_once = if has_halves { AT_ONCE } else { usize::MAX };
+        let few = Limits {
+            nodes: limits.nodes.min(at_once),
+            ..limits.clone()
+        };
+        let built = self.one_end(model, (stages, &few), None, cancelled, progress);
+        if !has_halves || !is_cut(built.stop) {
+            return built;
         }
-        let mut few = build(&Limits {
+        let keep_output = admissible && self.conditions.keep_output;
+        let parts = self.both_ends(model, stages, keep_output);
+        let halves = self.two_sided(model, &parts, (limits, keep_output), cancelled, progress);
+        match halves {
+            Some(whole) => whole,
+            None if few.nodes < limits.nodes => {
+                self.one_end(model, (stages, limits), None, cancelled, progress)
+            }
+            None => built,
+        }
+    }
+
+    /// The diagram of a question that is not to be counted.
+    fn uncounted(
+        &self,
+        (stages, limits): Question<'_>,
+        cancelled: &(dyn Fn() -> bool + Sync),
+        progress: &mut (dyn FnMut(Progress) + Send),
+    ) -> Diagram {
+        let few = &Limits {
             nodes: 1,
             ..limits.clone()
-        });
+        };
+        let model = &self.least.whole;
+        let mut few = self.one_end(model, (stages, few), None, cancelled, progress);
         if few.stop != Stop::Interrupted {
             few.stop = Stop::NotCounted;
         }
@@ -221,7 +286,7 @@ impl Search {
             return;
         }
         let known = self.cost_of(&out.admissible, &most).flatten();
-        let build = &mut |ceiling: &mut Ceiling<'_>| build(question, Some(ceiling));
+        let build = &mut |ceiling: &mut Ceiling<'_>| build(question, ceiling);
         let proof = self.up_to(&missing, (&most, known), build);
         match proof.up_to {
             // Nothing had to be left out: what has no completion by dimensions made the diagram too large.

@@ -138,7 +138,7 @@ pub struct Search {
     pub mechanism: Arc<Mechanism>,
     /// What variants must be like.
     pub conditions: Conditions,
-    /// The space (with mirrored pairs as one variable where only symmetric variants are wanted).
+    /// The space (with images of each other as one variable where only symmetric variants are wanted).
     pub space: Space,
     /// Its costs.
     pub steps: Steps,
@@ -304,14 +304,16 @@ impl Search {
                 .is_none_or(|c| key.changes() <= c)
     }
 
-    /// The choices of a variant's mirror image.
+    /// The choices of a variant's image.
     #[must_use]
-    pub fn mirrored(&self, choices: &[usize]) -> Vec<usize> {
+    pub fn image(&self, choices: &[usize]) -> Vec<usize> {
         let mut out = choices.to_vec();
-        let of = |j: JointId| self.space.variables.iter().position(|v| v.joints == [j]);
-        for &(a, b) in &self.mechanism.search.mirror {
-            if let (Some(a), Some(b)) = (of(a), of(b)) {
-                (out[a], out[b]) = (choices[b], choices[a]);
+        let variables = &self.space.variables;
+        let of = |j: JointId| variables.iter().position(|v| v.joints == [j]);
+        for (v, &choice) in variables.iter().zip(choices) {
+            let [j] = v.joints[..] else { continue };
+            if let Some(to) = of(self.mechanism.search.image(j)) {
+                out[to] = choice;
             }
         }
         out

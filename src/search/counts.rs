@@ -33,6 +33,13 @@ impl fmt::Display for Counts {
     }
 }
 
+/// How many orbits there are of a symmetry that is done `order` times, 2 or 3, until all is back: from how many variants
+/// there are and how many of them it keeps (Burnside's lemma: whatever but the identity is done keeps just these).
+#[must_use]
+pub fn orbits(all: &BigUint, kept: &BigUint, order: usize) -> BigUint {
+    (all + kept * (order - 1)) / order
+}
+
 impl Counts {
     pub(super) fn add(&mut self, mobility: i64, key: Key, count: &BigUint) {
         self.total += count;
@@ -46,22 +53,29 @@ impl Counts {
         *self.by_freedoms.entry(key.freedoms()).or_default() += count;
     }
 
-    /// Orbits of a mirror symmetry, from all variants and the symmetric ones (Burnside's lemma).
-    fn orbits(mut self, symmetric: &Counts) -> Counts {
-        fn half<K: Ord>(all: &mut BTreeMap<K, BigUint>, fixed: &BTreeMap<K, BigUint>) {
+    /// Orbits of a symmetry, from all variants and the symmetric ones, as [`orbits`] has it.
+    fn orbits(mut self, symmetric: &Counts, order: usize) -> Counts {
+        let part = |n: &BigUint, kept: &BigUint| orbits(n, kept, order);
+        fn each<K: Ord>(
+            all: &mut BTreeMap<K, BigUint>,
+            fixed: &BTreeMap<K, BigUint>,
+            part: impl Fn(&BigUint, &BigUint) -> BigUint,
+        ) {
+            let none = BigUint::zero();
             for (k, n) in all.iter_mut() {
-                *n = (&*n + fixed.get(k).cloned().unwrap_or_default()) / 2u8;
+                *n = part(n, fixed.get(k).unwrap_or(&none));
             }
         }
-        self.total = (self.total + &symmetric.total) / 2u8;
-        half(&mut self.by_mobility, &symmetric.by_mobility);
-        half(&mut self.by_changes, &symmetric.by_changes);
-        half(
+        self.total = part(&self.total, &symmetric.total);
+        each(&mut self.by_mobility, &symmetric.by_mobility, part);
+        each(&mut self.by_changes, &symmetric.by_changes, part);
+        each(
             &mut self.by_mobility_and_changes,
             &symmetric.by_mobility_and_changes,
+            part,
         );
-        half(&mut self.by_redundant, &symmetric.by_redundant);
-        half(&mut self.by_freedoms, &symmetric.by_freedoms);
+        each(&mut self.by_redundant, &symmetric.by_redundant, part);
+        each(&mut self.by_freedoms, &symmetric.by_freedoms, part);
         self
     }
 }
@@ -174,10 +188,11 @@ impl Search {
         };
         let symmetric = Search::new(self.exact.clone(), self.mechanism.clone(), conditions)?;
         let diagrams = symmetric.build(cancelled, &mut |_| {});
-        let determinate = all
-            .0
-            .orbits(&symmetric.counts(&diagrams.determinate, false));
-        let admissible = all.1.orbits(&symmetric.counts(&diagrams.admissible, true));
+        let order = self.mechanism.search.order();
+        let determinate = symmetric.counts(&diagrams.determinate, false);
+        let admissible = symmetric.counts(&diagrams.admissible, true);
+        let determinate = all.0.orbits(&determinate, order);
+        let admissible = all.1.orbits(&admissible, order);
         let stops = [diagrams.determinate.stop, diagrams.admissible.stop];
         Ok(((determinate, admissible), stops))
     }

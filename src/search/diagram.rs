@@ -98,44 +98,27 @@ pub(super) fn build(
         let choices = &space.variables[stage.variable].choices;
         let room = limits.nodes.saturating_sub(total).max(CUT);
         let bytes = allowed.saturating_sub(held + nodes.bytes());
-        let mut merge = Merge::new((room, bytes), stop, nodes.len() * choices.len());
-        let growth = grown(exact.field(), space, stage);
-        // Children that are not merged yet may take an eighth of the memory; one is about as large as its parent.
-        let each = nodes.bytes() / nodes.len().max(1);
-        let size = (allowed / 8 / (each * choices.len()).max(1))
-            .min(BATCH / (effort(space.dim, stage, each) * choices.len()).max(1))
-            .clamp(CUT, MOST);
-        for batch in (0..nodes.len()).step_by(size) {
-            let batch = batch..(batch + size).min(nodes.len());
-            for part in expand(
-                exact.field(),
-                space,
-                (stage, &growth),
-                limits,
-                &nodes,
-                batch,
-            ) {
-                merge.take(
-                    &part,
-                    &nodes,
-                    |choice| choices[choice].cost_milli,
-                    |spent, size, least| {
-                        let ceiling = ceiling.as_mut();
-                        ceiling.is_some_and(|c| c.is_above(done + 1, spent, size, least))
-                    },
-                );
-            }
-            if cancelled() && merge.stop != Stop::Interrupted {
-                merge.stop = Stop::Interrupted;
-                merge.cut();
-            }
-            progress(Progress {
-                done,
-                of: stages.len(),
-                nodes: total + merge.next.len(),
-                layer: merge.next.len(),
-            });
-        }
+        let merge = Merge::new((room, bytes), stop, nodes.len() * choices.len());
+        let merge = next(
+            (exact.field(), space),
+            stage,
+            (limits, allowed),
+            &nodes,
+            merge,
+            |spent, size, least| {
+                let ceiling = ceiling.as_mut();
+                ceiling.is_some_and(|c| c.is_above(done + 1, spent, size, least))
+            },
+            cancelled,
+            &mut |layer| {
+                progress(Progress {
+                    done,
+                    of: stages.len(),
+                    nodes: total + layer,
+                    layer,
+                });
+            },
+        );
         let Merge {
             stop: now,
             refused,
@@ -189,10 +172,49 @@ pub(super) fn build(
     }
 }
 
+/// The children of a layer's nodes put together, but for those that are `out` of the question; `told` hears how many there are
+/// so far.
+#[allow(
+    clippy::too_many_arguments,
+    reason = "one layer of a diagram, or of half of one"
+)]
+pub(super) fn next(
+    (field, space): (Field, &Space),
+    stage: &Stage,
+    (limits, bytes): (&Limits, usize),
+    nodes: &Nodes,
+    mut merge: Merge,
+    mut out: impl FnMut(&Spent, usize, i64) -> bool,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    told: &mut dyn FnMut(usize),
+) -> Merge {
+    let choices = &space.variables[stage.variable].choices;
+    let growth = grown(field, space, stage);
+    // Children that are not merged yet may take an eighth of the memory; one is about as large as its parent.
+    let each = nodes.bytes() / nodes.len().max(1);
+    let size = (bytes / 8 / (each * choices.len()).max(1))
+        .min(BATCH / (effort(space.dim, stage, each) * choices.len()).max(1))
+        .clamp(CUT, MOST);
+    for batch in (0..nodes.len()).step_by(size) {
+        let batch = batch..(batch + size).min(nodes.len());
+        for part in expand(field, space, (stage, &growth), limits, nodes, batch) {
+            merge.take(&part, nodes, |choice| choices[choice].cost_milli, &mut out);
+        }
+        if cancelled() {
+            merge.interrupt(nodes.len() * choices.len());
+        }
+        told(merge.next.len());
+        if merge.edges.len() == nodes.len() * choices.len() {
+            break;
+        }
+    }
+    merge
+}
+
 /// Nodes expanded at most before their children are merged.
 const MOST: usize = 1 << 14;
-/// Field operations on them at most, so that whoever cancels need not wait: some tenths of a second.
-const BATCH: usize = 1 << 27;
+/// Field operations on them at most, so that whoever cancels need not wait: less than a tenth of a second.
+const BATCH: usize = 1 << 25;
 
 /// About how many field operations a child takes of a node that has so many bytes.
 fn effort(dim: usize, stage: &Stage, bytes: usize) -> usize {

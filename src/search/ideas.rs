@@ -246,15 +246,12 @@ impl Search {
             .map(|c| c.iter().map(pattern).collect())
             .collect();
         let image = |(joints, word): &Item| {
-            let joints = joints
-                .iter()
-                .map(|&j| mirror::image(m, j))
-                .sorted()
-                .collect();
+            let joints = joints.iter().map(|&j| m.search.image(j)).sorted().collect();
             at(&(joints, word.clone()))
         };
         let searched = self.conditions.state.map(|s| s.state);
-        let symmetric = mirror::check(&self.exact, m, searched).is_ok();
+        // A third of a turn makes of a freedom about x one that is about no axis of another's words.
+        let symmetric = m.search.order() == 2 && mirror::check(&self.exact, m, searched).is_ok();
         let mirrored = symmetric
             .then(|| items.iter().map(image).collect())
             .flatten();

@@ -32,19 +32,8 @@ impl Search {
     pub(super) fn laid(&self, orders: &Orders, model: &Model) -> Laid {
         let state = self.conditions.state.as_ref();
         let order = orders.determinate.clone();
-        let at = |order: &[usize], lane: &dyn Fn(usize) -> usize| -> Vec<At> {
-            let joints = |v: usize| self.space.variables[v].joints.iter();
-            let of = |&v: &usize| {
-                let lane = lane(v);
-                joints(v).map(move |&joint| At { joint, lane })
-            };
-            order.iter().flat_map(of).collect()
-        };
-        let [lanes, common_lanes] = self.blocks.each_ref().map(|blocks| {
-            let of = |b: &Block| b.variables.iter().map(|&v| (v, b.lane)).collect::<Vec<_>>();
-            blocks.iter().flat_map(of).collect::<BTreeMap<_, _>>()
-        });
-        let whole = plan(&self.mechanism, &at(&order, &|v| lanes[&v]), &[], &[]);
+        let [blocks, common_blocks] = &self.blocks;
+        let whole = plan(&self.mechanism, &self.joined(&order, blocks), &[], &[]);
         let limits = Limits {
             already: model.already(&self.exact, &order, &whole),
             internal: self.conditions.max_redundant,
@@ -72,7 +61,7 @@ impl Search {
         let alone: Vec<usize> = free.iter().copied().filter(is_alone).collect();
         let frame = self.mechanism.frame();
         let mut order = orders.common.clone();
-        let joined = at(&order, &|v| common_lanes[&v]);
+        let joined = self.joined(&order, common_blocks);
         let first = plan(&self.mechanism, &joined, &self.pinned, &[]);
         let mut stages = stage::stages(&model.space, &order, &first);
         let mut limits = limits;
@@ -103,7 +92,8 @@ impl Search {
         }
         if self.conditions.keep_output {
             // What comes first has no say in how the kept links move.
-            let silent = order.iter().filter(|&v| common_lanes[v] > 0).count();
+            let silent = common_blocks.iter().filter(|b| b.lane > 0);
+            let silent: usize = silent.map(|b| b.variables.len()).sum();
             self.look_ahead(model, &mut stages[silent..free.len()], alone.is_empty());
         }
         order.extend(alone);
@@ -113,6 +103,46 @@ impl Search {
             admissible: Some((stages, limits)),
             order,
         }
+    }
+
+    /// The joints of some variables, each in the copy of the links that its block has.
+    fn joined(&self, order: &[usize], blocks: &[Block]) -> Vec<At> {
+        let of = |b: &Block| b.variables.iter().map(|&v| (v, b.lane)).collect::<Vec<_>>();
+        let lanes: BTreeMap<usize, usize> = blocks.iter().flat_map(of).collect();
+        let joints = |&v: &usize| {
+            let (joints, lane) = (&self.space.variables[v].joints, lanes[&v]);
+            joints.iter().map(move |&joint| At { joint, lane })
+        };
+        order.iter().flat_map(joints).collect()
+    }
+
+    /// The stages of a diagram without a searched state, as they are and from the end, for each of the parts between which no
+    /// link is live; what is kept is in the last.
+    pub(super) fn both_ends(
+        &self,
+        model: &Model,
+        stages: &[Stage],
+        keep_output: bool,
+    ) -> Vec<[Vec<Stage>; 2]> {
+        let blocks = &self.blocks[usize::from(keep_output)];
+        let is_end = |s: &Stage| s.moves.last().is_some_and(|m| m.step.is_alone());
+        let parts: Vec<&[Stage]> = stages.split_inclusive(is_end).collect();
+        let both = |(i, part): (usize, &&[Stage])| {
+            let is_kept = keep_output && i + 1 == parts.len();
+            let order: Vec<usize> = part.iter().rev().map(|s| s.variable).collect();
+            let joined = self.joined(&order, blocks);
+            let pinned = if is_kept { &self.pinned[..] } else { &[] };
+            let back = plan(&self.mechanism, &joined, pinned, &[]);
+            let mut back = stage::stages(&model.space, &order, &back);
+            if is_kept && joined.iter().all(|at| at.lane == 0) {
+                self.look_ahead(model, &mut back, true);
+            }
+            // Halves meet in what the kept links do, however wrong.
+            let mut both = [part.to_vec(), back];
+            both.iter_mut().flatten().for_each(|s| s.collapse = None);
+            both
+        };
+        parts.iter().enumerate().map(both).collect()
     }
 
     /// Gives each stage of the free state the test that its nodes must pass. `same_joints` says that all of them are in the

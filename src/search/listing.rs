@@ -24,9 +24,13 @@ impl Search {
         if self.conditions.symmetry != Symmetry::OnePerOrbit {
             return self.in_order(diagrams, top);
         }
-        // At most every other variant is dropped, so twice as many always suffice.
-        let all = self.in_order(diagrams, top.saturating_mul(2));
-        let first_of_orbit = |v: &Assignment| self.mirrored(&v.choices) >= v.choices;
+        // Of two or three images one is kept, so that so many times more always suffice.
+        let order = self.mechanism.search.order();
+        let all = self.in_order(diagrams, top.saturating_mul(order));
+        let first_of_orbit = move |v: &Assignment| {
+            let images = std::iter::successors(Some(v.choices.clone()), |c| Some(self.image(c)));
+            images.take(order).all(|image| image >= v.choices)
+        };
         Box::new(all.filter(first_of_orbit).take(top))
     }
 

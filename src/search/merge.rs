@@ -122,9 +122,13 @@ impl Merge {
         }
     }
 
-    /// Takes few more nodes.
-    pub(super) fn cut(&mut self) {
+    /// Takes few more nodes, and none where there are some: then the rest of `edges` in all lead nowhere.
+    pub(super) fn interrupt(&mut self, edges: usize) {
+        self.stop = Stop::Interrupted;
         self.room = self.room.min(CUT);
+        if self.next.len() >= CUT {
+            self.edges.resize(edges, DEAD);
+        }
     }
 
     /// Takes the children of some nodes, those of the nodes before them having been taken, but for those that are out of

@@ -1,7 +1,8 @@
-//! Whether the mirror pairs of a file carry the mechanism over to itself, so that a variant and its image have the same
+//! Whether the mirror pairs of a file, or the groups that a turn carries round, carry the mechanism over to itself, so that a variant and its image have the same
 //! figures: links and joints, each with its options, exactly.
 
 use crate::closure::mirror::Plane;
+use crate::closure::turn::Turn;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::model::coupling::{CoupledFreedom, Coupling};
 use crate::model::joint_type::{Freedom, JointType};
@@ -71,18 +72,14 @@ pub enum MirrorError {
         /// How far it is off.
         off: String,
     },
+    /// Three joints at one place.
+    #[error(
+        "the joints under [search] turn say no axis, three at a time at one place; add a group that is not on the axis, or search without symmetry"
+    )]
+    NoAxis,
     /// The geometry has no image in the field.
     #[error(transparent)]
     Exact(#[from] ExactError),
-}
-
-/// The joint that is the mirror image of another; itself where no pair names it.
-pub(super) fn image(mechanism: &Mechanism, j: JointId) -> JointId {
-    let pairs = mechanism.search.mirror.iter();
-    let other = pairs
-        .flat_map(|&(a, b)| [(a, b), (b, a)])
-        .find(|p| p.0 == j);
-    other.map_or(j, |p| p.1)
 }
 
 /// Refuses a mechanism that its mirror pairs do not carry over to itself, in the free state and in `state`.
@@ -94,7 +91,7 @@ pub(super) fn check(
     mechanism: &Mechanism,
     state: Option<StateId>,
 ) -> Result<(), MirrorError> {
-    if mechanism.search.mirror.is_empty() {
+    if mechanism.search.order() == 1 {
         return Err(MirrorError::NoPairs {
             mechanism: mechanism.name.clone(),
         });
@@ -105,7 +102,10 @@ pub(super) fn check(
         .unique()
         .collect_vec();
     for &j in &joints {
-        let (a, b) = (&mechanism.joints[j], &mechanism.joints[image(mechanism, j)]);
+        let (a, b) = (
+            &mechanism.joints[j],
+            &mechanism.joints[mechanism.search.image(j)],
+        );
         let offer = |o: &JointOption| (o.name.clone(), o.cost_milli);
         if !a.offered().map(offer).eq(b.offered().map(offer)) {
             return Err(MirrorError::UnlikeOptions {
@@ -131,24 +131,36 @@ fn images(
     joints: &[JointId],
 ) -> Result<(), MirrorError> {
     let mut off = None;
-    for (plane, _) in Plane::of_pairs(mechanism, &mechanism.search.mirror) {
-        match in_plane(exact, mechanism, joints, &plane) {
+    let planes = Plane::of_pairs(mechanism, &mechanism.search.mirror);
+    let turns = Turn::of_groups(mechanism, &mechanism.search.turn);
+    let maps = planes.into_iter().map(|(plane, _)| Map::Mirror(plane));
+    for map in maps.chain(turns.into_iter().map(Map::Turn)) {
+        match by_map(exact, mechanism, joints, &map) {
             // What is off in the likeliest plane is what a person wants to hear of.
             Err(e @ MirrorError::Off { .. }) => off = off.or(Some(e)),
             other => return other,
         }
     }
-    off.map_or(Ok(()), Err)
+    Err(off.unwrap_or(MirrorError::NoAxis))
 }
 
-fn in_plane(
+/// What carries the mechanism over to itself.
+enum Map {
+    Mirror(Plane),
+    Turn(Turn),
+}
+
+fn by_map(
     exact: &ExactField,
     mechanism: &Mechanism,
     joints: &[JointId],
-    plane: &Plane,
+    map: &Map,
 ) -> Result<(), MirrorError> {
     for &j in joints {
-        let (a, b) = (&mechanism.joints[j], &mechanism.joints[image(mechanism, j)]);
+        let (a, b) = (
+            &mechanism.joints[j],
+            &mechanism.joints[mechanism.search.image(j)],
+        );
         for (one, other) in a.offered().zip(b.offered()) {
             let motion = |o: &JointOption| match o.joint_type {
                 // A face: what friction leaves free.
@@ -157,14 +169,23 @@ fn in_plane(
             };
             let (from, to) = (motion(one), motion(other));
             let pair = ((&one.frame, &from), (&other.frame, &to));
-            if !plane.carries(exact, &mechanism.mode, pair.0, pair.1)? {
+            let mode = &mechanism.mode;
+            let (carried, miss) = match map {
+                Map::Mirror(m) => (
+                    m.carries(exact, mode, pair.0, pair.1)?,
+                    m.miss((&one.frame, &one.joint_type), &other.frame),
+                ),
+                Map::Turn(t) => (
+                    t.carries(exact, mode, pair.0, pair.1)?,
+                    t.miss((&one.frame, &one.joint_type), &other.frame),
+                ),
+            };
+            if !carried {
                 return Err(MirrorError::Off {
                     first: a.id.clone(),
                     second: b.id.clone(),
                     option: one.name.clone(),
-                    off: plane
-                        .miss((&one.frame, &one.joint_type), &other.frame)
-                        .words(mechanism.length_unit.symbol),
+                    off: miss.words(mechanism.length_unit.symbol),
                 });
             }
         }
@@ -182,7 +203,7 @@ fn links(mechanism: &Mechanism, joints: &[JointId]) -> Result<(), MirrorError> {
         changed = false;
         for &j in joints {
             let [u, v] = mechanism.joints[j].links;
-            let [x, y] = mechanism.joints[image(mechanism, j)].links;
+            let [x, y] = mechanism.joints[mechanism.search.image(j)].links;
             for (near, far) in [(u, v), (v, u)] {
                 let goes = match to[near.index()] {
                     Some(at) if at == x => y,
@@ -197,7 +218,7 @@ fn links(mechanism: &Mechanism, joints: &[JointId]) -> Result<(), MirrorError> {
     }
     for &j in joints {
         let ends = mechanism.joints[j].links.map(|l| to[l.index()]);
-        let [x, y] = mechanism.joints[image(mechanism, j)].links.map(Some);
+        let [x, y] = mechanism.joints[mechanism.search.image(j)].links.map(Some);
         if ends != [x, y] && ends != [y, x] {
             return Err(MirrorError::NoImage {
                 joint: mechanism.joints[j].id.clone(),
@@ -220,7 +241,7 @@ fn coupled(mechanism: &Mechanism, coupling: &Coupling) -> bool {
     /// Relative difference of equal ratios.
     const EQUAL: f64 = 1e-12;
     let [a, b] = coupling.ends.map(|e| CoupledFreedom {
-        joint: image(mechanism, e.joint),
+        joint: mechanism.search.image(e.joint),
         ..e
     });
     let ratio = coupling.ratio.to_f64().abs();

@@ -50,6 +50,11 @@ pub struct Step {
 }
 
 impl Step {
+    /// Whether nothing that was chosen matters to what comes.
+    pub(super) fn is_alone(&self) -> bool {
+        self.live.is_empty() && self.pending.is_empty()
+    }
+
     /// Writes the row that a twist of the joint, with its entries for couplings behind it, becomes.
     pub(super) fn image(&self, f: Field, d: usize, twist: &[Residue], row: &mut Vec<Residue>) {
         row.clear();

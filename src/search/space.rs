@@ -1,4 +1,4 @@
-//! The space of variants: for each joint, or each mirrored pair of joints, the choices and what they do.
+//! The space of variants: for each joint, or all that are each other's images, the choices and what they do.
 
 use crate::closure::coupling::{coefficient, length_ratio};
 use crate::closure::twist::{MotionSpace, joint_twists};
@@ -66,7 +66,7 @@ pub struct Space {
 
 impl Space {
     /// The space of a mechanism: all joints of the free state, and those that `state` adds where one is given.
-    /// With `symmetric`, mirrored pairs of joints become one variable.
+    /// With `symmetric`, joints that are each other's images become one variable.
     ///
     /// # Errors
     /// Where a coordinate has no value in the field.
@@ -87,17 +87,10 @@ impl Space {
             .map(|&j| (j, false))
             .chain(added.map(|j| (j, true)).collect::<Vec<_>>())
         {
-            let mirror = mechanism.search.mirror.iter().find_map(|&(a, b)| {
-                if j == a {
-                    Some(b)
-                } else {
-                    (j == b).then_some(a)
-                }
-            });
-            match groups
-                .iter_mut()
-                .find(|(g, _)| symmetric && mirror.is_some_and(|m| m != j && g.contains(&m)))
-            {
+            let image = |&j: &JointId| Some(mechanism.search.image(j)).filter(|_| symmetric);
+            let mut others = std::iter::successors(image(&j), image).take_while(|&i| i != j);
+            let found = others.find_map(|i| groups.iter().position(|(g, _)| g.contains(&i)));
+            match found.map(|at| &mut groups[at]) {
                 Some((group, _)) => group.push(j),
                 None => groups.push((vec![j], external)),
             }

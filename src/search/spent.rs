@@ -29,7 +29,7 @@ pub(super) struct Spent {
 }
 
 /// Redundant constraints of a whole variant.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub struct Redundancy {
     /// Within the mechanism.
     pub internal: u32,

@@ -13,7 +13,7 @@ use std::fmt::Write;
 
 /// A ladder of contours: a four-bar, and three joints more for each further one, hinges along z in a plane at places drawn
 /// from a seed; along any direction where it is `spatial`.
-fn ladder(contours: usize, seed: u64, spatial: bool) -> String {
+pub(crate) fn ladder(contours: usize, seed: u64, spatial: bool) -> String {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut number = |below: u64| {
         state ^= state << 13;
@@ -56,7 +56,7 @@ fn ladder(contours: usize, seed: u64, spatial: bool) -> String {
     out
 }
 
-fn search(text: &str, conditions: Conditions) -> (Search, Diagrams) {
+pub(crate) fn search(text: &str, conditions: Conditions) -> (Search, Diagrams) {
     let m = mechanism_from_str("ladder.toml", text).unwrap();
     let search = Search::new(exact_field(&m, 0).unwrap(), m, conditions).unwrap();
     let diagrams = search.build(&|| false, &mut |_| {});

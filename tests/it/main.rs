@@ -6,6 +6,7 @@ mod adding;
 mod bench;
 mod beyond_budget;
 mod blocks;
+mod both_ends;
 mod cam;
 mod catalogs;
 mod catalogue;

@@ -144,6 +144,62 @@ fn mirrored() -> impl Strategy<Value = String> {
     })
 }
 
+/// A vector after so many of two equal parts of a turn about z, or of three of one about the diagonal, which change the axes round.
+fn turned([x, y, z]: [i32; 3], part: usize, parts: usize) -> [i32; 3] {
+    match (parts, part) {
+        (_, 0) => [x, y, z],
+        (2, _) => [-x, -y, z],
+        (_, 1) => [z, x, y],
+        _ => [y, z, x],
+    }
+}
+
+/// A random mechanism that two or three equal parts of a turn carry over to itself: a crank on its axis, and as many
+/// chains alike from it to the frame.
+fn carried_round() -> impl Strategy<Value = String> {
+    let joint = ([-4..5, -4..5, -2..3], 0usize..3, 0usize..3);
+    let drawn = (2usize..4, prop::collection::vec(joint, 2..3));
+    // Three joints at one place say no axis.
+    let off = |[x, y, z]: &[i32; 3]| x != y || y != z;
+    let drawn = drawn.prop_filter("on the axis", move |(_, c)| c.iter().any(|j| off(&j.0)));
+    drawn.prop_map(|(parts, chain)| {
+        let mut out = String::from("name = \"round\"\n[search]\nturn = [");
+        for i in 0..chain.len() {
+            let names = (0..parts).map(|k| format!("\"p{k}j{i}\"")).collect::<Vec<_>>().join(", ");
+            out += &format!("[{names}],");
+        }
+        out += "]\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"s\"\n";
+        let axis = [[0, 0, 1], [1, 1, 1]][parts - 2];
+        let mut joints = format!(
+            "[[joint]]\nid = \"middle\"\nlinks = [\"0\", \"s\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = {axis:?}\n",
+        );
+        for k in 0..parts {
+            for i in 1..chain.len() {
+                out += &format!("[[link]]\nid = \"p{k}l{i}\"\nrole = \"output\"\n");
+            }
+            for (i, &(point, axis, option)) in chain.iter().enumerate() {
+                let name = |i: usize| match i {
+                    0 => "s".to_owned(),
+                    i if i == chain.len() => "0".to_owned(),
+                    i => format!("p{k}l{i}"),
+                };
+                let axis = [[0, 0, 1], [1, 0, 0], [1, 0, 1]][axis];
+                let option = ["cylindrical", "universal", "spherical"][option];
+                joints += &format!(
+                    "[[joint]]\nid = \"p{k}j{i}\"\nlinks = [\"{}\", \"{}\"]\ntype = \"revolute\"\npoint = {:?}\naxis = {:?}\n\
+                     reference = {:?}\noptions = [\"revolute\", \"{option}\"]\n",
+                    name(i),
+                    name(i + 1),
+                    turned(point, k, parts),
+                    turned(axis, k, parts),
+                    turned([0, 1, 0], k, parts),
+                );
+            }
+        }
+        out + &joints
+    })
+}
+
 type Choice = Vec<(usize, Option<usize>)>;
 
 fn tally<'a>(list: impl Iterator<Item = &'a Twin>) -> BTreeMap<(i64, u32), BigUint> {
@@ -269,5 +325,49 @@ proptest! {
         let pairs: BTreeSet<Choice> = list.iter().map(|c| c.clone().min(image(c))).collect();
         prop_assert_eq!((pairs.len(), list.len()), (list.len(), list.len()));
         prop_assert_eq!(admissible.total, BigUint::from(list.len()));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 16, max_shrink_iters: 200, ..ProptestConfig::default() })]
+    #[test]
+    fn parts_of_a_turn(text in carried_round(), allowed in 0u32..4) {
+        let m = mechanism_from_str("round.toml", &text).unwrap();
+        let all = variants(&m, false);
+        let image = |c: &Choice| {
+            let mut out = c.clone();
+            for group in &m.search.turn {
+                for (i, &j) in group.iter().enumerate() {
+                    out[group[(i + 1) % group.len()]] = c[j];
+                }
+            }
+            out
+        };
+        let seen: BTreeMap<Choice, Twin> = all.iter().map(|c| (c.clone(), look(&m, false, c))).collect();
+        for (c, t) in &seen {
+            let i = &seen[&image(c)];
+            prop_assert_eq!((t.internal, t.mobility, t.motion), (i.internal, i.mobility, i.motion));
+        }
+        // The least of each orbit, and how many are in it.
+        let orbit = |c: &Choice| {
+            let round = std::iter::successors(Some(c.clone()), |c| Some(image(c)));
+            round.take(m.search.turn[0].len()).collect::<BTreeSet<_>>()
+        };
+        let good = |t: &Twin| t.internal <= allowed;
+        let of = |which: &dyn Fn(&Choice) -> bool| {
+            tally(seen.iter().filter(|(c, t)| which(c) && good(t)).map(|(_, t)| t))
+        };
+        let request = Conditions { max_redundant: allowed, keep_output: false, ..Conditions::default() };
+        let symmetric = Conditions { symmetry: Symmetry::SymmetricOnly, ..request.clone() };
+        let (determinate, _, list) = searched(&m, &symmetric)?;
+        prop_assert_eq!(&determinate.by_mobility_and_changes, &of(&|c| orbit(c).len() == 1));
+        prop_assert!(list.iter().all(|c| orbit(c).len() == 1));
+        let one = Conditions { symmetry: Symmetry::OnePerOrbit, ..request };
+        let search = Search::new(exact_field(&m, 0).unwrap(), &m, one.clone()).unwrap();
+        let (determinate, admissible, list) = searched(&m, &one)?;
+        let ((determinate, admissible), _) = search.orbits((determinate, admissible), &|| false).unwrap();
+        prop_assert_eq!(&determinate.by_mobility_and_changes, &of(&|c| orbit(c).first() == Some(c)));
+        let orbits: BTreeSet<BTreeSet<Choice>> = list.iter().map(orbit).collect();
+        prop_assert_eq!((orbits.len(), BigUint::from(list.len())), (list.len(), admissible.total));
     }
 }
