@@ -13,6 +13,14 @@ pub enum ExprError {
         /// The length of the text in bytes.
         len: usize,
     },
+    /// Written out in full, the numbers in it exceed [`MAX_TEXT`](super::MAX_TEXT) bytes, so that it could not be read again.
+    #[error(
+        "the expression takes {len} bytes with its numbers written out, over the limit of 1000; use numbers of fewer digits"
+    )]
+    WrittenTooLong {
+        /// The length in bytes.
+        len: usize,
+    },
     /// Parentheses are nested over [`MAX_NESTING`](super::MAX_NESTING) deep.
     #[error("the parentheses at byte {at} are nested more than 64 deep; simplify the expression")]
     TooDeep {

@@ -51,12 +51,13 @@ impl Expr {
         if text.len() > MAX_TEXT {
             return Err(ExprError::TooLong { len: text.len() });
         }
+        let mut named = false;
         let mut parser = Parser {
             text,
             pos: 0,
             depth: 0,
             pi_is_a_number,
-            names,
+            names: &mut |word| names(word).inspect(|_| named = true),
         };
         if parser.peek().is_none() {
             return Err(ExprError::Empty);
@@ -66,7 +67,15 @@ impl Expr {
         if parser.peek().is_some() {
             return Err(parser.unexpected("an operator or the end"));
         }
-        number(value, start)
+        let read = number(value, start)?;
+        // Short texts without powers are not written much longer.
+        if !named && (text.len() > MAX_TEXT / 5 || text.contains(['e', 'E', '^'])) {
+            match read.to_string().len() {
+                len if len > MAX_TEXT => return Err(ExprError::WrittenTooLong { len }),
+                _ => {}
+            }
+        }
+        Ok(read)
     }
 }
 

@@ -8,19 +8,26 @@
 //! OZOLS_FUZZ_SECONDS=600 OZOLS_FUZZ_KEEP=1 cargo test --test integration fuzz::corpus -- --nocapture
 //! ```
 //!
-//! `OZOLS_FUZZ_ONLY=robots` takes one of the targets alone. An input that makes a reader panic is told by its file `tests/corpus/TARGET/failed`; of one that hangs or aborts, the file
-//! `current` of the build's temporary folder has the bytes.
+//! `OZOLS_FUZZ_ONLY=robots` takes one of the targets alone, `OZOLS_FUZZ_SEED=8` spoils otherwise. An input that makes a reader
+//! panic is told by its file `tests/corpus/TARGET/failed`; of one that hangs or aborts, the file `TARGET.current` of the
+//! build's temporary folder has the bytes.
 
 use super::{certificates, edits, expressions, mechanism_files, robot_files, spoilt};
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::{Seek, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// The longest that an input of a few kilobytes may take, in a build for tests.
 const PATIENCE: Duration = Duration::from_secs(20);
+
+/// Bytes of an input at most, and kinds of answers told apart.
+const LONGEST: usize = 1 << 16;
+const MOST: usize = 50_000;
 
 /// A reader.
 struct Target {
@@ -90,37 +97,18 @@ impl Target {
             .join(self.name)
     }
 
-    /// Gives an input; the kind of the answer.
-    fn give(&self, input: &[u8]) -> String {
-        let current = Path::new(env!("CARGO_TARGET_TMPDIR")).join("current");
-        std::fs::write(current, input).unwrap();
-        let begun = Instant::now();
-        let answer = catch_unwind(AssertUnwindSafe(|| (self.look)(input)));
-        if answer.is_err() || begun.elapsed() > PATIENCE {
-            let failed = self.folder().join("failed");
-            std::fs::create_dir_all(self.folder()).unwrap();
-            std::fs::write(&failed, input).unwrap();
-            panic!(
-                "{}: {:?}, see {}",
-                self.name,
-                begun.elapsed(),
-                failed.display()
-            );
-        }
-        kind(&answer.unwrap_or_default())
-    }
-
     /// Looks at the corpus, then spoils it for a time; how often it gave an input, and how many kinds of answers there are.
-    fn run(&self, time: Duration, keep: bool) -> (u64, usize) {
+    fn run(&self, time: Duration, seed: u64, keep: bool) -> (u64, usize) {
         let mut kept: Vec<Vec<u8>> = (self.seeds)();
         if let Ok(folder) = std::fs::read_dir(self.folder()) {
             let mut files: Vec<PathBuf> = folder.map(|f| f.unwrap().path()).collect();
             files.sort();
             kept.extend(files.iter().map(|f| std::fs::read(f).unwrap()));
         }
-        let mut known: BTreeSet<String> = kept.iter().map(|input| self.give(input)).collect();
-        let mut executions = kept.len() as u64;
-        let seed = [if keep { executions as u8 } else { 7 }; 32];
+        let mut given = Given::new(self);
+        let mut known: BTreeSet<String> = kept.iter().map(|input| given.give(input)).collect();
+        let seed = seed + if keep { given.executions } else { 0 };
+        let seed: [u8; 32] = std::array::from_fn(|i| seed.to_le_bytes()[i % 8]);
         let random = TestRng::from_seed(RngAlgorithm::ChaCha, &seed);
         let mut runner = TestRunner::new_with_rng(Config::default(), random);
         let drawn = (
@@ -131,8 +119,11 @@ impl Target {
         while begun.elapsed() < time {
             let (which, edits) = drawn.new_tree(&mut runner).unwrap().current();
             let input = spoilt(&kept[which.index(kept.len())], &edits);
-            executions += 1;
-            if input.len() < 1 << 16 && known.insert(self.give(&input)) {
+            if input.len() > LONGEST {
+                continue;
+            }
+            let kind = given.give(&input);
+            if known.len() < MOST && known.insert(kind) {
                 if keep {
                     let folder = self.folder();
                     std::fs::create_dir_all(&folder).unwrap();
@@ -141,7 +132,50 @@ impl Target {
                 kept.push(input);
             }
         }
-        (executions, known.len())
+        (given.executions, known.len())
+    }
+}
+
+/// Inputs given to a reader.
+struct Given<'t> {
+    target: &'t Target,
+    /// Holds the one that is being read. It stays open: opening it anew would wait for the disk.
+    current: File,
+    executions: u64,
+}
+
+impl<'t> Given<'t> {
+    fn new(target: &'t Target) -> Self {
+        let name = format!("{}.current", target.name);
+        let current = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        Given {
+            target,
+            current: File::create(current).unwrap(),
+            executions: 0,
+        }
+    }
+
+    /// Gives an input; the kind of the answer.
+    fn give(&mut self, input: &[u8]) -> String {
+        self.executions += 1;
+        self.current.rewind().unwrap();
+        self.current.write_all(input).unwrap();
+        self.current.set_len(input.len() as u64).unwrap();
+        let begun = Instant::now();
+        let answer = catch_unwind(AssertUnwindSafe(|| (self.target.look)(input)));
+        if answer.is_err() || begun.elapsed() > PATIENCE {
+            let folder = self.target.folder();
+            let failed = folder.join("failed");
+            std::fs::create_dir_all(folder).unwrap();
+            std::fs::write(&failed, input).unwrap();
+            panic!(
+                "{}: {:?}, see {}",
+                self.target.name,
+                begun.elapsed(),
+                failed.display()
+            );
+        }
+        kind(&answer.unwrap_or_default())
     }
 }
 
@@ -151,9 +185,10 @@ fn what_is_kept_and_what_comes_of_it() {
     let seconds = said("OZOLS_FUZZ_SECONDS").map_or(1.0, |s| s.parse().unwrap());
     let keep = said("OZOLS_FUZZ_KEEP").is_some();
     let only = said("OZOLS_FUZZ_ONLY");
+    let seed = said("OZOLS_FUZZ_SEED").map_or(7, |s| s.parse().unwrap());
     let wanted = |t: &&Target| only.as_ref().is_none_or(|o| o == t.name);
     for target in TARGETS.iter().filter(wanted) {
-        let (executions, kinds) = target.run(Duration::from_secs_f64(seconds), keep);
+        let (executions, kinds) = target.run(Duration::from_secs_f64(seconds), seed, keep);
         eprintln!(
             "{}: {executions} executions, {kinds} kinds of answers",
             target.name
