@@ -16,6 +16,7 @@ mod layout_penalty;
 pub mod marks;
 mod mirror;
 mod pairs;
+mod piece;
 #[cfg(feature = "png")]
 pub mod png;
 mod projection;
@@ -28,8 +29,9 @@ mod swap;
 mod symbols;
 
 pub use crate::svg::plane::Rect;
-pub use kinematic::moving::{Moved, Player, RATE, kinematic_along, kinematic_moving};
-pub use kinematic::{kinematic, kinematic_seen, kinematic_with};
+pub use kinematic::moving::{Moved, RATE, kinematic_along, kinematic_moving};
+pub use kinematic::scene::{Scene, Shown, kinematic_scene};
+pub use kinematic::{kinematic, kinematic_seen, kinematic_stressed, kinematic_with};
 
 pub use pairs::joint_type;
 pub use scheme::{scheme, scheme_with};

@@ -18,6 +18,7 @@ mod variants;
 mod verdict;
 mod workload;
 
+use crate::draw::{Drawing, Scene};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{AnalysisError, StateAnalysis};
 use crate::score::outcome::Outcome;
@@ -41,19 +42,10 @@ pub struct Page<'a> {
     pub redesigns: Result<Redesigns<'a>, String>,
     /// The same search as a list of ideas, each by its first variant, where the redesigns are not one already.
     pub ideas: Option<Redesigns<'a>>,
-    /// How it moves in each state, where it does.
-    pub motions: Vec<Option<Motion>>,
+    /// It in space in each state, to be turned and moved, where there is more to see than in a drawing.
+    pub scenes: Vec<Option<(Drawing, Scene)>>,
     /// How to get the same from the command line.
     pub commands: Commands,
-}
-
-/// A drawing of a motion, picture by picture; see [`crate::draw::Player::Program`].
-#[derive(Debug)]
-pub struct Motion {
-    /// The drawing.
-    pub svg: String,
-    /// Whether the last picture is followed by the first, and not by the one before it.
-    pub closed: bool,
 }
 
 /// What a search found.
@@ -86,14 +78,16 @@ const STYLE: &str = include_str!("page/page.css");
 /// What stands for the policy until all that it allows is written.
 const POLICY: &str = "default-src 'none'";
 /// The script by idea, in the order it is run.
-const SCRIPT: [&str; 8] = [
+const SCRIPT: [&str; 10] = [
     include_str!("page/script/data.js"),
     include_str!("page/script/filter.js"),
     include_str!("page/script/table.js"),
     include_str!("page/script/drawing.js"),
     include_str!("page/script/chosen.js"),
     include_str!("page/script/chart.js"),
-    include_str!("page/script/motion.js"),
+    include_str!("page/script/hull.js"),
+    include_str!("page/script/scene.js"),
+    include_str!("page/script/player.js"),
     include_str!("page/script/main.js"),
 ];
 /// What a page that is written anew does besides.

@@ -14,3 +14,4 @@ pub mod over_motion;
 pub mod release;
 pub mod share;
 pub mod stress;
+pub mod wiggle;

@@ -5,10 +5,11 @@ use super::moving::Moving;
 use super::request::Which;
 use super::variant::Chosen;
 use super::{Done, load, output, variant};
-use crate::draw::{self, Drawing, Player, Sight, Size, Subject};
+use crate::draw::{self, Drawing, Sight, Size, Subject};
 use crate::model::mechanism::StateId;
 use crate::redundancy::analysis::{Method, analyse};
-use anyhow::{bail, ensure};
+use crate::view::analysis::Analysis;
+use anyhow::{Context, bail, ensure};
 use clap::{Args as ClapArgs, ValueEnum};
 use std::io::IsTerminal;
 use std::path::PathBuf;
@@ -44,6 +45,13 @@ pub(super) struct Draw {
     /// stands still for readers who ask for less motion, and on paper.
     #[arg(long)]
     motion: bool,
+    /// With --motion, an idle freedom to and fro instead of the drive: its number in the list of `ozols analyze`, from 1.
+    #[arg(long, value_name = "K", requires = "motion", conflicts_with_all = ["stroke", "drive"])]
+    idle: Option<usize>,
+    /// A self-stress as arrows on the links that it loads, in the kinematic scheme: its number in the list of `ozols analyze`,
+    /// from 1. Straight arrows are forces; arrows with two heads, arcs where they are seen from their end, are moments.
+    #[arg(long, value_name = "K", conflicts_with_all = ["motion", "stroke", "drive"])]
+    self_stress: Option<usize>,
     /// The way of the drive from the pose of the file, such as 0:90deg:60 or -5:5:60 (lengths in the file's unit): from, to,
     /// pictures less one. As far as it goes where it is left out. Without --motion the kinematic scheme stands still, with the
     /// ways of its points over the stroke.
@@ -113,7 +121,10 @@ fn numbers(text: &str) -> Option<[f64; 3]> {
 pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
     let wanted = picture(a)?;
     ensure!(
-        a.moves() || a.kind == DrawKind::Kinematic || (a.view.is_none() && a.up.is_none()),
+        a.moves()
+            || a.self_stress.is_some()
+            || a.kind == DrawKind::Kinematic
+            || (a.view.is_none() && a.up.is_none()),
         "--view and --up are for the kinematic scheme, which has coordinates: add --kind kinematic"
     );
     let mut mechanism = load::mechanism(&a.file.file)?;
@@ -150,10 +161,34 @@ pub(super) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
         toward: a.view,
         up: a.up,
     };
-    let drawing = if a.moves() {
-        let moving = Moving::new(&mechanism, state, a.stroke.as_deref(), a.drive.as_deref())?;
+    let first = found.first().context("no state was analysed")?;
+    let drawing = if let Some(k) = a.self_stress {
+        let told = Analysis::new(&mechanism, &found, &[]);
+        let told = told.states.first().map_or(&[][..], |s| &s.self_stresses);
+        let k = k.wrapping_sub(1);
+        let (Some(stress), Some(words)) = (first.self_stresses.get(k), told.get(k)) else {
+            bail!(
+                "state {} has {}",
+                a.state,
+                match first.self_stresses.len() {
+                    0 => "no self-stress: nothing in it is redundant".to_owned(),
+                    n => format!("self-stresses 1 to {n}, in the order of `ozols analyze`"),
+                }
+            );
+        };
+        ensure!(
+            stress.joints.iter().any(|w| w.borne.is_some()),
+            "self-stress {} is of so many numbers that they were left uncomputed",
+            k + 1
+        );
+        draw::kinematic_stressed(&subject, &sight, (stress, &words.name(k)))
+    } else if a.moves() {
+        let moving = match a.idle {
+            Some(k) => Moving::idle(&mechanism, first, state, k.wrapping_sub(1))?,
+            None => Moving::new(&mechanism, state, a.stroke.as_deref(), a.drive.as_deref())?,
+        };
         if a.motion {
-            draw::kinematic_moving(&subject, &sight, &moving.moved(), Player::Itself)
+            draw::kinematic_moving(&subject, &sight, &moving.moved())
         } else {
             draw::kinematic_along(&subject, &sight, &moving.moved())
         }

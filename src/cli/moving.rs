@@ -8,7 +8,10 @@ use crate::motion::follow::slides;
 use crate::motion::pose::Pose;
 use crate::motion::way::{Way, way};
 use crate::rank::asked_stroke::{drive_or_any, lengths_where_it_slides, name_of};
-use anyhow::{bail, ensure};
+use crate::redundancy::analysis::StateAnalysis;
+use crate::redundancy::wiggle::{FAR, wiggle};
+use crate::view::idle;
+use anyhow::{Context, bail, ensure};
 
 /// Pictures of a motion where nobody says how many: at 30 a second, 2.4 seconds.
 const STEPS: usize = 72;
@@ -96,9 +99,59 @@ impl Moving {
         Ok(Moving { pose, way, words })
     }
 
-    /// Whether the last pose is the first again.
-    pub(super) fn closed(&self) -> bool {
-        self.way.closed
+    /// To and fro along an idle freedom that the analysis of a state lists, counted from 0.
+    pub(super) fn idle(
+        m: &Mechanism,
+        found: &StateAnalysis,
+        state: StateId,
+        which: usize,
+    ) -> anyhow::Result<Moving> {
+        let one = found
+            .idle
+            .get(which)
+            .with_context(|| match found.idle.len() {
+                0 => format!("state {} has no idle freedom", found.state),
+                n => format!(
+                    "state {} has idle freedoms 1 to {n}, in the order of `ozols analyze`",
+                    found.state
+                ),
+            })?;
+        let words = idle::words(m, one);
+        let wiggle = wiggle(m, state, &found.idle, which)?
+            .with_context(|| format!("no numbers show that {words}"))?;
+        let far = decimals(FAR.to_degrees(), 0);
+        let far = if one.turns {
+            format!(" by {far}° to either side")
+        } else {
+            " a little".to_owned()
+        };
+        let open = if wiggle.closed {
+            ""
+        } else {
+            "; to first order only: parts come apart by the second"
+        };
+        Ok(Moving {
+            pose: Pose::of_file(m, state)?,
+            way: wiggle.way,
+            words: format!("idle freedom {}: {words}{far}{open}", which + 1),
+        })
+    }
+
+    /// The pose of the file.
+    pub(super) fn still(m: &Mechanism, state: StateId) -> anyhow::Result<Moving> {
+        let pose = Pose::of_file(m, state)?;
+        let way = Way {
+            at: vec![0.0],
+            links: vec![pose.links.clone()],
+            start: 0,
+            closed: false,
+            ends: [None, None],
+        };
+        Ok(Moving {
+            pose,
+            way,
+            words: "the pose of the file".to_owned(),
+        })
     }
 
     /// To be drawn.

@@ -5,10 +5,11 @@ use super::moving::Moving;
 use super::progress::{Watch, note};
 use super::request::Checked;
 use super::{Done, interrupt, load, output};
-use crate::draw::{Player, Sight, Subject, kinematic_moving};
-use crate::model::mechanism::{Mechanism, StateId};
-use crate::page::{Commands, Motion, Page, Redesigns, html};
-use crate::redundancy::analysis::{Method, analyse};
+use crate::draw::{Drawing, Moved, Scene, Shown, Sight, Subject, kinematic_scene};
+use crate::model::mechanism::{Mechanism, Mode, StateId};
+use crate::page::{Commands, Page, Redesigns, html};
+use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
+use crate::redundancy::stress::SelfStress;
 use crate::score::outcome::Outcome;
 use crate::score::request::{List, Request};
 use crate::score::variants::Variants;
@@ -77,7 +78,7 @@ pub(super) fn write(
             live,
             redesigns,
             ideas,
-            motions: motions(&mechanism),
+            scenes: scenes(&mechanism, &states),
             commands: commands(&mechanism, a, &request),
         })?;
         output::to(path, |out| {
@@ -115,23 +116,51 @@ fn redesigns<'o>(found: &'o Outcome, mut given: Variants<'o>) -> Redesigns<'o> {
     }
 }
 
-/// How the mechanism moves in each state, where it does.
-fn motions(mechanism: &Mechanism) -> Vec<Option<Motion>> {
-    let one = |(n, state): (usize, StateId)| {
-        let moving = Moving::new(mechanism, state, None, None).ok()?;
+/// Idle freedoms and self-stresses of a state that a page shows.
+const SHOWN: usize = 24;
+
+/// The mechanism in space in each state: as far as its drive goes, with its idle freedoms and its self-stresses. None of a plane
+/// mechanism where there is nothing of these.
+fn scenes(mechanism: &Mechanism, states: &[StateAnalysis]) -> Vec<Option<(Drawing, Scene)>> {
+    let one = |(found, state): (&StateAnalysis, StateId)| {
+        let m = found.meant.as_deref().unwrap_or(mechanism);
+        let told = Analysis::new(m, std::slice::from_ref(found), &[]);
+        let told = told.states.first()?;
+        let drive = Moving::new(m, state, None, None).ok();
+        let idle =
+            (0..found.idle.len().min(SHOWN)).filter_map(|k| Moving::idle(m, found, state, k).ok());
+        let mut moving: Vec<Moving> = drive.into_iter().chain(idle).collect();
+        let stresses = told
+            .self_stresses
+            .iter()
+            .zip(&found.self_stresses)
+            .enumerate();
+        let known = |s: &SelfStress| s.joints.iter().any(|w| w.borne.is_some());
+        let stresses = stresses.filter(|(_, (_, s))| known(s)).take(SHOWN);
+        let stresses: Vec<_> = stresses.map(|(k, (words, s))| (words.name(k), s)).collect();
+        if moving.is_empty() {
+            if stresses.is_empty() && matches!(m.mode, Mode::Planar { .. }) {
+                return None;
+            }
+            moving.push(Moving::still(m, state).ok()?);
+        }
+        let moves: Vec<(String, Moved<'_>)> = moving
+            .iter()
+            .map(|m| (m.moved().words.to_owned(), m.moved()))
+            .collect();
         let subject = Subject {
-            mechanism,
+            mechanism: m,
             state,
-            analysis: None,
+            analysis: Some(found),
             marks: None,
         };
-        let (sight, player) = (Sight::default(), Player::Program(n));
-        Some(Motion {
-            svg: kinematic_moving(&subject, &sight, &moving.moved(), player).svg,
-            closed: moving.closed(),
-        })
+        let shown = Shown {
+            moves: &moves,
+            stresses: &stresses,
+        };
+        Some(kinematic_scene(&subject, &Sight::default(), shown))
     };
-    mechanism.state_ids().enumerate().map(one).collect()
+    states.iter().zip(mechanism.state_ids()).map(one).collect()
 }
 
 /// The commands that give what the page shows.

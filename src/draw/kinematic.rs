@@ -1,15 +1,24 @@
 //! The kinematic scheme: links and the symbols of joints where the coordinates have them.
 
+mod arrow;
 mod axes;
 mod body;
 mod carried;
+mod frame;
 mod gears;
+mod legend;
+mod loads;
 mod marked;
 pub(super) mod moving;
 mod naming;
 mod nest;
+mod part;
 mod points;
+pub(super) mod scene;
+mod sliding;
 mod symbol;
+mod ways;
+use self::arrow::Arrow;
 use self::body::Body;
 use self::marked::{Marked, marked};
 use self::symbol::Symbol;
@@ -17,16 +26,14 @@ use super::couplings;
 use super::ground::{Foot, Ground, grounds};
 use super::projection::places::places;
 use super::projection::{self, Place, Projection, bounds};
-use super::sheet::{Anchor, Caption, Drawing, Sheet, Swatch, plan};
+use super::sheet::{Anchor, Caption, Drawing, Sheet, plan};
 use super::sight::Sight;
 use super::subject::{Mark, Subject, roominess};
 use super::swap::{self, Swap};
 use super::symbols;
-use crate::format::number::decimals;
-use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, JointId, LinkId, Role};
+use crate::redundancy::stress::SelfStress;
 use crate::svg::plane::{Point, Rect, add, mean, norm, polyline, scale, sub, unit};
-use std::fmt::Write as _;
 
 /// The room for the joints.
 const ROOM: Point = [560.0, 400.0];
@@ -43,6 +50,19 @@ pub fn kinematic(subject: &Subject<'_>) -> Drawing {
 #[must_use]
 pub fn kinematic_seen(subject: &Subject<'_>, sight: &Sight) -> Drawing {
     Kinematic::new(subject, sight).draw()
+}
+
+/// Draws the kinematic scheme with a self-stress as arrows on the links that it loads; its name goes under the title.
+#[must_use]
+pub fn kinematic_stressed(
+    subject: &Subject<'_>,
+    sight: &Sight,
+    (stress, name): (&SelfStress, &str),
+) -> Drawing {
+    let mut drawn = Kinematic::new(subject, sight);
+    drawn.arrows = drawn.arrows_of(stress);
+    drawn.shows = Some(name.to_owned());
+    drawn.draw()
 }
 
 /// The kinematic scheme with room for the symbols of other joints in place of some, and for each swap the SVG elements
@@ -99,6 +119,10 @@ struct Kinematic<'a> {
     points: Vec<Marked>,
     /// The ways of points over a motion, and whether each ends where it began.
     traces: (Vec<Vec<Point>>, bool),
+    /// The loads that are shown.
+    arrows: Vec<Arrow>,
+    /// What is shown instead of the figures, where it is something else.
+    shows: Option<String>,
     projection: Projection,
 }
 
@@ -122,7 +146,7 @@ impl<'a> Kinematic<'a> {
         // symbols do not grow, so that many of them need more paper
         let more = roominess(seen, &joints) * (joints.len() as f64 / 12.0).sqrt().clamp(1.0, 3.0);
         let room = ROOM.map(|r| r * more);
-        let mut points = marked(m, &links);
+        let mut points = marked(m, subject.state, &links);
         let more: Vec<_> = points.iter().map(|p| p.place).collect();
         let seen = (places.as_slice(), more.as_slice());
         let projection = projection::best(seen, &links, m.frame(), room, sight);
@@ -157,6 +181,8 @@ impl<'a> Kinematic<'a> {
             places,
             points,
             traces: (Vec::new(), false),
+            arrows: Vec::new(),
+            shows: None,
             projection,
         };
         let moving = (0..out.links.len()).filter(|&l| !out.is_frame(out.links[l].0));
@@ -243,16 +269,19 @@ impl<'a> Kinematic<'a> {
         for p in self.points.iter().map(|p| p.at).chain(self.traced()) {
             area = area.with(&Rect::around(p, 10.0, 10.0));
         }
+        area = self
+            .arrow_room(&self.arrows)
+            .map_or(area, |r| area.with(&r));
         let circles = self.circles();
         for c in circles.iter().flatten() {
             area = area.with(&bounds(c).grown(1.0));
         }
         let title = self.subject.title();
-        let what = format!("Kinematic scheme {}", self.projection.view.name);
-        let subtitle = self.subject.subtitle(&what);
+        let [what, figures] = self.subject.subtitle(&self.what());
+        let shows = self.shows.take().unwrap_or(figures);
         let caption = Caption {
             title: &title,
-            subtitle: [&subtitle[0], &subtitle[1]],
+            subtitle: [&what, &shows],
             description: &self.description(),
             legend: self.legend(),
         };
@@ -262,11 +291,7 @@ impl<'a> Kinematic<'a> {
             s.at = add(s.at, by);
             s.rect = s.rect.moved(by);
         }
-        for g in &mut self.grounds {
-            g.from = add(g.from, by);
-            g.to = add(g.to, by);
-        }
-        self.shift_points(by);
+        self.shift_ground(by);
         let mut sheet = Sheet::new(&caption, &plan);
         self.draw_links(&mut sheet);
         self.draw_traces(&mut sheet);
@@ -281,10 +306,7 @@ impl<'a> Kinematic<'a> {
             }
         }
         self.draw_points(&mut sheet);
-        // the larger ones of one place first
-        let mut order: Vec<&Spot> = self.spots.iter().collect();
-        order.sort_by(|a, b| b.symbol.size.total_cmp(&a.symbol.size));
-        for s in order {
+        for s in self.outer_first().into_iter().map(|i| &self.spots[i]) {
             sheet.symbol(s.rect);
             let mark = self.subject.joint_mark(s.joint);
             let id = &self.subject.mechanism.joints[s.joint].id;
@@ -292,6 +314,7 @@ impl<'a> Kinematic<'a> {
                 s.symbol.draw(sheet, self.subject, s.joint, mark);
             });
         }
+        self.draw_arrows(&mut sheet, by);
         for (n, (place, (class, size, text))) in places.iter().zip(&texts).enumerate() {
             let at = place.rect.moved(by).middle();
             let write = |s: &mut Sheet| s.text(class, *size, at, Anchor::Middle, text);
@@ -303,8 +326,7 @@ impl<'a> Kinematic<'a> {
                 None => write(&mut sheet),
             }
         }
-        self.draw_axes(&mut sheet, plan.legend_top - STRIP + 34.0);
-        self.draw_scale(&mut sheet, plan.legend_top - STRIP + 40.0);
+        self.draw_below(&mut sheet, &plan);
         sheet.finish(&caption, &plan)
     }
 
@@ -363,88 +385,5 @@ impl<'a> Kinematic<'a> {
                 couplings::draw_line(sheet, coupling, place);
             }
         }
-    }
-
-    fn legend(&self) -> Vec<(Swatch, String)> {
-        let m = self.subject.mechanism;
-        // each type as the first joint of it is drawn
-        let mut types: Vec<(&JointType, &Spot)> = Vec::new();
-        for s in &self.spots {
-            let t = &m.joints[s.joint].joint_type;
-            if !types.iter().any(|(other, _)| *other == t) {
-                types.push((t, s));
-            }
-        }
-        let mut out: Vec<(Swatch, String)> = types
-            .into_iter()
-            .map(|(t, s)| {
-                let shapes = symbols::fitted(&s.symbol.plain());
-                (Swatch::Shapes(shapes), format!("{t}, class {}", t.class()))
-            })
-            .collect();
-        if self.spots.iter().any(|s| s.symbol.ring.is_some()) {
-            let draw = |s: &mut Sheet, p: Point| symbol::drive(s, "", p, 9.5);
-            out.push((Swatch::Symbol(draw), "driving pair".to_owned()));
-        }
-        if !self.grounds.is_empty() {
-            let draw = |s: &mut Sheet, p: Point| {
-                Ground::pivot(add(p, [0.0, -7.0]), add(p, [0.0, -1.0])).draw(s);
-            };
-            out.push((Swatch::Symbol(draw), m.frame_words()));
-        }
-        if self.spots.iter().any(|s| self.subject.only_here(s.joint)) {
-            let draw = |s: &mut Sheet, p: Point| s.circle("fine dash", p, 9.5);
-            let state = &m.states[self.subject.state];
-            out.push((Swatch::Symbol(draw), format!("in state {state} only")));
-        }
-        if self.links.iter().any(|(l, _)| self.is_output(*l)) {
-            let draw = |s: &mut Sheet, p: Point| {
-                s.line("bone out", add(p, [-9.0, 0.0]), add(p, [9.0, 0.0]));
-            };
-            out.push((Swatch::Symbol(draw), "output link".to_owned()));
-        }
-        out.extend(self.point_rows());
-        let circles = self.circles();
-        if circles.iter().any(|c| !c.is_empty()) {
-            let draw = |s: &mut Sheet, p: Point| s.circle("fine pitch", p, 9.0);
-            out.push((Swatch::Symbol(draw), "pitch circle of a gear".to_owned()));
-        }
-        if circles.iter().any(Vec::is_empty) {
-            out.extend(self.subject.coupling_row());
-        }
-        out.extend(self.subject.mark_rows());
-        let none = |_: &mut Sheet, _: Point| {};
-        if self.places.iter().any(|p| p.moved) {
-            let text = "joints that meet in a point stand farther along their axes";
-            out.push((Swatch::Symbol(none), text.to_owned()));
-        }
-        if self.bows.iter().any(|&b| b != 0.0) {
-            let text = "a straight bar bows where it would lie on another";
-            out.push((Swatch::Symbol(none), text.to_owned()));
-        }
-        out
-    }
-
-    /// The drawing in words, for those who do not see it.
-    fn description(&self) -> String {
-        let m = self.subject.mechanism;
-        let what = format!("Kinematic scheme {}", self.projection.view.name);
-        let mut out = self.subject.summary(&what);
-        for s in &self.spots {
-            let joint = &m.joints[s.joint];
-            let [a, b] = joint.links.map(|l| &m.links[l].id);
-            let p = [0, 1, 2].map(|i| joint.frame.point[i].to_f64());
-            let _ = write!(
-                out,
-                " Joint {} ({}) between {a} and {b} at {}, {}, {} {}.",
-                joint.id,
-                joint.joint_type,
-                decimals(p[0], 4),
-                decimals(p[1], 4),
-                decimals(p[2], 4),
-                m.length_unit.symbol
-            );
-        }
-        out + &self.subject.coupling_words()
     }
 }

@@ -1,8 +1,9 @@
 //! A joint type by itself: its symbol large, aslant and along its axis, with the freedoms at the axes of its frame.
 
+use super::piece::Pose;
 use super::projection::{self, View};
 use super::sheet::{Anchor, Caption, Drawing, Sheet, plan};
-use super::symbols::{self, Pose};
+use super::symbols;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::svg::plane::{Point, Rect, add, norm, polyline, scale, sub};
 use itertools::Itertools;

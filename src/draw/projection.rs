@@ -1,7 +1,10 @@
 //! Where joints are shown and from which side.
 
 pub(super) mod places;
+mod view;
 
+use self::view::{FLAT, face_on, unit, views};
+pub(super) use self::view::{View, along_z, aslant};
 use super::sight::Sight;
 use crate::geom::expr::Expr;
 use crate::geom::extent::diagonal;
@@ -9,67 +12,6 @@ pub(super) use crate::geom::vector::{Vector, add, cross, dot, length as norm, sc
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, LinkId, Mechanism};
 use crate::svg::plane::{Point, Rect, norm as norm2, segments_cross, sub as sub2, to_segment};
-
-/// A side to look from.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct View {
-    /// To the right on paper.
-    pub(super) right: Vector,
-    /// Up on paper.
-    pub(super) up: Vector,
-    /// Towards the reader.
-    pub(super) toward: Vector,
-    /// What it is called.
-    pub(super) name: &'static str,
-    /// Along an axis of the coordinates.
-    axis: bool,
-}
-
-impl View {
-    /// A vector on paper, where y goes down.
-    pub(super) fn flat(&self, v: Vector) -> Point {
-        [dot(self.right, v), -dot(self.up, v)]
-    }
-}
-
-/// Points and axes nearer than this to a plane, relative to the size of the whole, lie in it: files of robots have some
-/// six digits.
-const FLAT: f64 = 1e-5;
-
-impl Sight {
-    /// The view that is asked for, if one is.
-    fn view(&self) -> Option<View> {
-        let toward = unit(self.toward?, [0.0, 0.0, 1.0]);
-        let mut all = views().into_iter();
-        if let Some(view) = all.find(|v| norm(sub(v.toward, toward)) < FLAT) {
-            return Some(self.turned(view));
-        }
-        let name = if toward
-            .iter()
-            .all(|x| (x.abs() - toward[0].abs()).abs() < FLAT)
-        {
-            "isometric"
-        } else {
-            "seen from the side asked for"
-        };
-        Some(self.turned(upright(toward, name)))
-    }
-
-    /// A view with what goes up as it is asked for.
-    fn turned(&self, view: View) -> View {
-        let Some(up) = self.up else { return view };
-        let right = cross(up, view.toward);
-        if norm(right) <= FLAT * norm(up) {
-            return view;
-        }
-        let right = unit(right, view.right);
-        View {
-            right,
-            up: cross(view.toward, right),
-            ..view
-        }
-    }
-}
 
 /// Joints nearer than this on paper, in pixels, are in one place.
 pub(super) const ONE_PLACE: f64 = 1.5;
@@ -155,84 +97,6 @@ pub(super) fn turned(f: &Frame) -> Place {
     }
 }
 
-/// The views to choose from.
-fn views() -> Vec<View> {
-    let mut out = vec![
-        View {
-            right: [1.0, 0.0, 0.0],
-            up: [0.0, 1.0, 0.0],
-            toward: [0.0, 0.0, 1.0],
-            name: "seen along z",
-            axis: true,
-        },
-        View {
-            right: [1.0, 0.0, 0.0],
-            up: [0.0, 0.0, 1.0],
-            toward: [0.0, -1.0, 0.0],
-            name: "seen along y",
-            axis: true,
-        },
-        View {
-            right: [0.0, 1.0, 0.0],
-            up: [0.0, 0.0, 1.0],
-            toward: [1.0, 0.0, 0.0],
-            name: "seen along x",
-            axis: true,
-        },
-    ];
-    let iso = (1.0f64 / 3.0).sqrt().asin().to_degrees();
-    let slanted = [(45.0, iso), (-45.0, iso), (135.0, iso), (-135.0, iso)];
-    let turns = (0..24).map(|n| 15.0 * f64::from(n) - 172.5);
-    let others = turns.flat_map(|turn| [16.0, 28.0, 42.0, 58.0].map(|height| (turn, height)));
-    for (n, (azimuth, height)) in slanted.into_iter().chain(others).enumerate() {
-        let (a, h): (f64, f64) = (f64::to_radians(azimuth), f64::to_radians(height));
-        let toward = [a.cos() * h.cos(), a.sin() * h.cos(), h.sin()];
-        let name = if n < 4 { "isometric" } else { "seen aslant" };
-        out.push(upright(toward, name));
-    }
-    out
-}
-
-/// The first isometric view.
-pub(super) fn aslant() -> View {
-    upright([1.0, 1.0, 1.0].map(|x: f64| x / 3f64.sqrt()), "isometric")
-}
-
-/// The view along z.
-pub(super) fn along_z() -> View {
-    views()[0]
-}
-
-/// Towards a direction, with z going up, or y where the direction is z.
-fn upright(toward: Vector, name: &'static str) -> View {
-    let right = unit(
-        cross([0.0, 0.0, 1.0], toward),
-        [toward[2].signum(), 0.0, 0.0],
-    );
-    View {
-        right,
-        up: cross(toward, right),
-        toward,
-        name,
-        axis: false,
-    }
-}
-
-/// Along a normal, from the side that the isometric views are on.
-fn face_on(normal: Vector) -> View {
-    let mut all = views().into_iter();
-    if let Some(view) = all.find(|v| v.axis && norm(cross(v.toward, normal)) < FLAT) {
-        return view;
-    }
-    let side = dot(normal, [1.0, -1.1, 1.2]);
-    let toward = if side < 0.0 {
-        scale(normal, -1.0)
-    } else {
-        normal
-    };
-    upright(toward, "seen face-on")
-}
-
 /// How a mechanism is put on paper.
 #[derive(Debug, Clone)]
 pub(super) struct Projection {
@@ -245,6 +109,11 @@ pub(super) struct Projection {
 }
 
 impl Projection {
+    /// A point in space, in pixels from what comes to the origin of the paper.
+    pub(super) fn in_pixels(&self, p: Vector) -> Vector {
+        scale(sub(p, self.middle), self.scale)
+    }
+
     /// A point on paper.
     pub(super) fn flat(&self, p: Vector) -> Point {
         self.view.flat(sub(p, self.middle)).map(|x| x * self.scale)
@@ -349,9 +218,11 @@ fn planar(places: &[Place]) -> Option<Vector> {
     let axes = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
     let normals = axes.into_iter().chain(hinge(places)).chain(spanned);
     let off = |p: &Place, n: Vector| dot(sub(p.point, first), n).abs();
-    normals
-        .filter(|&n| moves_across(places, n))
-        .find(|&n| places.iter().all(|p| off(p, n) <= FLAT * size))
+    let flat = |n: &Vector| places.iter().all(|p| off(p, *n) <= FLAT * size);
+    let flat: Vec<Vector> = normals.filter(flat).collect();
+    let found = flat.iter().find(|&&n| moves_across(places, n));
+    let found = found.or_else(|| flat.iter().find(|&&n| mostly_moves_across(places, n)));
+    found.copied()
 }
 
 /// The direction of the first hinge.
@@ -362,15 +233,27 @@ fn hinge(places: &[Place]) -> Option<Vector> {
 
 /// Whether hinges turn about this direction and other axes are along or across it.
 fn moves_across(places: &[Place], n: Vector) -> bool {
-    places.iter().all(|p| {
+    lies_across(places, n) == Some(0)
+}
+
+/// Whether that is so of most hinges, and the others turn about axes across it: a screw's, say, or a shaft's.
+fn mostly_moves_across(places: &[Place], n: Vector) -> bool {
+    let hinges = places.iter().filter(|p| p.turn == Turn::Hinge).count();
+    lies_across(places, n).is_some_and(|other| 2 * other < hinges)
+}
+
+/// How many hinges turn about axes across a direction; none where an axis is aslant.
+fn lies_across(places: &[Place], n: Vector) -> Option<usize> {
+    let mut other = 0;
+    for p in places.iter().filter(|p| p.turn != Turn::Any) {
         let along = norm(cross(p.z, n)) < FLAT;
         let across = dot(p.z, n).abs() < FLAT;
-        match p.turn {
-            Turn::Hinge => along,
-            Turn::Slide => along || across,
-            Turn::Any => true,
+        if !along && !across {
+            return None;
         }
-    })
+        other += usize::from(p.turn == Turn::Hinge && !along);
+    }
+    Some(other)
 }
 
 /// How much joints and links lie on each other.
@@ -435,13 +318,4 @@ pub(super) fn across(z: Vector) -> Vector {
     let [a, b] = axes.map(|e| sub(e, scale(z, dot(e, z))));
     let longer = if norm(a) > norm(b) { a } else { b };
     unit(longer, [1.0, 0.0, 0.0])
-}
-
-fn unit(a: Vector, or: Vector) -> Vector {
-    let length = norm(a);
-    if length > 1e-300 && length.is_finite() {
-        scale(a, 1.0 / length)
-    } else {
-        or
-    }
 }

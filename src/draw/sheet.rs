@@ -75,6 +75,14 @@ pub(super) enum Shape {
 }
 
 impl Shape {
+    /// The points of a path; none of a circle.
+    pub(super) fn points(&self) -> &[Point] {
+        match self {
+            Shape::Path { points, .. } => points,
+            Shape::Circle { .. } => &[],
+        }
+    }
+
     /// An open path.
     pub(super) fn line(class: String, points: Vec<Point>) -> Shape {
         Shape::Path {
@@ -230,6 +238,11 @@ impl Sheet {
         draw(self);
         self.origin = outer;
         self.xml.end();
+    }
+
+    /// What the open group says when one points at it.
+    pub(super) fn tip(&mut self, text: &str) {
+        self.xml.tag("title").text(text);
     }
 
     /// Rules beside those of every drawing.

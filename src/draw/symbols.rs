@@ -1,58 +1,12 @@
-//! The symbols of joints, turned as the joints are.
+//! The symbols of joints, in the joints' own frames.
 
-use super::projection::{Place, Vector, View, dot};
+use super::piece::{ALWAYS, Form, Piece, Pose};
+use super::projection::Vector;
 use super::sheet::{ROW, Shape};
 use crate::model::joint_type::JointType;
-use crate::svg::plane::{Point, Rect, add, cross, norm, scale, sub, unit};
+use crate::svg::plane::{Point, Rect, scale};
 use std::f64::consts::{PI, TAU};
-
-/// A joint's frame on paper.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Pose {
-    axes: [Point; 3],
-    toward: Vector,
-}
-
-impl Pose {
-    /// Of a joint seen from a side.
-    pub(super) fn new(place: &Place, view: &View) -> Pose {
-        Pose::of_axes([place.x, place.y, place.z], view)
-    }
-
-    /// Of a frame with these axes.
-    pub(super) fn of_axes(axes: [Vector; 3], view: &View) -> Pose {
-        Pose {
-            axes: axes.map(|a| view.flat(a)),
-            toward: axes.map(|a| dot(a, view.toward)),
-        }
-    }
-
-    fn at(&self, x: f64, y: f64, z: f64) -> Point {
-        add(
-            add(scale(self.axes[0], x), scale(self.axes[1], y)),
-            scale(self.axes[2], z),
-        )
-    }
-
-    /// The same with the axes passed on: the new z is the old x.
-    fn along_x(&self) -> Pose {
-        let [x, y, z] = self.axes;
-        let [a, b, c] = self.toward;
-        Pose {
-            axes: [y, z, x],
-            toward: [b, c, a],
-        }
-    }
-
-    fn circle(&self, radius: f64, z: f64) -> Vec<Point> {
-        (0..28)
-            .map(|i| {
-                let angle = TAU * f64::from(i) / 28.0;
-                self.at(radius * angle.cos(), radius * angle.sin(), z)
-            })
-            .collect()
-    }
-}
+use std::ops::Range;
 
 /// Half the thickness of a block.
 const BLOCK: f64 = 5.0;
@@ -82,103 +36,97 @@ pub(super) fn side_of_slide(joint: &JointType) -> Option<f64> {
     }
 }
 
+/// Where an axis is seen from its end; a rod of its own is then marked by its end, and a thread by a spiral.
+const END_ON: f64 = 0.9;
+/// A cylinder seen so far from its end is its face.
+const FACE_ON: f64 = 0.97;
+/// From here on a thread is a spiral.
+const SPIRAL: f64 = 0.8;
+
 /// The symbol of a joint round the origin, so many times its usual size; `mark` is added to the classes.
 pub(super) fn symbol(joint: &JointType, pose: &Pose, mark: &str, size: f64) -> Vec<Shape> {
-    let mut s = Symbol {
-        pose: *pose,
-        mark: mark.to_owned(),
-        shapes: Vec::new(),
-    };
+    let seen = |p: &Piece| p.shape(pose, mark, size);
+    pieces(joint).iter().filter_map(seen).collect()
+}
+
+/// The pieces of a joint's symbol, from the back to the front.
+pub(super) fn pieces(joint: &JointType) -> Vec<Piece> {
+    let z = |x, y, z| [x, y, z];
     match joint {
-        JointType::Revolute => {
-            if pose.toward[2].abs() < 0.9 {
-                s.rod("fine", 14.0);
-            }
-            s.cylinder(5.5, 7.0, 0.0);
-        }
-        JointType::Prismatic => {
-            s.rod("line", 17.0);
-            s.cuboid([BLOCK, BLOCK, 9.5]);
-            s.rod_end();
-        }
+        JointType::Revolute => [
+            vec![line("fine", rod(14.0), 0.0..END_ON)],
+            cylinder(5.5, 7.0, z, FACE_ON),
+        ]
+        .concat(),
+        JointType::Prismatic => sliding(17.0, cuboid([BLOCK, BLOCK, 9.5])),
         JointType::Helical => {
-            s.rod("line", 16.0);
-            s.cylinder(BUSH, 9.0, 0.0);
-            s.wave();
+            let thread = (0..=40).map(|i| {
+                let t = f64::from(i) / 20.0 - 1.0;
+                let turn = 2.5 * PI * t;
+                [3.4 * turn.sin(), -3.4 * turn.cos(), 8.0 * t]
+            });
+            let spiral = (0..=36).map(|i| {
+                let t = f64::from(i) / 36.0;
+                let turn = 2.0 * TAU * t;
+                [4.4 * t * turn.cos(), 4.4 * t * turn.sin()]
+            });
+            let spiral = Form::Paper(spiral.collect(), false);
+            [
+                vec![line("line", rod(16.0), ALWAYS)],
+                cylinder(BUSH, 9.0, z, FACE_ON),
+                vec![
+                    line("line", thread.collect(), 0.0..SPIRAL),
+                    piece("line", spiral, SPIRAL..2.0),
+                ],
+            ]
+            .concat()
         }
-        JointType::Cylindrical => {
-            s.rod("line", 17.0);
-            s.cylinder(BUSH, 9.5, 0.0);
-            s.rod_end();
-        }
-        JointType::Universal => s.cross(),
-        JointType::CylindricalUniversal => {
-            s.rod("line", 17.0);
-            s.cross();
-            s.rod_end();
-        }
-        JointType::Slotted => {
-            let (a, b) = (pose.at(7.0, 0.0, 0.0), pose.at(-7.0, 0.0, 0.0));
-            let ends = [a, b].into_iter().flat_map(|c| ball(c, 6.0));
-            s.area("joint", hull(ends.collect()));
-            s.ball(3.2, "ink");
-        }
+        JointType::Cylindrical => sliding(17.0, cylinder(BUSH, 9.5, z, FACE_ON)),
+        JointType::Universal => cross(),
+        JointType::CylindricalUniversal => sliding(17.0, cross()),
+        JointType::Slotted => vec![
+            joint_piece(Form::Hull(vec![[7.0, 0.0, 0.0], [-7.0, 0.0, 0.0]], 6.0)),
+            ball(3.2, "ink"),
+        ],
         JointType::Spherical => {
-            s.round_ball(6.5);
             let arc = (0..=20).map(|i| {
                 let angle = PI * (-0.2 + 1.4 * f64::from(i) / 20.0);
                 [9.5 * angle.cos(), 9.5 * angle.sin()]
             });
-            s.shapes.push(Shape::line(s.class("line"), arc.collect()));
+            let socket = Form::Paper(arc.collect(), false);
+            [round_ball(6.5), vec![piece("line", socket, ALWAYS)]].concat()
         }
-        JointType::Planar => {
-            s.plate(9.0, -3.0);
-            s.plate(9.0, 3.0);
-        }
-        JointType::SphereInCylinder => {
-            s.rod("fine", 15.0);
-            s.cylinder(TUBE, 9.5, 0.0);
-            s.round_ball(5.0);
-        }
-        JointType::CylinderOnPlane => {
-            s.plate(10.0, -4.5);
-            s.pose = pose.along_x();
-            s.cylinder(4.5, 8.0, 0.0);
-        }
-        JointType::SphereOnPlane => {
-            s.plate(10.0, -5.0);
-            s.round_ball(5.0);
-        }
+        JointType::Planar => vec![plate(9.0, -3.0), plate(9.0, 3.0)],
+        JointType::SphereInCylinder => [
+            vec![line("fine", rod(15.0), ALWAYS)],
+            cylinder(TUBE, 9.5, z, FACE_ON),
+            round_ball(5.0),
+        ]
+        .concat(),
+        JointType::CylinderOnPlane => [
+            vec![plate(10.0, -4.5)],
+            cylinder(4.5, 8.0, |a, b, c| [c, a, b], 2.0),
+        ]
+        .concat(),
+        JointType::SphereOnPlane => [vec![plate(10.0, -5.0)], round_ball(5.0)].concat(),
         JointType::Fixed => {
-            s.area(
-                "joint",
-                vec![[-5.5, -5.5], [5.5, -5.5], [5.5, 5.5], [-5.5, 5.5]],
-            );
-            for d in [1.0, -1.0] {
-                s.shapes.push(Shape::line(
-                    s.class("line"),
-                    vec![[-5.5, -5.5 * d], [5.5, 5.5 * d]],
-                ));
-            }
+            let h = 5.5;
+            let corners = vec![[-h, -h], [h, -h], [h, h], [-h, h]];
+            let across = |d: f64| {
+                let ends = vec![[-h, -h * d], [h, h * d]];
+                piece("line", Form::Paper(ends, false), ALWAYS)
+            };
+            vec![
+                joint_piece(Form::Paper(corners, true)),
+                across(1.0),
+                across(-1.0),
+            ]
         }
         JointType::Custom(_) => {
-            s.area(
-                "joint",
-                vec![[0.0, -9.0], [9.0, 0.0], [0.0, 9.0], [-9.0, 0.0]],
-            );
-            s.ball(2.0, "ink");
+            let corners = vec![[0.0, -9.0], [9.0, 0.0], [0.0, 9.0], [-9.0, 0.0]];
+            vec![joint_piece(Form::Paper(corners, true)), ball(2.0, "ink")]
         }
     }
-    for shape in &mut s.shapes {
-        match shape {
-            Shape::Path { points, .. } => points.iter_mut().for_each(|p| *p = scale(*p, size)),
-            Shape::Circle { at, radius, .. } => {
-                *at = scale(*at, size);
-                *radius *= size;
-            }
-        }
-    }
-    s.shapes
 }
 
 /// Shapes made small enough for a row of the legend.
@@ -223,180 +171,112 @@ pub(super) fn extent(shapes: &[Shape]) -> Rect {
     all
 }
 
-struct Symbol {
-    pose: Pose,
-    mark: String,
-    shapes: Vec<Shape>,
+fn piece(class: &'static str, form: Form, seen: Range<f64>) -> Piece {
+    Piece { class, form, seen }
 }
 
-impl Symbol {
-    fn class(&self, of: &str) -> String {
-        format!("{of}{}", self.mark)
-    }
+fn joint_piece(form: Form) -> Piece {
+    piece("joint", form, ALWAYS)
+}
 
-    fn area(&mut self, class: &str, points: Vec<Point>) {
-        self.shapes.push(Shape::Path {
-            class: self.class(class),
-            points,
-            closed: true,
-        });
-    }
+fn line(class: &'static str, points: Vec<Vector>, seen: Range<f64>) -> Piece {
+    piece(class, Form::Line(points), seen)
+}
 
-    fn ball(&mut self, radius: f64, class: &str) {
-        self.shapes.push(Shape::Circle {
-            at: [0.0; 2],
-            radius,
-            class: self.class(class),
-        });
-    }
+fn ball(radius: f64, class: &'static str) -> Piece {
+    piece(class, Form::Ball([0.0; 3], radius), ALWAYS)
+}
 
-    /// A ball that does not look like a pin: with its equator.
-    fn round_ball(&mut self, radius: f64) {
-        self.ball(radius, "joint");
-        let arc = (0..=12).map(|i| {
-            let angle = PI * f64::from(i) / 12.0;
-            [radius * angle.cos(), 0.36 * radius * angle.sin()]
-        });
-        self.shapes
-            .push(Shape::line(self.class("line"), arc.collect()));
-    }
+/// A ball that does not look like a pin: with its equator.
+fn round_ball(radius: f64) -> Vec<Piece> {
+    let arc = (0..=12).map(|i| {
+        let angle = PI * f64::from(i) / 12.0;
+        [radius * angle.cos(), 0.36 * radius * angle.sin()]
+    });
+    let equator = piece("line", Form::Paper(arc.collect(), false), ALWAYS);
+    vec![ball(radius, "joint"), equator]
+}
 
-    /// The axis as a line.
-    fn rod(&mut self, class: &str, half: f64) {
-        let ends = vec![self.pose.at(0.0, 0.0, -half), self.pose.at(0.0, 0.0, half)];
-        self.shapes.push(Shape::line(self.class(class), ends));
-    }
+/// The axis from end to end.
+fn rod(half: f64) -> Vec<Vector> {
+    vec![[0.0, 0.0, -half], [0.0, 0.0, half]]
+}
 
-    /// The end of the rod, where the axis points at the reader and the rod itself is not to be seen.
-    fn rod_end(&mut self) {
-        if self.pose.toward[2].abs() > 0.9 {
-            self.ball(3.0, "ink");
-        }
-    }
+/// What slides on a rod; the end of the rod is shown where the rod itself is not to be seen.
+fn sliding(half: f64, on: Vec<Piece>) -> Vec<Piece> {
+    let end = Form::Ball([0.0; 3], 3.0);
+    [
+        vec![line("line", rod(half), ALWAYS)],
+        on,
+        vec![piece("ink", end, END_ON..2.0)],
+    ]
+    .concat()
+}
 
-    fn cylinder(&mut self, radius: f64, half: f64, middle: f64) {
-        let (low, high) = (
-            self.pose.circle(radius, middle - half),
-            self.pose.circle(radius, middle + half),
-        );
-        let front = if self.pose.toward[2] < 0.0 {
-            low.clone()
-        } else {
-            high.clone()
+/// A cylinder whose axis is the last of three coordinates; its faces are drawn up to a share of z that points at the reader.
+fn cylinder(
+    radius: f64,
+    half: f64,
+    to: impl Fn(f64, f64, f64) -> Vector,
+    below: f64,
+) -> Vec<Piece> {
+    let end = |side: f64| -> Vec<Vector> {
+        let on = |i: i32| {
+            let angle = side * TAU * f64::from(i) / 28.0;
+            to(radius * angle.cos(), radius * angle.sin(), side * half)
         };
-        self.area("joint", hull(low.into_iter().chain(high).collect()));
-        if self.pose.toward[2].abs() < 0.97 {
-            self.area("joint", front);
-        }
-    }
+        (0..28).map(on).collect()
+    };
+    let ends = [end(-1.0), end(1.0)];
+    let faces = ends
+        .clone()
+        .map(|e| piece("joint", Form::Face(e), 0.0..below));
+    [
+        vec![joint_piece(Form::Hull(ends.concat(), 0.0))],
+        faces.to_vec(),
+    ]
+    .concat()
+}
 
-    fn cuboid(&mut self, half: [f64; 3]) {
-        let corner = |p: &Pose, v: [f64; 3]| p.at(v[0], v[1], v[2]);
-        for axis in 0..3 {
-            let side = if self.pose.toward[axis] < 0.0 {
-                -1.0
-            } else {
-                1.0
-            };
-            if self.pose.toward[axis].abs() < 1e-6 {
-                continue;
-            }
-            let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
-            let face = [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)].map(|(s, t)| {
-                let mut v = [0.0; 3];
-                v[axis] = side * half[axis];
-                v[a] = s * half[a];
-                v[b] = t * half[b];
-                corner(&self.pose, v)
-            });
-            self.area("joint", face.to_vec());
-        }
-    }
+fn cuboid(half: [f64; 3]) -> Vec<Piece> {
+    let sides = (0..3).flat_map(|axis| [(axis, 1.0), (axis, -1.0)]);
+    let face = |(axis, side): (usize, f64)| {
+        let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+        let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(|(s, t)| {
+            let mut v = [0.0; 3];
+            v[axis] = side * half[axis];
+            v[a] = s * half[a];
+            v[b] = side * t * half[b];
+            v
+        });
+        joint_piece(Form::Face(corners.to_vec()))
+    };
+    sides.map(face).collect()
+}
 
-    fn plate(&mut self, half: f64, z: f64) {
-        let corners = [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)];
-        let points = corners.map(|(x, y)| self.pose.at(half * x, half * y, z));
-        self.area("joint", points.to_vec());
-    }
+fn plate(half: f64, z: f64) -> Piece {
+    let corners = [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)];
+    let corners = corners.map(|(x, y)| [half * x, half * y, z]);
+    joint_piece(Form::Hull(corners.to_vec(), 0.0))
+}
 
-    /// The cross of a universal joint: its two axes, z and x.
-    fn cross(&mut self) {
-        self.ball(CROSS, "joint");
-        for axis in [2, 0] {
-            let tip = scale(self.pose.axes[axis], CROSS);
-            let ends = vec![scale(tip, -1.0), tip];
-            self.shapes.push(Shape::line(self.class("line"), ends));
-            for end in [tip, scale(tip, -1.0)] {
-                self.shapes.push(Shape::Circle {
-                    at: end,
-                    radius: 1.9,
-                    class: self.class("ink"),
-                });
-            }
-        }
-    }
-
-    /// A thread: a wave along the axis, or a spiral where the axis points at the reader.
-    fn wave(&mut self) {
-        let across = if self.pose.toward[2].abs() > 0.8 {
-            let spiral = (0..=36).map(|i| {
-                let t = f64::from(i) / 36.0;
-                let angle = 2.0 * TAU * t;
-                [4.4 * t * angle.cos(), 4.4 * t * angle.sin()]
-            });
-            spiral.collect()
-        } else {
-            let along = self.pose.axes[2];
-            let side = unit([-along[1], along[0]]);
-            let wave = (0..=32).map(|i| {
-                let t = f64::from(i) / 16.0 - 1.0;
-                add(
-                    scale(along, 8.0 * t),
-                    scale(side, 3.4 * (2.5 * PI * t).sin()),
-                )
-            });
-            wave.collect()
+/// The cross of a universal joint: its two axes, z and x.
+fn cross() -> Vec<Piece> {
+    let axis = |n: usize| {
+        let tip = |side: f64| {
+            let mut v = [0.0; 3];
+            v[n] = side * CROSS;
+            v
         };
-        self.shapes.push(Shape::line(self.class("line"), across));
-    }
-}
-
-fn ball(at: Point, radius: f64) -> Vec<Point> {
-    (0..24)
-        .map(|i| {
-            let angle = TAU * f64::from(i) / 24.0;
-            add(at, [radius * angle.cos(), radius * angle.sin()])
-        })
-        .collect()
-}
-
-/// The convex hull, by monotone chains.
-pub(super) fn hull(mut points: Vec<Point>) -> Vec<Point> {
-    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    points.dedup();
-    if points.len() < 3 {
-        return points;
-    }
-    let mut out: Vec<Point> = Vec::new();
-    for pass in 0..2 {
-        let from = out.len();
-        for &p in &points {
-            while let [.., before, last] = out[from..] {
-                let (a, b) = (sub(last, before), sub(p, last));
-                // points in a row that rounding has moved are still in a row
-                if cross(a, b) > 1e-9 * norm(a) * norm(b) {
-                    break;
-                }
-                out.pop();
-            }
-            out.push(p);
-        }
-        out.pop();
-        if pass == 0 {
-            points.reverse();
-        }
-    }
-    out
+        let ends = [tip(-1.0), tip(1.0)];
+        let pin = |at: Vector| piece("ink", Form::Ball(at, 1.9), ALWAYS);
+        vec![
+            line("line", ends.to_vec(), ALWAYS),
+            pin(ends[1]),
+            pin(ends[0]),
+        ]
+    };
+    [vec![ball(CROSS, "joint")], axis(2), axis(0)].concat()
 }
 
 #[cfg(test)]
@@ -408,15 +288,11 @@ mod tests {
     #[test]
     fn each_type_of_joint_has_a_symbol_of_its_own_from_every_side() {
         let types = JointType::NAMED;
-        let end_on = Pose {
-            axes: [[1.0, 0.0], [0.0, -1.0], [0.0, 0.0]],
-            toward: [0.0, 0.0, 1.0],
-        };
-        let from_the_side = end_on.along_x();
+        let along_z = projection::along_z();
         for pose in [
-            end_on,
-            from_the_side,
-            from_the_side.along_x(),
+            Pose::of_axes([X, Y, Z], &along_z),
+            Pose::of_axes([Y, Z, X], &along_z),
+            Pose::of_axes([Z, X, Y], &along_z),
             Pose::of_axes([X, Y, Z], &projection::aslant()),
         ] {
             let drawn = types.each_ref().map(|t| {

@@ -1,7 +1,7 @@
-//! The whole way of a drive, from one end to the other or once round, in equal steps.
+//! The whole way of a drive, from one end to the other or once round, step by step.
 
 use crate::geom::rigid::Motion;
-use crate::motion::follow::{Follower, Stop, follow, slides};
+use crate::motion::follow::{Follower, Stop, positions, slides};
 use crate::motion::pose::Pose;
 use std::f64::consts::{PI, TAU};
 
@@ -31,7 +31,8 @@ pub struct Way {
 }
 
 /// Follows a mechanism to the ends of the way of a drive, other drives held: once round where the drive goes round, else
-/// from end to end, a slide at most the size of the mechanism to either side. Where a range is given, only within it.
+/// from end to end, a slide at most the size of the mechanism to either side. Where a range is given, only within it. Steps of the
+/// drive are equal, but smaller towards an end where it stops.
 ///
 /// # Complexity
 /// As [`Follower::advance`], for some ten poses a radian three times over.
@@ -95,8 +96,21 @@ fn along(
     steps: usize,
     ends: [Option<Stop>; 2],
 ) -> Way {
-    let followed = follow(pose, drive, held, range, steps);
-    let at: Vec<f64> = followed.reached.iter().map(Follower::at).collect();
+    let stopped = ends.map(|e| e.is_some());
+    let mut follower = Follower::new(pose.clone(), drive, held);
+    let (mut at, mut links) = (Vec::new(), Vec::new());
+    for to in positions([0.0, 1.0], steps) {
+        let part = eased(to, stopped);
+        let [from, last] = range;
+        if follower
+            .advance(from + part * (last - from), |_| {})
+            .is_err()
+        {
+            break;
+        }
+        at.push(follower.at());
+        links.push(follower.pose().links);
+    }
     let nearest = at
         .iter()
         .enumerate()
@@ -104,9 +118,19 @@ fn along(
     Way {
         start: nearest.map_or(0, |(i, _)| i),
         at,
-        links: followed.reached.iter().map(|f| f.pose().links).collect(),
+        links,
         closed: false,
         ends,
+    }
+}
+
+/// A part of a way, of equal parts of a turn: near an end that stops a drive, the others move farther than it.
+fn eased(part: f64, stopped: [bool; 2]) -> f64 {
+    match stopped {
+        [false, false] => part,
+        [true, false] => 1.0 - (part * PI / 2.0).cos(),
+        [false, true] => (part * PI / 2.0).sin(),
+        [true, true] => (1.0 - (part * PI).cos()) / 2.0,
     }
 }
 

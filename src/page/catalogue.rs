@@ -1,25 +1,28 @@
 //! A catalogue as one page: a card for each structure, with its drawing, to filter, sort and choose from.
 
+use super::data::escaped;
 use super::{POLICY, STYLE, policy};
 use crate::catalog::store::{Store, StoreError};
 use crate::geom::vector::{real, sides};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, Mechanism, Role, StateId};
 use maud::{DOCTYPE, PreEscaped, html};
-use serde_json::{Map, Value, json};
+use serde::Serialize;
+use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
 const CARDS: &str = include_str!("catalogue.css");
 /// The script by idea, in the order it is run.
-const SCRIPT: [&str; 3] = [
+const SCRIPT: [&str; 4] = [
     include_str!("script/gripper.js"),
+    include_str!("script/hull.js"),
     include_str!("script/cards.js"),
     include_str!("script/structure.js"),
 ];
 
 /// What a card is made of, but for its drawing and its ideas.
 const CARD: &str = "SELECT id, name, links, input, symmetry, parallel, jaws_at_frame, truss, mechanism, crossings, link_ratio, transmission, \
-     opening_min, opening_max, travel, force_min, force_mean, force_max, jaw_a_motion, jaw_b_motion, jaw_c_motion, jaw_turn, ends_closing, \
+     opening_min, opening_max, travel, closes, force_min, force_mean, force_max, jaw_a_motion, jaw_b_motion, jaw_c_motion, jaw_turn, ends_closing, \
      ends_opening, tip_a_dx, tip_a_dy, tip_b_dx, tip_b_dy, tip_c_dx, tip_c_dy, mobility, redundant, finite, CAST(determinate AS TEXT) AS determinate, \
      CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost, id IN (SELECT id FROM front) AS front FROM structures JOIN layouts ON structure = id \
      ORDER BY links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id";
@@ -37,9 +40,27 @@ fn maps(store: &Store, sql: &str) -> Result<Vec<Map<String, Value>>, StoreError>
     Ok(rows.into_iter().map(map).collect())
 }
 
-/// The drawing of a mechanism as numbers: pins, links by their pins, and what links are; none of one whose pins are not all
-/// square to the plane of x and y.
-fn drawing(text: &str) -> Option<Value> {
+/// The drawing of a mechanism as numbers.
+#[derive(Serialize)]
+struct Drawing {
+    /// The places of the joints, and their names.
+    pins: Vec<[f64; 2]>,
+    names: Vec<String>,
+    /// The pins of each link.
+    links: Vec<Vec<usize>>,
+    /// The links that are the frame, the driver and the jaws.
+    frame: usize,
+    driver: Option<usize>,
+    jaws: Vec<usize>,
+    /// The joint that drives, and whether it slides.
+    drive: Option<usize>,
+    slides: bool,
+    /// Where the jaws grip.
+    tips: Option<Vec<[f64; 2]>>,
+}
+
+/// The drawing of a mechanism; none of one whose pins are not all square to the plane of x and y.
+fn drawing(text: &str) -> Option<Drawing> {
     let m = Mechanism::from_toml(text).ok()?;
     let place = |j: &Joint| {
         let [x, y, _] = real(&j.frame.point);
@@ -77,26 +98,30 @@ fn drawing(text: &str) -> Option<Value> {
         .filter(|(_, l)| l.role == Role::Output)
         .map(|(l, _)| l.index())
         .collect();
+    // What a person drew may say by its forces where the part is.
     let tip = |jaw: &usize| {
-        let force = m.loads.forces.iter().find(|f| f.link.index() == *jaw)?;
-        let [x, y, _] = real(&force.point);
+        let points = m.points.iter().map(|p| (p.link, &p.point));
+        let forces = m.loads.forces.iter().map(|f| (f.link, &f.point));
+        let (_, at) = points.chain(forces).find(|(l, _)| l.index() == *jaw)?;
+        let [x, y, _] = real(at);
         Some([x, y])
     };
     let tips: Option<Vec<[f64; 2]>> = jaws.iter().map(tip).collect();
     let tips = tips.filter(|t| (2..=3).contains(&t.len()));
     let scaled = scale(&[&pins[..], tips.as_deref().unwrap_or_default()].concat());
     let place = |p: &[f64; 2]| p.map(|x| x * scaled);
-    Some(json!({
-        "pins": pins.iter().map(place).collect::<Vec<_>>(),
-        "names": joints.iter().map(|j| j.id.as_str()).collect::<Vec<_>>(),
-        "links": links,
-        "frame": m.frame().index(),
-        "driver": driver,
-        "drive": drive,
-        "slides": drive.is_some_and(|d| joints[d].joint_type.freedoms().iter().any(|f| f.slides())),
-        "jaws": jaws,
-        "tips": tips.map(|t| t.iter().map(place).collect::<Vec<_>>()),
-    }))
+    let slides = |d: usize| joints[d].joint_type.freedoms().iter().any(|f| f.slides());
+    Some(Drawing {
+        pins: pins.iter().map(place).collect(),
+        names: joints.iter().map(|j| j.id.clone()).collect(),
+        links,
+        frame: m.frame().index(),
+        driver,
+        jaws,
+        slides: drive.is_some_and(slides),
+        drive,
+        tips: tips.map(|t| t.iter().map(place).collect()),
+    })
 }
 
 /// How many times larger a drawing is to be made: layouts are about as large as symbols are drawn for, whatever units a
@@ -133,6 +158,7 @@ pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
             "ideas".to_owned(),
             of.into_iter().map(Value::Object).collect(),
         );
+        let drawn = drawn.and_then(|d| serde_json::to_value(d).ok());
         card.insert("drawing".to_owned(), drawn.unwrap_or_default());
         cards.push(card);
     }
@@ -141,8 +167,13 @@ pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
         .iter()
         .filter_map(|w| w.get("n").and_then(Value::as_u64))
         .sum();
-    let data = json!({ "file": file, "cards": cards });
-    let data = data.to_string().replace('<', "\\u003c");
+    let count = cards.len();
+    let cards = cards.into_iter().map(Value::Object).collect();
+    let data = Map::from_iter([
+        ("file".to_owned(), file.into()),
+        ("cards".to_owned(), cards),
+    ]);
+    let data = escaped(&Value::Object(data).to_string());
     let title = "Grippers by structure";
     let page = html! {
         (DOCTYPE)
@@ -162,13 +193,13 @@ pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
                         "Kinematic chains with a frame, a driver and jaws, each laid out in a plane and searched for the redesigns "
                         "without redundant constraints. Counts are of all joint assignments; costs are per joint changed."
                     }
-                    p.meta { (cards.len()) " grippers from " code { (file) } @if left_out > 0 { "; " (left_out) " structures have no layout" } }
+                    p.meta { (count) " grippers from " code { (file) } @if left_out > 0 { "; " (left_out) " structures have no layout" } }
                 }
                 main {
                     noscript { p { "The cards need scripts; " code { "ozols catalog query " (file) } " lists the same." } }
                     (filters())
                     p.help {
-                        "Green: the driver. Blue: the jaws; red arrows: how their tips close on the part, dashed. "
+                        "Green: the driver, with the way it goes to close. Blue: the jaws; red arrows: how their tips close on the part, dashed. "
                         "Triangles on a line: hinges in the frame; two lines: a guide in it."
                     }
                     p.note id="count" role="status" {}

@@ -3,6 +3,7 @@
 use super::Page;
 use super::symbols::Swaps;
 use super::variants::Found;
+use crate::draw::Scene;
 use crate::model::mechanism::{Joint, Mechanism};
 use crate::view::analysis::{Analysis, State};
 use serde::Serialize;
@@ -21,6 +22,7 @@ pub(super) struct Data<'a> {
     variant_commands: &'a [(String, String)],
     idea_commands: &'a [(String, String)],
     longer: &'a str,
+    scenes: Vec<Option<&'a Scene>>,
 }
 
 #[derive(Serialize)]
@@ -70,6 +72,11 @@ impl<'a> Data<'a> {
             variant_commands: &page.commands.variant,
             idea_commands: &page.commands.idea,
             longer: &page.commands.longer,
+            scenes: page
+                .scenes
+                .iter()
+                .map(|s| s.as_ref().map(|s| &s.1))
+                .collect(),
         }
     }
 
@@ -80,7 +87,7 @@ impl<'a> Data<'a> {
     }
 }
 
-fn escaped(json: &str) -> String {
+pub(super) fn escaped(json: &str) -> String {
     let mut out = String::with_capacity(json.len());
     // These characters stand in strings only, where an escape means the same.
     for c in json.chars() {

@@ -1,7 +1,8 @@
 //! A mechanism as it is, state by state: figures, drawings, contours and self-stresses.
 
 use super::symbols::Drawn;
-use super::{Motion, Page, verdict};
+use super::{Page, verdict};
+use crate::draw::Drawing;
 use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, Mode};
 use crate::view::analysis::{Analysis, Contour, External, SelfStress, State};
@@ -37,23 +38,28 @@ pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>, drawn: &[Drawn<'_>]
                 (drawing(i, s, "scheme", "Structural scheme", &d.scheme.svg))
                 (drawing(i, s, "kinematic", "Kinematic scheme", &d.kinematic.svg))
             }
-            @if let Some(Some(m)) = page.motions.get(i) { (motion(s, m)) }
+            @if let Some(Some((drawing, _))) = page.scenes.get(i) { (scene(i, s, drawing)) }
             (contours(s))
         }
     }
 }
 
-/// A motion with its player.
-fn motion(s: &State<'_>, motion: &Motion) -> Markup {
-    let way = if motion.closed { "round" } else { "back" };
+/// The mechanism in space, with what turns and moves it.
+fn scene(i: usize, s: &State<'_>, drawing: &Drawing) -> Markup {
+    let name = format!("The mechanism in space, state {}", s.state);
     html! {
-        figure.drawing.motion data-motion=(way) role="group" aria-label={ "Motion, state " (s.state) } {
-            (PreEscaped(&motion.svg))
+        figure.drawing.motion data-space=(i) role="group" aria-label=(name) {
+            div.turn tabindex="0" role="group" aria-roledescription="drawing to be turned" data-part="turn"
+                aria-label="Drag it or press the arrow keys to turn it; Home for the first view" {
+                (PreEscaped(&drawing.svg))
+            }
             div.player {
                 button type="button" data-part="play" { "Play" }
-                input type="range" data-part="range" min="0" step="1" aria-label="Position of the drive";
-                label.check { input type="checkbox" data-part="loop" checked; " Again and again" }
-                span.help data-part="say" {}
+                input type="range" data-part="range" min="0" step="1" aria-label="Position";
+                label.check data-part="again" { input type="checkbox" data-part="loop" checked; " Again and again" }
+                label.shown { "Shown " select data-part="shown" {} }
+                button type="button" data-part="home" disabled { "First view" }
+                span.help role="status" data-part="say" {}
             }
         }
     }

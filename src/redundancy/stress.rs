@@ -8,7 +8,7 @@ use crate::linalg::echelon::{Echelon, combination, relations, transpose};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Mechanism};
-use crate::redundancy::borne::{Faces, Shares};
+use crate::redundancy::borne::{Borne, Faces, Shares};
 use crate::redundancy::joint_wrench::JointWrenches;
 use itertools::Itertools;
 
@@ -30,9 +30,8 @@ pub struct JointWrench {
     pub moments: [bool; 3],
     /// Which of the forces along x, y, z are not zero.
     pub forces: [bool; 3],
-    /// Its part of Σ |f|² + |m|²/ℓ² over all joints, about their own points, ℓ the size of the mechanism: what it bears of
-    /// the stress in joints alike. `None` where that is left uncomputed, see [`Shares`].
-    pub share: Option<f64>,
+    /// The same in numbers. `None` where that is left uncomputed, see [`Shares`].
+    pub borne: Option<Borne>,
 }
 
 /// One self-stress of a basis.
@@ -48,6 +47,8 @@ pub struct SelfStress {
     pub external: bool,
     /// Harmless or harmful.
     pub verdict: Verdict,
+    /// ℓ, the size of the mechanism that moments are divided by, in the file's unit.
+    pub size: f64,
 }
 
 /// The left kernel of J in the echelon form that keeps to the earliest contours it can: each vector ends in a one that
@@ -176,6 +177,7 @@ pub fn self_stresses(
     let stresses = Stresses::new(exact, mechanism, closure)?;
     let wrenches = &stresses.wrenches;
     let mut shares = Shares::new(mechanism, closure)?;
+    let size = shares.size();
     let at_faces = Faces {
         joints: &stresses.faces,
         reference: stresses.reference,
@@ -200,7 +202,7 @@ pub fn self_stresses(
                 joint: j,
                 moments: nonzero(wrenches.moment_at(j, &w)),
                 forces: nonzero([w[3], w[4], w[5]]),
-                share: borne.as_ref().map(|b| b[j]),
+                borne: borne.as_ref().map(|b| b[j]),
             })
         });
         SelfStress {
@@ -208,6 +210,7 @@ pub fn self_stresses(
             couplings,
             joints: joints.collect(),
             external: is_external,
+            size,
             verdict: if friction {
                 Verdict::Harmless
             } else {

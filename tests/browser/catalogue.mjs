@@ -17,6 +17,17 @@ export function catalogueTests(test) {
         assert.ok(took < 5000, `${took} ms`);
         assert.ok((await cards(tab).count()) >= 60);
         assert.equal(await cards(tab).first().locator("svg title").count(), 1);
+        // The way the drive goes to close, straight or round.
+        const ways = await tab.locator("#cards .card").evaluateAll((all) => {
+          const of = new Map(data.cards.map((c) => [c.id, c]));
+          return all.map((card) => [of.get(card.dataset.id), card.querySelector(".drive").getAttribute("d")]);
+        });
+        for (const [card, d] of ways) {
+          assert.equal(/A/.test(d), card.input === "turn", d);
+          const [from, to] = card.input === "turn" ? d.match(/^M(\S+) .* (\S+) \S+M/).slice(1) : d.match(/^M(\S+) \S+L(\S+) /).slice(1);
+          // Rightwards along x; counter-clockwise over the pin is leftwards.
+          assert.ok(Math.sign(to - from) === (card.input === "turn" ? -card.closes : card.closes), d);
+        }
         await fits(tab);
         await picture(tab, name, false);
       });

@@ -240,16 +240,20 @@ test("nothing of the chosen drawing is cut, and a tapped row leads to it", async
   }
 });
 
+const space = (tab, part) => tab.locator(".motion").first().locator(part ? `[data-part="${part}"]` : ":scope");
+/** The corners of what is drawn of a mechanism in space. */
+const corners = (tab) => space(tab).locator("[data-scene] path").evaluateAll((all) => all.map((p) => p.getAttribute("d")).join());
+
 test("the motion plays at thirty pictures a second, and rests for who wants it to", async () => {
-  const picture = (tab) => tab.locator('.motion [data-frame]:not([visibility])').getAttribute("data-frame");
+  const picture = (tab) => space(tab).getAttribute("data-picture");
   await open(gripper, {}, async (tab) => {
-    await tab.locator(".motion").scrollIntoViewIfNeeded();
+    await space(tab, "turn").scrollIntoViewIfNeeded();
     await tab.waitForFunction(() => document.querySelector('[data-part="play"]').textContent === "Stop");
     const seen = await tab.evaluate(() => new Promise((done) => {
       const shown = [];
       const begun = performance.now();
       const look = () => {
-        shown.push(document.querySelector(".motion [data-frame]:not([visibility])").dataset.frame);
+        shown.push(document.querySelector(".motion").dataset.picture);
         if (performance.now() - begun < 1000) requestAnimationFrame(look);
         else done(new Set(shown).size);
       };
@@ -257,16 +261,97 @@ test("the motion plays at thirty pictures a second, and rests for who wants it t
     }));
     console.log(`  ${seen} different pictures in a second`);
     assert.ok(seen >= 20, `${seen}`);
-    await tab.locator('[data-part="play"]').click();
-    await tab.locator('[data-part="range"]').fill("5");
+    await space(tab, "play").click();
+    const before = await corners(tab);
+    await space(tab, "range").fill("5");
     assert.equal(await picture(tab), "5");
-    assert.equal(await text(tab, '[data-part="play"]'), "Play");
+    assert.notEqual(await corners(tab), before);
+    assert.equal(await text(tab, '[data-part="play"] >> nth=0'), "Play");
   });
   await open(gripper, { reducedMotion: "reduce" }, async (tab) => {
-    await tab.locator(".motion").scrollIntoViewIfNeeded();
+    await space(tab, "turn").scrollIntoViewIfNeeded();
     const before = await picture(tab);
     await tab.waitForTimeout(600);
     assert.equal(await picture(tab), before);
+  });
+});
+
+test("a mechanism in space turns by keys, by mouse and by finger, and back", async () => {
+  const bennett = report("bennett", "bennett");
+  /** The lengths of the bars on paper, each as hundredths of all. */
+  const lengths = (tab) => space(tab).locator('[data-scene] path[class^="bone"][d$="Z"]').evaluateAll((all) => {
+    const own = all.map((p) => p.getTotalLength());
+    return own.map((x) => Math.round((100 * x) / own.reduce((a, b) => a + b)));
+  });
+  for (const more of [{}, { viewport: { width: 360, height: 780 }, hasTouch: true, colorScheme: "dark" }]) {
+    await open(bennett, { reducedMotion: "reduce", ...more }, async (tab) => {
+      const first = await corners(tab);
+      const name = await space(tab, "turn").getAttribute("aria-label");
+      assert.match(name, /arrow keys to turn/);
+      assert.ok(await space(tab, "home").isDisabled());
+      await space(tab, "turn").focus();
+      await tab.keyboard.press("ArrowRight");
+      const right = await corners(tab);
+      assert.notEqual(right, first);
+      assert.match(await text(tab, '[data-part="say"]'), /turned by 10° to the side and 0° up/);
+      await tab.keyboard.press("ArrowLeft");
+      await tab.keyboard.press("ArrowUp");
+      assert.notEqual(await corners(tab), right);
+      await tab.keyboard.press("Home");
+      assert.equal(await corners(tab), first);
+      assert.ok(await space(tab, "home").isDisabled());
+      for (let i = 0; i < 9; i += 1) await tab.keyboard.press("ArrowUp");
+      const above = await lengths(tab);
+      for (let i = 0; i < 12; i += 1) await tab.keyboard.press("ArrowRight");
+      assert.deepEqual(await lengths(tab), above, "from above, a turn to the side leaves the plan as it is");
+      await space(tab, "home").click();
+      assert.equal(await corners(tab), first);
+      const box = await space(tab, "turn").boundingBox();
+      await tab.evaluate((y) => scrollBy(0, y - 100), box.y);
+      const { x, y } = await space(tab, "turn").boundingBox();
+      if (more.hasTouch) {
+        const finger = await tab.context().newCDPSession(tab);
+        const at = (type, dx) => finger.send("Input.dispatchTouchEvent", { type, touchPoints: type === "touchEnd" ? [] : [{ x: x + 150 + dx, y: y + 150 }] });
+        await at("touchStart", 0);
+        for (const dx of [10, 25, 40, 60]) await at("touchMove", dx);
+        await at("touchEnd", 0);
+      } else {
+        await tab.mouse.move(x + 150, y + 150);
+        await tab.mouse.down();
+        await tab.mouse.move(x + 210, y + 160, { steps: 4 });
+        await tab.mouse.up();
+      }
+      assert.notEqual(await corners(tab), first);
+      const turned = await corners(tab);
+      await tab.mouse.move(x + 20, y + 20);
+      assert.equal(await corners(tab), turned, "only a drag turns");
+      await fits(tab);
+      await picture(tab, `bennett-turned-${more.hasTouch ? 360 : 1360}`);
+    });
+  }
+});
+
+test("idle freedoms and self-stresses are shown on demand", async () => {
+  const rssr = report("rssr", "rssr");
+  await open(rssr, { reducedMotion: "reduce" }, async (tab) => {
+    const options = await space(tab, "shown").locator("option").allInnerTexts();
+    const idle = options.findIndex((o) => o.startsWith("idle freedom 1: link 2 spins about"));
+    assert.ok(idle > 0, options.join());
+    await space(tab, "shown").selectOption(String(idle));
+    const flag = () => space(tab).locator("[data-scene] .flag").getAttribute("d");
+    const upright = await flag();
+    await space(tab, "range").fill("12");
+    assert.notEqual(await flag(), upright);
+    assert.match(await text(tab, '[data-part="say"]'), /^idle freedom 1/);
+  });
+  await open(gripper, { reducedMotion: "reduce" }, async (tab) => {
+    const options = await space(tab, "shown").locator("option").allInnerTexts();
+    assert.equal(options.filter((o) => o.startsWith("self-stress")).length, 11);
+    await space(tab, "shown").selectOption(String(options.findIndex((o) => o.startsWith("self-stress 2:"))));
+    assert.equal(await space(tab, "play").isVisible(), false);
+    const arrows = space(tab).locator("[data-scene] .load");
+    assert.ok((await arrows.count()) >= 8);
+    assert.match(await arrows.first().locator("title").textContent(), /^(force|moment) on link \S+ at \S+: 0?\.?\d/);
   });
 });
 

@@ -1,11 +1,14 @@
 //! Drawings: labels that touch nothing, well-formed SVG, the same bytes each time.
 
+mod idle;
 mod interest;
+mod loads;
 mod meeting;
 mod moving;
 mod places;
 mod random;
 mod reading;
+mod space;
 
 use self::reading::{collisions, covers, misread, outside, texts};
 use crate::common::{out, ozols};

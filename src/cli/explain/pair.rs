@@ -98,10 +98,8 @@ pub(super) fn explain(of: &JointType, picture: Option<&Path>) -> anyhow::Result<
             of.name()
         )?;
         if needs {
-            writeln!(
-                out,
-                "\nWithout a reference, x is the first of the global axes that is not along z, which may not be what is meant."
-            )?;
+            let guess = "Without a reference, x is the first of the global axes that is not along z, which may not be what is meant.";
+            writeln!(out, "\n{}", textwrap::fill(guess, width))?;
         }
         if picture.is_none() {
             writeln!(out, "\nozols explain {} -o {0}.svg draws it.", of.name())?;

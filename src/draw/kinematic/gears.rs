@@ -11,23 +11,34 @@ use std::f64::consts::TAU;
 /// Gears with more than this times the distance of their axes for a radius are no gears that anyone would draw.
 const LARGEST: f64 = 6.0;
 
-/// A circle in space: its middle, its normal, its radius.
-type Circle = (Vector, Vector, f64);
+/// A circle in space: the end of the coupling it is about, its middle, its normal, its radius.
+type Circle = (usize, Vector, Vector, f64);
 
 impl Kinematic<'_> {
     /// The pitch circles of a coupling on paper with the joints at some places, each a closed line; none where no gears can make it.
     pub(super) fn pitch_circles(&self, coupling: &Coupling, places: &[Place]) -> Vec<Vec<Point>> {
+        let flat = |circle: Vec<Vector>| circle.iter().map(|&p| self.projection.flat(p)).collect();
+        let circles = self.pitch_circles_in_space(coupling, places).into_iter();
+        circles.map(|(_, circle)| flat(circle)).collect()
+    }
+
+    /// The same in space, each with the end of the coupling that it is about.
+    pub(super) fn pitch_circles_in_space(
+        &self,
+        coupling: &Coupling,
+        places: &[Place],
+    ) -> Vec<(usize, Vec<Vector>)> {
         let circles = gears(self, coupling, places)
             .or_else(|| pinion(self, coupling, places).map(|c| vec![c]));
-        let line = |(middle, normal, radius): Circle| {
+        let line = |(end, middle, normal, radius): Circle| {
             let x = projection::across(normal);
             let y = cross(normal, x);
             let point = |i: i32| {
                 let angle = TAU * f64::from(i) / 60.0;
                 let off = add(scale(x, angle.cos()), scale(y, angle.sin()));
-                self.projection.flat(add(middle, scale(off, radius)))
+                add(middle, scale(off, radius))
             };
-            (0..60).map(point).collect()
+            (end, (0..60).map(point).collect())
         };
         circles.unwrap_or_default().into_iter().map(line).collect()
     }
@@ -64,7 +75,7 @@ fn gears(drawn: &Kinematic<'_>, coupling: &Coupling, places: &[Place]) -> Option
     let second = distance / (1.0 - ratio).abs();
     let radii = [second * ratio.abs(), second];
     let drawable = |r: &f64| r.is_finite() && *r > 0.0 && *r < LARGEST * distance;
-    let circles = [(a.point, a.z, radii[0]), (b.point, a.z, radii[1])];
+    let circles = [(0, a.point, a.z, radii[0]), (1, b.point, a.z, radii[1])];
     radii.iter().all(drawable).then(|| circles.to_vec())
 }
 
@@ -85,5 +96,5 @@ fn pinion(drawn: &Kinematic<'_>, coupling: &Coupling, places: &[Place]) -> Optio
     let ratio = coupling.ratio.to_f64().abs();
     let radius = if turn == 0 { ratio } else { 1.0 / ratio };
     let across = dot(pin.z, rack.z).abs() < 1e-6;
-    (across && radius.is_finite() && radius > 0.0).then_some((pin.point, pin.z, radius))
+    (across && radius.is_finite() && radius > 0.0).then_some((turn, pin.point, pin.z, radius))
 }

@@ -1,8 +1,8 @@
-//! Points of interest on links.
+//! Points of interest on links: those of the file, and the faces of jaws.
 
 use crate::draw::projection::{Vector, real};
 use crate::draw::sheet::Sheet;
-use crate::model::mechanism::{LinkId, Mechanism};
+use crate::model::mechanism::{LinkId, Mechanism, Role, StateId};
 use crate::svg::plane::{Point, add, polyline};
 
 /// Half of a point's mark, which is no circle: those are joints.
@@ -20,22 +20,37 @@ pub(super) struct Marked {
     pub(super) at: Point,
 }
 
-/// The points of links that are there.
-pub(super) fn marked(m: &Mechanism, links: &[(LinkId, Vec<usize>)]) -> Vec<Marked> {
+/// The points of links that are there, and where an output link is to hold the object that is not there in this state.
+pub(super) fn marked(m: &Mechanism, state: StateId, links: &[(LinkId, Vec<usize>)]) -> Vec<Marked> {
     let there = |l: LinkId| links.iter().any(|(k, _)| *k == l);
-    let points = m.points.iter().filter(|p| there(p.link));
-    let marked = points.map(|p| Marked {
-        id: p.id.clone(),
-        link: p.link,
-        place: real(&p.point),
+    let own = m.points.iter().map(|p| (&p.id, p.link, real(&p.point)));
+    let role = |l: LinkId| m.links[l].role;
+    let held = m.joints.iter().filter_map(|j| {
+        let elsewhere = j.states.as_ref().is_some_and(|s| !s.contains(&state));
+        let [a, b] = j.links;
+        let jaw = match [role(a), role(b)] {
+            [Role::Output, Role::Object] => a,
+            [Role::Object, Role::Output] => b,
+            _ => return None,
+        };
+        elsewhere.then(|| (&j.id, jaw, real(&j.frame.point)))
+    });
+    let points = own.chain(held).filter(|(_, link, _)| there(*link));
+    let marked = points.map(|(id, link, place)| Marked {
+        id: id.clone(),
+        link,
+        place,
         at: [0.0; 2],
     });
     marked.collect()
 }
 
+/// The corners of the mark of a point.
+pub(super) fn corners(at: Point) -> [Point; 4] {
+    [[HALF, 0.0], [0.0, HALF], [-HALF, 0.0], [0.0, -HALF]].map(|c| add(at, c))
+}
+
 /// Draws the mark of a point.
 pub(super) fn draw_mark(sheet: &mut Sheet, at: Point) {
-    let corners = [[HALF, 0.0], [0.0, HALF], [-HALF, 0.0], [0.0, -HALF]];
-    let corners = corners.map(|c| add(at, c));
-    sheet.path("ink", &polyline(&corners, true));
+    sheet.path("ink", &polyline(&corners(at), true));
 }

@@ -1,21 +1,16 @@
 //! A kinematic scheme over the way of its drive: one picture a pose, shown one after the other.
 
-use super::body::Body;
 use super::carried::Carried;
-use super::marked::draw_mark;
+use super::frame::Frame;
 use super::symbol::Symbol;
 use super::{Kinematic, STRIP};
-use crate::draw::projection::{
-    Place, Vector, add as add3, bounds, dot, scale as times, sub as sub3,
-};
-use crate::draw::sheet::{Caption, Drawing, Sheet, plan};
+use crate::draw::projection::{Place, bounds};
+use crate::draw::sheet::{Caption, Drawing, Plan, Sheet, Swatch, plan};
 use crate::draw::sight::Sight;
 use crate::draw::subject::Subject;
-use crate::model::joint_type::Freedom;
-use crate::model::mechanism::LinkId;
 use crate::motion::pose::Pose;
 use crate::motion::way::Way;
-use crate::svg::plane::{Point, Rect, add, polyline, sub};
+use crate::svg::plane::{Point, Rect, add};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -33,26 +28,11 @@ pub struct Moved<'a> {
     pub words: &'a str,
 }
 
-/// Who shows the pictures of a motion one after the other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Player {
-    /// The drawing itself, by a style sheet; the pose of the file stands still for readers who want less motion, on paper
-    /// and in programs that know no animation.
-    Itself,
-    /// A program: it takes the attribute `visibility` from one group `data-frame` and gives it to another. The number keeps
-    /// the ids of several drawings of a page apart.
-    Program(usize),
-}
-
-/// Draws the kinematic scheme over a motion.
+/// Draws the kinematic scheme over a motion, animated by a style sheet: the pose of the file stands still for readers who want
+/// less motion, on paper and in programs that know no animation.
 #[must_use]
-pub fn kinematic_moving(
-    subject: &Subject<'_>,
-    sight: &Sight,
-    moved: &Moved<'_>,
-    player: Player,
-) -> Drawing {
-    Moving::new(Kinematic::new(subject, sight), moved).draw(player)
+pub fn kinematic_moving(subject: &Subject<'_>, sight: &Sight, moved: &Moved<'_>) -> Drawing {
+    Moving::new(Kinematic::new(subject, sight), moved).draw()
 }
 
 /// Draws the kinematic scheme at the pose of the file, with the ways of its points over a motion.
@@ -65,7 +45,7 @@ pub fn kinematic_along(subject: &Subject<'_>, sight: &Sight, moved: &Moved<'_>) 
 }
 
 /// The poses of a motion, each once.
-fn poses<'m>(moved: &Moved<'m>) -> Vec<Carried<'m>> {
+pub(super) fn poses<'m>(moved: &Moved<'m>) -> Vec<Carried<'m>> {
     let links = moved.way.links.iter().map(Vec::as_slice);
     let of = links.map(|links| Carried {
         pose: moved.pose,
@@ -76,20 +56,6 @@ fn poses<'m>(moved: &Moved<'m>) -> Vec<Carried<'m>> {
         poses.pop();
     }
     poses
-}
-
-/// One picture.
-struct Frame {
-    /// Where the points of interest are.
-    points: Vec<Point>,
-    /// Where each joint stands, with its frame.
-    places: Vec<Place>,
-    at: Vec<Point>,
-    /// The shape of each link but the frame.
-    bodies: Vec<(usize, Body)>,
-    /// What blocks slide along, on links that move.
-    guides: Vec<(Point, Point)>,
-    circles: Vec<Vec<Point>>,
 }
 
 struct Moving<'a> {
@@ -105,7 +71,12 @@ impl<'a> Moving<'a> {
         let poses = poses(moved);
         let slides = rest.slides(&poses);
         rest.lengthen_rails(&slides);
-        let frames: Vec<Frame> = poses.iter().map(|c| rest.frame(c, &slides)).collect();
+        let lines = {
+            let mut lines = rest.guides(&slides);
+            lines.extend(rest.flags(&poses));
+            lines
+        };
+        let frames: Vec<Frame> = poses.iter().map(|c| rest.frame(c, &lines)).collect();
         rest.traces = (rest.ways(&poses), moved.way.closed);
         Moving {
             frames,
@@ -116,108 +87,48 @@ impl<'a> Moving<'a> {
         }
     }
 
-    fn draw(mut self, player: Player) -> Drawing {
+    fn draw(mut self) -> Drawing {
         let rest = &self.rest;
-        let subject = rest.subject;
-        let mut area = bounds(&self.frames[self.start].at);
-        for (n, frame) in self.frames.iter().enumerate() {
-            for (spot, at) in rest.spots.iter().zip(&frame.at) {
-                // a symbol may turn
-                let reach = 2.0 * spot.symbol.reach();
-                let own = if n == self.start {
-                    spot.rect
-                } else {
-                    Rect::around(*at, reach, reach)
-                };
-                area = area.with(&own);
-            }
-            for (_, body) in &frame.bodies {
-                area = area.with(&bounds(&body.points).grown(4.0));
-            }
-            let ends = frame.guides.iter().flat_map(|g| [g.0, g.1]);
-            for p in ends.chain(frame.circles.iter().flatten().copied()) {
-                area = area.with(&Rect::around(p, 6.0, 6.0));
-            }
-        }
-        for g in &rest.grounds {
-            area = area.with(&g.rect());
-        }
-        for p in rest.traced().chain(rest.points.iter().map(|p| p.at)) {
-            area = area.with(&Rect::around(p, 6.0, 6.0));
-        }
-        let title = subject.title();
-        let what = format!("Kinematic scheme {}", rest.projection.view.name);
-        let [what, _] = subject.subtitle(&what);
+        let area = rest.room_of(&self.frames, self.start);
+        let title = rest.subject.title();
+        let [what, _] = rest.subject.subtitle(&rest.what());
+        let mut legend = rest.legend();
+        legend.extend(flag_row(&self.frames[self.start]));
         let caption = Caption {
             title: &title,
             subtitle: [&what, self.words],
             description: &format!("{} Moving: {}.", rest.description(), self.words),
-            legend: rest.legend(),
+            legend,
         };
         let plan = plan(&caption, area, STRIP);
-        self.shift(plan.shift);
-        let mut sheet = Sheet::new(&caption, &plan);
-        let prefix = match player {
-            Player::Itself => {
-                sheet.style(&self.style());
-                "m".to_owned()
-            }
-            Player::Program(n) => format!("m{n}-"),
-        };
-        self.rest.draw_traces(&mut sheet);
-        for g in &self.rest.grounds {
-            sheet.symbol(g.rect());
-            g.draw(&mut sheet);
+        let by = plan.shift;
+        for p in self.frames.iter_mut().flat_map(Frame::all) {
+            *p = add(*p, by);
         }
-        self.draw_frames(&mut sheet, &prefix);
-        self.rest
-            .draw_axes(&mut sheet, plan.legend_top - STRIP + 34.0);
-        self.rest
-            .draw_scale(&mut sheet, plan.legend_top - STRIP + 40.0);
+        self.rest.shift_ground(by);
+        let mut sheet = Sheet::new(&caption, &plan);
+        sheet.style(&self.style());
+        self.rest.draw_traces(&mut sheet);
+        self.rest.draw_ground(&mut sheet);
+        self.draw_frames(&mut sheet);
+        self.rest.draw_below(&mut sheet, &plan);
         sheet.finish(&caption, &plan)
     }
 
-    fn shift(&mut self, by: Point) {
-        for g in &mut self.rest.grounds {
-            (g.from, g.to) = (add(g.from, by), add(g.to, by));
-        }
-        self.rest.shift_points(by);
-        for f in &mut self.frames {
-            let bodies = f.bodies.iter_mut().flat_map(|(_, b)| &mut b.points);
-            let circles = f.circles.iter_mut().flatten();
-            let points = f.points.iter_mut();
-            for p in f.at.iter_mut().chain(bodies).chain(circles).chain(points) {
-                *p = add(*p, by);
-            }
-            for (a, b) in &mut f.guides {
-                (*a, *b) = (add(*a, by), add(*b, by));
-            }
-        }
-    }
-
     /// The symbols once each, and the pictures made of them.
-    fn draw_frames(&self, sheet: &mut Sheet, prefix: &str) {
+    fn draw_frames(&self, sheet: &mut Sheet) {
         let rest = &self.rest;
         let m = rest.subject.mechanism;
-        let mut order: Vec<usize> = (0..rest.spots.len()).collect();
-        order.sort_by(|&a, &b| {
-            rest.spots[b]
-                .symbol
-                .size
-                .total_cmp(&rest.spots[a].symbol.size)
-        });
+        let order = rest.outer_first();
         let mut store: BTreeMap<String, usize> = BTreeMap::new();
         let mut used: Vec<Vec<usize>> = Vec::new();
         for f in &self.frames {
-            let of = rest.spots.iter().zip(&f.places).map(|(spot, place)| {
-                let of = (&m.joints[spot.joint].joint_type, place);
-                let view = &rest.projection.view;
-                let symbol = Symbol::new(rest.subject, spot.joint, of, view, spot.symbol.size);
+            let of = rest.spots.iter().zip(&f.places).enumerate();
+            let of = of.map(|(i, (spot, place))| {
                 let mark = rest.subject.joint_mark(spot.joint);
                 let mut piece = Sheet::piece();
-                symbol
-                    .marked(mark)
-                    .draw(&mut piece, rest.subject, spot.joint, mark);
+                let symbol = rest.symbol_in(i, place);
+                symbol.draw(&mut piece, rest.subject, spot.joint, mark);
                 let next = store.len();
                 *store.entry(piece.into_text()).or_insert(next)
             });
@@ -225,33 +136,16 @@ impl<'a> Moving<'a> {
         }
         let mut symbols: Vec<(usize, String)> = store.into_iter().map(|(s, n)| (n, s)).collect();
         symbols.sort_unstable();
-        sheet.defs(
-            symbols
-                .iter()
-                .map(|(n, s)| (format!("{prefix}{n}"), s.as_str())),
-        );
+        sheet.defs(symbols.iter().map(|(n, s)| (format!("m{n}"), s.as_str())));
         for spot in &rest.spots {
             sheet.symbol(spot.rect);
         }
         for (n, (f, used)) in self.frames.iter().zip(&used).enumerate() {
             sheet.frame(n, n == self.start, |s| {
-                for (l, body) in &f.bodies {
-                    if body.points.len() > 1 {
-                        s.path(&rest.look(*l, body), &polyline(&body.points, body.plate));
-                    }
-                }
-                for &(a, b) in &f.guides {
-                    s.line("guide", a, b);
-                }
-                for c in &f.circles {
-                    s.path("fine pitch", &polyline(c, true));
-                }
-                for &p in &f.points {
-                    draw_mark(s, p);
-                }
+                f.draw(rest, s);
                 for &i in &order {
                     let id = &m.joints[rest.spots[i].joint].id;
-                    s.joint_use(id, &format!("{prefix}{}", used[i]), f.at[i]);
+                    s.joint_use(id, &format!("m{}", used[i]), f.at[i]);
                 }
             });
         }
@@ -283,182 +177,88 @@ impl<'a> Moving<'a> {
     }
 }
 
+/// What the legend says of flags, where there are any.
+pub(super) fn flag_row(frame: &Frame) -> Option<(Swatch, String)> {
+    let draw = |s: &mut Sheet, p: Point| s.line("flag", p, add(p, [7.0, -7.0]));
+    let there = frame.lines.iter().any(|(class, _)| *class == "flag");
+    there.then(|| {
+        let text = "flag on a link that turns in its place";
+        (Swatch::Symbol(draw), text.to_owned())
+    })
+}
+
 impl Kinematic<'_> {
-    /// How far along its axis each joint slides from where it is at rest, over all poses; nothing for those that do not.
-    fn slides(&self, poses: &[Carried<'_>]) -> Vec<Option<[f64; 2]>> {
-        let one = |i: usize| {
-            let along = self.slide_axis(i)?;
-            let (rides, guides) = self.carriers(i);
-            let place = &self.places[i];
-            let of = poses.iter().map(|c| {
-                let apart = sub3(c.point(rides, place.point), c.point(guides, place.point));
-                dot(apart, c.links[guides].direction(along))
-            });
-            Some(of.fold([0.0f64, 0.0], |[l, h], x| [l.min(x), h.max(x)]))
-        };
-        (0..self.spots.len()).map(one).collect()
+    /// What the drawing is.
+    pub(super) fn what(&self) -> String {
+        format!("Kinematic scheme {}", self.projection.view.name)
     }
 
-    /// The direction that a joint slides in, where it slides in just one.
-    fn slide_axis(&self, i: usize) -> Option<Vector> {
-        let joint = &self.subject.mechanism.joints[self.spots[i].joint];
-        let place = &self.places[i];
-        let freedoms = joint.joint_type.freedoms();
-        let axes = [
-            (Freedom::Tx, place.x),
-            (Freedom::Ty, place.y),
-            (Freedom::Tz, place.z),
-            (Freedom::Screw, place.z),
-        ];
-        let mut slides = axes.into_iter().filter(|(f, _)| freedoms.contains(f));
-        let first = slides.next()?;
-        slides.next().is_none().then_some(first.1)
-    }
-
-    /// The link that the symbol of a joint rides on, and the one that it slides along: a block rides on the link that is
-    /// nothing else, and on any rather than on the frame; a slot is the second link's, the pin in it the first's.
-    fn carriers(&self, i: usize) -> (LinkId, LinkId) {
-        let joint = &self.subject.mechanism.joints[self.spots[i].joint];
-        let [a, b] = joint.links;
-        if joint.joint_type.freedoms().contains(&Freedom::Tx) {
-            return (a, b);
-        }
-        let small = |l: LinkId| {
-            let of = self.links.iter().find(|(k, _)| *k == l);
-            of.is_some_and(|(_, of)| {
-                of.len() > 1
-                    && of
-                        .iter()
-                        .all(|&k| super::nest::one_place(self.spots[k].at, self.spots[i].at))
-            })
-        };
-        if small(a) || self.is_frame(b) {
-            (a, b)
-        } else if small(b) || self.is_frame(a) {
-            (b, a)
-        } else {
-            (a, b)
-        }
-    }
-
-    /// Rails are as long as what slides along them needs.
-    fn lengthen_rails(&mut self, slides: &[Option<[f64; 2]>]) {
-        for (i, &range) in slides.iter().enumerate() {
-            let (Some(range), Some(axis)) = (range, self.slide_axis(i)) else {
-                continue;
-            };
-            if !self.is_frame(self.carriers(i).1) {
-                continue;
+    /// The room that pictures take, one of which has the symbols of the pose of the file.
+    pub(super) fn room_of(&self, frames: &[Frame], start: usize) -> Rect {
+        let mut area = bounds(&frames[start].at);
+        for (n, frame) in frames.iter().enumerate() {
+            for (spot, at) in self.spots.iter().zip(&frame.at) {
+                // a symbol may turn
+                let reach = 2.0 * spot.symbol.reach();
+                let own = if n == start {
+                    spot.rect
+                } else {
+                    Rect::around(*at, reach, reach)
+                };
+                area = area.with(&own);
             }
-            let [low, high] = range.map(|x| {
-                let flat = self.projection.view.flat(times(axis, x));
-                flat.map(|c| c * self.projection.scale)
-            });
-            let at = self.spots[i].at;
-            let rail = self
-                .grounds
-                .iter_mut()
-                .find(|g| super::nest::one_place(g.from, at));
-            if let Some(g) = rail {
-                g.lengthen(low, high);
+            for (_, body) in &frame.bodies {
+                area = area.with(&bounds(&body.points).grown(4.0));
+            }
+            let ends = frame.lines.iter().flat_map(|(_, ends)| *ends);
+            for p in ends.chain(frame.circles.iter().flatten().copied()) {
+                area = area.with(&Rect::around(p, 6.0, 6.0));
             }
         }
+        for g in &self.grounds {
+            area = area.with(&g.rect());
+        }
+        for p in self.traced().chain(self.points.iter().map(|p| p.at)) {
+            area = area.with(&Rect::around(p, 6.0, 6.0));
+        }
+        area
     }
 
-    /// The way of each point that is shown.
-    fn ways(&self, poses: &[Carried<'_>]) -> Vec<Vec<Point>> {
-        let tips = self.tips().into_iter();
-        let of = tips.map(|(link, tip)| {
-            let at = |c: &Carried<'_>| self.projection.flat(c.point(link, tip));
-            poses.iter().map(at).collect()
-        });
-        of.collect()
+    /// Moves what does not move with a pose to its place on the sheet.
+    pub(super) fn shift_ground(&mut self, by: Point) {
+        for g in &mut self.grounds {
+            (g.from, g.to) = (add(g.from, by), add(g.to, by));
+        }
+        self.shift_points(by);
     }
 
-    /// The points of interest; of output links that have none the free end of one with a single joint, else its joints but those of the frame.
-    fn tips(&self) -> Vec<(LinkId, Vector)> {
-        let moving = self.points.iter().filter(|p| !self.is_frame(p.link));
-        let mut out: Vec<(LinkId, Vector)> = moving.map(|p| (p.link, p.place)).collect();
-        let bare = |l: LinkId| self.is_output(l) && self.points_of(l).next().is_none();
-        for link in self.links.iter().filter(|(l, _)| bare(*l)) {
-            let (l, of) = link;
-            let mut seen: Vec<Point> = Vec::new();
-            for &i in of {
-                let spot = &self.spots[i];
-                let links = self.subject.mechanism.joints[spot.joint].links;
-                let grounded = links.iter().any(|&l| self.is_frame(l));
-                if !grounded && !seen.iter().any(|&p| super::nest::one_place(p, spot.at)) {
-                    seen.push(spot.at);
-                    out.push((*l, self.places[i].point));
-                }
-            }
-            out.extend(self.loose_in_space(link).map(|p| (*l, p)));
+    pub(super) fn draw_ground(&self, sheet: &mut Sheet) {
+        for g in &self.grounds {
+            sheet.symbol(g.rect());
+            g.draw(sheet);
         }
-        out
     }
 
-    /// The free end of a link with one joint.
-    fn loose_in_space(&self, link: &(LinkId, Vec<usize>)) -> Option<Vector> {
-        let of = &link.1;
-        let off = sub(self.loose(link)?, self.spots[of[0]].at);
-        let (view, scale) = (&self.projection.view, self.projection.scale);
-        let across = add3(
-            times(view.right, off[0] / scale),
-            times(view.up, -off[1] / scale),
-        );
-        Some(add3(self.places[of[0]].point, across))
+    /// The axes and the scale.
+    pub(super) fn draw_below(&self, sheet: &mut Sheet, plan: &Plan) {
+        self.draw_axes(sheet, plan.legend_top - STRIP + 34.0);
+        self.draw_scale(sheet, plan.legend_top - STRIP + 40.0);
     }
 
-    fn frame(&self, carried: &Carried<'_>, slides: &[Option<[f64; 2]>]) -> Frame {
-        let flat = |p: Vector| self.projection.flat(p);
-        let places: Vec<Place> = (0..self.spots.len())
-            .map(|i| {
-                let (rides, guides) = self.carriers(i);
-                carried.place(rides, guides, &self.places[i])
-            })
-            .collect();
-        let mut bodies = Vec::new();
-        for (l, whole) in self.links.iter().enumerate() {
-            let (link, of) = whole;
-            if self.is_frame(*link) {
-                continue;
-            }
-            let own = of.iter().map(|&i| self.places[i].point);
-            let own = own.chain(self.points_of(*link).map(|p| p.place));
-            let own = own.chain(self.loose_in_space(whole));
-            let points: Vec<Point> = own.map(|p| flat(carried.point(*link, p))).collect();
-            bodies.push((l, Body::new(&points).bowed(self.bows[l])));
-        }
-        let mut guides = Vec::new();
-        for (i, &range) in slides.iter().enumerate() {
-            let (Some(range), Some(axis)) = (range, self.slide_axis(i)) else {
-                continue;
-            };
-            let (_, link) = self.carriers(i);
-            if !self.is_frame(link) && range[1] - range[0] > 0.0 {
-                let [a, b] = range.map(|x| {
-                    let p = add3(self.places[i].point, times(axis, x));
-                    flat(carried.point(link, p))
-                });
-                guides.push((a, b));
-            }
-        }
-        let m = self.subject.mechanism;
-        let circles = m
-            .couplings_in(self.subject.state)
-            .flat_map(|c| self.pitch_circles(c, &places))
-            .collect();
-        Frame {
-            points: self
-                .points
-                .iter()
-                .map(|p| flat(carried.point(p.link, p.place)))
-                .collect(),
-            at: places.iter().map(|p| flat(p.point)).collect(),
-            places,
-            bodies,
-            guides,
-            circles,
-        }
+    /// The symbol of a joint that stands at another place.
+    pub(super) fn symbol_in(&self, i: usize, place: &Place) -> Symbol {
+        let spot = &self.spots[i];
+        let of = &self.subject.mechanism.joints[spot.joint].joint_type;
+        let (view, size) = (&self.projection.view, spot.symbol.size);
+        let symbol = Symbol::new(self.subject, spot.joint, (of, place), view, size);
+        symbol.marked(self.subject.joint_mark(spot.joint))
+    }
+
+    /// The joints, those first that others are drawn within.
+    pub(super) fn outer_first(&self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.spots.len()).collect();
+        let size = |i: usize| self.spots[i].symbol.size;
+        order.sort_by(|&a, &b| size(b).total_cmp(&size(a)));
+        order
     }
 }

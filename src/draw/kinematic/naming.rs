@@ -37,6 +37,10 @@ impl Kinematic<'_> {
         for way in &self.traces.0 {
             way.windows(2).for_each(|w| add_line(w[0], w[1]));
         }
+        for shape in self.arrows.iter().flat_map(|a| self.arrow_shapes(a)) {
+            let points = shape.points();
+            points.windows(2).for_each(|w| add_line(w[0], w[1]));
+        }
         let (mut wishes, mut texts) = (Vec::new(), Vec::new());
         for s in &self.spots {
             let text = cut(&m.joints[s.joint].id, SMALL, 150.0);

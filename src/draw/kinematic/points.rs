@@ -41,7 +41,10 @@ impl Kinematic<'_> {
     pub(super) fn point_rows(&self) -> Vec<(Swatch, String)> {
         let mut out = Vec::new();
         if !self.points.is_empty() {
-            out.push((Swatch::Symbol(draw_mark), "point of interest".to_owned()));
+            out.push((
+                Swatch::Symbol(draw_mark),
+                "point of interest, or face of a jaw".to_owned(),
+            ));
         }
         if !self.traces.0.is_empty() {
             let draw =

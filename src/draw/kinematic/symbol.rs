@@ -1,12 +1,13 @@
 //! The symbol of a joint, with the ring of a drive.
 
+use crate::draw::piece::Pose;
 use crate::draw::projection::{Place, View};
 use crate::draw::sheet::{Shape, Sheet};
 use crate::draw::subject::{Mark, Subject};
-use crate::draw::symbols::{self, Pose};
+use crate::draw::symbols;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::JointId;
-use crate::svg::plane::{Point, Rect, add, polyline};
+use crate::svg::plane::Rect;
 use std::f64::consts::PI;
 
 /// The symbol of a joint round the origin.
@@ -74,34 +75,50 @@ impl Symbol {
         joint: JointId,
         mark: Mark,
     ) {
-        if let Some(r) = self.ring {
-            drive(sheet, mark.class(), [0.0; 2], r);
-        }
+        let (below, above) = self.round(subject, joint, mark);
+        sheet.shapes(&below, [0.0; 2]);
         sheet.shapes(&self.shapes, [0.0; 2]);
-        if subject.only_here(joint) {
-            sheet.circle(
-                "fine dash",
-                [0.0; 2],
-                self.ring.unwrap_or(10.0 * self.size) + 2.5,
-            );
-        }
+        sheet.shapes(&above, [0.0; 2]);
+    }
+
+    /// What stands round the symbol, below and above it, and is turned to the reader always.
+    pub(super) fn round(
+        &self,
+        subject: &Subject<'_>,
+        joint: JointId,
+        mark: Mark,
+    ) -> (Vec<Shape>, Vec<Shape>) {
+        let drive = |r| drive(mark.class(), r);
+        let only_here = subject.only_here(joint).then(|| Shape::Circle {
+            at: [0.0; 2],
+            radius: self.ring.unwrap_or(10.0 * self.size) + 2.5,
+            class: "fine dash".to_owned(),
+        });
+        let below = self.ring.map(drive).unwrap_or_default();
+        (below, only_here.into_iter().collect())
     }
 }
 
 /// The arrow round a driving pair, which is no circle: that is a second joint.
-pub(super) fn drive(sheet: &mut Sheet, mark: &str, at: Point, radius: f64) {
+pub(super) fn drive(mark: &str, radius: f64) -> Vec<Shape> {
     const FROM: f64 = 0.25 * PI;
     const TO: f64 = 1.85 * PI;
-    let on = |angle: f64, r: f64| add(at, [r * angle.cos(), r * angle.sin()]);
-    let arc: Vec<Point> = (0..=28)
-        .map(|i| on(FROM + (TO - FROM) * f64::from(i) / 28.0, radius))
-        .collect();
-    sheet.path(&format!("line{mark}"), &polyline(&arc, false));
+    let on = |angle: f64, r: f64| [r * angle.cos(), r * angle.sin()];
+    let arc = (0..=28).map(|i| on(FROM + (TO - FROM) * f64::from(i) / 28.0, radius));
     let back = TO - 6.0 / radius;
-    let head = [
+    let head = vec![
         on(TO + 1.5 / radius, radius),
         on(back, radius + 2.6),
         on(back, radius - 2.6),
     ];
-    sheet.path(&format!("ink{mark}"), &polyline(&head, true));
+    let arc = Shape::line(format!("line{mark}"), arc.collect());
+    let (class, closed) = (format!("ink{mark}"), true);
+    vec![
+        arc,
+        Shape::Path {
+            class,
+            points: head,
+            closed,
+        },
+    ]
 }

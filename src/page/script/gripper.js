@@ -9,26 +9,28 @@ function element(name, attributes, inside) {
   return e;
 }
 
-// The corners of the convex hull of points, in order (Andrew's monotone chain).
-function hull(points) {
-  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
-  if (sorted.length < 3) return sorted;
-  const side = (a, b, c) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-  const half = (list) => {
-    const out = [];
-    for (const p of list) {
-      while (out.length > 1 && side(out[out.length - 2], out[out.length - 1], p) <= 0) out.pop();
-      out.push(p);
-    }
-    out.pop();
-    return out;
-  };
-  return half(sorted).concat(half(sorted.reverse()));
-}
-
 // Screen coordinates: y goes down.
 const flip = ([x, y]) => [x, -y];
 const path = (points, closed) => 'M' + points.map((p) => p.map((v) => v.toFixed(1)).join(' ')).join('L') + (closed ? 'Z' : '');
+
+// The head of an arrow at a point, u being where it goes.
+function head(at, u) {
+  const wing = (s) => [at[0] - 4 * u[0] - s * 2.5 * u[1], at[1] - 4 * u[1] + s * 2.5 * u[0]];
+  return path([wing(1), at, wing(-1)]);
+}
+
+function straight(from, to) {
+  const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
+  return path([from, to]) + head(to, [(to[0] - from[0]) / length, (to[1] - from[1]) / length]);
+}
+
+// Over a pin, counter-clockwise where s is 1.
+function round([x, y], r, s) {
+  const at = (degrees) => { const t = (degrees * Math.PI) / 180; return [x + r * Math.cos(t), y - r * Math.sin(t)]; };
+  const from = at(90 - 75 * s), to = at(90 + 75 * s), t = ((90 + 75 * s) * Math.PI) / 180;
+  const [a, b] = [from, to].map((p) => p.map((v) => v.toFixed(1)).join(' '));
+  return `M${a}A${r} ${r} 0 0 ${s > 0 ? 0 : 1} ${b}` + head(to, [-s * Math.sin(t), -s * Math.cos(t)]);
+}
 
 function gripper(card, title, changed) {
   const d = card.drawing;
@@ -72,15 +74,16 @@ function gripper(card, title, changed) {
   pins.forEach(([x, y], i) => {
     if (i !== slidePin) out.push(element('circle', { class: 'pin', cx: x, cy: y, r: 2.6 }));
   });
+  if (card.closes) {
+    const [x, y] = pins[d.drive], s = card.closes;
+    out.push(element('path', { class: 'drive', d: d.slides ? straight([x - 11 * s, y - 11], [x + 11 * s, y - 11]) : round([x, y], 10, s) }));
+  }
   const moves = card.drawn ? [] : ['a', 'b', 'c'].map((jaw) => [card[`tip_${jaw}_dx`], card[`tip_${jaw}_dy`]]).filter((v) => v[0] !== null).map(flip);
   const fastest = Math.max(...moves.map((v) => Math.hypot(...v)), 1e-9);
   moves.forEach((move, n) => {
     const [x, y] = tips[n], v = move.map((c) => (c / fastest) * 13), length = Math.hypot(...v);
     if (length < 1) return;
-    const u = v.map((c) => c / length), across = [-u[1], u[0]];
-    const at = [x + v[0], y + v[1]];
-    const wing = (s) => [0, 1].map((k) => at[k] - 4 * u[k] + s * 2.5 * across[k]);
-    out.push(element('path', { class: 'arrow', d: path([[x, y], at]) + path([wing(1), at, wing(-1)]) }));
+    out.push(element('path', { class: 'arrow', d: straight([x, y], [x + v[0], y + v[1]]) }));
   });
   for (const [name, word] of changed || []) {
     const i = d.names.indexOf(name);

@@ -89,7 +89,10 @@ fn points_are_shown_in_every_kinematic_drawing() {
         &["report", "jansen-leg"],
     ] {
         let shown = out(args);
-        assert!(shown.contains("point of interest"), "{args:?}");
+        assert!(
+            shown.contains("point of interest, or face of a jaw"),
+            "{args:?}"
+        );
     }
     let moving = out(&["draw", "jansen-leg", "--motion"]);
     assert!(trace(&moving).len() > 60);
@@ -141,4 +144,32 @@ fn what_is_wrong_with_a_point_is_told() {
     let (code, _, err) = run_on("check", "leg.toml", &twice, &[]);
     assert_eq!(code, Some(2));
     assert!(err.contains("point has the id \"foot\" twice"), "{err}");
+}
+
+#[test]
+fn the_faces_of_jaws_are_shown_with_their_ways() {
+    let open = out(&[
+        "draw",
+        "gripper-10",
+        "--kind",
+        "kinematic",
+        "--stroke=-1:1:20",
+    ]);
+    let doc = roxmltree::Document::parse(&open).unwrap();
+    let faces = doc.descendants().filter_map(|n| n.attribute("data-point"));
+    assert_eq!(faces.collect::<Vec<_>>(), ["4-a", "a-8"]);
+    let ways = doc
+        .descendants()
+        .filter(|n| n.attribute("class") == Some("trace"));
+    assert_eq!(ways.count(), 3, "one of each face, and one in the legend");
+    // what is drawn as a joint is no point
+    let closed = out(&[
+        "draw",
+        "gripper-10",
+        "--kind",
+        "kinematic",
+        "--state",
+        "clamped",
+    ]);
+    assert!(!closed.contains("data-point") && closed.contains("data-joint=\"4-a\""));
 }

@@ -189,12 +189,21 @@ fn links_join_the_places_of_their_joints() {
     let (mut bars, mut plates) = (0, 0);
     all(|name, m, state, _, shown| {
         for (l, link) in m.links_with_ids() {
-            let own = m.points.iter().filter(|p| p.link == l);
+            let own = m.points.iter().filter(|p| p.link == l).map(|p| &p.id);
+            // the face of a jaw, where the object is not there
+            let faces = m
+                .joints
+                .iter()
+                .filter(|j| link.role == Role::Output && j.links.contains(&l))
+                .map(|j| &j.id);
             let places: Vec<Point> = m
                 .joints_in(state)
                 .filter(|&j| m.joints[j].links.contains(&l))
                 .map(|j| shown.joints[&m.joints[j].id])
-                .chain(own.filter_map(|p| shown.points.get(&p.id).copied()))
+                .chain(
+                    own.chain(faces)
+                        .filter_map(|id| shown.points.get(id).copied()),
+                )
                 .collect();
             let Some((corners, plate)) = shown.links.get(&link.id) else {
                 let one = places.iter().all(|&p| far(p, places[0]) < 2.0);

@@ -1,0 +1,95 @@
+//! What a kinematic scheme says in words: the rows of its legend, and itself for those who do not see it.
+
+use super::{Kinematic, Spot, symbol};
+use crate::draw::ground::Ground;
+use crate::draw::sheet::{Sheet, Swatch};
+use crate::draw::symbols;
+use crate::format::number::decimals;
+use crate::model::joint_type::JointType;
+use crate::svg::plane::{Point, add};
+use std::fmt::Write as _;
+
+impl Kinematic<'_> {
+    pub(super) fn legend(&self) -> Vec<(Swatch, String)> {
+        let m = self.subject.mechanism;
+        // each type as the first joint of it is drawn
+        let mut types: Vec<(&JointType, &Spot)> = Vec::new();
+        for s in &self.spots {
+            let t = &m.joints[s.joint].joint_type;
+            if !types.iter().any(|(other, _)| *other == t) {
+                types.push((t, s));
+            }
+        }
+        let mut out: Vec<(Swatch, String)> = types
+            .into_iter()
+            .map(|(t, s)| {
+                let shapes = symbols::fitted(&s.symbol.plain());
+                (Swatch::Shapes(shapes), format!("{t}, class {}", t.class()))
+            })
+            .collect();
+        if self.spots.iter().any(|s| s.symbol.ring.is_some()) {
+            let draw = |s: &mut Sheet, p: Point| s.shapes(&symbol::drive("", 9.5), p);
+            out.push((Swatch::Symbol(draw), "driving pair".to_owned()));
+        }
+        if !self.grounds.is_empty() {
+            let draw = |s: &mut Sheet, p: Point| {
+                Ground::pivot(add(p, [0.0, -7.0]), add(p, [0.0, -1.0])).draw(s);
+            };
+            out.push((Swatch::Symbol(draw), m.frame_words()));
+        }
+        if self.spots.iter().any(|s| self.subject.only_here(s.joint)) {
+            let draw = |s: &mut Sheet, p: Point| s.circle("fine dash", p, 9.5);
+            let state = &m.states[self.subject.state];
+            out.push((Swatch::Symbol(draw), format!("in state {state} only")));
+        }
+        if self.links.iter().any(|(l, _)| self.is_output(*l)) {
+            let draw = |s: &mut Sheet, p: Point| {
+                s.line("bone out", add(p, [-9.0, 0.0]), add(p, [9.0, 0.0]));
+            };
+            out.push((Swatch::Symbol(draw), "output link".to_owned()));
+        }
+        out.extend(self.point_rows());
+        let circles = self.circles();
+        if circles.iter().any(|c| !c.is_empty()) {
+            let draw = |s: &mut Sheet, p: Point| s.circle("fine pitch", p, 9.0);
+            out.push((Swatch::Symbol(draw), "pitch circle of a gear".to_owned()));
+        }
+        if circles.iter().any(Vec::is_empty) {
+            out.extend(self.subject.coupling_row());
+        }
+        out.extend(self.arrow_rows(&self.arrows));
+        out.extend(self.subject.mark_rows());
+        let none = |_: &mut Sheet, _: Point| {};
+        if self.places.iter().any(|p| p.moved) {
+            let text = "joints that meet in a point stand farther along their axes";
+            out.push((Swatch::Symbol(none), text.to_owned()));
+        }
+        if self.bows.iter().any(|&b| b != 0.0) {
+            let text = "a straight bar bows where it would lie on another";
+            out.push((Swatch::Symbol(none), text.to_owned()));
+        }
+        out
+    }
+
+    /// The drawing in words, for those who do not see it.
+    pub(super) fn description(&self) -> String {
+        let m = self.subject.mechanism;
+        let mut out = self.subject.summary(&self.what());
+        for s in &self.spots {
+            let joint = &m.joints[s.joint];
+            let [a, b] = joint.links.map(|l| &m.links[l].id);
+            let p = [0, 1, 2].map(|i| joint.frame.point[i].to_f64());
+            let _ = write!(
+                out,
+                " Joint {} ({}) between {a} and {b} at {}, {}, {} {}.",
+                joint.id,
+                joint.joint_type,
+                decimals(p[0], 4),
+                decimals(p[1], 4),
+                decimals(p[2], 4),
+                m.length_unit.symbol
+            );
+        }
+        out + &self.subject.coupling_words()
+    }
+}

@@ -1,0 +1,134 @@
+//! The arrows of a self-stress in a kinematic scheme, each on the link it loads, beside the joint that passes it.
+
+use super::Kinematic;
+use super::arrow::{Arrow, shapes};
+use crate::draw::projection::{Vector, add as add3, along_z, norm as norm3, scale as times};
+use crate::draw::projection::{bounds, sub as sub3};
+use crate::draw::sheet::{Shape, Sheet, Swatch};
+use crate::format::number::decimals;
+use crate::model::mechanism::LinkId;
+use crate::redundancy::stress::SelfStress;
+use crate::svg::plane::{Point, Rect};
+
+/// The length of the greatest arrow, in pixels.
+const LONGEST: f64 = 60.0;
+/// Shorter ones are not seen.
+const SHORTEST: f64 = 1.5;
+/// How far from the joint an arrow begins, towards the middle of its link, so that one sees which link it loads.
+const ASIDE: f64 = 15.0;
+impl Kinematic<'_> {
+    /// The arrows of a self-stress on all links but the frame; lengths are to one scale, moments divided by the size of the
+    /// mechanism.
+    pub(super) fn arrows_of(&self, stress: &SelfStress) -> Vec<Arrow> {
+        let m = self.subject.mechanism;
+        let borne = stress.joints.iter().filter_map(|w| Some((w, w.borne?)));
+        let sizes = borne
+            .clone()
+            .flat_map(|(_, b)| [norm3(b.force), norm3(b.moment)]);
+        let greatest = sizes.fold(0.0, f64::max);
+        let mut out = Vec::new();
+        for (wrench, b) in borne {
+            let Some(i) = self.spots.iter().position(|s| s.joint == wrench.joint) else {
+                continue;
+            };
+            let joint = &m.joints[wrench.joint];
+            for (end, sign) in [(0, -1.0), (1, 1.0)] {
+                let Some(link) = self.row_of(joint.links[end]) else {
+                    continue;
+                };
+                for (what, vector, turns) in [("force", b.force, false), ("moment", b.moment, true)]
+                {
+                    let along = times(vector, sign * LONGEST / greatest);
+                    if norm3(along) < SHORTEST {
+                        continue;
+                    }
+                    let share = decimals(norm3(vector) / greatest, 2);
+                    let [link_id, joint_id] = [&m.links[joint.links[end]].id, &joint.id];
+                    out.push(Arrow {
+                        link,
+                        at: self.beside(link, self.places[i].point),
+                        along,
+                        turns,
+                        tip: format!(
+                            "{what} on link {link_id} at {joint_id}: {share} of the greatest"
+                        ),
+                    });
+                }
+            }
+        }
+        out
+    }
+
+    /// The place of a link among those drawn; none of the frame.
+    fn row_of(&self, link: LinkId) -> Option<usize> {
+        let of = |(l, _): &(LinkId, Vec<usize>)| *l == link;
+        self.links
+            .iter()
+            .position(of)
+            .filter(|_| !self.is_frame(link))
+    }
+
+    /// A little from a joint towards the middle of a link.
+    fn beside(&self, link: usize, joint: Vector) -> Vector {
+        let points = self.points_in_space(link);
+        let sum = points.iter().fold([0.0; 3], |s, &p| add3(s, p));
+        let inward = sub3(times(sum, 1.0 / points.len() as f64), joint);
+        let far = norm3(inward) * self.projection.scale;
+        let share = if far > 0.0 {
+            (ASIDE / far).min(0.5)
+        } else {
+            0.0
+        };
+        add3(joint, times(inward, share))
+    }
+
+    /// Where an arrow is on paper.
+    pub(super) fn arrow_shapes(&self, arrow: &Arrow) -> Vec<Shape> {
+        shapes(self.projection.flat(arrow.at), arrow, &self.projection.view)
+    }
+
+    /// The room of the arrows.
+    pub(super) fn arrow_room(&self, arrows: &[Arrow]) -> Option<Rect> {
+        let shapes = arrows.iter().flat_map(|a| self.arrow_shapes(a));
+        let points: Vec<Point> = shapes.flat_map(|s| s.points().to_vec()).collect();
+        (!points.is_empty()).then(|| bounds(&points).grown(3.0))
+    }
+
+    pub(super) fn draw_arrows(&self, sheet: &mut Sheet, by: Point) {
+        for arrow in &self.arrows {
+            let id = &self.subject.mechanism.links[self.links[arrow.link].0].id;
+            sheet.group(("data-load", id), [0.0; 2], |s| {
+                s.tip(&arrow.tip);
+                s.shapes(&self.arrow_shapes(arrow), by);
+            });
+        }
+    }
+
+    pub(super) fn arrow_rows(&self, arrows: &[Arrow]) -> Vec<(Swatch, String)> {
+        let row = |turns: bool, text: &str| {
+            let one = Arrow {
+                link: 0,
+                at: [0.0; 3],
+                along: [26.0, 0.0, 0.0],
+                turns,
+                tip: String::new(),
+            };
+            let there = arrows.iter().any(|a| a.turns == turns);
+            let drawn = shapes([-13.0, 0.0], &one, &along_z());
+            there.then(|| (Swatch::Shapes(drawn), text.to_owned()))
+        };
+        [
+            row(
+                false,
+                "force on the link it is beside; a point or a cross from its end",
+            ),
+            row(
+                true,
+                "moment about the arrow, divided by the mechanism's size; an arc from its end",
+            ),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+}

@@ -1,0 +1,418 @@
+//! A kinematic scheme in space, for a program that turns it and moves it: what stands on which link, and the poses.
+//!
+//! All lengths are pixels of the drawing it belongs to, from the point whose place on paper is its origin.
+
+use super::Kinematic;
+use super::arrow::Arrow;
+use super::carried::Carried;
+use super::frame::Frame;
+use super::moving::{Moved, flag_row, poses};
+use super::part::{Part, below, flat, paper, part, tidy};
+use crate::draw::projection::{Vector, View, add, cross, dot, norm, scale, sub};
+use crate::draw::sheet::{Caption, Drawing, Sheet, plan};
+use crate::draw::sight::Sight;
+use crate::draw::subject::Subject;
+use crate::draw::symbols;
+use crate::geom::vector::Z;
+use crate::model::mechanism::LinkId;
+use crate::motion::pose::Pose;
+use crate::redundancy::stress::SelfStress;
+use crate::svg::plane::Point;
+use serde::Serialize;
+
+/// A scheme in space.
+#[derive(Debug, Clone, Serialize)]
+pub struct Scene {
+    /// Right, up and towards the reader in the view of the drawing.
+    view: [Vector; 3],
+    /// What a drag to the side turns about.
+    upright: Vector,
+    /// The place of the origin on the sheet.
+    origin: Point,
+    /// The part of the sheet that the scheme is in: left, top, right, bottom.
+    room: [f64; 4],
+    /// The pieces of each symbol.
+    symbols: Vec<Vec<Part>>,
+    joints: Vec<Joint>,
+    wires: Vec<Wire>,
+    moves: Vec<Move>,
+    stresses: Vec<Stress>,
+}
+
+/// What a scene shows besides the mechanism.
+#[derive(Debug, Clone, Copy)]
+pub struct Shown<'a> {
+    /// The motions, each with a name; at least one, which may be of one pose.
+    pub moves: &'a [(String, Moved<'a>)],
+    /// The self-stresses, each with a name.
+    pub stresses: &'a [(String, &'a SelfStress)],
+}
+
+/// A symbol at its place.
+#[derive(Debug, Clone, Serialize)]
+struct Joint {
+    at: Vector,
+    axes: [Vector; 3],
+    /// The link that carries its place, and the one that carries its axes.
+    links: [usize; 2],
+    symbol: usize,
+    /// Whether it is there in turned views only.
+    turned: bool,
+}
+
+/// A shape fixed to a link.
+#[derive(Debug, Clone, Serialize)]
+struct Wire {
+    link: usize,
+    class: String,
+    form: &'static str,
+    points: Vec<Vector>,
+    /// The motion it belongs to, where it is not there in all.
+    of: Option<usize>,
+    /// Whether it is there in turned views only.
+    turned: bool,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct Move {
+    name: String,
+    closed: bool,
+    start: usize,
+    /// By pose and link a rotation vector and where the origin goes; nothing where the link rests.
+    poses: Vec<Vec<Vec<f64>>>,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct Stress {
+    name: String,
+    arrows: Vec<Load>,
+}
+
+/// An arrow on a link.
+#[derive(Debug, Clone, Serialize)]
+struct Load {
+    at: Vector,
+    along: Vector,
+    turns: bool,
+    tip: String,
+}
+
+/// Draws the kinematic scheme at the pose of its first motion, in groups that a program may put another picture in place of
+/// (`data-scene` for what moves, `data-home` for what is of this view only), with what it takes to make such pictures.
+#[must_use]
+pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -> (Drawing, Scene) {
+    let mut rest = Kinematic::new(subject, sight);
+    let of: Vec<Vec<Carried<'_>>> = shown.moves.iter().map(|(_, m)| poses(m)).collect();
+    let mut scene = rest.scene();
+    let mut frames = Vec::new();
+    for (n, ((name, moved), poses)) in shown.moves.iter().zip(&of).enumerate() {
+        let slides = rest.slides(poses);
+        rest.lengthen_rails(&slides);
+        let mut lines = rest.guides(&slides);
+        lines.extend(rest.flags(poses));
+        frames.extend(poses.iter().map(|c| rest.frame(c, &lines)));
+        for line in &lines {
+            let row = rest.row(line.link);
+            scene.wire(&rest, (row, line.class, "line"), &line.ends, Some(n));
+        }
+        let frame = rest.row(subject.mechanism.frame());
+        for (link, tip) in rest.tips() {
+            let way: Vec<Vector> = poses.iter().map(|c| c.point(link, tip)).collect();
+            let form = if moved.way.closed { "loop" } else { "line" };
+            scene.wire(&rest, (frame, "trace", form), &way, Some(n));
+        }
+        let carried = poses.iter().map(|c| rest.carried_in_pixels(c));
+        scene.moves.push(Move {
+            name: name.clone(),
+            closed: moved.way.closed,
+            start: moved.way.start,
+            poses: carried.collect(),
+        });
+    }
+    if let (Some((_, first)), Some(poses)) = (shown.moves.first(), of.first()) {
+        rest.traces = (rest.ways(poses), first.way.closed);
+    }
+    let start = shown.moves.first().map_or(0, |(_, m)| m.way.start);
+    let mut area = rest.room_of(&frames, start);
+    let mut arrows = Vec::new();
+    for (name, stress) in shown.stresses {
+        let own = rest.arrows_of(stress);
+        area = rest.arrow_room(&own).map_or(area, |r| area.with(&r));
+        scene.stresses.push(Stress {
+            name: name.clone(),
+            arrows: own.iter().map(|a| rest.load(a)).collect(),
+        });
+        arrows.extend(own);
+    }
+    let title = subject.title();
+    let subtitle = subject.subtitle(&rest.what());
+    let mut legend = rest.legend();
+    legend.extend(frames.iter().find_map(flag_row));
+    legend.extend(rest.arrow_rows(&arrows));
+    let caption = Caption {
+        title: &title,
+        subtitle: [&subtitle[0], &subtitle[1]],
+        description: &rest.description(),
+        legend,
+    };
+    let plan = plan(&caption, area, super::STRIP);
+    let by = plan.shift;
+    scene.origin = by.map(tidy);
+    let area = area.moved(by);
+    scene.room = [area.left, area.top, area.right, area.bottom].map(tidy);
+    let mut first = frames.swap_remove(start);
+    first.all().for_each(|p| *p = [p[0] + by[0], p[1] + by[1]]);
+    rest.shift_ground(by);
+    let mut sheet = Sheet::new(&caption, &plan);
+    sheet.group(("data-home", "ground"), [0.0; 2], |s| rest.draw_ground(s));
+    sheet.group(("data-scene", ""), [0.0; 2], |s| {
+        rest.draw_traces(s);
+        rest.draw_frame(s, &first);
+    });
+    sheet.group(("data-home", "scale"), [0.0; 2], |s| {
+        rest.draw_below(s, &plan)
+    });
+    (sheet.finish(&caption, &plan), scene)
+}
+
+impl Scene {
+    fn wire(
+        &mut self,
+        of: &Kinematic<'_>,
+        (link, class, form): (usize, &str, &'static str),
+        points: &[Vector],
+        motion: Option<usize>,
+    ) {
+        let points = points.iter().map(|&p| pixels(of, p));
+        self.wires.push(Wire {
+            link,
+            class: class.to_owned(),
+            form,
+            points: points.collect(),
+            of: motion,
+            turned: false,
+        });
+    }
+
+    /// The number of a symbol of some pieces.
+    fn symbol(&mut self, parts: Vec<Part>) -> usize {
+        let known = self.symbols.iter().position(|s| *s == parts);
+        known.unwrap_or_else(|| {
+            self.symbols.push(parts);
+            self.symbols.len() - 1
+        })
+    }
+}
+
+impl Kinematic<'_> {
+    /// The place of a link among those drawn, the frame included.
+    fn row(&self, link: LinkId) -> usize {
+        self.links
+            .iter()
+            .position(|(l, _)| *l == link)
+            .unwrap_or_default()
+    }
+
+    /// What stands on the links.
+    fn scene(&self) -> Scene {
+        let view = &self.projection.view;
+        let m = self.subject.mechanism;
+        let mut out = Scene {
+            view: [view.right, view.up, view.toward].map(fine),
+            upright: fine(upright(view)),
+            origin: [0.0; 2],
+            room: [0.0; 4],
+            symbols: Vec::new(),
+            joints: Vec::new(),
+            wires: Vec::new(),
+            moves: Vec::new(),
+            stresses: Vec::new(),
+        };
+        for row in 0..self.links.len() {
+            if self.is_frame(self.links[row].0) {
+                continue;
+            }
+            let body = self.body(row);
+            let class = self.look(row, &body);
+            match self.bowed_in_space(row) {
+                Some(points) => out.wire(self, (row, &class, "line"), &points, None),
+                None => {
+                    let points = self.points_in_space(row);
+                    out.wire(self, (row, &class, "hull"), &points, None);
+                }
+            }
+        }
+        for coupling in m.couplings_in(self.subject.state) {
+            for (end, circle) in self.pitch_circles_in_space(coupling, &self.places) {
+                let [a, b] = m.joints[coupling.ends[end].joint]
+                    .links
+                    .map(|l| self.row(l));
+                let link = if self.is_frame(self.links[a].0) { b } else { a };
+                out.wire(self, (link, "fine pitch", "loop"), &circle, None);
+            }
+        }
+        let frame = self.row(m.frame());
+        for p in &self.points {
+            let corners = super::marked::corners([0.0; 2]).to_vec();
+            let symbol = out.symbol(vec![paper("ink", corners, true)]);
+            let row = self.row(p.link);
+            out.joints
+                .push(self.standing(p.place, [row; 2], symbol, false));
+        }
+        for i in self.outer_first() {
+            let spot = &self.spots[i];
+            let mark = self.subject.joint_mark(spot.joint);
+            let (below, above) = spot.symbol.round(self.subject, spot.joint, mark);
+            let own = symbols::pieces(&m.joints[spot.joint].joint_type);
+            let own = own.iter().map(|p| part(p, mark.class(), spot.symbol.size));
+            let parts = below
+                .iter()
+                .map(flat)
+                .chain(own)
+                .chain(above.iter().map(flat));
+            let symbol = out.symbol(parts.collect());
+            let (rides, guides) = self.carriers(i);
+            let place = &self.places[i];
+            out.joints.push(Joint {
+                axes: [place.x, place.y, place.z].map(fine),
+                ..self.standing(
+                    place.point,
+                    [rides, guides].map(|l| self.row(l)),
+                    symbol,
+                    false,
+                )
+            });
+        }
+        // the ground, straight below whatever the view
+        for ground in &self.grounds {
+            let there = |i: &usize| super::nest::one_place(self.spots[*i].at, ground.from);
+            let Some(i) = (0..self.spots.len()).find(there) else {
+                continue;
+            };
+            let reach = self.spots[i].symbol.reach() + 6.0;
+            let symbol = out.symbol(below(reach));
+            out.joints
+                .push(self.standing(self.places[i].point, [frame; 2], symbol, true));
+            if let Some(axis) = self.slide_axis(i) {
+                let half = scale(axis, 34.0 / self.projection.scale);
+                let p = self.places[i].point;
+                out.wire(
+                    self,
+                    (frame, "guide", "line"),
+                    &[sub(p, half), add(p, half)],
+                    None,
+                );
+                out.wires
+                    .iter_mut()
+                    .last()
+                    .into_iter()
+                    .for_each(|w| w.turned = true);
+            }
+        }
+        out
+    }
+
+    fn standing(&self, at: Vector, links: [usize; 2], symbol: usize, turned: bool) -> Joint {
+        Joint {
+            at: pixels(self, at),
+            axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], Z],
+            links,
+            symbol,
+            turned,
+        }
+    }
+
+    /// The line of a bar that bows out, in the plane of the paper.
+    fn bowed_in_space(&self, row: usize) -> Option<Vec<Vector>> {
+        let by = self.bows[row];
+        let body = self.body(row);
+        let (Some(&from), Some(&to)) = (body.points.first(), body.points.last()) else {
+            return None;
+        };
+        if by == 0.0 || body.plate {
+            return None;
+        }
+        let points = self.points_in_space(row);
+        let at = |p: Point| {
+            let off = |q: &Vector| {
+                let q = self.projection.flat(*q);
+                (q[0] - p[0]).hypot(q[1] - p[1])
+            };
+            points
+                .iter()
+                .copied()
+                .min_by(|a, b| off(a).total_cmp(&off(b)))
+        };
+        let (a, b) = (at(from)?, at(to)?);
+        let last = (body.points.len() - 1) as f64;
+        let view = &self.projection.view;
+        let lifted = body.points.iter().enumerate().map(|(i, p)| {
+            let on = add(a, scale(sub(b, a), i as f64 / last));
+            let flat = self.projection.flat(on);
+            let off = [p[0] - flat[0], p[1] - flat[1]].map(|x| x / self.projection.scale);
+            add(on, sub(scale(view.right, off[0]), scale(view.up, off[1])))
+        });
+        Some(lifted.collect())
+    }
+
+    /// By link, its rotation vector and where the origin goes, in pixels.
+    fn carried_in_pixels(&self, c: &Carried<'_>) -> Vec<Vec<f64>> {
+        let Pose { middle, .. } = c.pose;
+        let centre = self.projection.in_pixels(*middle);
+        let one = |(link, _): &(LinkId, Vec<usize>)| {
+            let turn = c.links[*link].rotation_vector();
+            let there = self.projection.in_pixels(c.point(*link, *middle));
+            let shift = sub(there, c.links[*link].direction(centre)).map(tidy);
+            let six = [turn.map(|x| (x * 1e5).round() / 1e5), shift].concat();
+            let rests = six.iter().all(|x| *x == 0.0);
+            if rests { Vec::new() } else { six }
+        };
+        self.links.iter().map(one).collect()
+    }
+
+    fn load(&self, a: &Arrow) -> Load {
+        Load {
+            at: pixels(self, a.at),
+            along: a.along.map(tidy),
+            turns: a.turns,
+            tip: a.tip.clone(),
+        }
+    }
+
+    /// A picture by itself.
+    fn draw_frame(&self, sheet: &mut Sheet, frame: &Frame) {
+        frame.draw(self, sheet);
+        for i in self.outer_first() {
+            let spot = &self.spots[i];
+            sheet.symbol(spot.rect);
+            let mark = self.subject.joint_mark(spot.joint);
+            sheet.group(
+                ("data-joint", &self.subject.mechanism.joints[spot.joint].id),
+                frame.at[i],
+                |s| {
+                    self.symbol_in(i, &frame.places[i])
+                        .draw(s, self.subject, spot.joint, mark);
+                },
+            );
+        }
+    }
+}
+
+/// What goes up in all views: z, or what goes up on paper where z is not upright in this one.
+fn upright(view: &View) -> Vector {
+    let level = dot(view.right, Z).abs() < 1e-6 && norm(cross(view.toward, Z)) > 1e-3;
+    let upside = dot(view.up, Z) < 0.0;
+    match (level, upside) {
+        (true, false) => Z,
+        (true, true) => scale(Z, -1.0),
+        _ => view.up,
+    }
+}
+
+fn fine(v: Vector) -> Vector {
+    v.map(|x| (x * 1e6).round() / 1e6)
+}
+
+fn pixels(of: &Kinematic<'_>, p: Vector) -> Vector {
+    of.projection.in_pixels(p).map(tidy)
+}

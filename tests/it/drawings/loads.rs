@@ -1,0 +1,189 @@
+//! Self-stresses as arrows: what joints bear keeps every link in balance, and that is what is drawn.
+
+use crate::common::{out, ozols};
+use ozols::builtin;
+use ozols::file::text::mechanism_from_str;
+use ozols::geom::vector::{add, cross, dot, length, real, scale, sub};
+use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::redundancy::analysis::{Method, analyse};
+use ozols::redundancy::stress::SelfStress;
+
+fn stresses(name: &str) -> (Mechanism, Vec<SelfStress>) {
+    let m = mechanism_from_str(&format!("{name}.toml"), builtin::text(name).unwrap()).unwrap();
+    let found = analyse(&m, &[StateId::FREE], Method::Modular).unwrap();
+    let stresses = found[0].self_stresses.clone();
+    (m, stresses)
+}
+
+#[test]
+fn what_joints_bear_of_a_self_stress_keeps_each_link_in_balance() {
+    let (mut links, mut spatial) = (0, 0);
+    for name in builtin::names() {
+        let (m, stresses) = stresses(name);
+        for stress in &stresses {
+            let loads: Vec<_> = stress
+                .joints
+                .iter()
+                .filter_map(|w| Some((w.joint, w.borne?)))
+                .collect();
+            let whole: f64 = loads.iter().map(|(_, b)| b.share()).sum();
+            assert!(
+                loads.is_empty() || (whole - 1.0).abs() < 1e-9,
+                "{name}: {whole}"
+            );
+            for l in m.link_ids() {
+                let (mut force, mut moment) = ([0.0; 3], [0.0; 3]);
+                let mut there = false;
+                for &(j, b) in &loads {
+                    let joint = &m.joints[j];
+                    let sign = match joint.links {
+                        [a, _] if a == l => -1.0,
+                        [_, a] if a == l => 1.0,
+                        _ => continue,
+                    };
+                    there = true;
+                    let (f, own) = (scale(b.force, sign), scale(b.moment, sign * stress.size));
+                    force = add(force, f);
+                    moment = add(moment, add(own, cross(real(&joint.frame.point), f)));
+                }
+                links += usize::from(there);
+                spatial += usize::from(there && name == "bennett");
+                // the zeros of a stress are exact, its numbers are doubles
+                let far = m
+                    .joints
+                    .iter()
+                    .map(|j| length(real(&j.frame.point)))
+                    .fold(stress.size, f64::max);
+                assert!(length(force) < 1e-7, "{name}: {force:?}");
+                assert!(length(moment) < 1e-7 * far, "{name}: {moment:?} of {far}");
+            }
+        }
+    }
+    assert!(links > 500, "{links}");
+    // three self-stresses of four links
+    assert_eq!(spatial, 12);
+}
+
+/// An arrow of a drawing: its link, its tip in words, and from its beginning to its end where it is drawn straight.
+struct Drawn {
+    link: String,
+    says: String,
+    along: [f64; 2],
+    heads: usize,
+}
+
+fn arrows(args: &[&str]) -> Vec<Drawn> {
+    let svg = out(args);
+    let doc = roxmltree::Document::parse(&svg).unwrap();
+    let groups = doc.descendants().filter(|n| n.has_attribute("data-load"));
+    let one = |g: roxmltree::Node<'_, '_>| {
+        let line = g.children().find(|c| c.has_tag_name("path")).unwrap();
+        let points = super::reading::covers(line);
+        let heads = g
+            .children()
+            .filter(|c| c.attribute("class").is_some_and(|k| k.ends_with("head")));
+        Drawn {
+            link: g.attribute("data-load").unwrap().to_owned(),
+            says: g
+                .children()
+                .find(|c| c.has_tag_name("title"))
+                .unwrap()
+                .text()
+                .unwrap()
+                .to_owned(),
+            along: [0, 1].map(|i| points[points.len() - 1][i] - points[0][i]),
+            heads: if points.len() == 2 { heads.count() } else { 0 },
+        }
+    };
+    groups.map(one).collect()
+}
+
+#[test]
+fn arrows_are_the_loads_of_their_links_to_one_scale() {
+    let half = 0.5f64.sqrt();
+    // right and up of each side
+    let sides = [
+        ("z", [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+        ("y", [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]),
+        ("x", [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]),
+        ("1,1,0", [-half, half, 0.0], [0.0, 0.0, 1.0]),
+    ];
+    let mut straight = 0;
+    for name in ["bennett", "gripper-10", "sarrus", "door-two-hinges"] {
+        let (m, stresses) = stresses(name);
+        for (k, stress) in stresses.iter().enumerate() {
+            let greatest = stress.joints.iter().filter_map(|w| w.borne);
+            let greatest = greatest
+                .flat_map(|b| [length(b.force), length(b.moment)])
+                .fold(0.0, f64::max);
+            for (side, right, up) in sides {
+                let k = (k + 1).to_string();
+                let drawn = arrows(&["draw", name, "--self-stress", &k, "--view", side]);
+                assert!(!drawn.is_empty(), "{name} {k} {side}");
+                for a in drawn.iter().filter(|a| a.heads > 0) {
+                    straight += 1;
+                    let told = |id: &str| a.says.contains(&format!(" at {id}: "));
+                    let wrench = stress
+                        .joints
+                        .iter()
+                        .find(|w| told(&m.joints[w.joint].id))
+                        .unwrap();
+                    let joint = &m.joints[wrench.joint];
+                    let sign = if m.links[joint.links[1]].id == a.link {
+                        1.0
+                    } else {
+                        -1.0
+                    };
+                    let borne = wrench.borne.unwrap();
+                    let (what, heads) = if a.says.starts_with("force") {
+                        (borne.force, 1)
+                    } else {
+                        (borne.moment, 2)
+                    };
+                    assert_eq!(a.heads, heads, "{}", a.says);
+                    let there = scale(what, sign * 60.0 / greatest);
+                    let off = sub([dot(there, right), -dot(there, up)], a.along);
+                    assert!(
+                        length(off) < 0.05,
+                        "{name} {k} {side} {}: {:?}",
+                        a.says,
+                        a.along
+                    );
+                }
+            }
+        }
+    }
+    assert!(straight > 300, "{straight}");
+}
+
+#[test]
+fn a_self_stress_that_is_not_there_is_told() {
+    for (args, what) in [
+        (
+            &["draw", "gripper-10", "--self-stress", "12"][..],
+            "self-stresses 1 to 11",
+        ),
+        (
+            &["draw", "gripper-10", "--self-stress", "0"],
+            "self-stresses 1 to 11",
+        ),
+        (
+            &["draw", "stewart-gough", "--self-stress", "1"],
+            "no self-stress",
+        ),
+        (
+            &["draw", "gripper-10", "--self-stress", "1", "--motion"],
+            "cannot be used with",
+        ),
+        (
+            &["draw", "gripper-10", "--motion", "--idle", "1"],
+            "no idle freedom",
+        ),
+        (&["draw", "gripper-10", "--idle", "1"], "--motion"),
+    ] {
+        let done = ozols(args).output().unwrap();
+        let said = String::from_utf8_lossy(&done.stderr).into_owned();
+        assert_eq!(done.status.code(), Some(2), "{args:?}: {said}");
+        assert!(said.contains(what), "{args:?}: {said}");
+    }
+}

@@ -1,0 +1,131 @@
+//! The mechanism in space on the report page: its first view is the drawing it lies on, and its poses keep joints together.
+
+use crate::common::out;
+use serde_json::Value;
+
+type Vector = [f64; 3];
+
+fn vector(v: &Value) -> Vector {
+    [0, 1, 2].map(|i| v[i].as_f64().unwrap())
+}
+
+fn dot(a: Vector, b: Vector) -> f64 {
+    (0..3).map(|i| a[i] * b[i]).sum()
+}
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    [0, 1, 2].map(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3])
+}
+
+/// A point carried by six numbers, a rotation vector and where the origin goes (Rodrigues), or by none.
+fn carried(by: &Value, p: Vector) -> Vector {
+    let n: Vec<f64> = by
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|x| x.as_f64().unwrap())
+        .collect();
+    if n.is_empty() {
+        return p;
+    }
+    let turn = [n[0], n[1], n[2]];
+    let angle = dot(turn, turn).sqrt();
+    let axis = turn.map(|x| if angle > 0.0 { x / angle } else { 0.0 });
+    let (side, along) = (cross(axis, p), dot(axis, p) * (1.0 - angle.cos()));
+    [0, 1, 2].map(|i| p[i] * angle.cos() + side[i] * angle.sin() + axis[i] * along + n[3 + i])
+}
+
+/// A page and what it knows of the mechanism in space in its first state.
+fn page(name: &str) -> (String, Value) {
+    let page = out(&["report", name, "--top", "1"]);
+    let (_, data) = page.split_once("id=\"data\">").unwrap();
+    let data: Value = serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap();
+    let scene = data["scenes"][0].clone();
+    (page, scene)
+}
+
+#[test]
+fn the_first_view_is_the_drawing() {
+    for name in ["bennett", "gripper-10", "rssr", "scissor-lift", "3-rps"] {
+        let (page, scene) = page(name);
+        let (_, figure) = page.split_once("data-scene").unwrap();
+        let figure = figure.split_once("</svg>").unwrap().0;
+        let mut drawn: Vec<[f64; 2]> = figure
+            .split("data-joint=\"")
+            .skip(1)
+            .map(|g| {
+                let (_, at) = g.split_once("translate(").unwrap();
+                let (x, y) = at.split_once(')').unwrap().0.split_once(' ').unwrap();
+                [x.parse().unwrap(), y.parse().unwrap()]
+            })
+            .collect();
+        let [right, up] = [0, 1].map(|i| vector(&scene["view"][i]));
+        let first = &scene["moves"][0];
+        let pose = &first["poses"][first["start"].as_u64().unwrap() as usize];
+        let joints = scene["joints"].as_array().unwrap().iter();
+        // the marks of points are no joints
+        let joints = joints
+            .filter(|j| !j["turned"].as_bool().unwrap())
+            .rev()
+            .take(drawn.len());
+        drawn.reverse();
+        assert!(drawn.len() > 3, "{name}");
+        for (joint, at) in joints.zip(&drawn) {
+            let link = joint["links"][0].as_u64().unwrap() as usize;
+            let p = carried(&pose[link], vector(&joint["at"]));
+            let on = [dot(right, p), -dot(up, p)];
+            for i in 0..2 {
+                let off = on[i] + scene["origin"][i].as_f64().unwrap() - at[i];
+                assert!(off.abs() < 0.05, "{name}: {off}");
+            }
+        }
+    }
+}
+
+#[test]
+fn hinges_hold_together_in_every_pose() {
+    for name in ["bennett", "jansen-leg", "peaucellier", "rssr"] {
+        let (_, scene) = page(name);
+        let (mut held, mut far) = (0, 0.0f64);
+        for motion in scene["moves"].as_array().unwrap() {
+            for pose in motion["poses"].as_array().unwrap() {
+                for joint in scene["joints"].as_array().unwrap() {
+                    let at = vector(&joint["at"]);
+                    let [a, b] = [0, 1].map(|i| {
+                        let link = joint["links"][i].as_u64().unwrap() as usize;
+                        carried(&pose[link], at)
+                    });
+                    held += 1;
+                    far = far.max((0..3).map(|i| (a[i] - at[i]).abs()).fold(0.0, f64::max));
+                    let apart = (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max);
+                    assert!(apart < 0.05, "{name}: {apart} pixels");
+                }
+            }
+        }
+        assert!(held > 200 && far > 20.0, "{name}: {held} {far}");
+    }
+}
+
+#[test]
+fn what_there_is_to_see_is_offered() {
+    let names = |scene: &Value, what: &str| -> Vec<String> {
+        let all = scene[what].as_array().unwrap().iter();
+        all.map(|m| m["name"].as_str().unwrap().to_owned())
+            .collect()
+    };
+    let (_, rssr) = page("rssr");
+    let moves = names(&rssr, "moves");
+    assert!(moves[0].starts_with("drive 0-1 goes from"), "{moves:?}");
+    assert!(
+        moves[1].starts_with("idle freedom 1: link 2 spins about the line"),
+        "{moves:?}"
+    );
+    let (_, gripper) = page("gripper-10");
+    assert_eq!(names(&gripper, "stresses").len(), 11);
+    assert!(names(&gripper, "stresses")[1].starts_with("self-stress 2: force along z at 0-1"));
+    // a plane mechanism without either is seen in its drawing
+    assert_eq!(
+        page("gripper-10-planar").1["stresses"],
+        Value::Array(Vec::new())
+    );
+}
