@@ -1,8 +1,10 @@
-//! What structures cost by their number of links: to list them all, and to lay one out, follow its stroke and search it.
+//! What structures cost by their number of links: to list them, and to lay one out, follow its stroke and search it.
 //!
-//! `cargo bench --bench structures -- [-o DIR] [--links 4..12] [--sample N]` prints a table and writes `structures.svg` and
-//! `structures.md` to the folder. Where there are more than N structures, a sample stands for them: chains drawn evenly, of each a
-//! structure drawn evenly, always the same ones. One thread, wall time.
+//! `cargo bench --bench structures -- [-o DIR] [--links 4..12] [--sample N] [--symmetry mirror]` prints a table, and for each number
+//! of links as soon as it is known; to the folder it writes `structures.md`, `structures.svg` with what one structure costs, and
+//! `catalogues.svg` with what all of them do. Without `--symmetry` both kinds are measured: all structures, and those that are mirror
+//! images; of symmetric ones those alone that can move. Where there are more than N, so many drawn evenly stand for all, always the
+//! same ones. Processor time of one thread, or wall time where there is no /proc.
 
 #![allow(
     clippy::print_stdout,
@@ -16,6 +18,7 @@ use ozols::catalog::row::row;
 use ozols::catalog::spec::{Spec, range};
 use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::chains;
+use ozols::chains::layout_symmetry::working_swap;
 use ozols::chains::roles::Subject;
 use ozols::chart::{Axis, Chart, Scale, Series, Style};
 use ozols::model::mechanism::Mechanism;
@@ -25,100 +28,148 @@ use ozols::synthesis::mechanism::mechanism_file;
 use ozols::synthesis::structure::{Structure, structures};
 use std::fmt::Write as _;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 use std::time::Instant;
 
 /// A chain in canonical numbering with its automorphisms.
 type Named = (Chain, Vec<Vec<usize>>);
 
+/// Structures of some symmetries.
+struct Kind {
+    name: String,
+    spec: Spec,
+}
+
+impl Kind {
+    fn new(symmetries: &str) -> Kind {
+        let mut spec = Spec::default();
+        if symmetries != "all" {
+            spec.symmetries = symmetries.split(',').map(str::to_owned).collect();
+        }
+        let name = symmetries.to_owned();
+        Kind { name, spec }
+    }
+
+    fn of_chain(&self, (chain, automorphisms): &Named) -> Vec<Structure> {
+        let forms = self.spec.forms().expect("forms");
+        let subject = Subject::new(chain, automorphisms);
+        let mut all = structures(&subject, self.spec.jaws, &forms);
+        // Nearly all generic ones move, of symmetric ones few.
+        if self.name != "all" {
+            all.retain(|s| {
+                let of = (s.form.symmetry, s.form.input);
+                working_swap(&subject, &s.roles, of).is_ok()
+            });
+        }
+        all
+    }
+}
+
 /// What was measured of one number of links; times in seconds.
 struct Measured {
+    kind: String,
     links: usize,
     chains: usize,
     structures: usize,
     listing: f64,
-    looked_at: usize,
-    /// Of each structure that was looked at and has a layout: to lay it out, follow it, search it.
+    /// Of each structure that was looked at: to lay it out, follow it, search it. Without a layout, what it took to find none.
     each: Vec<[f64; 3]>,
+    /// How many of these have a layout.
+    laid: usize,
     /// How many of these have exact counts.
     exact: usize,
 }
 
 const STAGES: [&str; 3] = ["layout", "stroke", "search and ideas"];
 
-fn since(begun: Instant) -> f64 {
-    begun.elapsed().as_secs_f64()
+/// What the thread has worked, in seconds, whatever else runs on the machine; on the clock where the system does not say.
+fn now() -> f64 {
+    static BEGUN: LazyLock<Instant> = LazyLock::new(Instant::now);
+    let scheduled = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let worked = scheduled.and_then(|s| s.split(' ').next()?.parse::<f64>().ok());
+    worked.map_or_else(|| BEGUN.elapsed().as_secs_f64(), |ns| 1e-9 * ns)
 }
 
-fn of_chain((chain, automorphisms): &Named, spec: &Spec) -> Vec<Structure> {
-    let forms = spec.forms().expect("forms");
-    structures(&Subject::new(chain, automorphisms), spec.jaws, &forms)
+fn since(begun: f64) -> f64 {
+    now() - begun
 }
 
-/// All structures, or a sample of so many.
-fn chosen(all: &[Named], count: usize, sample: usize, spec: &Spec) -> Vec<(usize, Structure)> {
-    let each = |(i, c): (usize, &Named)| {
-        of_chain(c, spec)
-            .into_iter()
-            .map(move |s| (i, s))
-            .collect::<Vec<_>>()
-    };
+/// All structures, or so many drawn evenly: places in the list of all, of which `ends` has where each chain's end.
+fn places(ends: &[usize], sample: usize) -> Vec<usize> {
+    let count = ends.last().copied().unwrap_or(0);
     if count <= sample {
-        return all.iter().enumerate().flat_map(each).collect();
+        return (0..count).collect();
     }
     let mut random = ChaCha8Rng::seed_from_u64(1);
-    let mut draw = |of: usize| usize::try_from(random.next_u64() % of as u64).expect("an index");
-    let mut out = Vec::new();
+    let mut draw = || usize::try_from(random.next_u64() % count as u64).expect("an index");
+    let mut out = std::collections::BTreeSet::new();
     while out.len() < sample {
-        let chain = draw(all.len());
-        let mut some = of_chain(&all[chain], spec);
-        if !some.is_empty() {
-            out.push((chain, some.swap_remove(draw(some.len()))));
-        }
+        out.insert(draw());
     }
-    out
+    out.into_iter().collect()
 }
 
-fn measured(links: usize, sample: usize, spec: &Spec) -> Measured {
-    let begun = Instant::now();
+fn measured(kind: &Kind, links: usize, sample: usize) -> Measured {
+    let begun = now();
     let all: Vec<Named> = chains(links, 1)
         .expect("listed")
         .iter()
         .map(Chain::canonical)
         .collect();
-    let count = all.iter().map(|c| of_chain(c, spec).len()).sum();
+    let mut ends = Vec::with_capacity(all.len());
+    for c in &all {
+        ends.push(ends.last().unwrap_or(&0) + kind.of_chain(c).len());
+    }
     let listing = since(begun);
-    let chosen = chosen(&all, count, sample, spec);
-    let (mut each, mut exact) = (Vec::new(), 0);
-    for (chain, structure) in &chosen {
-        let (chain, automorphisms) = &all[*chain];
-        let subject = Subject::new(chain, automorphisms);
-        let begun = Instant::now();
-        let Ok(laid) = layout(&subject, structure, &spec.limits(), spec.seed) else {
-            continue;
-        };
-        let to_lay = since(begun);
-        let file = mechanism_file(structure, &laid, &spec.menu().expect("options"));
-        let mechanism = Mechanism::from_json(&file.json().to_string()).expect("its own file");
-        let begun = Instant::now();
-        figures(structure, &laid, &mechanism).expect("coordinates");
-        let to_follow = since(begun);
-        let begun = Instant::now();
-        let row = row(&subject, structure, spec).expect("a row");
-        let rest = since(begun) - to_lay - to_follow;
-        if let Ok(laid) = row.laid {
-            each.push([to_lay, to_follow, rest.max(0.0)]);
-            exact += usize::from(laid.exact);
-        }
+    let (mut each, mut laid, mut exact) = (Vec::new(), 0, 0);
+    for place in places(&ends, sample) {
+        let of = ends.partition_point(|end| *end <= place);
+        let before = if of == 0 { 0 } else { ends[of - 1] };
+        let structure = kind.of_chain(&all[of]).swap_remove(place - before);
+        let (times, counts) = one(&all[of], &structure, &kind.spec);
+        each.push(times);
+        laid += usize::from(counts.is_some());
+        exact += usize::from(counts == Some(true));
     }
     Measured {
+        kind: kind.name.clone(),
         links,
         chains: all.len(),
-        structures: count,
+        structures: ends.last().copied().unwrap_or(0),
         listing,
-        looked_at: chosen.len(),
         each,
+        laid,
         exact,
     }
+}
+
+/// What a structure takes, and where it has a layout, whether its counts are exact.
+fn one(
+    (chain, automorphisms): &Named,
+    structure: &Structure,
+    spec: &Spec,
+) -> ([f64; 3], Option<bool>) {
+    let subject = Subject::new(chain, automorphisms);
+    let begun = now();
+    let Ok(laid) = layout(&subject, structure, &spec.limits(), spec.seed) else {
+        return ([since(begun), 0.0, 0.0], None);
+    };
+    let to_lay = since(begun);
+    let file = mechanism_file(
+        structure,
+        &laid,
+        &spec.menu().expect("options"),
+        &spec.workload,
+    );
+    let mechanism = Mechanism::from_json(&file.json().to_string()).expect("its own file");
+    let begun = now();
+    figures(structure, &laid, &mechanism).expect("coordinates");
+    let to_follow = since(begun);
+    let begun = now();
+    let row = row(&subject, structure, spec).expect("a row");
+    let rest = since(begun) - to_lay - to_follow;
+    let exact = row.laid.ok().map(|l| l.exact);
+    ([to_lay, to_follow, rest.max(0.0)], exact)
 }
 
 impl Measured {
@@ -126,85 +177,127 @@ impl Measured {
         self.each.iter().map(|e| e[stage]).sum::<f64>() / self.each.len().max(1) as f64
     }
 
-    /// What the whole would take, in hours of one thread.
-    fn whole(&self) -> f64 {
-        let one: f64 = (0..3).map(|s| self.mean(s)).sum();
-        one * self.structures as f64 / 3600.0
+    fn is_sample(&self) -> bool {
+        self.each.len() < self.structures
     }
-}
 
-fn table(all: &[Measured]) -> String {
-    let mut out = "| links | chains | structures | listed in | looked at | laid out | counts exact | layout | stroke | search and ideas | all of them |\n\
-                   |---|---|---|---|---|---|---|---|---|---|---|\n"
-        .to_owned();
-    for m in all {
-        let ms = |stage| 1e3 * m.mean(stage);
-        let _ = writeln!(
-            out,
-            "| {} | {} | {} | {:.2} s | {} | {} | {} | {:.1} ms | {:.1} ms | {:.1} ms | {:.2} h |",
-            m.links,
-            m.chains,
-            m.structures,
-            m.listing,
-            if m.looked_at < m.structures {
-                format!("a sample of {}", m.looked_at)
+    /// What all of them would take with the listing, in hours of one thread, and the standard error of that.
+    fn whole(&self) -> (f64, f64) {
+        let n = self.each.len().max(1) as f64;
+        let times: Vec<f64> = self.each.iter().map(|e| e.iter().sum()).collect();
+        let mean = times.iter().sum::<f64>() / n;
+        let squares: f64 = times.iter().map(|t| (t - mean).powi(2)).sum();
+        let of_mean = (squares / (n - 1.0).max(1.0) / n).sqrt();
+        let of_all = self.structures as f64;
+        let error = if self.is_sample() {
+            of_mean * of_all
+        } else {
+            0.0
+        };
+        ((self.listing + mean * of_all) / 3600.0, error / 3600.0)
+    }
+
+    fn row(&self) -> String {
+        let ms = |stage| 1e3 * self.mean(stage);
+        let (hours, error) = self.whole();
+        format!(
+            "| {} | {} | {} | {} | {:.2} s | {} | {} | {} | {:.1} ms | {:.1} ms | {:.1} ms | {} |\n",
+            self.kind,
+            self.links,
+            self.chains,
+            self.structures,
+            self.listing,
+            if self.is_sample() {
+                format!("a sample of {}", self.each.len())
             } else {
                 "all".to_owned()
             },
-            m.each.len(),
-            m.exact,
+            self.laid,
+            self.exact,
             ms(0),
             ms(1),
             ms(2),
-            m.whole(),
+            if self.is_sample() {
+                format!("{hours:.2} ± {error:.2} h")
+            } else {
+                format!("{hours:.4} h")
+            },
+        )
+    }
+}
+
+const HEAD: &str = "| kind | links | chains | structures | listed in | looked at | laid out | counts exact | layout | stroke | search and ideas | all of them |\n\
+                    |---|---|---|---|---|---|---|---|---|---|---|---|\n";
+
+/// What stands for all where it was a sample.
+fn sampled<'a>(all: impl Iterator<Item = &'a Measured>) -> String {
+    let mut out = String::new();
+    for m in all.filter(|m| m.is_sample()) {
+        let (n, of) = (m.each.len(), m.structures);
+        let _ = write!(
+            out,
+            " {}, {} links: {n} of {of} looked at.",
+            m.kind, m.links
         );
     }
     out
 }
 
-fn chart(all: &[Measured]) -> Chart {
-    let sampled: Vec<String> = all
-        .iter()
-        .filter(|m| m.looked_at < m.structures)
-        .map(|m| {
-            format!(
-                "{} of {} structures of {} links",
-                m.looked_at, m.structures, m.links
-            )
-        })
-        .collect();
-    let subtitle = match sampled.is_empty() {
-        true => "Mean of all structures with a layout, one thread.".to_owned(),
-        false => format!(
-            "Mean of those with a layout, one thread; a sample stands for all: {}.",
-            sampled.join(", ")
-        ),
+fn by_links(label: &str, title: String, subtitle: String, series: Vec<Series>) -> Chart {
+    let axis = |label: &str, scale| Axis {
+        label: label.to_owned(),
+        scale,
     };
+    Chart {
+        title,
+        subtitle,
+        x: axis("links", Scale::Linear),
+        y: axis(label, Scale::Log),
+        series,
+    }
+}
+
+/// What one structure of the first kind costs.
+fn chart_of_one(all: &[Measured]) -> Chart {
+    let kind = &all[0].kind;
+    let ours = || all.iter().filter(|m| m.kind == *kind);
     let series = STAGES.iter().enumerate().map(|(stage, name)| Series {
         name: (*name).to_owned(),
-        points: all
-            .iter()
+        points: ours()
             .map(|m| (m.links as f64, 1e3 * m.mean(stage)))
             .collect(),
         style: Style::Line,
     });
-    Chart {
-        title: "What a structure costs".to_owned(),
-        subtitle,
-        x: Axis {
-            label: "links".to_owned(),
-            scale: Scale::Linear,
-        },
-        y: Axis {
-            label: "time, ms".to_owned(),
-            scale: Scale::Log,
-        },
-        series: series.collect(),
-    }
+    by_links(
+        "time, ms",
+        "What a structure costs".to_owned(),
+        format!("Mean, processor time.{}", sampled(ours())),
+        series.collect(),
+    )
+}
+
+/// What all structures of each kind cost.
+fn chart_of_all(all: &[Measured], kinds: &[Kind]) -> Chart {
+    let series = kinds.iter().map(|k| Series {
+        name: k.name.clone(),
+        points: all
+            .iter()
+            .filter(|m| m.kind == k.name)
+            .map(|m| (m.links as f64, m.whole().0))
+            .collect(),
+        style: Style::Line,
+    });
+    by_links(
+        "time, h",
+        "What a catalogue of all structures costs".to_owned(),
+        format!("Processor time.{}", sampled(all.iter())),
+        series.collect(),
+    )
 }
 
 fn main() {
     let (mut links, mut sample, mut folder) = (4..=10, 40, None);
+    let mut kinds = vec![Kind::new("all"), Kind::new("mirror")];
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         let mut value = || {
@@ -219,25 +312,37 @@ fn main() {
                     .expect("links, such as 4..12")
             }
             "--sample" => sample = value().parse().expect("a number"),
+            "--symmetry" => kinds = vec![Kind::new(&value())],
             "-o" => folder = Some(PathBuf::from(value())),
             // What cargo adds.
             "--bench" => {}
-            other => panic!("{other}: -o DIR, --links N..M or --sample N"),
+            other => panic!("{other}: -o DIR, --links N..M, --sample N or --symmetry WORDS"),
         }
     }
-    let spec = Spec::default();
     let one = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build()
         .expect("a thread");
-    let all: Vec<Measured> = links
-        .filter(|n| n % 2 == 0)
-        .map(|n| one.install(|| measured(n, sample, &spec)))
-        .collect();
-    print!("{}", table(&all));
-    if let Some(folder) = folder {
+    let mut all = Vec::new();
+    print!("{HEAD}");
+    for kind in &kinds {
+        for n in links.clone().filter(|n| n % 2 == 0) {
+            let m = one.install(|| measured(kind, n, sample));
+            print!("{}", m.row());
+            // No gripper of four links is its own mirror image.
+            if m.structures > 0 {
+                all.push(m);
+            }
+        }
+    }
+    if let Some(folder) = folder.filter(|_| !all.is_empty()) {
+        let table: String = all.iter().map(Measured::row).collect();
         std::fs::create_dir_all(&folder).expect("the folder");
-        std::fs::write(folder.join("structures.md"), table(&all)).expect("the table");
-        std::fs::write(folder.join("structures.svg"), chart(&all).svg()).expect("the chart");
+        let write = |name: &str, text: String| {
+            std::fs::write(folder.join(name), text).expect("the folder can be written to");
+        };
+        write("structures.md", format!("{HEAD}{table}"));
+        write("structures.svg", chart_of_one(&all).svg());
+        write("catalogues.svg", chart_of_all(&all, &kinds).svg());
     }
 }

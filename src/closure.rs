@@ -2,7 +2,10 @@
 
 pub mod contour;
 pub mod coupling;
+pub mod image;
 pub mod matrix;
 pub mod mirror;
+pub(crate) mod tied;
 pub mod tree;
+pub mod turn;
 pub mod twist;

@@ -4,6 +4,7 @@
 //! pins places in the plane: symmetric exactly, regular, moving as a gripper does, and as well proportioned as a search
 //! finds. Places are whole millimetres, or what a third of a turn makes of them.
 
+mod coordinate;
 pub mod figures;
 pub mod layout;
 pub mod looks;
@@ -13,3 +14,4 @@ pub mod rules;
 pub mod skeleton;
 pub mod structure;
 pub mod velocities;
+pub mod workload;

@@ -1,6 +1,6 @@
 //! A mechanism that somebody drew, as a row beside the structures.
 
-use crate::catalog::row::{IdeaRow, RowError, ideas};
+use crate::catalog::row::{IdeaRow, RowError, Symmetric, ideas};
 use crate::closure::contour::contour_basis;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Mechanism, Mode, StateId};
@@ -36,6 +36,8 @@ pub struct Drawn {
     pub finite: String,
     /// Variants with σ = 0, by W and number of changes.
     pub counts: BTreeMap<(i64, u32), BigUint>,
+    /// Of these, those that are their own image by the symmetry that the file names, where it is one.
+    pub symmetric: Symmetric,
     /// Of those that keep the output motion the ones with no more mobility than is really there, by the same.
     pub admissible: BigUint,
     /// Whether every count is exact; lower bounds otherwise.
@@ -114,6 +116,7 @@ pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<Drawn, Ro
         joints.any(|j| mechanism.joints[j].links.contains(l))
     });
     let size = [links.count(), joints, contours];
+    let symmetric = Symmetric::of(&mechanism, &request).unwrap_or_else(|_| Symmetric::none());
     let outcome = run(mechanism, &request, &|| false, &mut |_| {})?;
     Ok(Drawn {
         id,
@@ -127,7 +130,8 @@ pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<Drawn, Ro
         finite: known(&as_built.finite),
         counts: outcome.determinate.by_mobility_and_changes.clone(),
         admissible: outcome.admissible.total.clone(),
-        exact: outcome.is_exact(),
+        exact: outcome.is_exact() && symmetric.exact,
+        symmetric,
         ideas_asked: top,
         ideas: ideas(&outcome, top),
     })

@@ -1,8 +1,8 @@
 //! A row as entries of the tables.
 
 use crate::catalog::drawn::{Drawn, known};
-use crate::catalog::row::{IdeaRow, Laid, Row};
-use crate::format::number::significant;
+use crate::catalog::row::{IdeaRow, Laid, Row, Symmetric};
+use crate::format::number;
 use crate::geom::vector::sides;
 use crate::model::ranking::Term;
 use crate::motion::follow::Why;
@@ -62,7 +62,7 @@ fn structure(t: &Transaction<'_>, row: &Row) -> rusqlite::Result<()> {
 
 /// Rounded to what the figure is worth, so that the file does not depend on the last bits.
 fn rounded(x: f64) -> f64 {
-    significant(x).parse().unwrap_or(x)
+    number::rounded(if x.abs() < 1e-9 { 0.0 } else { x }, 4)
 }
 
 fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<()> {
@@ -72,7 +72,7 @@ fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<(
     let turn = f.turns.iter().fold(0.0, |m: f64, t| m.max(*t));
     t.prepare_cached(
         "INSERT OR REPLACE INTO layouts VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, \
-         ?19, ?20, ?21, ?22, ?23, ?24, ?25, ?26, ?27, ?28, ?29, ?30, ?31, ?32)",
+         ?19, ?20, ?21, ?22, ?23, ?24, ?25, ?26, ?27, ?28, ?29, ?30, ?31, ?32, ?33, ?34)",
     )?
     .execute(params![
         id,
@@ -85,6 +85,7 @@ fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<(
         rounded(f.openings[0]),
         rounded(f.openings[1]),
         rounded(f.travel),
+        if f.closes > 0.0 { 1 } else { -1 },
         rounded(f.force[0]),
         rounded(f.force[1]),
         rounded(f.force[2]),
@@ -105,10 +106,11 @@ fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<(
         known(&laid.finite),
         count(&laid.determinate(None)),
         count(&laid.determinate(Some(1))),
+        count(&laid.orbits()),
         certainty(laid.exact),
         laid.ideas.first().map(|i| milli(i.cost_milli)),
     ])?;
-    found(t, &id, &laid.counts, &laid.ideas)
+    found(t, &id, (&laid.counts, &laid.symmetric), &laid.ideas)
 }
 
 /// Enters a drawn mechanism.
@@ -143,7 +145,7 @@ pub(super) fn drawn(t: &Transaction<'_>, d: &Drawn) -> rusqlite::Result<()> {
             [&d.id],
         )?;
     }
-    found(t, &d.id, &d.counts, &d.ideas)
+    found(t, &d.id, (&d.counts, &d.symmetric), &d.ideas)
 }
 
 fn certainty(exact: bool) -> &'static str {
@@ -154,12 +156,21 @@ fn certainty(exact: bool) -> &'static str {
 fn found(
     t: &Transaction<'_>,
     id: &str,
-    of: &BTreeMap<(i64, u32), BigUint>,
+    (of, symmetric): (&BTreeMap<(i64, u32), BigUint>, &Symmetric),
     list: &[IdeaRow],
 ) -> rusqlite::Result<()> {
-    let mut counts = t.prepare_cached("INSERT OR REPLACE INTO counts VALUES (?1, ?2, ?3, ?4)")?;
-    for ((w, changes), n) in of {
-        counts.execute(params![id, w, changes, count(n)])?;
+    let mut counts =
+        t.prepare_cached("INSERT OR REPLACE INTO counts VALUES (?1, ?2, ?3, ?4, ?5, ?6)")?;
+    for (key, n) in of {
+        let (own, orbits) = symmetric.split(key, n);
+        counts.execute(params![
+            id,
+            key.0,
+            key.1,
+            count(n),
+            count(&orbits),
+            count(&own)
+        ])?;
     }
     let mut ideas = t.prepare_cached(
         "INSERT OR REPLACE INTO ideas VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)",

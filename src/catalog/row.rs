@@ -18,6 +18,8 @@ use crate::score::request::{Check, List, Request};
 use crate::score::run::{RunError, run};
 use crate::score::terms::Scores;
 use crate::score::variant::{changes, in_words};
+use crate::search::conditions::Symmetry;
+use crate::search::counts::orbits;
 use crate::search::ideas::{self, Idea};
 use crate::synthesis::figures::{Figures, figures};
 use crate::synthesis::layout::{Layout, NoLayout, layout};
@@ -58,10 +60,68 @@ pub struct Laid {
     pub finite: Finite,
     /// Determinate variants by W and number of changes.
     pub counts: BTreeMap<(i64, u32), BigUint>,
+    /// Of these, those that are their own image by the symmetry of the layout.
+    pub symmetric: Symmetric,
     /// Whether every count is exact; lower bounds otherwise, where the node budget ended the search.
     pub exact: bool,
     /// The best ideas with W = 1, cheapest first.
     pub ideas: Vec<IdeaRow>,
+}
+
+/// Variants that a mechanism's symmetry keeps, each of them an orbit of its own; the others are in orbits of two, or three.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Symmetric {
+    /// How often the symmetry is done until all is back; 1 where there is none, and then every variant is its own image.
+    pub order: usize,
+    /// By W and number of changes.
+    pub counts: BTreeMap<(i64, u32), BigUint>,
+    /// Whether every count is exact; lower bounds otherwise.
+    pub exact: bool,
+}
+
+impl Symmetric {
+    /// Without a symmetry.
+    #[must_use]
+    pub fn none() -> Symmetric {
+        Symmetric {
+            order: 1,
+            exact: true,
+            counts: BTreeMap::new(),
+        }
+    }
+
+    /// Of a mechanism, by a search for them alone.
+    ///
+    /// # Errors
+    /// Where what the file names is no symmetry of it, or the search fails.
+    pub fn of(mechanism: &Mechanism, request: &Request) -> Result<Symmetric, RunError> {
+        let order = mechanism.search.order();
+        if order == 1 {
+            return Ok(Symmetric::none());
+        }
+        let request = Request {
+            symmetry: Symmetry::SymmetricOnly,
+            list: List::Nothing,
+            ..request.clone()
+        };
+        let outcome = run(mechanism.clone(), &request, &|| false, &mut |_| {})?;
+        Ok(Symmetric {
+            order,
+            exact: outcome.is_exact(),
+            counts: outcome.determinate.by_mobility_and_changes,
+        })
+    }
+
+    /// How many of `variants` variants of W and number of changes are their own image, and how many orbits there are.
+    #[must_use]
+    pub fn split(&self, key: &(i64, u32), variants: &BigUint) -> (BigUint, BigUint) {
+        if self.order <= 1 {
+            return (variants.clone(), variants.clone());
+        }
+        let own = self.counts.get(key).cloned().unwrap_or_default();
+        let orbits = orbits(variants, &own, self.order);
+        (own, orbits)
+    }
 }
 
 /// An idea of a catalogue.
@@ -79,7 +139,7 @@ pub struct IdeaRow {
     pub change_count: u32,
     /// How many variants it stands for.
     pub variants: BigUint,
-    /// Scores of its first variant under the closing force and the part's weight across; `None` where the reactions have no solution.
+    /// Scores of its first variant under the workload; `None` where the reactions have no solution.
     pub scores: Option<Scores>,
 }
 
@@ -157,7 +217,7 @@ fn lay(
     layout: Layout,
     spec: &Spec,
 ) -> Result<Result<Laid, NoLayout>, RowError> {
-    let file = mechanism_file(structure, &layout, &spec.menu()?);
+    let file = mechanism_file(structure, &layout, &spec.menu()?, &spec.workload);
     let built = mechanism(structure, &file)?;
     let figures = figures(structure, &layout, &built)?;
     let method = Method::Auto { tolerance: None };
@@ -165,6 +225,7 @@ fn lay(
     if !as_built.finite.is_proven() || as_built.finite.figure() != "1" {
         return Ok(Err(NoLayout::NotRegular));
     }
+    let symmetric = Symmetric::of(&built, &request(spec))?;
     let outcome = run(built, &request(spec), &|| false, &mut |_| {})?;
     let ideas = ideas(&outcome, spec.ideas);
     let text = write::toml(&file, &[]).map_err(|e| RowError::File {
@@ -178,7 +239,8 @@ fn lay(
         as_built: (as_built.mobility, as_built.redundant),
         finite: as_built.finite,
         counts: outcome.determinate.by_mobility_and_changes.clone(),
-        exact: outcome.is_exact(),
+        exact: outcome.is_exact() && symmetric.exact,
+        symmetric,
         ideas,
     }))
 }
@@ -214,6 +276,13 @@ impl Row {
 }
 
 impl Laid {
+    /// Orbits of determinate variants of W = 1.
+    #[must_use]
+    pub fn orbits(&self) -> BigUint {
+        let some = self.counts.iter().filter(|((w, _), _)| *w == 1);
+        some.map(|(key, n)| self.symmetric.split(key, n).1).sum()
+    }
+
     /// Determinate variants of mobility `w`, or of any where there is none.
     #[must_use]
     pub fn determinate(&self, w: Option<i64>) -> BigUint {

@@ -5,6 +5,7 @@ use crate::file::schema::{OptionEntry, OptionTable};
 use crate::synthesis::looks::Limits;
 use crate::synthesis::mechanism::Menu;
 use crate::synthesis::structure::Form;
+use crate::synthesis::workload::Workload;
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
@@ -43,6 +44,8 @@ pub struct Spec {
     pub crossings: usize,
     /// Nodes of each diagram at most.
     pub nodes: usize,
+    /// What ideas are scored under.
+    pub workload: Workload,
 }
 
 impl Default for Spec {
@@ -69,6 +72,7 @@ impl Default for Spec {
             transmission: limits.transmission,
             crossings: limits.crossings,
             nodes: 1_000_000,
+            workload: Workload::default(),
         }
     }
 }
@@ -98,10 +102,15 @@ pub enum SpecError {
         /// The key.
         what: &'static str,
         /// The least.
-        from: u64,
+        from: i64,
         /// The greatest.
-        to: u64,
+        to: i64,
     },
+    /// Nothing to score ideas under.
+    #[error(
+        "workload: nothing acts on the gripper; give closing, or gravity with part or link_mass"
+    )]
+    NoLoad,
     /// No form is left.
     #[error(
         "no layout is asked for: with two jaws a mirror image needs a slide and half a turn a turning input; three jaws are \
@@ -109,6 +118,19 @@ pub enum SpecError {
          stand on no parallelograms"
     )]
     Nothing,
+}
+
+impl SpecError {
+    /// The key that is wrong, where it is one.
+    #[must_use]
+    pub fn key(&self) -> Option<&'static str> {
+        match self {
+            SpecError::Word { what, .. } | SpecError::Range { what, .. } => Some(what),
+            SpecError::Links(_) => Some("links"),
+            SpecError::NoLoad => Some("closing"),
+            SpecError::Nothing => Some("symmetries"),
+        }
+    }
 }
 
 /// A number, or a range with its end, "4..10": empty where it ends before it begins.
@@ -238,22 +260,29 @@ impl Spec {
     /// # Errors
     /// The first thing that is wrong.
     pub fn check(&self) -> Result<(), SpecError> {
-        let range = |what, n: usize, from: u64, to: u64| {
-            let n = u64::try_from(n).unwrap_or(u64::MAX);
-            let ok = (from..=to).contains(&n);
+        #[allow(clippy::cast_precision_loss, reason = "small")]
+        let range = |what, x: f64, from: i64, to: i64| {
+            let ok = x >= from as f64 && x <= to as f64;
             ok.then_some(()).ok_or(SpecError::Range { what, from, to })
         };
-        range("jaws", self.jaws, 2, 3)?;
-        range("ideas", self.ideas, 0, 1000)?;
-        range("nodes", self.nodes, 1, 100_000_000)?;
-        let positive = |what, x: f64, to: u64| {
-            #[allow(clippy::cast_precision_loss, reason = "small")]
-            let ok = x >= 0.0 && x <= to as f64;
-            ok.then_some(())
-                .ok_or(SpecError::Range { what, from: 0, to })
-        };
-        positive("ratio", self.ratio, 1000)?;
-        positive("transmission", self.transmission, 90)?;
+        #[allow(clippy::cast_precision_loss, reason = "small")]
+        let whole = |what, n: usize, from, to| range(what, n as f64, from, to);
+        whole("jaws", self.jaws, 2, 3)?;
+        whole("ideas", self.ideas, 0, 1000)?;
+        whole("nodes", self.nodes, 1, 100_000_000)?;
+        range("ratio", self.ratio, 0, 1000)?;
+        range("transmission", self.transmission, 0, 90)?;
+        let w = &self.workload;
+        range("closing", w.closing, 0, 1_000_000)?;
+        range("part", w.part, 0, 1_000_000)?;
+        range("link_mass", w.link_mass, 0, 1_000_000)?;
+        for g in w.gravity {
+            range("gravity", g, -1000, 1000)?;
+        }
+        let weighs = w.gravity != [0.0; 3] && w.part + w.link_mass > 0.0;
+        if w.closing == 0.0 && !weighs {
+            return Err(SpecError::NoLoad);
+        }
         self.links()?;
         self.forms()?;
         self.menu().map(|_| ())

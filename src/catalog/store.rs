@@ -16,7 +16,7 @@ use thiserror::Error;
 /// What marks a file as a catalogue: "ozcg".
 const APPLICATION: i64 = 0x6f7a_6367;
 /// Version of the tables.
-const VERSION: i64 = 3;
+const VERSION: i64 = 4;
 
 /// The tables, each column with what it holds; the file carries these words, too (`.schema` shows them).
 pub const TABLES: &str = include_str!("tables.sql");

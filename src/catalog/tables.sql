@@ -32,6 +32,7 @@ CREATE TABLE layouts (
   opening_min REAL NOT NULL,       -- of the stroke followed, mm; of three jaws twice the tips' mean distance from the middle
   opening_max REAL NOT NULL,
   travel REAL NOT NULL,            -- of the drive between them, mm or rad
+  closes INTEGER NOT NULL,         -- which way the drive goes to close: 1 along x or counter-clockwise, -1 the other
   force_min REAL NOT NULL,         -- force of each jaw over the drive's, without friction; N for 1 Nm where it turns
   force_mean REAL NOT NULL,
   force_max REAL NOT NULL,
@@ -52,6 +53,7 @@ CREATE TABLE layouts (
   finite TEXT NOT NULL,            -- the mobility that is really there, and how that is known
   determinate NOT NULL,            -- variants with sigma = 0: a number, or its digits as text beyond 63 bits
   determinate_w1 NOT NULL,         -- of these, W = 1
+  orbits_w1 NOT NULL,              -- of these, up to the symmetry of the layout
   certainty TEXT NOT NULL,         -- exact, or at least
   best_cost REAL                   -- of the cheapest variant with sigma = 0 and W = 1; of those found, where the certainty is at least
 ) WITHOUT ROWID;
@@ -79,6 +81,8 @@ CREATE TABLE counts (
   mobility INTEGER NOT NULL,
   changes INTEGER NOT NULL,
   variants NOT NULL,               -- determinate variants of this mobility and so many changes
+  orbits NOT NULL,                 -- these up to the symmetry of the layout, or that a drawn file names; as many where there is none
+  symmetric NOT NULL,              -- of the variants those that are their own image, an orbit each; the rest are two to an orbit, three if threefold
   PRIMARY KEY (structure, mobility, changes)
 ) WITHOUT ROWID;
 CREATE TABLE ideas (
@@ -90,7 +94,7 @@ CREATE TABLE ideas (
   cost REAL NOT NULL,
   change_count INTEGER NOT NULL,
   variants NOT NULL,               -- how many variants the idea stands for; at least, where the layout's certainty says so
-  peak_force REAL,                 -- greatest joint force over capacity under the closing force and the part's weight across
+  peak_force REAL,                 -- greatest joint force over capacity under the workload
   peak_moment REAL,
   output_error REAL,               -- of the jaws from the joints' clearances, mm
   PRIMARY KEY (structure, place)

@@ -1,48 +1,13 @@
 //! Mirror images: whether the joints that a file pairs are each other's images in one plane, and by how much they are not.
 
-use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
-use crate::format::number::brief;
+use crate::closure::image::{Map, Miss};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::exact_vector::{ExactVector, cross, sub};
 use crate::geom::scalars::Scalars;
-use crate::geom::vector::{self, dot, length, real};
-use crate::linalg::echelon::Echelon;
+use crate::geom::vector::{dot, length, real};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, Mechanism, Mode};
-
-/// How far the image of a joint is from the joint it is paired with.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Miss {
-    /// Distance of their points; for a joint that is the same all along its axis, of the axes. In the file's unit.
-    pub distance: f64,
-    /// Angle between their axes, in radians.
-    pub angle: f64,
-}
-
-impl Miss {
-    /// Distance and angle as one number, to compare planes by.
-    fn size(&self) -> f64 {
-        self.distance + self.angle
-    }
-
-    /// "2.062 cm and 0.5°"; `unit` is the file's.
-    #[must_use]
-    pub fn words(&self, unit: &str) -> String {
-        let number = |x: f64| {
-            if x < 1e-3 {
-                format!("{x:.3e}")
-            } else {
-                brief(x)
-            }
-        };
-        let distance = format!("{} {unit}", number(self.distance));
-        match self.angle.to_degrees() {
-            0.0 => distance,
-            angle => format!("{distance} and {}°", number(angle)),
-        }
-    }
-}
 
 /// A plane by two points that are images of each other.
 #[derive(Debug, Clone)]
@@ -121,22 +86,8 @@ impl Plane {
         let middle = [0, 1, 2].map(|i| (a[i] + b[i]) / 2.0);
         let p = real(&from.point);
         let image = reflect([0, 1, 2].map(|i| p[i] - middle[i]));
-        let q = real(&to.point);
-        let off = [0, 1, 2].map(|i| image[i] + middle[i] - q[i]);
-        let (axis, own) = (reflect(real(&from.axis)), real(&to.axis));
-        let sine = length(vector::cross(axis, own));
-        let angle = match of {
-            JointType::Spherical | JointType::Fixed => 0.0,
-            _ => sine.atan2(dot(axis, own).abs()),
-        };
-        let distance = match of {
-            JointType::Prismatic => 0.0,
-            JointType::Revolute | JointType::Cylindrical | JointType::Helical => {
-                length(vector::cross(off, own)) / length(own)
-            }
-            _ => length(off),
-        };
-        Miss { distance, angle }
+        let point = [0, 1, 2].map(|i| image[i] + middle[i]);
+        Miss::new((point, reflect(real(&from.axis))), of, to)
     }
 
     /// Whether the image of a joint allows exactly the motions of another.
@@ -147,52 +98,25 @@ impl Plane {
         &self,
         exact: &ExactField,
         mode: &Mode,
-        (frame, of): (&Frame, &JointType),
-        (to, other): (&Frame, &JointType),
+        from: (&Frame, &JointType),
+        to: (&Frame, &JointType),
     ) -> Result<bool, ExactError> {
         let f = exact.field();
         let (a, b) = (exact.eval3(&self.one)?, exact.eval3(&self.other)?);
         let n = [0, 1, 2].map(|i| f.sub(b[i], a[i]));
         let scale = f.inv(exact.dot(n, n));
-        let reflect = |v: [Residue; 3]| {
+        let linear = |v: [Residue; 3]| {
             let by = f.mul(scale, exact.dot(v, n));
             let by = f.add(by, by);
             [0, 1, 2].map(|i| f.sub(v[i], f.mul(by, n[i])))
         };
-        // The image of the origin.
         let sum = [0, 1, 2].map(|i| f.add(a[i], b[i]));
         let far = f.mul(scale, exact.dot(sum, n));
-        let shift = n.map(|x| f.mul(far, x));
-        // A turn about u is one about -u in the mirror; the body point at the origin is the image of that at `shift`.
-        let image = |[w0, w1, w2, v0, v1, v2]: [Residue; 6]| {
-            let (w, v) = (reflect([w0, w1, w2]), reflect([v0, v1, v2]));
-            let arm = exact.cross(w, shift);
-            let w = w.map(|x| f.sub(0, x));
-            [
-                w[0],
-                w[1],
-                w[2],
-                f.add(v[0], arm[0]),
-                f.add(v[1], arm[1]),
-                f.add(v[2], arm[2]),
-            ]
+        let map = Map {
+            linear,
+            shift: n.map(|x| f.mul(far, x)),
+            reflects: true,
         };
-        let space = MotionSpace::new(exact, mode)?;
-        let values = FrameValues::new(exact, frame)?.within(&space, of.freedoms());
-        let (mut images, mut own) = (Echelon::new(f), Echelon::new(f));
-        for &freedom in of.freedoms() {
-            let twist = values.twist(exact, freedom);
-            if space.components(exact, &twist).is_none() {
-                continue;
-            }
-            match space.components(exact, &image(twist)) {
-                Some(t) => images.insert(&t),
-                None => return Ok(false),
-            };
-        }
-        for (_, t) in joint_twists(exact, &space, to, other)? {
-            own.insert(&t);
-        }
-        Ok(images.reduced() == own.reduced())
+        map.carries(exact, mode, from, to)
     }
 }

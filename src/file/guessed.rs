@@ -2,7 +2,7 @@
 
 use crate::file::locate::Step;
 use crate::file::read::resolve::{index, key};
-use crate::file::schema::{JointEntry, MechanismFile, OptionEntry, OptionTable};
+use crate::file::schema::{JointEntry, MechanismFile, OptionTable};
 use crate::file::warning::WarningKind;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, Mechanism};
@@ -24,18 +24,7 @@ pub(super) fn guessed(file: &MechanismFile, m: &Mechanism) -> Vec<(Vec<Step>, Wa
         };
         for (n, item) in list.iter().enumerate() {
             let path = index(&key(&at, "options"), n);
-            let word;
-            let table = match item {
-                OptionEntry::Table(table) => table.as_ref(),
-                OptionEntry::Word(kind) => {
-                    word = OptionTable {
-                        kind: Some(kind.clone()),
-                        ..OptionTable::default()
-                    };
-                    &word
-                }
-            };
-            let Some((name, guess)) = of_option(table, entry, joint) else {
+            let Some((name, guess)) = of_option(&item.table(), entry, joint) else {
                 continue;
             };
             let same = found.iter_mut().find(|f| f.0 == path && f.2 == guess);

@@ -145,6 +145,12 @@ pub enum ProblemKind {
     #[error("joint \"{joint}\" is in more than one mirror pair; pair each joint once")]
     RepeatedMirror { joint: String },
     #[error(
+        "a group of {count} joints under turn: write pairs for half a turn, or groups of three for a third, all of one kind"
+    )]
+    TurnGroup { count: usize },
+    #[error("mirror and turn are both given; keep one of them")]
+    TurnAndMirror,
+    #[error(
         "joints \"{first}\" and \"{second}\" are no mirror images: in the plane that suits most pairs the image of \"{first}\" is {off} from \"{second}\"; correct their points and axes, or remove the pair"
     )]
     NoMirrorImage {

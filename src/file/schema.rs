@@ -15,6 +15,7 @@ pub use parameter::{ParameterEntry, VariedEntry};
 pub use ranking::{JointTypeEntry, LimitEntry, RankingEntry, TermEntry};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 pub use words::Words;
 pub use workload::{
@@ -171,6 +172,19 @@ pub enum OptionEntry {
     Table(Box<OptionTable>),
 }
 
+impl OptionEntry {
+    /// The option spelt out.
+    pub(crate) fn table(&self) -> Cow<'_, OptionTable> {
+        match self {
+            OptionEntry::Table(table) => Cow::Borrowed(table),
+            OptionEntry::Word(kind) => Cow::Owned(OptionTable {
+                kind: Some(kind.clone()),
+                ..OptionTable::default()
+            }),
+        }
+    }
+}
+
 /// A joint option spelt out.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -254,6 +268,10 @@ pub struct SearchEntry {
     /// Pairs of joints that are mirror images.
     #[serde(default)]
     pub mirror: Vec<[String; 2]>,
+    /// Joints that become each other when the mechanism is turned about one axis, each the next and the last the first: pairs by
+    /// half a turn, or groups of three by a third. Not beside mirror images.
+    #[serde(default)]
+    pub turn: Vec<Vec<String>>,
     /// Costs by option or type name, and `change`, `link` and `harmful` (of each harmful redundant constraint that a searched
     /// state adds).
     #[serde(default)]

@@ -305,6 +305,11 @@ fn search(m: &Mechanism) -> SearchEntry {
             .iter()
             .map(|&(a, b)| [a, b].map(|j| m.joints[j].id.clone()))
             .collect(),
+        turn: spec
+            .turn
+            .iter()
+            .map(|g| g.iter().map(|&j| m.joints[j].id.clone()).collect())
+            .collect(),
         costs,
         ..SearchEntry::default()
     }

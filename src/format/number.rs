@@ -106,6 +106,16 @@ pub(crate) fn tooltip(x: f64) -> String {
     minus(&style.write(x))
 }
 
+/// A figure rounded to so many digits, for files whose bytes must not depend on the last bits.
+pub(crate) fn rounded(x: f64, digits: i32) -> f64 {
+    let style = Style {
+        digits,
+        plain: -4..6,
+        padded: false,
+    };
+    style.write(x).parse().unwrap_or(x)
+}
+
 /// A number to so many decimals, without zeros at the end and without a negative zero.
 pub(crate) fn decimals(x: f64, most: usize) -> String {
     let text = format!("{x:.most$}");

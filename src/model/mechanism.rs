@@ -179,8 +179,36 @@ pub struct SearchSpec {
     pub hold: Vec<LinkId>,
     /// Pairs of joints that are mirror images of each other.
     pub mirror: Vec<(JointId, JointId)>,
+    /// Joints that become each other when the mechanism is turned, each the next and the last the first: two by half a turn,
+    /// three by a third. Not beside mirror images.
+    pub turn: Vec<Vec<JointId>>,
     /// Costs.
     pub costs: CostSpec,
+}
+
+impl SearchSpec {
+    /// The joint that another becomes by the mechanism's symmetry; itself where nothing names it.
+    #[must_use]
+    pub fn image(&self, j: JointId) -> JointId {
+        let pairs = self.mirror.iter().flat_map(|&(a, b)| [(a, b), (b, a)]);
+        let next = |g: &Vec<JointId>| {
+            let at = g.iter().position(|&x| x == j)?;
+            Some(g[(at + 1) % g.len()])
+        };
+        let by_turn = self.turn.iter().find_map(next);
+        let by_mirror = pairs.into_iter().find(|p| p.0 == j).map(|p| p.1);
+        by_mirror.or(by_turn).unwrap_or(j)
+    }
+
+    /// How often the symmetry is done until all is back in place; 1 where there is none.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        match (self.mirror.is_empty(), self.turn.first()) {
+            (false, _) => 2,
+            (true, Some(group)) => group.len(),
+            (true, None) => 1,
+        }
+    }
 }
 
 /// A validated mechanism.

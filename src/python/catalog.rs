@@ -1,7 +1,7 @@
 //! Catalogues: a part built in this process, and parts put together.
 
 use crate::told::failed;
-use crate::waiting::patiently;
+use crate::waiting::with_progress;
 use ozols::catalog::build::{build, work};
 use ozols::catalog::spec::Spec;
 use ozols::catalog::store::Store;
@@ -41,43 +41,32 @@ pub(crate) fn catalog_build(
 ) -> PyResult<usize> {
     let spec = &spec(json)?;
     let shard = Shard::nth(part.0, part.1).map_err(failed)?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-    let pool = pool.build().map_err(failed)?;
-    patiently(
-        py,
-        |stop, tell| {
-            pool.install(|| {
-                let mut store = Store::create(&path, spec).map_err(failed)?;
-                let there = store.ids().map_err(failed)?;
-                let work = work(spec, shard).map_err(failed)?;
-                let all: usize = work.iter().map(|w| w.structures.len()).sum();
-                let mut added = 0;
-                let stopped = || stop.load(Ordering::Relaxed);
-                let ended = build(
-                    spec,
-                    &work,
-                    |s| stopped() || there.contains(&s.id()),
-                    |row| {
-                        added += 1;
-                        tell((there.len() + added, all));
-                        match store.add(&row) {
-                            Err(e) => ControlFlow::Break(Some(e)),
-                            Ok(()) if stopped() => ControlFlow::Break(None),
-                            Ok(()) => ControlFlow::Continue(()),
-                        }
-                    },
-                );
-                match ended.map_err(failed)? {
-                    Some(Some(e)) => Err(failed(e)),
-                    _ => Ok(added),
+    with_progress(py, threads, progress, |stop, tell| {
+        let mut store = Store::create(&path, spec).map_err(failed)?;
+        let there = store.ids().map_err(failed)?;
+        let work = work(spec, shard).map_err(failed)?;
+        let all: usize = work.iter().map(|w| w.structures.len()).sum();
+        let mut added = 0;
+        let stopped = || stop.load(Ordering::Relaxed);
+        let ended = build(
+            spec,
+            &work,
+            |s| stopped() || there.contains(&s.id()),
+            |row| {
+                added += 1;
+                tell((there.len() + added, all));
+                match store.add(&row) {
+                    Err(e) => ControlFlow::Break(Some(e)),
+                    Ok(()) if stopped() => ControlFlow::Break(None),
+                    Ok(()) => ControlFlow::Continue(()),
                 }
-            })
-        },
-        |(done, all): (usize, usize)| match progress {
-            Some(progress) => progress.call1((done, all)).map(drop),
-            None => Ok(()),
-        },
-    )?
+            },
+        );
+        match ended.map_err(failed)? {
+            Some(Some(e)) => Err(failed(e)),
+            _ => Ok(added),
+        }
+    })
 }
 
 /// As `ozols catalog merge`; how many structures were added.

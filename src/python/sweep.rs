@@ -2,7 +2,7 @@
 
 use crate::search;
 use crate::told::{Told, failed, json};
-use crate::waiting::patiently;
+use crate::waiting::with_progress;
 use ozols::file::read::motion;
 use ozols::score::request::Request;
 use ozols::shard::Shard;
@@ -88,22 +88,11 @@ pub(crate) fn sweep_make(
 ) -> PyResult<(usize, String, usize)> {
     let sweep = &asked.sweep()?;
     let shard = Shard::nth(part.0, part.1).map_err(failed)?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-    let pool = pool.build().map_err(failed)?;
-    patiently(
-        py,
-        |stop, tell| {
-            pool.install(|| {
-                let mut watching = Watching { stop, tell };
-                let made = make(sweep, shard, Some(&path), &mut watching).map_err(failed)?;
-                Ok((made.rows.len(), made.digest.hex(), made.added))
-            })
-        },
-        |(done, all): (usize, usize)| match progress {
-            Some(progress) => progress.call1((done, all)).map(drop),
-            None => Ok(()),
-        },
-    )?
+    with_progress(py, threads, progress, |stop, tell| {
+        let mut watching = Watching { stop, tell };
+        let made = make(sweep, shard, Some(&path), &mut watching).map_err(failed)?;
+        Ok((made.rows.len(), made.digest.hex(), made.added))
+    })
 }
 
 /// What is heard of the work.

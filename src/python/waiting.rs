@@ -1,5 +1,6 @@
 //! Long work without the GIL, which hears signals all the same.
 
+use crate::told::failed;
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -43,4 +44,23 @@ pub(crate) fn patiently<T: Send, E: Send>(
             (None, Ok(done)) => Ok(done),
         }
     })
+}
+
+/// As [`patiently`], on so many threads (0: all), for work that tells what is done of all; `progress` hears it.
+pub(crate) fn with_progress<T: Send>(
+    py: Python<'_>,
+    threads: usize,
+    progress: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&AtomicBool, &mut (dyn FnMut((usize, usize)) + Send)) -> PyResult<T> + Send,
+) -> PyResult<T> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    let pool = pool.build().map_err(failed)?;
+    patiently(
+        py,
+        |stop, tell| pool.install(|| work(stop, tell)),
+        |(done, all): (usize, usize)| match progress {
+            Some(progress) => progress.call1((done, all)).map(drop),
+            None => Ok(()),
+        },
+    )?
 }

@@ -1,6 +1,6 @@
 //! The greatest force of a joint over the stroke, in the free state as built.
 
-use crate::format::number::tooltip;
+use crate::format::number;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::cycle::Statics;
 use crate::statics::reactions::{Choice, Cycle};
@@ -35,7 +35,7 @@ pub fn is_loaded(m: &Mechanism) -> bool {
 
 /// A figure rounded to what it is worth, so that a table does not depend on the last bits.
 pub(super) fn rounded(x: f64) -> f64 {
-    tooltip(x).replace('\u{2212}', "-").parse().unwrap_or(x)
+    number::rounded(x, 6)
 }
 
 /// The greatest joint force under the file's loads; nothing where nothing loads it.

@@ -47,6 +47,8 @@ impl JawMotion {
 pub struct Figures {
     /// The least and the greatest opening reached, in millimetres.
     pub openings: [f64; 2],
+    /// Which way the drive goes as the jaws close: 1, or -1 where its coordinate falls.
+    pub closes: f64,
     /// Travel of the drive between them: millimetres, or radians.
     pub travel: f64,
     /// Force of each jaw over the force of the drive, without friction: the least, the mean and the greatest of the steps.
@@ -169,6 +171,7 @@ pub fn figures(
     };
     Ok(Figures {
         openings: [first.1, last.1],
+        closes: sign,
         travel: (last.0 - first.0).abs(),
         force: [
             ratios.iter().copied().fold(f64::INFINITY, f64::min),

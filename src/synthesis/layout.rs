@@ -42,6 +42,20 @@ pub struct Layout {
     pub start: u32,
 }
 
+impl Layout {
+    /// The points of a link: its pins, and of a jaw its tip.
+    #[must_use]
+    pub fn points(&self, structure: &Structure, link: usize) -> Vec<Point> {
+        let jaw = structure.roles.jaws.iter().position(|&j| j == link);
+        let pins = self.pins.iter().zip(&self.at);
+        pins.filter(|((u, v), _)| [*u, *v].contains(&link))
+            .map(|(_, at)| at)
+            .chain(jaw.map(|n| &self.tips[n]))
+            .map(|p| p.real())
+            .collect()
+    }
+}
+
 /// Why a structure has no layout.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]

@@ -2,17 +2,14 @@
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::file::schema::{
-    Coordinate, ForceEntry, JointEntry, LinkEntry, MechanismFile, OptionEntry, SearchEntry,
+    Coordinate, JointEntry, LinkEntry, MechanismFile, OptionEntry, PointEntry, SearchEntry,
     Unloading, WorkloadEntry,
 };
+use crate::synthesis::coordinate::{number, point, turned};
 use crate::synthesis::layout::Layout;
-use crate::synthesis::place::Place;
 use crate::synthesis::structure::Structure;
-
-/// The force with which the jaws hold the part, in N.
-pub const CLOSING_FORCE: i32 = 100;
-/// The weight of the part, shared by the jaws, square to the plane, in N: the hardest attitude. The part has about 1 kg.
-const WEIGHT: i64 = 10;
+use crate::synthesis::workload::Workload;
+use itertools::Itertools;
 
 /// What each link is called: frame, slider or crank, the jaws, and the rest by their numbers.
 #[must_use]
@@ -32,34 +29,19 @@ pub fn link_names(structure: &Structure) -> Vec<String> {
     (0..structure.chain.links()).map(name).collect()
 }
 
-/// The coordinates of a place, exactly.
-fn coordinates(
-    Place {
-        whole: [x, y],
-        thirds,
-    }: Place,
-) -> [Coordinate; 2] {
-    // (a + b √3) / 2, where not both are zero.
-    let surd = |a: i32, b: i32| match (a, b) {
-        (_, 0) if a % 2 == 0 => Coordinate::Integer(i64::from(a / 2)),
-        (_, 0) => Coordinate::Expression(format!("{a}/2")),
-        (0, _) => Coordinate::Expression(format!("{b}*sqrt(3)/2")),
-        _ => Coordinate::Expression(format!(
-            "({a} {} {}*sqrt(3))/2",
-            if b < 0 { '-' } else { '+' },
-            b.abs()
-        )),
-    };
-    match thirds {
-        0 => [x, y].map(|x| Coordinate::Integer(i64::from(x))),
-        1 => [surd(-x, -y), surd(-y, x)],
-        _ => [surd(-x, y), surd(-y, -x)],
+/// Options after so many thirds of a turn: their directions go with it.
+fn options_turned(options: &[OptionEntry], thirds: u8) -> Vec<OptionEntry> {
+    let mut out = options.to_vec();
+    for option in &mut out {
+        if let OptionEntry::Table(t) = option
+            && let Some([Coordinate::Integer(x), Coordinate::Integer(y), z]) = t.reference.clone()
+        {
+            #[allow(clippy::cast_precision_loss, reason = "directions of axes")]
+            let [x, y] = turned([x as f64, y as f64], thirds);
+            t.reference = Some([x, y, z]);
+        }
     }
-}
-
-fn point(place: Place) -> [Coordinate; 3] {
-    let [x, y] = coordinates(place);
-    [x, y, Coordinate::Integer(0)]
+    out
 }
 
 /// What a search may do to the hinges.
@@ -71,21 +53,41 @@ pub struct Menu {
     pub unloading: Vec<OptionEntry>,
 }
 
+/// Pins that a turn carries to each other, each the next.
+fn rounds(layout: &Layout) -> impl Iterator<Item = Vec<usize>> {
+    let firsts = layout.images.iter().map(|&(first, _)| first).unique();
+    firsts.map(|first| {
+        let images = layout.images.iter().filter(move |(f, _)| *f == first);
+        let thirds = |i: &usize| layout.at[*i].thirds;
+        let images = images.map(|&(_, i)| i).sorted_by_key(thirds);
+        std::iter::once(first).chain(images).collect()
+    })
+}
+
 /// The entries of the file.
 #[must_use]
-pub fn mechanism_file(structure: &Structure, layout: &Layout, menu: &Menu) -> MechanismFile {
+pub fn mechanism_file(
+    structure: &Structure,
+    layout: &Layout,
+    menu: &Menu,
+    workload: &Workload,
+) -> MechanismFile {
     let names = link_names(structure);
     let r = &structure.roles;
-    let links = names.iter().enumerate().map(|(l, name)| LinkEntry {
-        id: name.clone(),
-        role: match l {
-            l if l == r.frame => Some("frame".to_owned()),
-            l if r.jaws.contains(&l) => Some("output".to_owned()),
-            _ => None,
-        },
-        mass: None,
-        centre: None,
-        inertia: None,
+    let links = names.iter().enumerate().map(|(l, name)| {
+        let mass = (workload.weighs_links() && l != r.frame)
+            .then(|| workload.mass(&layout.points(structure, l)));
+        LinkEntry {
+            id: name.clone(),
+            role: match l {
+                l if l == r.frame => Some("frame".to_owned()),
+                l if r.jaws.contains(&l) => Some("output".to_owned()),
+                _ => None,
+            },
+            mass: mass.map(|(kg, _)| kg),
+            centre: mass.map(|(_, [x, y])| [number(x), number(y), Coordinate::Integer(0)]),
+            inertia: None,
+        }
     });
     let joint_name = |i: usize| {
         let (u, v) = layout.pins[i];
@@ -98,6 +100,10 @@ pub fn mechanism_file(structure: &Structure, layout: &Layout, menu: &Menu) -> Me
         // The frame first, so that the drive's coordinate is the driver's motion.
         let (u, v) = if input { (r.frame, r.driver) } else { (u, v) };
         let axis = if slides { [1, 0, 0] } else { [0, 0, 1] };
+        // What a third of a turn carries to each other has options that it carries to each other.
+        let thirds = layout.at[i].thirds;
+        let own = |options: &[OptionEntry]| options_turned(options, thirds);
+        let in_series = !input && !menu.unloading.is_empty();
         JointEntry {
             id: joint_name(i),
             links: [names[u].clone(), names[v].clone()],
@@ -105,42 +111,40 @@ pub fn mechanism_file(structure: &Structure, layout: &Layout, menu: &Menu) -> Me
             freedoms: None,
             point: point(layout.at[i]),
             axis: Some(axis.map(Coordinate::Integer)),
-            reference: None,
+            reference: (thirds > 0).then(|| {
+                let [x, y] = turned([1.0, 0.0], thirds);
+                [x, y, Coordinate::Integer(0)]
+            }),
             lead: None,
             pitch: None,
             drive: input,
             state: None,
-            options: None,
+            options: (thirds > 0).then(|| own(&menu.options)),
             forbid: Vec::new(),
-            unloading: (!input && !menu.unloading.is_empty()).then_some(Unloading::Allowed(true)),
+            unloading: in_series.then(|| match thirds {
+                0 => Unloading::Allowed(true),
+                _ => Unloading::List(own(&menu.unloading)),
+            }),
         }
     });
-    let weight = match r.jaws.len() {
-        2 => Coordinate::Integer(-WEIGHT / 2),
-        n => Coordinate::Expression(format!("-{WEIGHT}/{n}")),
-    };
-    let forces = structure.outward(CLOSING_FORCE).into_iter().enumerate();
-    let forces = forces.map(|(n, force)| {
-        let [x, y] = coordinates(force);
-        ForceEntry {
-            link: names[r.jaws[n]].clone(),
-            point: point(layout.tips[n]),
-            force: [x, y, weight.clone()],
-            from: None,
-            to: None,
-            state: None,
-        }
+    // The tips, so that drawings have whole jaws.
+    let tips = layout.tips.iter().zip(&r.jaws).zip(["a", "b", "c"]);
+    let tips = tips.map(|((&tip, &jaw), letter)| PointEntry {
+        id: format!("tip-{letter}"),
+        link: names[jaw].clone(),
+        point: point(tip),
     });
     MechanismFile {
         name: structure.id(),
         description: format!(
-            "Gripper of {} links from the catalogue of structures: {}. The forces at the tips are those of the part held, with its weight across.",
+            "Gripper of {} links from the catalogue of structures: {}. The forces at the tips are those of the part held.",
             structure.chain.links(),
             structure.name()
         ),
         length_unit: Some("mm".to_owned()),
         link: links.collect(),
         joint: joints.collect(),
+        point: tips.collect(),
         search: SearchEntry {
             options: menu.options.clone(),
             unloading: menu.unloading.clone(),
@@ -150,13 +154,21 @@ pub fn mechanism_file(structure: &Structure, layout: &Layout, menu: &Menu) -> Me
                     .iter()
                     .map(|&(a, b)| [joint_name(a), joint_name(b)])
                     .collect(),
-                // Turns are no mirror images.
                 Symmetry::Generic | Symmetry::HalfTurn | Symmetry::Threefold => Vec::new(),
+            },
+            turn: match structure.form.symmetry {
+                Symmetry::Generic | Symmetry::Mirror => Vec::new(),
+                Symmetry::HalfTurn | Symmetry::Threefold => rounds(layout)
+                    .map(|round| round.into_iter().map(joint_name).collect())
+                    .collect(),
             },
             ..SearchEntry::default()
         },
         workload: WorkloadEntry {
-            force: forces.collect(),
+            gravity: workload
+                .weighs_links()
+                .then(|| workload.gravity.map(number)),
+            force: workload.forces(structure, layout, &names),
             ..WorkloadEntry::default()
         },
         ..MechanismFile::default()

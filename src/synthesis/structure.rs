@@ -96,19 +96,25 @@ impl Structure {
 #[must_use]
 pub fn structures(subject: &Subject<'_>, jaws: usize, forms: &[Form]) -> Vec<Structure> {
     let mut out = Vec::new();
+    let forms: Vec<Form> = forms.iter().copied().filter(|f| f.suits(jaws)).collect();
+    let generic = forms.iter().any(|f| f.symmetry == Symmetry::Generic);
+    // Nothing carries the jaws of a chain without symmetries to each other.
+    if !generic && subject.automorphisms.len() == 1 {
+        return out;
+    }
     for roles in subject.grippers(jaws) {
-        if !subject.is_essential(&roles) {
+        let symmetric = subject.swaps(&roles).next().is_some();
+        if !(generic || symmetric) || !subject.is_essential(&roles) {
             continue;
         }
-        let symmetric = subject.swaps(&roles).next().is_some();
-        for &form in forms.iter().filter(|f| f.suits(jaws)) {
+        let asked = |f: &&Form| symmetric || f.symmetry == Symmetry::Generic;
+        for &form in forms.iter().filter(asked) {
             let structure = Structure {
                 chain: subject.chain.clone(),
                 roles: roles.clone(),
                 form,
             };
-            let asked = form.symmetry == Symmetry::Generic || symmetric;
-            if asked && (!form.parallel || structure.rings().is_some()) {
+            if !form.parallel || structure.rings().is_some() {
                 out.push(structure);
             }
         }

@@ -365,7 +365,7 @@ impl<'a> Wrench<'a> {
             joint: &mechanism.joints[w.joint].id,
             moments: axes(w.moments),
             forces: axes(w.forces),
-            share: w.share,
+            share: w.borne.map(|b| b.share()),
         }
     }
 }

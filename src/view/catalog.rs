@@ -15,9 +15,9 @@ pub struct CensusData {
     links: usize,
     mobility: usize,
     chains: u64,
-    frames: u64,
-    inputs: u64,
-    drives: u64,
+    frames: Option<u64>,
+    inputs: Option<u64>,
+    drives: Option<u64>,
     two_jaws: Option<u64>,
     essential: Option<u64>,
     both_jaws_float: Option<u64>,
@@ -42,9 +42,9 @@ impl CensusData {
             links,
             mobility,
             chains: c.chains,
-            frames: c.frames,
-            inputs: c.inputs,
-            drives: c.drives,
+            frames: Some(c.frames),
+            inputs: Some(c.inputs),
+            drives: Some(c.drives),
             two_jaws: g.map(|g| g.two_jaws),
             essential: g.map(|g| g.essential),
             both_jaws_float: g.map(|g| g.jaws_at_frame[0]),
@@ -61,13 +61,28 @@ impl CensusData {
         }
     }
 
+    /// Of a count of chains alone.
+    #[must_use]
+    pub fn of_chains(links: usize, mobility: usize, chains: u64) -> CensusData {
+        let alone = Census {
+            chains,
+            ..Census::default()
+        };
+        CensusData {
+            frames: None,
+            inputs: None,
+            drives: None,
+            ..CensusData::new(links, mobility, &alone)
+        }
+    }
+
     /// Counts with what they are of, from chains to grippers.
     fn rows(&self) -> Vec<(&'static str, Option<u64>)> {
         vec![
             ("chains", Some(self.chains)),
-            ("with a frame", Some(self.frames)),
-            ("with an input joint", Some(self.inputs)),
-            ("with a drive", Some(self.drives)),
+            ("with a frame", self.frames),
+            ("with an input joint", self.inputs),
+            ("with a drive", self.drives),
             ("grippers of two jaws", self.two_jaws),
             ("  essential", self.essential),
             ("    both jaws float", self.both_jaws_float),
@@ -95,7 +110,7 @@ Mirror, half turn, threefold: in places so symmetric, otherwise generic (drawn a
 and jaws move, and the jaws against each other.
 ";
 
-/// A table, a column for each number of links.
+/// A table, a column for each number of links; without what was counted of none.
 #[must_use]
 pub fn census_text(all: &[CensusData], width: Option<u16>) -> String {
     let links = all.iter().map(|c| format!("{} links", c.links));
@@ -103,9 +118,10 @@ pub fn census_text(all: &[CensusData], width: Option<u16>) -> String {
     let columns = all.iter().map(CensusData::rows).collect_vec();
     let cell = |n: Option<u64>| n.map_or_else(|| "-".to_owned(), |n| grouped(&n.to_string()));
     let names = columns.first().into_iter().flatten().map(|(name, _)| *name);
-    let rows = names.enumerate().map(|(i, name)| {
+    let rows = names.enumerate().filter_map(|(i, name)| {
+        let counted = columns.iter().any(|c| c[i].1.is_some());
         let cells = columns.iter().map(|c| cell(c[i].1));
-        std::iter::once(name.to_owned()).chain(cells).collect()
+        counted.then(|| std::iter::once(name.to_owned()).chain(cells).collect())
     });
     let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
     format!(

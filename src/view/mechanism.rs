@@ -89,7 +89,7 @@ fn search(m: &Mechanism) -> String {
     let open = options.iter().copied().filter(|n| *n > 1).collect_vec();
     let places = m.joints.iter().filter(|j| !j.unloading.is_empty()).count();
     if open.is_empty() && places == 0 {
-        return "search: nothing to choose, as no joint has options; list some under [search]"
+        return "search: nothing to choose: no joint has an option with more freedoms than it has; list some under [search]"
             .to_owned();
     }
     let variants: BigUint = options.into_iter().map(BigUint::from).product();
@@ -103,6 +103,13 @@ fn search(m: &Mechanism) -> String {
     }
     if !m.search.mirror.is_empty() {
         parts.push(plural(m.search.mirror.len(), "mirror pair"));
+    }
+    if let Some(group) = m.search.turn.first() {
+        let what = match group.len() {
+            2 => "half-turn pair",
+            _ => "third-turn group",
+        };
+        parts.push(plural(m.search.turn.len(), what));
     }
     let joints = grouped(&variants.to_string());
     format!("search: {}; {joints} choices of joints", parts.join(", "))

@@ -80,21 +80,27 @@ fn rows(out: &mut dyn Write, outcome: &Outcome, variants: &mut Variants<'_>) -> 
         let cell = |c| encoded(&choice_name(&search.mechanism, j, c));
         (variable, choices.map(cell).collect())
     };
-    let mut line = Line {
+    let mut lines = Lines {
         text: String::new(),
         chosen: joints.iter().map(cells).collect(),
         cost: (0, cost(0)),
         digits: itoa::Buffer::new(),
     };
     for v in variants {
-        line.write(outcome, &v);
-        out.write_all(line.text.as_bytes())?;
+        lines.write(outcome, &v);
+        if lines.text.len() >= ROOM {
+            out.write_all(lines.text.as_bytes())?;
+            lines.text.clear();
+        }
     }
-    Ok(())
+    out.write_all(lines.text.as_bytes())
 }
 
-/// The line of a variant, in memory that the next one takes over.
-struct Line {
+/// Bytes of lines that are written at once.
+const ROOM: usize = 1 << 16;
+
+/// The lines of some variants, one after another.
+struct Lines {
     text: String,
     /// For each column the variable, and what its choices are called.
     chosen: Vec<(usize, Vec<String>)>,
@@ -103,9 +109,8 @@ struct Line {
     digits: itoa::Buffer,
 }
 
-impl Line {
+impl Lines {
     fn write(&mut self, outcome: &Outcome, v: &Variant<'_>) {
-        self.text.clear();
         self.text.push_str(self.digits.format(v.position()));
         if self.cost.0 != v.cost_milli() {
             self.cost = (v.cost_milli(), cost(v.cost_milli()));

@@ -319,6 +319,30 @@ impl<'a> TailData<'a> {
     }
 }
 
+/// The last of some JSON lines, where the variants are not all that was asked for.
+#[derive(Debug, Serialize)]
+pub struct EndData {
+    stop: &'static str,
+    given: usize,
+    proven: usize,
+    admissible: String,
+    admissible_exact: bool,
+}
+
+impl EndData {
+    /// Of variants that were given, as far as it went.
+    #[must_use]
+    pub fn new(outcome: &Outcome, variants: &Variants<'_>) -> Self {
+        EndData {
+            stop: variants.stop().word(),
+            given: variants.summary().given,
+            proven: variants.summary().proven.unwrap_or(0),
+            admissible: outcome.admissible.to_string(),
+            admissible_exact: outcome.is_exact(),
+        }
+    }
+}
+
 /// The flag of a condition that was eased, and the number it is eased to.
 pub(super) fn condition(how: Relaxation) -> (&'static str, Option<i64>) {
     match how {

@@ -4,11 +4,10 @@ use crate::score::outcome::Outcome;
 use crate::score::variants::Variants;
 use crate::search::diagram::Stop;
 use crate::search::relax::{Hopeless, Relaxation};
-use crate::view::search_data::{NoneData, SearchData, TailData};
+use crate::view::search_data::{EndData, NoneData, SearchData, TailData};
 use crate::view::variant_data::VariantData;
 use num_bigint::BigUint;
 use num_traits::Zero;
-use serde_json::json;
 use std::io::{self, Write};
 
 /// Writes an outcome with its variants as one value; `eased` is told where there is none, `seconds` where somebody has a
@@ -56,14 +55,8 @@ pub fn write_lines(
         writeln!(out)?;
     }
     if variants.stop() != Stop::Exhausted {
-        let end = json!({
-            "stop": variants.stop().word(),
-            "given": variants.summary().given,
-            "proven": variants.summary().proven.unwrap_or(0),
-            "admissible": outcome.admissible.to_string(),
-            "admissible_exact": outcome.is_exact(),
-        });
-        writeln!(out, "{end}")?;
+        serde_json::to_writer(&mut *out, &EndData::new(outcome, &variants))?;
+        writeln!(out)?;
     }
     Ok(())
 }

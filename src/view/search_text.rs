@@ -143,7 +143,8 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
     if size == BigUint::from(1u8) {
         let _ = writeln!(
             out,
-            "  no joint has a choice: list some under [search], such as options = [\"revolute\", \"spherical\"]"
+            "  no joint has an option with more freedoms than it has: list some under [search], such as options = \
+             [\"cylindrical\", \"spherical\"]"
         );
     }
     if !more.is_empty() {

@@ -222,10 +222,14 @@ fn structure_text(d: &StructureData) -> String {
     );
     let _ = writeln!(
         out,
-        "Determinate variants ({}): {}, of these {} with W = 1\n",
+        "Determinate variants ({}): {}, of these {} with W = 1{}\n",
         l("certainty"),
         l("determinate"),
         l("determinate_w1"),
+        match s("symmetry").as_str() {
+            "generic" => String::new(),
+            symmetry => format!(", {} up to {symmetry} images", l("orbits_w1")),
+        },
     );
     out
 }

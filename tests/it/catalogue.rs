@@ -2,9 +2,11 @@
 
 mod carried_on;
 mod command;
+mod orbits;
 mod out_of_plane;
 mod rows;
 mod three_jaws;
+mod workload;
 
 use itertools::Itertools;
 use num_bigint::BigUint;
@@ -20,8 +22,10 @@ use ozols::geom::vector::real;
 use ozols::model::joint_type::JointType;
 use ozols::model::mechanism::Mechanism;
 use ozols::score::request::{Check, List};
+use ozols::synthesis::figures::figures;
 use ozols::synthesis::looks::Limits;
 use ozols::synthesis::structure::{Form, Structure, structures};
+use ozols::synthesis::workload::Workload;
 use ozols::synthesis::{layout, mechanism::mechanism_file};
 use ozols::{Request, analyze};
 use std::collections::BTreeMap;
@@ -146,7 +150,7 @@ fn the_drive_closes_the_jaws_as_fast_as_the_layout_says() {
         form(Input::Slide, Symmetry::Generic, false),
         form(Input::Turn, Symmetry::Generic, false),
     ];
-    let mut n = 0;
+    let (mut n, mut ways) = (0, Vec::new());
     each(6, &forms, |subject, s| {
         n += 1;
         if n % 8 != 0 {
@@ -175,11 +179,30 @@ fn the_drive_closes_the_jaws_as_fast_as_the_layout_says() {
             panic!("two tips")
         };
         assert!(a[1] < 0.0 && b[1] > 0.0, "{:?}", l.looks);
+        let (menu, workload) = (Spec::default().menu().unwrap(), Workload::default());
+        let file = mechanism_file(&s, &l, &menu, &workload);
+        let mechanism = Mechanism::from_json(&file.json().to_string()).unwrap();
+        let found = figures(&s, &l, &mechanism).unwrap();
+        ways.push(found.closes);
+        assert_eq!(found.closes, -rate.signum(), "{}", s.name());
     });
+    assert!(ways.contains(&1.0) && ways.contains(&-1.0), "{ways:?}");
 }
 
-/// Where the tips are when the drive has moved: unknown are a turn and a shift of each link.
+/// Where the tips are when the drive has moved.
 fn moved(s: &Structure, l: &layout::Layout, drive: f64) -> Vec<[f64; 2]> {
+    let tips = s.roles.jaws.iter().zip(&l.tips);
+    let tips: Vec<_> = tips.map(|(&jaw, tip)| (jaw, tip.real())).collect();
+    moved_points(s, l, drive, &tips)
+}
+
+/// Where points of links are when the drive has moved: unknown are a turn and a shift of each link.
+fn moved_points(
+    s: &Structure,
+    l: &layout::Layout,
+    drive: f64,
+    points: &[(usize, [f64; 2])],
+) -> Vec<[f64; 2]> {
     let n = s.chain.links();
     let place = |x: &[f64], link: usize, p: [f64; 2]| {
         if link == s.roles.frame {
@@ -228,8 +251,7 @@ fn moved(s: &Structure, l: &layout::Layout, drive: f64) -> Vec<[f64; 2]> {
         let dx = gauss(&columns, &r);
         x.iter_mut().zip(dx).for_each(|(a, d)| *a -= d);
     }
-    let tips = s.roles.jaws.iter().zip(&l.tips);
-    tips.map(|(&jaw, tip)| place(&x, jaw, tip.real())).collect()
+    points.iter().map(|&(l, p)| place(&x, l, p)).collect()
 }
 
 /// Solves a square system given by columns.
@@ -256,7 +278,7 @@ fn gauss(columns: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
 /// The mechanism with its pins moved by less than half a millimetre, so that no two axes through them coincide: the
 /// published counts are those of generic places, and whole millimetres may be special.
 fn generic(s: &Structure, l: &layout::Layout, change_input: bool) -> Mechanism {
-    let mut file = mechanism_file(s, l, &Spec::default().menu().unwrap());
+    let mut file = mechanism_file(s, l, &Spec::default().menu().unwrap(), &Workload::default());
     for (i, (joint, at)) in file.joint.iter_mut().zip(&l.at).enumerate() {
         let [x, y] = &at.whole;
         // The golden ratio's multiples are spread evenly.

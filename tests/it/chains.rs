@@ -310,6 +310,13 @@ fn the_command_counts_and_lists() {
         (rows.len(), rows[1]["three_jaws"].as_u64()),
         (2, Some(2656))
     );
+    let o = ozols(&["catalog", "count", "--chains", "--links", "10..12"])
+        .output()
+        .unwrap();
+    let out = text(&o.stdout);
+    let table: Vec<_> = out.lines().take_while(|l| !l.is_empty()).collect();
+    assert_eq!(table.len(), 3, "chains alone: {out}");
+    assert!(table[2].contains("230") && table[2].contains("6,856"));
     let listed = json(&["catalog", "chains", "--links", "6", "--format", "json"]);
     let drives = listed
         .as_array()

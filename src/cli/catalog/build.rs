@@ -11,7 +11,7 @@ use crate::shard::Shard;
 use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueHint};
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Build {
@@ -62,14 +62,17 @@ pub(in crate::cli) struct Build {
 
 impl Build {
     fn spec(&self, seed: u64) -> anyhow::Result<Spec> {
-        let mut spec = match &self.spec {
-            None => Spec::default(),
-            Some(path) => {
-                let text = std::fs::read_to_string(path)
-                    .with_context(|| format!("cannot read {}", path.display()))?;
-                toml::from_str(&text).with_context(|| path.display().to_string())?
-            }
+        let text = match &self.spec {
+            None => String::new(),
+            Some(path) => std::fs::read_to_string(path)
+                .with_context(|| format!("cannot read {}", path.display()))?,
         };
+        let file = self.spec.as_deref().map(Path::display);
+        let mut spec: Spec = match &file {
+            None => Spec::default(),
+            Some(file) => toml::from_str(&text).with_context(|| file.to_string())?,
+        };
+        let alone = spec.clone();
         if let Some(links) = &self.links {
             spec.links.clone_from(links);
         }
@@ -95,8 +98,22 @@ impl Build {
         if seed != 1 {
             spec.seed = seed;
         }
-        spec.check()?;
-        Ok(spec)
+        let Err(wrong) = spec.check() else {
+            return Ok(spec);
+        };
+        // Of the file, where no flag did it.
+        let file = file.filter(|_| alone.check().as_ref() == Err(&wrong));
+        let has = |line: &str| {
+            let key = line.split('=').next().map(str::trim);
+            key.is_some() && key == wrong.key()
+        };
+        let line = text.lines().position(has).map(|n| n + 1);
+        let place = file.zip(line).map(|(file, line)| format!("{file}:{line}"));
+        let wrong = anyhow::Error::new(wrong);
+        Err(match place {
+            None => wrong,
+            Some(place) => wrong.context(place),
+        })
     }
 }
 

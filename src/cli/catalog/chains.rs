@@ -6,7 +6,7 @@ use super::super::{Done, output};
 use super::format::CatalogFormat;
 use crate::catalog::spec::range;
 use crate::chains::census::census;
-use crate::chains::enumerate::{ChainsError, chains};
+use crate::chains::enumerate::{ChainsError, chains, count_chains};
 use crate::format::csv::records;
 use crate::view::catalog::{CensusData, ChainData, census_text, chains_text};
 use anyhow::ensure;
@@ -53,6 +53,9 @@ pub(in crate::cli) struct Count {
     /// Numbers of links: one, or a range such as 4..10, its end included.
     #[arg(long, value_name = "N..M", default_value = "4..8", value_parser = links)]
     links: RangeInclusive<usize>,
+    /// Chains alone, not what their links can be: with 16 links and more that saves most of the time.
+    #[arg(long)]
+    chains: bool,
     #[command(flatten)]
     common: Common,
 }
@@ -89,8 +92,12 @@ pub(super) fn count(args: &Args, a: &Count) -> anyhow::Result<Done> {
     let mut all = Vec::new();
     for (i, n) in a.links.clone().enumerate() {
         bar.step(&format!("{n} links"), i, a.links.clone().count());
-        match census(n, w, n <= MOST_OF_GRIPPERS) {
-            Ok(found) => all.push(CensusData::new(n, w, &found)),
+        let found = match a.chains {
+            true => count_chains(n, w).map(|chains| CensusData::of_chains(n, w, chains)),
+            false => census(n, w, n <= MOST_OF_GRIPPERS).map(|c| CensusData::new(n, w, &c)),
+        };
+        match found {
+            Ok(found) => all.push(found),
             // Every other number of links has no whole number of joints.
             Err(ChainsError::Parity { .. }) => {}
             Err(e) => return Err(e.into()),

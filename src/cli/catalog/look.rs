@@ -2,6 +2,7 @@
 
 use super::super::{Done, output};
 use super::format::CatalogFormat;
+use crate::api::Scheme;
 use crate::catalog::store::Store;
 use crate::model::mechanism::Mechanism;
 use crate::page::catalogue::catalogue;
@@ -44,6 +45,16 @@ fn open(file: &Path) -> anyhow::Result<Store> {
     Ok(Store::open(file)?)
 }
 
+/// The mechanism of a structure as TOML.
+fn laid_out(store: &Store, file: &Path, id: &str) -> anyhow::Result<String> {
+    store.mechanism(id)?.with_context(|| {
+        format!(
+            "{id} has no layout; `ozols catalog show {} {id}` says why",
+            file.display()
+        )
+    })
+}
+
 pub(super) fn query(a: &Query) -> anyhow::Result<Done> {
     let store = open(&a.file)?;
     let (names, rows) = store.query(a.sql.as_deref().unwrap_or(BEST), None)?;
@@ -73,6 +84,9 @@ pub(in crate::cli) struct Show {
     /// JSON instead of text.
     #[arg(long)]
     json: bool,
+    /// Write its kinematic scheme to a file, too.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    svg: Option<PathBuf>,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     output: Option<PathBuf>,
@@ -80,7 +94,16 @@ pub(in crate::cli) struct Show {
 
 pub(super) fn show(a: &Show) -> anyhow::Result<Done> {
     let store = open(&a.file)?;
-    let data = StructureData::read(&store, &store.find(&a.id)?)?;
+    let id = store.find(&a.id)?;
+    if let Some(picture) = &a.svg {
+        let mechanism = Mechanism::from_toml(&laid_out(&store, &a.file, &id)?)?;
+        let drawn = crate::api::draw(&mechanism, Scheme::Kinematic)?;
+        output::to(Some(picture), |out| {
+            out.write_all(drawn.as_bytes())?;
+            Ok(Done::Found)
+        })?;
+    }
+    let data = StructureData::read(&store, &id)?;
     let path = a.output.as_deref();
     output::to(path, |out| {
         if a.json {
@@ -113,12 +136,7 @@ pub(in crate::cli) struct Export {
 pub(super) fn export(a: &Export) -> anyhow::Result<Done> {
     let store = open(&a.file)?;
     let id = store.find(&a.id)?;
-    let text = store.mechanism(&id)?.with_context(|| {
-        format!(
-            "{id} has no layout; `ozols catalog show {} {id}` says why",
-            a.file.display()
-        )
-    })?;
+    let text = laid_out(&store, &a.file, &id)?;
     let text = match a.variant {
         None if a.to == "toml" => text,
         None => crate::cli::export::text(&Mechanism::from_toml(&text)?, &a.to, None)?,

@@ -3,7 +3,7 @@
 use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
-use crate::file::schema::{Coordinate, OptionEntry, OptionTable};
+use crate::file::schema::{Coordinate, OptionEntry};
 use crate::geom::expr::{Expr, ExprError};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, JointOption, StateId};
@@ -300,17 +300,7 @@ pub(crate) fn option(
     path: &[Step],
     out: &mut Findings,
 ) -> Option<JointOption> {
-    let word;
-    let (table, at) = match entry {
-        OptionEntry::Table(t) => (t.as_ref(), path.to_vec()),
-        OptionEntry::Word(w) => {
-            word = OptionTable {
-                kind: Some(w.clone()),
-                ..OptionTable::default()
-            };
-            (&word, path.to_vec())
-        }
-    };
+    let (table, at) = (entry.table(), path.to_vec());
     let kind = table.kind.as_deref().unwrap_or("custom");
     let joint_type = joint_type(joint, kind, table.freedoms.as_ref(), &at, out)?;
     let axis = table.axis.as_ref().map_or_else(

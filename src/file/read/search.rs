@@ -52,26 +52,36 @@ pub(crate) fn search(
         spec.hold
             .extend(link_by_id(&mechanism.links, id, &path, out));
     }
-    let mut paired = Vec::new();
-    for (i, pair) in file.search.mirror.iter().enumerate() {
-        let path = index(&key(&at, "mirror"), i);
-        let joints = pair
+    let mut grouped = Vec::new();
+    let mut joints = |ids: &[String], path: &[Step], out: &mut Findings| {
+        let joints = ids
             .iter()
-            .filter_map(|id| joint_by_id(mechanism, id, &path, out))
+            .filter_map(|id| joint_by_id(mechanism, id, path, out))
             .collect_vec();
         for &j in &joints {
-            if paired.contains(&j) {
-                out.add(
-                    &path,
-                    ProblemKind::RepeatedMirror {
-                        joint: mechanism.joints[j].id.clone(),
-                    },
-                );
+            if grouped.contains(&j) {
+                let joint = mechanism.joints[j].id.clone();
+                out.add(path, ProblemKind::RepeatedMirror { joint });
             }
-            paired.push(j);
+            grouped.push(j);
         }
-        if let [a, b] = joints[..] {
+        joints
+    };
+    for (i, pair) in file.search.mirror.iter().enumerate() {
+        if let [a, b] = joints(pair, &index(&key(&at, "mirror"), i), out)[..] {
             spec.mirror.push((a, b));
+        }
+    }
+    for (i, group) in file.search.turn.iter().enumerate() {
+        let path = index(&key(&at, "turn"), i);
+        let found = joints(group, &path, out);
+        let first = file.search.turn[0].len();
+        if ![2, 3].contains(&group.len()) || group.len() != first {
+            out.add(&path, ProblemKind::TurnGroup { count: group.len() });
+        } else if !file.search.mirror.is_empty() {
+            out.add(&path, ProblemKind::TurnAndMirror);
+        } else if found.len() == first {
+            spec.turn.push(found);
         }
     }
     images(mechanism, &spec.mirror, &at, out);

@@ -253,6 +253,17 @@ impl SelfStress<'_> {
         ]
     }
 
+    /// What it is called in a drawing, counted from 0: "self-stress 1: moment about y at 0-1 (harmful)".
+    #[must_use]
+    pub fn name(&self, place: usize) -> String {
+        let (joint, what) = self.simplest.clone().unwrap_or_default();
+        format!(
+            "self-stress {}: {what} at {joint} ({})",
+            place + 1,
+            self.verdict
+        )
+    }
+
     /// Every joint that bears it with its share, the greatest first: "4-5 52 %, 5-1 48 %".
     #[must_use]
     pub fn borne(&self) -> String {

@@ -93,6 +93,10 @@ fn it_is_queried_shown_exported_and_drawn() {
         serde_json::from_str(&ok(&["catalog", "show", &db, id, "--json"])).unwrap();
     assert_eq!(json["ideas"].as_array().unwrap().len(), 3);
     assert_eq!(json["layout"]["mobility"], 1);
+    let svg = at(&folder, "g.svg");
+    ok(&["catalog", "show", &db, id, "--svg", &svg]);
+    let drawn = std::fs::read_to_string(&svg).unwrap();
+    assert!(drawn.starts_with("<svg") && drawn.contains("tip-a") && drawn.contains("tip-b"));
     let toml = at(&folder, "g.toml");
     ok(&["catalog", "export", &db, id, "-o", &toml]);
     let analysed: serde_json::Value =

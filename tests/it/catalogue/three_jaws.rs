@@ -13,7 +13,7 @@ use ozols::synthesis::looks::Limits;
 use ozols::synthesis::structure::Structure;
 use std::collections::BTreeMap;
 
-fn third([x, y]: [f64; 2]) -> [f64; 2] {
+pub(super) fn third([x, y]: [f64; 2]) -> [f64; 2] {
     let (sine, cosine) = (2.0 * std::f64::consts::PI / 3.0).sin_cos();
     [cosine * x - sine * y, sine * x + cosine * y]
 }

@@ -1,0 +1,118 @@
+//! Whether a joint is the image of another when space is reflected or turned, and by how much it is not.
+
+use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
+use crate::format::number::brief;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::scalars::Scalars;
+use crate::geom::vector::{cross, dot, length, real};
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::Residue;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Frame, Mode};
+
+/// How far the image of a joint is from the joint it is paired with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Miss {
+    /// Distance of their points; for a joint that is the same all along its axis, of the axes. In the file's unit.
+    pub distance: f64,
+    /// Angle between their axes, in radians.
+    pub angle: f64,
+}
+
+impl Miss {
+    /// Of a joint whose point and axis have become these.
+    pub(super) fn new((point, axis): ([f64; 3], [f64; 3]), of: &JointType, to: &Frame) -> Miss {
+        let (q, own) = (real(&to.point), real(&to.axis));
+        let off = [0, 1, 2].map(|i| point[i] - q[i]);
+        let sine = length(cross(axis, own));
+        let angle = match of {
+            JointType::Spherical | JointType::Fixed => 0.0,
+            _ => sine.atan2(dot(axis, own).abs()),
+        };
+        let distance = match of {
+            JointType::Prismatic => 0.0,
+            JointType::Revolute | JointType::Cylindrical | JointType::Helical => {
+                length(cross(off, own)) / length(own)
+            }
+            _ => length(off),
+        };
+        Miss { distance, angle }
+    }
+
+    /// Distance and angle as one number, to compare by.
+    pub(super) fn size(&self) -> f64 {
+        self.distance + self.angle
+    }
+
+    /// "2.062 cm and 0.5°"; `unit` is the file's.
+    #[must_use]
+    pub fn words(&self, unit: &str) -> String {
+        let number = |x: f64| {
+            if x < 1e-3 {
+                format!("{x:.3e}")
+            } else {
+                brief(x)
+            }
+        };
+        let distance = format!("{} {unit}", number(self.distance));
+        match self.angle.to_degrees() {
+            0.0 => distance,
+            angle => format!("{distance} and {}°", number(angle)),
+        }
+    }
+}
+
+/// What becomes of space: x goes to `linear`(x) + `shift`, lengths stay.
+pub(super) struct Map<F> {
+    /// What becomes of directions.
+    pub(super) linear: F,
+    /// What becomes of the origin.
+    pub(super) shift: [Residue; 3],
+    /// Whether right hands become left ones.
+    pub(super) reflects: bool,
+}
+
+impl<F: Fn([Residue; 3]) -> [Residue; 3]> Map<F> {
+    /// Whether the image of a joint allows exactly the motions of another.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    pub(super) fn carries(
+        &self,
+        exact: &ExactField,
+        mode: &Mode,
+        (frame, of): (&Frame, &JointType),
+        (to, other): (&Frame, &JointType),
+    ) -> Result<bool, ExactError> {
+        let f = exact.field();
+        // A turn about u is one about -u in a mirror; the body point at the origin is the image of that at the shift.
+        let image = |[w0, w1, w2, v0, v1, v2]: [Residue; 6]| {
+            let turned = (self.linear)([w0, w1, w2]);
+            let w = match self.reflects {
+                true => turned.map(|x| f.neg(x)),
+                false => turned,
+            };
+            let arm = exact.cross(self.shift, w);
+            let v = (self.linear)([v0, v1, v2]);
+            let at = |i: usize| f.add(v[i], arm[i]);
+            [w[0], w[1], w[2], at(0), at(1), at(2)]
+        };
+        let space = MotionSpace::new(exact, mode)?;
+        let values = FrameValues::new(exact, frame)?.within(&space, of.freedoms());
+        let (mut images, mut own) = (Echelon::new(f), Echelon::new(f));
+        for &freedom in of.freedoms() {
+            let twist = values.twist(exact, freedom);
+            if space.components(exact, &twist).is_none() {
+                continue;
+            }
+            match space.components(exact, &image(twist)) {
+                Some(t) => images.insert(&t),
+                None => return Ok(false),
+            };
+        }
+        for (_, t) in joint_twists(exact, &space, to, other)? {
+            own.insert(&t);
+        }
+        Ok(images.reduced() == own.reduced())
+    }
+}

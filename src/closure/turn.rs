@@ -1,0 +1,131 @@
+//! Half and third turns: whether joints that a file groups become each other when space is turned about one axis.
+
+use crate::closure::image::{Map, Miss};
+use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::exact_vector::{ExactVector, cross, sub};
+use crate::geom::scalars::Scalars;
+use crate::geom::vector::{self, dot, length, real};
+use crate::linalg::modp::Residue;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Frame, JointId, Mechanism, Mode};
+
+/// Part of a turn about an axis.
+#[derive(Debug, Clone)]
+pub struct Turn {
+    /// Points that it carries to each other, two or three: their middle is on the axis.
+    round: Vec<ExactVector>,
+    axis: ExactVector,
+}
+
+impl Turn {
+    /// The turns that groups of joints may suggest: three points tell all; two the middle, and the axis is along a direction of
+    /// their joints, between or across these, or along a direction of a joint that is its own image.
+    #[must_use]
+    pub fn of_groups(mechanism: &Mechanism, groups: &[Vec<JointId>]) -> Vec<Turn> {
+        let frame = |j: &JointId| &mechanism.joints[*j].frame;
+        let directions = |j: JointId| {
+            let [z, x] = [&frame(&j).axis, &frame(&j).reference];
+            [z.clone(), x.clone(), cross(z, x)]
+        };
+        let alone = mechanism.joint_ids();
+        let alone = alone.filter(|j| !groups.iter().any(|g| g.contains(j)));
+        let alone: Vec<ExactVector> = alone.flat_map(directions).collect();
+        let mut out = Vec::new();
+        for group in groups {
+            let round: Vec<ExactVector> = group.iter().map(|j| frame(j).point.clone()).collect();
+            let axes = match &round[..] {
+                [a, b, c] => vec![cross(&sub(b, a), &sub(c, a))],
+                _ => {
+                    let [z, w] = [0, 1].map(|i| &frame(&group[i]).axis);
+                    let between = [0, 1, 2].map(|i| &z[i] + &w[i]);
+                    let own = directions(group[0]).into_iter();
+                    own.chain([between, sub(z, w)])
+                        .chain(alone.clone())
+                        .collect()
+                }
+            };
+            let real_axes = axes.into_iter().filter(|n| length(real(n)) > 0.0);
+            out.extend(real_axes.map(|axis| Turn {
+                round: round.clone(),
+                axis,
+            }));
+        }
+        out
+    }
+
+    /// How far the image of a joint is from a place.
+    #[must_use]
+    pub fn miss(&self, (from, of): (&Frame, &JointType), to: &Frame) -> Miss {
+        let points: Vec<[f64; 3]> = self.round.iter().map(real).collect();
+        #[allow(clippy::cast_precision_loss, reason = "two or three")]
+        let count = points.len() as f64;
+        let centre = [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / count);
+        let n = vector::unit(real(&self.axis));
+        let (sine, cosine) = (std::f64::consts::TAU / count).sin_cos();
+        let turn = |v: [f64; 3]| {
+            let (across, along) = (vector::cross(n, v), dot(n, v));
+            [0, 1, 2].map(|i| cosine * v[i] + sine * across[i] + (1.0 - cosine) * along * n[i])
+        };
+        let p = real(&from.point);
+        let arm = turn([0, 1, 2].map(|i| p[i] - centre[i]));
+        let point = [0, 1, 2].map(|i| centre[i] + arm[i]);
+        Miss::new((point, turn(real(&from.axis))), of, to)
+    }
+
+    /// Whether the image of a joint allows exactly the motions of another.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    pub fn carries(
+        &self,
+        exact: &ExactField,
+        mode: &Mode,
+        from: (&Frame, &JointType),
+        to: (&Frame, &JointType),
+    ) -> Result<bool, ExactError> {
+        let f = exact.field();
+        let n = exact.eval3(&self.axis)?;
+        let square = exact.dot(n, n);
+        let mut centre = [f.zero(); 3];
+        let mut points = Vec::new();
+        for p in &self.round {
+            let p = exact.eval3(p)?;
+            centre = [0, 1, 2].map(|i| f.add(centre[i], p[i]));
+            points.push(p);
+        }
+        let number = |x: i64| f.from_i64(x);
+        let third = points.len() == 3;
+        let part = f.inv(number(if third { 3 } else { 2 }));
+        let centre = centre.map(|x| f.mul(part, x));
+        let half = f.inv(number(2));
+        // v cos + n × v sin / |n| + n (n·v) (1 - cos) / |n|²; of an equilateral triangle sin / |n| is 1 / side².
+        let (cosine, sine, rest) = match third {
+            false => (number(-1), f.zero(), number(2)),
+            true => {
+                let side = [0, 1, 2].map(|i| f.sub(points[1][i], points[0][i]));
+                let side = exact.dot(side, side);
+                let quarters = f.mul(number(3), f.mul(side, side));
+                if f.mul(number(4), square) != quarters {
+                    return Ok(false);
+                }
+                (f.neg(half), f.inv(side), f.mul(number(3), half))
+            }
+        };
+        let rest = f.mul(rest, f.inv(square));
+        let linear = |v: [Residue; 3]| {
+            let (across, along) = (exact.cross(n, v), f.mul(rest, exact.dot(n, v)));
+            [0, 1, 2].map(|i| {
+                let turned = f.add(f.mul(cosine, v[i]), f.mul(sine, across[i]));
+                f.add(turned, f.mul(along, n[i]))
+            })
+        };
+        let moved = linear(centre);
+        let shift = [0, 1, 2].map(|i| f.sub(centre[i], moved[i]));
+        let map = Map {
+            linear,
+            shift,
+            reflects: false,
+        };
+        map.carries(exact, mode, from, to)
+    }
+}

@@ -1,0 +1,101 @@
+//! What a gripper of a catalogue carries, whatever its structure: the part between its jaws, and its own links.
+
+use crate::file::schema::{Coordinate, ForceEntry};
+use crate::geom::vector::{add_scaled, length, sub};
+use crate::synthesis::coordinate::{number, point, turned};
+use crate::synthesis::layout::Layout;
+use crate::synthesis::skeleton::{Point, middle};
+use crate::synthesis::structure::Structure;
+use serde::{Deserialize, Serialize};
+
+/// Forces and masses that every structure has alike.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Workload {
+    /// The force between the part and each jaw, in N.
+    pub closing: f64,
+    /// Mass of the part, in kg: the jaws share its weight.
+    pub part: f64,
+    /// Acceleration of gravity in m/s²; z is square to the plane, x is ahead.
+    pub gravity: [f64; 3],
+    /// Mass of a metre of link, in kg.
+    pub link_mass: f64,
+}
+
+impl Default for Workload {
+    /// A part of 1 kg held by 100 N, its weight, in round figures, across the plane: the hardest attitude. Links weigh nothing.
+    fn default() -> Workload {
+        Workload {
+            closing: 100.0,
+            part: 1.0,
+            gravity: [0.0, 0.0, -10.0],
+            link_mass: 0.0,
+        }
+    }
+}
+
+/// A rod from the middle of a link's points to each of them, in millimetres: their length, and where their mass is.
+fn rods(points: &[Point]) -> (f64, Point) {
+    let centre = middle(points);
+    let (mut whole, mut moment) = (0.0, [0.0; 2]);
+    for p in points {
+        let rod = length(sub(*p, centre));
+        whole += rod;
+        moment = add_scaled(moment, rod, middle(&[centre, *p]));
+    }
+    match whole > 0.0 {
+        true => (whole, moment.map(|m| m / whole)),
+        false => (0.0, centre),
+    }
+}
+
+impl Workload {
+    /// Whether links have weights.
+    #[must_use]
+    pub fn weighs_links(&self) -> bool {
+        self.link_mass > 0.0 && self.gravity != [0.0; 3]
+    }
+
+    /// Mass in kg and mass centre in millimetres of a link with these points.
+    #[must_use]
+    pub fn mass(&self, points: &[Point]) -> (f64, Point) {
+        let (length, centre) = rods(points);
+        (self.link_mass * length / 1000.0, centre)
+    }
+
+    /// The forces on the jaws, links having these names: of each the part's push, then its share of the weight.
+    pub(super) fn forces(
+        &self,
+        structure: &Structure,
+        layout: &Layout,
+        names: &[String],
+    ) -> Vec<ForceEntry> {
+        let jaws = &structure.roles.jaws;
+        let entry = |n: usize, force| ForceEntry {
+            link: names[jaws[n]].clone(),
+            point: point(layout.tips[n]),
+            force,
+            from: None,
+            to: None,
+            state: None,
+        };
+        let mut out = Vec::new();
+        if self.closing > 0.0 {
+            for (n, away) in structure.outward(1).into_iter().enumerate() {
+                let push = away.whole.map(|x| f64::from(x) * self.closing);
+                let [x, y] = turned(push, away.thirds);
+                out.push(entry(n, [x, y, Coordinate::Integer(0)]));
+            }
+        }
+        let weight = self.gravity.map(|g| g * self.part);
+        if weight != [0.0; 3] {
+            let share = |w: f64| match jaws.len() {
+                _ if w == 0.0 => Coordinate::Integer(0),
+                2 => number(w / 2.0),
+                n => Coordinate::Expression(format!("{w}/{n}")),
+            };
+            out.extend((0..jaws.len()).map(|n| entry(n, weight.map(share))));
+        }
+        out
+    }
+}

@@ -1,0 +1,194 @@
+//! Counts up to the symmetry of a layout, against a list of all variants whose images are found from the places of the joints.
+
+use super::command::{at, ok};
+use super::three_jaws::third;
+use super::{each_of, form, plain};
+use num_bigint::BigUint;
+use ozols::catalog::row::row;
+use ozols::catalog::spec::Spec;
+use ozols::chains::layout_symmetry::{Input, Symmetry};
+use ozols::geom::vector::real;
+use ozols::model::mechanism::Mechanism;
+use ozols::redundancy::analysis::exact_field;
+use ozols::search::conditions::{Conditions, Search};
+use std::collections::{BTreeMap, BTreeSet};
+use tempfile::tempdir;
+
+/// For each joint the one that stands where the symmetry carries it.
+fn images(m: &Mechanism, carry: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<usize> {
+    let place = |k: usize| {
+        let [x, y, _] = real(&m.joints.get(k).unwrap().frame.point);
+        [x, y]
+    };
+    let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-9;
+    let all = 0..m.joints.len();
+    all.clone()
+        .map(|k| {
+            all.clone()
+                .find(|&i| near(place(i), carry(place(k))))
+                .unwrap()
+        })
+        .collect()
+}
+
+#[test]
+fn orbits_are_those_of_a_list_of_all_variants() {
+    let (mirror, half, third_of) = (Symmetry::Mirror, Symmetry::HalfTurn, Symmetry::Threefold);
+    let mut seen = 0;
+    for (links, jaws, input, symmetry, options) in [
+        (6, 2, Input::Slide, mirror, Spec::default().options),
+        (6, 2, Input::Turn, half, Spec::default().options),
+        (
+            8,
+            3,
+            Input::Turn,
+            third_of,
+            vec!["universal".to_owned(), "spherical".to_owned()],
+        ),
+    ] {
+        let spec = Spec {
+            options,
+            jaws,
+            ..plain(0)
+        };
+        let form = form(input, symmetry, false);
+        each_of(links, jaws, &[form], |subject, s| {
+            let Ok(laid) = row(subject, &s, &spec).unwrap().laid else {
+                return;
+            };
+            seen += 1;
+            let m = Mechanism::from_toml(&laid.file).unwrap();
+            let to = images(&m, |[x, y]| match symmetry {
+                Symmetry::Mirror => [x, -y],
+                Symmetry::HalfTurn => [-x, -y],
+                _ => third([x, y]),
+            });
+            let order = if jaws == 3 { 3 } else { 2 };
+            let one = Conditions {
+                max_mobility: Some(1),
+                keep_output: false,
+                ..Conditions::default()
+            };
+            let search = Search::new(exact_field(&m, 0).unwrap(), &m, one).unwrap();
+            let diagrams = search.build(&|| false, &mut |_| {});
+            // The option of each joint, and how many are changed.
+            let list: BTreeSet<Vec<usize>> = search
+                .cheapest(&diagrams, usize::MAX / 4)
+                .map(|v| {
+                    let mut options = vec![0; m.joints.len()];
+                    for (variable, &c) in search.space.variables.iter().zip(&v.choices) {
+                        options[variable.joints[0].index()] = variable.choices[c].option;
+                    }
+                    options
+                })
+                .collect();
+            let mut orbits: BTreeMap<usize, (u64, u64, u64)> = BTreeMap::new();
+            for v in &list {
+                let image = |v: &Vec<usize>| {
+                    let mut out = v.clone();
+                    (0..v.len()).for_each(|k| out[to[k]] = v[k]);
+                    out
+                };
+                let round = std::iter::successors(Some(v.clone()), |v| Some(image(v)));
+                let orbit: BTreeSet<Vec<usize>> = round.take(order).collect();
+                assert!(orbit.is_subset(&list), "{}: {v:?}", s.name());
+                let of = orbits
+                    .entry(v.iter().filter(|o| **o > 0).count())
+                    .or_default();
+                of.0 += 1;
+                of.1 += u64::from(orbit.first() == Some(v));
+                of.2 += u64::from(orbit.len() == 1);
+            }
+            assert!(!list.is_empty(), "{}", s.name());
+            let said = laid.counts.iter().filter(|((w, _), _)| *w == 1);
+            let said = said.map(|(key, n)| {
+                let (own, orbits) = laid.symmetric.split(key, n);
+                (key.1 as usize, [n.clone(), orbits, own])
+            });
+            let found = orbits
+                .iter()
+                .map(|(&k, &(n, o, f))| (k, [n, o, f].map(BigUint::from)));
+            assert_eq!(
+                said.collect::<BTreeMap<_, _>>(),
+                found.collect(),
+                "{}",
+                s.name()
+            );
+        });
+    }
+    assert_eq!(seen, 2 + 2 + 2);
+}
+
+#[test]
+fn a_file_says_what_a_turn_carries_round() {
+    let folder = tempdir().unwrap();
+    let (db, file) = (at(&folder, "g.db"), at(&folder, "m.toml"));
+    ok(&[
+        "catalog",
+        "build",
+        "--links",
+        "6",
+        "--symmetry",
+        "half-turn",
+        "--parallel",
+        "without",
+        "--ideas",
+        "1",
+        "--quiet",
+        "-o",
+        &db,
+    ]);
+    let sql = "SELECT id, determinate_w1, orbits_w1 FROM structures JOIN layouts ON structure = id ORDER BY id LIMIT 1";
+    let line = ok(&["catalog", "query", &db, sql, "--format", "csv"]);
+    let row: Vec<&str> = line.lines().nth(1).unwrap().split(',').collect();
+    ok(&["catalog", "export", &db, row[0], "-o", &file]);
+    let counts = |more: &str| -> String {
+        let args = [
+            "search",
+            &file,
+            "--max-mobility",
+            "1",
+            "--allow-output-change",
+            "--quiet",
+            "--format",
+            "json",
+        ];
+        let more = Some(more).filter(|m| !m.is_empty());
+        let found = ok(&args.into_iter().chain(more).collect::<Vec<_>>());
+        let found: serde_json::Value = serde_json::from_str(&found).unwrap();
+        found["admissible"].as_str().unwrap().to_owned()
+    };
+    assert_eq!(
+        (counts("").as_str(), counts("--one-per-orbit").as_str()),
+        (row[1], row[2])
+    );
+    let shown = ok(&["catalog", "show", &db, row[0]]);
+    assert!(shown.contains("up to half-turn images"), "{shown}");
+    // A file that groups wrong joints is told so, and one that groups them wrongly.
+    let text = std::fs::read_to_string(&file).unwrap();
+    let begin = text.find("turn = [").unwrap();
+    let end = begin + text[begin..].find("\n\n").unwrap();
+    let names: Vec<&str> = text[begin..end].split('"').skip(1).step_by(2).collect();
+    let with = |turn: &str| {
+        let wrong = at(&folder, "wrong.toml");
+        std::fs::write(&wrong, format!("{}{turn}{}", &text[..begin], &text[end..])).unwrap();
+        let o = crate::common::run(&["search", &wrong, "--one-per-orbit"]);
+        (o.status.code(), crate::common::text(&o.stderr))
+    };
+    let (code, told) = with(&format!("turn = [[\"{}\", \"{}\"]]", names[0], names[2]));
+    assert_eq!(code, Some(2), "{told}");
+    assert!(told.contains("image"), "{told}");
+    let (code, told) = with(&format!("turn = [[\"{}\"]]", names[0]));
+    assert!(
+        code == Some(2) && told.contains("write pairs for half a turn"),
+        "{told}"
+    );
+    let (code, told) = with(&format!(
+        "turn = [[\"{0}\", \"{1}\"]]\nmirror = [[\"{2}\", \"{3}\"]]",
+        names[0], names[1], names[2], names[3]
+    ));
+    assert!(
+        code == Some(2) && told.contains("keep one of them"),
+        "{told}"
+    );
+}

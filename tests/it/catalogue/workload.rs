@@ -1,0 +1,199 @@
+//! The workload of a catalogue: what the drive must do for it, by hand and by virtual work.
+
+use super::command::{at, ok};
+use super::{each, form, moved_points};
+use crate::common::{json, run, text};
+use ozols::catalog::spec::Spec;
+use ozols::chains::layout_symmetry::{Input, Symmetry};
+use ozols::file::write;
+use ozols::geom::vector::real;
+use ozols::model::mechanism::Mechanism;
+use ozols::synthesis::layout::layout;
+use ozols::synthesis::looks::Limits;
+use ozols::synthesis::mechanism::mechanism_file;
+use ozols::synthesis::workload::Workload;
+use tempfile::tempdir;
+
+/// What the drive of a file bears, in N or N·m, by the equilibrium of all links.
+fn effort(file: &str) -> f64 {
+    let found = json(&["statics", file, "--format", "json"]);
+    let reactions = found["positions"][0]["reactions"].as_array().unwrap();
+    let mut efforts = reactions.iter().filter_map(|r| r["effort"].as_f64());
+    let effort = efforts.next().unwrap();
+    assert!(efforts.next().is_none());
+    effort
+}
+
+const SPEC: &str = r#"
+links = "6"
+inputs = ["slide"]
+symmetries = ["mirror"]
+parallel = "without"
+ideas = 2
+[workload]
+closing = 250
+part = 0
+"#;
+
+/// Two jaws hinged in the frame, each pushed by a rod from the slider: moments about the hinge and the slider's balance,
+/// with the lever arms read off the file.
+#[test]
+fn the_force_ratio_is_that_of_the_lever_arms() {
+    let folder = tempdir().unwrap();
+    let (spec, db, file) = (
+        at(&folder, "spec.toml"),
+        at(&folder, "g.db"),
+        at(&folder, "m.toml"),
+    );
+    std::fs::write(&spec, SPEC).unwrap();
+    ok(&["catalog", "build", "--spec", &spec, "--quiet", "-o", &db]);
+    ok(&[
+        "catalog",
+        "export",
+        &db,
+        "E`hW 4-5 0,2 slide mirror",
+        "-o",
+        &file,
+    ]);
+    let m = Mechanism::from_file(&file).unwrap();
+    let pin = |name: &str| {
+        let [x, y, _] = real(&m.joints[m.joint(name).unwrap()].frame.point);
+        [x, y]
+    };
+    let [hinge, rod, far] = ["jaw-a.frame", "jaw-a.link-1", "link-1.slider"].map(pin);
+    let push = m.loads.forces.iter().find(|f| real(&f.force)[1] > 0.0);
+    let [tip, force] = push.map(|f| [real(&f.point), real(&f.force)]).unwrap();
+    assert_eq!((force, m.loads.forces.len()), ([0.0, 250.0, 0.0], 2));
+    // Along the rod from the jaw, as a multiple of its length: moments about the hinge vanish.
+    let along = [far[0] - rod[0], far[1] - rod[1]];
+    let lever = (rod[0] - hinge[0]) * along[1] - (rod[1] - hinge[1]) * along[0];
+    let pull = -(tip[0] - hinge[0]) * 250.0 / lever;
+    let drive = 2.0 * pull * along[0];
+    let found = effort(&file);
+    assert!(
+        (found.abs() - drive.abs()).abs() < 1e-9 * drive.abs(),
+        "{found} {drive}"
+    );
+    // The file keeps what it was made for, and another workload is another catalogue.
+    let sql = "SELECT value FROM meta WHERE key = 'spec'";
+    assert!(ok(&["catalog", "query", &db, sql]).contains("closing = 250"));
+    std::fs::write(&spec, SPEC.replace("250", "251")).unwrap();
+    let again = run(&["catalog", "build", "--spec", &spec, "-o", &db]);
+    assert_eq!(again.status.code(), Some(2));
+    assert!(text(&again.stderr).contains("closing"));
+}
+
+/// Reactions are in proportion to a workload of one force.
+#[test]
+fn peaks_grow_with_the_closing_force() {
+    let folder = tempdir().unwrap();
+    let spec = at(&folder, "spec.toml");
+    let peaks = |closing: &str| -> Vec<f64> {
+        std::fs::write(&spec, SPEC.replace("250", closing)).unwrap();
+        let db = at(&folder, &format!("{closing}.db"));
+        ok(&["catalog", "build", "--spec", &spec, "--quiet", "-o", &db]);
+        let sql = "SELECT peak_force FROM ideas ORDER BY structure, place";
+        let rows = json(&["catalog", "query", &db, sql, "--format", "json"]);
+        let rows = rows.as_array().unwrap().iter();
+        rows.map(|r| r["peak_force"].as_f64().unwrap()).collect()
+    };
+    let (one, three) = (peaks("100"), peaks("300"));
+    assert!(!one.is_empty() && one.iter().all(|p| *p > 0.0));
+    for (a, b) in one.iter().zip(&three) {
+        assert!((b - 3.0 * a).abs() < 1e-3 * b, "{a} {b}");
+    }
+}
+
+/// What all forces and weights do in a small motion of the drive, the drive does: places by solving all pins afresh, masses
+/// as rods from the middle of a link's points.
+#[test]
+fn the_drive_does_the_work_of_part_and_links() {
+    let workload = Workload {
+        closing: 40.0,
+        part: 0.7,
+        gravity: [3.0, -9.81, -1.0],
+        link_mass: 2.5,
+    };
+    let folder = tempdir().unwrap();
+    let forms = [
+        form(Input::Slide, Symmetry::Generic, false),
+        form(Input::Turn, Symmetry::Generic, false),
+    ];
+    let (mut n, mut tried) = (0, 0);
+    each(6, &forms, |subject, s| {
+        n += 1;
+        if n % 11 != 0 {
+            return;
+        }
+        let l = layout(subject, &s, &Limits::default(), 1).unwrap();
+        let file = mechanism_file(&s, &l, &Spec::default().menu().unwrap(), &workload);
+        let path = at(&folder, &format!("{n}.toml"));
+        std::fs::write(&path, write::toml(&file, &[]).unwrap()).unwrap();
+        // Points that forces act at, with the force in the plane.
+        let mut acting: Vec<(usize, [f64; 2], [f64; 2])> = Vec::new();
+        for link in (0..s.chain.links()).filter(|&k| k != s.roles.frame) {
+            let jaw = s.roles.jaws.iter().position(|&j| j == link);
+            let pins = l.pins.iter().zip(&l.at);
+            let mut points: Vec<[f64; 2]> = pins
+                .filter(|((u, v), _)| *u == link || *v == link)
+                .map(|(_, p)| p.real())
+                .collect();
+            if let Some(jaw) = jaw {
+                let tip = l.tips[jaw].real();
+                let away = tip[1].signum() * 40.0;
+                acting.push((link, tip, [0.35 * 3.0, away - 0.35 * 9.81]));
+                points.push(tip);
+            }
+            let count = points.len() as f64;
+            let middle = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / count);
+            for p in points {
+                let rod = (p[0] - middle[0]).hypot(p[1] - middle[1]);
+                let mass = 2.5 * rod / 1000.0;
+                let half = [0, 1].map(|k| (p[k] + middle[k]) / 2.0);
+                acting.push((link, half, [3.0 * mass, -9.81 * mass]));
+            }
+        }
+        let slides = s.form.input == Input::Slide;
+        let step = if slides { 1e-4 } else { 2e-6 };
+        let at: Vec<_> = acting.iter().map(|&(link, p, _)| (link, p)).collect();
+        let [ahead, back] = [step, -step].map(|q| moved_points(&s, &l, q, &at));
+        let work: f64 = acting
+            .iter()
+            .zip(ahead.iter().zip(&back))
+            .map(|((_, _, f), (a, b))| f[0] * (a[0] - b[0]) + f[1] * (a[1] - b[1]))
+            .sum();
+        // N, or N·m for N·mm.
+        let asked = work / (2.0 * step) / if slides { 1.0 } else { 1000.0 };
+        let found = effort(&path);
+        tried += 1;
+        assert!(
+            (found + asked).abs() < 1e-4 * asked.abs().max(1.0),
+            "{}: {found} {asked}",
+            s.name()
+        );
+    });
+    assert!(tried > 5, "{tried}");
+}
+
+#[test]
+fn workloads_that_are_none_are_refused() {
+    let folder = tempdir().unwrap();
+    let spec = at(&folder, "workload.toml");
+    for (text_of, says) in [
+        ("closing = -1", "workload.toml:3: closing must be from 0"),
+        ("closing = 0\npart = 0", "nothing acts on the gripper"),
+        (
+            "part = 1\ngravity = [0, 2000, 0]",
+            "workload.toml:4: gravity",
+        ),
+        ("gravity = [0, 1]", "line 3"),
+        ("weight = 1", "weight"),
+    ] {
+        std::fs::write(&spec, format!("links = \"4\"\n[workload]\n{text_of}\n")).unwrap();
+        let db = at(&folder, "none.db");
+        let o = run(&["catalog", "build", "--spec", &spec, "-o", &db]);
+        let told = text(&o.stderr);
+        assert_eq!(o.status.code(), Some(2), "{told}");
+        assert!(told.contains(says), "{told}");
+    }
+}
