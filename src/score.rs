@@ -38,6 +38,7 @@ pub mod pareto;
 pub mod prepared;
 pub mod ranking;
 pub mod request;
+mod request_error;
 pub mod run;
 pub mod slow;
 pub mod spectrum;

@@ -1,16 +1,13 @@
 //! What is asked of a search, in the words of a file or a command line: everything that decides the list of variants, and
 //! how its answer is checked.
 
-use crate::file::problem::ImportError;
-use crate::geom::exact::ExactError;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::model::ranking::{Ranking, Term};
-use crate::rank::method::NoAnswer;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::settled::settle;
-use crate::score::prepared::{CURE, LooksRounded, Prepared, tell_moved};
+use crate::score::prepared::{LooksRounded, Prepared, tell_moved};
+pub use crate::score::request_error::RequestError;
 use crate::search::conditions::{Conditions, InState, Symmetry};
-use thiserror::Error;
 
 /// How many of the cheapest variants a ranking scores at most, unless told otherwise: it ends before where the best are
 /// proven. At about ten microseconds each these take a fifth of a second.
@@ -191,134 +188,6 @@ impl Default for Request {
     }
 }
 
-/// What is wrong with a request about a mechanism.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum RequestError {
-    /// A tolerance that is none.
-    #[error("--snap must be between 0 and 1")]
-    Snap,
-    /// A pool that is none, or too large.
-    #[error("--pool must be from 1 to {LARGEST_POOL}")]
-    Pool,
-    /// No such link.
-    #[error("--hold: {mechanism} has no link {link}")]
-    NoLink {
-        /// Name of the mechanism.
-        mechanism: String,
-        /// The link asked for.
-        link: String,
-    },
-    /// No such joint.
-    #[error("{flag}: {mechanism} has no joint {joint}")]
-    NoJoint {
-        /// Which part of the request.
-        flag: &'static str,
-        /// Name of the mechanism.
-        mechanism: String,
-        /// The joint asked for.
-        joint: String,
-    },
-    /// No such option.
-    #[error("{flag}: no joint of {mechanism} has an option named {option}, and no joint type is named so; there are: {}", known.join(", "))]
-    NoOption {
-        /// Which part of the request.
-        flag: &'static str,
-        /// Name of the mechanism.
-        mechanism: String,
-        /// The option asked for.
-        option: String,
-        /// The options that there are.
-        known: Vec<String>,
-    },
-    /// A type that no joint can take.
-    #[error(
-        "{flag}: {option} does not allow the present motion of a joint of {mechanism} that it is meant for; name another type, or joints that it suits"
-    )]
-    LosesMotion {
-        /// Which part of the request.
-        flag: &'static str,
-        /// Name of the mechanism.
-        mechanism: String,
-        /// The type.
-        option: String,
-    },
-    /// A joint to which nothing is allowed.
-    #[error("--allow needs names of options: --allow {joint}=revolute,spherical")]
-    NoNames {
-        /// The joint.
-        joint: String,
-    },
-    /// A type that cannot be put in series.
-    #[error(
-        "--unloading: {word} is no joint type to put in series at {joint}; there are: {}", known.join(", ")
-    )]
-    NoUnloading {
-        /// The joint.
-        joint: String,
-        /// The word given.
-        word: String,
-        /// What there is.
-        known: Vec<String>,
-    },
-    /// Unloading joints for a state that is not searched.
-    #[error(
-        "--unloading {names} is meant for the joints that a state adds; search one with --state, or name joints: --unloading {names}=JOINT"
-    )]
-    NoPlace {
-        /// The names given.
-        names: String,
-    },
-    /// A joint or link that takes no part.
-    #[error("{flag}: {item} of {mechanism} takes no part in this search, it is there in state {} alone; add --state {}", states.join(", "), states[0])]
-    Absent {
-        /// Which part of the request.
-        flag: &'static str,
-        /// Name of the mechanism.
-        mechanism: String,
-        /// The joint or link, such as "link a".
-        item: String,
-        /// The states it is in.
-        states: Vec<String>,
-    },
-    /// Ranking by what only a state shows.
-    #[error(
-        "ranking by harmful constraints needs the state that they are in; add --state, such as --state {state}"
-    )]
-    HarmfulWhere {
-        /// A state that there is.
-        state: String,
-    },
-    /// No state to take joints from.
-    #[error("{mechanism} has no state besides free")]
-    OnlyFree {
-        /// Name of the mechanism.
-        mechanism: String,
-    },
-    /// No such state.
-    #[error("{mechanism} has no state {state}; it has: {}", known.join(", "))]
-    NoState {
-        /// Name of the mechanism.
-        mechanism: String,
-        /// The state asked for.
-        state: String,
-        /// The states that there are.
-        known: Vec<String>,
-    },
-    /// A file of costs that cannot be used.
-    #[error("{0}")]
-    Costs(#[from] ImportError),
-    /// Coordinates that are rounded, where that changes the figures.
-    #[error("{0}; {CURE}, or search the file --as-written")]
-    Rounded(String),
-    /// The geometry has no image in a prime field.
-    #[error(transparent)]
-    Exact(#[from] ExactError),
-    /// Whether rounding matters could not be found.
-    #[error(transparent)]
-    Verdict(#[from] NoAnswer),
-}
-
 impl Request {
     /// Makes a mechanism ready. `tell` hears what was moved.
     ///
@@ -463,7 +332,7 @@ impl Request {
             });
         }
         if ranking.is_some() && !(1..=LARGEST_POOL).contains(&self.pool) {
-            return Err(RequestError::Pool);
+            return Err(RequestError::Pool { most: LARGEST_POOL });
         }
         Ok(ranking)
     }

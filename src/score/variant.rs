@@ -254,6 +254,8 @@ fn offer_again(search: &Search, assignment: &Assignment, out: &mut Mechanism) {
     spec.costs.by_type_milli.retain(|(name, _)| offered(name));
     let images = |&(a, b): &(JointId, JointId)| chosen[a.index()] == chosen[b.index()];
     spec.mirror.retain(images);
+    spec.turn
+        .retain(|g| g.iter().map(|j| chosen[j.index()]).all_equal());
     out.joint_types
         .retain(|t| t.name == "custom" || offered(&t.name));
     out.search = spec;

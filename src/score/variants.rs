@@ -25,8 +25,11 @@ impl Request {
             Some(_) => self.pool.saturating_add(1),
             None => self.listed(top),
         };
-        // Of a variant and its mirror image one is dropped.
-        let images = usize::from(self.symmetry == Symmetry::OnePerOrbit) + 1;
+        // Of a variant and its images one is kept.
+        let images = match self.symmetry {
+            Symmetry::OnePerOrbit => mechanism.search.order(),
+            Symmetry::All | Symmetry::SymmetricOnly => 1,
+        };
         Ok(looked.saturating_mul(images))
     }
 

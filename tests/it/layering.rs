@@ -86,6 +86,21 @@ fn no_module_imports_upward_or_sideways() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
+/// What a person reads at one sitting.
+const LINES: usize = 450;
+
+#[test]
+fn no_file_is_longer_than_a_sitting() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = Vec::new();
+    for folder in ["src", "src/dense", "src/python", "tests/it", "benches"] {
+        sources(&root.join(folder), &mut files);
+    }
+    let lines = |f: &PathBuf| fs::read_to_string(f).unwrap().lines().count();
+    files.retain(|f| lines(f) > LINES);
+    assert!(files.is_empty(), "over {LINES} lines: {files:#?}");
+}
+
 /// Files that list others which use them in turn: a registry, or a command and its parts.
 const REGISTRIES: [&str; 5] = [
     "accuracy/stability",

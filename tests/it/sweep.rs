@@ -2,6 +2,7 @@
 //! was made; what is wrong is said.
 
 mod command;
+mod table;
 mod wrong;
 
 use ozols::Mechanism;
@@ -13,9 +14,8 @@ use ozols::shard::Shard;
 use ozols::statics::solve::{Answer, Model, solve};
 use ozols::sweep::row::Row;
 use ozols::sweep::space::Sampling;
-use ozols::sweep::table::{Table, Watch, make, merge, read};
+use ozols::sweep::table::{Table, Watch, make};
 use ozols::sweep::{Asked, Spec, Sweep};
-use std::fs;
 use std::path::Path;
 
 /// A slider-crank in its plane, with a load: the crank's pin at (x, y), the piston where a rod of (96, -y) has it.
@@ -98,20 +98,18 @@ pub(crate) fn sweep(text: &str, sampling: Sampling, asked: Asked) -> Sweep {
     .unwrap()
 }
 
-/// Ends after so many calls.
-struct Ends(usize);
+/// Works to the end.
+struct Works;
 
-impl Watch for Ends {
-    fn done(&mut self, _: usize, _: usize) {
-        self.0 = self.0.saturating_sub(1);
-    }
+impl Watch for Works {
+    fn done(&mut self, _: usize, _: usize) {}
     fn ended(&self) -> bool {
-        self.0 == 0
+        false
     }
 }
 
 fn all(sweep: &Sweep, path: Option<&Path>) -> Table {
-    make(sweep, Shard::WHOLE, path, &mut Ends(usize::MAX)).unwrap()
+    make(sweep, Shard::WHOLE, path, &mut Works).unwrap()
 }
 
 /// The file with the numbers of a sample written in: no table of parameters, and in strings no names.
@@ -305,94 +303,6 @@ fn a_special_geometry_is_found_exactly_where_an_expression_makes_it() {
     let table = all(&sweep(&text, Sampling::Grid { points: 2 }, written), None);
     let special = table.rows.iter().filter(|r| r.states[0].redundant == 7);
     assert!(special.clone().count() == 2 && special.clone().all(|r| r.exact.contains_key("a")));
-}
-
-#[test]
-fn a_table_has_the_same_bytes_however_it_was_made() {
-    let folder = tempfile::tempdir().unwrap();
-    let at = |name: &str| folder.path().join(name);
-    let asked = Asked {
-        search: Some(Request::default()),
-        ..asked()
-    };
-    let sweep = sweep(&three_rods(), Sampling::Grid { points: 4 }, asked);
-    let whole = at("whole.jsonl");
-    let table = all(&sweep, Some(&whole));
-    let bytes = fs::read(&whole).unwrap();
-    assert_eq!(
-        (table.added, table.rows.len(), table.finished),
-        (16, 16, true)
-    );
-
-    let threads = rayon_of(1);
-    threads.install(|| all(&sweep, Some(&at("one.jsonl"))));
-    assert!(
-        fs::read(at("one.jsonl")).unwrap() == bytes,
-        "with one thread"
-    );
-
-    // A second run does nothing.
-    let before = fs::metadata(&whole).unwrap().modified().unwrap();
-    assert_eq!(all(&sweep, Some(&whole)).added, 0);
-    assert_eq!(fs::metadata(&whole).unwrap().modified().unwrap(), before);
-
-    // Ended at any byte, it is carried on.
-    for part in [0, 1, 100, bytes.len() / 3, bytes.len() / 2, bytes.len() - 1] {
-        fs::write(at("torn.jsonl"), &bytes[..part]).unwrap();
-        all(&sweep, Some(&at("torn.jsonl")));
-        assert!(
-            fs::read(at("torn.jsonl")).unwrap() == bytes,
-            "after {part} bytes"
-        );
-    }
-    // And so it is where it was told to end.
-    let path = at("ended.jsonl");
-    let table =
-        rayon_of(1).install(|| make(&sweep, Shard::WHOLE, Some(&path), &mut Ends(2)).unwrap());
-    assert_eq!((table.rows.len(), table.finished), (8, false));
-    assert!(read(&path).is_err());
-    assert_eq!(all(&sweep, Some(&path)).added, 8);
-    assert!(fs::read(&path).unwrap() == bytes);
-
-    let parts: Vec<_> = (1..=3).map(|i| at(&format!("{i}.jsonl"))).collect();
-    for (i, path) in (1..).zip(&parts) {
-        let part = make(
-            &sweep,
-            Shard::nth(i, 3).unwrap(),
-            Some(path),
-            &mut Ends(usize::MAX),
-        )
-        .unwrap();
-        assert!(part.finished && part.rows.len() < 16);
-    }
-    let reversed: Vec<_> = parts.iter().rev().cloned().collect();
-    let merged = merge(&reversed, &at("merged.jsonl")).unwrap();
-    assert!(
-        fs::read(at("merged.jsonl")).unwrap() == bytes,
-        "in three parts"
-    );
-    assert_eq!(merged.digest, table_digest(&whole));
-    let names: Vec<_> = fs::read_dir(folder.path())
-        .unwrap()
-        .map(|e| e.unwrap().file_name())
-        .collect();
-    assert!(
-        names
-            .iter()
-            .all(|n| n.to_string_lossy().ends_with(".jsonl")),
-        "{names:?}"
-    );
-}
-
-fn table_digest(path: &Path) -> ozols::shard::Digest {
-    read(path).unwrap().digest
-}
-
-fn rayon_of(threads: usize) -> rayon::ThreadPool {
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .unwrap()
 }
 
 #[test]

@@ -100,3 +100,37 @@ fn texts_of_robots_fit() {
         }
     }
 }
+
+/// What every command says fits 80 to 200 columns, but for what is to be copied: commands, and lines of a file.
+#[test]
+fn texts_fit_the_width_there_is() {
+    for args in [
+        &["analyze", "gripper-10"][..],
+        &["search", "gripper-10", "--top", "5"],
+        &["list"],
+        &["check", "gripper-10"],
+        &["explain", "universal"],
+        &["explain", "sphere-in-cylinder"],
+        &["explain", "class"],
+        &["show", "costs"],
+        &["statics", "four-bar"],
+        &["grip", "lever-gripper"],
+        &["drive", "torsion-module"],
+        &["catalog", "count"],
+    ] {
+        for width in [80, 120, 200] {
+            let o = ozols(args)
+                .env("OZOLS_WIDTH", width.to_string())
+                .output()
+                .unwrap();
+            let said = String::from_utf8(o.stdout).unwrap();
+            assert!(said.len() > 20, "{args:?}");
+            let copied = |l: &&str| l.trim_start().starts_with("ozols ");
+            let wide = said
+                .lines()
+                .filter(|l| !copied(l))
+                .find(|l| l.chars().count() > width);
+            assert_eq!(wide, None, "{args:?}");
+        }
+    }
+}

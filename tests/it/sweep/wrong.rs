@@ -240,12 +240,7 @@ fn a_table_of_something_else_stays_as_it_is() {
     let grid = |points| sweep(LOADED, Sampling::Grid { points }, asked());
     let tried = |points| {
         let before = fs::read(&path).unwrap();
-        let why = make(
-            &grid(points),
-            Shard::WHOLE,
-            Some(&path),
-            &mut super::Ends(usize::MAX),
-        );
+        let why = make(&grid(points), Shard::WHOLE, Some(&path), &mut super::Works);
         assert_eq!(fs::read(&path).unwrap(), before);
         why.unwrap_err().to_string()
     };
@@ -277,7 +272,7 @@ fn parts_that_do_not_make_the_whole_are_refused() {
             &swept,
             Shard::nth(index, of).unwrap(),
             Some(&at(name)),
-            &mut super::Ends(usize::MAX),
+            &mut super::Works,
         )
         .unwrap();
         at(name)
