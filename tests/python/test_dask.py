@@ -12,6 +12,7 @@ import pytest
 from conftest import ozols as command
 
 import ozols
+from ozols import _parts
 
 distributed = pytest.importorskip("distributed")
 
@@ -78,6 +79,18 @@ def test_rows_survive_the_death_of_a_worker(cluster, alone, in_tmp):
     assert not parts.exists()
 
 
+def test_an_error_of_a_task_is_not_taken_for_a_lost_scheduler(cluster, in_tmp):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    began = time.monotonic()
+    with distributed.Client(cluster) as client, pytest.raises(OSError, match="No space left"):
+        _parts.build(
+            client, full, None, what="test", name="full", out=in_tmp / "x.db", merge=None, shards=2, threads=1, progress=None
+        )
+    assert time.monotonic() < began + _parts.RESTART / 2
+
+
 def test_what_is_finished_is_not_made_again(cluster, alone, in_tmp, monkeypatch):
     parts = in_tmp / "all.db.parts"
 
@@ -141,7 +154,7 @@ def started(what, *words):
     return subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
-def test_rows_survive_the_death_of_the_scheduler_and_of_a_worker(alone, in_tmp):
+def test_rows_survive_the_death_of_the_scheduler_and_of_a_worker(alone, in_tmp, monkeypatch):
     port = str(free_port())
     address = f"tcp://127.0.0.1:{port}"
     there = []
@@ -178,14 +191,23 @@ def test_rows_survive_the_death_of_the_scheduler_and_of_a_worker(alone, in_tmp):
             client.wait_for_workers(3, timeout=60)
             killer = threading.Thread(target=kill, args=(first, workers))
             killer.start()
-            seen = {}
+            seen, refused, wait = {}, [], client.wait_for_workers
 
             def look(*_):
                 seen.update({p.name: p.stat().st_mtime_ns for p in parts.glob("*.db") if p.exists()})
 
+            def cut_at_first(*args, **named):
+                # A scheduler that comes up may cut the first connections.
+                if len(refused) < 2:
+                    refused.append(args)
+                    raise distributed.CommClosedError("Connection reset by peer")
+                return wait(*args, **named)
+
+            monkeypatch.setattr(client, "wait_for_workers", cut_at_first)
             with ozols.catalog.build(SPEC, out="all.db", client=client, shards=SHARDS, progress=look) as made:
                 assert made.digest() == alone
             killer.join()
+            assert len(refused) == 2
             # What was finished before was not made again.
             assert len(restarted[0]) >= 4
             assert {name: seen[name] for name in restarted[0]} == restarted[0]

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
+import math
 import os
 import shutil
 import socket
+import time
 import uuid
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -62,40 +65,26 @@ def build(
 
     ``name`` tells works of one kind apart, as a hash of all that decides their rows.
     """
-    from concurrent.futures import CancelledError
-
-    from distributed import as_completed
-
     folder = out.with_name(out.name + ".parts").resolve()
     folder.mkdir(parents=True, exist_ok=True)
     name = hashlib.sha256(name.encode()).hexdigest()[:8]
     paths = {i: os.fspath(folder / f"{name}-{i}-of-{shards}{out.suffix}") for i in range(1, shards + 1)}
+    tasks = {
+        f"ozols-{what}-part-{name}-{i}-of-{shards}": (make, asked, path, (i, shards), threads) for i, path in paths.items()
+    }
 
-    def attempt() -> list[tuple[str, dict[str, int], str]]:
-        tasks = [
-            client.submit(part, make, asked, path, (i, shards), threads, key=f"ozols-{what}-part-{name}-{i}-of-{shards}")
-            for i, path in paths.items()
-        ]
-        try:
-            for done, task in enumerate(as_completed(tasks), 1):
-                task.result()
-                if progress is not None:
-                    progress(done, shards)
-            parts: list[tuple[str, dict[str, int], str]] = client.gather(tasks)
-            return parts
-        finally:
-            client.cancel(tasks)
-
+    lost_at, finished = 0.0, -1
     while True:
-        scheduler = client.scheduler_info()["id"]
         try:
-            parts = attempt()
+            parts = _attempt(client, tasks, progress)
             break
-        except (CancelledError, OSError):
-            # Another scheduler in the place of the one that had the tasks knows nothing of them.
-            client.wait_for_workers(1, timeout=RESTART)
-            if client.scheduler_info()["id"] == scheduler:
-                raise
+        except _Lost as lost:
+            done = sum(Path(path).with_suffix(".json").exists() for path in paths.values())
+            if done > finished:
+                lost_at, finished = time.monotonic(), done
+            elif time.monotonic() > lost_at + RESTART:
+                raise lost.__cause__ or lost from None
+            _wait_for_a_worker(client, lost_at + RESTART)
     whole = folder / "whole.tmp"
     whole.unlink(missing_ok=True)
     made = merge(whole, [Path(path) for path, *_ in parts])
@@ -104,6 +93,49 @@ def build(
     os.replace(whole, out)
     # A worker that was given up may still be at a part.
     shutil.rmtree(folder, ignore_errors=True)
+
+
+class _Lost(Exception):
+    """The scheduler that had the tasks is gone, or knows nothing of them; the cause says how that was noticed."""
+
+
+def _attempt(
+    client: distributed.Client, tasks: Mapping[str, tuple[Any, ...]], progress: Callable[[int, int], object] | None
+) -> list[tuple[str, dict[str, int], str]]:
+    """The tasks once; errors of their own are raised as they are."""
+    from concurrent.futures import CancelledError
+
+    from distributed import as_completed
+
+    futures: list[Any] = []
+    try:
+        futures.extend(client.submit(part, *arguments, key=key) for key, arguments in tasks.items())
+        for done, task in enumerate(as_completed(futures), 1):
+            task.result()
+            if progress is not None:
+                progress(done, len(futures))
+        parts: list[tuple[str, dict[str, int], str]] = client.gather(futures)
+        return parts
+    except (CancelledError, OSError) as error:
+        if any(task.status == "error" for task in futures):
+            raise
+        raise _Lost from error
+    finally:
+        with contextlib.suppress(OSError):
+            client.cancel(futures)
+
+
+def _wait_for_a_worker(client: distributed.Client, until: float) -> None:
+    """Returns when the scheduler answers and has a worker; it may refuse, or cut connections, while it comes up."""
+    while True:
+        # Not at once again, either, where the client has yet to notice that its tasks are gone.
+        time.sleep(0.1)
+        try:
+            client.wait_for_workers(1, timeout=max(1, math.ceil(until - time.monotonic())))
+            return
+        except OSError:
+            if time.monotonic() > until:
+                raise
 
 
 def shared_out(client: distributed.Client, pieces: int) -> int:
