@@ -49,4 +49,5 @@ pub mod tally;
 mod transition;
 mod trial;
 mod two_sided;
+mod ways;
 pub mod written_out;

@@ -5,6 +5,7 @@
 
 use crate::search::diagram::{DEAD, Diagram};
 use crate::search::tally::{Count, Key, Steps, Tally};
+use crate::search::ways::{Span, Ways};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigUint;
@@ -23,8 +24,9 @@ pub struct Assignment {
 /// The variants whose key passes a test, cheapest first, then in an order of keys, then by choices in diagram order.
 ///
 /// # Complexity
-/// Some passes over the part of the diagram that variants of that cost use, then O(variables · choices) table look-ups
-/// a variant; memory is the tables, however many are asked for.
+/// Some passes over the part of the diagram that variants of that cost use, then O(variables) a variant, and less where many
+/// begin alike: what leads on from a node with some of a key left is looked up in the tables once. Memory is the tables and as
+/// much again, however many are asked for.
 pub struct Cheapest<'d, C> {
     diagram: &'d Diagram,
     steps: &'d Steps,
@@ -33,16 +35,26 @@ pub struct Cheapest<'d, C> {
     keys: std::vec::IntoIter<Key>,
     /// The key whose variants are being given.
     key: Key,
-    /// The way down the diagram: by layer the node, what is left of the key there, and the choice to try next.
-    path: Vec<(usize, Key, usize)>,
+    /// The way down the diagram, a place a layer.
+    path: Vec<Place>,
     choices: Vec<usize>,
     /// How many may still be given.
     left: usize,
+    ways: Ways,
     enter: Enter<'d>,
 }
 
 /// Told layer, node, what is left of the key there and the choices so far; says whether to look at what follows.
 pub type Enter<'d> = Box<dyn FnMut(usize, usize, Key, &[usize]) -> bool + 'd>;
+
+/// A node on the way down, what is left of the key there, its steps, and which of them is the next.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    node: u32,
+    rest: Key,
+    steps: Span,
+    next: u32,
+}
 
 impl<C: Count> fmt::Debug for Cheapest<'_, C> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -77,7 +89,30 @@ impl<'d, C: Count> Cheapest<'d, C> {
             path: Vec::new(),
             choices: vec![0; steps.keys.len()],
             left: top,
+            ways: Ways::within(bytes),
             enter,
+        }
+    }
+
+    fn steps_from(&mut self, layer: usize, node: u32, rest: Key) -> Span {
+        let (diagram, tally) = (self.diagram, &self.tally);
+        self.ways
+            .from(diagram, self.steps, tally, (layer, node, rest))
+    }
+
+    /// Forgets steps where they are too many, but for those on the way.
+    fn make_room(&mut self) {
+        if !self.ways.is_full() {
+            return;
+        }
+        self.ways.clear();
+        for layer in 0..self.path.len() {
+            let Place {
+                node, rest, steps, ..
+            } = self.path[layer];
+            let anew = self.steps_from(layer, node, rest);
+            let place = &mut self.path[layer];
+            (place.steps, place.next) = (anew, anew.0 + (place.next - steps.0));
         }
     }
 }
@@ -89,42 +124,61 @@ impl<C: Count> Iterator for Cheapest<'_, C> {
         if self.left == 0 {
             return None;
         }
+        let last = self.diagram.layers.len();
         loop {
             let depth = self.path.len();
-            let Some((node, rest, choice)) = self.path.last_mut() else {
+            let Some(place) = self.path.last_mut() else {
                 self.key = self.keys.next()?;
-                self.path.push((0, self.key, 0));
-                continue;
-            };
-            let Some(here) = self.diagram.layers.get(depth - 1) else {
-                self.path.pop();
-                self.left -= 1;
-                return Some(Assignment {
-                    choices: self.choices.clone(),
-                    key: self.key,
-                });
-            };
-            if *choice == here.choices {
-                self.path.pop();
-                continue;
-            }
-            let (tried, to) = (*choice, here.edges[*node * here.choices + *choice]);
-            *choice += 1;
-            let step = self.steps.keys[here.variable][tried];
-            let Some(rest) = rest.0.checked_sub(step.0).map(Key) else {
-                continue;
-            };
-            let leads = |to: u32| {
-                let table = &self.tally.tables[depth][to as usize];
-                table.binary_search_by_key(&rest, |(k, _)| *k).is_ok()
-            };
-            if to != DEAD && leads(to) {
-                self.choices[here.variable] = tried;
-                if (self.enter)(depth, to as usize, rest, &self.choices) {
-                    self.path.push((to as usize, rest, 0));
+                if last == 0 {
+                    return self.found();
                 }
+                let (node, rest) = (0, self.key);
+                let steps = self.steps_from(0, node, rest);
+                self.path.push(Place {
+                    node,
+                    rest,
+                    steps,
+                    next: steps.0,
+                });
+                continue;
+            };
+            if place.next == place.steps.1 {
+                self.path.pop();
+                continue;
             }
+            let at = place.next as usize;
+            place.next += 1;
+            let step = self.ways.steps[at];
+            self.choices[self.diagram.layers[depth - 1].variable] = step.choice as usize;
+            if !(self.enter)(depth, step.node as usize, step.rest, &self.choices) {
+                continue;
+            }
+            if depth == last {
+                return self.found();
+            }
+            let steps = step.then.unwrap_or_else(|| {
+                let then = self.steps_from(depth, step.node, step.rest);
+                self.ways.steps[at].then = Some(then);
+                then
+            });
+            self.path.push(Place {
+                node: step.node,
+                rest: step.rest,
+                steps,
+                next: steps.0,
+            });
+            self.make_room();
         }
+    }
+}
+
+impl<C> Cheapest<'_, C> {
+    fn found(&mut self) -> Option<Assignment> {
+        self.left -= 1;
+        Some(Assignment {
+            choices: self.choices.clone(),
+            key: self.key,
+        })
     }
 }
 
