@@ -12,6 +12,7 @@ pub mod early;
 pub mod grip;
 pub mod idle;
 pub mod layout;
+pub mod least_rows;
 pub mod lint;
 pub mod mechanism;
 pub mod mobility;

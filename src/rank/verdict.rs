@@ -9,6 +9,7 @@ use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::model::rounded::{Rounded, Units, looks_rounded};
 use crate::rank::field::field_of;
+use crate::rank::least_rows::LeastRows;
 use crate::rank::method::NoAnswer;
 use crate::rank::modular;
 use crate::rank::nearest::{Nearest, nearest};
@@ -17,7 +18,6 @@ use crate::rank::rounding::bound;
 use crate::rank::scaled::{NumericRank, scaled};
 use crate::rank::snap::relation::{Moved, Reach};
 use crate::rank::snap::{size, snap};
-use crate::rank::subgroup::whole_group;
 use ozols_dense::singular_values;
 
 /// Singular values below this fraction of the largest are zero in double precision.
@@ -79,7 +79,7 @@ pub struct Verdict {
     pub tolerance: f64,
     /// What is meant.
     pub meant: Meant,
-    /// What is left out of the rows, where joints all move in a group of fewer dimensions.
+    /// What rows of J, as it is written, are enough for its rank; empty where all are taken.
     pub needed: String,
 }
 
@@ -177,22 +177,13 @@ impl Verdict {
     }
 }
 
-/// The exact rank, and what is left out where the joints all move in a group of fewer dimensions.
+/// The exact rank, by the rows that are enough for it.
 fn exact_rank(mechanism: &Mechanism, state: StateId) -> Result<(usize, String), NoAnswer> {
     let exact = field_of(mechanism, state, 0)?;
     let closure = Closure::new(&exact, mechanism, state)?;
-    let group = whole_group(&exact, mechanism, state)?;
-    if closure.contours.is_empty() || closure.dim == group.dimension() {
-        return Ok((modular::rank(&exact, &closure), String::new()));
-    }
-    let left_out = closure.dim - group.dimension();
-    let line = format!(
-        "; all joints move in {}, so {} rows per contour do; left out: {left_out} of {}, redundant whatever the rest",
-        group.name(),
-        group.dimension(),
-        closure.dim
-    );
-    Ok((modular::rank(&exact, &group.rows_of(&closure)), line))
+    let least = LeastRows::new(&exact, mechanism, &closure)?;
+    let words = least.words(mechanism, |c| closure.contours[c].name(mechanism));
+    Ok((least.rank(), words))
 }
 
 /// The exact rank of J of a mechanism that is snapped, by one prime.

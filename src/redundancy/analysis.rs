@@ -11,6 +11,7 @@ use crate::rank::certificate::{self, Budget};
 pub use crate::rank::field::exact_field;
 use crate::rank::field::field_of;
 use crate::rank::finite::{Finite, finite, followed};
+use crate::rank::least_rows::LeastRows;
 use crate::rank::method::{Certainty, MobilityMethod, NoAnswer, RankOfJ};
 use crate::rank::modular;
 pub use crate::rank::numeric::Elimination;
@@ -116,6 +117,8 @@ pub struct StateAnalysis {
     pub redundant: usize,
     /// W by Malyshev's formula, 6(n-1) - Σ constraints (3(n-1) - Σ in a plane) less the couplings: right only where σ = 0.
     pub formula_mobility: i64,
+    /// The rows of J that are enough for its rank; none where singular values say otherwise than exact elimination.
+    pub least_rows: Option<LeastRows>,
     /// Shares of the contours, in the order used.
     pub per_contour: Vec<ContourShare>,
     /// Shares of the couplings, which come after the contours.
@@ -296,6 +299,7 @@ fn numerically(
         redundant: whole.rows - rank,
         working_mobility,
         local_mobility: measured.mobility().saturating_sub(working_mobility),
+        least_rows: None,
         per_contour: measured.shares(),
         per_coupling: measured.coupling_shares(),
         external,
@@ -346,8 +350,10 @@ fn exactly(
     ];
     let exact = &fields[0];
     let closure = Closure::new(exact, mechanism, state)?;
+    // One rank of the rows that are enough, the other of all.
+    let least_rows = LeastRows::new(exact, mechanism, &closure)?;
     let ranks = [
-        modular::rank(exact, &closure),
+        least_rows.rank(),
         modular::rank(&fields[1], &Closure::new(&fields[1], mechanism, state)?),
     ];
     let primes = [exact.field().modulus(), fields[1].field().modulus()];
@@ -397,6 +403,7 @@ fn exactly(
         formula_mobility: int(closure.dim) * (int(links.len()) - 1)
             - constraints
             - int(closure.couplings.len()),
+        least_rows: Some(least_rows),
         per_contour: shares(exact, &closure),
         per_coupling: coupling_shares(exact, mechanism, &closure),
         external: if state == StateId::FREE {

@@ -4,13 +4,10 @@ use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactField;
 use crate::geom::scalars::Scalars;
 use crate::linalg::echelon::{Echelon, combination, relations};
-use crate::linalg::modp::{Field, Residue};
+use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
-use crate::rank::reconstruct::rational;
+use crate::rank::direction::Direction;
 use crate::redundancy::motion::{Speeds, twist};
-use num_bigint::BigInt;
-use num_integer::Integer;
-use num_traits::ToPrimitive;
 
 /// One idle motion.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -23,15 +20,6 @@ pub struct Idle {
     pub turns: bool,
     /// What it turns about or slides along, for a single link and where it has a name.
     pub direction: Option<Direction>,
-}
-
-/// A direction with a name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Direction {
-    /// In whole numbers without a common divisor, the first of them above 0.
-    Numbers([i64; 3]),
-    /// That of a joint's axis.
-    AxisOf(JointId),
 }
 
 /// A basis of the motions that leave the outputs at rest: motions of one link alone first, then what is left.
@@ -163,9 +151,6 @@ fn alone(
         .collect()
 }
 
-/// The largest whole number in a direction's name.
-const SIMPLE: i64 = 100;
-
 /// What a twist turns about, or slides along where it does not turn.
 fn direction(exact: &ExactField, mechanism: &Mechanism, t: &[Residue]) -> Option<Direction> {
     let &[w0, w1, w2, v0, v1, v2] = t else {
@@ -176,33 +161,7 @@ fn direction(exact: &ExactField, mechanism: &Mechanism, t: &[Residue]) -> Option
     } else {
         [w0, w1, w2]
     };
-    simple(exact.field(), of)
-        .map(Direction::Numbers)
-        .or_else(|| {
-            let along = |j: &JointId| {
-                let axis = exact.eval3(&mechanism.joints[*j].frame.axis);
-                axis.is_ok_and(|axis| exact.cross(of, axis) == [0; 3])
-            };
-            mechanism.joint_ids().find(along).map(Direction::AxisOf)
-        })
-}
-
-/// A direction in small whole numbers.
-fn simple(f: Field, of: [Residue; 3]) -> Option<[i64; 3]> {
-    let first = f.inv(of.into_iter().find(|&x| x != 0)?);
-    let modulus = BigInt::from(f.modulus());
-    let ratio = |x: Residue| {
-        let x = BigInt::from(f.to_u64(f.mul(x, first)));
-        let r = rational(&x, &modulus)?;
-        let small = |n: &BigInt| n.to_i64().filter(|n| n.abs() <= SIMPLE);
-        Some((small(r.numer())?, small(r.denom())?))
-    };
-    let [a, b, c] = of.map(ratio);
-    let parts = [a?, b?, c?];
-    let all = parts.iter().fold(1, |l: i64, (_, d)| l.lcm(d));
-    let whole = parts.map(|(n, d)| n * (all / d));
-    let common = whole.iter().fold(0, |g: i64, n| g.gcd(n));
-    Some(whole.map(|n| n / common.max(1)))
+    Direction::of(exact, mechanism, of)
 }
 
 /// Whether a twist leaves a joint's point at rest: v + ω × p = 0.

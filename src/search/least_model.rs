@@ -9,23 +9,17 @@
 //! are redundant in every contour, whatever is chosen.
 //!
 //! What a variant is, its freedoms, W and certificate are those of the whole mechanism.
-//!
-//! # Sources
-//! The two parts: Hunt, "Kinematic Geometry of Mechanisms" (1978), planar and out-of-plane freedoms of planar linkages.
 
-use crate::closure::twist::FrameValues;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::geom::scalars::Scalars;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::Mechanism;
+use crate::rank::plane::{Rows, pivots, planes, seen};
 use crate::search::diagram;
 use crate::search::plan::Plan;
 use crate::search::space::{Choice, Space};
 use crate::search::spent::Limits;
 use crate::search::stage::stages;
-use std::cmp::Reverse;
-use std::collections::BTreeMap;
 
 /// Some rows of the closure equations.
 #[derive(Debug)]
@@ -48,13 +42,6 @@ pub(super) struct LeastModel {
     /// Its two parts, where it falls apart.
     pub(super) parts: Option<[Model; 2]>,
 }
-
-/// A plane in which many joints lie: its normal, with the first number that is not zero made one, and its distance from the
-/// origin along that normal.
-type Plane = ([Residue; 3], Residue);
-
-/// Planes looked at, those of most frames first.
-const PLANES: usize = 8;
 
 impl LeastModel {
     /// The least model of a space; `kept` are motions of links, six numbers each. With `whole_twists`
@@ -90,8 +77,12 @@ impl LeastModel {
         {
             return Ok(whole(None));
         }
-        for plane in planes(exact, mechanism, space)? {
-            let Some(parts) = parts(exact, plane) else {
+        let present = space
+            .variables
+            .iter()
+            .flat_map(|v| v.joints.iter().copied());
+        for plane in planes(exact, mechanism, present)? {
+            let Some(parts) = plane.rows(exact) else {
                 continue;
             };
             let [inside, outside] = parts.map(|p| Seen::new(f, space, p));
@@ -147,61 +138,6 @@ impl Model {
     }
 }
 
-/// The planes across the axes of the present joints' frames, through their points.
-fn planes(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    space: &Space,
-) -> Result<Vec<Plane>, ExactError> {
-    let f = exact.field();
-    let mut counted: BTreeMap<Plane, usize> = BTreeMap::new();
-    for &joint in space.variables.iter().flat_map(|v| &v.joints) {
-        let frame = FrameValues::new(exact, &mechanism.joints[joint].frame)?;
-        for axis in frame.axes {
-            let Some(&first) = axis.iter().find(|x| **x != 0) else {
-                continue;
-            };
-            let scale = f.inv(first);
-            let normal = axis.map(|x| f.mul(x, scale));
-            let distance = exact.dot(normal, frame.point);
-            *counted.entry((normal, distance)).or_default() += 1;
-        }
-    }
-    let mut all: Vec<(Plane, usize)> = counted.into_iter().collect();
-    all.sort_by_key(|&(plane, times)| (Reverse(times), plane));
-    Ok(all.into_iter().map(|(p, _)| p).take(PLANES).collect())
-}
-
-/// The three rows of a twist in a plane, and the three out of it, as functions of its six numbers; none in the odd case that
-/// they are not independent modulo the prime.
-fn parts(exact: &ExactField, (n, distance): Plane) -> Option<[[[Residue; 6]; 3]; 2]> {
-    let f = exact.field();
-    let size = exact.dot(n, n);
-    if size == 0 {
-        return None;
-    }
-    let across = |i: usize| exact.cross(n, [0, 1, 2].map(|j| if i == j { f.one() } else { 0 }));
-    let e1 = [0, 1].map(across).into_iter().find(|e| *e != [0; 3])?;
-    let e2 = exact.cross(n, e1);
-    let share = f.mul(distance, f.inv(size));
-    let foot = n.map(|x| f.mul(x, share));
-    let turn = |[x, y, z]: [Residue; 3]| [x, y, z, 0, 0, 0];
-    // The velocity of the plane's point nearest the origin is v + ω × foot, and (ω × foot) · e = ω · (foot × e).
-    let slide = |e: [Residue; 3]| {
-        let ([a, b, c], [x, y, z]) = (exact.cross(foot, e), e);
-        [a, b, c, x, y, z]
-    };
-    let out = [
-        [turn(n), slide(e1), slide(e2)],
-        [turn(e1), turn(e2), slide(n)],
-    ];
-    let mut all = Echelon::new(f);
-    out.iter()
-        .flatten()
-        .all(|row| all.insert(row))
-        .then_some(out)
-}
-
 /// Independent twists.
 type Span = Vec<Vec<Residue>>;
 
@@ -209,15 +145,15 @@ type Span = Vec<Vec<Residue>>;
 struct Seen {
     /// For each choice of each variable, what its joints may do: independent, in reduced form.
     spans: Vec<Vec<Vec<Span>>>,
-    rows: [[Residue; 6]; 3],
+    rows: Rows,
 }
 
 impl Seen {
-    fn new(f: Field, space: &Space, rows: [[Residue; 6]; 3]) -> Seen {
+    fn new(f: Field, space: &Space, rows: Rows) -> Seen {
         let of_joint = |span: &Span| {
             let mut out = Echelon::new(f);
             span.iter().for_each(|twist| {
-                out.insert(&rows.map(|row| product(f, &row, twist)));
+                out.insert(&seen(f, &rows, twist));
             });
             out.reduced()
         };
@@ -244,8 +180,7 @@ impl Seen {
         twists.for_each(|t| {
             all.insert(t);
         });
-        let pivot = |row: &Vec<Residue>| row.iter().position(|&x| x != 0);
-        let used: Vec<usize> = all.reduced().iter().filter_map(pivot).collect();
+        let used = pivots(&all);
         if used.is_empty() { vec![0] } else { used }
     }
 
@@ -254,8 +189,11 @@ impl Seen {
         let mut out = Echelon::new(f);
         for motion in motions {
             let links = motion.chunks_exact(6);
-            let seen = |twist| used.iter().map(move |&r| product(f, &self.rows[r], twist));
-            out.insert(&links.flat_map(seen).collect::<Vec<_>>());
+            let of_link = |twist| {
+                let rows = seen(f, &self.rows, twist);
+                used.iter().map(move |&r| rows[r])
+            };
+            out.insert(&links.flat_map(of_link).collect::<Vec<_>>());
         }
         out.reduced()
     }
@@ -309,10 +247,4 @@ fn falls_apart(space: &Space, parts: [&Seen; 2]) -> bool {
             })
         })
     })
-}
-
-fn product(f: Field, row: &[Residue; 6], twist: &[Residue]) -> Residue {
-    row.iter()
-        .zip(twist)
-        .fold(0, |sum, (&a, &b)| f.add(sum, f.mul(a, b)))
 }

@@ -9,6 +9,7 @@ use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::share::{ContourShare, CouplingShare};
 use crate::redundancy::stress::{JointWrench, Verdict};
 use crate::view::idle;
+use crate::view::least_rows::{Part, least_rows};
 use crate::view::stroke::Stroke;
 use crate::view::suggestions::{Advice, Suggestions};
 use serde::Serialize;
@@ -59,6 +60,9 @@ pub struct State<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub redundant_at_most: Option<usize>,
     pub formula_mobility: i64,
+    /// Where fewer rows than all are enough, or parts of them do not see each other.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub least_rows: Vec<Part>,
     pub per_contour: Vec<Contour<'a>>,
     pub external: Option<External>,
     pub idle: Vec<Idle<'a>>,
@@ -236,6 +240,7 @@ impl<'a> State<'a> {
             redundant: s.redundant,
             redundant_at_most: most.map(|(_, sigma)| sigma),
             formula_mobility: s.formula_mobility,
+            least_rows: least_rows(mechanism, s),
             per_contour: s
                 .per_contour
                 .iter()

@@ -1,7 +1,7 @@
 //! What idle motions are, in words.
 
 use crate::model::mechanism::Mechanism;
-use crate::redundancy::idle::{Direction, Idle};
+use crate::redundancy::idle::Idle;
 use itertools::Itertools;
 
 /// "link 5 spins about the line through 4-5 and 5-1".
@@ -17,9 +17,9 @@ pub fn words(mechanism: &Mechanism, motion: &Idle) -> String {
         .iter()
         .map(|&j| mechanism.joints[j].id.as_str())
         .collect_vec();
-    let along = motion.direction.map_or_else(String::new, |d| {
-        format!(" along {}", direction(mechanism, d))
-    });
+    let along = motion
+        .direction
+        .map_or_else(String::new, |d| format!(" along {}", d.words(mechanism)));
     match (motion.links.len(), joints.as_slice()) {
         (1, []) if motion.turns => {
             format!("link {names} turns about a line{along}, through none of its joints")
@@ -31,17 +31,6 @@ pub fn words(mechanism: &Mechanism, motion: &Idle) -> String {
             many.join(" and ")
         ),
         _ => format!("links {names} move together"),
-    }
-}
-
-/// "z", "[1, 2, 0]", "the axis of 1-2".
-fn direction(mechanism: &Mechanism, of: Direction) -> String {
-    match of {
-        Direction::Numbers([1, 0, 0]) => "x".to_owned(),
-        Direction::Numbers([0, 1, 0]) => "y".to_owned(),
-        Direction::Numbers([0, 0, 1]) => "z".to_owned(),
-        Direction::Numbers([x, y, z]) => format!("[{x}, {y}, {z}]"),
-        Direction::AxisOf(joint) => format!("the axis of {}", mechanism.joints[joint].id),
     }
 }
 

@@ -34,6 +34,7 @@ mod holding;
 mod ideas;
 mod layering;
 mod least_model;
+mod least_rows;
 mod library;
 mod licences;
 mod mobility;
