@@ -74,6 +74,9 @@ pub struct Joint<'a> {
     pub global_moment: [f64; 3],
     /// What its drive does, part of force and moment.
     pub drive: Option<Effort>,
+    /// Components that differ within the family of reactions, `Fx` to `Mz`; all others are the same in all of it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub open: Vec<&'static str>,
 }
 
 /// The force of a face on an object.
@@ -165,6 +168,7 @@ impl<'a> Joint<'a> {
                 effort,
                 slides: slides(freedom),
             }),
+            open: Vec::new(),
         }
     }
 }
@@ -191,7 +195,19 @@ impl<'a> Reactions<'a> {
             residual: s.residual,
             undriven: s.undriven,
             contacts: s.contacts.iter().map(|c| Contact::new(m, c)).collect(),
-            reactions: joints(&s.reactions),
+            reactions: joints(&s.reactions)
+                .into_iter()
+                .zip(&s.open)
+                .map(|(joint, open)| Joint {
+                    open: COMPONENTS
+                        .into_iter()
+                        .zip(open)
+                        .filter(|(_, o)| **o)
+                        .map(|(c, _)| c)
+                        .collect(),
+                    ..joint
+                })
+                .collect(),
             self_stresses: s.self_stresses.iter().map(joints).collect(),
             elastic: s.elastic.as_ref().map(joints),
             of: m,
@@ -224,6 +240,8 @@ impl<'a> Reactions<'a> {
         })
     }
 }
+
+const COMPONENTS: [&str; 6] = ["Fx", "Fy", "Fz", "Mx", "My", "Mz"];
 
 const HEADS: [&str; 12] = [
     "kind", "joint", "type", "Fx", "Fy", "Fz", "F", "Mx", "My", "Mz", "M", "effort",

@@ -77,6 +77,9 @@ pub struct Solution {
     /// Reactions that load nothing from outside, one set for each redundant constraint (with drives held), greatest
     /// force, or moment by size, 1 N.
     pub self_stresses: Vec<Vec<JointReaction>>,
+    /// By joint, the components that these change, forces along x, y, z of its frame and moments about them: all others are
+    /// the same in every reaction of the family.
+    pub open: Vec<[bool; 6]>,
     /// The reactions that fit the stated stiffness and misalignments, where stiffness is stated and it matters.
     pub elastic: Option<Vec<JointReaction>>,
     /// What is asked of the contacts with objects.
@@ -97,6 +100,23 @@ impl Solution {
     pub fn nearly_singular(&self) -> bool {
         self.condition > NEARLY_SINGULAR
     }
+}
+
+/// Below this part of a self-stress's greatest force a component has none of it.
+const NO_STRESS: f64 = 1e-9;
+
+/// The components of joints that some self-stress has, moments divided by the size.
+pub(crate) fn open(joints: usize, size: f64, stresses: &[Vec<JointReaction>]) -> Vec<[bool; 6]> {
+    let mut out = vec![[false; 6]; joints];
+    for stress in stresses {
+        for (open, r) in out.iter_mut().zip(stress) {
+            let components = r.force.into_iter().chain(r.moment.map(|x| x / size));
+            for (open, x) in open.iter_mut().zip(components) {
+                *open |= x.abs() > NO_STRESS;
+            }
+        }
+    }
+    out
 }
 
 /// What is left over on the links, over the greatest load.

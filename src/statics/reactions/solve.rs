@@ -10,7 +10,7 @@ use crate::statics::reactions::equations::System;
 use crate::statics::reactions::family;
 use crate::statics::reactions::geometry::{Geometry, Six, power};
 use crate::statics::reactions::inertia::inertia_loads;
-use crate::statics::reactions::solution::{Choice, Solution, present, residual};
+use crate::statics::reactions::solution::{Choice, Solution, open, present, residual};
 use crate::statics::reactions::unilateral::pushing;
 use crate::statics::reactions::unsolved::{Unsolved, no_couplings};
 
@@ -127,6 +127,7 @@ impl Reactions {
         };
         let residual = residual(m, geometry, &wrenches, loads_of_links);
         let present = |w: &[Six]| present(m, geometry, w, drives);
+        let self_stresses: Vec<_> = stresses.iter().map(|s| present(s)).collect();
         Ok(Solution {
             choice: match of_contacts {
                 _ if stresses.is_empty() => Choice::Unique,
@@ -135,7 +136,8 @@ impl Reactions {
             },
             contacts: faces.iter().map(|c| c.force(geometry, &wrenches)).collect(),
             reactions: present(&wrenches),
-            self_stresses: stresses.iter().map(|s| present(s)).collect(),
+            open: open(geometry.joints.len(), geometry.size, &self_stresses),
+            self_stresses,
             elastic: elastic.map(|w| present(&w)),
             undriven: system.undriven(),
             condition: system.condition(),

@@ -1,7 +1,7 @@
 //! Joint reactions in one pose for people.
 
 use crate::format::number::{figure, significant};
-use crate::format::phrase::plural;
+use crate::format::phrase::{list, plural};
 use crate::statics::reactions::NEARLY_SINGULAR;
 use crate::view::layout::{fit, table};
 use crate::view::prefix::prefix;
@@ -99,6 +99,25 @@ fn refuted(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
     Ok(())
 }
 
+/// Which components the choice within the family is about.
+fn left_open(reactions: &[Joint<'_>]) -> String {
+    let mut alike: Vec<(&[&str], Vec<&str>)> = Vec::new();
+    for r in reactions.iter().filter(|r| !r.open.is_empty()) {
+        match alike.iter_mut().find(|(open, _)| *open == r.open) {
+            Some((_, joints)) => joints.push(r.joint),
+            None => alike.push((&r.open, vec![r.joint])),
+        }
+    }
+    let each = alike
+        .iter()
+        .map(|(open, joints)| format!("{} of {}", list(open), list(joints)));
+    let each: Vec<String> = each.collect();
+    format!(
+        "Left open by the self-stresses: {}; all else is the same in the whole family",
+        each.join("; ")
+    )
+}
+
 /// The report, fitted to a terminal of `width` columns where one is given; `pose` in words.
 #[must_use]
 pub fn reactions(s: &Reactions<'_>, pose: &str, width: Option<u16>) -> String {
@@ -137,6 +156,9 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
         out,
         "First link on second, in the joint's own frame (z its axis), moments about its point\n"
     )?;
+    if !s.unique {
+        writeln!(out, "{}\n", left_open(&s.reactions))?;
+    }
     if loads.drive_speeds.iter().any(|s| *s != 0.0) {
         writeln!(out, "Inertia forces of the stated drive speed included\n")?;
     }
