@@ -37,6 +37,9 @@ pub struct Diagrams {
     pub estimates: [Option<Estimate>; 2],
     /// The variables in the order the admissible diagram takes them.
     pub order: Vec<usize>,
+    /// Rows of the closure equations for each contour that they are built of: fewer than a twist has numbers where the rest is
+    /// the same whatever is chosen; of each part, where the equations fall apart into two that choices change.
+    pub rows_per_contour: Vec<usize>,
 }
 
 impl Diagrams {
@@ -146,6 +149,7 @@ impl Search {
             cheapest: None,
             estimates: [None; 2],
             order: laid.order,
+            rows_per_contour: vec![model.space.dim],
         };
         let second = second.unwrap_or(first);
         let kept = if self.conditions.keep_output {
@@ -204,6 +208,7 @@ impl Search {
             cheapest: None,
             estimates: [None; 2],
             order: one.order.clone(),
+            rows_per_contour: parts.iter().map(|p| p.space.dim).collect(),
         })
     }
 

@@ -273,13 +273,6 @@ impl Search {
         &self.exact
     }
 
-    /// Rows of the closure equations that the diagrams have for each contour: fewer than a twist has numbers where the rest is
-    /// the same whatever is chosen.
-    #[must_use]
-    pub fn rows_per_contour(&self) -> usize {
-        self.least.whole.space.dim
-    }
-
     /// Number of variants asked about: of orbits, where one of each is wanted.
     #[must_use]
     pub fn size(&self) -> BigUint {

@@ -74,6 +74,9 @@ pub struct SearchData<'a> {
     admissible_by_cost: ByCost,
     largest_layer: Option<usize>,
     nodes: Option<usize>,
+    /// Rows of the closure equations for each contour, in each part that has diagrams of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rows_per_contour: Option<Vec<usize>>,
     determinate_diagram: Size,
     admissible_diagram: Size,
     stop: &'static str,
@@ -179,6 +182,10 @@ impl<'a> SearchData<'a> {
             admissible_by_cost: ByCost(by_cost.unwrap_or_default()),
             largest_layer: first.largest_layer.max(second.largest_layer),
             nodes: first.nodes.zip(second.nodes).map(|(a, b)| a + b),
+            rows_per_contour: outcome
+                .diagrams
+                .as_ref()
+                .map(|d| d.rows_per_contour.clone()),
             determinate_diagram: first,
             admissible_diagram: second,
             stop: outcome.stop.word(),
