@@ -142,8 +142,8 @@ pub enum ProblemKind {
         "option \"{option}\" of joint \"{joint}\" does not keep the freedom that is coupled, about the same axis; leave it out"
     )]
     LosesCoupling { joint: String, option: String },
-    #[error("joint \"{joint}\" is in more than one mirror pair; pair each joint once")]
-    RepeatedMirror { joint: String },
+    #[error("joint \"{joint}\" has more than one image under {under}; name each joint once there")]
+    RepeatedImage { joint: String, under: &'static str },
     #[error(
         "a group of {count} joints under turn: write pairs for half a turn, or groups of three for a third, all of one kind"
     )]

@@ -129,10 +129,20 @@ fn from_toml(text: &str) -> Result<MechanismFile, Problem> {
             // The deserializer's own words speak of its types.
             "this whole number is beyond 64 bits; choose another length_unit, or write it as a decimal".to_owned()
         } else {
-            e.message().trim().replace('\n', ", ")
+            with_remedy(e.message().trim().replace('\n', ", "))
         };
         Problem { kind: ProblemKind::Syntax { message }, span: e.span() }
     })
+}
+
+/// What to do where a field is missing.
+fn with_remedy(message: String) -> String {
+    let missing = message.strip_prefix("missing field `");
+    match missing.and_then(|rest| rest.strip_suffix('`')) {
+        Some("id") => format!("{message}; give it a name of its own"),
+        Some(_) => format!("{message}; add it (`ozols new` writes a file with all fields)"),
+        None => message,
+    }
 }
 
 fn from_json(text: &str) -> Result<MechanismFile, Problem> {
@@ -153,8 +163,8 @@ fn from_json(text: &str) -> Result<MechanismFile, Problem> {
         let full = e.to_string();
         let message = full
             .rsplit_once(" at line ")
-            .map_or(full.as_str(), |(m, _)| m)
-            .to_owned();
+            .map_or(full.as_str(), |(m, _)| m);
+        let message = with_remedy(message.to_owned());
         let end = (at + 1..=line.len())
             .find(|&i| line.is_char_boundary(i))
             .unwrap_or(line.len());

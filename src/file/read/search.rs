@@ -53,7 +53,7 @@ pub(crate) fn search(
             .extend(link_by_id(&mechanism.links, id, &path, out));
     }
     let mut grouped = Vec::new();
-    let mut joints = |ids: &[String], path: &[Step], out: &mut Findings| {
+    let mut joints = |ids: &[String], under, path: &[Step], out: &mut Findings| {
         let joints = ids
             .iter()
             .filter_map(|id| joint_by_id(mechanism, id, path, out))
@@ -61,20 +61,20 @@ pub(crate) fn search(
         for &j in &joints {
             if grouped.contains(&j) {
                 let joint = mechanism.joints[j].id.clone();
-                out.add(path, ProblemKind::RepeatedMirror { joint });
+                out.add(path, ProblemKind::RepeatedImage { joint, under });
             }
             grouped.push(j);
         }
         joints
     };
     for (i, pair) in file.search.mirror.iter().enumerate() {
-        if let [a, b] = joints(pair, &index(&key(&at, "mirror"), i), out)[..] {
+        if let [a, b] = joints(pair, "mirror", &index(&key(&at, "mirror"), i), out)[..] {
             spec.mirror.push((a, b));
         }
     }
     for (i, group) in file.search.turn.iter().enumerate() {
         let path = index(&key(&at, "turn"), i);
-        let found = joints(group, &path, out);
+        let found = joints(group, "turn", &path, out);
         let first = file.search.turn[0].len();
         if ![2, 3].contains(&group.len()) || group.len() != first {
             out.add(&path, ProblemKind::TurnGroup { count: group.len() });

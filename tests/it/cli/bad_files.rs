@@ -57,6 +57,33 @@ fn error_duplicate_ids() {
 }
 
 #[test]
+fn error_missing_fields() {
+    bad_file(
+        "bad.toml",
+        "name = \"x\"\n[[link]]\nid = \"0\"\n[[link]] # nameless\nrole = \"frame\"\n",
+        "# nameless",
+        &["missing field `id`", "give it a name of its own"],
+    );
+    bad_file(
+        "bad.json",
+        "{\"name\": \"x\",\n\"link\": [{\"role\": \"frame\"}]}",
+        "link",
+        &["missing field `id`", "give it a name of its own"],
+    );
+}
+
+#[test]
+fn error_more_than_one_image() {
+    for way in ["mirror", "turn"] {
+        let twice = format!("{way} = [[\"0-1\", \"1-2\"], [\"1-2\", \"2-3\"]] # twice");
+        let text = with("[search]", &format!("[search]\n{twice}"));
+        let said = format!("joint \"1-2\" has more than one image under {way}");
+        let parts = [said.as_str(), "name each joint once there"];
+        bad_file("bad.toml", &text, "# twice", &parts);
+    }
+}
+
+#[test]
 fn error_empty_id() {
     bad_file(
         "bad.toml",
