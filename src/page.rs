@@ -29,6 +29,9 @@ use data::Data;
 use maud::{Markup, PreEscaped, html};
 use symbols::Drawn;
 
+/// Idle freedoms, and self-stresses, of a state that are shown in space.
+pub const SHOWN: usize = 24;
+
 /// Everything a page tells.
 #[derive(Debug)]
 pub struct Page<'a> {
@@ -42,7 +45,8 @@ pub struct Page<'a> {
     pub redesigns: Result<Redesigns<'a>, String>,
     /// The same search as a list of ideas, each by its first variant, where the redesigns are not one already.
     pub ideas: Option<Redesigns<'a>>,
-    /// It in space in each state, to be turned and moved, where there is more to see than in a drawing.
+    /// It in space in each state, to be turned and moved, where there is more to see than in a drawing; with [`SHOWN`] idle
+    /// freedoms and self-stresses at most.
     pub scenes: Vec<Option<(Drawing, Scene)>>,
     /// How to get the same from the command line.
     pub commands: Commands,

@@ -7,7 +7,7 @@ use super::request::Checked;
 use super::{Done, interrupt, load, output};
 use crate::draw::{Drawing, Moved, Scene, Shown, Sight, Subject, kinematic_scene};
 use crate::model::mechanism::{Mechanism, Mode, StateId};
-use crate::page::{Commands, Page, Redesigns, html};
+use crate::page::{Commands, Page, Redesigns, SHOWN, html};
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::redundancy::stress::SelfStress;
 use crate::score::outcome::Outcome;
@@ -115,9 +115,6 @@ fn redesigns<'o>(found: &'o Outcome, mut given: Variants<'o>) -> Redesigns<'o> {
         interrupted: given.interrupted(),
     }
 }
-
-/// Idle freedoms and self-stresses of a state that a page shows.
-const SHOWN: usize = 24;
 
 /// The mechanism in space in each state: as far as its drive goes, with its idle freedoms and its self-stresses. None of a plane
 /// mechanism where there is nothing of these.

@@ -1,7 +1,7 @@
 //! A mechanism as it is, state by state: figures, drawings, contours and self-stresses.
 
 use super::symbols::Drawn;
-use super::{Page, verdict};
+use super::{Page, SHOWN, verdict};
 use crate::draw::Drawing;
 use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, Mode};
@@ -60,6 +60,14 @@ fn scene(i: usize, s: &State<'_>, drawing: &Drawing) -> Markup {
                 label.shown { "Shown " select data-part="shown" {} }
                 button type="button" data-part="home" disabled { "First view" }
                 span.help role="status" data-part="say" {}
+            }
+            @for (n, what, flags) in [
+                (s.idle.len(), "idle freedoms", "--motion --idle K"),
+                (s.self_stresses.len(), "self-stresses", "--self-stress K"),
+            ] {
+                @if n > SHOWN {
+                    p.help { "The first " (SHOWN) " of " (n) " " (what) " are here; " code { "ozols draw " (flags) } " draws any." }
+                }
             }
         }
     }

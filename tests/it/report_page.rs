@@ -270,3 +270,16 @@ fn bad_questions_are_refused_and_leave_no_file() {
         assert!(!path.exists(), "{all:?}");
     }
 }
+
+/// What a page has not room for it says, with the command that shows it.
+#[test]
+fn a_page_says_when_it_does_not_show_all_self_stresses() {
+    let said = "of 37 self-stresses are here";
+    let jessen = out(&["report", "jessen-icosahedron"]);
+    assert!(
+        jessen.contains(&format!("The first 24 {said}")),
+        "{}",
+        jessen.len()
+    );
+    assert!(!out(&["report", "gripper-10"]).contains("self-stresses are here"));
+}
