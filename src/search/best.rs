@@ -40,7 +40,7 @@ pub struct Cheapest<'d, C> {
     choices: Vec<usize>,
     /// How many may still be given.
     left: usize,
-    ways: Ways,
+    pub(super) ways: Ways,
     enter: Enter<'d>,
 }
 

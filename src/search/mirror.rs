@@ -10,7 +10,7 @@ use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism, StateId};
 use itertools::Itertools;
 use thiserror::Error;
 
-/// Why a mechanism is not its own mirror image.
+/// Why a mechanism is not its own image.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MirrorError {
@@ -22,17 +22,17 @@ pub enum MirrorError {
         /// Name of the mechanism.
         mechanism: String,
     },
-    /// A coupling without a mirror image.
+    /// A coupling without an image.
     #[error(
-        "joints {coupling} are coupled, their mirror images are not, or in another ratio; couple both pairs alike, or search without symmetry"
+        "joints {coupling} are coupled, their images are not, or in another ratio; couple both pairs alike, or search without symmetry"
     )]
     UnlikeCoupling {
         /// The coupling.
         coupling: String,
     },
-    /// Mirrored joints that offer different options.
+    /// Joints that are images of each other and offer different options.
     #[error(
-        "joints {first} and {second} are mirror images but offer different options; give both the same list, at the same costs"
+        "joints {first} and {second} are images of each other but offer different options; give both the same list, at the same costs"
     )]
     UnlikeOptions {
         /// One joint.
@@ -42,7 +42,7 @@ pub enum MirrorError {
     },
     /// Joints whose links are not each other's images.
     #[error(
-        "joint {joint} has no mirror image between the images of its links; pair it with its image under [search] mirror, or search without symmetry"
+        "joint {joint} has no image between the images of its links; name it with its image under [search] mirror or turn, or search without symmetry"
     )]
     NoImage {
         /// The joint.
@@ -50,7 +50,7 @@ pub enum MirrorError {
     },
     /// Links that are not alike to the search.
     #[error(
-        "links {first} and {second} are mirror images, but only one of them is an output or held; treat both alike, or search without symmetry"
+        "links {first} and {second} are images of each other, but only one of them is an output or held; treat both alike, or search without symmetry"
     )]
     UnlikeLinks {
         /// One link.
@@ -60,7 +60,7 @@ pub enum MirrorError {
     },
     /// Joints that are not each other's images.
     #[error(
-        "{option} of joint {first} has its mirror image {off} from that of joint {second}, and counts of images need exact ones; correct the points and axes, or search without symmetry"
+        "{option} of joint {first} has its image {off} from that of joint {second}, and counts of images need exact ones; correct the points and axes, or search without symmetry"
     )]
     Off {
         /// One joint.

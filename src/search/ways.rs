@@ -96,3 +96,38 @@ impl Ways {
 fn index(n: usize) -> u32 {
     u32::try_from(n).unwrap_or(u32::MAX)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
+mod tests {
+    use crate::file::text::mechanism_from_str;
+    use crate::redundancy::analysis::exact_field;
+    use crate::search::best::Cheapest;
+    use crate::search::conditions::{Conditions, Search};
+
+    /// Where there is room for few steps, they are forgotten again and again, and the list is the same.
+    #[test]
+    fn a_list_in_little_room_is_the_same() {
+        let text = crate::builtin::text("gripper-10").unwrap();
+        let m = mechanism_from_str("gripper-10.toml", text).unwrap();
+        let exact = exact_field(&m, 0).unwrap();
+        let search = Search::new(exact, &m, Conditions::default()).unwrap();
+        let found = search.build(&|| false, &mut |_| {});
+        let list = |room| {
+            let mut all = Cheapest::<u128>::new(
+                &found.admissible,
+                &search.steps,
+                (3000, u64::MAX),
+                |_| true,
+                |k| k,
+                usize::MAX,
+                Box::new(|_, _, _, _| true),
+            );
+            all.ways.room = room;
+            all.collect::<Vec<_>>()
+        };
+        let [little, all] = [1, usize::MAX].map(list);
+        assert_eq!(little.len(), 3000);
+        assert_eq!(little, all);
+    }
+}

@@ -397,6 +397,6 @@ fn couplings_have_mirror_images() {
     assert!(
         made(&with("2"))
             .unwrap_err()
-            .contains("their mirror images are not")
+            .contains("their images are not")
     );
 }

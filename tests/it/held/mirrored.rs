@@ -66,11 +66,14 @@ fn what_has_no_image_is_told() {
     let (_folder, path) = file(&alone);
     let orbits = ["search", &path, "--one-per-orbit", "--count"];
     let said = refused(&[&orbits[..], &["--state", "clamped"]].concat());
-    assert!(said.contains("joint 4-a has no mirror image"), "{said}");
+    assert!(said.contains("joint 4-a has no image"), "{said}");
     // The free state has no contacts.
     assert!(count(&searched(&path, &orbits[2..])["determinate"]) > 0);
     let said = refused(&["search", "gripper-10", "--one-per-orbit", "--hold", "5"]);
-    assert!(said.contains("links 5 and 9 are mirror images"), "{said}");
+    assert!(
+        said.contains("links 5 and 9 are images of each other"),
+        "{said}"
+    );
 }
 
 /// All variants are those that are their own images, and pairs of others.
