@@ -29,6 +29,7 @@ use ozols::geom::scalars::{Reals, Scalars};
 use ozols::linalg::echelon;
 use ozols::linalg::modp::Residue;
 use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::rank::least_rows::{LeastRows, Motions};
 use ozols::rank::{modular, numeric};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
 use ozols_dense::{Format, Matrix};
@@ -249,8 +250,55 @@ fn ratios() {
     }
 }
 
+/// The rows that are enough, over all states of the built-in mechanisms: how many, whether ranks are the same, and the time
+/// with looking for them.
+fn least_rows() {
+    println!("\n== the rows that are enough, of the built-in mechanisms in all their states ==");
+    let kinds = [
+        "all rows",
+        "those of a group",
+        "those in a plane and out of it",
+    ];
+    let mut sums = kinds.map(|kind| (kind, 0, 0, 0, [0.0; 2], true));
+    for name in builtin::names() {
+        let text = builtin::text(name).expect("it is built in");
+        let m = mechanism_from_str(name, text).expect("it is well");
+        for state in m.state_ids() {
+            let exact = exact_field(&m, 0).expect("exact");
+            let closure = Closure::new(&exact, &m, state).expect("exact");
+            let find = || LeastRows::new(&exact, &m, &closure).expect("exact");
+            let found = find();
+            let mut parts = found.blocks.iter().flat_map(|b| &b.parts);
+            let apart = parts
+                .clone()
+                .any(|p| matches!(p.motions, Motions::InPlane(_)));
+            let grouped = parts.any(|p| matches!(p.motions, Motions::Group(_)));
+            let mut ways: [Timed<'_>; 2] = [
+                ("all", Box::new(|| modular::rank(&exact, &closure))),
+                ("least", Box::new(|| find().rank())),
+            ];
+            let times = best(&mut ways, 20);
+            let sum = &mut sums[if apart { 2 } else { usize::from(grouped) }];
+            (sum.1, sum.2, sum.3) = (sum.1 + 1, sum.2 + found.rows(), sum.3 + found.of);
+            sum.4
+                .iter_mut()
+                .zip(&times)
+                .for_each(|(sum, t)| *sum += t.0);
+            sum.5 &= times[0].1 == times[1].1;
+        }
+    }
+    for (kind, states, rows, of, [all, least], alike) in sums {
+        let same = if alike { "same ranks" } else { "RANKS DIFFER" };
+        let (all, least) = (micro(all), micro(least));
+        println!(
+            "{kind:<32} {states:>4} states, {rows:>5} of {of:>5} rows: {all} with all, {least} with finding them, {same}"
+        );
+    }
+}
+
 fn methods(c: &mut Criterion) {
     ratios();
+    least_rows();
     against_flint();
     for case in std::iter::once(Case::gripper()).chain(cases(&[10, 50, 200])) {
         let mut group = c.benchmark_group(&case.name);
