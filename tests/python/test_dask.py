@@ -200,7 +200,7 @@ def test_rows_survive_the_death_of_the_scheduler_and_of_a_worker(alone, in_tmp, 
                 # A scheduler that comes up may cut the first connections.
                 if len(refused) < 2:
                     refused.append(args)
-                    raise distributed.CommClosedError("Connection reset by peer")
+                    raise distributed.comm.CommClosedError("Connection reset by peer")
                 return wait(*args, **named)
 
             monkeypatch.setattr(client, "wait_for_workers", cut_at_first)
