@@ -42,31 +42,31 @@ def alone(tmp_path_factory):
         return made.digest()
 
 
-def a_busy_worker(client, tried=200):
-    """The process of a worker that is at a part."""
-    for _ in range(tried):
-        pids = client.run(os.getpid)
-        busy = [pids[w] for w, tasks in client.processing().items() if tasks]
-        if busy:
+def kill_a_busy_worker(client, pids, enough):
+    """Kills a worker that is at a part once there is enough; its process. `pids` are asked before: a part is soon done."""
+    for _ in range(30_000):
+        busy = [pids[w] for w, tasks in client.processing().items() if tasks and w in pids]
+        if busy and enough():
+            os.kill(busy[0], signal.SIGKILL)
             return busy[0]
-        time.sleep(0.05)
+        time.sleep(0.002)
     raise AssertionError("no worker has anything to do")
 
 
 def test_rows_survive_the_death_of_a_worker(cluster, alone, in_tmp):
-    killed, parts = [], in_tmp / "all.db.parts"
+    killed, ready, parts = [], threading.Event(), in_tmp / "all.db.parts"
 
     def kill():
         with distributed.Client(cluster) as watching:
-            while len(list(parts.glob("*.json"))) < 2:
-                time.sleep(0.02)
-            killed.append(a_busy_worker(watching))
-            os.kill(killed[0], signal.SIGKILL)
+            pids = watching.run(os.getpid)
+            ready.set()
+            killed.append(kill_a_busy_worker(watching, pids, lambda: len(list(parts.glob("*.json"))) >= 2))
 
     # What was drawn stays beside what is built.
     assert command("catalog", "search", "four-bar", "-o", "all.db").returncode == 0
     killer = threading.Thread(target=kill)
     killer.start()
+    ready.wait()
     heard = []
     with distributed.Client(cluster) as client:
         made = ozols.catalog.build(SPEC, out="all.db", client=client, shards=SHARDS, progress=lambda *p: heard.append(p))
@@ -224,17 +224,17 @@ def test_rows_survive_the_death_of_the_scheduler_and_of_a_worker(alone, in_tmp, 
 def test_a_sweep_on_workers_has_the_rows_of_one_process(cluster, in_tmp):
     asked = {"grid": 4, "search": {"max_mobility": 1}, "seed": 3}
     here = ozols.sweep("parallelogram-3-rods", out="here.jsonl", **asked)
-    killed, parts = [], in_tmp / "there.jsonl.parts"
+    killed, ready, parts = [], threading.Event(), in_tmp / "there.jsonl.parts"
 
     def kill():
         with distributed.Client(cluster) as watching:
-            while not list(parts.glob("*.json")):
-                time.sleep(0.005)
-            killed.append(a_busy_worker(watching))
-            os.kill(killed[0], signal.SIGKILL)
+            pids = watching.run(os.getpid)
+            ready.set()
+            killed.append(kill_a_busy_worker(watching, pids, parts.exists))
 
     killer = threading.Thread(target=kill)
     killer.start()
+    ready.wait()
     with distributed.Client(cluster) as client:
         there = ozols.sweep("parallelogram-3-rods", out="there.jsonl", client=client, shards=8, **asked)
         killer.join()
