@@ -15,3 +15,4 @@ pub mod release;
 pub mod share;
 pub mod stress;
 pub mod wiggle;
+pub mod with_drives_held;

@@ -8,6 +8,7 @@ use crate::file::read::motion::stroke;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
+use crate::redundancy::with_drives_held::exact_self_stresses;
 use crate::statics::contour_group::solutions::GroupMethod;
 use crate::statics::contour_group::stability::{GROUPS, study};
 use crate::statics::cycle;
@@ -174,7 +175,8 @@ fn spatial(
 ) -> anyhow::Result<Done> {
     let width = output::width(a.output.as_deref());
     if let ([(_, Ok(one))], None) = (&found.positions[..], stroke) {
-        let shown = Reactions::new(m, state, one);
+        let exact = exact_self_stresses(m, state, &found.drives);
+        let shown = Reactions::new(m, state, one).with_exact(exact);
         return output::to(a.output.as_deref(), |out| {
             match a.format {
                 StaticsFormat::Json => output::json(out, &shown)?,

@@ -302,7 +302,8 @@ fn unit(mut t: Twist<f64>) -> Twist<f64> {
     t
 }
 
-/// The three turns of a ball, squared up again, so that no two of its axes ever come to lie along each other.
+/// The three turns of a ball, squared up again, so that no two of its axes ever come to lie along each other; each stays
+/// nearest its own axis, which a drive may hold.
 fn square_balls(columns: &mut [PoseColumn]) {
     let mut i = 0;
     while i + 2 < columns.len() {
@@ -315,9 +316,14 @@ fn square_balls(columns: &mut [PoseColumn]) {
             let (w2, v2) = halves(&columns[i + 2].twist);
             // The common point c: v = c × ω for two of the axes; two equations in the least-squares sense.
             let centre = meeting_point(w0, v0, w2, v2);
-            let e0 = w0;
-            let e1 = vector::unit(across(w2, e0));
-            for (n, w) in [e0, e1, cross(e0, e1)].into_iter().enumerate() {
+            let last = vector::unit(across(w2, w0));
+            let middle = cross(last, w0);
+            let (w1, _) = halves(&columns[i + 1].twist);
+            let along = dot(middle, w1).signum();
+            for (n, w) in [w0, middle.map(|x| x * along), last]
+                .into_iter()
+                .enumerate()
+            {
                 let v = cross(centre, w);
                 columns[i + n].twist = [w[0], w[1], w[2], v[0], v[1], v[2]];
             }

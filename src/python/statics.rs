@@ -6,6 +6,7 @@ use ozols::file::read::motion;
 use ozols::grip::clamped::{Found, clamped};
 use ozols::grip::jaw_loads::{Gripping, JawError};
 use ozols::model::mechanism::StateId;
+use ozols::redundancy::with_drives_held::exact_self_stresses;
 use ozols::statics::contour_group::solutions::GroupMethod;
 use ozols::statics::reactions::Unsolved;
 use ozols::statics::solve::{Answer, Model, StaticsError, solve};
@@ -67,7 +68,8 @@ fn reactions_of(
         }
         Ok(Answer::Spatial(found)) => {
             if let ([(_, Ok(one))], None) = (&found.positions[..], stroke) {
-                let told = Reactions::new(m, state, one);
+                let exact = exact_self_stresses(m, state, &found.drives);
+                let told = Reactions::new(m, state, one).with_exact(exact);
                 let text = reactions(&told, "pose of the file", None);
                 return Ok((json(&told)?, text, Some(told.csv()), None));
             }

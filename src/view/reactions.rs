@@ -39,6 +39,9 @@ pub struct Reactions<'a> {
     pub reactions: Vec<Joint<'a>>,
     /// Those that load nothing from outside, one set for each redundant constraint.
     pub self_stresses: Vec<Vec<Joint<'a>>>,
+    /// How many there are in exact geometry, where singular values tell another number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exact_self_stresses: Option<usize>,
     /// Those of elastic joints, where stiffness is stated and it matters.
     pub elastic: Option<Vec<Joint<'a>>>,
     /// The mechanism, for its loads.
@@ -209,8 +212,18 @@ impl<'a> Reactions<'a> {
                 })
                 .collect(),
             self_stresses: s.self_stresses.iter().map(joints).collect(),
+            exact_self_stresses: None,
             elastic: s.elastic.as_ref().map(joints),
             of: m,
+        }
+    }
+
+    /// The same, said to have so many self-stresses in exact geometry.
+    #[must_use]
+    pub fn with_exact(self, self_stresses: Option<usize>) -> Self {
+        Reactions {
+            exact_self_stresses: self_stresses.filter(|&n| n != self.self_stresses.len()),
+            ..self
         }
     }
 

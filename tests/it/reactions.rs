@@ -365,3 +365,58 @@ fn loads_on_a_motion_that_nothing_holds_are_told_with_the_link() {
     assert_eq!(s.self_stresses.len(), 1);
     assert!(left_over(&m, &s.reactions) < 1e-10);
 }
+
+/// A ball on two props that leave it one motion: its drive holds the turn that moves, and that turn stays the same when its axes
+/// are squared up on the way.
+#[test]
+fn the_drive_of_a_ball_holds_its_own_turn() {
+    let solve = |moment: &str| {
+        let text = format!(
+            "name = \"ball\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"a\"\nrole = \"output\"\n\
+             [[joint]]\nid = \"B\"\nlinks = [\"0\", \"a\"]\ntype = \"spherical\"\npoint = [0, 0, 5]\naxis = [0, 0, 1]\n\
+             reference = [1, 0, 0]\ndrive = true\n\
+             [[joint]]\nid = \"S\"\nlinks = [\"0\", \"a\"]\ntype = \"custom\"\nfreedoms = [\"rx\", \"rz\", \"tz\"]\npoint = [0, 0, 0]\n\
+             axis = [0, 0, 1]\nreference = [1, 0, 0]\n[[workload.moment]]\nlink = \"a\"\nmoment = {moment}\n"
+        );
+        let m = mechanism_from_str("ball.toml", &text).unwrap();
+        let found = ozols::statics::reactions::cycle(&m, StateId::FREE, None).unwrap();
+        found.positions[0].1.clone().unwrap()
+    };
+    for (moment, torque) in [("[0, 0, 1]", -1.0), ("[0, 1, 0]", 0.0)] {
+        let found = solve(moment);
+        let (freedom, effort) = found.reactions[0].effort.unwrap();
+        assert_eq!(freedom.name(), "rz");
+        assert!((effort - torque).abs() < 1e-12, "{moment}: {effort}");
+        assert_eq!(found.self_stresses.len(), 1, "{moment}");
+        // Forces along x of both, and the moment about y that the second holds.
+        let open = [
+            [true, false, false, false, false, false],
+            [true, false, false, false, true, false],
+        ];
+        assert_eq!(found.open, open, "{moment}");
+    }
+}
+
+/// Axes that differ by less than numbers tell are not passed over in silence.
+#[test]
+fn nearly_equal_axes_are_told() {
+    let with = |tilt: &str| {
+        let text = format!(
+            "name = \"near\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"a\"\nrole = \"output\"\n\
+             [[joint]]\nid = \"B\"\nlinks = [\"0\", \"a\"]\ntype = \"revolute\"\npoint = [0, 0, 5]\naxis = [0, 0, 1]\n\
+             [[joint]]\nid = \"S\"\nlinks = [\"0\", \"a\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [\"{tilt}\", 0, 1]\n"
+        );
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("near.toml");
+        std::fs::write(&path, text).unwrap();
+        crate::common::out(&["statics", path.to_str().unwrap(), "--spatial"])
+    };
+    let said = with("1/10000000000");
+    assert!(
+        said.contains("NOT DECIDED BY NUMBERS: in exact geometry there are 4 self-stresses"),
+        "{said}"
+    );
+    for clear in ["0", "1/10"] {
+        assert!(!with(clear).contains("NOT DECIDED"), "{clear}");
+    }
+}

@@ -151,6 +151,17 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
         "{}, state {}, {pose}: joint reactions, {what}",
         s.mechanism, s.state
     )?;
+    if let Some(n) = s.exact_self_stresses {
+        writeln!(
+            out,
+            "NOT DECIDED BY NUMBERS: in exact geometry there are {}, and the difference is below what singular values tell from zero; look for points or axes that are nearly alike",
+            if n == 1 {
+                "1 self-stress".to_owned()
+            } else {
+                format!("{n} self-stresses")
+            }
+        )?;
+    }
     refuted(out, s)?;
     writeln!(
         out,

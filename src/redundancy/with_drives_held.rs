@@ -1,0 +1,34 @@
+//! Self-stresses while drives hold their freedoms, in exact geometry: the singular values that reactions come from take what is
+//! nearly dependent for dependent.
+
+use crate::closure::matrix::{Closure, Column};
+use crate::linalg::modp::Residue;
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
+use crate::model::rounded::looks_rounded;
+use crate::rank::field::field_of;
+use crate::rank::modular;
+
+/// Self-stresses of a state in the pose of the file, with the freedoms that drives hold, by one prime; `None` for mechanisms of
+/// a plane, whose equations are others, and where coordinates look rounded, so that they do not say.
+///
+/// # Complexity
+/// That of [`modular::rank`].
+#[must_use]
+pub fn exact_self_stresses(
+    m: &Mechanism,
+    state: StateId,
+    drives: &[(JointId, Freedom)],
+) -> Option<usize> {
+    if matches!(m.mode, Mode::Planar { .. }) || looks_rounded(m).is_some() {
+        return None;
+    }
+    let exact = field_of(m, state, 0).ok()?;
+    let mut closure = Closure::new(&exact, m, state).ok()?;
+    if !closure.couplings.is_empty() {
+        return None;
+    }
+    let held = |c: &Column<Residue>| drives.contains(&(c.joint, c.freedom));
+    closure.columns.retain(|c| !held(c));
+    Some(closure.rows() - modular::rank(&exact, &closure))
+}
