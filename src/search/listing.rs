@@ -21,38 +21,52 @@ impl Search {
         diagrams: &'a Diagrams,
         top: usize,
     ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-        if self.conditions.symmetry != Symmetry::OnePerOrbit {
-            return self.in_order(diagrams, top);
-        }
-        // Of two or three images one is kept, so that so many times more always suffice.
-        let order = self.mechanism.search.order();
-        let all = self.in_order(diagrams, top.saturating_mul(order));
-        let first_of_orbit = move |v: &Assignment| {
-            let images = std::iter::successors(Some(v.choices.clone()), |c| Some(self.image(c)));
-            images.take(order).all(|image| image >= v.choices)
+        // Of two or three images the first is kept, so that so many times more always suffice.
+        let enough = match self.conditions.symmetry {
+            Symmetry::OnePerOrbit => top.saturating_mul(self.mechanism.search.order()),
+            Symmetry::All | Symmetry::SymmetricOnly => top,
         };
-        Box::new(all.filter(first_of_orbit).take(top))
+        Box::new(self.in_order(diagrams, enough).take(top))
     }
 
-    /// Those up to the cost to which all are known, and then the dearer ones that happen to be known.
+    /// Those up to the cost to which all are known, and then the dearer ones that happen to be known; of `top` variants those
+    /// that are asked about.
     fn in_order<'a>(
         &'a self,
         diagrams: &'a Diagrams,
         top: usize,
     ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+        let between = move |diagram: &'a Diagram, costs| {
+            let all = self.between(diagram, top, costs, every());
+            all.filter(move |v| self.is_first_image(diagram, v))
+        };
         let all = &diagrams.admissible;
         let Some(UpTo {
             diagram,
             cost_milli,
         }) = &diagrams.cheapest
         else {
-            return self.between(all, top, (i64::MIN, i64::MAX), every());
+            return Box::new(between(all, (i64::MIN, i64::MAX)));
         };
-        let first = self.between(diagram, top, (i64::MIN, *cost_milli), every());
-        let dearer = std::iter::once_with(move || {
-            self.between(all, top, (cost_milli.saturating_add(1), i64::MAX), every())
-        });
-        Box::new(first.chain(dearer.flatten()).take(top))
+        let first = between(diagram, (i64::MIN, *cost_milli));
+        let dearer =
+            std::iter::once_with(move || between(all, (cost_milli.saturating_add(1), i64::MAX)));
+        Box::new(first.chain(dearer.flatten()))
+    }
+
+    /// Whether a variant comes before its images, which have the same properties, in the order of a diagram's variables; always
+    /// where images are not taken together.
+    fn is_first_image(&self, diagram: &Diagram, v: &Assignment) -> bool {
+        if self.conditions.symmetry != Symmetry::OnePerOrbit {
+            return true;
+        }
+        let by_layer = |choices: &Vec<usize>| -> Vec<usize> {
+            diagram.layers.iter().map(|l| choices[l.variable]).collect()
+        };
+        let own = by_layer(&v.choices);
+        let images = std::iter::successors(Some(self.image(&v.choices)), |c| Some(self.image(c)));
+        let mut others = images.take(self.mechanism.search.order() - 1);
+        others.all(|image| by_layer(&image) >= own)
     }
 
     /// The admissible variants of a diagram in order, but for those whose beginnings `enter` refuses.
@@ -90,7 +104,7 @@ impl Search {
         }
     }
 
-    /// Draws admissible variants without end, each with the same chance; none where what it takes to draw is more than the
+    /// Draws admissible variants, or orbits, without end, each with the same chance; none where what it takes to draw is more than the
     /// memory there is.
     pub fn sample<'a>(
         &'a self,
@@ -113,6 +127,8 @@ impl Search {
         let tally = Tally::<C>::new(diagram, &keys, None, self.conditions.memory / 4);
         let wanted = |k: Key| self.wanted(k);
         let drawn = tally.map(|t| Sample::new(diagram, &self.steps, (keys, t), seed, wanted));
-        Box::new(drawn.into_iter().flatten())
+        // Each orbit has one variant that comes first, and so the same chance.
+        let all = drawn.into_iter().flatten();
+        Box::new(all.filter(move |v| self.is_first_image(diagram, v)))
     }
 }

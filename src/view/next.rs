@@ -1,7 +1,7 @@
 //! What to do next: commands, with what each is for.
 
 use crate::model::mechanism::Mechanism;
-use crate::score::request::{JointOptions, POOL, Request};
+use crate::score::request::{JointOptions, List, POOL, Request};
 use crate::search::conditions::Symmetry;
 use crate::view::layout::fit;
 use itertools::Itertools;
@@ -75,6 +75,9 @@ pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
         1.0 => term.name().to_owned(),
         weight => format!("{}={weight}", term.name()),
     });
+    // All variants are listed by cost, whatever ranking the file has.
+    let by_cost = r.list == List::All && r.rank.is_empty() && mechanism.ranking.is_some();
+    let rank = rank.chain(by_cost.then(|| "cost".to_owned()));
     let pool = (r.pool != POOL).then(|| r.pool.to_string());
     let valued = [
         ("max-redundant", some(r.max_redundant)),

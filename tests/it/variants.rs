@@ -212,3 +212,90 @@ fn what_would_help_where_nothing_is_found() {
     }
     assert!(seen.len() >= 4, "{seen:?}");
 }
+
+/// Of a list of one variant of each orbit the first so many are the beginning of the whole, however short, and a sample is drawn
+/// from the same ones, each orbit with the same chance.
+#[test]
+fn orbits_are_listed_however_few_are_asked_for_and_sampled_alike() {
+    let rows = |args: &[&str]| -> Vec<String> {
+        let all = [
+            &[
+                "search",
+                "gripper-slider-two-fingers",
+                "--one-per-orbit",
+                "--check",
+                "none",
+                "--format",
+                "csv",
+            ],
+            args,
+        ]
+        .concat();
+        let text = out(&all);
+        assert!(!text.contains('#'), "{text}");
+        let choices = |l: &str| l.split_once(',').unwrap().1.to_owned();
+        text.lines().skip(1).map(choices).collect()
+    };
+    let whole = rows(&["--all"]);
+    assert_eq!(whole.len(), 302);
+    for top in [1, 2, 3, 5, 10, 20, 50, 100, 301] {
+        assert_eq!(rows(&["--top", &top.to_string()]), whole[..top], "{top}");
+    }
+    let sample = rows(&["--sample", "3020"]);
+    assert_eq!(sample.len(), 3020);
+    let mut drawn: std::collections::BTreeMap<&String, usize> =
+        whole.iter().map(|row| (row, 0)).collect();
+    for row in &sample {
+        *drawn.get_mut(row).unwrap() += 1;
+    }
+    // Ten each on average: within five standard deviations, where one twice as likely would mostly be beyond.
+    assert!(drawn.values().all(|&n| n <= 26), "{drawn:?}");
+}
+
+/// A list of all variants is by cost whatever ranking a file has, and so is the command that leads on from it.
+#[test]
+fn what_follows_a_list_of_all_variants_is_of_that_list() {
+    let text = out(&["search", "lever-gripper", "--all"]);
+    let next = text
+        .lines()
+        .find(|l| l.contains("ozols export lever-gripper"))
+        .unwrap();
+    assert!(next.contains("--rank cost --variant 1"), "{next}");
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().join("one.toml");
+    let of = [
+        "export",
+        "lever-gripper",
+        "--rank",
+        "cost",
+        "--variant",
+        "1",
+        "--to",
+        "toml",
+        "-o",
+        to.to_str().unwrap(),
+    ];
+    out(&of);
+    let all = out(&["search", "lever-gripper", "--all", "--format", "csv"]);
+    let mut lines = all.lines();
+    let heads: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let first: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let exported =
+        ozols::file::text::mechanism_from_str("one.toml", &std::fs::read_to_string(to).unwrap())
+            .unwrap();
+    let joints = heads
+        .iter()
+        .zip(&first)
+        .skip(6)
+        .take_while(|(head, _)| **head != "conditioning");
+    let mut seen = 0;
+    for (head, option) in joints {
+        let j = exported
+            .joint_ids()
+            .find(|&j| exported.joints[j].id == **head)
+            .unwrap();
+        assert_eq!(exported.joints[j].joint_type.name(), *option, "{head}");
+        seen += 1;
+    }
+    assert!(seen > 5, "{seen}");
+}
