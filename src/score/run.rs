@@ -168,6 +168,11 @@ pub fn answer(
             }
         }
     }
+    // Each is cut down by itself, and every admissible variant is determinate.
+    if stops[0] != Stop::Exhausted {
+        let (determinate, admissible) = &mut counts;
+        determinate.raise(admissible);
+    }
     if counts.0.only_total || counts.1.only_total {
         tell(Event::Note(
             "note: counts by mobility, changes and the like would take more than the memory allowed (--memory); totals alone are given"

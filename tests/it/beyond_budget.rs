@@ -203,3 +203,45 @@ fn every_output_says_what_is_proven_and_what_is_estimated() {
     }
     assert!(!said.contains("Estimated"), "{said}");
 }
+
+/// Whatever the budget, no row says that more variants are admissible than have no redundant constraints.
+#[test]
+fn bounds_do_not_contradict_each_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("ladder.toml");
+    let mut cut = 0;
+    for (seed, spatial) in [(1, false), (2, false), (3, true), (4, true)] {
+        std::fs::write(&path, ladder(3, seed, spatial)).unwrap();
+        for nodes in [1, 3, 10, 30, 60, 100, 200, 400, 800, 1600, 3200] {
+            let nodes = nodes.to_string();
+            let args = [
+                "search",
+                path.to_str().unwrap(),
+                "--count",
+                "--check",
+                "none",
+                "--format",
+                "json",
+                "--nodes",
+                &nodes,
+            ];
+            let found: Value =
+                serde_json::from_slice(&ozols(&args).output().unwrap().stdout).unwrap();
+            let number = |v: &Value| v.as_str().unwrap().parse::<u64>().unwrap();
+            cut += usize::from(found["determinate_exact"] == false);
+            let [all, some] = ["determinate", "admissible"].map(|k| number(&found[k]));
+            assert!(some <= all, "{seed} {nodes}: {some} of {all}");
+            for by in ["mobility", "changes", "redundant", "freedoms"] {
+                let all = found[format!("by_{by}")].as_object().unwrap();
+                for (row, n) in found[format!("admissible_by_{by}")].as_object().unwrap() {
+                    let within = all.get(row).map_or(0, number);
+                    assert!(
+                        number(n) <= within,
+                        "{seed} {nodes} {by} {row}: {n} of {within}"
+                    );
+                }
+            }
+        }
+    }
+    assert!(cut > 5, "{cut}");
+}
