@@ -15,6 +15,7 @@ use super::parts::parts;
 use super::plane::{Rows, pivots, planes, seen};
 use super::subgroup::{Group, group_of};
 use crate::closure::matrix::{Closure, Column, CouplingRow};
+use crate::format::phrase::plural;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
@@ -67,6 +68,8 @@ pub struct LeastRows {
     pub of: usize,
     /// Rows a contour that J has.
     dim: usize,
+    /// Whether there are joints in no block.
+    outside: bool,
 }
 
 impl LeastRows {
@@ -82,30 +85,48 @@ impl LeastRows {
         mechanism: &Mechanism,
         closure: &Closure<Residue>,
     ) -> Result<LeastRows, ExactError> {
-        let mut blocks = Vec::new();
-        let whole = match mechanism.mode {
-            Mode::Planar { .. } => Some(Part::whole(exact, closure)),
-            Mode::Spatial => {
-                let group = group_of(exact, mechanism, mechanism.joints_in(closure.state))?;
-                (group.dimension() <= 3).then(|| Part::of_group(exact, &group, closure))
-            }
+        let tied = parts(closure);
+        let free = mechanism.joints_in(closure.state).count();
+        let of_contours = tied.iter().filter(|t| !of_block(closure, t).0.is_empty());
+        let outside = free > of_contours.map(Vec::len).sum();
+        let all = |parts| Block {
+            contours: (0..closure.contours.len()).collect(),
+            parts,
         };
-        if let Some(part) = whole {
-            blocks.push(Block {
-                contours: (0..closure.contours.len()).collect(),
-                parts: vec![part],
-            });
+        let mut blocks = Vec::new();
+        if let Mode::Planar { .. } = mechanism.mode {
+            blocks.push(all(vec![Part::whole(exact, closure)]));
         } else {
-            for joints in parts(closure) {
-                let (contours, own) = of_block(closure, &joints);
-                let parts = least(exact, mechanism, &joints, &own)?;
+            for joints in &tied {
+                let (contours, own) = of_block(closure, joints);
+                let parts = least(exact, mechanism, joints, &own)?;
                 blocks.push(Block { contours, parts });
+            }
+            // Blocks of one and the same group are told as one.
+            let dimension = |b: &Block| match b.parts.as_slice() {
+                [
+                    Part {
+                        motions: Motions::Group(_),
+                        per_contour,
+                        ..
+                    },
+                ] => Some(*per_contour),
+                _ => None,
+            };
+            if blocks.len() > 1
+                && let Ok(Some(one)) = blocks.iter().map(dimension).all_equal_value()
+            {
+                let group = group_of(exact, mechanism, tied.into_iter().flatten())?;
+                if group.dimension() == one {
+                    blocks = vec![all(vec![Part::of_group(exact, &group, closure)])];
+                }
             }
         }
         Ok(LeastRows {
             blocks,
             of: closure.rows(),
             dim: closure.dim,
+            outside,
         })
     }
 
@@ -138,7 +159,9 @@ impl LeastRows {
             return String::new();
         }
         let what = |b: &Block| b.words(mechanism, self.dim);
-        if let [block] = self.blocks.as_slice() {
+        let with_contours = self.blocks.iter().filter(|b| !b.contours.is_empty());
+        let with_contours = with_contours.collect_vec();
+        if let [block] = with_contours.as_slice() {
             let left_out = match (&block.parts[0].motions, self.of - self.rows()) {
                 (_, 0) => String::new(),
                 (Motions::Group(_), _) => {
@@ -147,9 +170,14 @@ impl LeastRows {
                 }
                 (_, rows) => format!("; left out: {rows} of {} rows, {REDUNDANT}", self.of),
             };
-            return format!("; all joints {}{left_out}", what(block));
+            let who = if self.outside {
+                "all joints of contours"
+            } else {
+                "all joints"
+            };
+            return format!("; {who} {}{left_out}", what(block));
         }
-        let told = self.blocks.iter().map(|b| (what(b), b)).into_group_map();
+        let told = with_contours.iter().map(|b| (what(b), *b)).into_group_map();
         let contours = |blocks: &[&Block]| {
             let all = blocks.iter().flat_map(|b| &b.contours).copied();
             all.sorted_unstable().collect_vec()
@@ -181,9 +209,10 @@ impl Block {
                     _ => String::new(),
                 };
                 if inside.rows == 0 {
-                    let rows = outside.per_contour;
                     return format!(
-                        "move out of a plane{normal} alone, so {rows} rows per contour do"
+                        "move out of a plane{normal} alone, so {} per contour {}",
+                        plural(outside.per_contour, "row"),
+                        does(outside.per_contour)
                     );
                 }
                 format!(
@@ -199,7 +228,11 @@ impl Block {
                     ..
                 },
             ] => {
-                format!("move in {name}, so {per_contour} rows per contour do")
+                format!(
+                    "move in {name}, so {} per contour {}",
+                    plural(*per_contour, "row"),
+                    does(*per_contour)
+                )
             }
             _ => format!("take all {dim} rows per contour"),
         }
@@ -239,6 +272,10 @@ impl Part {
         let (rows, of, rank, redundant) = (self.rows, self.of, self.rank, self.redundant());
         format!("({rows} of {of} rows, rank {rank}, σ = {redundant})")
     }
+}
+
+fn does(n: usize) -> &'static str {
+    if n == 1 { "does" } else { "do" }
 }
 
 /// J of some joints alone, with the places of its contours; the joints are tied to no others.
@@ -283,6 +320,9 @@ fn least(
     joints: &[JointId],
     closure: &Closure<Residue>,
 ) -> Result<Vec<Part>, ExactError> {
+    if closure.contours.is_empty() {
+        return Ok(vec![Part::whole(exact, closure)]);
+    }
     let group = group_of(exact, mechanism, joints.iter().copied())?;
     // A coupling may tie what is in the plane to what is out of it.
     if closure.couplings.is_empty() && group.dimension() > 3 {

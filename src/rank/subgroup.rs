@@ -155,6 +155,8 @@ pub struct Group {
     turns: usize,
     slides: usize,
     across: bool,
+    /// Whether what turns slides along its axis by the same motion.
+    screws: bool,
     /// Components of a twist that tell all the others: pivots of the algebra.
     pivots: Vec<usize>,
 }
@@ -189,8 +191,8 @@ impl Group {
     pub fn kind(&self) -> Kind {
         match (self.turns, self.slides) {
             (0, _) => Kind::Translation,
-            (1, 0) => Kind::Rotation,
-            (1, 2) if self.across => Kind::Planar,
+            (1, 0) if !self.screws => Kind::Rotation,
+            (1, 2) if self.across && !self.screws => Kind::Planar,
             (1, 3) => Kind::Schoenflies,
             (3, 0) => Kind::Spherical,
             _ => Kind::Other,
@@ -201,12 +203,20 @@ impl Group {
     #[must_use]
     pub fn name(&self) -> String {
         match self.kind() {
+            Kind::Translation if self.slides == 0 => "no motion (0)".to_owned(),
             Kind::Translation if self.slides == 3 => "the group of translations (3)".to_owned(),
             Kind::Translation => format!("a group of translations ({})", self.dimension),
             Kind::Rotation => "the turns about one axis (1)".to_owned(),
             Kind::Planar => "one plane (3)".to_owned(),
             Kind::Spherical => "the turns about one point (3)".to_owned(),
             Kind::Schoenflies => "a Schoenflies group (4)".to_owned(),
+            Kind::Other if self.screws && self.slides == 0 => "one screw (1)".to_owned(),
+            Kind::Other if self.screws => {
+                format!(
+                    "screws of one pitch and slides across them ({})",
+                    self.dimension
+                )
+            }
             Kind::Other => format!("a group of dimension {}", self.dimension),
         }
     }
@@ -228,6 +238,7 @@ pub fn whole_group(
             turns: 1,
             slides: 2,
             across: true,
+            screws: false,
             pivots: vec![0, 1, 2],
         });
     }
@@ -272,11 +283,15 @@ pub(super) fn group_of(
         whole.insert(t);
     });
     let across = slides.iter().all(|&v| exact.dot(v, axis) == 0);
+    // Slides across the axis change nothing of what a turn slides along it; a slide along it makes any turn of the screw.
+    let along = |t: &Vec<Residue>| exact.dot([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
+    let screws = turns.rank() == 1 && across && basis.iter().any(|t| along(t) != 0);
     Ok(Group {
         dimension: basis.len(),
         turns: turns.rank(),
         slides: slides.len(),
         across,
+        screws,
         pivots: pivots(&whole),
     })
 }

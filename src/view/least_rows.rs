@@ -26,13 +26,15 @@ pub struct Part {
     pub redundant: usize,
 }
 
-/// Those of a state; none where all rows are taken as they are.
+/// Those of a state; none where all rows are taken as they are, and where rounded coordinates do not decide the rank.
 #[must_use]
 pub fn least_rows(mechanism: &Mechanism, s: &StateAnalysis) -> Vec<Part> {
-    let Some(found) = s.least_rows.as_ref().filter(|l| !LeastRows::is_all(l)) else {
+    let found = s.least_rows.as_ref().filter(|l| !LeastRows::is_all(l));
+    let Some(found) = found.filter(|_| s.at_most().is_none()) else {
         return Vec::new();
     };
-    let parts = found.blocks.iter().flat_map(|b| {
+    let blocks = found.blocks.iter().filter(|b| !b.contours.is_empty());
+    let parts = blocks.flat_map(|b| {
         let name = |&c: &usize| s.per_contour.get(c).map(|c| c.contour.name(mechanism));
         let contours = b.contours.iter().filter_map(name).collect_vec();
         b.parts.iter().map(move |part| {

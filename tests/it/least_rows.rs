@@ -270,3 +270,68 @@ proptest! {
         }
     }
 }
+
+/// Screws of one pitch about one direction make a group of three dimensions that is no plane, and coaxial ones are no turns.
+#[test]
+fn screws_are_not_called_turns() {
+    let words = |joints: &[[i64; 2]]| {
+        let mut text = "name = \"screws\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n".to_owned();
+        for i in 1..joints.len() {
+            writeln!(text, "[[link]]\nid = \"{i}\"\nrole = \"output\"").unwrap();
+        }
+        for (i, [x, y]) in joints.iter().enumerate() {
+            let next = (i + 1) % joints.len();
+            writeln!(
+                text,
+                "[[joint]]\nid = \"j{i}\"\nlinks = [\"{i}\", \"{next}\"]\ntype = \"helical\"\npitch = 1\npoint = [{x}, {y}, 0]\naxis = [0, 0, 1]"
+            )
+            .unwrap();
+        }
+        let m = mechanism_from_str("screws.toml", &text).unwrap();
+        check(&m, StateId::FREE).words(&m, |c| c.to_string())
+    };
+    let parallel = words(&[[0, 0], [3, 0], [4, 4], [0, 5]]);
+    assert!(
+        parallel.contains("screws of one pitch and slides across them (3)"),
+        "{parallel}"
+    );
+    let coaxial = words(&[[2, 1], [2, 1]]);
+    assert!(
+        coaxial.contains("one screw (1), so 1 row per contour does"),
+        "{coaxial}"
+    );
+}
+
+/// What is said of all joints is true of all: an arm on the coupler of a four-bar is in no contour, and in no plane with it.
+#[test]
+fn joints_outside_contours_are_not_spoken_for() {
+    let four_bar = builtin::text("four-bar").unwrap();
+    let arm = "[[link]]\nid = \"arm\"\n[[joint]]\nid = \"shoulder\"\nlinks = [\"2\", \"arm\"]\ntype = \"revolute\"\n\
+               point = [1, 2, 3]\naxis = [1, 2, 3]\n";
+    let without_figures = four_bar.split("[[expected]]").next().unwrap();
+    let m = mechanism_from_str("arm.toml", &format!("{without_figures}\n{arm}")).unwrap();
+    let words = check(&m, StateId::FREE).words(&m, |c| c.to_string());
+    assert!(
+        words.starts_with(
+            "; all joints of contours move in one plane (3), so 3 rows per contour do"
+        ),
+        "{words}"
+    );
+    let whole = built_in("four-bar");
+    let words = check(&whole, StateId::FREE).words(&whole, |c| c.to_string());
+    assert!(
+        words.starts_with("; all joints move in one plane (3)"),
+        "{words}"
+    );
+}
+
+/// Geared arms have no contour to tell rows of.
+#[test]
+fn couplings_without_contours_are_not_told_of() {
+    let text = "name = \"geared arms\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"a\"\nrole = \"output\"\n[[link]]\n\
+                id = \"b\"\n[[joint]]\nid = \"A\"\nlinks = [\"0\", \"a\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n\
+                [[joint]]\nid = \"B\"\nlinks = [\"0\", \"b\"]\ntype = \"revolute\"\npoint = [3, 0, 0]\naxis = [0, 0, 1]\n\
+                [[coupling]]\njoints = [\"A\", \"B\"]\nratio = -2\n";
+    let m = mechanism_from_str("arms.toml", text).unwrap();
+    assert_eq!(check(&m, StateId::FREE).words(&m, |c| c.to_string()), "");
+}
