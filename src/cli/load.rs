@@ -88,8 +88,15 @@ pub(super) fn put_in_plane(mechanism: &mut Mechanism) {
     mechanism.couplings = kept;
 }
 
-/// The message for a name that is neither a file nor built in.
+/// The message for a name that is neither a regular file nor built in.
 pub(super) fn unknown(file: &str) -> String {
+    match std::fs::metadata(file) {
+        Ok(m) if m.is_dir() => return format!("{file} is a folder; name a file in it"),
+        Ok(m) if !m.is_file() => {
+            return format!("{file} is no regular file; `-` reads standard input");
+        }
+        _ => {}
+    }
     let hint = near::hint(file, builtin::names());
     format!(
         "{file} is neither a file nor a built-in mechanism{hint} (`ozols list` shows those built in)"

@@ -79,7 +79,7 @@ pub(crate) fn read<T>(
         text: text.to_owned(),
         problems,
     };
-    if text.trim().is_empty() {
+    if text.trim_start_matches('\u{feff}').trim().is_empty() {
         return Err(fail(vec![Problem {
             kind: ProblemKind::Empty,
             span: None,

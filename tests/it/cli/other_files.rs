@@ -107,5 +107,14 @@ fn error_missing_file_and_unknown_name() {
     refused(&["search", "zzz"], &["zzz is neither"]);
     refused(&["show", "zzz"], &["zzz is not a built-in mechanism"]);
     let folder = tempfile::tempdir().unwrap();
-    refused(&["check", folder.path().to_str().unwrap()], &["neither"]);
+    refused(
+        &["check", folder.path().to_str().unwrap()],
+        &["is a folder; name a file in it"],
+    );
+    if cfg!(unix) {
+        refused(
+            &["check", "/dev/null"],
+            &["is no regular file", "standard input"],
+        );
+    }
 }
