@@ -87,7 +87,7 @@ pub(super) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     if let Some(t) = a.tolerance
         && !(t > 0.0 && t < 1.0)
     {
-        bail!("--tolerance must be between 0 and 1");
+        bail!("--tolerance, or --snap, must be between 0 and 1");
     }
     if a.tolerance.is_some() && matches!(a.method.about().rank, RankOfJ::Exact | RankOfJ::NotFound)
     {

@@ -70,6 +70,16 @@ pub(super) fn to(
         .parent()
         .filter(|p| !p.as_os_str().is_empty())
         .unwrap_or(Path::new("."));
+    if path.is_dir() {
+        anyhow::bail!("{}: it is a folder; name a file in it", whole());
+    }
+    if !folder.is_dir() {
+        anyhow::bail!(
+            "{}: there is no folder {}; make it first",
+            whole(),
+            folder.display()
+        );
+    }
     let mut temporary = {
         let mut beside = beside();
         let temporary = ordinary().tempfile_in(folder).with_context(whole)?;

@@ -135,8 +135,14 @@ fn from_toml(text: &str) -> Result<MechanismFile, Problem> {
     })
 }
 
-/// What to do where a field is missing.
+/// What to do about a value that is missing or of another kind.
 fn with_remedy(message: String) -> String {
+    if message == "floating-point number overflowed" {
+        return format!("{message}; choose another length_unit");
+    }
+    if let Some((_, n)) = message.split_once(", expected an array of length ") {
+        return format!("{message}; write {n} values, no more and no fewer");
+    }
     let missing = message.strip_prefix("missing field `");
     match missing.and_then(|rest| rest.strip_suffix('`')) {
         Some("id") => format!("{message}; give it a name of its own"),

@@ -71,12 +71,7 @@ fn read_number(c: &Coordinate, pi_is_a_number: bool, path: &[Step], out: &mut Fi
                 None => size == 0.0,
             };
             if !zero && !(RANGE.0..=RANGE.1).contains(&size) {
-                out.add(
-                    path,
-                    ProblemKind::OutOfRange {
-                        value: e.to_string(),
-                    },
-                );
+                out.add(path, ProblemKind::OutOfRange { value: short(&e) });
                 return Expr::from(0);
             }
             e
@@ -98,6 +93,15 @@ fn read_number(c: &Coordinate, pi_is_a_number: bool, path: &[Step], out: &mut Fi
 
 pub(crate) fn vector(v: &[Coordinate; 3], path: &[Step], out: &mut Findings) -> [Expr; 3] {
     [0, 1, 2].map(|i| number(&v[i], &index(path, i), out))
+}
+
+/// A number as it is written, or in short where that takes more than a line has room for.
+fn short(e: &Expr) -> String {
+    let text = e.to_string();
+    match text.len() {
+        ..=40 => text,
+        _ => format!("{:e}", e.to_f64()),
+    }
 }
 
 fn real(v: &[Expr; 3]) -> [f64; 3] {

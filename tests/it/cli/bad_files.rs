@@ -340,3 +340,59 @@ fn error_coordinate_overflow_in_words() {
         &["number"],
     );
 }
+
+/// What a file cannot hold is told in short, with what to do.
+#[test]
+fn error_numbers_beyond_all_bounds() {
+    let place = |point: &str| {
+        format!(
+            "name = \"x\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n[[joint]]\nid = \"j\"\nlinks = [\"0\", \"1\"]\n\
+             type = \"revolute\"\npoint = {point}\naxis = [0, 0, 1]\n"
+        )
+    };
+    for (point, parts) in [
+        (
+            "[1e300, 0, 0]",
+            [
+                "coordinate 1e300 is out of range",
+                "choose another length_unit",
+            ],
+        ),
+        (
+            "[1e-320, 0, 0]",
+            ["is out of range", "choose another length_unit"],
+        ),
+        (
+            "[1e400, 0, 0]",
+            ["overflowed", "choose another length_unit"],
+        ),
+        (
+            "[3, 0]",
+            ["expected an array of length 3", "write 3 values"],
+        ),
+    ] {
+        bad_file("bad.toml", &place(point), "point =", &parts);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("huge.toml");
+    fs::write(&path, place("[1e300, 0, 0]")).unwrap();
+    let said = refused(&["check", path.to_str().unwrap()], &["1e300"]);
+    assert!(said.lines().all(|l| l.len() < 200), "{said}");
+}
+
+#[test]
+fn outputs_that_have_no_place_are_refused_by_their_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path().to_str().unwrap();
+    let said = refused(
+        &["analyze", "four-bar", "-o", place],
+        &["it is a folder; name a file in it"],
+    );
+    assert!(!said.contains(".tmp/"), "{said}");
+    let nowhere = format!("{place}/none/x.txt");
+    let said = refused(
+        &["analyze", "four-bar", "-o", &nowhere],
+        &["cannot write", "there is no folder", "make it first"],
+    );
+    assert!(!said.contains("os error"), "{said}");
+}
