@@ -60,13 +60,13 @@ fn scene(i: usize, s: &State<'_>, drawing: &Drawing) -> Markup {
                 label.shown { "Shown " select data-part="shown" {} }
                 button type="button" data-part="home" disabled { "First view" }
                 span.help role="status" data-part="say" {}
-            }
-            @for (n, what, flags) in [
-                (s.idle.len(), "idle freedoms", "--motion --idle K"),
-                (s.self_stresses.len(), "self-stresses", "--self-stress K"),
-            ] {
-                @if n > SHOWN {
-                    p.help { "The first " (SHOWN) " of " (n) " " (what) " are here; " code { "ozols draw " (flags) } " draws any." }
+                @for (n, what, flags) in [
+                    (s.idle.len(), "idle freedoms", "--motion --idle K"),
+                    (s.self_stresses.len(), "self-stresses", "--self-stress K"),
+                ] {
+                    @if n > SHOWN {
+                        span.help { "The first " (SHOWN) " of " (n) " " (what) " are here; " code { "ozols draw " (flags) } " draws any." }
+                    }
                 }
             }
         }
