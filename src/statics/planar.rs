@@ -2,8 +2,9 @@
 
 use crate::closure::twist::FrameValues;
 use crate::geom::exact::ExactError;
+use crate::geom::expr::Expr;
 use crate::geom::scalars::{Reals, Scalars};
-use crate::geom::vector::{X, Y, Z, across, cross, dot, length, unit};
+use crate::geom::vector::{X, Y, Z, across, cross, dot, length, real, unit};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, StateId};
 use std::fmt;
@@ -157,10 +158,7 @@ impl PlanarMechanism {
             let coupling = c.name(m);
             return Err(PlanarError::Coupled { coupling });
         }
-        let normal = match &m.mode {
-            Mode::Planar { normal } => unit(Reals.eval3(normal)?),
-            Mode::Spatial => spatial_normal(m, state)?,
-        };
+        let normal = normal(m, state)?;
         let x = [X, Y]
             .into_iter()
             .find(|g| !is_parallel(*g, normal))
@@ -295,6 +293,48 @@ impl PlanarMechanism {
         }
         Ok(())
     }
+}
+
+fn normal(m: &Mechanism, state: StateId) -> Result<[f64; 3], PlanarError> {
+    match &m.mode {
+        Mode::Planar { normal } => Ok(unit(Reals.eval3(normal)?)),
+        Mode::Spatial => spatial_normal(m, state),
+    }
+}
+
+/// Whether all loads of a mechanism act in its plane: no force across it, no moment that tilts, and none at a point above or
+/// below it where all joints have one height. What a file in planar mode states does, whatever it is.
+pub(crate) fn loads_are_in_plane(m: &Mechanism, state: StateId) -> bool {
+    let (Mode::Spatial, Ok(n)) = (&m.mode, normal(m, state)) else {
+        return true;
+    };
+    let small = |x: f64, of: f64| x.abs() <= 1e-9 * of;
+    let across = |v: [f64; 3]| small(dot(v, n), dot(v, v).sqrt());
+    let along = |v: [f64; 3]| {
+        let tilt = cross(v, n);
+        small(dot(tilt, tilt).sqrt(), dot(v, v).sqrt())
+    };
+    let points: Vec<[f64; 3]> = m
+        .joints_in(state)
+        .map(|j| real(&m.joints[j].frame.point))
+        .collect();
+    let size = points
+        .iter()
+        .flatten()
+        .fold(0.0, |a: f64, x| a.max(x.abs()));
+    let mut heights = points.iter().map(|&p| dot(p, n));
+    let level = heights.next().unwrap_or(0.0);
+    let flat = heights.all(|h| small(h - level, size));
+    let beside = |p: &[Expr; 3]| !flat || small(dot(real(p), n) - level, size);
+    let loads = m.loads.in_state(state);
+    let mut masses = m.links.iter().filter_map(|l| l.mass.as_ref());
+    let weights = loads.gravity.as_ref().is_none_or(|g| {
+        masses.all(|mass| mass.mass == 0.0 || across(real(g)) && beside(&mass.centre))
+    });
+    let forces = &mut loads.forces.iter();
+    weights
+        && forces.all(|f| across(real(&f.force)) && beside(&f.point))
+        && loads.moments.iter().all(|x| along(real(&x.moment)))
 }
 
 /// The normal that the joints of a spatial mechanism share: the first axis they turn about, or across the first two

@@ -4,7 +4,7 @@ use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::assur::AssurError;
 use crate::statics::cycle::{PlanarStaticsError, Statics, statics};
-use crate::statics::planar::PlanarError;
+use crate::statics::planar::{PlanarError, loads_are_in_plane};
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::contact::{Contacts, object_at};
 use crate::statics::reactions::cycle::{Cycle, cycle_with};
@@ -17,7 +17,8 @@ pub enum Model {
     Planar,
     /// All six components of each joint, redundant constraints and all.
     Spatial,
-    /// Those of the plane where they determine it and there are no contacts with an object, otherwise all six.
+    /// Those of the plane where they determine it, all loads act in it and there are no contacts with an object, otherwise all
+    /// six.
     Either,
     /// All six, and contacts with an object only push.
     Pushing,
@@ -100,7 +101,7 @@ pub fn solve(
     let (flat, contacts) = match model {
         Model::Planar => (true, Contacts::AsJoints),
         Model::Spatial => (false, Contacts::AsJoints),
-        Model::Either => (!touched, Contacts::AsJoints),
+        Model::Either => (!touched && loads_are_in_plane(m, state), Contacts::AsJoints),
         Model::Pushing => (false, Contacts::Pushing),
     };
     if flat {

@@ -75,3 +75,41 @@ fn bad_workloads_are_refused_with_line_item_and_remedy() {
         }
     }
 }
+
+/// Loads out of the plane of a linkage are borne in space, not left out: by themselves where no equations are asked for.
+#[test]
+fn loads_out_of_the_plane_are_not_left_out() {
+    let four_bar = builtin::text("four-bar")
+        .unwrap()
+        .split("[[expected]]")
+        .next()
+        .unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("loaded.toml");
+    let with = |load: &str| {
+        std::fs::write(&path, format!("{four_bar}\n{load}\n")).unwrap();
+        json(&["statics", path.to_str().unwrap(), "--format", "json"])
+    };
+    let force = |point: &str, force: &str| {
+        format!("[[workload.force]]\nlink = \"2\"\npoint = {point}\nforce = {force}")
+    };
+    for load in [
+        force("[50, 40, 0]", "[0, 0, -1000]"),
+        force("[50, 40, 20]", "[0, -1000, 0]"),
+        "[[workload.moment]]\nlink = \"2\"\nmoment = [1, 0, 0]".to_owned(),
+    ] {
+        let found = with(&load);
+        assert_eq!(found["choice"], "minimum-norm", "{load}");
+        let moments = found["reactions"].as_array().unwrap().iter();
+        let tilting = moments.map(|r| {
+            r["moment"][0].as_f64().unwrap().abs() + r["moment"][1].as_f64().unwrap().abs()
+        });
+        assert!(tilting.fold(0.0, f64::max) > 0.1, "{load}");
+    }
+    // What acts in the plane is solved there.
+    let found = with(&force("[50, 40, 0]", "[0, -1000, 0]"));
+    assert!(
+        found.get("choice").is_none() && found.get("groups").is_some(),
+        "{found}"
+    );
+}
