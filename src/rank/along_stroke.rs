@@ -270,6 +270,29 @@ impl<'a> Looker<'a> {
                 }
             }
         }
+        // A singular value that vanishes before the second pose, or after the last but one, has no pose on its other side.
+        for (from, to) in [
+            (0, 1),
+            (way.len().wrapping_sub(2), way.len().wrapping_sub(1)),
+        ] {
+            let (Some(from), Some(to)) = (way.get(from), way.get(to)) else {
+                continue;
+            };
+            let (low, high) = (from.at.min(to.at) - width, from.at.max(to.at) + width);
+            let known = |c: &Change| c.between.iter().any(|x| (low..=high).contains(x));
+            if found.iter().any(known) {
+                continue;
+            }
+            let Some(middle) = self.from(from, f64::midpoint(from.at, to.at)) else {
+                continue;
+            };
+            let alike = |s: &Sample| s.rank.rank == from.rank.rank;
+            if alike(&middle) && alike(to) {
+                self.lowest([from, &middle, to], width, &mut found);
+            }
+        }
+        let along = (to - from).signum();
+        found.sort_by(|a, b| (a.between[0] * along).total_cmp(&(b.between[0] * along)));
         let mut merged: Vec<Change> = Vec::new();
         for c in found {
             match merged.last_mut() {

@@ -228,7 +228,10 @@ impl<'a> Stroke<'a> {
             let _ = writeln!(out, "  {}", self.told(c));
         }
         if self.changes.is_empty() && !self.poses.is_empty() {
-            let _ = writeln!(out, "  the rank does not change on the way");
+            let _ = writeln!(
+                out,
+                "  no change of the rank was found on the way, at the poses and between them"
+            );
         }
         if self.undriven > 0 {
             let _ = writeln!(
@@ -262,7 +265,7 @@ impl<'a> Stroke<'a> {
         };
         let places = self.changes.iter().map(|c| self.place(c.middle(), 3));
         let changes = if self.changes.is_empty() {
-            "The rank does not change on the way".to_owned()
+            "No change of the rank was found on the way, at the poses and between them".to_owned()
         } else {
             format!("The rank changes at {}", places.take(6).join(", "))
         };

@@ -59,6 +59,7 @@ mod screws;
 mod self_stresses;
 mod statics;
 mod stroke;
+mod stroke_ends;
 mod stroke_poses;
 mod structure;
 mod suggest;
