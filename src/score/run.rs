@@ -196,6 +196,19 @@ pub fn answer(
         )));
     }
     let ranking = ranked(&search, &diagrams, request, should_cancel)?;
+    if ranking.is_some()
+        && search
+            .mechanism
+            .loads
+            .drive_speeds
+            .iter()
+            .any(|s| *s != 0.0)
+    {
+        tell(Event::Note(
+            "note: variants are ranked at rest, without the inertia forces of drive_speed; `ozols statics --spatial` has them for one that is exported"
+                .to_owned(),
+        ));
+    }
     Ok(Outcome {
         diagrams: Some(diagrams),
         stop: stops[0].or(stops[1]),

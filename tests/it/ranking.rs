@@ -398,3 +398,28 @@ fn the_default_pool_finds_the_winner_and_says_how_far_it_is_from_proven() {
     let (_, ranking) = first(&heavy);
     assert!(ranking.proven && ranking.missing.is_none() && ranking.scored < 20_000);
 }
+
+/// Scores are those at rest, which is said where a drive has a speed.
+#[test]
+fn that_scores_are_at_rest_is_said_where_there_is_a_speed() {
+    let text = ozols::builtin::text("gripper-10-loaded").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("fast.toml");
+    std::fs::write(
+        &path,
+        text.replacen("[workload]", "[workload]\ndrive_speed = 50", 1),
+    )
+    .unwrap();
+    let said = |file: &str| {
+        let o = crate::common::run(&[
+            "search", file, "--top", "1", "--pool", "50", "--check", "none",
+        ]);
+        String::from_utf8(o.stderr).unwrap()
+    };
+    assert!(
+        said(path.to_str().unwrap()).contains("ranked at rest"),
+        "{}",
+        said(path.to_str().unwrap())
+    );
+    assert!(!said("gripper-10-loaded").contains("ranked at rest"));
+}

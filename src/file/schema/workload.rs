@@ -127,7 +127,7 @@ pub struct MisalignmentEntry {
     pub axis: String,
 }
 
-/// Inertia about the mass centre: a number for the plane, three about the axes, or six of a tensor.
+/// Inertia about the mass centre: a number for the plane, three about the axes, or six of a tensor: xx, yy, zz, xy, yz, zx.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(
     untagged,
