@@ -16,7 +16,7 @@ use tempfile::tempdir;
 
 /// What the drive of a file bears, in N or N·m, by the equilibrium of all links.
 fn effort(file: &str) -> f64 {
-    let found = json(&["statics", file, "--format", "json"]);
+    let found = json(&["statics", "--planar", file, "--format", "json"]);
     let reactions = found["positions"][0]["reactions"].as_array().unwrap();
     let mut efforts = reactions.iter().filter_map(|r| r["effort"].as_f64());
     let effort = efforts.next().unwrap();
