@@ -25,6 +25,12 @@ impl Echelon {
         self.rows.len()
     }
 
+    /// The places of the pivots, ascending: coordinates that tell all others of a vector in the span.
+    #[must_use]
+    pub fn pivots(&self) -> Vec<usize> {
+        self.rows.iter().map(|(pivot, _)| *pivot).collect()
+    }
+
     /// Subtracts from `v` its part along the pivots.
     pub fn reduce(&self, v: &mut [Residue]) {
         let f = self.field;

@@ -339,10 +339,7 @@ impl<'a> Kernel<'a> {
             .filter(|&r| echelon.insert(&rows[r]))
             .collect();
         let reduced = echelon.reduced();
-        let columns: Vec<usize> = reduced
-            .iter()
-            .filter_map(|row| row.iter().position(|&x| x != 0))
-            .collect();
+        let columns = echelon.pivots();
         let entries = free_columns(&columns, width)
             .flat_map(|free| reduced.iter().map(move |row| f.neg(row[free])))
             .collect();

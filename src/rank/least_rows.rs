@@ -12,7 +12,7 @@
 use super::direction::Direction;
 use super::modular;
 use super::parts::parts;
-use super::plane::{Rows, pivots, planes, seen};
+use super::plane::{Rows, planes, seen};
 use super::subgroup::{Group, group_of};
 use crate::closure::matrix::{Closure, Column, CouplingRow};
 use crate::format::phrase::plural;
@@ -376,7 +376,7 @@ fn fallen_apart(
         }
     }
     let part = |i: usize| {
-        let used = pivots(&all[i]);
+        let used = all[i].pivots();
         let seen = |c: &Column<Residue>| {
             let t = seen(f, &rows[i], &c.twist);
             Column {

@@ -92,9 +92,3 @@ pub(crate) fn seen(f: Field, rows: &Rows, twist: &[Residue]) -> [Residue; 3] {
         terms.fold(0, |sum, (&a, &b)| f.add(sum, f.mul(a, b)))
     })
 }
-
-/// Numbers of a vector in a span that tell all the others: the pivots of its reduced form.
-pub(crate) fn pivots(span: &Echelon) -> Vec<usize> {
-    let pivot = |row: &Vec<Residue>| row.iter().position(|&x| x != 0);
-    span.reduced().iter().filter_map(pivot).collect()
-}

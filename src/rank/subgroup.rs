@@ -15,7 +15,6 @@ use crate::geom::scalars::Scalars;
 use crate::linalg::echelon::{Echelon, rank, relations};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
-use crate::rank::plane::pivots;
 
 /// The bracket of two twists, [ω1 × ω2; ω1 × v2 + v1 × ω2].
 pub(super) fn bracket(exact: &ExactField, a: &[Residue], b: &[Residue]) -> Vec<Residue> {
@@ -292,6 +291,6 @@ pub(super) fn group_of(
         slides: slides.len(),
         across,
         screws,
-        pivots: pivots(&whole),
+        pivots: whole.pivots(),
     })
 }

@@ -190,7 +190,8 @@ impl Second {
                     rows.len() - 1
                 })
             };
-            reduced(field, &wrenches).into_iter().map(number).collect()
+            let basis = span(field, &wrenches).reduced();
+            basis.into_iter().map(number).collect()
         });
         Second {
             of_node: of_node.collect(),
@@ -199,12 +200,12 @@ impl Second {
     }
 }
 
-fn reduced(field: Field, vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
+fn span(field: Field, vectors: &[Vec<Residue>]) -> Echelon {
     let mut out = Echelon::new(field);
     vectors.iter().for_each(|v| {
         out.insert(v);
     });
-    out.reduced()
+    out
 }
 
 /// Vectors up to those of a space.
@@ -219,9 +220,8 @@ struct Quotient {
 
 impl Quotient {
     fn new(field: Field, vectors: Vec<Vec<Residue>>, width: usize) -> Quotient {
-        let rows = reduced(field, &vectors);
-        let pivot = |r: &Vec<Residue>| r.iter().position(|&x| x != 0);
-        let pivots: Vec<usize> = rows.iter().filter_map(pivot).collect();
+        let span = span(field, &vectors);
+        let (rows, pivots) = (span.reduced(), span.pivots());
         let open = (0..width).filter(|i| !pivots.contains(i)).collect();
         Quotient {
             field,

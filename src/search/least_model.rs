@@ -14,7 +14,7 @@ use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::Mechanism;
-use crate::rank::plane::{Rows, pivots, planes, seen};
+use crate::rank::plane::{Rows, planes, seen};
 use crate::search::diagram;
 use crate::search::plan::Plan;
 use crate::search::space::{Choice, Space};
@@ -180,7 +180,7 @@ impl Seen {
         twists.for_each(|t| {
             all.insert(t);
         });
-        let used = pivots(&all);
+        let used = all.pivots();
         if used.is_empty() { vec![0] } else { used }
     }
 

@@ -151,11 +151,7 @@ pub fn lookahead(
             free.insert(&image(&together, c));
         });
     }
-    let taken: Vec<usize> = free
-        .reduced()
-        .iter()
-        .filter_map(|r| r.iter().position(|&x| x != 0))
-        .collect();
+    let taken = free.pivots();
     let total = locks.len() + kept.len() * dim;
     let open: Vec<usize> = (0..total).filter(|i| !taken.contains(i)).collect();
     let mut map = Vec::new();
