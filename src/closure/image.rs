@@ -4,9 +4,9 @@ use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
 use crate::format::number::brief;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::scalars::Scalars;
-use crate::geom::vector::{cross, dot, length, real};
+use crate::geom::vector::{Vector, cross, dot, length, real};
 use crate::linalg::echelon::Echelon;
-use crate::linalg::modp::Residue;
+use crate::linalg::modp::{Field, Residue};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, Mode};
 
@@ -62,22 +62,76 @@ impl Miss {
     }
 }
 
-/// What becomes of space: x goes to `linear`(x) + `shift`, lengths stay.
-pub(super) struct Map<F> {
-    /// What becomes of directions.
-    pub(super) linear: F,
+/// What carries space over to itself, and a mechanism with it.
+pub trait Carrier {
+    /// Where it carries the point and the axis of a joint, in numbers.
+    fn place(&self, frame: &Frame) -> (Vector, Vector);
+
+    /// What becomes of space in exact numbers; none where lengths do not stay.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    fn map(&self, exact: &ExactField) -> Result<Option<Map>, ExactError>;
+
+    /// How far the image of a joint is from a place.
+    #[must_use]
+    fn miss(&self, (from, of): (&Frame, &JointType), to: &Frame) -> Miss {
+        Miss::new(self.place(from), of, to)
+    }
+
+    /// Whether the image of a joint allows exactly the motions of another.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    fn carries(
+        &self,
+        exact: &ExactField,
+        mode: &Mode,
+        from: (&Frame, &JointType),
+        to: (&Frame, &JointType),
+    ) -> Result<bool, ExactError> {
+        match self.map(exact)? {
+            Some(map) => map.carries(exact, mode, from, to),
+            None => Ok(false),
+        }
+    }
+}
+
+/// What becomes of space: x goes to `linear`·x + `shift`, lengths stay.
+#[derive(Debug, Clone, Copy)]
+pub struct Map {
+    /// What becomes of x, y and z.
+    pub(super) linear: [[Residue; 3]; 3],
     /// What becomes of the origin.
     pub(super) shift: [Residue; 3],
     /// Whether right hands become left ones.
     pub(super) reflects: bool,
 }
 
-impl<F: Fn([Residue; 3]) -> [Residue; 3]> Map<F> {
-    /// Whether the image of a joint allows exactly the motions of another.
-    ///
-    /// # Errors
-    /// Where a coordinate has no value in the field.
-    pub(super) fn carries(
+impl Map {
+    /// The map that does to directions what `linear` does.
+    pub(super) fn new(
+        f: Field,
+        linear: impl Fn([Residue; 3]) -> [Residue; 3],
+        shift: [Residue; 3],
+        reflects: bool,
+    ) -> Map {
+        let unit = |i: usize| [0, 1, 2].map(|j| if i == j { f.one() } else { f.zero() });
+        Map {
+            linear: [0, 1, 2].map(|i| linear(unit(i))),
+            shift,
+            reflects,
+        }
+    }
+
+    fn direction(&self, f: Field, v: [Residue; 3]) -> [Residue; 3] {
+        [0, 1, 2].map(|i| {
+            let columns = self.linear.iter().zip(v);
+            columns.fold(f.zero(), |sum, (c, x)| f.add(sum, f.mul(c[i], x)))
+        })
+    }
+
+    fn carries(
         &self,
         exact: &ExactField,
         mode: &Mode,
@@ -87,13 +141,13 @@ impl<F: Fn([Residue; 3]) -> [Residue; 3]> Map<F> {
         let f = exact.field();
         // A turn about u is one about -u in a mirror; the body point at the origin is the image of that at the shift.
         let image = |[w0, w1, w2, v0, v1, v2]: [Residue; 6]| {
-            let turned = (self.linear)([w0, w1, w2]);
+            let turned = self.direction(f, [w0, w1, w2]);
             let w = match self.reflects {
                 true => turned.map(|x| f.neg(x)),
                 false => turned,
             };
             let arm = exact.cross(self.shift, w);
-            let v = (self.linear)([v0, v1, v2]);
+            let v = self.direction(f, [v0, v1, v2]);
             let at = |i: usize| f.add(v[i], arm[i]);
             [w[0], w[1], w[2], at(0), at(1), at(2)]
         };

@@ -1,13 +1,12 @@
 //! Mirror images: whether the joints that a file pairs are each other's images in one plane, and by how much they are not.
 
-use crate::closure::image::{Map, Miss};
+use crate::closure::image::{Carrier, Map, Miss};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::exact_vector::{ExactVector, cross, sub};
 use crate::geom::scalars::Scalars;
-use crate::geom::vector::{dot, length, real};
+use crate::geom::vector::{Vector, dot, length, real};
 use crate::linalg::modp::Residue;
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Frame, JointId, Mechanism, Mode};
+use crate::model::mechanism::{Frame, JointId, Mechanism};
 
 /// A plane by two points that are images of each other.
 #[derive(Debug, Clone)]
@@ -72,35 +71,25 @@ impl Plane {
         judged.sort_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         judged.into_iter().map(|(_, plane)| plane).collect()
     }
+}
 
-    /// How far the image of a joint is from a place.
-    #[must_use]
-    pub fn miss(&self, (from, of): (&Frame, &JointType), to: &Frame) -> Miss {
+impl Carrier for Plane {
+    fn place(&self, frame: &Frame) -> (Vector, Vector) {
         let (a, b) = (real(&self.one), real(&self.other));
         let n = [0, 1, 2].map(|i| b[i] - a[i]);
         let nn = dot(n, n);
-        let reflect = |v: [f64; 3]| {
+        let reflect = |v: Vector| {
             let by = 2.0 * dot(v, n) / nn;
             [0, 1, 2].map(|i| v[i] - by * n[i])
         };
         let middle = [0, 1, 2].map(|i| (a[i] + b[i]) / 2.0);
-        let p = real(&from.point);
+        let p = real(&frame.point);
         let image = reflect([0, 1, 2].map(|i| p[i] - middle[i]));
         let point = [0, 1, 2].map(|i| image[i] + middle[i]);
-        Miss::new((point, reflect(real(&from.axis))), of, to)
+        (point, reflect(real(&frame.axis)))
     }
 
-    /// Whether the image of a joint allows exactly the motions of another.
-    ///
-    /// # Errors
-    /// Where a coordinate has no value in the field.
-    pub fn carries(
-        &self,
-        exact: &ExactField,
-        mode: &Mode,
-        from: (&Frame, &JointType),
-        to: (&Frame, &JointType),
-    ) -> Result<bool, ExactError> {
+    fn map(&self, exact: &ExactField) -> Result<Option<Map>, ExactError> {
         let f = exact.field();
         let (a, b) = (exact.eval3(&self.one)?, exact.eval3(&self.other)?);
         let n = [0, 1, 2].map(|i| f.sub(b[i], a[i]));
@@ -112,11 +101,6 @@ impl Plane {
         };
         let sum = [0, 1, 2].map(|i| f.add(a[i], b[i]));
         let far = f.mul(scale, exact.dot(sum, n));
-        let map = Map {
-            linear,
-            shift: n.map(|x| f.mul(far, x)),
-            reflects: true,
-        };
-        map.carries(exact, mode, from, to)
+        Ok(Some(Map::new(f, linear, n.map(|x| f.mul(far, x)), true)))
     }
 }

@@ -1,13 +1,12 @@
 //! Half and third turns: whether joints that a file groups become each other when space is turned about one axis.
 
-use crate::closure::image::{Map, Miss};
+use crate::closure::image::{Carrier, Map};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::exact_vector::{ExactVector, cross, sub};
 use crate::geom::scalars::Scalars;
-use crate::geom::vector::{self, dot, length, real};
+use crate::geom::vector::{self, Vector, dot, length, real};
 use crate::linalg::modp::Residue;
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Frame, JointId, Mechanism, Mode};
+use crate::model::mechanism::{Frame, JointId, Mechanism};
 
 /// Part of a turn about an axis.
 #[derive(Debug, Clone)]
@@ -52,37 +51,27 @@ impl Turn {
         }
         out
     }
+}
 
-    /// How far the image of a joint is from a place.
-    #[must_use]
-    pub fn miss(&self, (from, of): (&Frame, &JointType), to: &Frame) -> Miss {
-        let points: Vec<[f64; 3]> = self.round.iter().map(real).collect();
+impl Carrier for Turn {
+    fn place(&self, frame: &Frame) -> (Vector, Vector) {
+        let points: Vec<Vector> = self.round.iter().map(real).collect();
         #[allow(clippy::cast_precision_loss, reason = "two or three")]
         let count = points.len() as f64;
         let centre = [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / count);
         let n = vector::unit(real(&self.axis));
         let (sine, cosine) = (std::f64::consts::TAU / count).sin_cos();
-        let turn = |v: [f64; 3]| {
+        let turn = |v: Vector| {
             let (across, along) = (vector::cross(n, v), dot(n, v));
             [0, 1, 2].map(|i| cosine * v[i] + sine * across[i] + (1.0 - cosine) * along * n[i])
         };
-        let p = real(&from.point);
+        let p = real(&frame.point);
         let arm = turn([0, 1, 2].map(|i| p[i] - centre[i]));
         let point = [0, 1, 2].map(|i| centre[i] + arm[i]);
-        Miss::new((point, turn(real(&from.axis))), of, to)
+        (point, turn(real(&frame.axis)))
     }
 
-    /// Whether the image of a joint allows exactly the motions of another.
-    ///
-    /// # Errors
-    /// Where a coordinate has no value in the field.
-    pub fn carries(
-        &self,
-        exact: &ExactField,
-        mode: &Mode,
-        from: (&Frame, &JointType),
-        to: (&Frame, &JointType),
-    ) -> Result<bool, ExactError> {
+    fn map(&self, exact: &ExactField) -> Result<Option<Map>, ExactError> {
         let f = exact.field();
         let n = exact.eval3(&self.axis)?;
         let square = exact.dot(n, n);
@@ -106,7 +95,7 @@ impl Turn {
                 let side = exact.dot(side, side);
                 let quarters = f.mul(number(3), f.mul(side, side));
                 if f.mul(number(4), square) != quarters {
-                    return Ok(false);
+                    return Ok(None);
                 }
                 (f.neg(half), f.inv(side), f.mul(number(3), half))
             }
@@ -121,11 +110,6 @@ impl Turn {
         };
         let moved = linear(centre);
         let shift = [0, 1, 2].map(|i| f.sub(centre[i], moved[i]));
-        let map = Map {
-            linear,
-            shift,
-            reflects: false,
-        };
-        map.carries(exact, mode, from, to)
+        Ok(Some(Map::new(f, linear, shift, false)))
     }
 }

@@ -1,6 +1,7 @@
 //! Whether the mirror pairs of a file, or the groups that a turn carries round, carry the mechanism over to itself, so that a variant and its image have the same
 //! figures: links and joints, each with its options, exactly.
 
+use crate::closure::image::Carrier;
 use crate::closure::mirror::Plane;
 use crate::closure::turn::Turn;
 use crate::geom::exact::{ExactError, ExactField};
@@ -133,9 +134,12 @@ fn images(
     let mut off = None;
     let planes = Plane::of_pairs(mechanism, &mechanism.search.mirror);
     let turns = Turn::of_groups(mechanism, &mechanism.search.turn);
-    let maps = planes.into_iter().map(|(plane, _)| Map::Mirror(plane));
-    for map in maps.chain(turns.into_iter().map(Map::Turn)) {
-        match by_map(exact, mechanism, joints, &map) {
+    let carriers = planes
+        .iter()
+        .map(|(plane, _)| plane as &dyn Carrier)
+        .chain(turns.iter().map(|turn| turn as &dyn Carrier));
+    for carrier in carriers {
+        match by_carrier(exact, mechanism, joints, carrier) {
             // What is off in the likeliest plane is what a person wants to hear of.
             Err(e @ MirrorError::Off { .. }) => off = off.or(Some(e)),
             other => return other,
@@ -144,17 +148,11 @@ fn images(
     Err(off.unwrap_or(MirrorError::NoAxis))
 }
 
-/// What carries the mechanism over to itself.
-enum Map {
-    Mirror(Plane),
-    Turn(Turn),
-}
-
-fn by_map(
+fn by_carrier(
     exact: &ExactField,
     mechanism: &Mechanism,
     joints: &[JointId],
-    map: &Map,
+    carrier: &dyn Carrier,
 ) -> Result<(), MirrorError> {
     for &j in joints {
         let (a, b) = (
@@ -168,19 +166,13 @@ fn by_map(
                 ref other => other.clone(),
             };
             let (from, to) = (motion(one), motion(other));
-            let pair = ((&one.frame, &from), (&other.frame, &to));
-            let mode = &mechanism.mode;
-            let (carried, miss) = match map {
-                Map::Mirror(m) => (
-                    m.carries(exact, mode, pair.0, pair.1)?,
-                    m.miss((&one.frame, &one.joint_type), &other.frame),
-                ),
-                Map::Turn(t) => (
-                    t.carries(exact, mode, pair.0, pair.1)?,
-                    t.miss((&one.frame, &one.joint_type), &other.frame),
-                ),
-            };
-            if !carried {
+            if !carrier.carries(
+                exact,
+                &mechanism.mode,
+                (&one.frame, &from),
+                (&other.frame, &to),
+            )? {
+                let miss = carrier.miss((&one.frame, &one.joint_type), &other.frame);
                 return Err(MirrorError::Off {
                     first: a.id.clone(),
                     second: b.id.clone(),
