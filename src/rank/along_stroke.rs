@@ -271,13 +271,9 @@ impl<'a> Looker<'a> {
             }
         }
         // A singular value that vanishes before the second pose, or after the last but one, has no pose on its other side.
-        for (from, to) in [
-            (0, 1),
-            (way.len().wrapping_sub(2), way.len().wrapping_sub(1)),
-        ] {
-            let (Some(from), Some(to)) = (way.get(from), way.get(to)) else {
-                continue;
-            };
+        let ends = [way.windows(2).next(), way.windows(2).next_back()];
+        for pair in ends.into_iter().flatten() {
+            let (from, to) = (&pair[0], &pair[1]);
             let (low, high) = (from.at.min(to.at) - width, from.at.max(to.at) + width);
             let known = |c: &Change| c.between.iter().any(|x| (low..=high).contains(x));
             if found.iter().any(known) {

@@ -21,6 +21,7 @@ use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism, Mode};
 use itertools::Itertools;
+use std::collections::HashMap;
 
 /// Motions that rows are of.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -68,7 +69,7 @@ pub struct LeastRows {
     pub of: usize,
     /// Rows a contour that J has.
     dim: usize,
-    /// Whether there are joints in no block.
+    /// Whether there are joints in no contour.
     outside: bool,
 }
 
@@ -85,32 +86,24 @@ impl LeastRows {
         mechanism: &Mechanism,
         closure: &Closure<Residue>,
     ) -> Result<LeastRows, ExactError> {
-        let tied = parts(closure);
-        let free = mechanism.joints_in(closure.state).count();
-        let of_contours = tied.iter().filter(|t| !of_block(closure, t).0.is_empty());
-        let outside = free > of_contours.map(Vec::len).sum();
-        let all = |parts| Block {
+        let all = |part| Block {
             contours: (0..closure.contours.len()).collect(),
-            parts,
+            parts: vec![part],
         };
+        let tied = parts(closure);
         let mut blocks = Vec::new();
+        let mut spoken_for = 0;
         if let Mode::Planar { .. } = mechanism.mode {
-            blocks.push(all(vec![Part::whole(exact, closure)]));
+            blocks.push(all(Part::whole(exact, closure)));
         } else {
-            for joints in &tied {
-                let (contours, own) = of_block(closure, joints);
+            for (joints, (contours, own)) in tied.iter().zip(of_blocks(closure, &tied)) {
+                spoken_for += if contours.is_empty() { 0 } else { joints.len() };
                 let parts = least(exact, mechanism, joints, &own)?;
                 blocks.push(Block { contours, parts });
             }
             // Blocks of one and the same group are told as one.
             let dimension = |b: &Block| match b.parts.as_slice() {
-                [
-                    Part {
-                        motions: Motions::Group(_),
-                        per_contour,
-                        ..
-                    },
-                ] => Some(*per_contour),
+                [part] => matches!(part.motions, Motions::Group(_)).then_some(part.per_contour),
                 _ => None,
             };
             if blocks.len() > 1
@@ -118,7 +111,7 @@ impl LeastRows {
             {
                 let group = group_of(exact, mechanism, tied.into_iter().flatten())?;
                 if group.dimension() == one {
-                    blocks = vec![all(vec![Part::of_group(exact, &group, closure)])];
+                    blocks = vec![all(Part::of_group(exact, &group, closure))];
                 }
             }
         }
@@ -126,7 +119,7 @@ impl LeastRows {
             blocks,
             of: closure.rows(),
             dim: closure.dim,
-            outside,
+            outside: mechanism.joints_in(closure.state).count() > spoken_for,
         })
     }
 
@@ -159,16 +152,24 @@ impl LeastRows {
             return String::new();
         }
         let what = |b: &Block| b.words(mechanism, self.dim);
-        let with_contours = self.blocks.iter().filter(|b| !b.contours.is_empty());
-        let with_contours = with_contours.collect_vec();
-        if let [block] = with_contours.as_slice() {
-            let left_out = match (&block.parts[0].motions, self.of - self.rows()) {
-                (_, 0) => String::new(),
-                (Motions::Group(_), _) => {
-                    let rows = self.dim - block.parts[0].per_contour;
-                    format!("; left out: {rows} of {}, {REDUNDANT}", self.dim)
-                }
-                (_, rows) => format!("; left out: {rows} of {} rows, {REDUNDANT}", self.of),
+        let left_out = |rows, of: String| match rows {
+            0 => String::new(),
+            rows => format!("; left out: {rows} of {of}, redundant whatever the rest"),
+        };
+        let of_all = left_out(self.of - self.rows(), format!("{} rows", self.of));
+        let blocks = self
+            .blocks
+            .iter()
+            .filter(|b| !b.contours.is_empty())
+            .collect_vec();
+        if let [block] = blocks.as_slice() {
+            let left_out = match &block.parts[0] {
+                Part {
+                    motions: Motions::Group(_),
+                    per_contour,
+                    ..
+                } => left_out(self.dim - per_contour, self.dim.to_string()),
+                _ => of_all,
             };
             let who = if self.outside {
                 "all joints of contours"
@@ -177,7 +178,7 @@ impl LeastRows {
             };
             return format!("; {who} {}{left_out}", what(block));
         }
-        let told = with_contours.iter().map(|b| (what(b), *b)).into_group_map();
+        let told = blocks.iter().map(|b| (what(b), *b)).into_group_map();
         let contours = |blocks: &[&Block]| {
             let all = blocks.iter().flat_map(|b| &b.contours).copied();
             all.sorted_unstable().collect_vec()
@@ -189,16 +190,9 @@ impl LeastRows {
         };
         let each = told.iter().sorted_by_key(|(_, blocks)| contours(blocks));
         let each = each.map(|(what, blocks)| format!("; {} {what}", who(blocks)));
-        let left_out = match self.of - self.rows() {
-            0 => String::new(),
-            rows => format!("; left out: {rows} of {} rows, {REDUNDANT}", self.of),
-        };
-        each.chain([left_out]).join("")
+        each.chain([of_all]).join("")
     }
 }
-
-/// Why rows may be left out.
-const REDUNDANT: &str = "redundant whatever the rest";
 
 impl Block {
     fn words(&self, mechanism: &Mechanism, dim: usize) -> String {
@@ -278,39 +272,48 @@ fn does(n: usize) -> &'static str {
     if n == 1 { "does" } else { "do" }
 }
 
-/// J of some joints alone, with the places of its contours; the joints are tied to no others.
-fn of_block(closure: &Closure<Residue>, joints: &[JointId]) -> (Vec<usize>, Closure<Residue>) {
-    let own = |j: JointId| joints.binary_search(&j).is_ok();
-    let (places, contours) = closure
-        .contours
+/// J of each block alone, with the places of its contours; its joints, ascending, are tied to no others.
+fn of_blocks(
+    closure: &Closure<Residue>,
+    blocks: &[Vec<JointId>],
+) -> Vec<(Vec<usize>, Closure<Residue>)> {
+    let alone = || Closure {
+        state: closure.state,
+        dim: closure.dim,
+        contours: Vec::new(),
+        columns: Vec::new(),
+        couplings: Vec::new(),
+        extent: closure.extent,
+        left_out: Vec::new(),
+    };
+    let mut out: Vec<_> = blocks.iter().map(|_| (Vec::new(), alone())).collect();
+    let of: HashMap<JointId, usize> = blocks
         .iter()
         .enumerate()
-        .filter(|(_, c)| c.joints.first().is_some_and(|&(j, _)| own(j)))
-        .map(|(i, c)| (i, c.clone()))
-        .unzip();
-    let kept = closure
-        .columns
-        .iter()
-        .positions(|c| own(c.joint))
-        .collect_vec();
-    let columns = kept.iter().map(|&c| closure.columns[c].clone()).collect();
-    let couplings = closure.couplings.iter().filter_map(|coupling| {
-        let mut entries = coupling.entries;
-        for (column, _) in &mut entries {
-            *column = kept.binary_search(column).ok()?;
+        .flat_map(|(b, joints)| joints.iter().map(move |&j| (j, b)))
+        .collect();
+    for (place, contour) in closure.contours.iter().enumerate() {
+        let first = contour.joints.first();
+        if let Some(&b) = first.and_then(|(j, _)| of.get(j)) {
+            out[b].0.push(place);
+            out[b].1.contours.push(contour.clone());
         }
-        Some(CouplingRow { entries })
-    });
-    let couplings = couplings.collect();
-    (
-        places,
-        Closure {
-            contours,
-            columns,
-            couplings,
-            ..closure.clone()
-        },
-    )
+    }
+    let mut now = vec![0; closure.columns.len()];
+    for (c, column) in closure.columns.iter().enumerate() {
+        if let Some(&b) = of.get(&column.joint) {
+            now[c] = out[b].1.columns.len();
+            out[b].1.columns.push(column.clone());
+        }
+    }
+    for coupling in &closure.couplings {
+        let at = closure.columns[coupling.entries[0].0].joint;
+        if let Some(&b) = of.get(&at) {
+            let entries = coupling.entries.map(|(c, x)| (now[c], x));
+            out[b].1.couplings.push(CouplingRow { entries });
+        }
+    }
+    out
 }
 
 /// The least rows of a block in space.

@@ -1,6 +1,7 @@
 //! The rows of the closure equations that are enough for their rank.
 
 use crate::model::mechanism::Mechanism;
+use crate::rank::direction::Direction;
 use crate::rank::least_rows::{LeastRows, Motions};
 use crate::redundancy::analysis::StateAnalysis;
 use itertools::Itertools;
@@ -38,8 +39,7 @@ pub fn least_rows(mechanism: &Mechanism, s: &StateAnalysis) -> Vec<Part> {
         let name = |&c: &usize| s.per_contour.get(c).map(|c| c.contour.name(mechanism));
         let contours = b.contours.iter().filter_map(name).collect_vec();
         b.parts.iter().map(move |part| {
-            let normal =
-                |d: &Option<_>| d.map(|d: crate::rank::direction::Direction| d.words(mechanism));
+            let normal = |d: &Option<Direction>| d.map(|d| d.words(mechanism));
             let (motions, of) = match &part.motions {
                 Motions::All => ("any", None),
                 Motions::Group(name) => ("group", Some(name.clone())),
