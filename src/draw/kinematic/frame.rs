@@ -76,8 +76,24 @@ impl Kinematic<'_> {
         own.chain(self.loose_in_space(whole)).collect()
     }
 
+    /// The middle of those points.
+    pub(super) fn middle_in_space(&self, link: usize) -> Vector {
+        let points = self.points_in_space(link);
+        let sum = points.iter().fold([0.0; 3], |s, &p| add3(s, p));
+        times(sum, 1.0 / points.len() as f64)
+    }
+
+    /// The lines on links that move over some poses; rails become as long as their blocks slide.
+    pub(super) fn moving_lines(&mut self, poses: &[Carried<'_>]) -> Vec<Line> {
+        let slides = self.slides(poses);
+        self.lengthen_rails(&slides);
+        let mut lines = self.guides(&slides);
+        lines.extend(self.flags(poses));
+        lines
+    }
+
     /// What blocks slide along, on links that move.
-    pub(super) fn guides(&self, slides: &[Option<[f64; 2]>]) -> Vec<Line> {
+    fn guides(&self, slides: &[Option<[f64; 2]>]) -> Vec<Line> {
         let one = |(i, range): (usize, &Option<[f64; 2]>)| {
             let (range, axis) = ((*range)?, self.slide_axis(i)?);
             let (_, link) = self.carriers(i);
@@ -90,7 +106,7 @@ impl Kinematic<'_> {
     }
 
     /// A flag on each link that turns while nothing that is drawn of it moves: a rod about itself, a gear about its axle.
-    pub(super) fn flags(&self, poses: &[Carried<'_>]) -> Vec<Line> {
+    fn flags(&self, poses: &[Carried<'_>]) -> Vec<Line> {
         let one = |row: usize| {
             let link = self.links[row].0;
             let points = self.points_in_space(row);
@@ -116,8 +132,7 @@ impl Kinematic<'_> {
             } else {
                 unit(sub(view.up, times(about, dot(view.up, about))))
             };
-            let sum = points.iter().fold([0.0; 3], |s, &p| add3(s, p));
-            let from = times(sum, 1.0 / points.len() as f64);
+            let from = self.middle_in_space(row);
             let to = add3(from, times(out, FLAG / self.projection.scale));
             let (class, ends) = ("flag", [from, to]);
             Some(Line { class, link, ends })

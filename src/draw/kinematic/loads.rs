@@ -6,7 +6,6 @@ use crate::draw::projection::{Vector, add as add3, along_z, norm as norm3, scale
 use crate::draw::projection::{bounds, sub as sub3};
 use crate::draw::sheet::{Shape, Sheet, Swatch};
 use crate::format::number::decimals;
-use crate::model::mechanism::LinkId;
 use crate::redundancy::stress::SelfStress;
 use crate::svg::plane::{Point, Rect};
 
@@ -33,9 +32,10 @@ impl Kinematic<'_> {
             };
             let joint = &m.joints[wrench.joint];
             for (end, sign) in [(0, -1.0), (1, 1.0)] {
-                let Some(link) = self.row_of(joint.links[end]) else {
+                if self.is_frame(joint.links[end]) {
                     continue;
-                };
+                }
+                let link = self.row(joint.links[end]);
                 for (what, vector, turns) in [("force", b.force, false), ("moment", b.moment, true)]
                 {
                     let along = times(vector, sign * LONGEST / greatest);
@@ -59,20 +59,9 @@ impl Kinematic<'_> {
         out
     }
 
-    /// The place of a link among those drawn; none of the frame.
-    fn row_of(&self, link: LinkId) -> Option<usize> {
-        let of = |(l, _): &(LinkId, Vec<usize>)| *l == link;
-        self.links
-            .iter()
-            .position(of)
-            .filter(|_| !self.is_frame(link))
-    }
-
     /// A little from a joint towards the middle of a link.
     fn beside(&self, link: usize, joint: Vector) -> Vector {
-        let points = self.points_in_space(link);
-        let sum = points.iter().fold([0.0; 3], |s, &p| add3(s, p));
-        let inward = sub3(times(sum, 1.0 / points.len() as f64), joint);
+        let inward = sub3(self.middle_in_space(link), joint);
         let far = norm3(inward) * self.projection.scale;
         let share = if far > 0.0 {
             (ASIDE / far).min(0.5)

@@ -69,13 +69,7 @@ struct Moving<'a> {
 impl<'a> Moving<'a> {
     fn new(mut rest: Kinematic<'a>, moved: &Moved<'a>) -> Moving<'a> {
         let poses = poses(moved);
-        let slides = rest.slides(&poses);
-        rest.lengthen_rails(&slides);
-        let lines = {
-            let mut lines = rest.guides(&slides);
-            lines.extend(rest.flags(&poses));
-            lines
-        };
+        let lines = rest.moving_lines(&poses);
         let frames: Vec<Frame> = poses.iter().map(|c| rest.frame(c, &lines)).collect();
         rest.traces = (rest.ways(&poses), moved.way.closed);
         Moving {

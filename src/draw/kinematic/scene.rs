@@ -106,10 +106,7 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
     let mut scene = rest.scene();
     let mut frames = Vec::new();
     for (n, ((name, moved), poses)) in shown.moves.iter().zip(&of).enumerate() {
-        let slides = rest.slides(poses);
-        rest.lengthen_rails(&slides);
-        let mut lines = rest.guides(&slides);
-        lines.extend(rest.flags(poses));
+        let lines = rest.moving_lines(poses);
         frames.extend(poses.iter().map(|c| rest.frame(c, &lines)));
         for line in &lines {
             let row = rest.row(line.link);
@@ -206,7 +203,7 @@ impl Scene {
 
 impl Kinematic<'_> {
     /// The place of a link among those drawn, the frame included.
-    fn row(&self, link: LinkId) -> usize {
+    pub(super) fn row(&self, link: LinkId) -> usize {
         self.links
             .iter()
             .position(|(l, _)| *l == link)
