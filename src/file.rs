@@ -3,6 +3,7 @@
 
 mod controls;
 pub mod costs;
+mod digits;
 pub mod findings;
 mod guessed;
 pub mod lint;

@@ -15,6 +15,7 @@ pub mod loads;
 mod mode;
 pub mod motion;
 mod names;
+pub(crate) mod number;
 mod options;
 pub mod parameters;
 mod points;

@@ -1,6 +1,7 @@
 //! Reading a mechanism from text.
 
 use crate::file::controls::controls;
+use crate::file::digits;
 use crate::file::findings::{Finding, Findings};
 use crate::file::locate::Document;
 use crate::file::problem::{ImportError, Problem, ProblemKind};
@@ -90,7 +91,8 @@ pub(crate) fn read<T>(
     } else {
         from_toml(text)
     };
-    let file = file.map_err(|p| fail(vec![p]))?;
+    let mut file = file.map_err(|p| fail(vec![p]))?;
+    digits::keep(&mut file, text, is_json(name));
     // Written out they are no TOML and no JSON: only what is escaped can hold any.
     let controls = if text.contains('\\') {
         controls(&file)

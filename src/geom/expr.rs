@@ -13,6 +13,7 @@ mod operators;
 mod parse;
 mod rational;
 mod write;
+mod written;
 
 pub use error::ExprError;
 pub use node::Expr;
@@ -22,6 +23,7 @@ pub use parse::{MAX_ANGLE_DENOMINATOR, MAX_EXPONENT, MAX_NESTING, MAX_POWER, MAX
 pub use rational::PI_DIGITS;
 use rational::{MAX_BITS, bits, decimal};
 pub(crate) use rational::{PI, rational_sqrt};
+pub(crate) use written::{Digits, Written};
 
 use num_integer::Integer;
 use num_rational::BigRational;
@@ -36,7 +38,8 @@ impl Expr {
         Expr::new(Kind::Rational(value))
     }
 
-    /// The shortest decimal that reads back as `x`, taken exactly: `0.1` is one tenth, as the designer meant.
+    /// The shortest decimal that reads back as `x`, taken exactly: `0.1` is one tenth, as the designer meant. It has that
+    /// decimal's [`half_unit`](Expr::half_unit); a whole number has none.
     ///
     /// # Errors
     /// [`ExprError::NonFiniteFloat`] for infinities and NaN.
@@ -52,7 +55,11 @@ impl Expr {
         let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
         let exponent: i64 = exponent.parse().map_err(|_| bad())?;
         let value = decimal(whole, fraction, exponent).ok_or_else(bad)?;
-        Ok(Expr::rational(if x < 0.0 { -value } else { value }))
+        let value = Expr::rational(if x < 0.0 { -value } else { value });
+        let places = i64::try_from(fraction.len()).unwrap_or(i64::MAX) - exponent;
+        let digits = (places > 0).then(|| Digits::of(whole, fraction, exponent, true));
+        let written = digits.flatten().map_or(Written::No, Written::Decimal);
+        Ok(value.as_written(written))
     }
 
     /// The nearest double, right to the last bit or nearly so even after cancellation; values that vanish to all 256

@@ -130,7 +130,7 @@ fn load(t: &mut Table<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
     }
     let mut accelerations = Vec::new();
     for (i, v) in e.accelerations.iter().enumerate() {
-        let v = crate::file::read::resolve::vector(v, &index(&at, i), t.out);
+        let v = crate::file::read::number::vector(v, &index(&at, i), t.out);
         accelerations.push(Toward::Fixed(v.map(|x| x.to_f64())));
     }
     let any = t.optional(

@@ -6,9 +6,8 @@ use crate::file::problem::ProblemKind;
 use crate::file::read::limits::LIMITS;
 use crate::file::read::names::{check_id, link_by_id};
 use crate::file::read::options::options;
-use crate::file::read::resolve::{
-    frame, index, joint_type, key, motion_name, option, pitch, vector,
-};
+use crate::file::read::number::{direction, pitch, vector};
+use crate::file::read::resolve::{frame, index, joint_type, key, motion_name, option};
 use crate::file::schema::{JointEntry, MechanismFile, Unloading, Words};
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};
@@ -159,7 +158,7 @@ fn unloading(
 fn place(entry: &JointEntry, joint_type: &JointType, at: &[Step], out: &mut Findings) -> Frame {
     let point = vector(&entry.point, &key(at, "point"), out);
     let axis = match (&entry.axis, joint_type) {
-        (Some(v), _) => vector(v, &key(at, "axis"), out),
+        (Some(v), _) => direction(v, &key(at, "axis"), out),
         (None, JointType::Spherical | JointType::Fixed) => [0, 0, 1].map(Expr::from),
         (None, _) => {
             let what = "an axis, such as axis = [0, 0, 1]";
@@ -177,7 +176,7 @@ fn place(entry: &JointEntry, joint_type: &JointType, at: &[Step], out: &mut Find
     let reference = entry
         .reference
         .as_ref()
-        .map(|v| vector(v, &key(at, "reference"), out));
+        .map(|v| direction(v, &key(at, "reference"), out));
     let screws = joint_type.freedoms().contains(&Freedom::Screw);
     let stated = [
         ("pitch", entry.pitch.is_some()),

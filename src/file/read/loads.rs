@@ -8,7 +8,8 @@ use crate::file::read::motion::{
     LARGEST, MAX_FORCES, MAX_STEPS, POSITION, SPEED, position, quantity, speed,
 };
 use crate::file::read::names::{link_by_id, states_by_name};
-use crate::file::read::resolve::{index, key, vector};
+use crate::file::read::number::vector;
+use crate::file::read::resolve::{index, key};
 use crate::file::schema::{
     InertiaEntry, LinkEntry, MechanismFile, Quantities, Quantity, StrokeEntry,
 };

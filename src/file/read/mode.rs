@@ -3,7 +3,7 @@
 use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
-use crate::file::read::resolve::vector;
+use crate::file::read::number::direction;
 use crate::file::schema::MechanismFile;
 use crate::geom::expr::Expr;
 use crate::model::mechanism::Mode;
@@ -13,7 +13,7 @@ pub(crate) fn mode(file: &MechanismFile, out: &mut Findings) -> Mode {
     match file.mode.as_deref().unwrap_or("spatial") {
         "planar" => {
             let at = root("plane_normal");
-            let given = file.plane_normal.as_ref().map(|v| vector(v, &at, out));
+            let given = file.plane_normal.as_ref().map(|v| direction(v, &at, out));
             let normal = given.unwrap_or_else(|| [0, 0, 1].map(Expr::from));
             if normal.iter().all(|c| c.to_f64() == 0.0) {
                 out.add(

@@ -3,7 +3,8 @@
 use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
-use crate::file::read::resolve::{index, key, number};
+use crate::file::read::number::number;
+use crate::file::read::resolve::{index, key};
 use crate::file::schema::{Coordinate, MechanismFile, ParameterEntry, VariedEntry};
 use crate::geom::expr::{Expr, WORDS};
 use num_bigint::BigInt;

@@ -3,7 +3,8 @@
 use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
-use crate::file::read::resolve::{key, number};
+use crate::file::read::number::number;
+use crate::file::read::resolve::key;
 use crate::file::schema::Coordinate;
 use itertools::Itertools;
 use std::f64::consts::PI;
@@ -116,7 +117,7 @@ impl Table<'_> {
 
     /// Three numbers.
     pub(crate) fn vector(&mut self, k: &'static str, v: &[Coordinate; 3], unit: f64) -> [f64; 3] {
-        crate::file::read::resolve::vector(v, &key(&self.at, k), self.out)
+        crate::file::read::number::vector(v, &key(&self.at, k), self.out)
             .map(|e| e.to_f64() * unit)
     }
 

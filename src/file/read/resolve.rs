@@ -3,8 +3,9 @@
 use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
-use crate::file::schema::{Coordinate, OptionEntry};
-use crate::geom::expr::{Expr, ExprError};
+use crate::file::read::number::{direction, pitch, vector};
+use crate::file::schema::OptionEntry;
+use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, JointOption, StateId};
 use itertools::Itertools;
@@ -22,86 +23,6 @@ pub(crate) fn index(path: &[Step], i: usize) -> Vec<Step> {
 
 pub(crate) fn zero3() -> [Expr; 3] {
     [0, 0, 0].map(Expr::from)
-}
-
-/// Largest and smallest nonzero size of a coordinate.
-const RANGE: (f64, f64) = (1e-40, 1e12);
-
-pub(crate) fn number(c: &Coordinate, path: &[Step], out: &mut Findings) -> Expr {
-    read_number(c, false, path, out)
-}
-
-/// The pitch of a screw, per radian, from that or from its lead, which is per turn; none where neither stands.
-pub(crate) fn pitch(
-    [pitch, lead]: [Option<&Coordinate>; 2],
-    path: &[Step],
-    out: &mut Findings,
-) -> Option<Expr> {
-    if pitch.is_some() && lead.is_some() {
-        let (key, other) = ("lead", "pitch");
-        out.add(
-            &self::key(path, key),
-            ProblemKind::KeyExcludes { key, other },
-        );
-    }
-    if let Some(c) = pitch {
-        let at = key(path, "pitch");
-        return Some(read_number(c, true, &at, out));
-    }
-    let lead = number(lead?, &key(path, "lead"), out);
-    let turn = Expr::from(2) * Expr::pi();
-    if lead.is_zero_rational() {
-        return Some(lead);
-    }
-    lead.div(&turn)
-}
-
-fn read_number(c: &Coordinate, pi_is_a_number: bool, path: &[Step], out: &mut Findings) -> Expr {
-    let parsed = match c {
-        Coordinate::Integer(i) => Ok(Expr::from(*i)),
-        Coordinate::Decimal(x) => Expr::from_f64(*x),
-        Coordinate::Expression(s) => out.expression(s, pi_is_a_number),
-    };
-    match parsed {
-        Ok(e) => {
-            let size = e.to_f64().abs();
-            // An irrational expression may cancel to zero, and is then zero.
-            let zero = match e.as_rational() {
-                Some(_) => e.is_zero_rational(),
-                None => size == 0.0,
-            };
-            if !zero && !(RANGE.0..=RANGE.1).contains(&size) {
-                out.add(path, ProblemKind::OutOfRange { value: short(&e) });
-                return Expr::from(0);
-            }
-            e
-        }
-        Err(e) => {
-            let known = out.names().join(", ");
-            let parameters = match e {
-                ExprError::UnknownWord { .. } if !known.is_empty() => {
-                    format!(", and the parameters {known}")
-                }
-                _ => String::new(),
-            };
-            let message = format!("{e}{parameters}");
-            out.add(path, ProblemKind::BadNumber { message });
-            Expr::from(0)
-        }
-    }
-}
-
-pub(crate) fn vector(v: &[Coordinate; 3], path: &[Step], out: &mut Findings) -> [Expr; 3] {
-    [0, 1, 2].map(|i| number(&v[i], &index(path, i), out))
-}
-
-/// A number as it is written, or in short where that takes more than a line has room for.
-fn short(e: &Expr) -> String {
-    let text = e.to_string();
-    match text.len() {
-        ..=40 => text,
-        _ => format!("{:e}", e.to_f64()),
-    }
 }
 
 fn real(v: &[Expr; 3]) -> [f64; 3] {
@@ -309,10 +230,10 @@ pub(crate) fn option(
     let joint_type = joint_type(joint, kind, table.freedoms.as_ref(), &at, out)?;
     let axis = table.axis.as_ref().map_or_else(
         || present.axis.clone(),
-        |v| vector(v, &key(&at, "axis"), out),
+        |v| direction(v, &key(&at, "axis"), out),
     );
     let reference = match (&table.reference, &table.axis) {
-        (Some(v), _) => Some(vector(v, &key(&at, "reference"), out)),
+        (Some(v), _) => Some(direction(v, &key(&at, "reference"), out)),
         (None, None) => Some(present.reference.clone()),
         (None, Some(_)) => None,
     };

@@ -14,6 +14,7 @@ const FIXED: u64 = 320;
 const EXPONENT_LIMIT: i64 = 1 << 40;
 
 /// A closed interval `[lo, hi] * 2^e` that contains a real number.
+#[derive(Clone)]
 pub(super) struct Enclosure {
     pub(super) lo: BigInt,
     pub(super) hi: BigInt,

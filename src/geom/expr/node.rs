@@ -2,6 +2,7 @@
 
 use super::enclosure::Enclosure;
 use super::rational::PI;
+use super::written::Written;
 use num_rational::BigRational;
 use std::sync::Arc;
 
@@ -15,6 +16,8 @@ pub(super) struct Node {
     pub(super) enclosure: Enclosure,
     /// Leaves of the tree as written out, saturating.
     pub(super) size: u64,
+    /// How it was written, which no value depends on.
+    pub(super) written: Written,
 }
 
 /// A trigonometric function of an angle in turns.
@@ -25,7 +28,7 @@ pub(crate) enum Function {
     Tan,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) enum Kind {
     Rational(BigRational),
     Add(Expr, Expr),
@@ -66,6 +69,7 @@ impl Expr {
             kind,
             enclosure,
             size,
+            written: Written::No,
         }))
     }
 }

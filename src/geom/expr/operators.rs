@@ -2,6 +2,7 @@
 
 use super::Expr;
 use super::node::Kind;
+use super::written::Written;
 use num_traits::{One, Zero};
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -59,10 +60,14 @@ impl Mul for &Expr {
 impl Neg for &Expr {
     type Output = Expr;
     fn neg(self) -> Expr {
-        match &self.0.kind {
+        let negative = match &self.0.kind {
             Kind::Rational(r) => Expr::rational(-r),
             Kind::Neg(a) => a.clone(),
             _ => Expr::new(Kind::Neg(self.clone())),
+        };
+        match self.written() {
+            Written::No => negative,
+            written => negative.as_written(written),
         }
     }
 }

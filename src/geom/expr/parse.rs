@@ -3,6 +3,7 @@
 use super::error::ExprError;
 use super::node::{Expr, Function, Kind};
 use super::rational::{MAX_BITS, bits, decimal};
+use super::written::{Digits, Written};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
@@ -348,7 +349,8 @@ impl<'a> Parser<'a, '_> {
         let at = self.pos;
         let whole = self.take_while(|b| b.is_ascii_digit());
         let mut fraction = "";
-        if self.here() == Some(b'.') {
+        let point = self.here() == Some(b'.');
+        if point {
             self.pos += 1;
             fraction = self.take_while(|b| b.is_ascii_digit());
         }
@@ -375,7 +377,9 @@ impl<'a> Parser<'a, '_> {
             }
         }
         let value = decimal(whole, fraction, exponent).ok_or(ExprError::BadNumber { at })?;
-        finite(Expr::rational(value), at)
+        let digits = Digits::of(whole, fraction, exponent, point);
+        let written = digits.map_or(Written::Whole, Written::Decimal);
+        finite(Expr::rational(value).as_written(written), at)
     }
 
     fn word(&mut self) -> Result<Value, ExprError> {
