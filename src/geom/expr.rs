@@ -23,7 +23,7 @@ pub use parse::{MAX_ANGLE_DENOMINATOR, MAX_EXPONENT, MAX_NESTING, MAX_POWER, MAX
 pub use rational::PI_DIGITS;
 use rational::{MAX_BITS, bits, decimal};
 pub(crate) use rational::{PI, rational_sqrt};
-pub(crate) use written::{Digits, Written};
+pub(crate) use written::{Digits, End, Written, half_of};
 
 use num_integer::Integer;
 use num_rational::BigRational;

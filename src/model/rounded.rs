@@ -4,13 +4,17 @@
 //! Exact ranks take every digit at its word, so an axis that is parallel to another but for the last digit counts as
 //! tilted, and constraints that are redundant in truth count as independent.
 
-use crate::geom::expr::{Expr, PI_DIGITS};
+mod class;
+pub mod ratio;
+mod uncertainty;
+
+use crate::geom::expr::{End, Expr, PI_DIGITS, Written};
 use crate::geom::vector::{length, real};
 use crate::model::mechanism::{Frame, Mechanism, Mode};
-use num_bigint::BigInt;
-use num_integer::Integer;
-use num_traits::{One, Signed};
+use std::collections::BTreeMap;
 use std::fmt;
+
+pub use uncertainty::{FrameNumbers, FrameUncertainty, Uncertainties, uncertainties};
 
 /// Decimals with so many significant digits are taken to be measured or computed, not chosen.
 pub const DIGITS: usize = 9;
@@ -70,8 +74,8 @@ impl fmt::Display for Rounded {
 /// What is seen of a mechanism's decimals.
 #[derive(Default)]
 struct Seen {
-    /// Units of long lengths, and of long components of directions.
-    units: [Vec<f64>; 2],
+    /// Units of long lengths, and of long components of directions, by their size.
+    units: [BTreeMap<u64, f64>; 2],
     /// Number, place and value as text of the first coordinate, for those that look measured and for all.
     first: [Option<(usize, String, String)>; 2],
     digits: Option<usize>,
@@ -88,19 +92,18 @@ impl Seen {
         } else {
             LONG_LENGTH
         };
-        let Some(decimal) = decimal(v).filter(|d| d.digits >= least) else {
+        let long = |d: &Decimal| d.digits.is_none_or(|n| n >= least);
+        let Some(decimal) = decimal(v).filter(long) else {
             return;
         };
         let of = if direction { norm } else { 1.0 };
-        self.units[usize::from(direction)].push(decimal.unit() / of);
-        let measured = decimal.digits >= DIGITS;
+        // A value that is used at several joints is one number.
+        let size = v.to_f64().abs().to_bits();
+        self.units[usize::from(direction)].insert(size, decimal.unit / of);
+        let digits = decimal.digits.filter(|n| *n >= DIGITS);
+        let measured = digits.is_some();
         self.pi += usize::from(measured && v.has_pi());
-        if measured {
-            self.digits = Some(
-                self.digits
-                    .map_or(decimal.digits, |d| d.min(decimal.digits)),
-            );
-        }
+        self.digits = self.digits.into_iter().chain(digits).min();
         for (first, counts) in self.first.iter_mut().zip([measured, true]) {
             if counts {
                 first.get_or_insert_with(|| (0, place(), text(v))).0 += 1;
@@ -176,57 +179,43 @@ pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
         place,
         value,
         units: Units {
-            length: shared(lengths),
-            direction: shared(directions),
+            length: shared(lengths.into_values().collect()),
+            direction: shared(directions.into_values().collect()),
         },
         pi,
         digits: seen.digits,
     })
 }
 
-/// A decimal fraction.
+/// What the digits of a number say.
 struct Decimal {
-    /// Significant digits.
-    digits: usize,
-    /// Digits after the point.
-    places: u32,
-}
-
-impl Decimal {
+    /// Significant digits; none where what the number is worth is stated.
+    digits: Option<usize>,
     /// One unit in the last place.
-    fn unit(&self) -> f64 {
-        10f64.powi(-i32::try_from(self.places).unwrap_or(i32::MAX).min(320))
-    }
+    unit: f64,
 }
 
-/// A decimal as such, and what has decimals of pi in it; `None` for roots, for fractions that no decimal ends (and halves of halves, which are written as
-/// fractions), and for whole numbers.
+/// Of a decimal, of what has decimals of pi in it, and of what is stated not to be exact; `None` for all that is exact.
 fn decimal(expr: &Expr) -> Option<Decimal> {
-    let Some(r) = expr.rational_ref() else {
-        let places = u32::try_from(PI_DIGITS).unwrap_or(u32::MAX);
-        return expr.has_pi().then_some(Decimal {
-            digits: PI_DIGITS,
-            places,
+    if expr.has_pi() {
+        let places = i32::try_from(PI_DIGITS).unwrap_or(i32::MAX);
+        return Some(Decimal {
+            digits: Some(PI_DIGITS),
+            unit: 10f64.powi(-places),
         });
-    };
-    let (five, mut rest, mut fives) = (BigInt::from(5), r.denom().clone(), 0u32);
-    let twos = rest.trailing_zeros().unwrap_or(0);
-    rest >>= twos;
-    while fives < 400 {
-        let (quotient, left) = rest.div_rem(&five);
-        if left != BigInt::ZERO {
-            break;
-        }
-        rest = quotient;
-        fives += 1;
     }
-    if !rest.is_one() || fives == 0 {
-        return None;
+    match expr.written() {
+        // The `.0` behind a whole number says nothing.
+        Written::Decimal(d) if d.end != End::Float => Some(Decimal {
+            digits: Some(d.significant),
+            unit: 2.0 * d.half,
+        }),
+        Written::Stated(half) if half > 0.0 => Some(Decimal {
+            digits: None,
+            unit: 2.0 * half,
+        }),
+        _ => None,
     }
-    let places = fives.max(u32::try_from(twos).ok()?);
-    let scaled = r.numer().abs() * BigInt::from(10).pow(places) / r.denom();
-    let digits = scaled.to_string().trim_end_matches('0').len();
-    Some(Decimal { digits, places })
 }
 
 /// Whether a coordinate may have been rounded: a decimal, or a whole number that may be one whose last digits are 0.
@@ -240,13 +229,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn decimals_have_digits_and_places() {
-        let of = |s: &str| decimal(&s.parse::<Expr>().unwrap()).map(|d| (d.digits, d.places));
-        assert_eq!(of("0.8660254037844386"), Some((16, 16)));
-        assert_eq!(of("-12.7"), Some((3, 1)));
-        assert_eq!(of("1e-9"), Some((1, 9)));
-        assert_eq!(of("0.000123456789"), Some((9, 12)));
-        for exact in ["1/3", "sqrt(3)/2", "1/4096", "123456789012", "cos(36deg)"] {
+    fn decimals_have_digits_and_a_unit() {
+        let of =
+            |s: &str| decimal(&s.parse::<Expr>().unwrap()).map(|d| (d.digits.unwrap(), d.unit));
+        assert_eq!(of("0.8660254037844386"), Some((16, 1e-16)));
+        assert_eq!(of("-12.7"), Some((3, 0.1)));
+        assert_eq!(of("0.49400"), Some((5, 1e-5)));
+        assert_eq!(of("1e-9"), Some((1, 1e-9)));
+        assert_eq!(of("0.000123456789"), Some((9, 1e-12)));
+        for exact in [
+            "1/3",
+            "sqrt(3)/2",
+            "1/4096",
+            "123456789/10^20",
+            "123456789012",
+            "80.0",
+            "cos(36deg)",
+        ] {
             assert_eq!(of(exact), None, "{exact}");
         }
     }

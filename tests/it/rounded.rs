@@ -4,5 +4,6 @@
 //! `OZOLS_ROUNDED=all cargo test --test integration rounded::table -- --nocapture`.
 
 mod cases;
+mod digits;
 mod program;
 mod table;

@@ -51,6 +51,11 @@ pub(crate) fn half_of(places: i32) -> f64 {
 }
 
 impl Digits {
+    /// What the decimal was multiplied by.
+    pub(crate) fn factor(&self) -> f64 {
+        self.half / half_of(self.places)
+    }
+
     /// Of `whole.fraction * 10^exponent`; `None` for a whole number without a point.
     pub(super) fn of(whole: &str, fraction: &str, exponent: i64, point: bool) -> Option<Digits> {
         if !point && exponent >= 0 {
@@ -130,7 +135,7 @@ impl Expr {
                 ..digits
             }),
             Written::Stated(half) => Written::Stated(half * factor.abs()),
-            other @ (Written::No | Written::Whole) => other,
+            Written::No | Written::Whole => Written::No,
         };
         value.as_written(written)
     }

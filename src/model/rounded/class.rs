@@ -1,0 +1,191 @@
+//! What the decimals of one kind, lengths or directions, say together of how they were written.
+
+use super::{LONG_DIRECTION, LONG_LENGTH};
+use crate::geom::expr::{Digits, End, Expr, Written, half_of};
+use num_traits::One;
+use std::collections::BTreeMap;
+
+/// So many long decimals without a trailing zero are no chance.
+const MANY: usize = 10;
+/// A number shorter by so many places at most has lost zeros.
+const LOST: i32 = 2;
+/// And so has one with fewer significant digits.
+const FEW: usize = 3;
+
+/// What a number is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Kind {
+    /// A length.
+    Length,
+    /// A component of a direction.
+    Direction,
+}
+
+/// The numbers of a kind as they are written, equal ones once.
+#[derive(Debug, Default)]
+pub(super) struct Class {
+    /// Places of the decimals that are long, and of all that have digits behind the point, by size of the number.
+    long: BTreeMap<u64, i32>,
+    decimals: BTreeMap<u64, i32>,
+    /// Whether any shows a trailing zero.
+    zeros: bool,
+    /// Whether any is a whole number other than 0.
+    whole: bool,
+    /// Half the unit that most have.
+    most: Option<f64>,
+}
+
+impl Class {
+    /// Takes in a number.
+    pub(super) fn see(&mut self, e: &Expr, kind: Kind) {
+        let size = e.to_f64().abs();
+        let digits = match e.written() {
+            Written::Decimal(digits) if digits.end != End::Float => digits,
+            Written::Decimal(_) | Written::Whole => {
+                self.whole |= size != 0.0;
+                return;
+            }
+            Written::No | Written::Stated(_) => return,
+        };
+        let least = match kind {
+            Kind::Length => LONG_LENGTH,
+            Kind::Direction => LONG_DIRECTION,
+        };
+        self.zeros |= digits.end == End::Zero;
+        // Of equal numbers the one with the most digits says most.
+        let put = |map: &mut BTreeMap<u64, i32>| {
+            let places = map.entry(size.to_bits()).or_insert(digits.places);
+            *places = digits.places.max(*places);
+        };
+        put(&mut self.decimals);
+        if digits.significant >= least {
+            put(&mut self.long);
+        }
+    }
+
+    /// Whether any decimal is long.
+    pub(super) fn is_long(&self) -> bool {
+        !self.long.is_empty()
+    }
+
+    /// Whether any number is whole, and not 0.
+    pub(super) fn has_whole(&self) -> bool {
+        self.whole
+    }
+
+    /// Half the unit that most have: of the long ones, or of all where none is; the finer one of two that are as common.
+    pub(super) fn commonest(&self) -> Option<f64> {
+        self.most
+    }
+
+    /// The same, when all numbers are taken in.
+    pub(super) fn counted(mut self) -> Class {
+        self.most = self.count();
+        self
+    }
+
+    fn count(&self) -> Option<f64> {
+        let of = if self.is_long() {
+            &self.long
+        } else {
+            &self.decimals
+        };
+        let mut count = BTreeMap::<i32, usize>::new();
+        for places in of.values() {
+            *count.entry(*places).or_default() += 1;
+        }
+        let most = count.into_iter().max_by_key(|&(places, n)| (n, places));
+        most.map(|(places, _)| half_of(places))
+    }
+
+    /// Whether its writer leaves out zeros at the end.
+    fn drops_zeros(&self) -> bool {
+        !self.zeros && self.long.len() >= MANY
+    }
+
+    /// Half the unit of a decimal.
+    fn decimal(&self, digits: Digits) -> f64 {
+        let plain = half_of(digits.places);
+        // What the decimal was multiplied by.
+        let factor = digits.half / plain;
+        match self.commonest() {
+            Some(most) if digits.end == End::Float => most * factor,
+            Some(most) if self.drops_zeros() => {
+                let shorter = plain > most && plain <= most * 10f64.powi(LOST) * 1.5;
+                let few = digits.significant < FEW;
+                let half = if shorter || few {
+                    plain.min(most)
+                } else {
+                    plain
+                };
+                half * factor
+            }
+            _ if digits.end == End::Float => 0.0,
+            _ => digits.half,
+        }
+    }
+
+    /// Half the unit of a length; `turned` where directions are decimals.
+    pub(super) fn length(&self, e: &Expr, turned: bool) -> f64 {
+        let whole = |factor: f64| match self.commonest() {
+            None if turned && self.whole => 0.5 * factor,
+            Some(most) if e.to_f64() != 0.0 => most * factor,
+            _ => 0.0,
+        };
+        match e.written() {
+            Written::No => 0.0,
+            Written::Stated(half) => half,
+            Written::Whole => whole(1.0),
+            Written::Decimal(digits) if digits.end == End::Float && self.decimals.is_empty() => {
+                whole(digits.half / half_of(digits.places))
+            }
+            Written::Decimal(digits) => self.decimal(digits),
+        }
+    }
+
+    /// Half the units of the components of a direction.
+    pub(super) fn direction(&self, v: &[Expr; 3]) -> [f64; 3] {
+        if !self.drops_zeros() && is_chosen(v) {
+            return v.each_ref().map(|e| match e.written() {
+                Written::Stated(half) => half,
+                _ => 0.0,
+            });
+        }
+        // One direction is written with one number of places.
+        let finest = v.iter().filter_map(digits_of);
+        let finest = finest.map(|d| d.half).fold(f64::INFINITY, f64::min);
+        v.each_ref().map(|e| match e.written() {
+            Written::No | Written::Whole => 0.0,
+            Written::Stated(half) => half,
+            Written::Decimal(digits) => {
+                let half = self.decimal(digits);
+                if self.zeros { half } else { half.min(finest) }
+            }
+        })
+    }
+}
+
+fn digits_of(e: &Expr) -> Option<Digits> {
+    match e.written() {
+        Written::Decimal(digits) if digits.end != End::Float => Some(digits),
+        _ => None,
+    }
+}
+
+/// Whether a direction of short decimals is as somebody chose it: of length 1 exactly, as (0.6, 0.8, 0) is, or not rounded from
+/// one of length 1, as (1.5, 2, 0).
+fn is_chosen(v: &[Expr; 3]) -> bool {
+    let short = |e: &Expr| digits_of(e).is_none_or(|d| d.significant < FEW);
+    if !v.iter().all(short) {
+        return false;
+    }
+    let square = v.iter().fold(Expr::from(0), |sum, e| sum + e * e);
+    if square.rational_ref().is_some_and(One::is_one) {
+        return true;
+    }
+    let halves = v.iter().filter_map(|e| Some((e, digits_of(e)?.half)));
+    let off: f64 = halves
+        .map(|(e, half)| 2.0 * e.to_f64().abs() * half + half * half)
+        .sum();
+    (square.to_f64() - 1.0).abs() > off
+}

@@ -1,0 +1,220 @@
+//! How well each number of a mechanism is known, by its last digit or by what is stated.
+
+use super::class::{Class, Kind};
+use super::ratio::doubt;
+use crate::geom::expr::{Expr, Written};
+use crate::model::mechanism::{Frame, Mechanism, Mode};
+use std::collections::BTreeMap;
+
+/// Half units of the numbers of a frame, in the file's own numbers; 0 where they are exact.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FrameUncertainty {
+    /// Of its point, in the file's unit of length.
+    pub point: [f64; 3],
+    /// Of the components of its axis as they are written, of any length.
+    pub axis: [f64; 3],
+    /// Of those of its reference.
+    pub reference: [f64; 3],
+    /// Of its pitch, per radian.
+    pub pitch: f64,
+}
+
+/// Which numbers of a frame are the same: an index for each that is not exact, equal for numbers of one kind that are equal
+/// but for their sign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct FrameNumbers {
+    /// Of its point.
+    pub point: [Option<usize>; 3],
+    /// Of its axis.
+    pub axis: [Option<usize>; 3],
+    /// Of its reference.
+    pub reference: [Option<usize>; 3],
+}
+
+/// Half units of all numbers of a mechanism that may have been rounded, in the file's own numbers; 0 where they are exact.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Uncertainties {
+    /// Of the points, by joint, in the file's unit of length.
+    pub point: Vec<[f64; 3]>,
+    /// Of the components of the axes as they are written, by joint.
+    pub axis: Vec<[f64; 3]>,
+    /// Of those of the references, by joint.
+    pub reference: Vec<[f64; 3]>,
+    /// Of the pitches per radian, by joint.
+    pub pitch: Vec<f64>,
+    /// Of the frames of what is offered, by joint, in the order of [`Joint::offered`](crate::model::mechanism::Joint::offered).
+    pub option_frames: Vec<Vec<FrameUncertainty>>,
+    /// Of the points of interest.
+    pub points: Vec<[f64; 3]>,
+    /// Of the normal of the plane.
+    pub normal: [f64; 3],
+    /// Of the ratios of couplings that are doubted.
+    pub ratios: Vec<f64>,
+    /// Which of the numbers of the joints are the same.
+    pub numbers: Vec<FrameNumbers>,
+    /// How many numbers are not exact, of lengths and of directions, equal ones counted once.
+    pub distinct: [usize; 2],
+    /// Half the commonest unit of lengths and of components of directions; 0 where none is rounded.
+    pub half_unit: [f64; 2],
+}
+
+/// What the numbers of a mechanism say together.
+struct Reading {
+    lengths: Class,
+    directions: Class,
+    /// Whether any decimal is long, or any uncertainty stated.
+    rounded: bool,
+    /// Indices of numbers by kind and size.
+    seen: BTreeMap<(Kind, u64), usize>,
+    distinct: [usize; 2],
+}
+
+/// Half units of all numbers; none where nothing looks rounded and nothing is stated.
+///
+/// A number is known to half a unit of its last digit, trailing zeros counted; what is stated goes before. Expressions are
+/// exact. Of the decimals of a file one at least must be long, four significant digits of a length or three of a direction, or
+/// all are taken at their word.
+///
+/// Where at least ten decimals of a kind, equal ones counted once, are long and none shows a trailing zero, the writer left them
+/// out: a number one or two places shorter than most, or of fewer than three digits, has the unit of most. So have whole
+/// numbers among the lengths and those that end in `.0`. Whole zeros, and whole numbers in directions, are exact; but where
+/// directions are decimals and lengths are whole numbers, these are rounded to whole numbers.
+///
+/// # Complexity
+/// O(n log n) for n numbers.
+#[must_use]
+pub fn uncertainties(mechanism: &Mechanism) -> Option<Uncertainties> {
+    let mut reading = Reading::of(mechanism);
+    let ratio = |e: &Expr| match e.written() {
+        Written::Stated(half) => half,
+        _ => doubt(e).map_or(0.0, |d| d.half),
+    };
+    let ratios: Vec<f64> = mechanism
+        .couplings
+        .iter()
+        .map(|c| ratio(&c.ratio))
+        .collect();
+    if !reading.rounded && ratios.iter().all(|r| *r == 0.0) {
+        return None;
+    }
+    let mut out = Uncertainties {
+        ratios,
+        half_unit: reading.half_units(),
+        ..Uncertainties::default()
+    };
+    for joint in &mechanism.joints {
+        let (of, numbers) = reading.frame(&joint.frame);
+        out.point.push(of.point);
+        out.axis.push(of.axis);
+        out.reference.push(of.reference);
+        out.pitch.push(of.pitch);
+        out.numbers.push(numbers);
+        let offered = joint.offered().map(|o| reading.frame(&o.frame).0);
+        out.option_frames.push(offered.collect());
+    }
+    let points = mechanism.points.iter();
+    let points = points.map(|p| reading.vector(&p.point, Kind::Length).0);
+    out.points = points.collect();
+    if let Mode::Planar { normal } = &mechanism.mode {
+        out.normal = reading.vector(normal, Kind::Direction).0;
+    }
+    out.distinct = reading.distinct;
+    Some(out)
+}
+
+impl Reading {
+    fn of(mechanism: &Mechanism) -> Reading {
+        let [mut lengths, mut directions] = [Class::default(), Class::default()];
+        let mut stated = false;
+        let mut see = |v: &[Expr], kind: Kind| {
+            for e in v {
+                stated |= matches!(e.written(), Written::Stated(half) if half > 0.0);
+                match kind {
+                    Kind::Length => lengths.see(e, kind),
+                    Kind::Direction => directions.see(e, kind),
+                }
+            }
+        };
+        let own = mechanism.joints.iter().map(|j| &j.frame);
+        let offered = mechanism.joints.iter().flat_map(|j| j.offered());
+        for frame in own.chain(offered.map(|o| &o.frame)) {
+            see(&frame.point, Kind::Length);
+            see(&frame.axis, Kind::Direction);
+            see(&frame.reference, Kind::Direction);
+            see(std::slice::from_ref(&frame.pitch), Kind::Length);
+        }
+        for p in &mechanism.points {
+            see(&p.point, Kind::Length);
+        }
+        if let Mode::Planar { normal } = &mechanism.mode {
+            see(normal, Kind::Direction);
+        }
+        let [lengths, directions] = [lengths, directions].map(Class::counted);
+        let rounded = stated || lengths.is_long() || directions.is_long();
+        Reading {
+            lengths,
+            directions,
+            rounded,
+            seen: BTreeMap::new(),
+            distinct: [0; 2],
+        }
+    }
+
+    /// Half the units that most numbers have.
+    fn half_units(&self) -> [f64; 2] {
+        if !self.rounded {
+            return [0.0; 2];
+        }
+        let lengths = self.lengths.commonest();
+        let whole = self.directions.is_long() && self.lengths.has_whole();
+        let lengths = lengths.unwrap_or(if whole { 0.5 } else { 0.0 });
+        [lengths, self.directions.commonest().unwrap_or(0.0)]
+    }
+
+    fn frame(&mut self, f: &Frame) -> (FrameUncertainty, FrameNumbers) {
+        let [point, axis, reference] = [
+            (&f.point, Kind::Length),
+            (&f.axis, Kind::Direction),
+            (&f.reference, Kind::Direction),
+        ]
+        .map(|(v, kind)| self.vector(v, kind));
+        let of = FrameUncertainty {
+            point: point.0,
+            axis: axis.0,
+            reference: reference.0,
+            pitch: self.length(&f.pitch),
+        };
+        let numbers = FrameNumbers {
+            point: point.1,
+            axis: axis.1,
+            reference: reference.1,
+        };
+        (of, numbers)
+    }
+
+    fn length(&self, e: &Expr) -> f64 {
+        if !self.rounded {
+            return 0.0;
+        }
+        self.lengths.length(e, self.directions.is_long())
+    }
+
+    fn vector(&mut self, v: &[Expr; 3], kind: Kind) -> ([f64; 3], [Option<usize>; 3]) {
+        let halves = match kind {
+            _ if !self.rounded => [0.0; 3],
+            Kind::Length => v.each_ref().map(|e| self.length(e)),
+            Kind::Direction => self.directions.direction(v),
+        };
+        let number = |i: usize| {
+            if halves[i] == 0.0 {
+                return None;
+            }
+            let key = (kind, v[i].to_f64().abs().to_bits());
+            let next = self.seen.len();
+            let id = *self.seen.entry(key).or_insert(next);
+            self.distinct[kind as usize] += usize::from(id == next);
+            Some(id)
+        };
+        (halves, [0, 1, 2].map(number))
+    }
+}

@@ -1,0 +1,254 @@
+//! Each number of a file is known to half a unit of its last digit, as it is written there.
+
+use ozols::file::text::mechanism_from_str;
+use ozols::geom::expr::Expr;
+use ozols::model::mechanism::Mechanism;
+use ozols::model::rounded::{Uncertainties, looks_rounded, uncertainties};
+use serde_json::{Value, json};
+
+/// A door on two hinges, with these two points and axes.
+pub(crate) fn door(points: [&str; 2], axes: [&str; 2], more: &str) -> String {
+    let mut file = "name = \"door\"\nlength_unit = \"mm\"\n".to_owned();
+    file += more;
+    file += "[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"door\"\nrole = \"output\"\n";
+    for (i, (point, axis)) in points.into_iter().zip(axes).enumerate() {
+        file += &format!(
+            "[[joint]]\nid = \"h{i}\"\nlinks = [\"0\", \"door\"]\ntype = \"revolute\"\npoint = {point}\naxis = {axis}\n"
+        );
+    }
+    file
+}
+
+fn read(text: &str) -> Mechanism {
+    mechanism_from_str("door.toml", text).unwrap()
+}
+
+fn known(text: &str) -> Option<Uncertainties> {
+    uncertainties(&read(text))
+}
+
+fn halves(v: &[Expr; 3]) -> [Option<f64>; 3] {
+    v.each_ref().map(Expr::half_unit)
+}
+
+const Z: &str = "[0, 0, 1]";
+
+#[test]
+fn a_number_knows_its_last_digit_and_arithmetic_does_not() {
+    let half = |s: &str| s.parse::<Expr>().unwrap().half_unit();
+    for (text, expected) in [
+        ("0.49400", 5e-6),
+        ("0.494", 5e-4),
+        ("-12.5", 0.05),
+        ("1.5e-3", 5e-5),
+        ("1.50e-3", 5e-6),
+        ("2e-3", 5e-4),
+        ("(0.5)", 0.05),
+    ] {
+        assert_eq!(half(text), Some(expected), "{text}");
+    }
+    for exact in [
+        "12",
+        "-2/3",
+        "1001/1000",
+        "123456789/10^20",
+        "sqrt(0.5)",
+        "0.5+0.25",
+        "2*0.125",
+        "cos(36deg)",
+    ] {
+        assert_eq!(half(exact), None, "{exact}");
+    }
+    let e: Expr = "0.49400".parse().unwrap();
+    assert_eq!((-&e).half_unit(), Some(5e-6));
+    assert_eq!(e.clone().half_unit(), Some(5e-6));
+    assert_eq!((&e + &e).half_unit(), None);
+    assert_eq!((&e + &Expr::from(0)).half_unit(), None);
+    assert_eq!(e.clone().with_half_unit(0.25).half_unit(), Some(0.25));
+    assert_eq!(e.clone().with_half_unit(0.0).half_unit(), None);
+    assert_eq!(
+        e.as_rational(),
+        "0.494".parse::<Expr>().unwrap().as_rational()
+    );
+    assert!("-80".parse::<Expr>().unwrap().is_written_whole());
+    assert!(!"80.0".parse::<Expr>().unwrap().is_written_whole());
+    assert!(!"160/2".parse::<Expr>().unwrap().is_written_whole());
+    assert!(!Expr::from(80).is_written_whole());
+}
+
+#[test]
+fn trailing_zeros_count_in_toml_and_in_json() {
+    let expected = [Some(5e-6), Some(0.005), Some(5e-6)];
+    let text = door(
+        ["[0.49400, -12.50, 1.500e-2]", "[0, 0, 1_00.250]"],
+        [Z, Z],
+        "",
+    );
+    let m = read(&text);
+    assert_eq!(halves(&m.joints[0].frame.point), expected);
+    assert_eq!(halves(&m.joints[1].frame.point), [None, None, Some(5e-4)]);
+    assert!(m.joints[1].frame.point[0].is_written_whole());
+    assert_eq!(m.joints[0].frame.point[1].to_f64(), -12.5);
+    // In quotes, too.
+    let quoted = read(&door(
+        ["[\"0.49400\", \"-12.50\", \"0.01500\"]", "[0, 0, 9]"],
+        [Z, Z],
+        "",
+    ));
+    assert_eq!(halves(&quoted.joints[0].frame.point), expected);
+
+    let point = |p: &str| {
+        format!(
+            "{{\"id\": \"h\", \"links\": [\"0\", \"door\"], \"type\": \"revolute\", \"point\": {p}, \"axis\": [0, 0, 1.0]}}"
+        )
+    };
+    let links = r#"[{"id": "0", "role": "frame"}, {"id": "door", "role": "output"}]"#;
+    let text = format!(
+        "{{\"name\": \"door\", \"link\": {links}, \"joint\": [{}]}}",
+        point("[0.49400, -12.50, 1.500e-2]")
+    );
+    let m = mechanism_from_str("door.json", &text).unwrap();
+    assert_eq!(halves(&m.joints[0].frame.point), expected);
+}
+
+#[test]
+fn options_parameters_points_ratios_and_leads_are_read_alike() {
+    let text = door(["[1.50, \"h\", 0]", "[0, 0, 9]"], [Z, Z], "")
+        + "options = [{ type = \"cylindrical\", point = [1.50, 2.250, 0] }]\n\
+           [parameter]\nh = 7.40\n\
+           [[point]]\nid = \"tip\"\nlink = \"door\"\npoint = [3.10, 0, 0]\n";
+    let m = read(&text);
+    assert_eq!(m.joints[0].frame.point[1].half_unit(), Some(0.005));
+    let option = m.joints[1].options.iter().find(|o| o.name == "cylindrical");
+    assert_eq!(option.unwrap().frame.point[1].half_unit(), Some(5e-4));
+    assert_eq!(m.points[0].point[0].half_unit(), Some(0.005));
+    let screw = "[[joint]]\nid = \"s\"\nlinks = [\"0\", \"door\"]\ntype = \"helical\"\npoint = [0, 0, 0]\n\
+                 axis = [0, 0, 1]\nlead = 5.000\n";
+    let m = read(&(door(["[1, 0, 0]", "[0, 0, 9]"], [Z, Z], "") + screw));
+    let half = m.joints[2].frame.pitch.half_unit().unwrap();
+    assert!(
+        (half * std::f64::consts::TAU - 5e-4).abs() < 1e-15,
+        "{half}"
+    );
+}
+
+#[test]
+fn short_decimals_fractions_and_whole_numbers_are_exact() {
+    let files = [
+        door(["[12.5, 7.5, 0]", "[0, 80, 120]"], [Z, "[0.6, 0.8, 0]"], ""),
+        door(
+            ["[80.0, 151.0, 0.0]", "[0.0, 80.0, 120.0]"],
+            [Z, "[0.0, 0.0, 1.0]"],
+            "",
+        ),
+        door(
+            [
+                "[\"123456789/10^20\", \"1001/1000\", 0]",
+                "[\"12345/1000\", 1, 1]",
+            ],
+            [Z, "[\"866/1000\", 0, 1]"],
+            "",
+        ),
+    ];
+    for text in files {
+        assert_eq!(known(&text), None, "{text}");
+        assert_eq!(looks_rounded(&read(&text)), None, "{text}");
+    }
+}
+
+#[test]
+fn every_decimal_of_a_rounded_file_has_its_own_unit() {
+    let u = known(&door(
+        ["[151.23, 0.00, 12.0]", "[-149.855, 80, 0]"],
+        ["[0.99998, 0.00001, 0.00632]", Z],
+        "",
+    ))
+    .unwrap();
+    assert_eq!(u.point[0], [0.005, 0.005, 0.005]);
+    assert_eq!(u.point[1], [5e-4, 0.005, 0.0]);
+    assert_eq!(u.axis[0], [5e-6; 3]);
+    assert_eq!(u.axis[1], [0.0; 3]);
+    assert_eq!(u.reference, [[0.0; 3]; 2]);
+}
+
+#[test]
+fn directions_that_are_chosen_stay_exact_beside_long_lengths() {
+    let u =
+        |axis: &str| known(&door(["[151.23, 7.01, 12.04]", "[1, 2, 3]"], [axis, Z], "")).unwrap();
+    for chosen in [
+        "[0.6, 0.8, 0]",
+        "[0.5, 0.5, 0]",
+        "[0.0, 0.0, 1.0]",
+        "[1, 1, 0]",
+    ] {
+        assert_eq!(u(chosen).axis[0], [0.0; 3], "{chosen}");
+    }
+    // Rounded from a length of 1.
+    assert_eq!(u("[0.71, 0.71, 0]").axis[0], [0.005, 0.005, 0.0]);
+    // One number of places for all three.
+    assert_eq!(u("[0.866, 0.5, 0]").axis[0], [5e-4, 5e-4, 0.0]);
+}
+
+#[test]
+fn lost_zeros_are_found_again_where_many_decimals_show_none() {
+    let points: Vec<[f64; 3]> = (1..=6)
+        .map(|i| {
+            let x = f64::from(i);
+            [12.345_671 * x, -3.456_783 * x, 7.891_237 * x]
+        })
+        .collect();
+    let joint = |(i, p): (usize, &[f64; 3])| json!({"id": i.to_string(), "links": ["0", "door"], "type": "spherical", "point": p});
+    let mut all: Vec<Value> = points.iter().enumerate().map(joint).collect();
+    all[0]["point"] = json!([12.345_67, 5, 0.0]);
+    all[1]["point"] = json!([12.34, 80.0, 1.5]);
+    let file = json!({"name": "x", "link": [{"id": "0", "role": "frame"}, {"id": "door", "role": "output"}], "joint": all});
+    let m = mechanism_from_str("x.json", &file.to_string()).unwrap();
+    let u = uncertainties(&m).unwrap();
+    assert_eq!(u.half_unit[0], 5e-7);
+    // One place less: a lost zero. Whole: the writer's, too.
+    assert_eq!(u.point[0], [5e-7, 5e-7, 5e-7]);
+    // Four places less, and four digits: written so. Few digits: lost ones.
+    assert_eq!(u.point[1], [0.005, 5e-7, 5e-7]);
+}
+
+#[test]
+fn whole_lengths_beside_turned_directions_are_rounded_to_half_a_unit() {
+    let u = known(&door(
+        ["[151, 0, 12]", "[-150, 80, 7]"],
+        [
+            "[0.267261, 0.534522, 0.801784]",
+            "[0.267261, 0.534522, 0.801784]",
+        ],
+        "",
+    ))
+    .unwrap();
+    assert_eq!(u.point, [[0.5; 3]; 2]);
+    // An axis that both hinges have is three numbers, not six; 0 is one, and so on.
+    assert_eq!(u.distinct, [6, 3]);
+    assert_eq!(u.numbers[0].axis, u.numbers[1].axis);
+    assert_eq!(
+        known(&door(["[151, 0, 12]", "[-150, 80, 7]"], [Z, Z], "")),
+        None
+    );
+}
+
+#[test]
+fn directions_of_any_size_are_directions() {
+    let axis = |text: &str| {
+        let m = read(&door(["[0, 0, 0]", "[0, 0, 9]"], [text, Z], ""));
+        let [x, y, z] = m.joints[0].frame.axis.each_ref().map(Expr::to_f64);
+        [x / z, y / z]
+    };
+    assert_eq!(axis("[2.6e-49, 0, 1]"), [0.0, 0.0]);
+    assert_eq!(
+        axis("[0, 12345678901234567, 12345678901234567]"),
+        [0.0, 1.0]
+    );
+    assert_eq!(axis("[3e-60, 0, 4e-60]"), [0.75, 0.0]);
+    assert_eq!(axis("[3e200, 0, 4e200]"), [0.75, 0.0]);
+    // Said on purpose.
+    assert_eq!(axis("[\"26/10^50\", 0, 1]"), [2.6e-49, 0.0]);
+    let lengths = door(["[2.6e-49, 0, 0]", "[0, 0, 9]"], [Z, Z], "");
+    let error = mechanism_from_str("door.toml", &lengths).unwrap_err();
+    assert!(error.to_string().contains("out of range"), "{error}");
+}
