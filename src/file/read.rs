@@ -24,6 +24,7 @@ pub mod ranking;
 pub(crate) mod resolve;
 mod search;
 mod size;
+mod tolerance;
 pub mod trajectory;
 mod unit;
 pub mod workload;
@@ -51,6 +52,7 @@ use mode::mode;
 use points::points;
 use search::search;
 use size::size;
+use tolerance::tolerance;
 
 /// Builds a mechanism, its parameters at their defaults.
 ///
@@ -122,6 +124,7 @@ pub(crate) fn build_at(file: &MechanismFile, values: &Values) -> Result<Mechanis
     by_type.sort_by(|a, b| a.0.cmp(&b.0));
     by_type.dedup_by(|later, first| later.0 == first.0);
     mechanism.points = points(file, &mechanism, &mut out);
+    tolerance(file, &mut mechanism, &mut out);
     mechanism.expected = expected(file, &mechanism, &mut out);
     if out.count() == 0 {
         unused(&mut out);

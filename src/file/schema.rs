@@ -5,6 +5,7 @@ mod grip;
 mod number;
 mod parameter;
 mod ranking;
+mod tolerance;
 mod words;
 mod workload;
 
@@ -17,6 +18,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+pub use tolerance::ToleranceEntry;
 pub use words::Words;
 pub use workload::{
     ContactEntry, ForceEntry, InertiaEntry, MisalignmentEntry, MomentEntry, StiffnessEntry,
@@ -48,6 +50,9 @@ pub struct MechanismFile {
     /// `height = { range = [30, 50], default = 40 }`.
     #[serde(default)]
     pub parameter: BTreeMap<String, ParameterEntry>,
+    /// How well numbers are known: half a unit of their last digit where left out.
+    #[serde(default)]
+    pub tolerance: Option<ToleranceEntry>,
     /// The rigid bodies.
     #[serde(default)]
     pub link: Vec<LinkEntry>,
@@ -129,6 +134,9 @@ pub struct JointEntry {
     /// Translation per radian of a helical joint, in place of its lead; may have pi in it: "5/(2*pi)".
     #[serde(default)]
     pub pitch: Option<Coordinate>,
+    /// The point is within so much of what is meant, in the file's unit of length; 0 where it is exact.
+    #[serde(default)]
+    pub tolerance: Option<Coordinate>,
     /// Whether the mechanism is driven here; a driven joint is not changed unless it has options of its own.
     #[serde(default)]
     pub drive: bool,
@@ -250,6 +258,9 @@ pub struct PointEntry {
     pub link: String,
     /// Where it is at the pose of the file.
     pub point: [Coordinate; 3],
+    /// The point is within so much of what is meant, in the file's unit of length; 0 where it is exact.
+    #[serde(default)]
+    pub tolerance: Option<Coordinate>,
 }
 
 /// What a search may do.

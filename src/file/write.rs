@@ -2,16 +2,19 @@
 
 mod drive;
 mod grip;
+mod number;
 mod quantity;
 mod ranking;
+mod tolerance;
 
 use crate::file::read::resolve::motion_name;
 use crate::file::schema::{
     ContactEntry, ContourEntry, Coordinate, CouplingEntry, ExpectedEntry, ForceEntry, InertiaEntry,
     JointEntry, LinkEntry, MechanismFile, MisalignmentEntry, MomentEntry, OptionEntry, OptionTable,
-    PointEntry, Quantities, Quantity, SearchEntry, StiffnessEntry, StrokeEntry, Unloading, Words,
-    WorkloadEntry,
+    PointEntry, Quantities, Quantity, SearchEntry, StiffnessEntry, StrokeEntry, ToleranceEntry,
+    Unloading, Words, WorkloadEntry,
 };
+use crate::file::write::number::coordinate;
 use crate::geom::expr::Expr;
 use crate::model::coupling::Coupling;
 use crate::model::joint_type::{Freedom, JointType};
@@ -30,6 +33,7 @@ const LONGEST_COMMENT: usize = 110;
 #[must_use]
 pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
     let ids = |list: &[JointId]| list.iter().map(|&j| m.joints[j].id.clone()).collect();
+    let stated = tolerance::tolerance(m);
     let (mode, plane_normal) = match &m.mode {
         Mode::Spatial => (None, None),
         Mode::Planar { normal } => (Some("planar".to_owned()), Some(vector(normal))),
@@ -42,6 +46,7 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
         mode,
         plane_normal,
         parameter: BTreeMap::new(),
+        tolerance: stated.clone(),
         link: m
             .links
             .iter()
@@ -53,7 +58,11 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
                 inertia: l.mass.as_ref().and_then(|p| p.inertia).map(inertia),
             })
             .collect(),
-        joint: m.joints.iter().map(|j| joint(m, j)).collect(),
+        joint: m
+            .joints
+            .iter()
+            .map(|j| joint(m, j, stated.as_ref()))
+            .collect(),
         coupling: m.couplings.iter().map(|c| coupling(m, c)).collect(),
         contour: m
             .contours
@@ -67,6 +76,7 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
                 id: p.id.clone(),
                 link: m.links[p.link].id.clone(),
                 point: vector(&p.point),
+                tolerance: tolerance::of_point(&p.point, stated.as_ref()),
             })
             .collect(),
         search: search(m),
@@ -147,23 +157,6 @@ pub(crate) fn role(role: Role) -> Option<&'static str> {
     }
 }
 
-/// A number where it is a decimal of at most 17 digits, else an expression.
-fn coordinate(e: &Expr) -> Coordinate {
-    let Some(value) = e.as_rational() else {
-        return Coordinate::Expression(e.to_string());
-    };
-    if value.is_integer()
-        && let Ok(whole) = i64::try_from(value.numer())
-    {
-        return Coordinate::Integer(whole);
-    }
-    let near = e.to_f64();
-    match Expr::from_f64(near) {
-        Ok(read) if read.as_rational() == Some(value) => Coordinate::Decimal(near),
-        _ => Coordinate::Expression(e.to_string()),
-    }
-}
-
 fn vector(v: &[Expr; 3]) -> [Coordinate; 3] {
     [coordinate(&v[0]), coordinate(&v[1]), coordinate(&v[2])]
 }
@@ -206,7 +199,7 @@ fn states(m: &Mechanism, of: Option<&Vec<StateId>>) -> Option<Words> {
     of.map(|s| Words::Many(s.iter().map(|&s| m.states[s].clone()).collect()))
 }
 
-fn joint(m: &Mechanism, j: &Joint) -> JointEntry {
+fn joint(m: &Mechanism, j: &Joint, stated: Option<&ToleranceEntry>) -> JointEntry {
     // The present joint is understood, unless it has a name or a cost of its own.
     let own = |o: &JointOption| o.cost_milli.is_some() || o.name != motion_name(&o.joint_type);
     let listed = j.options.iter();
@@ -225,6 +218,7 @@ fn joint(m: &Mechanism, j: &Joint) -> JointEntry {
         reference: (!is_default(&j.frame)).then(|| vector(&j.frame.reference)),
         lead: None,
         pitch: screws(&j.joint_type).then(|| coordinate(&j.frame.pitch)),
+        tolerance: tolerance::of_point(&j.frame.point, stated),
         drive: j.drive,
         state: states(m, j.states.as_ref()),
         options,

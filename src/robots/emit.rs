@@ -225,6 +225,7 @@ fn joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, String>) -
             .map(|x| direction(x).map(number)),
         lead: None,
         pitch: screws.then(|| number(p.pitch)),
+        tolerance: None,
         drive: p.drive,
         state: None,
         options: None,

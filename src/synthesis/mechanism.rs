@@ -117,6 +117,7 @@ pub fn mechanism_file(
             }),
             lead: None,
             pitch: None,
+            tolerance: None,
             drive: input,
             state: None,
             options: (thirds > 0).then(|| own(&menu.options)),
@@ -133,6 +134,7 @@ pub fn mechanism_file(
         id: format!("tip-{letter}"),
         link: names[jaw].clone(),
         point: point(tip),
+        tolerance: None,
     });
     MechanismFile {
         name: structure.id(),

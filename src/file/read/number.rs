@@ -35,13 +35,12 @@ pub(crate) fn direction(v: &[Coordinate; 3], path: &[Step], out: &mut Findings) 
     }
     let largest = sizes.into_iter().fold(0.0, f64::max);
     let nothing = |e: &Expr, size: f64| e.written() != Written::No && size < NOTHING * largest;
-    let mut kept = read.into_iter().zip(sizes).map(|(e, size)| {
-        if nothing(&e, size) {
-            Expr::from(0)
-        } else {
-            e
-        }
-    });
+    let mut kept =
+        read.into_iter().zip(sizes).map(
+            |(e, size)| {
+                if nothing(&e, size) { Expr::from(0) } else { e }
+            },
+        );
     let kept = [(); 3].map(|()| kept.next().unwrap_or_else(|| Expr::from(0)));
     if largest == 0.0 || is_usual(largest) {
         return kept;

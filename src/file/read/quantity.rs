@@ -117,8 +117,7 @@ impl Table<'_> {
 
     /// Three numbers.
     pub(crate) fn vector(&mut self, k: &'static str, v: &[Coordinate; 3], unit: f64) -> [f64; 3] {
-        crate::file::read::number::vector(v, &key(&self.at, k), self.out)
-            .map(|e| e.to_f64() * unit)
+        crate::file::read::number::vector(v, &key(&self.at, k), self.out).map(|e| e.to_f64() * unit)
     }
 
     /// An angle in radians: a number of degrees, or "120deg", "2.1rad", "pi/3", "2*pi/3".

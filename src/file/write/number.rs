@@ -1,0 +1,67 @@
+//! Numbers of the geometry, such that they say what they said where they were read.
+
+use crate::file::schema::Coordinate;
+use crate::geom::expr::{Digits, End, Expr, Written, half_of};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{Signed, ToPrimitive};
+
+/// A decimal of fewer significant digits is not taken for a rounded one.
+const SHORT: usize = 3;
+
+/// A number where it is a decimal of at most 17 digits, else an expression. So is an exact fraction that as a decimal would
+/// look rounded, and a decimal with zeros at its end, which numbers lose.
+pub(super) fn coordinate(e: &Expr) -> Coordinate {
+    let Some(value) = e.as_rational() else {
+        return Coordinate::Expression(e.to_string());
+    };
+    let written = e.written();
+    if value.is_integer()
+        && let Ok(whole) = i64::try_from(value.numer())
+        && zeros(&value, written).is_none()
+    {
+        return Coordinate::Integer(whole);
+    }
+    if let Some(text) = zeros(&value, written) {
+        return Coordinate::Expression(text);
+    }
+    let near = e.to_f64();
+    let Ok(read) = Expr::from_f64(near) else {
+        return Coordinate::Expression(e.to_string());
+    };
+    let long = matches!(read.written(), Written::Decimal(d) if d.significant >= SHORT);
+    let exact = matches!(written, Written::No) || written == Written::Stated(0.0);
+    if exact && long {
+        return Coordinate::Expression(format!("{}/{}", value.numer(), value.denom()));
+    }
+    if read.as_rational().as_ref() == Some(&value) {
+        Coordinate::Decimal(near)
+    } else {
+        Coordinate::Expression(e.to_string())
+    }
+}
+
+/// A decimal whose last digit is 0, with all its digits.
+fn zeros(value: &BigRational, written: Written) -> Option<String> {
+    let Written::Decimal(
+        digits @ Digits {
+            places,
+            end: End::Zero,
+            ..
+        },
+    ) = written
+    else {
+        return None;
+    };
+    let width = usize::try_from(places)
+        .ok()
+        .filter(|p| (1..=100).contains(p))?;
+    if digits.half.to_bits() != half_of(places).to_bits() {
+        return None;
+    }
+    let scaled = value.abs() * BigRational::from_integer(BigInt::from(10).pow(places.to_u32()?));
+    let all = format!("{:0>1$}", scaled.to_integer(), width + 1);
+    let (whole, fraction) = all.split_at(all.len() - width);
+    let sign = if value.is_negative() { "-" } else { "" };
+    Some(format!("{sign}{whole}.{fraction}"))
+}
