@@ -74,6 +74,7 @@ pub mod geom;
 pub mod grip;
 pub mod guide;
 pub mod linalg;
+pub mod meant;
 pub mod model;
 pub mod motion;
 pub mod page;

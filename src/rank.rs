@@ -17,6 +17,7 @@ pub mod least_rows;
 pub mod loops;
 pub mod method;
 pub mod modular;
+pub mod moves;
 mod monomials;
 pub mod nearest;
 pub mod numeric;

@@ -93,6 +93,7 @@ fn words(m: &Mechanism, x: &Moved) -> Option<String> {
         Relation::Coaxial => "coaxial",
         Relation::Meeting => "meeting",
         Relation::Concentric => "concentric",
+        Relation::EqualVectors => return None,
     };
     Some(match other {
         Some(j) => format!("{} and {id} are {far} from {special}", m.joints[*j].id),
@@ -110,5 +111,6 @@ fn rank(relation: Relation) -> usize {
         Relation::Meeting => 4,
         Relation::Concentric => 5,
         Relation::Coaxial => 6,
+        Relation::EqualVectors => 0,
     }
 }

@@ -62,9 +62,14 @@ fn finite_of(m: &Mechanism, state: StateId, found: &Verdict) -> Result<Finite, N
     };
     Ok(match &found.meant {
         Meant::AsWritten => exactly(m, found.as_written)?,
+        // What is snapped is exact.
         Meant::Snapped {
             mechanism, rank, ..
-        } => exactly(mechanism, *rank)?,
+        } => {
+            let exact = field_of(mechanism, state, 0)?;
+            let closure = Closure::new(&exact, mechanism, state)?;
+            finite(&exact, mechanism, &closure, *rank)?
+        }
         Meant::Near {
             mechanism, rank, ..
         } => within(

@@ -3,9 +3,10 @@
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::model::rounded::looks_rounded;
 use crate::rank::method::NoAnswer;
+use crate::rank::moves::moves;
 use crate::rank::snap::relation::{Moved, Reach};
 use crate::rank::snap::{size, snap};
-use crate::rank::verdict::{Verdict, rank_of, reach, verdict};
+use crate::rank::verdict::{Verdict, rank_of, resolved, verdict_on};
 
 /// The mechanism that is meant, for exact arithmetic.
 #[derive(Debug, Clone, Default)]
@@ -39,36 +40,30 @@ pub fn settle(
     if tolerance.is_none() && looks_rounded(mechanism).is_none() {
         return Ok(out);
     }
-    let each = |&s: &StateId| verdict(mechanism, s, tolerance);
+    let scene = resolved(mechanism, tolerance);
+    let each = |&s: &StateId| verdict_on(mechanism, s, tolerance, scene.as_ref());
     out.verdicts = states.iter().map(each).collect::<Result<_, _>>()?;
-    let within = match (tolerance, out.verdicts.iter().all(Verdict::is_as_written)) {
-        (Some(t), _) => Some(Reach::relative(t, size(mechanism))),
-        (None, true) => None,
-        (None, false) => reach(mechanism),
+    let (found, moved, refused) = match (tolerance, &scene) {
+        (Some(t), _) => {
+            let snapped = snap(mechanism, Reach::relative(t, size(mechanism)));
+            (snapped.mechanism, snapped.moved, snapped.refused)
+        }
+        (None, Some(s)) if s.scene.moved > 0.0 => (s.mechanism.clone(), moves(s), Vec::new()),
+        (None, _) => (mechanism.clone(), Vec::new(), Vec::new()),
     };
-    let Some(within) = within else {
-        return Ok(out);
-    };
-    let snapped = snap(mechanism, within);
     for (i, (v, &state)) in out.verdicts.iter().zip(states).enumerate() {
-        let rank = rank_of(&snapped.mechanism, state)?;
+        let rank = rank_of(&found, state)?;
         if !v.is_decided() || rank != v.rank() {
-            out.open = Some((
-                i,
-                if tolerance.is_some() {
-                    rank
-                } else {
-                    v.as_written
-                },
-            ));
+            out.open = Some((i, if tolerance.is_some() { rank } else { v.as_written }));
             break;
         }
     }
     // What was asked for is done; what the digits say, only where it is right.
-    if tolerance.is_some() || out.open.is_none() {
-        out.snapped = Some(snapped.mechanism);
-        out.moved = snapped.moved;
-        out.refused = snapped.refused;
+    let right = tolerance.is_some() || out.open.is_none();
+    if right && (tolerance.is_some() || !moved.is_empty()) {
+        out.snapped = Some(found);
+        out.moved = moved;
+        out.refused = refused;
     }
     Ok(out)
 }

@@ -7,7 +7,9 @@
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::model::rounded::{Rounded, Units, looks_rounded};
+use crate::geom::vector::{length, real};
+use crate::meant::mechanism::{Meant as Scene, meant as scene_of};
+use crate::model::rounded::{Rounded, Units, looks_rounded, uncertainties};
 use crate::rank::field::field_of;
 use crate::rank::least_rows::LeastRows;
 use crate::rank::method::NoAnswer;
@@ -16,6 +18,7 @@ use crate::rank::nearest::{Nearest, nearest};
 use crate::rank::numeric::NumericError;
 use crate::rank::rounding::bound;
 use crate::rank::scaled::{NumericRank, scaled};
+use crate::rank::moves::moves;
 use crate::rank::snap::relation::{Moved, Reach};
 use crate::rank::snap::{size, snap};
 use ozols_dense::singular_values;
@@ -26,6 +29,10 @@ const ROUND_OFF: f64 = 1e-14;
 const GAP: f64 = 1e3;
 /// that ends below this fraction of the largest, says that some are left over from zero.
 const LEFT_OVER: f64 = 1e-4;
+/// Nothing is known better in double precision, relative to the largest singular value.
+const LEAST: f64 = 1e-13;
+/// A scene whose numbers would have to move by more halves of their last digit is not the one that is meant.
+const FURTHEST: f64 = 1.5;
 /// Units of coordinates, relative to the size, above which a geometry that is near says nothing.
 const COARSE: f64 = 5e-5;
 
@@ -213,6 +220,23 @@ pub fn verdict(
     state: StateId,
     tolerance: Option<f64>,
 ) -> Result<Verdict, NoAnswer> {
+    let scene = resolved(mechanism, tolerance);
+    verdict_on(mechanism, state, tolerance, scene.as_ref())
+}
+
+/// The scene that is meant, where digits say what is and no tolerance is asked for in their place.
+pub(super) fn resolved(mechanism: &Mechanism, tolerance: Option<f64>) -> Option<Scene> {
+    let scene = || scene_of(mechanism).filter(|s| s.scene.moved <= FURTHEST);
+    tolerance.is_none().then(scene).flatten()
+}
+
+/// [`verdict`] with the scene that is meant known.
+pub(super) fn verdict_on(
+    mechanism: &Mechanism,
+    state: StateId,
+    tolerance: Option<f64>,
+    scene: Option<&Scene>,
+) -> Result<Verdict, NoAnswer> {
     let (as_written, needed) = exact_rank(mechanism, state)?;
     let real = Closure::new(&Reals, mechanism, state)?;
     let rounded = looks_rounded(mechanism);
@@ -237,7 +261,7 @@ pub fn verdict(
             Reach::relative(t, size),
         ),
         (None, Some(r)) => {
-            let units = effective(r, size);
+            let units = units(mechanism, r);
             (units, Reach::of_units(units, size))
         }
         (None, None) => return Ok(found),
@@ -247,44 +271,70 @@ pub fn verdict(
     };
     found.tolerance = match tolerance {
         Some(t) => t,
-        None => {
-            let measured = found.rounded.as_ref().and_then(Rounded::tolerance);
-            let bound = bound(mechanism, &real, units) / values.largest;
-            bound.max(measured.unwrap_or(0.0))
-        }
+        None => (bound(mechanism, &real, units) / values.largest).max(LEAST),
     };
     let above = values.above(found.tolerance);
-    if above >= as_written {
-        found.numeric = Some(values.at(as_written));
-        if let (Some(near), None) = (values.left_over(as_written), tolerance) {
-            found.numeric = Some(values.at(near));
-            found.meant = Meant::Undecided { near };
-        }
+    let scene = match scene.filter(|s| s.scene.moved > 0.0) {
+        Some(s) => Some((s, rank_of(&s.mechanism, state)?)),
+        None => None,
+    };
+    let rank = scene.map_or(as_written, |s| s.1);
+    if above >= rank.min(as_written) {
+        found.numeric = Some(values.at(rank));
+        found.meant = match (values.left_over(rank), tolerance, scene) {
+            (Some(near), None, _) => {
+                found.numeric = Some(values.at(near));
+                Meant::Undecided { near }
+            }
+            // No rounding can have made what the digits say is there in truth.
+            (_, _, Some((_, rank))) if above > rank => Meant::Undecided { near: rank },
+            (_, _, Some((s, rank))) => snapped(s, rank),
+            _ => Meant::AsWritten,
+        };
         return Ok(found);
     }
     let near = match tolerance {
         Some(_) => above,
-        None => values.widest_gap(above, as_written, found.tolerance),
+        None => values.widest_gap(above, as_written.max(rank + 1), found.tolerance),
     };
     found.numeric = Some(values.at(near));
-    found.meant = meant(mechanism, state, near, (units, reach), tolerance.is_some())?;
+    found.meant = match scene {
+        Some((s, rank)) if rank == near => snapped(s, rank),
+        _ => meant(mechanism, state, near, (units, reach), tolerance.is_some())?,
+    };
     Ok(found)
+}
+
+/// The verdict that a scene is meant.
+fn snapped(scene: &Scene, rank: usize) -> Meant {
+    Meant::Snapped {
+        mechanism: Box::new(scene.mechanism.clone()),
+        rank,
+        moved: moves(scene),
+    }
 }
 
 /// How far the digits of a mechanism allow its joints to be moved; none where they are exact.
 #[must_use]
 pub fn reach(mechanism: &Mechanism) -> Option<Reach> {
     let size = size(mechanism);
-    looks_rounded(mechanism).map(|r| Reach::of_units(effective(&r, size), size))
+    looks_rounded(mechanism).map(|r| Reach::of_units(units(mechanism, &r), size))
 }
 
-/// Units of coordinates, not finer than the errors that measured ones have whatever their digits; exact ones stay exact.
-fn effective(r: &Rounded, size: f64) -> Units {
-    let error = r.tolerance().unwrap_or(0.0) / 2.0;
-    let coarser = |unit: f64, than: f64| if unit > 0.0 { unit.max(than) } else { 0.0 };
+/// The coarsest units of points, and of the components of directions of unit length.
+fn units(mechanism: &Mechanism, r: &Rounded) -> Units {
+    let Some(half) = uncertainties(mechanism) else {
+        return r.units;
+    };
+    let largest = |v: [f64; 3]| v.into_iter().fold(0.0, f64::max);
+    let points = half.point.iter().map(|v| largest(*v));
+    let frames = mechanism.joints.iter().map(|j| &j.frame);
+    let axes = frames.clone().map(|f| &f.axis).zip(&half.axis);
+    let all = axes.chain(frames.map(|f| &f.reference).zip(&half.reference));
+    let directions = all.map(|(v, h)| largest(*h) / length(real(v)));
     Units {
-        length: coarser(r.units.length, error * size),
-        direction: coarser(r.units.direction, error),
+        length: 2.0 * points.fold(0.0, f64::max),
+        direction: 2.0 * directions.fold(0.0, f64::max),
     }
 }
 

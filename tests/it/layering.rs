@@ -13,7 +13,7 @@ const LAYERS: [&[&str]; 19] = [
     &["chart"],
     &["model"],
     &["closure"],
-    &["motion"],
+    &["motion", "meant"],
     &["rank", "statics"],
     &["grip", "drive"],
     &["redundancy", "file"],

@@ -52,6 +52,8 @@ pub enum Relation {
     Meeting,
     /// Its centre the same point as another.
     Concentric,
+    /// As far from one joint as others are from each other, in the same direction.
+    EqualVectors,
 }
 
 impl Relation {
@@ -73,6 +75,7 @@ impl Relation {
             Relation::Coaxial => to("coaxial", "with"),
             Relation::Meeting => to("meeting", "with"),
             Relation::Concentric => to("concentric", "with"),
+            Relation::EqualVectors => to("an equal distance", "as"),
         }
     }
 }

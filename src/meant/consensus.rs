@@ -1,0 +1,192 @@
+//! Directions, known worse than points are: an axis of six decimals leaves 5e-7 rad, over 150 mm a hundred times what the points
+//! leave. So a direction is moved, within what its own digits allow, to where most pairs of points are square to it or along it.
+
+use super::written::Pair;
+use crate::geom::vector::{Vector, X, Y, Z, add_scaled, cross, dot, length, unit};
+
+/// Pairs that hypotheses are made of.
+const TRIED: usize = 48;
+
+/// What a pair says of a small turn (a, b) of the direction: r0 a + r1 b = r2, give or take.
+struct Line {
+    row: [f64; 3],
+    error: f64,
+}
+
+/// What pairs may say of a direction: each a line where they are square to it, two where they are along it.
+struct Evidence {
+    lines: Vec<Line>,
+    /// First line and how many, one entry a pair.
+    pairs: Vec<(usize, usize)>,
+}
+
+/// A direction, refined.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Refined {
+    pub(super) unit: Vector,
+    /// What is left of its error `[rad]`.
+    pub(super) error: f64,
+}
+
+/// Two unit vectors square to a third and to each other.
+pub(super) fn square_to(v: Vector) -> [Vector; 2] {
+    let least = [X, Y, Z]
+        .into_iter()
+        .min_by(|a, b| dot(*a, v).abs().total_cmp(&dot(*b, v).abs()))
+        .unwrap_or(X);
+    let first = unit(cross(v, least));
+    [first, cross(v, first)]
+}
+
+fn evidence(v: Vector, error: f64, [e1, e2]: [Vector; 2], pairs: &[Pair]) -> Evidence {
+    let mut out = Evidence {
+        lines: Vec::new(),
+        pairs: Vec::new(),
+    };
+    for p in pairs {
+        let w = p.along;
+        let wide = 1.1 * p.length * error + p.error;
+        let first = out.lines.len();
+        if dot(v, w).abs() < wide {
+            out.lines.push(Line {
+                row: [dot(e1, w), dot(e2, w), -dot(v, w)],
+                error: p.error,
+            });
+        } else if length(cross(v, w)) < wide {
+            let sign = dot(v, w).signum();
+            for (k, e) in [e1, e2].into_iter().enumerate() {
+                let mut row = [0.0, 0.0, sign * dot(e, w)];
+                row[k] = p.length;
+                out.lines.push(Line {
+                    row,
+                    error: p.error,
+                });
+            }
+        }
+        if out.lines.len() > first {
+            out.pairs.push((first, out.lines.len() - first));
+        }
+    }
+    out
+}
+
+impl Evidence {
+    /// The lines of the pairs that agree with a turn.
+    fn agreeing(&self, [a, b]: [f64; 2]) -> impl Iterator<Item = &Line> + '_ {
+        let fits = move |l: &&Line| (l.row[0] * a + l.row[1] * b - l.row[2]).abs() <= l.error;
+        self.pairs.iter().flat_map(move |&(first, n)| {
+            let lines = &self.lines[first..first + n];
+            let all = lines.iter().all(|l| fits(&l));
+            lines.iter().take(if all { n } else { 0 })
+        })
+    }
+
+    fn support(&self, turn: [f64; 2]) -> usize {
+        self.agreeing(turn).count()
+    }
+
+    /// The turn that the lines which agree with one say together, and its error; `prior` is that of the direction's digits.
+    fn fit(&self, turn: [f64; 2], prior: f64) -> Option<([f64; 2], f64)> {
+        let (mut m, mut g) = ([[prior.powi(-2), 0.0], [0.0, prior.powi(-2)]], [0.0; 2]);
+        for l in self.agreeing(turn) {
+            let weight = l.error.powi(-2);
+            for i in 0..2 {
+                for j in 0..2 {
+                    m[i][j] += weight * l.row[i] * l.row[j];
+                }
+                g[i] += weight * l.row[i] * l.row[2];
+            }
+        }
+        let det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+        let x = [
+            (g[0] * m[1][1] - g[1] * m[0][1]) / det,
+            (m[0][0] * g[1] - m[1][0] * g[0]) / det,
+        ];
+        // The larger half axis of the ellipse of errors.
+        let (half, diff) = (
+            f64::midpoint(m[0][0], m[1][1]),
+            f64::midpoint(m[0][0], -m[1][1]),
+        );
+        let least = half - diff.hypot(m[0][1]);
+        let error = least.max(1e-300).sqrt().recip().min(prior);
+        (x[0].is_finite() && x[1].is_finite()).then_some((x, error))
+    }
+
+    /// Turns worth trying: what single pairs along the direction and two square to it say.
+    fn hypotheses(&self) -> Vec<[f64; 2]> {
+        let mut out = vec![[0.0; 2]];
+        let mut square: Vec<&Line> = Vec::new();
+        for &(first, n) in &self.pairs {
+            if n == 2 {
+                let l = &self.lines[first..first + 2];
+                if out.len() < TRIED {
+                    out.push([l[0].row[2] / l[0].row[0], l[1].row[2] / l[1].row[1]]);
+                }
+            } else if square.len() < TRIED {
+                square.push(&self.lines[first]);
+            }
+        }
+        for (i, a) in square.iter().enumerate() {
+            let norm = a.row[0].hypot(a.row[1]);
+            let foot = a.row[2] / norm.powi(2);
+            out.push([foot * a.row[0], foot * a.row[1]]);
+            for b in &square[..i] {
+                let det = a.row[0] * b.row[1] - a.row[1] * b.row[0];
+                if det.abs() > 0.05 * norm * b.row[0].hypot(b.row[1]) {
+                    out.push([
+                        (a.row[2] * b.row[1] - a.row[1] * b.row[2]) / det,
+                        (a.row[0] * b.row[2] - a.row[2] * b.row[0]) / det,
+                    ]);
+                }
+            }
+        }
+        out
+    }
+}
+
+/// The direction within its error that most pairs of points agree with; one of the file's own axes where none does better.
+///
+/// # Complexity
+/// O(p²) hypotheses of at most 48² pairs, each held against O(p²) pairs of p points.
+pub(super) fn refined(v: Vector, error: f64, pairs: &[Pair]) -> Refined {
+    if error == 0.0 {
+        return Refined { unit: v, error };
+    }
+    let across = square_to(v);
+    let found = evidence(v, error, across, pairs);
+    let within = |t: &[f64; 2]| t[0].hypot(t[1]) <= 1.1 * error;
+    let axes = [X, Y, Z].map(|e| if dot(e, v) < 0.0 { e.map(|x| -x) } else { e });
+    let own = axes.into_iter().find(|e| length(cross(*e, v)) <= error);
+    let own = own.map(|e| across.map(|a| dot(a, e)));
+    let mut best = ([0.0; 2], 0);
+    for turn in own.into_iter().chain(found.hypotheses()).filter(within) {
+        let support = found.support(turn);
+        if support > best.1 {
+            best = (turn, support);
+        }
+    }
+    if let Some(turn) = own
+        && found.support(turn) == best.1
+    {
+        let unit = axes.into_iter().find(|e| length(cross(*e, v)) <= error);
+        let error = found.fit(turn, error).map_or(error, |f| f.1);
+        return Refined {
+            unit: unit.unwrap_or(v),
+            error,
+        };
+    }
+    let (mut turn, mut left) = (best.0, error);
+    for _ in 0..4 {
+        if let Some((next, e)) = found.fit(turn, error).filter(|f| within(&f.0)) {
+            if found.support(next) + 2 < best.1 {
+                break;
+            }
+            (turn, left) = (next, e);
+        }
+    }
+    let moved = add_scaled(add_scaled(v, turn[0], across[0]), turn[1], across[1]);
+    Refined {
+        unit: unit(moved),
+        error: left,
+    }
+}

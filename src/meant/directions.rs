@@ -1,0 +1,75 @@
+//! The directions of a scene that are written, parallel ones as one.
+
+use super::consensus::{Refined, refined};
+use super::written::{Ray, pairs};
+use crate::geom::vector::{Vector, add_scaled, cross, dot, length, scale, unit};
+
+/// A direction of a scene.
+#[derive(Debug, Clone)]
+pub(super) struct Direction {
+    pub(super) unit: Vector,
+    /// What it may be off by `[rad]`.
+    pub(super) error: f64,
+    /// How many rays have it; 0 where only points make it.
+    pub(super) rays: usize,
+    /// Whether it is written exactly, as one of these rays.
+    pub(super) exact: Option<usize>,
+    /// Whether it is the normal of a plane of points.
+    pub(super) plane: bool,
+}
+
+/// Directions, and which of them each ray has, with its sign.
+pub(super) struct Directions {
+    pub(super) all: Vec<Direction>,
+    pub(super) of_ray: Vec<(usize, f64)>,
+}
+
+/// Rays that are parallel within their errors as one direction, refined by the points.
+pub(super) fn of_rays(rays: &[Ray], points: &[Vector], errors: &[f64]) -> Directions {
+    let pairs = pairs(points, errors);
+    let mut order: Vec<usize> = (0..rays.len()).collect();
+    // The best known first, so that others are compared with them.
+    order.sort_by(|&a, &b| rays[a].error().total_cmp(&rays[b].error()));
+    let (mut all, mut of_ray) = (Vec::<Direction>::new(), vec![(0, 1.0); rays.len()]);
+    let mut sums: Vec<(Vector, f64)> = Vec::new();
+    for i in order {
+        let (v, error) = (rays[i].unit(), rays[i].error());
+        let near = |d: &Direction| length(cross(d.unit, v)) <= 1.05 * (d.error + error);
+        let nearest = |a: &usize, b: &usize| {
+            let off = |k: &usize| length(cross(all[*k].unit, v));
+            off(a).total_cmp(&off(b))
+        };
+        let known = (0..all.len()).filter(|&k| near(&all[k])).min_by(nearest);
+        if let Some(k) = known {
+            let sign = dot(all[k].unit, v).signum();
+            of_ray[i] = (k, sign);
+            all[k].rays += 1;
+            if error > 0.0 {
+                let weight = error.powi(-2);
+                let (sum, of) = &mut sums[k];
+                *sum = add_scaled(*sum, sign * weight, v);
+                *of += weight;
+            }
+        } else {
+            of_ray[i] = (all.len(), 1.0);
+            all.push(Direction {
+                unit: v,
+                error,
+                rays: 1,
+                exact: rays[i].is_exact().then_some(i),
+                plane: false,
+            });
+            let weight = if error > 0.0 { error.powi(-2) } else { 0.0 };
+            sums.push((scale(v, weight), weight));
+        }
+    }
+    for (d, (sum, _)) in all.iter_mut().zip(sums) {
+        if d.exact.is_some() {
+            continue;
+        }
+        let Refined { unit, error } = refined(unit(sum), d.error, &pairs);
+        (d.unit, d.error) = (unit, error);
+    }
+    Directions { all, of_ray }
+}
+

@@ -1,0 +1,143 @@
+//! Directions made exact one after another: each lies in the planes that earlier ones span or are square to, where it does so
+//! within its error: no such plane and it is free, one and it is kept in it, two and it is where they meet.
+
+use super::directions::Direction;
+use super::number::{Rational3, axes, cross, decimal, is_zero, scaled, to_f64};
+use crate::geom::vector::{Vector, dot, length, unit};
+use num_traits::Zero;
+
+/// A direction, exact in the scene's frame.
+#[derive(Debug, Clone)]
+pub(super) struct Exact {
+    pub(super) exact: Rational3,
+    pub(super) unit: Vector,
+    /// What it may still be off from the truth `[rad]`: what was not told by other directions.
+    pub(super) error: f64,
+}
+
+impl Exact {
+    /// An axis of the frame.
+    pub(super) fn of_axis(exact: Rational3) -> Exact {
+        Exact::new(exact, 0.0)
+    }
+
+    fn new(exact: Rational3, error: f64) -> Exact {
+        let unit = unit(to_f64(&exact));
+        Exact { exact, unit, error }
+    }
+}
+
+/// Planes are told apart by this sine.
+const APART: f64 = 1e-4;
+
+/// Exact directions of a scene, in the order of `all`; `inside` turns to the scene's frame, `written` gives those that are
+/// written exactly.
+pub(super) fn exact(
+    all: &[Direction],
+    inside: impl Fn(Vector) -> Vector,
+    written: impl Fn(usize) -> Rational3,
+    digits: u32,
+) -> Vec<Exact> {
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    // Those of rays before those that points make, and many before few.
+    order.sort_by_key(|&k| (all[k].exact.is_none(), all[k].rays == 0, std::cmp::Reverse(all[k].rays)));
+    let mut fixed: Vec<Exact> = axes().map(|e| Exact::new(e, 0.0)).to_vec();
+    let mut out: Vec<Option<Exact>> = vec![None; all.len()];
+    for k in order {
+        let d = &all[k];
+        if let Some(ray) = d.exact {
+            let of = Exact::new(written(ray), 0.0);
+            fixed.push(of.clone());
+            out[k] = Some(of);
+            continue;
+        }
+        let v = inside(d.unit);
+        let found = placed(v, d.error, &fixed, digits);
+        if !fixed.iter().any(|f| length(crate::geom::vector::cross(f.unit, found.unit)) == 0.0) {
+            fixed.push(found.clone());
+        }
+        out[k] = Some(found);
+    }
+    out.into_iter().flatten().collect()
+}
+
+/// A direction near one, in the planes that fixed ones make.
+pub(super) fn placed(v: Vector, error: f64, fixed: &[Exact], digits: u32) -> Exact {
+    use crate::geom::vector::cross as cross_f64;
+    if let Some(same) = fixed
+        .iter()
+        .find(|f| length(cross_f64(f.unit, v)) <= 1.1 * (error + f.error))
+    {
+        let sign = dot(same.unit, v);
+        let exact = if sign < 0.0 { same.exact.clone().map(|x| -x) } else { same.exact.clone() };
+        return Exact::new(exact, same.error);
+    }
+    // Normals of planes it may lie in, those it fits best first.
+    let mut planes: Vec<(f64, Rational3, Vector)> = Vec::new();
+    let mut offer = |normal: Rational3, slack: f64| {
+        let n = to_f64(&normal);
+        let size = length(n);
+        if size < 1e-9 {
+            return;
+        }
+        let n = unit(n);
+        let off = dot(n, v).abs();
+        if off <= 1.1 * (error + slack) {
+            planes.push((off, normal, n));
+        }
+    };
+    for (i, a) in fixed.iter().enumerate() {
+        offer(a.exact.clone(), a.error);
+        for b in &fixed[..i] {
+            let sine = length(cross_f64(a.unit, b.unit));
+            if sine > 0.01 {
+                offer(cross(&a.exact, &b.exact), (a.error + b.error) / sine);
+            }
+        }
+    }
+    // Square to two frame axes is an axis, told above; squares before spans, then by how well it fits.
+    planes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let first = planes.first();
+    let second = first.and_then(|f| {
+        planes
+            .iter()
+            .find(|p| length(cross_f64(f.2, p.2)) > APART.max(3.0 * error))
+    });
+    match (first, second) {
+        (Some(a), Some(b)) => {
+            let meet = scaled(cross(&a.1, &b.1));
+            let along = dot(to_f64(&meet), v);
+            let meet = if along < 0.0 { meet.map(|x| -x) } else { meet };
+            let of = Exact::new(meet, error.min(1e-15));
+            let sine = length(cross_f64(a.2, b.2));
+            if length(cross_f64(of.unit, v)) <= 2.0 * error / sine {
+                return of;
+            }
+            in_plane(v, &a.1, error, digits)
+        }
+        (Some(a), None) => in_plane(v, &a.1, error, digits),
+        _ => free(v, error, digits),
+    }
+}
+
+fn free(v: Vector, error: f64, digits: u32) -> Exact {
+    Exact::new(v.map(|x| decimal(x, digits)), error)
+}
+
+/// A rational direction near one, square to a normal.
+fn in_plane(v: Vector, normal: &Rational3, error: f64, digits: u32) -> Exact {
+    let n = to_f64(normal);
+    let i = (0..3)
+        .max_by(|&a, &b| n[a].abs().total_cmp(&n[b].abs()))
+        .unwrap_or(0);
+    let mut w = v.map(|x| decimal(x, digits));
+    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+    if normal[i].is_zero() {
+        return free(v, error, digits);
+    }
+    w[i] = -(&w[j] * &normal[j] + &w[k] * &normal[k]) / &normal[i];
+    if is_zero(&w) {
+        return free(v, error, digits);
+    }
+    Exact::new(w, error)
+}

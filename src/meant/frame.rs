@@ -1,0 +1,119 @@
+//! A frame of the scene's own, in which its planes are planes of coordinates: the file's where a direction of the scene is one of
+//! the file's axes, else turned by a rotation of rational numbers, so that what is exact in one is exact in the other.
+
+use super::directions::Direction;
+use super::number::{Rational3, decimal, to_f64};
+use crate::geom::vector::{Vector, X, Y, Z, across, cross, dot, length, unit};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+/// A rotation from the scene's frame to the file's, exact.
+#[derive(Debug, Clone)]
+pub(super) struct Frame {
+    /// By rows; none where the frames are one.
+    pub(super) rotation: Option<[Rational3; 3]>,
+    real: [Vector; 3],
+}
+
+impl Frame {
+    /// The file's own.
+    fn file() -> Frame {
+        Frame {
+            rotation: None,
+            real: [X, Y, Z],
+        }
+    }
+
+    /// The frame of some directions: z the one that most rays have, x the one square to it that most have.
+    pub(super) fn of(all: &[Direction], digits: u32) -> Frame {
+        let used = || all.iter().filter(|d| d.rays > 0);
+        let is_axis = |d: &Direction| [X, Y, Z].iter().any(|e| length(cross(*e, d.unit)) == 0.0);
+        if used().any(|d| d.exact.is_some() || is_axis(d)) {
+            return Frame::file();
+        }
+        let Some(first) = used().max_by_key(|d| d.rays).or(all.first()) else {
+            return Frame::file();
+        };
+        let z = first.unit;
+        let square = |d: &&Direction| dot(d.unit, z).abs() <= d.error + first.error + 1e-12;
+        let axis = [X, Y, Z].into_iter().find(|e| dot(*e, z).abs() <= first.error);
+        let frequent = all.iter().filter(square).max_by_key(|d| d.rays).map(|d| d.unit);
+        let any = if z[0].abs() < 0.9 { X } else { Y };
+        let x = unit(across(axis.or(frequent).unwrap_or(any), z));
+        Frame::turned([x, cross(z, x), z], digits)
+    }
+
+    /// The rational rotation nearest to the one whose columns are these axes.
+    fn turned(columns: [Vector; 3], digits: u32) -> Frame {
+        let m = |i: usize, j: usize| columns[j][i];
+        let trace = [1.0, m(0, 0), m(1, 1), m(2, 2)];
+        // Four ways to the quaternion; that by its largest part is accurate.
+        let squares = [
+            trace[0] + trace[1] + trace[2] + trace[3],
+            trace[0] + trace[1] - trace[2] - trace[3],
+            trace[0] - trace[1] + trace[2] - trace[3],
+            trace[0] - trace[1] - trace[2] + trace[3],
+        ];
+        let most = (0..4)
+            .max_by(|&a, &b| squares[a].total_cmp(&squares[b]))
+            .unwrap_or(0);
+        let s = squares[most].sqrt();
+        let (d, sum) = (
+            |i: usize, j: usize| m(i, j) - m(j, i),
+            |i: usize, j: usize| m(i, j) + m(j, i),
+        );
+        let q = match most {
+            0 => [s, d(2, 1) / s, d(0, 2) / s, d(1, 0) / s],
+            1 => [d(2, 1) / s, s, sum(0, 1) / s, sum(0, 2) / s],
+            2 => [d(0, 2) / s, sum(0, 1) / s, s, sum(1, 2) / s],
+            _ => [d(1, 0) / s, sum(0, 2) / s, sum(1, 2) / s, s],
+        };
+        let [w, x, y, z] = q.map(|c| if c.abs() < 1e-15 { BigRational::zero() } else { decimal(c / 2.0, digits) });
+        let norm = [&w, &x, &y, &z].iter().fold(BigRational::zero(), |n, c| n + *c * *c);
+        let two = BigRational::from_integer(BigInt::from(2)) / norm;
+        let diagonal = |a: &BigRational, b: &BigRational| BigRational::one() - &two * (a * a + b * b);
+        let off = |a: &BigRational, b: &BigRational, sign: i32, c: &BigRational| {
+            let last = &w * c;
+            &two * (a * b + if sign > 0 { last } else { -last })
+        };
+        let rotation = [
+            [diagonal(&y, &z), off(&x, &y, -1, &z), off(&x, &z, 1, &y)],
+            [off(&x, &y, 1, &z), diagonal(&x, &z), off(&y, &z, -1, &x)],
+            [off(&x, &z, -1, &y), off(&y, &z, 1, &x), diagonal(&x, &y)],
+        ];
+        let real = rotation.each_ref().map(to_f64);
+        Frame {
+            rotation: Some(rotation),
+            real,
+        }
+    }
+
+    /// A vector of the file in the scene's frame.
+    pub(super) fn inside(&self, v: Vector) -> Vector {
+        [0, 1, 2].map(|j| (0..3).map(|i| self.real[i][j] * v[i]).sum())
+    }
+
+    /// A vector of the scene's frame in the file's.
+    pub(super) fn outside(&self, v: Vector) -> Vector {
+        self.real.map(|row| dot(row, v))
+    }
+
+    /// An exact vector of the file in the scene's frame.
+    pub(super) fn inside_exactly(&self, v: &Rational3) -> Rational3 {
+        match &self.rotation {
+            None => v.clone(),
+            Some(r) => [0, 1, 2].map(|j| &r[0][j] * &v[0] + &r[1][j] * &v[1] + &r[2][j] * &v[2]),
+        }
+    }
+
+    /// The same exactly, the other way.
+    pub(super) fn outside_exactly(&self, v: &Rational3) -> Rational3 {
+        match &self.rotation {
+            None => v.clone(),
+            Some(r) => r
+                .each_ref()
+                .map(|row| &row[0] * &v[0] + &row[1] * &v[1] + &row[2] * &v[2]),
+        }
+    }
+}

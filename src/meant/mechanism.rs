@@ -1,0 +1,215 @@
+//! A mechanism as a scene, and the scene that is meant as a mechanism.
+
+use super::number::Rational3;
+use super::written::{Place, Ray, Written};
+use super::{Scene, resolve};
+use crate::geom::expr::Expr;
+use crate::geom::vector::real;
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::mechanism::{Frame, JointId, Mechanism, Mode};
+use crate::model::rounded::{FrameUncertainty, uncertainties};
+use num_rational::BigRational;
+use num_traits::Zero;
+
+/// A mechanism that is meant, exact.
+#[derive(Debug, Clone)]
+pub struct Meant {
+    /// It.
+    pub mechanism: Mechanism,
+    /// The frames of its joints as they are written.
+    pub written: Vec<Frame>,
+    /// What its scene has.
+    pub scene: Scene,
+    /// Of which joint each point of the scene is.
+    pub points: Vec<JointId>,
+    /// Of which joint each direction of the scene is; none for the normal of the plane.
+    pub rays: Vec<Option<JointId>>,
+}
+
+/// A place of a frame in the scene: its point, its axis and its reference, where they are in it.
+#[derive(Debug, Clone, Copy, Default)]
+struct Slots {
+    point: Option<usize>,
+    axis: Option<usize>,
+    reference: Option<usize>,
+}
+
+/// A scene on the way in.
+#[derive(Default)]
+struct Gathered {
+    written: Written,
+    points: Vec<JointId>,
+    rays: Vec<Option<JointId>>,
+}
+
+impl Gathered {
+    fn point(&mut self, v: &[Expr; 3], half: [f64; 3], of: JointId) -> usize {
+        self.points.push(of);
+        self.written.points.push(Place {
+            value: real(v),
+            exact: rational(v),
+            half,
+        });
+        self.points.len() - 1
+    }
+
+    fn ray(&mut self, v: &[Expr; 3], half: [f64; 3], of: Option<JointId>) -> usize {
+        self.rays.push(of);
+        self.written.rays.push(Ray {
+            value: real(v),
+            exact: rational(v),
+            half,
+        });
+        self.rays.len() - 1
+    }
+
+    fn frame(&mut self, f: &Frame, half: &FrameUncertainty, of: JointId, uses: Uses) -> Slots {
+        let zero = [0.0; 3];
+        Slots {
+            point: Some(self.point(&f.point, half.point, of)),
+            axis: uses.axis.then(|| self.ray(&f.axis, half.axis, Some(of))),
+            // What is exact is mostly the file's axes by default, which say nothing of the scene.
+            reference: (uses.reference && half.reference != zero)
+                .then(|| self.ray(&f.reference, half.reference, Some(of))),
+        }
+    }
+}
+
+/// Which directions of a frame matter to a joint type.
+#[derive(Debug, Clone, Copy, Default)]
+struct Uses {
+    axis: bool,
+    reference: bool,
+}
+
+impl Uses {
+    fn of(joint_type: &JointType) -> Uses {
+        let freedoms = joint_type.freedoms();
+        let turns = freedoms.iter().filter(|f| f.turns()).count();
+        let axis = !freedoms.is_empty() && (turns < 3 || freedoms.len() > 3);
+        let across = |f: &Freedom| matches!(f, Freedom::Rx | Freedom::Ry | Freedom::Tx | Freedom::Ty);
+        let pair = |a, b| freedoms.contains(&a) == freedoms.contains(&b);
+        let both = pair(Freedom::Rx, Freedom::Ry) && pair(Freedom::Tx, Freedom::Ty);
+        Uses {
+            axis,
+            reference: axis && freedoms.iter().any(across) && !both,
+        }
+    }
+
+    fn or(self, other: Uses) -> Uses {
+        Uses {
+            axis: self.axis || other.axis,
+            reference: self.reference || other.reference,
+        }
+    }
+}
+
+/// An exact vector; to forty digits where it is no rational one.
+fn rational(v: &[Expr; 3]) -> Rational3 {
+    v.each_ref().map(|e| {
+        e.as_rational()
+            .or_else(|| BigRational::from_float(e.to_f64()))
+            .unwrap_or_else(BigRational::zero)
+    })
+}
+
+fn written_alike(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
+    a.iter().zip(b).all(|(a, b)| a.is_same(b))
+}
+
+/// The mechanism that is meant by rounded coordinates; none where nothing is rounded, or no scene is found within the digits.
+///
+/// # Guarantee
+/// No number is moved by more than half a unit of its last digit, or what is stated of it, and a third for rounding in between.
+/// Exact numbers stay. Structure does not depend on how the file is turned, but for second axes that are left to the default.
+///
+/// # Complexity
+/// As [`resolve`].
+#[must_use]
+pub fn meant(mechanism: &Mechanism) -> Option<Meant> {
+    let half = uncertainties(mechanism)?;
+    let mut all = Gathered::default();
+    let mut own: Vec<Slots> = Vec::new();
+    let mut offered: Vec<Vec<Slots>> = Vec::new();
+    for (j, joint) in mechanism.joints_with_ids() {
+        let at = j.index();
+        let shares = |o: &Frame| written_alike(&o.axis, &joint.frame.axis);
+        let uses = joint
+            .offered()
+            .filter(|o| shares(&o.frame))
+            .fold(Uses::of(&joint.joint_type), |u, o| u.or(Uses::of(&o.joint_type)));
+        let halves = FrameUncertainty {
+            point: half.point[at],
+            axis: half.axis[at],
+            reference: half.reference[at],
+            pitch: half.pitch[at],
+        };
+        let slots = all.frame(&joint.frame, &halves, j, uses);
+        own.push(slots);
+        let of_option = |(n, o): (usize, &crate::model::mechanism::JointOption)| {
+            let (f, h) = (&o.frame, &half.option_frames[at][n]);
+            let uses = Uses::of(&o.joint_type);
+            let point = if written_alike(&f.point, &joint.frame.point) {
+                slots.point
+            } else {
+                Some(all.point(&f.point, h.point, j))
+            };
+            let axis = if shares(f) {
+                slots.axis
+            } else {
+                uses.axis.then(|| all.ray(&f.axis, h.axis, Some(j)))
+            };
+            let reference = if written_alike(&f.reference, &joint.frame.reference) {
+                slots.reference
+            } else {
+                (uses.reference && h.reference != [0.0; 3]).then(|| all.ray(&f.reference, h.reference, Some(j)))
+            };
+            Slots { point, axis, reference }
+        };
+        offered.push(joint.offered().enumerate().map(of_option).collect());
+    }
+    let normal = match &mechanism.mode {
+        Mode::Spatial => None,
+        Mode::Planar { normal } => Some(all.ray(normal, half.normal, None)),
+    };
+    let scene = resolve(&all.written)?;
+    let mut out = mechanism.clone();
+    let put = |f: &mut Frame, s: &Slots| {
+        for (v, x) in [
+            (&mut f.point, s.point.map(|k| &scene.points[k])),
+            (&mut f.axis, s.axis.map(|k| &scene.rays[k])),
+            (&mut f.reference, s.reference.map(|k| &scene.rays[k])),
+        ] {
+            if let Some(x) = x {
+                write(v, x);
+            }
+        }
+    };
+    for ((joint, slots), offered) in out.joints.iter_mut().zip(&own).zip(&offered) {
+        put(&mut joint.frame, slots);
+        let options = joint.options.iter_mut().chain(&mut joint.unloading);
+        for (option, slots) in options.zip(offered) {
+            put(&mut option.frame, slots);
+        }
+    }
+    if let (Mode::Planar { normal: v }, Some(k)) = (&mut out.mode, normal) {
+        write(v, &scene.rays[k]);
+    }
+    Some(Meant {
+        mechanism: out,
+        written: mechanism.joints.iter().map(|j| j.frame.clone()).collect(),
+        scene,
+        points: all.points,
+        rays: all.rays,
+    })
+}
+
+/// Writes a vector over another, what is the same already as it stands: it may be irrational, and then stays so.
+fn write(v: &mut [Expr; 3], x: &Rational3) {
+    let before = rational(v);
+    for k in 0..3 {
+        if before[k] != x[k] {
+            v[k] = Expr::rational(x[k].clone());
+        }
+    }
+}

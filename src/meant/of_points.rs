@@ -1,0 +1,117 @@
+//! Directions that points make, and nothing else: lines through three of them or along two rods, planes through four.
+
+use super::directions::Direction;
+use super::projection::Projection;
+use super::written::{Pair, pairs};
+use crate::geom::vector::{Vector, add_scaled, cross, dot, length, sub, unit};
+
+/// Points that lines and planes of points are looked for among.
+const MOST: usize = 60;
+
+fn direction(unit: Vector, error: f64, plane: bool) -> Direction {
+    Direction {
+        unit,
+        error,
+        rays: 0,
+        exact: None,
+        plane,
+    }
+}
+
+/// Lines along which two pairs of points at least are, that no relation taken so far makes parallel; the most frequent first.
+pub(super) fn lines(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
+    let points = &at.points;
+    if points.len() > MOST {
+        return Vec::new();
+    }
+    let pairs = pairs(points, errors);
+    let units: Vec<Vector> = pairs.iter().map(|p| unit(p.along)).collect();
+    let mut used = vec![false; pairs.len()];
+    let mut found: Vec<(usize, Direction)> = Vec::new();
+    for i in 0..pairs.len() {
+        if used[i] {
+            continue;
+        }
+        let parallel = |&j: &usize| {
+            let within = pairs[i].error / pairs[i].length + pairs[j].error / pairs[j].length;
+            !used[j] && length(cross(units[i], units[j])) <= within
+        };
+        let alike: Vec<usize> = (i + 1..pairs.len()).filter(parallel).collect();
+        if alike.is_empty() {
+            continue;
+        }
+        let (mut sum, mut weight, mut open) = ([0.0; 3], 0.0, false);
+        for &j in alike.iter().chain([&i]) {
+            used[j] = true;
+            let p: &Pair = &pairs[j];
+            let w = (p.length / p.error).powi(2);
+            sum = add_scaled(sum, w * dot(units[i], units[j]).signum(), units[j]);
+            weight += w;
+            open |= j != i && !parallel_already(at, &pairs[i], p);
+        }
+        if open {
+            found.push((alike.len(), direction(unit(sum), weight.sqrt().recip(), false)));
+        }
+    }
+    found.sort_by_key(|(n, _)| std::cmp::Reverse(*n));
+    found.into_iter().map(|(_, d)| d).collect()
+}
+
+/// Whether two pairs are parallel by what is taken.
+fn parallel_already(at: &Projection<'_>, a: &Pair, b: &Pair) -> bool {
+    let [v, w] = [a, b].map(|p| p.along);
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].iter().all(|e| {
+        // e · (v × w), by v and by w.
+        let (by_v, by_w) = (cross(w, *e), cross(*e, v));
+        let minus = |x: Vector| x.map(|c| -c);
+        let gradients = [(a.ends[1], by_v), (a.ends[0], minus(by_v)), (b.ends[1], by_w), (b.ends[0], minus(by_w))];
+        at.implies(&gradients) || gradients.iter().all(|g| length(g.1) < 1e-9 * length(v))
+    })
+}
+
+/// Normals of planes through four points that no relation taken so far keeps in a plane; the most frequent first.
+pub(super) fn planes_of(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
+    let points = &at.points;
+    let n = points.len();
+    if n > MOST {
+        return Vec::new();
+    }
+    let mut found: Vec<(usize, Vector, f64)> = Vec::new();
+    for i in 0..n {
+        for j in 0..i {
+            for k in 0..j {
+                let (a, b) = (sub(points[i], points[k]), sub(points[j], points[k]));
+                let area = cross(a, b);
+                let longest = length(a).max(length(b)).max(length(sub(a, b)));
+                let least = length(area) / longest;
+                let error = 2.0 * (errors[i] + errors[j] + errors[k]);
+                if least < 100.0 * error {
+                    continue;
+                }
+                let (normal, off) = (unit(area), error / least);
+                if found.iter().any(|f| length(cross(f.1, normal)) < 2.0 * off) {
+                    continue;
+                }
+                let mut places = 0;
+                for l in 0..n {
+                    let w = sub(points[l], points[k]);
+                    let near = [i, j, k].iter().any(|&m| length(sub(points[l], points[m])) <= 10.0 * (errors[l] + errors[m]));
+                    if near || dot(normal, w).abs() > off * length(w) + errors[l] {
+                        continue;
+                    }
+                    // The volume of the four, by each of them.
+                    let (by_a, by_b, by_w) = (cross(b, w), cross(w, a), area);
+                    let sum = [0, 1, 2].map(|c| -(by_a[c] + by_b[c] + by_w[c]));
+                    if !at.implies(&[(i, by_a), (j, by_b), (l, by_w), (k, sum)]) {
+                        places += 1;
+                    }
+                }
+                if places > 0 {
+                    found.push((places, normal, off));
+                }
+            }
+        }
+    }
+    found.sort_by_key(|f| std::cmp::Reverse(f.0));
+    found.into_iter().map(|(_, v, e)| direction(v, e, true)).collect()
+}

@@ -1,0 +1,347 @@
+//! What points of a scene have to do with each other, as linear relations along its directions.
+
+use super::exact_directions::Exact;
+use super::number::{Rational3, axes, cross, scaled, to_f64};
+use super::projection::Row;
+use super::written::SPREAD;
+use crate::geom::vector::{self, Vector, add, dot, length, sub, unit};
+
+/// What kind of relation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// Points that are one.
+    Coincident,
+    /// Points in a plane square to a direction.
+    InPlane,
+    /// Points on a line along a direction.
+    OnLine,
+    /// Two pairs of points with equal differences, as in a parallelogram or a middle.
+    EqualVectors,
+    /// Two pairs of points that are images in one plane.
+    Mirrored,
+}
+
+/// A relation, with how far the points as written are from it, in errors.
+#[derive(Debug, Clone)]
+pub(super) struct Relation {
+    pub(super) kind: Kind,
+    pub(super) rows: Vec<Row>,
+    /// How many points share it: planes of many points come before planes of two.
+    pub(super) weight: usize,
+    pub(super) off: f64,
+}
+
+/// Normals that rows are along, exact and as doubles; the first three are the frame's axes.
+pub(super) struct Normals {
+    pub(super) exact: Vec<Rational3>,
+    pub(super) real: Vec<Vector>,
+}
+
+impl Normals {
+    fn new() -> Normals {
+        let exact = axes().to_vec();
+        let real = exact.iter().map(to_f64).collect();
+        Normals { exact, real }
+    }
+
+    fn index(&mut self, normal: Rational3) -> usize {
+        let v = unit(to_f64(&normal));
+        let same = |w: &Vector| length(vector::cross(*w, v)) < 1e-13;
+        if let Some(k) = self.real.iter().position(same) {
+            return k;
+        }
+        let normal = scaled(normal);
+        self.real.push(to_f64(&normal));
+        self.exact.push(normal);
+        self.real.len() - 1
+    }
+
+    /// Two normals square to a direction.
+    fn square_to(&mut self, d: &Rational3) -> [usize; 2] {
+        let v = to_f64(d);
+        let mut order = [0, 1, 2];
+        order.sort_by(|&a, &b| v[a].abs().total_cmp(&v[b].abs()));
+        // Not square to each other, but short numbers.
+        [0, 1].map(|k| self.index(cross(d, &axes()[order[k]])))
+    }
+}
+
+/// Which relations a direction is good for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Use {
+    /// Lines along it and planes square to it.
+    Both,
+    /// Lines along it.
+    Lines,
+    /// Planes square to it.
+    Planes,
+}
+
+/// Finds the relations of some points, strongest first.
+pub(super) struct Finder<'a> {
+    pub(super) points: &'a [Vector],
+    pub(super) errors: &'a [f64],
+    pub(super) directions: Vec<(Exact, Use)>,
+    pub(super) normals: Normals,
+}
+
+impl<'a> Finder<'a> {
+    pub(super) fn new(points: &'a [Vector], errors: &'a [f64], directions: Vec<(Exact, Use)>) -> Finder<'a> {
+        Finder {
+            points,
+            errors,
+            directions,
+            normals: Normals::new(),
+        }
+    }
+
+    /// Relations along further directions alone.
+    pub(super) fn along(&mut self, directions: Vec<(Exact, Use)>) -> Vec<Relation> {
+        self.directions = directions;
+        let firsts = self.places();
+        let places: Vec<usize> = (0..firsts.len()).filter(|&i| firsts[i] == i).collect();
+        let mut out = Vec::new();
+        self.planes_and_lines(&places, &mut out);
+        sort(&mut out);
+        out
+    }
+
+    fn wide(&self, i: usize, j: usize) -> f64 {
+        SPREAD * (self.errors[i] + self.errors[j])
+    }
+
+    fn difference(&self, i: usize, j: usize, normal: usize) -> Row {
+        let _ = self;
+        Row {
+            terms: vec![(i, 1), (j, -1)],
+            normal,
+        }
+    }
+
+    /// All relations, the strongest first.
+    pub(super) fn all(&mut self) -> Vec<Relation> {
+        let firsts = self.places();
+        let mut out = Vec::new();
+        for (i, &first) in firsts.iter().enumerate() {
+            if first != i {
+                let rows = (0..3).map(|n| self.difference(i, first, n)).collect();
+                let off = length(sub(self.points[i], self.points[first])) / self.wide(i, first);
+                out.push(Relation { kind: Kind::Coincident, rows, weight: 0, off });
+            }
+        }
+        let places: Vec<usize> = (0..firsts.len()).filter(|&i| firsts[i] == i).collect();
+        self.planes_and_lines(&places, &mut out);
+        self.equal_vectors(&places, &mut out);
+        self.mirrored(&places, &mut out);
+        sort(&mut out);
+        out
+    }
+
+    /// For each point the first that it is one with.
+    fn places(&self) -> Vec<usize> {
+        let mut first: Vec<usize> = Vec::new();
+        for i in 0..self.points.len() {
+            let near = |&j: &usize| first[j] == j && length(sub(self.points[i], self.points[j])) <= self.wide(i, j);
+            let found = (0..i).find(near).unwrap_or(i);
+            first.push(found);
+        }
+        first
+    }
+
+    fn planes_and_lines(&mut self, places: &[usize], out: &mut Vec<Relation>) {
+        let mut normals: Vec<usize> = Vec::new();
+        let mut lines: Vec<[usize; 2]> = Vec::new();
+        let mut spanning: Vec<&Exact> = Vec::new();
+        let directions = std::mem::take(&mut self.directions);
+        for (d, of) in &directions {
+            if *of != Use::Lines {
+                normals.push(self.normals.index(d.exact.clone()));
+            }
+            if *of == Use::Both {
+                spanning.push(d);
+            }
+            if *of != Use::Planes {
+                lines.push(self.normals.square_to(&d.exact));
+            }
+        }
+        for (i, a) in spanning.iter().enumerate() {
+            for b in &spanning[..i] {
+                if length(vector::cross(a.unit, b.unit)) > 0.02 {
+                    normals.push(self.normals.index(cross(&a.exact, &b.exact)));
+                }
+            }
+        }
+        normals.sort_unstable();
+        normals.dedup();
+        drop(spanning);
+        self.directions = directions;
+        for n in normals {
+            self.planes(n, places, out);
+        }
+        for pair in lines {
+            self.lines(pair, places, out);
+        }
+    }
+
+    /// Points in planes square to a normal: neighbours in the order along it.
+    fn planes(&self, normal: usize, places: &[usize], out: &mut Vec<Relation>) {
+        let n = unit(self.normals.real[normal]);
+        let mut at: Vec<(f64, usize)> = places.iter().map(|&p| (dot(n, self.points[p]), p)).collect();
+        at.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut start = 0;
+        for k in 1..=at.len() {
+            let apart = at.get(k).is_none_or(|x| x.0 - at[k - 1].0 > self.wide(x.1, at[k - 1].1));
+            if apart {
+                for w in at[start..k].windows(2) {
+                    out.push(Relation {
+                        kind: Kind::InPlane,
+                        rows: vec![self.difference(w[1].1, w[0].1, normal)],
+                        weight: k - start,
+                        off: (w[1].0 - w[0].0) / self.wide(w[1].1, w[0].1),
+                    });
+                }
+                start = k;
+            }
+        }
+    }
+
+    /// Points on lines along a direction, given by two normals square to it.
+    fn lines(&self, normals: [usize; 2], places: &[usize], out: &mut Vec<Relation>) {
+        let n = normals.map(|k| unit(self.normals.real[k]));
+        let off = |i: usize, j: usize| {
+            let w = sub(self.points[i], self.points[j]);
+            dot(n[0], w).hypot(dot(n[1], w))
+        };
+        let mut firsts: Vec<(usize, usize)> = Vec::new();
+        let mut found = Vec::new();
+        for &p in places {
+            let near = firsts.iter_mut().find(|(f, _)| off(p, *f) <= self.wide(p, *f));
+            match near {
+                Some((f, of)) => {
+                    *of += 1;
+                    found.push((p, *f));
+                }
+                None => firsts.push((p, 1)),
+            }
+        }
+        for (p, f) in found {
+            let of = firsts.iter().find(|x| x.0 == f).map_or(2, |x| x.1);
+            out.push(Relation {
+                kind: Kind::OnLine,
+                rows: normals.map(|k| self.difference(p, f, k)).to_vec(),
+                weight: of,
+                off: off(p, f) / self.wide(p, f),
+            });
+        }
+    }
+
+    fn equal_vectors(&self, places: &[usize], out: &mut Vec<Relation>) {
+        let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+        for (n, &i) in places.iter().enumerate() {
+            for &j in &places[..n] {
+                pairs.push((length(sub(self.points[i], self.points[j])), i, j));
+            }
+        }
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut done = vec![false; pairs.len()];
+        for a in 0..pairs.len() {
+            let (l, i, j) = pairs[a];
+            let w = sub(self.points[i], self.points[j]);
+            for b in a + 1..pairs.len() {
+                let (m, p, q) = pairs[b];
+                let wide = 0.8 * (self.wide(i, j) + self.wide(p, q));
+                if m - l > wide {
+                    break;
+                }
+                let v = sub(self.points[p], self.points[q]);
+                let sign = if dot(v, w) < 0.0 { -1 } else { 1 };
+                let off = length(sub(w, v.map(|x| f64::from(sign) * x)));
+                if off > wide || done[b] {
+                    continue;
+                }
+                done[b] = true;
+                let mut terms = std::collections::BTreeMap::new();
+                for (x, c) in [(i, 1), (j, -1), (p, -sign), (q, sign)] {
+                    *terms.entry(x).or_insert(0) += c;
+                }
+                let terms: Vec<(usize, i32)> = terms.into_iter().filter(|t| t.1 != 0).collect();
+                if terms.len() < 3 {
+                    continue;
+                }
+                let row = |normal| Row { terms: terms.clone(), normal };
+                out.push(Relation {
+                    kind: Kind::EqualVectors,
+                    rows: (0..3).map(row).collect(),
+                    weight: 0,
+                    off: off / wide,
+                });
+            }
+        }
+    }
+
+    /// Pairs along a direction whose middles are in one plane square to it, with each other or with points.
+    fn mirrored(&mut self, places: &[usize], out: &mut Vec<Relation>) {
+        let directions: Vec<Rational3> = self
+            .directions
+            .iter()
+            .filter(|d| d.1 != Use::Lines)
+            .map(|d| d.0.exact.clone())
+            .collect();
+        for d in directions {
+            let n = self.normals.index(d);
+            let unit = unit(self.normals.real[n]);
+            // Twice the middle along the normal, with what it is the middle of.
+            let mut middles: Vec<(f64, usize, usize)> = Vec::new();
+            for (k, &i) in places.iter().enumerate() {
+                middles.push((2.0 * dot(unit, self.points[i]), i, i));
+                for &j in &places[..k] {
+                    let w = sub(self.points[i], self.points[j]);
+                    let across = sub(w, unit.map(|x| x * dot(unit, w)));
+                    if length(across) <= self.wide(i, j) && length(w) > 10.0 * self.wide(i, j) {
+                        middles.push((dot(unit, add(self.points[i], self.points[j])), i, j));
+                    }
+                }
+            }
+            middles.sort_by(|a, b| a.0.total_cmp(&b.0));
+            for w in middles.windows(2) {
+                let ((a, i, j), (b, p, q)) = (w[0], w[1]);
+                let wide = 0.8 * (self.wide(i, j) + self.wide(p, q));
+                // Two points in the plane are told already.
+                if (i == j && p == q) || b - a > wide {
+                    continue;
+                }
+                let mut terms = std::collections::BTreeMap::new();
+                for (x, c) in [(i, 1), (j, 1), (p, -1), (q, -1)] {
+                    *terms.entry(x).or_insert(0) += c;
+                }
+                let terms: Vec<(usize, i32)> = terms.into_iter().filter(|t| t.1 != 0).collect();
+                if terms.len() < 2 {
+                    continue;
+                }
+                out.push(Relation {
+                    kind: Kind::Mirrored,
+                    rows: vec![Row { terms, normal: n }],
+                    weight: 0,
+                    off: (b - a) / wide,
+                });
+            }
+        }
+    }
+}
+
+/// The strongest first.
+fn sort(out: &mut [Relation]) {
+    let rank = |r: &Relation| match r.kind {
+        Kind::Coincident => 0,
+        Kind::InPlane if r.weight > 3 => 1,
+        Kind::OnLine => 2,
+        Kind::EqualVectors => 3,
+        Kind::InPlane => 4,
+        Kind::Mirrored => 5,
+    };
+    out.sort_by(|a, b| {
+        (rank(a), std::cmp::Reverse(a.weight))
+            .cmp(&(rank(b), std::cmp::Reverse(b.weight)))
+            .then(a.off.total_cmp(&b.off))
+    });
+}
