@@ -14,9 +14,10 @@ mod of_points;
 mod projection;
 pub mod relations;
 mod solve;
+mod together;
 pub mod written;
 
-use crate::geom::vector::{Vector, length, sub};
+use crate::geom::vector::{Vector, sub};
 use directions::of_rays;
 use exact_directions::{Exact, exact, placed};
 use frame::Frame;
@@ -26,6 +27,7 @@ use num_traits::One;
 use number::{Rational3, decimal, to_f64};
 use projection::{Projection, Taken};
 use relations::{Finder, Kind, Use};
+use together::together;
 use written::{Ray, Written};
 
 /// A move of this many halves of a last digit is within it, rounding in between aside.
@@ -58,18 +60,47 @@ pub fn resolve(written: &Written) -> Option<Scene> {
     let points: Vec<Vector> = written.points.iter().map(|p| p.value).collect();
     let size = written.size();
     let least = errors.iter().fold(f64::INFINITY, |a, &e| a.min(e));
-    let finest = written.rays.iter().map(Ray::error).filter(|e| *e > 0.0).fold(1.0, f64::min);
+    let finest = written
+        .rays
+        .iter()
+        .map(Ray::error)
+        .filter(|e| *e > 0.0)
+        .fold(1.0, f64::min);
     let places = |x: f64| -> u32 {
         let digits = (-x.log10()).ceil() + 2.0;
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 4 and 18")]
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "between 4 and 18"
+        )]
         let digits = digits.clamp(4.0, 18.0) as u32;
         digits
     };
     let angle = places((least / size).min(finest));
-    let of = of_rays(&written.rays, &points, &errors);
-    let frame = Frame::of(&of.all, angle + 1);
-    let origin = (0..points.len()).find(|&p| written.points[p].half == [0.0; 3]).unwrap_or(0);
-    let inside: Vec<Vector> = points.iter().map(|p| frame.inside(sub(*p, points[origin]))).collect();
+    let mut of = of_rays(&written.rays, &points, &errors);
+    let own = of.all.len();
+    if Frame::is_the_files(&of.all) {
+        of.add_axes();
+    }
+    let rays_of = |k: usize| {
+        written
+            .rays
+            .iter()
+            .zip(&of.of_ray)
+            .filter(move |r| r.1.0 == k)
+            .map(|r| r.0)
+    };
+    let within = |k: usize, v: Vector| rays_of(k).all(|r| r.moved(v, 0.0) <= WITHIN);
+    together(&mut of.all, within);
+    of.all.truncate(own);
+    let frame = Frame::of(&of.all);
+    let origin = (0..points.len())
+        .find(|&p| written.points[p].half == [0.0; 3])
+        .unwrap_or(0);
+    let inside: Vec<Vector> = points
+        .iter()
+        .map(|p| frame.inside(sub(*p, points[origin])))
+        .collect();
     let rotated = frame.rotation.is_some();
     let exact = exact(
         &of.all,
@@ -84,7 +115,9 @@ pub fn resolve(written: &Written) -> Option<Scene> {
     let directions: Vec<_> = fixed.iter().cloned().map(|e| (e, Use::Both)).collect();
     // What must stay: coordinates that are exact along an axis that both frames have.
     let axis_of = |k: usize| -> Option<usize> {
-        let Some(r) = &frame.rotation else { return Some(k) };
+        let Some(r) = &frame.rotation else {
+            return Some(k);
+        };
         (0..3).find(|&c| r[c][k].is_one() || (-&r[c][k]).is_one())
     };
     let stays = |p: usize, k: usize| {
@@ -92,12 +125,18 @@ pub fn resolve(written: &Written) -> Option<Scene> {
         (p == origin && *half == [0.0; 3]) || axis_of(k).is_some_and(|c| half[c] == 0.0)
     };
     let weights: Vec<Vector> = (0..points.len())
-        .map(|p| [0, 1, 2].map(|k| if stays(p, k) { 0.0 } else {
-            match axis_of(k) {
-                Some(c) => written.points[p].half[c].max(1e-15 * size),
-                None => errors[p],
-            }
-        }))
+        .map(|p| {
+            [0, 1, 2].map(|k| {
+                if stays(p, k) {
+                    0.0
+                } else {
+                    match axis_of(k) {
+                        Some(c) => written.points[p].half[c].max(1e-15 * size),
+                        None => errors[p],
+                    }
+                }
+            })
+        })
         .collect();
     let floor = written.floor();
     let allowed = |p: usize, by: Vector| {
@@ -167,19 +206,18 @@ pub fn resolve(written: &Written) -> Option<Scene> {
                 return ray.exact.clone();
             }
             let e = frame.outside_exactly(&exact[*k].exact);
-            if *sign < 0.0 { e.map(|x| x * &minus_one) } else { e }
+            if *sign < 0.0 {
+                e.map(|x| x * &minus_one)
+            } else {
+                e
+            }
         })
         .collect::<Vec<_>>();
     for (x, w) in rays.iter().zip(&written.rays) {
         if w.is_exact() {
             continue;
         }
-        let v = to_f64(x);
-        let s = crate::geom::vector::dot(v, w.value) / crate::geom::vector::dot(v, v);
-        for k in 0..3 {
-            let by = (s * v[k] - w.value[k]).abs();
-            moved = moved.max(by / w.half[k].max(2e-15 * length(w.value)));
-        }
+        moved = moved.max(w.moved(to_f64(x), 0.0));
     }
     Some(Scene {
         points: outside,
@@ -193,8 +231,5 @@ pub fn resolve(written: &Written) -> Option<Scene> {
 
 /// The file's own axes as directions, where its frame is the scene's.
 fn axes_of_the_file() -> Vec<Exact> {
-    number::axes()
-        .into_iter()
-        .map(Exact::of_axis)
-        .collect()
+    number::axes().into_iter().map(Exact::of_axis).collect()
 }

@@ -20,12 +20,32 @@ struct Evidence {
     pairs: Vec<(usize, usize)>,
 }
 
+/// A turn that evidence says, and the ellipse of its errors: the angle of its short axis, and both.
+struct Fit {
+    turn: [f64; 2],
+    angle: f64,
+    errors: [f64; 2],
+}
+
+impl Fit {
+    fn tilts(&self, [a, b]: [Vector; 2]) -> [(Vector, f64); 2] {
+        let (s, c) = self.angle.sin_cos();
+        let turned = |x: f64, y: f64| add_scaled(a.map(|v| x * v), y, b);
+        [
+            (turned(c, s), self.errors[0]),
+            (turned(-s, c), self.errors[1]),
+        ]
+    }
+}
+
 /// A direction, refined.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Refined {
     pub(super) unit: Vector,
     /// What is left of its error `[rad]`.
     pub(super) error: f64,
+    /// Two ways it may turn, square to it and to each other, with the error of each `[rad]`.
+    pub(super) tilts: [(Vector, f64); 2],
 }
 
 /// Two unit vectors square to a third and to each other.
@@ -86,7 +106,7 @@ impl Evidence {
     }
 
     /// The turn that the lines which agree with one say together, and its error; `prior` is that of the direction's digits.
-    fn fit(&self, turn: [f64; 2], prior: f64) -> Option<([f64; 2], f64)> {
+    fn fit(&self, turn: [f64; 2], prior: f64) -> Option<Fit> {
         let (mut m, mut g) = ([[prior.powi(-2), 0.0], [0.0, prior.powi(-2)]], [0.0; 2]);
         for l in self.agreeing(turn) {
             let weight = l.error.powi(-2);
@@ -102,14 +122,20 @@ impl Evidence {
             (g[0] * m[1][1] - g[1] * m[0][1]) / det,
             (m[0][0] * g[1] - m[1][0] * g[0]) / det,
         ];
-        // The larger half axis of the ellipse of errors.
+        // The axes of the ellipse of errors.
         let (half, diff) = (
             f64::midpoint(m[0][0], m[1][1]),
             f64::midpoint(m[0][0], -m[1][1]),
         );
-        let least = half - diff.hypot(m[0][1]);
-        let error = least.max(1e-300).sqrt().recip().min(prior);
-        (x[0].is_finite() && x[1].is_finite()).then_some((x, error))
+        let radius = diff.hypot(m[0][1]);
+        let angle = m[0][1].atan2(diff) / 2.0;
+        let error = |info: f64| info.max(prior.powi(-2)).sqrt().recip();
+        let errors = [error(half + radius), error(half - radius)];
+        (x[0].is_finite() && x[1].is_finite()).then_some(Fit {
+            turn: x,
+            angle,
+            errors,
+        })
     }
 
     /// Turns worth trying: what single pairs along the direction and two square to it say.
@@ -144,17 +170,29 @@ impl Evidence {
     }
 }
 
-/// The direction within its error that most pairs of points agree with; one of the file's own axes where none does better.
+/// The direction within its error, and allowed, that most pairs of points agree with; one of the file's own axes where none does
+/// better.
 ///
 /// # Complexity
 /// O(p²) hypotheses of at most 48² pairs, each held against O(p²) pairs of p points.
-pub(super) fn refined(v: Vector, error: f64, pairs: &[Pair]) -> Refined {
-    if error == 0.0 {
-        return Refined { unit: v, error };
-    }
+pub(super) fn refined(
+    v: Vector,
+    error: f64,
+    pairs: &[Pair],
+    allowed: impl Fn(Vector) -> bool,
+) -> Refined {
     let across = square_to(v);
+    let untold = across.map(|e| (e, error));
+    if error == 0.0 {
+        return Refined {
+            unit: v,
+            error,
+            tilts: untold,
+        };
+    }
     let found = evidence(v, error, across, pairs);
-    let within = |t: &[f64; 2]| t[0].hypot(t[1]) <= 1.1 * error;
+    let turned = |t: &[f64; 2]| unit(add_scaled(add_scaled(v, t[0], across[0]), t[1], across[1]));
+    let within = |t: &[f64; 2]| t[0].hypot(t[1]) <= 1.1 * error && allowed(turned(t));
     let axes = [X, Y, Z].map(|e| if dot(e, v) < 0.0 { e.map(|x| -x) } else { e });
     let own = axes.into_iter().find(|e| length(cross(*e, v)) <= error);
     let own = own.map(|e| across.map(|a| dot(a, e)));
@@ -169,24 +207,26 @@ pub(super) fn refined(v: Vector, error: f64, pairs: &[Pair]) -> Refined {
         && found.support(turn) == best.1
     {
         let unit = axes.into_iter().find(|e| length(cross(*e, v)) <= error);
-        let error = found.fit(turn, error).map_or(error, |f| f.1);
+        // An axis of the file stays one, whatever else may be near.
         return Refined {
             unit: unit.unwrap_or(v),
-            error,
+            error: 0.0,
+            tilts: across.map(|e| (e, 0.0)),
         };
     }
-    let (mut turn, mut left) = (best.0, error);
+    let (mut turn, mut left) = (best.0, None);
     for _ in 0..4 {
-        if let Some((next, e)) = found.fit(turn, error).filter(|f| within(&f.0)) {
-            if found.support(next) + 2 < best.1 {
+        if let Some(fit) = found.fit(turn, error).filter(|f| within(&f.turn)) {
+            if found.support(fit.turn) + 2 < best.1 {
                 break;
             }
-            (turn, left) = (next, e);
+            turn = fit.turn;
+            left = Some(fit);
         }
     }
-    let moved = add_scaled(add_scaled(v, turn[0], across[0]), turn[1], across[1]);
     Refined {
-        unit: unit(moved),
-        error: left,
+        unit: turned(&turn),
+        error: left.as_ref().map_or(error, |f| f.errors[1]),
+        tilts: left.map_or(untold, |f| f.tilts(across)),
     }
 }

@@ -1,8 +1,8 @@
 //! The directions of a scene that are written, parallel ones as one.
 
-use super::consensus::{Refined, refined};
+use super::consensus::{Refined, refined, square_to};
 use super::written::{Ray, pairs};
-use crate::geom::vector::{Vector, add_scaled, cross, dot, length, scale, unit};
+use crate::geom::vector::{Vector, X, Y, Z, add_scaled, cross, dot, length, scale, unit};
 
 /// A direction of a scene.
 #[derive(Debug, Clone)]
@@ -16,6 +16,8 @@ pub(super) struct Direction {
     pub(super) exact: Option<usize>,
     /// Whether it is the normal of a plane of points.
     pub(super) plane: bool,
+    /// Two ways it may turn, with the error of each `[rad]`.
+    pub(super) tilts: [(Vector, f64); 2],
 }
 
 /// Directions, and which of them each ray has, with its sign.
@@ -58,18 +60,44 @@ pub(super) fn of_rays(rays: &[Ray], points: &[Vector], errors: &[f64]) -> Direct
                 rays: 1,
                 exact: rays[i].is_exact().then_some(i),
                 plane: false,
+                tilts: square_to(v).map(|e| (e, error)),
             });
             let weight = if error > 0.0 { error.powi(-2) } else { 0.0 };
             sums.push((scale(v, weight), weight));
         }
     }
-    for (d, (sum, _)) in all.iter_mut().zip(sums) {
+    for (k, (d, (sum, _))) in all.iter_mut().zip(sums).enumerate() {
         if d.exact.is_some() {
             continue;
         }
-        let Refined { unit, error } = refined(unit(sum), d.error, &pairs);
-        (d.unit, d.error) = (unit, error);
+        let own: Vec<&Ray> = rays
+            .iter()
+            .zip(&of_ray)
+            .filter(|r| r.1.0 == k)
+            .map(|r| r.0)
+            .collect();
+        let allowed = |v: Vector| own.iter().all(|r| r.moved(v, 0.0) <= super::WITHIN);
+        let Refined { unit, error, tilts } = refined(unit(sum), d.error, &pairs, allowed);
+        (d.unit, d.error, d.tilts) = (unit, error, tilts);
     }
     Directions { all, of_ray }
 }
 
+impl Directions {
+    /// Adds the file's own axes, exact, where they are not there.
+    pub(super) fn add_axes(&mut self) {
+        for e in [X, Y, Z] {
+            if self.all.iter().any(|d| length(cross(d.unit, e)) == 0.0) {
+                continue;
+            }
+            self.all.push(Direction {
+                unit: e,
+                error: 0.0,
+                rays: 0,
+                exact: None,
+                plane: false,
+                tilts: square_to(e).map(|t| (t, 0.0)),
+            });
+        }
+    }
+}

@@ -27,6 +27,8 @@ impl Exact {
     }
 }
 
+/// Relations of directions hold to this by now.
+const TOGETHER: f64 = 1e-12;
 /// Planes are told apart by this sine.
 const APART: f64 = 1e-4;
 
@@ -39,8 +41,13 @@ pub(super) fn exact(
     digits: u32,
 ) -> Vec<Exact> {
     let mut order: Vec<usize> = (0..all.len()).collect();
-    // Those of rays before those that points make, and many before few.
-    order.sort_by_key(|&k| (all[k].exact.is_none(), all[k].rays == 0, std::cmp::Reverse(all[k].rays)));
+    // The best known first, for they move least.
+    order.sort_by(|&a, &b| {
+        all[a]
+            .error
+            .total_cmp(&all[b].error)
+            .then(all[b].rays.cmp(&all[a].rays))
+    });
     let mut fixed: Vec<Exact> = axes().map(|e| Exact::new(e, 0.0)).to_vec();
     let mut out: Vec<Option<Exact>> = vec![None; all.len()];
     for k in order {
@@ -52,8 +59,12 @@ pub(super) fn exact(
             continue;
         }
         let v = inside(d.unit);
-        let found = placed(v, d.error, &fixed, digits);
-        if !fixed.iter().any(|f| length(crate::geom::vector::cross(f.unit, found.unit)) == 0.0) {
+        // What is in a plane is so to rounding by now.
+        let found = placed(v, TOGETHER, &fixed, digits);
+        if !fixed
+            .iter()
+            .any(|f| length(crate::geom::vector::cross(f.unit, found.unit)) == 0.0)
+        {
             fixed.push(found.clone());
         }
         out[k] = Some(found);
@@ -69,7 +80,11 @@ pub(super) fn placed(v: Vector, error: f64, fixed: &[Exact], digits: u32) -> Exa
         .find(|f| length(cross_f64(f.unit, v)) <= 1.1 * (error + f.error))
     {
         let sign = dot(same.unit, v);
-        let exact = if sign < 0.0 { same.exact.clone().map(|x| -x) } else { same.exact.clone() };
+        let exact = if sign < 0.0 {
+            same.exact.clone().map(|x| -x)
+        } else {
+            same.exact.clone()
+        };
         return Exact::new(exact, same.error);
     }
     // Normals of planes it may lie in, those it fits best first.

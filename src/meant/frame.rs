@@ -8,6 +8,9 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
+/// Digits of the numbers that make a rotation: all that doubles have.
+const DIGITS: u32 = 18;
+
 /// A rotation from the scene's frame to the file's, exact.
 #[derive(Debug, Clone)]
 pub(super) struct Frame {
@@ -25,27 +28,38 @@ impl Frame {
         }
     }
 
-    /// The frame of some directions: z the one that most rays have, x the one square to it that most have.
-    pub(super) fn of(all: &[Direction], digits: u32) -> Frame {
-        let used = || all.iter().filter(|d| d.rays > 0);
+    /// Whether a direction is one of the file's axes, or written exactly: then the file's frame is the scene's.
+    pub(super) fn is_the_files(all: &[Direction]) -> bool {
         let is_axis = |d: &Direction| [X, Y, Z].iter().any(|e| length(cross(*e, d.unit)) == 0.0);
-        if used().any(|d| d.exact.is_some() || is_axis(d)) {
+        all.iter()
+            .any(|d| d.rays > 0 && (d.exact.is_some() || is_axis(d)))
+    }
+
+    /// The frame of some directions: z the one that is known best, x the one square to it that is, or
+    /// in a plane with it.
+    pub(super) fn of(all: &[Direction]) -> Frame {
+        if Frame::is_the_files(all) {
             return Frame::file();
         }
-        let Some(first) = used().max_by_key(|d| d.rays).or(all.first()) else {
+        let used = || all.iter().filter(|d| d.rays > 0);
+        let sharper =
+            |a: &&Direction, b: &&Direction| a.error.total_cmp(&b.error).then(b.rays.cmp(&a.rays));
+        let Some(first) = used().min_by(sharper).or(all.first()) else {
             return Frame::file();
         };
         let z = first.unit;
-        let square = |d: &&Direction| dot(d.unit, z).abs() <= d.error + first.error + 1e-12;
-        let axis = [X, Y, Z].into_iter().find(|e| dot(*e, z).abs() <= first.error);
-        let frequent = all.iter().filter(square).max_by_key(|d| d.rays).map(|d| d.unit);
+        let square = |d: &&Direction| dot(d.unit, z).abs() <= 1e-12;
+        let other = |d: &&Direction| length(cross(d.unit, z)) > 0.1;
+        let axis = [X, Y, Z].into_iter().find(|e| dot(*e, z).abs() <= 1e-12);
+        let frequent = all.iter().filter(square).min_by(sharper).map(|d| d.unit);
+        let frequent = frequent.or(used().filter(other).min_by(sharper).map(|d| d.unit));
         let any = if z[0].abs() < 0.9 { X } else { Y };
         let x = unit(across(axis.or(frequent).unwrap_or(any), z));
-        Frame::turned([x, cross(z, x), z], digits)
+        Frame::turned([x, cross(z, x), z])
     }
 
     /// The rational rotation nearest to the one whose columns are these axes.
-    fn turned(columns: [Vector; 3], digits: u32) -> Frame {
+    fn turned(columns: [Vector; 3]) -> Frame {
         let m = |i: usize, j: usize| columns[j][i];
         let trace = [1.0, m(0, 0), m(1, 1), m(2, 2)];
         // Four ways to the quaternion; that by its largest part is accurate.
@@ -69,10 +83,19 @@ impl Frame {
             2 => [d(0, 2) / s, sum(0, 1) / s, s, sum(1, 2) / s],
             _ => [d(1, 0) / s, sum(0, 2) / s, sum(1, 2) / s, s],
         };
-        let [w, x, y, z] = q.map(|c| if c.abs() < 1e-15 { BigRational::zero() } else { decimal(c / 2.0, digits) });
-        let norm = [&w, &x, &y, &z].iter().fold(BigRational::zero(), |n, c| n + *c * *c);
+        let [w, x, y, z] = q.map(|c| {
+            if c.abs() < 1e-15 {
+                BigRational::zero()
+            } else {
+                decimal(c / 2.0, DIGITS)
+            }
+        });
+        let norm = [&w, &x, &y, &z]
+            .iter()
+            .fold(BigRational::zero(), |n, c| n + *c * *c);
         let two = BigRational::from_integer(BigInt::from(2)) / norm;
-        let diagonal = |a: &BigRational, b: &BigRational| BigRational::one() - &two * (a * a + b * b);
+        let diagonal =
+            |a: &BigRational, b: &BigRational| BigRational::one() - &two * (a * a + b * b);
         let off = |a: &BigRational, b: &BigRational, sign: i32, c: &BigRational| {
             let last = &w * c;
             &two * (a * b + if sign > 0 { last } else { -last })

@@ -87,7 +87,8 @@ impl Uses {
         let freedoms = joint_type.freedoms();
         let turns = freedoms.iter().filter(|f| f.turns()).count();
         let axis = !freedoms.is_empty() && (turns < 3 || freedoms.len() > 3);
-        let across = |f: &Freedom| matches!(f, Freedom::Rx | Freedom::Ry | Freedom::Tx | Freedom::Ty);
+        let across =
+            |f: &Freedom| matches!(f, Freedom::Rx | Freedom::Ry | Freedom::Tx | Freedom::Ty);
         let pair = |a, b| freedoms.contains(&a) == freedoms.contains(&b);
         let both = pair(Freedom::Rx, Freedom::Ry) && pair(Freedom::Tx, Freedom::Ty);
         Uses {
@@ -137,7 +138,9 @@ pub fn meant(mechanism: &Mechanism) -> Option<Meant> {
         let uses = joint
             .offered()
             .filter(|o| shares(&o.frame))
-            .fold(Uses::of(&joint.joint_type), |u, o| u.or(Uses::of(&o.joint_type)));
+            .fold(Uses::of(&joint.joint_type), |u, o| {
+                u.or(Uses::of(&o.joint_type))
+            });
         let halves = FrameUncertainty {
             point: half.point[at],
             axis: half.axis[at],
@@ -162,9 +165,14 @@ pub fn meant(mechanism: &Mechanism) -> Option<Meant> {
             let reference = if written_alike(&f.reference, &joint.frame.reference) {
                 slots.reference
             } else {
-                (uses.reference && h.reference != [0.0; 3]).then(|| all.ray(&f.reference, h.reference, Some(j)))
+                (uses.reference && h.reference != [0.0; 3])
+                    .then(|| all.ray(&f.reference, h.reference, Some(j)))
             };
-            Slots { point, axis, reference }
+            Slots {
+                point,
+                axis,
+                reference,
+            }
         };
         offered.push(joint.offered().enumerate().map(of_option).collect());
     }

@@ -1,5 +1,6 @@
 //! Directions that points make, and nothing else: lines through three of them or along two rods, planes through four.
 
+use super::consensus::square_to;
 use super::directions::Direction;
 use super::projection::Projection;
 use super::written::{Pair, pairs};
@@ -15,6 +16,7 @@ fn direction(unit: Vector, error: f64, plane: bool) -> Direction {
         rays: 0,
         exact: None,
         plane,
+        tilts: square_to(unit).map(|e| (e, error)),
     }
 }
 
@@ -50,7 +52,10 @@ pub(super) fn lines(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
             open |= j != i && !parallel_already(at, &pairs[i], p);
         }
         if open {
-            found.push((alike.len(), direction(unit(sum), weight.sqrt().recip(), false)));
+            found.push((
+                alike.len(),
+                direction(unit(sum), weight.sqrt().recip(), false),
+            ));
         }
     }
     found.sort_by_key(|(n, _)| std::cmp::Reverse(*n));
@@ -60,13 +65,20 @@ pub(super) fn lines(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
 /// Whether two pairs are parallel by what is taken.
 fn parallel_already(at: &Projection<'_>, a: &Pair, b: &Pair) -> bool {
     let [v, w] = [a, b].map(|p| p.along);
-    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].iter().all(|e| {
-        // e · (v × w), by v and by w.
-        let (by_v, by_w) = (cross(w, *e), cross(*e, v));
-        let minus = |x: Vector| x.map(|c| -c);
-        let gradients = [(a.ends[1], by_v), (a.ends[0], minus(by_v)), (b.ends[1], by_w), (b.ends[0], minus(by_w))];
-        at.implies(&gradients) || gradients.iter().all(|g| length(g.1) < 1e-9 * length(v))
-    })
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+        .iter()
+        .all(|e| {
+            // e · (v × w), by v and by w.
+            let (by_v, by_w) = (cross(w, *e), cross(*e, v));
+            let minus = |x: Vector| x.map(|c| -c);
+            let gradients = [
+                (a.ends[1], by_v),
+                (a.ends[0], minus(by_v)),
+                (b.ends[1], by_w),
+                (b.ends[0], minus(by_w)),
+            ];
+            at.implies(&gradients) || gradients.iter().all(|g| length(g.1) < 1e-9 * length(v))
+        })
 }
 
 /// Normals of planes through four points that no relation taken so far keeps in a plane; the most frequent first.
@@ -95,7 +107,9 @@ pub(super) fn planes_of(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
                 let mut places = 0;
                 for l in 0..n {
                     let w = sub(points[l], points[k]);
-                    let near = [i, j, k].iter().any(|&m| length(sub(points[l], points[m])) <= 10.0 * (errors[l] + errors[m]));
+                    let near = [i, j, k].iter().any(|&m| {
+                        length(sub(points[l], points[m])) <= 10.0 * (errors[l] + errors[m])
+                    });
                     if near || dot(normal, w).abs() > off * length(w) + errors[l] {
                         continue;
                     }
@@ -113,5 +127,8 @@ pub(super) fn planes_of(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
         }
     }
     found.sort_by_key(|f| std::cmp::Reverse(f.0));
-    found.into_iter().map(|(_, v, e)| direction(v, e, true)).collect()
+    found
+        .into_iter()
+        .map(|(_, v, e)| direction(v, e, true))
+        .collect()
 }

@@ -47,7 +47,7 @@ impl<'a> Projection<'a> {
     pub(super) fn new(
         points: Vec<Vector>,
         errors: &'a [Vector],
-            allowed: &'a dyn Fn(usize, Vector) -> bool,
+        allowed: &'a dyn Fn(usize, Vector) -> bool,
     ) -> Projection<'a> {
         Projection {
             start: points.clone(),
@@ -88,7 +88,11 @@ impl<'a> Projection<'a> {
     }
 
     /// Takes the relations that hold together within the digits; gives those with what became of them.
-    pub(super) fn take_all(&mut self, found: Vec<Relation>, normals: &[Vector]) -> Vec<(Relation, Taken)> {
+    pub(super) fn take_all(
+        &mut self,
+        found: Vec<Relation>,
+        normals: &[Vector],
+    ) -> Vec<(Relation, Taken)> {
         let each = |r: Relation| {
             let became = self.take(&r.rows, normals);
             (r, became)
@@ -143,9 +147,13 @@ impl<'a> Projection<'a> {
         }
         let before = norm(&a);
         let residue = self.residue(row, normals);
-        let scale: f64 = row.terms.iter().map(|&(p, c)| {
-            f64::from(c.abs()) * self.points[p].iter().fold(0.0, |m: f64, x| m.max(x.abs()))
-        }).sum();
+        let scale: f64 = row
+            .terms
+            .iter()
+            .map(|&(p, c)| {
+                f64::from(c.abs()) * self.points[p].iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+            })
+            .sum();
         let round_off = 1e-14 * scale;
         if before == 0.0 {
             return (residue.abs() <= round_off).then_some(0.0);

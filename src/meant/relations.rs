@@ -86,7 +86,11 @@ pub(super) struct Finder<'a> {
 }
 
 impl<'a> Finder<'a> {
-    pub(super) fn new(points: &'a [Vector], errors: &'a [f64], directions: Vec<(Exact, Use)>) -> Finder<'a> {
+    pub(super) fn new(
+        points: &'a [Vector],
+        errors: &'a [f64],
+        directions: Vec<(Exact, Use)>,
+    ) -> Finder<'a> {
         Finder {
             points,
             errors,
@@ -126,7 +130,12 @@ impl<'a> Finder<'a> {
             if first != i {
                 let rows = (0..3).map(|n| self.difference(i, first, n)).collect();
                 let off = length(sub(self.points[i], self.points[first])) / self.wide(i, first);
-                out.push(Relation { kind: Kind::Coincident, rows, weight: 0, off });
+                out.push(Relation {
+                    kind: Kind::Coincident,
+                    rows,
+                    weight: 0,
+                    off,
+                });
             }
         }
         let places: Vec<usize> = (0..firsts.len()).filter(|&i| firsts[i] == i).collect();
@@ -141,7 +150,9 @@ impl<'a> Finder<'a> {
     fn places(&self) -> Vec<usize> {
         let mut first: Vec<usize> = Vec::new();
         for i in 0..self.points.len() {
-            let near = |&j: &usize| first[j] == j && length(sub(self.points[i], self.points[j])) <= self.wide(i, j);
+            let near = |&j: &usize| {
+                first[j] == j && length(sub(self.points[i], self.points[j])) <= self.wide(i, j)
+            };
             let found = (0..i).find(near).unwrap_or(i);
             first.push(found);
         }
@@ -186,11 +197,16 @@ impl<'a> Finder<'a> {
     /// Points in planes square to a normal: neighbours in the order along it.
     fn planes(&self, normal: usize, places: &[usize], out: &mut Vec<Relation>) {
         let n = unit(self.normals.real[normal]);
-        let mut at: Vec<(f64, usize)> = places.iter().map(|&p| (dot(n, self.points[p]), p)).collect();
+        let mut at: Vec<(f64, usize)> = places
+            .iter()
+            .map(|&p| (dot(n, self.points[p]), p))
+            .collect();
         at.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut start = 0;
         for k in 1..=at.len() {
-            let apart = at.get(k).is_none_or(|x| x.0 - at[k - 1].0 > self.wide(x.1, at[k - 1].1));
+            let apart = at
+                .get(k)
+                .is_none_or(|x| x.0 - at[k - 1].0 > self.wide(x.1, at[k - 1].1));
             if apart {
                 for w in at[start..k].windows(2) {
                     out.push(Relation {
@@ -215,7 +231,9 @@ impl<'a> Finder<'a> {
         let mut firsts: Vec<(usize, usize)> = Vec::new();
         let mut found = Vec::new();
         for &p in places {
-            let near = firsts.iter_mut().find(|(f, _)| off(p, *f) <= self.wide(p, *f));
+            let near = firsts
+                .iter_mut()
+                .find(|(f, _)| off(p, *f) <= self.wide(p, *f));
             match near {
                 Some((f, of)) => {
                     *of += 1;
@@ -268,7 +286,10 @@ impl<'a> Finder<'a> {
                 if terms.len() < 3 {
                     continue;
                 }
-                let row = |normal| Row { terms: terms.clone(), normal };
+                let row = |normal| Row {
+                    terms: terms.clone(),
+                    normal,
+                };
                 out.push(Relation {
                     kind: Kind::EqualVectors,
                     rows: (0..3).map(row).collect(),

@@ -26,7 +26,15 @@ pub(super) fn solve(
     // Short normals first: what is along an axis of the frame takes one coordinate for another.
     let width = |r: &&Row| -> u64 {
         let n = &normals[r.normal];
-        n.iter().map(|x| if x.is_zero() { 0 } else { x.numer().bits() + x.denom().bits() }).sum()
+        n.iter()
+            .map(|x| {
+                if x.is_zero() {
+                    0
+                } else {
+                    x.numer().bits() + x.denom().bits()
+                }
+            })
+            .sum()
     };
     let mut rows: Vec<&Row> = rows.iter().collect();
     rows.sort_by_key(width);
@@ -48,7 +56,11 @@ pub(super) fn solve(
             }
         }
         // Put in what is solved: no solved equation has another's pivot.
-        let known: Vec<usize> = of.keys().copied().filter(|v| pivot_of.contains_key(v)).collect();
+        let known: Vec<usize> = of
+            .keys()
+            .copied()
+            .filter(|v| pivot_of.contains_key(v))
+            .collect();
         for v in known {
             let Some(by) = of.remove(&v) else { continue };
             let (_, eq, c) = &solved[pivot_of[&v]];
@@ -63,7 +75,10 @@ pub(super) fn solve(
         // Of those large enough the shortest, so that numbers stay short.
         let largest = of.values().map(size).fold(0.0, f64::max);
         let bits = |x: &BigRational| x.numer().bits() + x.denom().bits();
-        let short = of.iter().filter(|x| size(x.1) >= LARGE * largest).min_by_key(|x| bits(x.1));
+        let short = of
+            .iter()
+            .filter(|x| size(x.1) >= LARGE * largest)
+            .min_by_key(|x| bits(x.1));
         let Some(pivot) = short.map(|(v, _)| *v) else {
             if constant.is_zero() {
                 continue;
@@ -75,7 +90,9 @@ pub(super) fn solve(
         of.values_mut().for_each(|x| *x /= &by);
         constant /= &by;
         for (_, eq, c) in &mut solved {
-            let Some(by) = eq.remove(&pivot) else { continue };
+            let Some(by) = eq.remove(&pivot) else {
+                continue;
+            };
             for (w, x) in &of {
                 let entry = eq.entry(*w).or_insert_with(BigRational::zero);
                 *entry -= &by * x;
@@ -86,7 +103,9 @@ pub(super) fn solve(
         pivot_of.insert(pivot, solved.len());
         solved.push((pivot, of, constant));
     }
-    let mut out: Vec<Rational3> = (0..points).map(|p| [0, 1, 2].map(|k| value(p, k))).collect();
+    let mut out: Vec<Rational3> = (0..points)
+        .map(|p| [0, 1, 2].map(|k| value(p, k)))
+        .collect();
     for (pivot, eq, constant) in &solved {
         let mut x = -constant.clone();
         for (v, by) in eq {

@@ -1,7 +1,7 @@
 //! What is written: points and directions, each number with half a unit of its last digit.
 
 use super::number::Rational3;
-use crate::geom::vector::{Vector, length, sub, unit};
+use crate::geom::vector::{Vector, dot, length, sub, unit};
 
 /// A point as it is written.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,6 +83,15 @@ impl Ray {
             return 0.0;
         }
         (length(self.half) / length(self.value)).max(DOUBLE)
+    }
+
+    /// How far its components would move, in halves of their last digits or what is least, to have a direction.
+    pub(super) fn moved(&self, v: Vector, least: f64) -> f64 {
+        let along = dot(v, self.value) / dot(v, v);
+        let least = least.max(DOUBLE * length(self.value));
+        (0..3)
+            .map(|k| (along * v[k] - self.value[k]).abs() / self.half[k].max(least))
+            .fold(0.0, f64::max)
     }
 
     /// Whether every component is exact.

@@ -50,7 +50,9 @@ fn relations(meant: &Meant, j: JointId) -> Vec<(Relation, Option<JointId>)> {
     };
     let rays = meant.rays.iter().zip(&meant.scene.cluster);
     for (_, cluster) in rays.clone().filter(|(of, _)| **of == Some(j)) {
-        let alike = rays.clone().find(|(of, c)| *c == cluster && of.is_some_and(|of| of != j));
+        let alike = rays
+            .clone()
+            .find(|(of, c)| *c == cluster && of.is_some_and(|of| of != j));
         if let Some(with) = alike.and_then(|(of, _)| *of) {
             add(Relation::Parallel, with);
         }

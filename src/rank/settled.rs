@@ -54,7 +54,14 @@ pub fn settle(
     for (i, (v, &state)) in out.verdicts.iter().zip(states).enumerate() {
         let rank = rank_of(&found, state)?;
         if !v.is_decided() || rank != v.rank() {
-            out.open = Some((i, if tolerance.is_some() { rank } else { v.as_written }));
+            out.open = Some((
+                i,
+                if tolerance.is_some() {
+                    rank
+                } else {
+                    v.as_written
+                },
+            ));
             break;
         }
     }

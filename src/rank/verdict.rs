@@ -6,19 +6,19 @@
 
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::geom::vector::{length, real};
 use crate::meant::mechanism::{Meant as Scene, meant as scene_of};
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::model::rounded::{Rounded, Units, looks_rounded, uncertainties};
 use crate::rank::field::field_of;
 use crate::rank::least_rows::LeastRows;
 use crate::rank::method::NoAnswer;
 use crate::rank::modular;
+use crate::rank::moves::moves;
 use crate::rank::nearest::{Nearest, nearest};
 use crate::rank::numeric::NumericError;
 use crate::rank::rounding::bound;
 use crate::rank::scaled::{NumericRank, scaled};
-use crate::rank::moves::moves;
 use crate::rank::snap::relation::{Moved, Reach};
 use crate::rank::snap::{size, snap};
 use ozols_dense::singular_values;

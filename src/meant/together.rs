@@ -1,0 +1,189 @@
+//! Directions turned as little as may be, in their errors, so that those that are square or in one plane are so exactly; each
+//! relation is taken only if all taken so far still hold within what the digits allow.
+
+use super::directions::Direction;
+use crate::geom::vector::{Vector, add_scaled, cross, dot, length, unit};
+
+/// A relation of directions.
+#[derive(Debug, Clone, Copy)]
+enum Relation {
+    Square(usize, usize),
+    InPlane(usize, usize, usize),
+}
+
+/// Directions that planes are looked for among.
+const MOST: usize = 40;
+/// Two directions with a smaller sine give no plane.
+const APART: f64 = 0.02;
+/// A relation may turn directions by so many errors in all.
+const LIMIT: f64 = 2.0;
+/// What is left of a relation by others.
+const DEPENDENT: f64 = 1e-6;
+
+impl Relation {
+    /// How far from holding, and the change of that with each direction.
+    fn at(self, units: &[Vector]) -> (f64, Vec<(usize, Vector)>) {
+        match self {
+            Relation::Square(i, j) => {
+                let (a, b) = (units[i], units[j]);
+                (dot(a, b), vec![(i, b), (j, a)])
+            }
+            Relation::InPlane(i, j, k) => {
+                let (a, b, c) = (units[i], units[j], units[k]);
+                let by = vec![(i, cross(b, c)), (j, cross(c, a)), (k, cross(a, b))];
+                (dot(a, cross(b, c)), by)
+            }
+        }
+    }
+}
+
+/// Turns by which relations hold, in errors: one pair of numbers a direction.
+struct Turns<'a> {
+    all: &'a [Direction],
+    basis: Vec<Vec<f64>>,
+    turns: Vec<f64>,
+}
+
+impl Turns<'_> {
+    fn row(&self, gradient: &[(usize, Vector)]) -> Vec<f64> {
+        let mut a = vec![0.0; 2 * self.all.len()];
+        for (d, g) in gradient {
+            for (k, (tilt, error)) in self.all[*d].tilts.iter().enumerate() {
+                a[2 * d + k] += dot(*g, *tilt) * error;
+            }
+        }
+        a
+    }
+
+    fn units(&self) -> Vec<Vector> {
+        let turned = |(n, d): (usize, &Direction)| {
+            let by = |k: usize| self.turns[2 * n + k] * d.tilts[k].1;
+            let v = add_scaled(d.unit, by(0), d.tilts[0].0);
+            unit(add_scaled(v, by(1), d.tilts[1].0))
+        };
+        self.all.iter().enumerate().map(turned).collect()
+    }
+
+    /// Makes a row hold that is off by `residue`; the move in errors, none where it contradicts.
+    fn put(&mut self, mut a: Vec<f64>, residue: f64) -> Option<f64> {
+        let norm = |a: &[f64]| a.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let before = norm(&a);
+        if before == 0.0 {
+            return (residue.abs() < 1e-14).then_some(0.0);
+        }
+        for _ in 0..2 {
+            for b in &self.basis {
+                let part: f64 = a.iter().zip(b).map(|(x, y)| x * y).sum();
+                a.iter_mut().zip(b).for_each(|(x, y)| *x -= part * y);
+            }
+        }
+        let left = norm(&a);
+        if left < DEPENDENT * before {
+            return (residue.abs() <= 1e-13 + 1e-3 * before).then_some(0.0);
+        }
+        let step = residue / left;
+        a.iter_mut().for_each(|x| *x /= left);
+        self.turns
+            .iter_mut()
+            .zip(&a)
+            .for_each(|(t, x)| *t -= step * x);
+        self.basis.push(a);
+        Some(step.abs())
+    }
+}
+
+/// Relations that may hold within the errors, those of two directions first, the nearest first.
+fn candidates(all: &[Direction]) -> Vec<Relation> {
+    let units: Vec<Vector> = all.iter().map(|d| d.unit).collect();
+    let n = all.len();
+    let mut out: Vec<(bool, f64, Relation)> = Vec::new();
+    let mut offer = |r: Relation| {
+        let (off, by) = r.at(&units);
+        let errors = by.iter().flat_map(|(d, g)| {
+            let tilts = all[*d].tilts;
+            tilts.map(|(t, e)| (dot(*g, t) * e).powi(2))
+        });
+        let error = errors.sum::<f64>().sqrt();
+        if off.abs() <= LIMIT * error + 1e-14 {
+            let square = matches!(r, Relation::Square(..));
+            out.push((!square, off.abs() / (error + 1e-14), r));
+        }
+    };
+    for i in 0..n {
+        for j in 0..i {
+            offer(Relation::Square(i, j));
+            if n > MOST || length(cross(units[i], units[j])) < APART {
+                continue;
+            }
+            for k in 0..j {
+                let apart = [i, j]
+                    .iter()
+                    .all(|&m| length(cross(units[m], units[k])) > APART);
+                if apart {
+                    offer(Relation::InPlane(i, j, k));
+                }
+            }
+        }
+    }
+    out.sort_by(|a, b| {
+        (a.0, a.1)
+            .partial_cmp(&(b.0, b.1))
+            .unwrap_or(std::cmp::Ordering::Equal)
+    });
+    out.into_iter().map(|x| x.2).collect()
+}
+
+/// Turns directions so that all relations hold that can together; `allowed` says whether the digits allow a direction.
+///
+/// # Complexity
+/// O(d³) relations of d directions, each held against those taken.
+pub(super) fn together(all: &mut [Direction], allowed: impl Fn(usize, Vector) -> bool) {
+    let found = candidates(all);
+    let mut turns = Turns {
+        all,
+        basis: Vec::new(),
+        turns: vec![0.0; 2 * all.len()],
+    };
+    let start: Vec<Vector> = turns.all.iter().map(|d| d.unit).collect();
+    let mut taken: Vec<Relation> = Vec::new();
+    for r in found {
+        let (before, rows) = (turns.turns.clone(), turns.basis.len());
+        let (off, by) = r.at(&start);
+        let row = turns.row(&by);
+        let moved: f64 = row.iter().zip(&turns.turns).map(|(a, t)| a * t).sum();
+        let step = turns.put(row, off + moved);
+        let touched: Vec<usize> = (0..start.len())
+            .filter(|d| {
+                turns.turns[2 * d] != before[2 * d] || turns.turns[2 * d + 1] != before[2 * d + 1]
+            })
+            .collect();
+        let units = turns.units();
+        if step.is_some_and(|s| s <= LIMIT) && touched.iter().all(|&d| allowed(d, units[d])) {
+            taken.push(r);
+        } else {
+            turns.turns = before;
+            turns.basis.truncate(rows);
+        }
+    }
+    // Newton's method: linear so far, exact to rounding after.
+    for _ in 0..4 {
+        let (at, last) = (turns.units(), turns.turns.clone());
+        let mut next = Turns {
+            all: turns.all,
+            basis: Vec::new(),
+            turns: vec![0.0; last.len()],
+        };
+        for r in &taken {
+            let (off, by) = r.at(&at);
+            let row = next.row(&by);
+            let there: f64 = row.iter().zip(&last).map(|(a, t)| a * t).sum();
+            let here: f64 = row.iter().zip(&next.turns).map(|(a, t)| a * t).sum();
+            let _ = next.put(row, off - there + here);
+        }
+        turns = next;
+    }
+    let units = turns.units();
+    for (d, v) in all.iter_mut().zip(units) {
+        d.unit = v;
+    }
+}
