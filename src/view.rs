@@ -17,6 +17,7 @@ pub mod lint;
 pub mod mechanism;
 pub mod mobility;
 pub mod next;
+pub mod numeric;
 mod prefix;
 pub mod ranking;
 pub mod reactions;

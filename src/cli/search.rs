@@ -96,7 +96,8 @@ impl Search {
         let short = matches!(outcome.request.list, List::Top(1..=SHORT));
         let text = matches!(self.format, SearchFormat::Text);
         let one_pose = outcome.request.poses == 0 && !outcome.request.generic_only;
-        let plain = outcome.ranking.is_none() && one_pose && outcome.is_exact();
+        let counted = outcome.is_exact() || outcome.is_numeric_whole();
+        let plain = outcome.ranking.is_none() && one_pose && counted;
         text && short && plain && !self.no_distinct
     }
 }
@@ -158,7 +159,9 @@ pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
 /// How many there are, and whether that is good news.
 fn verdict(outcome: &Outcome) -> (String, Tone) {
     let total = &outcome.admissible.total;
-    if total.is_zero() {
+    if outcome.numeric.is_some() {
+        ("numeric".to_owned(), Tone::Bad)
+    } else if total.is_zero() {
         ("none".to_owned(), Tone::Bad)
     } else {
         (grouped(&total.to_string()), Tone::Good)

@@ -2,8 +2,10 @@
 
 use crate::model::mechanism::Mechanism;
 use crate::model::rounded::Rounded;
+use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::settled::Settled;
-use crate::rank::verdict::Verdict;
+use crate::rank::verdict::{Meant, Verdict};
+use crate::search::doubt::Digits;
 
 /// What to do about rounded coordinates.
 pub(super) const CURE: &str = "write roots or expressions such as sqrt(3)/2, give more digits, or snap them with --snap TOLERANCE";
@@ -17,6 +19,8 @@ pub struct Prepared {
     /// The one that is searched: as meant, and with the options that the request leaves.
     pub mechanism: Mechanism,
     pub(super) settled: Settled,
+    /// Where exact arithmetic does not have the mechanism that is meant: what its digits tell of ranks.
+    pub(super) numeric: Option<Digits>,
 }
 
 /// Tells what was moved, and what was not.
@@ -32,16 +36,45 @@ pub(super) fn tell_moved(m: &Mechanism, settled: &Settled, tell: &mut dyn FnMut(
     }
 }
 
+/// What the digits of a mechanism tell of ranks, by the verdicts on it.
+pub(super) fn digits(verdicts: &[Verdict]) -> Digits {
+    let tolerance = |a: f64, v: &Verdict| a.max(v.tolerance);
+    Digits {
+        tolerance: verdicts.iter().fold(DEFAULT_TOLERANCE, tolerance),
+        undecided: verdicts.iter().any(|v| !v.is_decided()),
+    }
+}
+
+/// The mechanism nearest to the one that is written that has the rank meant, where a verdict found one; options that shared a
+/// joint's frame share it still.
+pub(super) fn nearest(m: &Mechanism, verdicts: &[Verdict]) -> Option<Mechanism> {
+    let near = |v: &Verdict| match &v.meant {
+        Meant::Near { mechanism, .. } => Some(mechanism.as_ref().clone()),
+        _ => None,
+    };
+    let mut out = verdicts.iter().find_map(near)?;
+    for (joint, before) in out.joints.iter_mut().zip(&m.joints) {
+        let offered = joint.options.iter_mut().chain(&mut joint.unloading);
+        for option in offered.filter(|o| o.frame.is_same(&before.frame)) {
+            let pitch = option.frame.pitch.clone();
+            option.frame = joint.frame.clone();
+            option.frame.pitch = pitch;
+        }
+    }
+    Some(out)
+}
+
 impl Prepared {
     /// Why the geometry looks rounded, where that may matter; whether the file is to be taken as written, and snapped, is
-    /// asked. Where the mechanism that is meant is not there for exact arithmetic the search is refused, unless the file is
-    /// to be taken as written.
+    /// asked.
     pub(super) fn rounded(
         &self,
         (as_written, snapped): (bool, bool),
         tell: &mut dyn FnMut(String),
-    ) -> Result<Option<LooksRounded>, String> {
-        let Prepared { mechanism, settled } = self;
+    ) -> Option<LooksRounded> {
+        let Prepared {
+            mechanism, settled, ..
+        } = self;
         let name = &mechanism.name;
         let why = settled.verdicts.iter().find_map(|v| v.rounded.clone());
         let told = |why: Option<Rounded>| why.map(|w| (w, settled.verdicts.clone()));
@@ -60,7 +93,7 @@ impl Prepared {
                     )
                 });
             }
-            return Ok(told(why.filter(|w| measured(w) || !meant)));
+            return told(why.filter(|w| measured(w) || !meant));
         };
         let looks = why.as_ref().map_or_else(
             || {
@@ -88,10 +121,14 @@ impl Prepared {
              value kept {:.1e}, largest dropped {:.1e}). Exact ranks take rounding errors for real misalignments",
             v.state, of.0, of.1, v.tolerance, near.0, near.1, n.kept, n.dropped
         );
-        if !as_written {
-            return Err(differ);
+        if as_written {
+            tell(format!("warning: {differ}; {CURE}"));
+        } else {
+            tell(format!(
+                "warning: {differ}. What is meant is not there for exact arithmetic, so variants are judged by singular values, \
+                 and no figure is exact; {CURE}"
+            ));
         }
-        tell(format!("warning: {differ}; {CURE}"));
-        Ok(told(why))
+        told(why)
     }
 }

@@ -13,6 +13,7 @@ use crate::search::building::Diagrams;
 use crate::search::conditions::{Conditions, Search, SearchError, Symmetry};
 use crate::search::counts::Counts;
 use crate::search::diagram::{Progress, Stop};
+use crate::search::doubt::Digits;
 use crate::search::primes::{self, Disagreement, PrimeCheck};
 use num_bigint::BigUint;
 use std::sync::Arc;
@@ -115,6 +116,10 @@ pub fn answer(
         conditions.estimate = conditions.estimate.filter(|_| nth == 0);
         Ok(Search::new(field, mechanism.clone(), conditions)?)
     };
+    if let Some(digits) = conditions.numeric {
+        let search = over(0)?;
+        return numeric(search, (digits, measured), request, should_cancel, tell);
+    }
     if request.method == Method::Brute {
         let search = over(0)?;
         if search.size() > BRUTE_LIMIT.into() {
@@ -218,6 +223,44 @@ pub fn answer(
         ranking,
         ..Outcome::of_counts(search, request.clone(), counts, measured)
     })
+}
+
+/// The search by singular values, of a mechanism that is not there for exact arithmetic as it is meant.
+fn numeric(
+    mut search: Search,
+    (digits, measured): (Digits, Option<LooksRounded>),
+    request: &Request,
+    should_cancel: ShouldCancel<'_>,
+    tell: Tell<'_>,
+) -> Result<Outcome, RunError> {
+    if request.symmetry == Symmetry::OnePerOrbit {
+        return Err(RequestError::NumericOrbits.into());
+    }
+    let left_out = [
+        (request.ranking(&search.mechanism)?.is_some(), "ranked"),
+        (
+            request.poses > 0 || request.generic_only,
+            "looked at in other poses",
+        ),
+    ];
+    for (_, what) in left_out.iter().filter(|(asked, _)| *asked) {
+        tell(Event::Note(format!(
+            "note: variants judged by singular values are not {what}"
+        )));
+    }
+    let list = match request.list {
+        List::Top(_) => request.cheapest(&search.mechanism)?,
+        List::All => usize::MAX,
+        List::Sample(_) | List::Nothing => 0,
+    };
+    let found = search.at_tolerance(digits, (list, request.seed), should_cancel)?;
+    tell(Event::Built);
+    Ok(Outcome::of_numeric(
+        search,
+        request.clone(),
+        found,
+        measured,
+    ))
 }
 
 /// Counts of orbits over one prime or two, which must agree, and why the search ended with that for the symmetric variants.

@@ -91,7 +91,24 @@ impl Outcome {
         };
         let mut ideas = Vec::new();
         let unranked = |v: Assignment| (v, None);
-        let source: Box<dyn Iterator<Item = (Assignment, Option<usize>)>> =
+        let source: Box<dyn Iterator<Item = (Assignment, Option<usize>)>> = if let Some(numeric) =
+            &self.numeric
+        {
+            if let (List::Top(k), true) = (list, distinct) {
+                let sure = numeric.list(&self.search);
+                ideas = self.search.ideas_among(sure, k);
+            }
+            let firsts = ideas.iter().map(|i| i.first.clone()).collect_vec();
+            match list {
+                List::Nothing => Box::new(std::iter::empty()),
+                List::Top(_) if distinct => Box::new(firsts.into_iter().map(unranked)),
+                List::Top(_) | List::All => Box::new(numeric.list(&self.search).map(unranked)),
+                List::Sample(n) => {
+                    let drawn = numeric.drawn(&self.search, seed);
+                    Box::new(drawn.take(n).map(unranked))
+                }
+            }
+        } else {
             match (&self.diagrams, &self.ranking, list) {
                 (Some(d), ranking, List::Top(k)) if distinct => {
                     let found = match ranking {
@@ -126,9 +143,11 @@ impl Outcome {
                     let enough = request.listed(wanted);
                     Box::new(self.search.cheapest(d, enough).map(unranked))
                 }
-            };
+            }
+        };
         // What is proven is a list of all variants; of ideas a diagram cut down may lack the first ones.
         let by_cost = match list {
+            _ if self.numeric.is_some() => false,
             List::Top(_) | List::Nothing => self.ranking.is_none() && !distinct,
             List::All => true,
             List::Sample(_) => false,

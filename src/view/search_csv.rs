@@ -10,6 +10,7 @@ use crate::search::conditions::Search;
 use crate::search::diagram::Stop;
 use crate::search::over_stroke::OverStroke;
 use crate::search::space::choice_name;
+use crate::view::numeric;
 use itertools::Itertools;
 use std::io::{self, Write};
 
@@ -44,7 +45,11 @@ const SCORES: [&str; 8] = [
 /// Those of the writer.
 pub fn write(out: &mut dyn Write, outcome: &Outcome, mut variants: Variants<'_>) -> io::Result<()> {
     rows(out, outcome, &mut variants)?;
-    if variants.stop() != Stop::Exhausted {
+    if let Some(found) = &outcome.numeric {
+        let all = numeric::from_to(&found.admissible);
+        let lines = numeric::lines(outcome).join("; ");
+        writeln!(out, "# numeric: {all} admissible variants. {lines}")?;
+    } else if variants.stop() != Stop::Exhausted {
         let proven = match variants.summary().proven {
             Some(n) if n > 0 => format!(", the first {n} proven the cheapest"),
             _ => String::new(),

@@ -10,6 +10,7 @@ use crate::search::building::Diagrams;
 use crate::search::diagram::{Diagram, Stop};
 use crate::search::relax::{Hopeless, Relaxation};
 use crate::view::early::EstimateData;
+use crate::view::numeric::{NUMERIC, NumericData};
 use crate::view::ranking::RankingData;
 use num_bigint::BigUint;
 use serde::{Serialize, Serializer};
@@ -86,6 +87,11 @@ pub struct SearchData<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     ranking: Option<RankingData<'a>>,
     exact: bool,
+    /// How sure counts are that are not exact, and not cut short.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certainty: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    numeric: Option<NumericData>,
     /// Counts that would take more than the memory allowed.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     left_out: Vec<&'static str>,
@@ -203,6 +209,8 @@ impl<'a> SearchData<'a> {
                 .as_ref()
                 .map(|p| RankingData::new(mechanism, p)),
             exact: outcome.is_exact(),
+            certainty: outcome.numeric.as_ref().map(|_| NUMERIC),
+            numeric: outcome.numeric.as_ref().map(NumericData::new),
             left_out: left_out.into_iter().flatten().collect(),
         }
     }
@@ -334,6 +342,10 @@ pub struct EndData {
     proven: usize,
     admissible: String,
     admissible_exact: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certainty: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    numeric: Option<NumericData>,
 }
 
 impl EndData {
@@ -346,6 +358,8 @@ impl EndData {
             proven: variants.summary().proven.unwrap_or(0),
             admissible: outcome.admissible.to_string(),
             admissible_exact: outcome.is_exact(),
+            certainty: outcome.numeric.as_ref().map(|_| NUMERIC),
+            numeric: outcome.numeric.as_ref().map(NumericData::new),
         }
     }
 }

@@ -5,4 +5,5 @@
 
 mod cases;
 mod program;
+mod search_numeric;
 mod table;
