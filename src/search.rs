@@ -43,6 +43,7 @@ mod product;
 pub mod proven;
 pub mod realize;
 pub mod relax;
+pub mod second_opinion;
 pub mod space;
 pub mod spent;
 pub mod stage;

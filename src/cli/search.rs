@@ -96,7 +96,7 @@ impl Search {
         let short = matches!(outcome.request.list, List::Top(1..=SHORT));
         let text = matches!(self.format, SearchFormat::Text);
         let one_pose = outcome.request.poses == 0 && !outcome.request.generic_only;
-        let counted = outcome.is_exact() || outcome.is_numeric_whole();
+        let counted = outcome.is_counted() || outcome.is_numeric_whole();
         let plain = outcome.ranking.is_none() && one_pose && counted;
         text && short && plain && !self.no_distinct
     }
@@ -161,6 +161,8 @@ fn verdict(outcome: &Outcome) -> (String, Tone) {
     let total = &outcome.admissible.total;
     if outcome.numeric.is_some() {
         ("numeric".to_owned(), Tone::Bad)
+    } else if !outcome.is_confirmed() {
+        ("not exact".to_owned(), Tone::Bad)
     } else if total.is_zero() {
         ("none".to_owned(), Tone::Bad)
     } else {

@@ -8,7 +8,7 @@ use crate::score::variant::Variant;
 use crate::search::best::Assignment;
 use crate::view::analysis::{Analysis, State};
 use crate::view::conditions::in_state;
-use crate::view::numeric;
+use crate::view::{numeric, second_opinion};
 use itertools::Itertools;
 use maud::{Markup, html};
 use num_traits::{One, Zero};
@@ -129,9 +129,10 @@ fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
         return "No joint has a choice, so there is nothing to search: list options under [search] in the file."
             .to_owned();
     }
-    let least = if found.is_exact() { "" } else { "at least " };
+    let least = if found.is_counted() { "" } else { "at least " };
     let by_values: String = numeric::lines(found)
         .iter()
+        .chain(&second_opinion::against(found))
         .map(|l| format!(". {l}"))
         .collect();
     let (all, good) = (big(&size), &found.admissible.total);

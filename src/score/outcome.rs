@@ -12,6 +12,7 @@ use crate::search::estimate::Estimate;
 use crate::search::over_stroke::Stroke;
 use crate::search::primes::PrimeCheck;
 use crate::search::relax::{Hopeless, Relaxation};
+use crate::search::second_opinion::SecondOpinion;
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 use std::collections::BTreeMap;
@@ -45,6 +46,8 @@ pub struct Outcome {
     /// What singular values say, where the mechanism that is meant is not there for exact arithmetic; counts are then those of
     /// the variants that are sure.
     pub numeric: Option<AtTolerance>,
+    /// What singular values say of the counts, where coordinates look rounded and exact arithmetic counted all the same.
+    pub second: Option<SecondOpinion>,
 }
 
 impl Outcome {
@@ -68,6 +71,7 @@ impl Outcome {
             stroke: None,
             ranking: None,
             numeric: None,
+            second: None,
         }
     }
 
@@ -90,10 +94,23 @@ impl Outcome {
         }
     }
 
-    /// Whether everything was looked at in exact arithmetic, so that counts are exact and the list is the best there is.
+    /// Whether everything was looked at in exact arithmetic, and singular values do not contradict it where coordinates look
+    /// rounded, so that counts are exact and the list is the best there is.
     #[must_use]
     pub fn is_exact(&self) -> bool {
+        self.is_counted() && self.is_confirmed()
+    }
+
+    /// Whether exact arithmetic looked at everything, be its answer right or not.
+    #[must_use]
+    pub fn is_counted(&self) -> bool {
         self.stop == Stop::Exhausted && self.numeric.is_none()
+    }
+
+    /// Whether nothing speaks against exact arithmetic.
+    #[must_use]
+    pub fn is_confirmed(&self) -> bool {
+        self.second.as_ref().is_none_or(SecondOpinion::confirms)
     }
 
     /// Whether every variant was judged by singular values.
@@ -112,6 +129,12 @@ impl Outcome {
     /// Whether the determinate variants are counted exactly, however the rest ended.
     #[must_use]
     pub fn is_determinate_exact(&self) -> bool {
+        self.is_determinate_counted() && self.is_confirmed()
+    }
+
+    /// Whether exact arithmetic looked at all that may be determinate, be its answer right or not.
+    #[must_use]
+    pub fn is_determinate_counted(&self) -> bool {
         self.determinate_stop == Stop::Exhausted && self.numeric.is_none()
     }
 
@@ -119,7 +142,8 @@ impl Outcome {
     /// cost it can be said.
     #[must_use]
     pub fn known_up_to(&self) -> Option<i64> {
-        self.diagrams.as_ref()?.known_up_to()
+        let found = self.diagrams.as_ref().filter(|_| self.is_confirmed());
+        found?.known_up_to()
     }
 
     /// About how many determinate and admissible variants there are, where the search ended early.

@@ -1,11 +1,14 @@
 //! A mechanism made ready for a search: the one that is meant, and what is said where its coordinates are rounded.
 
-use crate::model::mechanism::Mechanism;
+use crate::file::read::resolve::contains;
+use crate::model::mechanism::{Joint, JointOption, Mechanism};
 use crate::model::rounded::Rounded;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::settled::Settled;
 use crate::rank::verdict::{Meant, Verdict};
 use crate::search::doubt::Digits;
+use crate::search::second_opinion::Written;
+use std::sync::Arc;
 
 /// What to do about rounded coordinates.
 pub(super) const CURE: &str = "write roots or expressions such as sqrt(3)/2, give more digits, or snap them with --snap TOLERANCE";
@@ -21,6 +24,39 @@ pub struct Prepared {
     pub(super) settled: Settled,
     /// Where exact arithmetic does not have the mechanism that is meant: what its digits tell of ranks.
     pub(super) numeric: Option<Digits>,
+    /// Where coordinates look rounded and exact arithmetic searches all the same: the mechanism as the file writes it.
+    pub(super) written: Option<Written>,
+}
+
+/// A mechanism made ready for a search, in the places where `file` has its joints and options.
+pub(super) fn as_in_file(ready: &Mechanism, file: &Mechanism, verdicts: &[Verdict]) -> Written {
+    let mut out = ready.clone();
+    for (joint, there) in out.joints.iter_mut().zip(&file.joints) {
+        joint.frame = there.frame.clone();
+        let offered = |options: &mut [JointOption], named: &[JointOption]| {
+            for option in options {
+                let own = named.iter().find(|o| o.name == option.name);
+                let pitch = option.frame.pitch.clone();
+                // What the file does not list is offered in the joint's own frame.
+                option.frame = own.map_or(&there.frame, |o| &o.frame).clone();
+                if own.is_none() {
+                    option.frame.pitch = pitch;
+                }
+            }
+        };
+        offered(&mut joint.options, &there.options);
+        offered(&mut joint.unloading, &there.unloading);
+    }
+    let adds = |j: &Joint| {
+        let present = j.options.first();
+        let wider = |p: &JointOption| j.options.iter().all(|o| contains(o, p) == Some(true));
+        present.is_none_or(wider)
+    };
+    Written {
+        only_adds: ready.joints.iter().all(adds),
+        mechanism: Arc::new(out),
+        digits: digits(verdicts),
+    }
 }
 
 /// Tells what was moved, and what was not.

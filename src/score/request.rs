@@ -5,7 +5,7 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::model::ranking::{Ranking, Term};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::settled::settle;
-use crate::score::prepared::{LooksRounded, Prepared, digits, nearest, tell_moved};
+use crate::score::prepared::{LooksRounded, Prepared, as_in_file, digits, nearest, tell_moved};
 pub use crate::score::request_error::RequestError;
 use crate::search::conditions::{Conditions, InState, Symmetry};
 
@@ -201,6 +201,8 @@ impl Request {
         let state = self.state(&mechanism)?.map(|s| s.state);
         let states: Vec<StateId> = std::iter::once(StateId::FREE).chain(state).collect();
         let mut settled = settle(&mechanism, &states, self.tolerance()?)?;
+        let looked_at = !settled.verdicts.is_empty();
+        let file = looked_at.then(|| mechanism.clone());
         let mut out = mechanism;
         let numeric = settled.open.filter(|_| !self.as_written);
         let numeric = numeric.map(|_| digits(&settled.verdicts));
@@ -218,7 +220,10 @@ impl Request {
         self.offer_unlisted(&mut out, tell)?;
         self.restrict(&mut out)?;
         self.insert(&mut out)?;
+        let file = file.filter(|_| numeric.is_none());
+        let written = file.map(|f| as_in_file(&out, &f, &settled.verdicts));
         Ok(Prepared {
+            written,
             mechanism: out,
             settled,
             numeric,
@@ -315,6 +320,7 @@ impl Request {
             memory: self.memory,
             tolerance,
             numeric: prepared.numeric,
+            written: prepared.written.clone(),
         };
         Ok((conditions, rounded))
     }

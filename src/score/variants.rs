@@ -246,7 +246,7 @@ impl Variants<'_> {
         };
         // Brute force gives none, and orbits of a list cut short are not counted one by one.
         let counted =
-            o.diagrams.is_some() && (o.is_exact() || o.request.symmetry != Symmetry::OnePerOrbit);
+            o.diagrams.is_some() && (o.is_counted() || o.request.symmetry != Symmetry::OnePerOrbit);
         let some = o.request.generic_only || self.distinct;
         counted && !some && due > given.into()
     }

@@ -8,7 +8,7 @@ mod in_state;
 mod judge;
 mod sampled;
 
-pub use sampled::Sampled;
+pub use sampled::{Sampled, Share};
 
 use crate::geom::exact::ExactError;
 use crate::search::best::Assignment;
@@ -23,7 +23,7 @@ use judge::{Judge, Judged, Standing};
 use num_bigint::BigUint;
 use num_traits::ToPrimitive;
 use rayon::prelude::*;
-use sampled::below;
+pub(super) use sampled::below;
 use std::collections::BTreeMap;
 
 /// Spaces of no more variants than this are looked at whole.
@@ -125,7 +125,7 @@ impl AtTolerance {
 }
 
 /// The choices of a variant from its number: the last variable's change first.
-fn choices(search: &Search, number: u32) -> Vec<usize> {
+pub(super) fn choices(search: &Search, number: u32) -> Vec<usize> {
     let mut rest = number as usize;
     let mut out: Vec<usize> = Vec::with_capacity(search.steps.keys.len());
     for keys in search.steps.keys.iter().rev() {

@@ -12,6 +12,7 @@ use crate::search::doubt::Digits;
 use crate::search::held::{Grasp, grasps, is_free, loose};
 use crate::search::least_model::LeastModel;
 use crate::search::mirror::{self, MirrorError};
+use crate::search::second_opinion::Written;
 use crate::search::space::{Space, Variable};
 use crate::search::tally::{Key, Steps};
 use itertools::Itertools;
@@ -88,6 +89,8 @@ pub struct Conditions {
     pub tolerance: f64,
     /// Where the mechanism that is meant is not there for exact arithmetic: what its digits tell of ranks.
     pub numeric: Option<Digits>,
+    /// The mechanism as its file writes it, where coordinates look rounded and exact arithmetic searches all the same.
+    pub written: Option<Written>,
 }
 
 impl Default for Conditions {
@@ -107,6 +110,7 @@ impl Default for Conditions {
             memory: 4 << 30,
             tolerance: DEFAULT_TOLERANCE,
             numeric: None,
+            written: None,
         }
     }
 }

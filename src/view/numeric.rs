@@ -9,9 +9,6 @@ use num_traits::Zero;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The word for programs.
-pub(super) const NUMERIC: &str = "numeric";
-
 fn big(n: &BigUint) -> String {
     grouped(&n.to_string())
 }

@@ -15,6 +15,7 @@ use crate::view::layout::{fit, table};
 use crate::view::next::{self, Step, file_name};
 use crate::view::numeric;
 use crate::view::ranking;
+use crate::view::second_opinion;
 use crate::view::search_data::condition;
 use crate::view::variant_table::{contours, variants};
 use itertools::Itertools;
@@ -108,7 +109,7 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
     let mut out = String::new();
     let big = |n: &BigUint| grouped(&n.to_string());
     let at_least = |exact: bool| if exact { "" } else { "at least " };
-    let least = at_least(outcome.is_exact());
+    let least = at_least(outcome.is_counted());
     let conditions = &outcome.search.conditions;
     let condition = if conditions.max_redundant == 0 {
         "σ = 0".to_owned()
@@ -138,6 +139,8 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
         format!("numeric: {}", numeric::from_to(&found.admissible))
     } else if outcome.admissible.total.is_zero() && least.is_empty() {
         "none".to_owned()
+    } else if !outcome.is_confirmed() {
+        format!("not exact: {least}{}", big(&outcome.admissible.total))
     } else {
         format!("{least}{}", big(&outcome.admissible.total))
     };
@@ -153,14 +156,18 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
     if !more.is_empty() {
         let determinate = match &outcome.numeric {
             Some(found) => numeric::from_to(&found.determinate),
-            None => at_least(outcome.is_determinate_exact()).to_owned() + &big(&outcome.determinate.total),
+            None => at_least(outcome.is_determinate_counted()).to_owned() + &big(&outcome.determinate.total),
         };
         let _ = writeln!(out, "  {determinate} with {condition}, whatever else they do");
     }
     for line in numeric::lines(outcome) {
         let _ = writeln!(out, "  {line}");
     }
-    if let Some(check) = outcome.check {
+    for line in second_opinion::lines(outcome) {
+        let _ = writeln!(out, "  {line}");
+    }
+    // Two primes that agree on rounded digits prove nothing.
+    if let Some(check) = outcome.check.filter(|_| outcome.is_confirmed()) {
         let _ = match check.verdict {
             Verdict::Agree => writeln!(out, "  Checked: modulo two primes the same"),
             Verdict::Interrupted => writeln!(out, "  Not checked by a second prime: interrupted"),

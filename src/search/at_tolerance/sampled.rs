@@ -140,7 +140,7 @@ pub(super) fn search(
 }
 
 /// A number below `n`, each with the same chance.
-pub(super) fn below(random: &mut ChaCha8Rng, n: usize) -> usize {
+pub(in crate::search) fn below(random: &mut ChaCha8Rng, n: usize) -> usize {
     let n = n.max(1) as u64;
     // What would favour the first numbers is drawn again.
     let fair = u64::MAX - u64::MAX % n;

@@ -3,7 +3,7 @@
 use ozols::accuracy::stability::change::{Noise, turned_and_rounded};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
+use ozols::model::mechanism::{JointOption, Mechanism};
 use ozols::score::outcome::Outcome;
 use ozols::score::request::{Check, List, Request};
 use rayon::prelude::*;
@@ -18,14 +18,29 @@ pub(super) fn request() -> Request {
     }
 }
 
-/// A built-in mechanism without options of its own.
-pub(super) fn plain(name: &str) -> Mechanism {
-    let mut m = mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap();
+/// The same mechanism with its present joints as the only options.
+pub(super) fn bare(mut m: Mechanism) -> Mechanism {
     for joint in &mut m.joints {
-        joint.options.clear();
         joint.unloading.clear();
+        joint.options = vec![JointOption {
+            name: joint.joint_type.name().to_owned(),
+            joint_type: joint.joint_type.clone(),
+            frame: joint.frame.clone(),
+            cost_milli: None,
+            state: None,
+        }];
     }
     m
+}
+
+/// A built-in mechanism without options of its own.
+pub(super) fn plain(name: &str) -> Mechanism {
+    bare(mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap())
+}
+
+/// It turned and rounded.
+pub(super) fn turned(m: &Mechanism, decimals: usize, noise: &mut Noise) -> Mechanism {
+    bare(turned_and_rounded(m, decimals, noise))
 }
 
 /// What a search of a turned mechanism says against what one of the exact one does.
@@ -95,7 +110,7 @@ fn built_ins_turned() {
         d.split(',').map(|d| d.parse().unwrap()).collect()
     });
     let seed: u64 = std::env::var("OZOLS_SEED").map_or(1, |s| s.parse().unwrap());
-    let names: Vec<&str> = builtin::names().collect();
+    let names: Vec<&str> = builtin::names();
     for d in decimals {
         let mut all: Vec<(Said, String)> = names
             .par_iter()
@@ -104,7 +119,7 @@ fn built_ins_turned() {
                 let m = plain(name);
                 let truth = ozols::search(&m, &request()).ok()?;
                 let t = std::time::Instant::now();
-                let turned = turned_and_rounded(&m, d, &mut Noise::new(seed, n));
+                let turned = turned(&m, d, &mut Noise::new(seed, n));
                 let (s, w) = said(name, &turned, &truth);
                 Some((s, format!("{w} ({:.1?}, {} variants)", t.elapsed(), truth.search.size())))
             })
