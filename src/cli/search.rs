@@ -139,11 +139,8 @@ pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
             SearchFormat::Jsonl => search_json::write_lines(out, &outcome, variants)?,
             SearchFormat::Csv => search_csv::write(out, &outcome, variants)?,
         }
-        Ok(if outcome.admissible.total.is_zero() {
-            Done::Nothing
-        } else {
-            Done::Found
-        })
+        let none = outcome.admissible.total.is_zero() && !outcome.admissible_may_be_more();
+        Ok(if none { Done::Nothing } else { Done::Found })
     })?;
     // The output itself is the same every time.
     if a.format == SearchFormat::Text && !args.quiet {

@@ -127,7 +127,9 @@ pub enum RequestError {
     #[error("{0}")]
     Costs(#[from] ImportError),
     /// Orbits of variants that are judged by singular values.
-    #[error("--one-per-orbit needs exact geometry, and what is meant by these coordinates is not there exactly; {CURE}")]
+    #[error(
+        "--one-per-orbit needs exact geometry, and what is meant by these coordinates is not there exactly; {CURE}"
+    )]
     NumericOrbits,
     /// The geometry has no image in a prime field.
     #[error(transparent)]

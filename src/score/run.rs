@@ -257,7 +257,12 @@ fn second_opinion(
         return Ok(None);
     };
     let mut listed: Vec<Assignment> = match (ranking, request.list) {
-        (Some(r), _) => r.list.iter().map(|r| r.variant.clone()).take(CHECKED).collect(),
+        (Some(r), _) => r
+            .list
+            .iter()
+            .map(|r| r.variant.clone())
+            .take(CHECKED)
+            .collect(),
         (_, List::Top(k)) => search.cheapest(diagrams, k.min(CHECKED)).collect(),
         (_, List::All) => search.cheapest(diagrams, CHECKED).collect(),
         (_, List::Sample(n)) => {

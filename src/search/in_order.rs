@@ -24,9 +24,7 @@ pub(super) struct InOrder {
 impl InOrder {
     /// Of a space's costs; `None` where they are told apart too finely.
     pub(super) fn new(steps: &Steps) -> Option<InOrder> {
-        let of = |keys: &Vec<Key>| -> Vec<u64> {
-            keys.iter().map(|k| k.cost()).collect()
-        };
+        let of = |keys: &Vec<Key>| -> Vec<u64> { keys.iter().map(|k| k.cost()).collect() };
         let costs: Vec<Vec<u64>> = steps.keys.iter().map(of).collect();
         let dearest = |c: &Vec<u64>| c.iter().max().copied().unwrap_or(0);
         let most = costs
@@ -37,7 +35,10 @@ impl InOrder {
         let mut reached = vec![vec![false; most + 1]; costs.len() + 1];
         reached[costs.len()][0] = true;
         for v in (0..costs.len()).rev() {
-            for sum in (0..=most).filter(|&s| reached[v + 1][s]).collect::<Vec<_>>() {
+            for sum in (0..=most)
+                .filter(|&s| reached[v + 1][s])
+                .collect::<Vec<_>>()
+            {
                 for &c in &costs[v] {
                     let to = usize::try_from(c).ok().and_then(|c| sum.checked_add(c));
                     if let Some(to) = to.filter(|t| *t <= most) {
@@ -84,9 +85,7 @@ impl Iterator for InOrder {
                 continue;
             };
             self.path[depth - 1].0 += 1;
-            let rest = usize::try_from(cost)
-                .ok()
-                .and_then(|c| left.checked_sub(c));
+            let rest = usize::try_from(cost).ok().and_then(|c| left.checked_sub(c));
             let Some(rest) = rest.filter(|r| self.reached[depth][*r]) else {
                 continue;
             };
@@ -110,7 +109,10 @@ mod tests {
         let steps = Steps::of_keys(costs.iter().map(|v| v.iter().map(key).collect()).collect());
         let all: Vec<Vec<usize>> = InOrder::new(&steps).expect("small").collect();
         let cost = |c: &Vec<usize>| c.iter().zip(&costs).map(|(&i, v)| v[i]).sum::<u64>();
-        assert!(all.windows(2).all(|w| (cost(&w[0]), &w[0]) < (cost(&w[1]), &w[1])));
+        assert!(
+            all.windows(2)
+                .all(|w| (cost(&w[0]), &w[0]) < (cost(&w[1]), &w[1]))
+        );
         assert_eq!(all.len(), 24);
     }
 }

@@ -138,12 +138,8 @@ impl Search {
         seed: u64,
     ) -> Result<SecondOpinion, ExactError> {
         let digits = written.digits;
-        let of_file = Approximate::of(
-            self,
-            &written.mechanism,
-            Elimination::Svd,
-            digits.tolerance,
-        )?;
+        let of_file =
+            Approximate::of(self, &written.mechanism, Elimination::Svd, digits.tolerance)?;
         let exact = Matrices::new(self);
         let looked = |choices: Vec<usize>| {
             let seen = exact.look(&choices);

@@ -62,7 +62,10 @@ pub fn lines(outcome: &Outcome) -> Vec<String> {
         "Numeric, not exact: ranks by singular values at tolerance {tolerance:.0e}, {looked} variants looked at"
     )];
     if found.digits.undecided {
-        out.push("It is not decided what the mechanism is meant to be: small values may be zero or not".to_owned());
+        out.push(
+            "It is not decided what the mechanism is meant to be: small values may be zero or not"
+                .to_owned(),
+        );
     }
     let doubtful = &found.admissible.doubtful.total;
     if !doubtful.is_zero() {
@@ -79,7 +82,12 @@ pub fn lines(outcome: &Outcome) -> Vec<String> {
 
 #[allow(clippy::cast_precision_loss, reason = "an estimate")]
 fn sampled(s: &Sampled, outcome: &Outcome) -> Vec<String> {
-    let size: f64 = outcome.search.size().to_string().parse().unwrap_or(f64::INFINITY);
+    let size: f64 = outcome
+        .search
+        .size()
+        .to_string()
+        .parse()
+        .unwrap_or(f64::INFINITY);
     let said = |share: Share, what: &str| {
         format!(
             "{what} {:.2e} ({:.2e} to {:.2e})",
@@ -101,7 +109,9 @@ fn sampled(s: &Sampled, outcome: &Outcome) -> Vec<String> {
             "The list is of the {in_order} cheapest variants, which are all of a cost below {}",
             crate::format::number::cost(milli)
         ),
-        None => "Costs differ too finely to look at variants in their order: none is listed".to_owned(),
+        None => {
+            "Costs differ too finely to look at variants in their order: none is listed".to_owned()
+        }
     });
     out
 }
@@ -150,10 +160,7 @@ impl NumericData {
         };
         let of = |w: i64| {
             let one = |c: &Counts| c.by_mobility.get(&w).cloned().unwrap_or_default();
-            let (sure, doubtful) = (
-                one(&found.admissible.sure),
-                one(&found.admissible.doubtful),
-            );
+            let (sure, doubtful) = (one(&found.admissible.sure), one(&found.admissible.doubtful));
             let data = BracketData {
                 to: (&sure + &doubtful + &unseen).to_string(),
                 from: sure.to_string(),

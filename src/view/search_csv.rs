@@ -53,7 +53,11 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, mut variants: Variants<'_>)
     }
     if !outcome.is_confirmed() {
         let lines = second_opinion::lines(outcome).join("; ");
-        writeln!(out, "# not exact: {} admissible variants. {lines}", outcome.admissible)?;
+        writeln!(
+            out,
+            "# not exact: {} admissible variants. {lines}",
+            outcome.admissible
+        )?;
     }
     if variants.stop() != Stop::Exhausted {
         let proven = match variants.summary().proven {
@@ -61,7 +65,11 @@ pub fn write(out: &mut dyn Write, outcome: &Outcome, mut variants: Variants<'_>)
             _ => String::new(),
         };
         let (given, of) = (variants.summary().given, &outcome.admissible);
-        let least = if outcome.is_counted() { "" } else { "at least " };
+        let least = if outcome.is_counted() {
+            ""
+        } else {
+            "at least "
+        };
         let why = variants.stop().word();
         writeln!(
             out,

@@ -15,8 +15,8 @@ use crate::view::layout::{fit, table};
 use crate::view::next::{self, Step, file_name};
 use crate::view::numeric;
 use crate::view::ranking;
-use crate::view::second_opinion;
 use crate::view::search_data::condition;
+use crate::view::second_opinion;
 use crate::view::variant_table::{contours, variants};
 use itertools::Itertools;
 use num_bigint::BigUint;
@@ -156,9 +156,15 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
     if !more.is_empty() {
         let determinate = match &outcome.numeric {
             Some(found) => numeric::from_to(&found.determinate),
-            None => at_least(outcome.is_determinate_counted()).to_owned() + &big(&outcome.determinate.total),
+            None => {
+                at_least(outcome.is_determinate_counted()).to_owned()
+                    + &big(&outcome.determinate.total)
+            }
         };
-        let _ = writeln!(out, "  {determinate} with {condition}, whatever else they do");
+        let _ = writeln!(
+            out,
+            "  {determinate} with {condition}, whatever else they do"
+        );
     }
     for line in numeric::lines(outcome) {
         let _ = writeln!(out, "  {line}");

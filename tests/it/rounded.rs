@@ -6,4 +6,5 @@
 mod cases;
 mod program;
 mod search_numeric;
+mod second_opinion;
 mod table;

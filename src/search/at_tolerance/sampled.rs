@@ -185,7 +185,10 @@ mod tests {
     fn the_interval_is_wilsons() {
         // Wilson's interval of 10 in 100, worked out by hand: 0.0552 to 0.1744.
         let s = share(10, 10, 100);
-        assert!((s.low - 0.0552).abs() < 1e-4 && (s.high - 0.1744).abs() < 1e-4, "{s:?}");
+        assert!(
+            (s.low - 0.0552).abs() < 1e-4 && (s.high - 0.1744).abs() < 1e-4,
+            "{s:?}"
+        );
         let none = share(0, 0, 20_000);
         assert!(none.low == 0.0 && none.high < 2e-4);
         assert_eq!(share(0, 0, 0).high, 1.0);
