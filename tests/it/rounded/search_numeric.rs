@@ -141,7 +141,9 @@ fn no_turned_mechanism_has_a_false_count_that_is_called_exact() {
     for decimals in decimals.split(',').map(|d| d.parse::<usize>().unwrap()) {
         let one = |(n, name): (usize, &&str)| {
             let m = plain(name);
-            let truth = ozols::search(&m, &request()).ok().filter(small)?;
+            let few = m.joints.len() <= 8;
+            let truth = few.then(|| ozols::search(&m, &request()).ok())?;
+            let truth = truth.filter(small)?;
             let turned = turned(&m, decimals, &mut Noise::new(seed, n));
             Some(said(name, &turned, &truth))
         };

@@ -29,7 +29,7 @@ fn a_false_count_of_a_turned_gripper_is_not_called_exact() {
 
 #[test]
 fn the_program_says_where_singular_values_contradict() {
-    let m = turned(&plain("four-bar"), 9, &mut Noise::new(5, 0));
+    let m = turned(&plain("bennett"), 9, &mut Noise::new(5, 0));
     let file = ozols::export(&m, "toml").unwrap();
     let options = [
         "--options",
