@@ -7,6 +7,7 @@
 //! futures all the same are found by building from both ends.
 
 pub mod approximate;
+pub mod at_tolerance;
 pub mod best;
 mod blocks;
 pub mod brute;
@@ -18,10 +19,12 @@ pub mod conditions;
 pub mod cost;
 pub mod counts;
 pub mod diagram;
+pub mod doubt;
 pub mod estimate;
 mod growth;
 pub mod held;
 pub mod ideas;
+mod in_order;
 mod join;
 mod laid;
 pub mod lanes;
@@ -40,6 +43,7 @@ mod product;
 pub mod proven;
 pub mod realize;
 pub mod relax;
+pub mod second_opinion;
 pub mod space;
 pub mod spent;
 pub mod stage;

@@ -17,6 +17,7 @@ pub mod lint;
 pub mod mechanism;
 pub mod mobility;
 pub mod next;
+pub mod numeric;
 mod prefix;
 pub mod ranking;
 pub mod reactions;
@@ -24,6 +25,7 @@ pub mod search_csv;
 pub mod search_data;
 pub mod search_json;
 pub mod search_text;
+pub mod second_opinion;
 pub mod statics;
 pub mod stroke;
 #[cfg(feature = "cli")]

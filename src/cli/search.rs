@@ -96,7 +96,8 @@ impl Search {
         let short = matches!(outcome.request.list, List::Top(1..=SHORT));
         let text = matches!(self.format, SearchFormat::Text);
         let one_pose = outcome.request.poses == 0 && !outcome.request.generic_only;
-        let plain = outcome.ranking.is_none() && one_pose && outcome.is_exact();
+        let counted = outcome.is_counted() || outcome.is_numeric_whole();
+        let plain = outcome.ranking.is_none() && one_pose && counted;
         text && short && plain && !self.no_distinct
     }
 }
@@ -138,11 +139,8 @@ pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
             SearchFormat::Jsonl => search_json::write_lines(out, &outcome, variants)?,
             SearchFormat::Csv => search_csv::write(out, &outcome, variants)?,
         }
-        Ok(if outcome.admissible.total.is_zero() {
-            Done::Nothing
-        } else {
-            Done::Found
-        })
+        let none = outcome.admissible.total.is_zero() && !outcome.admissible_may_be_more();
+        Ok(if none { Done::Nothing } else { Done::Found })
     })?;
     // The output itself is the same every time.
     if a.format == SearchFormat::Text && !args.quiet {
@@ -158,7 +156,11 @@ pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
 /// How many there are, and whether that is good news.
 fn verdict(outcome: &Outcome) -> (String, Tone) {
     let total = &outcome.admissible.total;
-    if total.is_zero() {
+    if outcome.numeric.is_some() {
+        ("numeric".to_owned(), Tone::Bad)
+    } else if !outcome.is_confirmed() {
+        ("not exact".to_owned(), Tone::Bad)
+    } else if total.is_zero() {
         ("none".to_owned(), Tone::Bad)
     } else {
         (grouped(&total.to_string()), Tone::Good)

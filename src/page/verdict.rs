@@ -8,6 +8,7 @@ use crate::score::variant::Variant;
 use crate::search::best::Assignment;
 use crate::view::analysis::{Analysis, State};
 use crate::view::conditions::in_state;
+use crate::view::{numeric, second_opinion};
 use itertools::Itertools;
 use maud::{Markup, html};
 use num_traits::{One, Zero};
@@ -128,7 +129,12 @@ fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
         return "No joint has a choice, so there is nothing to search: list options under [search] in the file."
             .to_owned();
     }
-    let least = if found.is_exact() { "" } else { "at least " };
+    let least = if found.is_counted() { "" } else { "at least " };
+    let by_values: String = numeric::lines(found)
+        .iter()
+        .chain(&second_opinion::against(found))
+        .map(|l| format!(". {l}"))
+        .collect();
     let (all, good) = (big(&size), &found.admissible.total);
     let request = &found.search.conditions;
     let one = good.is_one();
@@ -140,19 +146,29 @@ fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
         (n, true) => format!("leaves at most {n}"),
     };
     let conditions = conditions(page.mechanism, r, one);
+    if good.is_zero() && found.admissible_may_be_more() {
+        let may = numeric::admissible(found);
+        return capitalised(&format!(
+            "{may} of {all} variants {goal}{conditions}{by_values}."
+        ));
+    }
     if good.is_zero() {
         let rest = &found.determinate.total;
         return if rest.is_zero() {
-            format!("None of the {all} variants {goal}: give the joints more options.")
+            format!("None of the {all} variants {goal}: give the joints more options{by_values}.")
         } else {
             format!(
-                "Of the {all} variants none {goal}{conditions}; {least}{} {goal}, but do not meet the other conditions.",
+                "Of the {all} variants none {goal}{conditions}; {least}{} {goal}, but do not meet the other conditions{by_values}.",
                 big(rest)
             )
         };
     }
-    let out = format!("{least}{} of {all} variants {goal}{conditions}", big(good));
-    let out = capitalised(&out);
+    let words = match found.numeric {
+        Some(_) => numeric::admissible(found),
+        None => format!("{least}{}", big(good)),
+    };
+    let out = format!("{words} of {all} variants {goal}{conditions}");
+    let out = capitalised(&out) + &by_values;
     if s.redundant == 0 && r.variants.iter().any(|c| c.change_count() == 0) {
         return format!("Nothing needs changing. {out}.");
     }

@@ -3,6 +3,7 @@
 use crate::score::prepared::LooksRounded;
 use crate::score::ranking::RankedPool;
 use crate::score::request::Request;
+use crate::search::at_tolerance::AtTolerance;
 use crate::search::building::Diagrams;
 use crate::search::conditions::{Search, SearchError, Symmetry};
 use crate::search::counts::Counts;
@@ -11,6 +12,7 @@ use crate::search::estimate::Estimate;
 use crate::search::over_stroke::Stroke;
 use crate::search::primes::PrimeCheck;
 use crate::search::relax::{Hopeless, Relaxation};
+use crate::search::second_opinion::SecondOpinion;
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 use std::collections::BTreeMap;
@@ -41,6 +43,11 @@ pub struct Outcome {
     pub stroke: Option<Stroke>,
     /// The ranking under a workload; `None` where the order is that of cost.
     pub ranking: Option<RankedPool>,
+    /// What singular values say, where the mechanism that is meant is not there for exact arithmetic; counts are then those of
+    /// the variants that are sure.
+    pub numeric: Option<AtTolerance>,
+    /// What singular values say of the counts, where coordinates look rounded and exact arithmetic counted all the same.
+    pub second: Option<SecondOpinion>,
 }
 
 impl Outcome {
@@ -63,26 +70,80 @@ impl Outcome {
             measured,
             stroke: None,
             ranking: None,
+            numeric: None,
+            second: None,
         }
     }
 
-    /// Whether everything was looked at, so that counts are exact and the list is the best there is.
+    /// The same by singular values, which found this.
+    pub(super) fn of_numeric(
+        search: Search,
+        request: Request,
+        found: AtTolerance,
+        measured: Option<LooksRounded>,
+    ) -> Outcome {
+        let counts = (
+            found.determinate.sure.clone(),
+            found.admissible.sure.clone(),
+        );
+        Outcome {
+            stop: found.stop,
+            determinate_stop: found.stop,
+            numeric: Some(found),
+            ..Outcome::of_counts(search, request, counts, measured)
+        }
+    }
+
+    /// Whether everything was looked at in exact arithmetic, and singular values do not contradict it where coordinates look
+    /// rounded, so that counts are exact and the list is the best there is.
     #[must_use]
     pub fn is_exact(&self) -> bool {
-        self.stop == Stop::Exhausted
+        self.is_counted() && self.is_confirmed()
+    }
+
+    /// Whether exact arithmetic looked at everything, be its answer right or not.
+    #[must_use]
+    pub fn is_counted(&self) -> bool {
+        self.stop == Stop::Exhausted && self.numeric.is_none()
+    }
+
+    /// Whether nothing speaks against exact arithmetic.
+    #[must_use]
+    pub fn is_confirmed(&self) -> bool {
+        self.second.as_ref().is_none_or(SecondOpinion::confirms)
+    }
+
+    /// Whether every variant was judged by singular values.
+    #[must_use]
+    pub fn is_numeric_whole(&self) -> bool {
+        self.numeric.as_ref().is_some_and(AtTolerance::is_whole)
+    }
+
+    /// Whether there may be admissible variants beside those counted, which singular values do not decide.
+    #[must_use]
+    pub fn admissible_may_be_more(&self) -> bool {
+        let found = self.numeric.as_ref();
+        found.is_some_and(|f| !f.admissible.is_narrow())
     }
 
     /// Whether the determinate variants are counted exactly, however the rest ended.
     #[must_use]
     pub fn is_determinate_exact(&self) -> bool {
-        self.determinate_stop == Stop::Exhausted
+        self.is_determinate_counted() && self.is_confirmed()
+    }
+
+    /// Whether exact arithmetic looked at all that may be determinate, be its answer right or not.
+    #[must_use]
+    pub fn is_determinate_counted(&self) -> bool {
+        self.determinate_stop == Stop::Exhausted && self.numeric.is_none()
     }
 
     /// The cost in thousandths up to which every admissible variant is known, however the search ended; `None` where of no
     /// cost it can be said.
     #[must_use]
     pub fn known_up_to(&self) -> Option<i64> {
-        self.diagrams.as_ref()?.known_up_to()
+        let found = self.diagrams.as_ref().filter(|_| self.is_confirmed());
+        found?.known_up_to()
     }
 
     /// About how many determinate and admissible variants there are, where the search ended early.
@@ -98,6 +159,9 @@ impl Outcome {
     /// One more tally of the diagram.
     #[must_use]
     pub fn admissible_by_cost(&self) -> Option<BTreeMap<i64, BigUint>> {
+        if let Some(found) = &self.numeric {
+            return Some(found.by_cost.clone());
+        }
         match &self.diagrams {
             Some(d) if self.request.symmetry != Symmetry::OnePerOrbit => {
                 self.search.counts_by_cost(&d.admissible)
@@ -114,7 +178,8 @@ impl Outcome {
     /// # Complexity
     /// A search for each condition and each step of easing it, none of more than some thousand nodes.
     pub fn relaxations(&self) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
-        if !self.admissible.total.is_zero() || self.search.size().is_one() {
+        let unknown = self.numeric.is_some();
+        if unknown || !self.admissible.total.is_zero() || self.search.size().is_one() {
             return Ok(Vec::new());
         }
         let nodes = self.diagrams.as_ref().map_or(0, |d| d.admissible.nodes);
@@ -126,7 +191,7 @@ impl Outcome {
     /// # Errors
     /// Where the geometry has no exact image.
     pub fn hopeless(&self) -> Result<Hopeless, SearchError> {
-        if !self.admissible.total.is_zero() {
+        if self.numeric.is_some() || !self.admissible.total.is_zero() {
             return Ok(Hopeless::default());
         }
         Ok(self.search.hopeless()?)

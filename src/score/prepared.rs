@@ -1,9 +1,14 @@
 //! A mechanism made ready for a search: the one that is meant, and what is said where its coordinates are rounded.
 
-use crate::model::mechanism::Mechanism;
+use crate::file::read::resolve::contains;
+use crate::model::mechanism::{Joint, JointOption, Mechanism};
 use crate::model::rounded::Rounded;
+use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::settled::Settled;
-use crate::rank::verdict::Verdict;
+use crate::rank::verdict::{Meant, Verdict};
+use crate::search::doubt::Digits;
+use crate::search::second_opinion::Written;
+use std::sync::Arc;
 
 /// What to do about rounded coordinates.
 pub(super) const CURE: &str = "write roots or expressions such as sqrt(3)/2, give more digits, or snap them with --snap TOLERANCE";
@@ -17,6 +22,41 @@ pub struct Prepared {
     /// The one that is searched: as meant, and with the options that the request leaves.
     pub mechanism: Mechanism,
     pub(super) settled: Settled,
+    /// Where exact arithmetic does not have the mechanism that is meant: what its digits tell of ranks.
+    pub(super) numeric: Option<Digits>,
+    /// Where coordinates look rounded and exact arithmetic searches all the same: the mechanism as the file writes it.
+    pub(super) written: Option<Written>,
+}
+
+/// A mechanism made ready for a search, in the places where `file` has its joints and options.
+pub(super) fn as_in_file(ready: &Mechanism, file: &Mechanism, verdicts: &[Verdict]) -> Written {
+    let mut out = ready.clone();
+    for (joint, there) in out.joints.iter_mut().zip(&file.joints) {
+        joint.frame = there.frame.clone();
+        let offered = |options: &mut [JointOption], named: &[JointOption]| {
+            for option in options {
+                let own = named.iter().find(|o| o.name == option.name);
+                let pitch = option.frame.pitch.clone();
+                // What the file does not list is offered in the joint's own frame.
+                option.frame = own.map_or(&there.frame, |o| &o.frame).clone();
+                if own.is_none() {
+                    option.frame.pitch = pitch;
+                }
+            }
+        };
+        offered(&mut joint.options, &there.options);
+        offered(&mut joint.unloading, &there.unloading);
+    }
+    let adds = |j: &Joint| {
+        let present = j.options.first();
+        let wider = |p: &JointOption| j.options.iter().all(|o| contains(o, p) == Some(true));
+        present.is_none_or(wider)
+    };
+    Written {
+        only_adds: ready.joints.iter().all(adds),
+        mechanism: Arc::new(out),
+        digits: digits(verdicts),
+    }
 }
 
 /// Tells what was moved, and what was not.
@@ -32,16 +72,45 @@ pub(super) fn tell_moved(m: &Mechanism, settled: &Settled, tell: &mut dyn FnMut(
     }
 }
 
+/// What the digits of a mechanism tell of ranks, by the verdicts on it.
+pub(super) fn digits(verdicts: &[Verdict]) -> Digits {
+    let tolerance = |a: f64, v: &Verdict| a.max(v.tolerance);
+    Digits {
+        tolerance: verdicts.iter().fold(DEFAULT_TOLERANCE, tolerance),
+        undecided: verdicts.iter().any(|v| !v.is_decided()),
+    }
+}
+
+/// The mechanism nearest to the one that is written that has the rank meant, where a verdict found one; options that shared a
+/// joint's frame share it still.
+pub(super) fn nearest(m: &Mechanism, verdicts: &[Verdict]) -> Option<Mechanism> {
+    let near = |v: &Verdict| match &v.meant {
+        Meant::Near { mechanism, .. } => Some(mechanism.as_ref().clone()),
+        _ => None,
+    };
+    let mut out = verdicts.iter().find_map(near)?;
+    for (joint, before) in out.joints.iter_mut().zip(&m.joints) {
+        let offered = joint.options.iter_mut().chain(&mut joint.unloading);
+        for option in offered.filter(|o| o.frame.is_same(&before.frame)) {
+            let pitch = option.frame.pitch.clone();
+            option.frame = joint.frame.clone();
+            option.frame.pitch = pitch;
+        }
+    }
+    Some(out)
+}
+
 impl Prepared {
     /// Why the geometry looks rounded, where that may matter; whether the file is to be taken as written, and snapped, is
-    /// asked. Where the mechanism that is meant is not there for exact arithmetic the search is refused, unless the file is
-    /// to be taken as written.
+    /// asked.
     pub(super) fn rounded(
         &self,
         (as_written, snapped): (bool, bool),
         tell: &mut dyn FnMut(String),
-    ) -> Result<Option<LooksRounded>, String> {
-        let Prepared { mechanism, settled } = self;
+    ) -> Option<LooksRounded> {
+        let Prepared {
+            mechanism, settled, ..
+        } = self;
         let name = &mechanism.name;
         let why = settled.verdicts.iter().find_map(|v| v.rounded.clone());
         let told = |why: Option<Rounded>| why.map(|w| (w, settled.verdicts.clone()));
@@ -60,7 +129,7 @@ impl Prepared {
                     )
                 });
             }
-            return Ok(told(why.filter(|w| measured(w) || !meant)));
+            return told(why.filter(|w| measured(w) || !meant));
         };
         let looks = why.as_ref().map_or_else(
             || {
@@ -88,10 +157,14 @@ impl Prepared {
              value kept {:.1e}, largest dropped {:.1e}). Exact ranks take rounding errors for real misalignments",
             v.state, of.0, of.1, v.tolerance, near.0, near.1, n.kept, n.dropped
         );
-        if !as_written {
-            return Err(differ);
+        if as_written {
+            tell(format!("warning: {differ}; {CURE}"));
+        } else {
+            tell(format!(
+                "warning: {differ}. What is meant is not there for exact arithmetic, so variants are judged by singular values, \
+                 and no figure is exact; {CURE}"
+            ));
         }
-        tell(format!("warning: {differ}; {CURE}"));
-        Ok(told(why))
+        told(why)
     }
 }

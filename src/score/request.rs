@@ -5,7 +5,7 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::model::ranking::{Ranking, Term};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::settled::settle;
-use crate::score::prepared::{LooksRounded, Prepared, tell_moved};
+use crate::score::prepared::{LooksRounded, Prepared, as_in_file, digits, nearest, tell_moved};
 pub use crate::score::request_error::RequestError;
 use crate::search::conditions::{Conditions, InState, Symmetry};
 
@@ -201,10 +201,16 @@ impl Request {
         let state = self.state(&mechanism)?.map(|s| s.state);
         let states: Vec<StateId> = std::iter::once(StateId::FREE).chain(state).collect();
         let mut settled = settle(&mechanism, &states, self.tolerance()?)?;
+        let looked_at = !settled.verdicts.is_empty();
+        let file = looked_at.then(|| mechanism.clone());
         let mut out = mechanism;
+        let numeric = settled.open.filter(|_| !self.as_written);
+        let numeric = numeric.map(|_| digits(&settled.verdicts));
         if !self.as_written || self.snap.is_some() {
             tell_moved(&out, &settled, tell);
-            out = settled.snapped.take().unwrap_or(out);
+            let meant = settled.snapped.take();
+            let near = || numeric.and_then(|_| nearest(&out, &settled.verdicts));
+            out = meant.or_else(near).unwrap_or(out);
         } else if let Some(i) = settled.verdicts.iter().position(|v| !v.is_as_written()) {
             settled
                 .open
@@ -214,9 +220,13 @@ impl Request {
         self.offer_unlisted(&mut out, tell)?;
         self.restrict(&mut out)?;
         self.insert(&mut out)?;
+        let file = file.filter(|_| numeric.is_none());
+        let written = file.map(|f| as_in_file(&out, &f, &settled.verdicts));
         Ok(Prepared {
+            written,
             mechanism: out,
             settled,
+            numeric,
         })
     }
 
@@ -278,7 +288,7 @@ impl Request {
     /// matter; `tell` is warned of that.
     ///
     /// # Errors
-    /// Where the mechanism that is meant is not the one that could be searched, unless the file is to be taken as written.
+    /// Where the request names what the mechanism has not.
     pub fn conditions(
         &self,
         prepared: &Prepared,
@@ -286,9 +296,7 @@ impl Request {
     ) -> Result<(Conditions, Option<LooksRounded>), RequestError> {
         let state = self.state(&prepared.mechanism)?;
         let asked = (self.as_written, self.snap.is_some());
-        let rounded = prepared
-            .rounded(asked, tell)
-            .map_err(RequestError::Rounded)?;
+        let rounded = prepared.rounded(asked, tell);
         let verdicts = rounded.iter().flat_map(|(_, v)| v);
         // Second opinions are read at the errors of what is searched.
         let tolerance = match &prepared.settled {
@@ -311,6 +319,8 @@ impl Request {
             nodes: self.nodes.clamp(1, u32::MAX as usize / 2),
             memory: self.memory,
             tolerance,
+            numeric: prepared.numeric,
+            written: prepared.written.clone(),
         };
         Ok((conditions, rounded))
     }

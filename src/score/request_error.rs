@@ -126,9 +126,11 @@ pub enum RequestError {
     /// A file of costs that cannot be used.
     #[error("{0}")]
     Costs(#[from] ImportError),
-    /// Coordinates that are rounded, where that changes the figures.
-    #[error("{0}; {CURE}, or search the file --as-written")]
-    Rounded(String),
+    /// Orbits of variants that are judged by singular values.
+    #[error(
+        "--one-per-orbit needs exact geometry, and what is meant by these coordinates is not there exactly; {CURE}"
+    )]
+    NumericOrbits,
     /// The geometry has no image in a prime field.
     #[error(transparent)]
     Exact(#[from] ExactError),

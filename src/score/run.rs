@@ -9,11 +9,15 @@ use crate::score::outcome::Outcome;
 use crate::score::prepared::LooksRounded;
 use crate::score::ranking::{Ranked, RankedPool, Ranker};
 use crate::score::request::{Check, List, Method, Request, RequestError};
+use crate::search::best::Assignment;
 use crate::search::building::Diagrams;
+use crate::search::certify::CHECKED;
 use crate::search::conditions::{Conditions, Search, SearchError, Symmetry};
 use crate::search::counts::Counts;
 use crate::search::diagram::{Progress, Stop};
+use crate::search::doubt::Digits;
 use crate::search::primes::{self, Disagreement, PrimeCheck};
+use crate::search::second_opinion::{DRAWN, SecondOpinion};
 use num_bigint::BigUint;
 use std::sync::Arc;
 use thiserror::Error;
@@ -22,6 +26,8 @@ use thiserror::Error;
 const POSES: usize = 3;
 /// Brute force looks at no more variants than this.
 const BRUTE_LIMIT: u64 = 1 << 32;
+/// Of so many ideas the first variants get a second opinion.
+const IDEAS: usize = 100;
 /// How many of the best both primes must agree on where no number of them is asked for.
 const COMPARED: usize = 10;
 
@@ -115,6 +121,10 @@ pub fn answer(
         conditions.estimate = conditions.estimate.filter(|_| nth == 0);
         Ok(Search::new(field, mechanism.clone(), conditions)?)
     };
+    if let Some(digits) = conditions.numeric {
+        let search = over(0)?;
+        return numeric(search, (digits, measured), request, should_cancel, tell);
+    }
     if request.method == Method::Brute {
         let search = over(0)?;
         if search.size() > BRUTE_LIMIT.into() {
@@ -179,6 +189,7 @@ pub fn answer(
                 .to_owned(),
         ));
     }
+    let counted = counts.0.clone();
     if request.symmetry == Symmetry::OnePerOrbit {
         (counts, stops) = orbits((&search, twin.as_ref()), counts, stops, should_cancel)?;
     }
@@ -209,7 +220,22 @@ pub fn answer(
                 .to_owned(),
         ));
     }
+    let second = second_opinion((&search, &diagrams), &counted, ranking.as_ref(), request)?;
+    let contradicted = second.as_ref().is_some_and(|s| !s.agrees());
+    // A count as written is what was asked for; one as meant is not what is meant.
+    if contradicted && !request.as_written && request.symmetry != Symmetry::OnePerOrbit {
+        tell(Event::Note(
+            "warning: singular values contradict the exact counts, so variants are judged by singular values instead, and no \
+             figure is exact"
+                .to_owned(),
+        ));
+        if let Some((search, digits)) = by_values(&search.conditions)? {
+            let found = numeric(search, (digits, measured), request, should_cancel, tell)?;
+            return Ok(Outcome { second, ..found });
+        }
+    }
     Ok(Outcome {
+        second,
         diagrams: Some(diagrams),
         stop: stops[0].or(stops[1]),
         determinate_stop: stops[0],
@@ -218,6 +244,92 @@ pub fn answer(
         ranking,
         ..Outcome::of_counts(search, request.clone(), counts, measured)
     })
+}
+
+/// What singular values say of the counts, of the variants that are listed and of a sample, where coordinates look rounded.
+fn second_opinion(
+    (search, diagrams): (&Search, &Diagrams),
+    determinate: &Counts,
+    ranking: Option<&RankedPool>,
+    request: &Request,
+) -> Result<Option<SecondOpinion>, RunError> {
+    let Some(written) = &search.conditions.written else {
+        return Ok(None);
+    };
+    let mut listed: Vec<Assignment> = match (ranking, request.list) {
+        (Some(r), _) => r
+            .list
+            .iter()
+            .map(|r| r.variant.clone())
+            .take(CHECKED)
+            .collect(),
+        (_, List::Top(k)) => search.cheapest(diagrams, k.min(CHECKED)).collect(),
+        (_, List::All) => search.cheapest(diagrams, CHECKED).collect(),
+        (_, List::Sample(n)) => {
+            let drawn = search.sample(diagrams, request.seed);
+            drawn.take(n.min(CHECKED)).collect()
+        }
+        (_, List::Nothing) => Vec::new(),
+    };
+    // People are given the first of each idea.
+    if let (None, List::Top(k @ 1..=IDEAS)) = (ranking, request.list) {
+        listed.extend(search.ideas(diagrams, k).into_iter().map(|i| i.first));
+    }
+    let drawn = search.sample(diagrams, request.seed).take(DRAWN).collect();
+    let said = search.second_opinion(written, (listed, drawn), determinate, request.seed)?;
+    Ok(Some(said))
+}
+
+/// The search of the mechanism as its file writes it, for singular values.
+fn by_values(conditions: &Conditions) -> Result<Option<(Search, Digits)>, RunError> {
+    let mut conditions = conditions.clone();
+    let Some(written) = conditions.written.take() else {
+        return Ok(None);
+    };
+    let digits = written.digits;
+    conditions.numeric = Some(digits);
+    conditions.tolerance = conditions.tolerance.max(digits.tolerance);
+    let field = exact_field(&written.mechanism, 0)?;
+    let search = Search::new(field, written.mechanism, conditions)?;
+    Ok(Some((search, digits)))
+}
+
+/// The search by singular values, of a mechanism that is not there for exact arithmetic as it is meant.
+fn numeric(
+    mut search: Search,
+    (digits, measured): (Digits, Option<LooksRounded>),
+    request: &Request,
+    should_cancel: ShouldCancel<'_>,
+    tell: Tell<'_>,
+) -> Result<Outcome, RunError> {
+    if request.symmetry == Symmetry::OnePerOrbit {
+        return Err(RequestError::NumericOrbits.into());
+    }
+    let left_out = [
+        (request.ranking(&search.mechanism)?.is_some(), "ranked"),
+        (
+            request.poses > 0 || request.generic_only,
+            "looked at in other poses",
+        ),
+    ];
+    for (_, what) in left_out.iter().filter(|(asked, _)| *asked) {
+        tell(Event::Note(format!(
+            "note: variants judged by singular values are not {what}"
+        )));
+    }
+    let list = match request.list {
+        List::Top(_) => request.cheapest(&search.mechanism)?,
+        List::All => usize::MAX,
+        List::Sample(_) | List::Nothing => 0,
+    };
+    let found = search.at_tolerance(digits, (list, request.seed), should_cancel)?;
+    tell(Event::Built);
+    Ok(Outcome::of_numeric(
+        search,
+        request.clone(),
+        found,
+        measured,
+    ))
 }
 
 /// Counts of orbits over one prime or two, which must agree, and why the search ended with that for the symmetric variants.

@@ -172,7 +172,8 @@ impl<'o> Variant<'o> {
     /// Some eliminations of J for each call.
     pub fn redundant_by_contour(&self) -> Result<Vec<(String, ContourShare)>, ExactError> {
         let (search, key) = (&self.outcome.search, self.assignment().key);
-        if key.internal() == 0 && key.external() == 0 {
+        // Exact arithmetic does not know of a mechanism that is judged by singular values.
+        if key.internal() == 0 && key.external() == 0 || self.outcome.numeric.is_some() {
             return Ok(Vec::new());
         }
         let state = search.conditions.state.map_or(StateId::FREE, |s| s.state);

@@ -92,43 +92,61 @@ impl Outcome {
         let mut ideas = Vec::new();
         let unranked = |v: Assignment| (v, None);
         let source: Box<dyn Iterator<Item = (Assignment, Option<usize>)>> =
-            match (&self.diagrams, &self.ranking, list) {
-                (Some(d), ranking, List::Top(k)) if distinct => {
-                    let found = match ranking {
-                        Some(r) => {
-                            let list = r.list.iter().map(|r| &r.variant);
-                            let first = self.search.first_of_each(list, d).into_iter();
-                            first
-                                .map(|(at, idea)| (Some(at), idea))
-                                .take(k)
-                                .collect_vec()
-                        }
-                        None => {
-                            let all = self.search.ideas(d, k).into_iter();
-                            all.map(|idea| (None, idea)).collect_vec()
-                        }
-                    };
-                    let (places, found): (Vec<_>, Vec<_>) = found.into_iter().unzip();
-                    ideas = found;
-                    let firsts = ideas.iter().map(|i| i.first.clone()).collect_vec();
-                    Box::new(firsts.into_iter().zip(places))
+            if let Some(numeric) = &self.numeric {
+                if let (List::Top(k), true) = (list, distinct) {
+                    let sure = numeric.list(&self.search);
+                    ideas = self.search.ideas_among(sure, k);
                 }
-                (None, ..) | (.., List::Nothing) => Box::new(std::iter::empty()),
-                (Some(d), _, List::Sample(n)) => {
-                    let drawn = self.search.sample(d, seed);
-                    Box::new(drawn.take(n).map(unranked))
+                let firsts = ideas.iter().map(|i| i.first.clone()).collect_vec();
+                match list {
+                    List::Nothing => Box::new(std::iter::empty()),
+                    List::Top(_) if distinct => Box::new(firsts.into_iter().map(unranked)),
+                    List::Top(_) | List::All => Box::new(numeric.list(&self.search).map(unranked)),
+                    List::Sample(n) => {
+                        let drawn = numeric.drawn(&self.search, seed);
+                        Box::new(drawn.take(n).map(unranked))
+                    }
                 }
-                (_, Some(ranked), List::Top(_)) => {
-                    let list = ranked.list.iter().enumerate();
-                    Box::new(list.map(|(place, r)| (r.variant.clone(), Some(place))))
-                }
-                (Some(d), ..) => {
-                    let enough = request.listed(wanted);
-                    Box::new(self.search.cheapest(d, enough).map(unranked))
+            } else {
+                match (&self.diagrams, &self.ranking, list) {
+                    (Some(d), ranking, List::Top(k)) if distinct => {
+                        let found = match ranking {
+                            Some(r) => {
+                                let list = r.list.iter().map(|r| &r.variant);
+                                let first = self.search.first_of_each(list, d).into_iter();
+                                first
+                                    .map(|(at, idea)| (Some(at), idea))
+                                    .take(k)
+                                    .collect_vec()
+                            }
+                            None => {
+                                let all = self.search.ideas(d, k).into_iter();
+                                all.map(|idea| (None, idea)).collect_vec()
+                            }
+                        };
+                        let (places, found): (Vec<_>, Vec<_>) = found.into_iter().unzip();
+                        ideas = found;
+                        let firsts = ideas.iter().map(|i| i.first.clone()).collect_vec();
+                        Box::new(firsts.into_iter().zip(places))
+                    }
+                    (None, ..) | (.., List::Nothing) => Box::new(std::iter::empty()),
+                    (Some(d), _, List::Sample(n)) => {
+                        let drawn = self.search.sample(d, seed);
+                        Box::new(drawn.take(n).map(unranked))
+                    }
+                    (_, Some(ranked), List::Top(_)) => {
+                        let list = ranked.list.iter().enumerate();
+                        Box::new(list.map(|(place, r)| (r.variant.clone(), Some(place))))
+                    }
+                    (Some(d), ..) => {
+                        let enough = request.listed(wanted);
+                        Box::new(self.search.cheapest(d, enough).map(unranked))
+                    }
                 }
             };
         // What is proven is a list of all variants; of ideas a diagram cut down may lack the first ones.
         let by_cost = match list {
+            _ if self.numeric.is_some() => false,
             List::Top(_) | List::Nothing => self.ranking.is_none() && !distinct,
             List::All => true,
             List::Sample(_) => false,
@@ -227,7 +245,7 @@ impl Variants<'_> {
         };
         // Brute force gives none, and orbits of a list cut short are not counted one by one.
         let counted =
-            o.diagrams.is_some() && (o.is_exact() || o.request.symmetry != Symmetry::OnePerOrbit);
+            o.diagrams.is_some() && (o.is_counted() || o.request.symmetry != Symmetry::OnePerOrbit);
         let some = o.request.generic_only || self.distinct;
         counted && !some && due > given.into()
     }

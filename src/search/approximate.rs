@@ -4,14 +4,26 @@ use crate::closure::matrix::Closure;
 use crate::closure::twist::MotionSpace;
 use crate::geom::exact::ExactError;
 use crate::geom::scalars::Reals;
-use crate::model::mechanism::{JointId, StateId};
+use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::numeric::Elimination;
 use crate::rank::scaled::Scaling;
 use crate::search::brute::Seen;
 use crate::search::conditions::Search;
+use crate::search::doubt::{Digits, RankRange};
 use crate::search::space::{Choice, columns};
 use crate::search::written_out::{Layout, Spans, WrittenOut};
-use ozols_dense::Matrix;
+use ozols_dense::{Matrix, singular_values};
+
+/// Rows of a variant's matrix that have a rank of their own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rows {
+    /// The closure equations of the free state.
+    Free,
+    /// These, and the motion of the kept links.
+    WithKept,
+    /// The closure equations of the searched state; no rows where none is searched.
+    State,
+}
 
 /// The closure matrices of all variants at once, in double precision, as an elimination wants them: as they stand, or for
 /// singular values scaled, so that units do not matter.
@@ -32,7 +44,20 @@ impl Approximate {
         elimination: Elimination,
         tolerance: f64,
     ) -> Result<Approximate, ExactError> {
-        let mechanism = &*search.mechanism;
+        Approximate::of(search, &search.mechanism, elimination, tolerance)
+    }
+
+    /// The same of a mechanism with the links, joints and options of the searched one in other places, such as those that a
+    /// file writes.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value.
+    pub fn of(
+        search: &Search,
+        mechanism: &Mechanism,
+        elimination: Elimination,
+        tolerance: f64,
+    ) -> Result<Approximate, ExactError> {
         let motion = MotionSpace::new(&Reals, &mechanism.mode)?;
         let state = search.space.state.unwrap_or(StateId::FREE);
         let present = Closure::new(&Reals, mechanism, state)?;
@@ -70,22 +95,49 @@ impl Approximate {
     /// Two or three decompositions.
     #[must_use]
     pub fn look(&self, choices: &[usize]) -> Option<Seen> {
-        let [free, kept, state] = self.all.rows;
-        let chosen: Vec<&Vec<f64>> = self.all.chosen(choices).collect();
-        let rank = |from: usize, to: usize| {
-            let matrix = Matrix::from_fn(to - from, chosen.len(), |r, c| chosen[c][from + r]);
+        let [_, kept, state] = self.all.rows;
+        let rank = |rows: Rows| {
+            let matrix = self.matrix(choices, rows);
             let rank = self.elimination.rank_of(&matrix, self.tolerance);
             rank.ok().map(|r| r.rank)
         };
-        let inside = rank(0, free)?;
+        let inside = rank(Rows::Free)?;
         let with_kept = match kept {
             0 => inside,
-            _ => rank(0, free + kept)?,
+            _ => rank(Rows::WithKept)?,
         };
         let of_state = match state {
             0 => None,
-            _ => Some(rank(free + kept, free + kept + state)?),
+            _ => Some(rank(Rows::State)?),
         };
         Some(Seen::of_ranks(self.all.rows, [inside, with_kept], of_state))
+    }
+
+    /// How many closure equations the free state has, and how many the searched one.
+    #[must_use]
+    pub fn equations(&self) -> [usize; 2] {
+        let [free, _, state] = self.all.rows;
+        [free, state]
+    }
+
+    /// The rank of some rows of a variant, so far as the digits decide it; `None` where the singular values do not converge.
+    ///
+    /// # Complexity
+    /// One decomposition.
+    #[must_use]
+    pub fn range(&self, choices: &[usize], rows: Rows, digits: Digits) -> Option<RankRange> {
+        let values = singular_values(&self.matrix(choices, rows))?;
+        Some(RankRange::of(&values, digits))
+    }
+
+    fn matrix(&self, choices: &[usize], rows: Rows) -> Matrix {
+        let [free, kept, state] = self.all.rows;
+        let (from, to) = match rows {
+            Rows::Free => (0, free),
+            Rows::WithKept => (0, free + kept),
+            Rows::State => (free + kept, free + kept + state),
+        };
+        let chosen: Vec<&Vec<f64>> = self.all.chosen(choices).collect();
+        Matrix::from_fn(to - from, chosen.len(), |r, c| chosen[c][from + r])
     }
 }

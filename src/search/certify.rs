@@ -230,7 +230,7 @@ impl Search {
         let agree = mobility == self.mobility(key)
             && redundant == i64::from(key.internal())
             && external.is_none_or(|e| e == i64::from(key.external()))
-            && output.is_none_or(|o| o == self.kept.1.len());
+            && output.is_none_or(|o| o == self.present_motion());
         Some(Opinion {
             mobility,
             redundant,

@@ -8,9 +8,11 @@ use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::redundancy::motion::joint_motion;
 use crate::search::blocks::{Block, blocks};
 use crate::search::cost::CostTable;
+use crate::search::doubt::Digits;
 use crate::search::held::{Grasp, grasps, is_free, loose};
 use crate::search::least_model::LeastModel;
 use crate::search::mirror::{self, MirrorError};
+use crate::search::second_opinion::Written;
 use crate::search::space::{Space, Variable};
 use crate::search::tally::{Key, Steps};
 use itertools::Itertools;
@@ -85,6 +87,10 @@ pub struct Conditions {
     pub memory: usize,
     /// Second opinions take singular values below this fraction of the largest for zero.
     pub tolerance: f64,
+    /// Where the mechanism that is meant is not there for exact arithmetic: what its digits tell of ranks.
+    pub numeric: Option<Digits>,
+    /// The mechanism as its file writes it, where coordinates look rounded and exact arithmetic searches all the same.
+    pub written: Option<Written>,
 }
 
 impl Default for Conditions {
@@ -103,6 +109,8 @@ impl Default for Conditions {
             nodes: 1_000_000,
             memory: 4 << 30,
             tolerance: DEFAULT_TOLERANCE,
+            numeric: None,
+            written: None,
         }
     }
 }
@@ -149,6 +157,8 @@ pub struct Search {
     rows: i64,
     /// Links whose motion is kept, with their present joint motion.
     pub(super) kept: (Vec<LinkId>, Vec<Vec<Residue>>),
+    /// Dimension of that motion by singular values, where exact arithmetic has another mechanism than the one meant.
+    pub(super) present: Option<usize>,
     /// What must be held in the searched state.
     pub(super) grasps: Vec<Grasp>,
     /// Links whose motion the diagram of admissible variants keeps to its end.
@@ -238,6 +248,7 @@ impl Search {
             exact,
             rows,
             kept: (kept, present),
+            present: None,
         })
     }
 
@@ -265,6 +276,12 @@ impl Search {
         };
         let loose = loose(&self.exact, m, s.state, &self.grasps)?;
         Ok(loose.into_iter().map(said).collect())
+    }
+
+    /// Dimension of the kept links' present motion.
+    #[must_use]
+    pub fn present_motion(&self) -> usize {
+        self.present.unwrap_or(self.kept.1.len())
     }
 
     /// The prime field of the search.

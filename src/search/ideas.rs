@@ -312,6 +312,32 @@ impl Search {
             .collect()
     }
 
+    /// The first ideas in a list of all variants in order, and how many of the list each stands for; `top` of them at most.
+    ///
+    /// # Complexity
+    /// O(list · variables · log).
+    pub fn ideas_among(&self, list: impl Iterator<Item = Assignment>, top: usize) -> Vec<Idea> {
+        let patterns = self.patterns();
+        let mut at: BTreeMap<Pattern, Option<usize>> = BTreeMap::new();
+        let mut out: Vec<Idea> = Vec::new();
+        for v in list {
+            let place = at.entry(patterns.idea(&v)).or_insert_with(|| {
+                (out.len() < top).then(|| {
+                    out.push(Idea {
+                        added: patterns.added(&patterns.of_variant(&v)),
+                        variants: BigUint::from(0u8),
+                        first: v.clone(),
+                    });
+                    out.len() - 1
+                })
+            });
+            if let Some(idea) = place.and_then(|i| out.get_mut(i)) {
+                idea.variants += 1u8;
+            }
+        }
+        out
+    }
+
     /// The idea that a variant is the first of.
     fn idea(&self, diagrams: &Diagrams, patterns: &Patterns, first: Assignment) -> Idea {
         let pattern = patterns.of_variant(&first);

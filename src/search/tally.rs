@@ -152,6 +152,17 @@ impl Steps {
         }
     }
 
+    /// Steps of one thousandth, of keys alone.
+    #[cfg(test)]
+    pub(super) fn of_keys(keys: Vec<Vec<Key>>) -> Steps {
+        Steps {
+            unit_milli: 1,
+            base_milli: 0,
+            keys,
+            harmful: 0,
+        }
+    }
+
     /// The key of a variant's redundancy, with what it costs.
     #[must_use]
     pub fn redundancy(&self, r: Redundancy) -> Key {

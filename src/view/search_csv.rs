@@ -10,6 +10,7 @@ use crate::search::conditions::Search;
 use crate::search::diagram::Stop;
 use crate::search::over_stroke::OverStroke;
 use crate::search::space::choice_name;
+use crate::view::{numeric, second_opinion};
 use itertools::Itertools;
 use std::io::{self, Write};
 
@@ -44,13 +45,31 @@ const SCORES: [&str; 8] = [
 /// Those of the writer.
 pub fn write(out: &mut dyn Write, outcome: &Outcome, mut variants: Variants<'_>) -> io::Result<()> {
     rows(out, outcome, &mut variants)?;
+    if let Some(found) = &outcome.numeric {
+        let all = numeric::from_to(&found.admissible);
+        let lines = numeric::lines(outcome).join("; ");
+        writeln!(out, "# numeric: {all} admissible variants. {lines}")?;
+        return Ok(());
+    }
+    if !outcome.is_confirmed() {
+        let lines = second_opinion::lines(outcome).join("; ");
+        writeln!(
+            out,
+            "# not exact: {} admissible variants. {lines}",
+            outcome.admissible
+        )?;
+    }
     if variants.stop() != Stop::Exhausted {
         let proven = match variants.summary().proven {
             Some(n) if n > 0 => format!(", the first {n} proven the cheapest"),
             _ => String::new(),
         };
         let (given, of) = (variants.summary().given, &outcome.admissible);
-        let least = if outcome.is_exact() { "" } else { "at least " };
+        let least = if outcome.is_counted() {
+            ""
+        } else {
+            "at least "
+        };
         let why = variants.stop().word();
         writeln!(
             out,

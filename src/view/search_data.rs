@@ -10,7 +10,9 @@ use crate::search::building::Diagrams;
 use crate::search::diagram::{Diagram, Stop};
 use crate::search::relax::{Hopeless, Relaxation};
 use crate::view::early::EstimateData;
+use crate::view::numeric::NumericData;
 use crate::view::ranking::RankingData;
+use crate::view::second_opinion::{SecondOpinionData, certainty};
 use num_bigint::BigUint;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -86,6 +88,13 @@ pub struct SearchData<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     ranking: Option<RankingData<'a>>,
     exact: bool,
+    /// How sure counts are that are not exact, and not cut short.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certainty: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    numeric: Option<NumericData>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    second_opinion: Option<SecondOpinionData>,
     /// Counts that would take more than the memory allowed.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     left_out: Vec<&'static str>,
@@ -191,7 +200,8 @@ impl<'a> SearchData<'a> {
             stop: outcome.stop.word(),
             check: outcome.check.map(|c| Check {
                 primes: c.primes.map(|p| p.to_string()),
-                agree: c.agree(),
+                // Two primes that agree on rounded digits prove nothing.
+                agree: c.agree().filter(|_| outcome.is_confirmed()),
             }),
             measured: outcome.measured.as_ref().map(Measured::new),
             poses: outcome.stroke.as_ref().map(|s| Poses {
@@ -203,6 +213,9 @@ impl<'a> SearchData<'a> {
                 .as_ref()
                 .map(|p| RankingData::new(mechanism, p)),
             exact: outcome.is_exact(),
+            certainty: certainty(outcome),
+            numeric: outcome.numeric.as_ref().map(NumericData::new),
+            second_opinion: SecondOpinionData::new(outcome),
             left_out: left_out.into_iter().flatten().collect(),
         }
     }
@@ -334,6 +347,10 @@ pub struct EndData {
     proven: usize,
     admissible: String,
     admissible_exact: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certainty: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    numeric: Option<NumericData>,
 }
 
 impl EndData {
@@ -346,6 +363,8 @@ impl EndData {
             proven: variants.summary().proven.unwrap_or(0),
             admissible: outcome.admissible.to_string(),
             admissible_exact: outcome.is_exact(),
+            certainty: certainty(outcome),
+            numeric: outcome.numeric.as_ref().map(NumericData::new),
         }
     }
 }

@@ -54,7 +54,7 @@ pub fn write_lines(
         serde_json::to_writer(&mut *out, &VariantData::new(outcome, &v))?;
         writeln!(out)?;
     }
-    if variants.stop() != Stop::Exhausted {
+    if variants.stop() != Stop::Exhausted || outcome.numeric.is_some() || !outcome.is_confirmed() {
         serde_json::to_writer(&mut *out, &EndData::new(outcome, &variants))?;
         writeln!(out)?;
     }

@@ -13,8 +13,10 @@ use crate::view::conditions::{hopeless, in_state};
 use crate::view::early;
 use crate::view::layout::{fit, table};
 use crate::view::next::{self, Step, file_name};
+use crate::view::numeric;
 use crate::view::ranking;
 use crate::view::search_data::condition;
+use crate::view::second_opinion;
 use crate::view::variant_table::{contours, variants};
 use itertools::Itertools;
 use num_bigint::BigUint;
@@ -107,7 +109,7 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
     let mut out = String::new();
     let big = |n: &BigUint| grouped(&n.to_string());
     let at_least = |exact: bool| if exact { "" } else { "at least " };
-    let least = at_least(outcome.is_exact());
+    let least = at_least(outcome.is_counted());
     let conditions = &outcome.search.conditions;
     let condition = if conditions.max_redundant == 0 {
         "σ = 0".to_owned()
@@ -133,8 +135,12 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
             format!("{} and {last}", head.collect_vec().join(", "))
         }
     };
-    let good = if outcome.admissible.total.is_zero() && least.is_empty() {
+    let good = if let Some(found) = &outcome.numeric {
+        format!("numeric: {}", numeric::from_to(&found.admissible))
+    } else if outcome.admissible.total.is_zero() && least.is_empty() {
         "none".to_owned()
+    } else if !outcome.is_confirmed() {
+        format!("not exact: {least}{}", big(&outcome.admissible.total))
     } else {
         format!("{least}{}", big(&outcome.admissible.total))
     };
@@ -148,40 +154,63 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
         );
     }
     if !more.is_empty() {
+        let determinate = match &outcome.numeric {
+            Some(found) => numeric::from_to(&found.determinate),
+            None => {
+                at_least(outcome.is_determinate_counted()).to_owned()
+                    + &big(&outcome.determinate.total)
+            }
+        };
         let _ = writeln!(
             out,
-            "  {}{} with {condition}, whatever else they do",
-            at_least(outcome.is_determinate_exact()),
-            big(&outcome.determinate.total)
+            "  {determinate} with {condition}, whatever else they do"
         );
     }
-    if let Some(check) = outcome.check {
+    for line in numeric::lines(outcome) {
+        let _ = writeln!(out, "  {line}");
+    }
+    for line in second_opinion::lines(outcome) {
+        let _ = writeln!(out, "  {line}");
+    }
+    // Two primes that agree on rounded digits prove nothing.
+    if let Some(check) = outcome.check.filter(|_| outcome.is_confirmed()) {
         let _ = match check.verdict {
             Verdict::Agree => writeln!(out, "  Checked: modulo two primes the same"),
             Verdict::Interrupted => writeln!(out, "  Not checked by a second prime: interrupted"),
         };
     }
-    for line in early::stopped(outcome)
+    let cut_short = outcome.numeric.is_none().then(|| early::stopped(outcome));
+    for line in cut_short
+        .flatten()
         .into_iter()
         .chain(early::estimated(outcome))
     {
         let _ = writeln!(out, "  {line}");
     }
-    let mobilities: BTreeSet<i64> = outcome
-        .determinate
-        .by_mobility
-        .keys()
-        .chain(outcome.admissible.by_mobility.keys())
-        .copied()
-        .collect();
+    let exact = outcome.determinate.by_mobility.keys();
+    let exact = exact.chain(outcome.admissible.by_mobility.keys()).copied();
+    let mobilities: BTreeSet<i64> = match &outcome.numeric {
+        Some(found) => numeric::mobilities(found),
+        None => exact.collect(),
+    };
     // Mobilities that no admissible variant has are of no use to a designer: they are told in one row.
+    let may = |w: &i64| {
+        let found = outcome.numeric.as_ref();
+        found.is_some_and(|f| f.admissible.doubtful.by_mobility.contains_key(w))
+    };
     let (shown, rest): (Vec<i64>, Vec<i64>) = mobilities.iter().partition(|w| {
-        outcome.admissible.total.is_zero() || outcome.admissible.by_mobility.contains_key(w)
+        outcome.admissible.total.is_zero()
+            || outcome.admissible.by_mobility.contains_key(w)
+            || may(w)
     });
     let row = |name: String, of: &[i64]| {
         let sum =
             |m: &BTreeMap<i64, BigUint>| big(&of.iter().filter_map(|w| m.get(w)).sum::<BigUint>());
         let (determinate, admissible) = (&outcome.determinate, &outcome.admissible);
+        if let Some(found) = &outcome.numeric {
+            let of = |b| numeric::by_mobility(b, of);
+            return vec![name, of(&found.determinate), of(&found.admissible)];
+        }
         vec![
             name,
             sum(&determinate.by_mobility),

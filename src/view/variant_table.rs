@@ -12,7 +12,8 @@ use itertools::Itertools;
 pub(super) fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u16>) -> String {
     let ranking = outcome.ranking.as_ref();
     let checked = best.iter().any(|v| *v.second() != Second::Unasked);
-    let least = if outcome.is_exact() { "" } else { "at least " };
+    let counted = outcome.is_counted() || outcome.is_numeric_whole();
+    let least = if counted { "" } else { "at least " };
     let rows = best.iter().map(|v| {
         let sigma = match v.external_redundant() {
             Some(external) => format!("{} + {external}", v.redundant()),

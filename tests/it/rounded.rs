@@ -6,4 +6,6 @@
 mod cases;
 mod digits;
 mod program;
+mod search_numeric;
+mod second_opinion;
 mod table;

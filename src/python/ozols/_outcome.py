@@ -126,6 +126,12 @@ class Outcome(Sequence[Variant]):
         return bool(self.counts["exact"])
 
     @property
+    def certainty(self) -> str | None:
+        """Why counts that no budget cut short are not exact: "numeric" (ranks by singular values, counts from and to under
+        ``counts.numeric``), "contradicted" or "undecided"; None where they are."""
+        return self.counts.get("certainty")
+
+    @property
     def determinate_by_mobility(self) -> dict[int, int]:
         """The determinate ones by their mobility W."""
         return {int(w): int(n) for w, n in self.counts["by_mobility"].items()}

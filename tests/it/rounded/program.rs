@@ -271,11 +271,29 @@ fn what_is_not_decided_is_said_so_everywhere() {
         "{s:#}"
     );
     let (code, stdout, stderr) = on("search", &[]);
-    assert_eq!((code, stdout.as_str()), (Some(2), ""));
+    assert_eq!(code, Some(0), "{stderr}");
+    assert!(
+        stdout.contains("numeric: 0 to ")
+            && stdout.contains("not decided")
+            && !stdout.contains("Checked"),
+        "{stdout}"
+    );
     assert!(
         stderr.contains("may be meant to have") && stderr.contains("--snap"),
         "{stderr}"
     );
+    // Whichever is meant, the truth is in the bracket.
+    let (_, stdout, _) = on("search", &["--format", "json"]);
+    let v = value(&stdout);
+    let bound = |key: &str| -> u64 {
+        let text = v["numeric"]["determinate"][key].as_str().unwrap();
+        text.parse().unwrap()
+    };
+    assert_eq!(
+        (&v["exact"], &v["certainty"]),
+        (&false.into(), &"numeric".into())
+    );
+    assert!(bound("from") <= 34 && 34 <= bound("to"), "{v:#}");
     let (_, _, stderr) = on("check", &[]);
     assert!(stderr.contains("undecided"), "{stderr}");
     // What it says helps.

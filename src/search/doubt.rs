@@ -1,0 +1,120 @@
+//! Ranks of matrices whose numbers were rounded: what singular values decide, and what they do not.
+//!
+//! By Weyl's inequality no singular value is further from the true one than rounding moved the matrix. What is above that
+//! bound is there in truth; what is below it may be zero, and is taken for zero only where a wide gap says so.
+
+/// Relative to the largest, singular values below this are zero in double precision, whatever the digits.
+const ROUND_OFF: f64 = 1e-11;
+/// Values this many times the tolerance are there in truth: a variant's joints may feel rounding more than the present ones.
+const NEAR: f64 = 4.0;
+/// A gap that tells zeros which rounding disturbed from values that are there.
+const GAP: f64 = 1e3;
+/// Where it is not decided what the digits mean, values below this fraction of the largest may be left over from zero.
+const LEFT_OVER: f64 = 1e-4;
+
+/// What is known of the numbers that a matrix is made of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Digits {
+    /// What rounding can do to a singular value, relative to the largest.
+    pub tolerance: f64,
+    /// Whether it is not even decided which rank the mechanism has as it is: then no small value is taken for zero, nor for
+    /// one that is there.
+    pub undecided: bool,
+}
+
+/// A rank, or a range of ranks that the digits do not decide between.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RankRange {
+    /// The least it can be.
+    pub least: usize,
+    /// The most it can be.
+    pub most: usize,
+    /// The smallest singular value above the tolerance, over the largest; 1 where none is.
+    pub kept: f64,
+    /// The largest below it, over the largest; 0 where none is.
+    pub dropped: f64,
+}
+
+impl RankRange {
+    /// The rank of a matrix of no rows or columns, or of zeros.
+    const NONE: RankRange = RankRange {
+        least: 0,
+        most: 0,
+        kept: 1.0,
+        dropped: 0.0,
+    };
+
+    /// From singular values, falling.
+    ///
+    /// # Complexity
+    /// O(values).
+    #[must_use]
+    pub fn of(values: &[f64], digits: Digits) -> RankRange {
+        let Some(largest) = values.first().copied().filter(|s| *s > 0.0) else {
+            return RankRange::NONE;
+        };
+        let above = |bound: f64| values.iter().filter(|v| **v > bound * largest).count();
+        let relative = |i: usize| values.get(i).map(|v| v / largest);
+        let rank = above(digits.tolerance);
+        let kept = rank.checked_sub(1).and_then(relative).unwrap_or(1.0);
+        let dropped = relative(rank).unwrap_or(0.0);
+        let left_over = if digits.undecided { LEFT_OVER } else { 0.0 };
+        let trusted = left_over.max(NEAR * digits.tolerance);
+        let wide = !digits.undecided && kept >= GAP * dropped;
+        let clear = dropped <= ROUND_OFF || wide;
+        let least_real = if digits.undecided { 0.0 } else { dropped / GAP };
+        RankRange {
+            least: above(trusted),
+            most: if clear {
+                rank
+            } else {
+                above(ROUND_OFF.max(least_real))
+            },
+            kept,
+            dropped,
+        }
+    }
+
+    /// Whether the digits decide it.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        self.least == self.most
+    }
+
+    /// Whether it may be this rank.
+    #[must_use]
+    pub fn allows(&self, rank: usize) -> bool {
+        (self.least..=self.most).contains(&rank)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn range(values: &[f64], tolerance: f64, undecided: bool) -> (usize, usize) {
+        let digits = Digits {
+            tolerance,
+            undecided,
+        };
+        let r = RankRange::of(values, digits);
+        (r.least, r.most)
+    }
+
+    #[test]
+    fn a_wide_gap_decides_and_a_narrow_one_does_not() {
+        // Zeros disturbed by rounding to six decimals.
+        assert_eq!(range(&[2.0, 0.1, 1e-6, 3e-7], 1e-5, false), (2, 2));
+        // The same in three decimals: 0.02 and 0.002 may be anything.
+        assert_eq!(range(&[2.0, 0.1, 0.002, 0.0], 0.01, false), (2, 3));
+        // Above what rounding can do: there in truth, whatever the gap.
+        assert_eq!(range(&[1.0, 1e-4, 0.0], 1e-5, false), (2, 2));
+        // Just above it.
+        assert_eq!(range(&[1.0, 2e-5, 0.0], 1e-5, false), (1, 2));
+        // Left over from six decimals, or there, of twelve.
+        assert_eq!(range(&[1.0, 0.5, 1e-6], 1e-9, true), (2, 3));
+        assert_eq!(range(&[1.0, 0.5, 1e-6], 1e-5, true), (2, 3));
+        assert_eq!(range(&[0.0, 0.0], 1e-9, false), (0, 0));
+        assert_eq!(range(&[], 1e-9, false), (0, 0));
+    }
+}
