@@ -25,6 +25,7 @@ mod machine;
 mod man;
 mod memory;
 mod moving;
+mod named;
 mod near;
 mod new;
 mod output;
@@ -51,6 +52,8 @@ enum Done {
     Found,
     /// There was nothing to be found, or something was that should not be there.
     Nothing,
+    /// Some of it failed, which was said, and the rest was done.
+    Partly,
 }
 
 /// Runs the program.
@@ -115,6 +118,7 @@ fn finish(result: anyhow::Result<Done>) -> u8 {
     match result {
         Ok(Done::Found) => interrupted(0),
         Ok(Done::Nothing) => interrupted(1),
+        Ok(Done::Partly) => interrupted(2),
         Err(e) if output::is_broken_pipe(&e) => interrupted(0),
         Err(e) => {
             output::complain(&e);

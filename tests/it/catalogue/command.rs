@@ -14,7 +14,7 @@ pub(super) fn ok(args: &[&str]) -> String {
     text(&o.stdout)
 }
 
-fn fails(args: &[&str], says: &str) {
+pub(super) fn fails(args: &[&str], says: &str) {
     let o = run(args);
     let told = text(&o.stderr);
     assert_eq!(
