@@ -59,7 +59,9 @@ enum Done {
 /// Runs the program.
 #[must_use]
 pub fn run() -> ExitCode {
-    ExitCode::from(run_with(std::env::args_os()))
+    let words: Vec<OsString> = std::env::args_os().collect();
+    memory::share_pools(&words);
+    ExitCode::from(run_with(words))
 }
 
 /// Runs the program with these arguments, its name first. Exit codes: 0 done, 1 nothing found or a certificate rejected, 2
