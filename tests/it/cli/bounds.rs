@@ -192,7 +192,7 @@ fn no_reader_reads_without_a_bound() {
         "sweep four-bar -o huge",
         "catalog build --spec huge -o x.db",
         "catalog query huge",
-        "grip gripper-3 --motion huge",
+        "grip lever-gripper --motion huge",
         "search four-bar --costs huge",
         "import robot.urdf --loops huge",
     ] {
