@@ -3,6 +3,7 @@
 
 use crate::builtin;
 use crate::draw::{self, Subject};
+use crate::file::bounded;
 use crate::file::problem::ImportError;
 use crate::file::text::{MAX_BYTES, mechanism_from_bytes, mechanism_from_str};
 use crate::model::mechanism::{Mechanism, StateId};
@@ -12,7 +13,7 @@ use crate::robots::{self, Imported, Options, formats};
 use crate::score::outcome::Outcome;
 use crate::score::request::Request;
 use crate::score::run::{RunError, run};
-use std::io::{self, Read};
+use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -91,22 +92,10 @@ impl Mechanism {
 
 /// The bytes of a file, one more than `limit` at most: the reader of them says that there are too many.
 pub(crate) fn bytes(path: &Path, limit: usize) -> Result<Vec<u8>, Error> {
-    bytes_of(path, limit).map_err(|why| Error::Read {
+    bounded::bytes(path, limit).map_err(|why| Error::Read {
         path: path.to_owned(),
         why,
     })
-}
-
-fn bytes_of(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
-    // To open a pipe without a writer waits for ever.
-    if !std::fs::metadata(path)?.is_file() {
-        return Err(io::Error::other("it is not a file"));
-    }
-    let mut bytes = Vec::new();
-    std::fs::File::open(path)?
-        .take(limit as u64 + 1)
-        .read_to_end(&mut bytes)?;
-    Ok(bytes)
 }
 
 /// Imports a robot description, with a report of what was approximated; files it includes are read from its folder and
@@ -162,7 +151,7 @@ fn included(folder: &Path, models: &[PathBuf], name: &str) -> io::Result<Vec<u8>
             } else {
                 path
             };
-            bytes_of(&path, MAX_DESCRIPTION_BYTES)
+            bounded::bytes(&path, MAX_DESCRIPTION_BYTES)
         });
         match found {
             Ok(bytes) => return Ok(bytes),

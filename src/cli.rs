@@ -25,6 +25,7 @@ mod machine;
 mod man;
 mod memory;
 mod moving;
+mod named;
 mod near;
 mod new;
 mod output;
@@ -51,12 +52,16 @@ enum Done {
     Found,
     /// There was nothing to be found, or something was that should not be there.
     Nothing,
+    /// Some of it failed, which was said, and the rest was done.
+    Partly,
 }
 
 /// Runs the program.
 #[must_use]
 pub fn run() -> ExitCode {
-    ExitCode::from(run_with(std::env::args_os()))
+    let words: Vec<OsString> = std::env::args_os().collect();
+    memory::share_pools(&words);
+    ExitCode::from(run_with(words))
 }
 
 /// Runs the program with these arguments, its name first. Exit codes: 0 done, 1 nothing found or a certificate rejected, 2
@@ -115,6 +120,7 @@ fn finish(result: anyhow::Result<Done>) -> u8 {
     match result {
         Ok(Done::Found) => interrupted(0),
         Ok(Done::Nothing) => interrupted(1),
+        Ok(Done::Partly) => interrupted(2),
         Err(e) if output::is_broken_pipe(&e) => interrupted(0),
         Err(e) => {
             output::complain(&e);

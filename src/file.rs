@@ -1,11 +1,13 @@
 //! Mechanism files: one schema for TOML and JSON, read into a validated mechanism with every problem pointed at, written
 //! back, looked over, and made into templates.
 
+pub(crate) mod bounded;
 mod controls;
 pub mod costs;
 mod digits;
 pub mod findings;
 mod guessed;
+pub(crate) mod leftover;
 pub mod lint;
 pub mod locate;
 pub mod problem;

@@ -3,3 +3,4 @@
 pub(crate) mod csv;
 pub(crate) mod number;
 pub(crate) mod phrase;
+pub(crate) mod plain;

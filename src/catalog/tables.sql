@@ -2,6 +2,10 @@ CREATE TABLE meta (
   key TEXT PRIMARY KEY,            -- spec: what the catalogue holds, as TOML; ozols: the version that made it
   value TEXT NOT NULL
 ) WITHOUT ROWID;
+CREATE TABLE parts (               -- parts of the structures that are all there
+  part TEXT PRIMARY KEY,           -- 3/7, the third of seven; 1/1 is the whole
+  structures INTEGER NOT NULL      -- how many it has
+) WITHOUT ROWID;
 CREATE TABLE structures (
   id TEXT PRIMARY KEY,             -- short name: number of links, and the beginning of the SHA-256 of the whole name
   name TEXT NOT NULL UNIQUE,       -- whole name: chain, frame-driver, jaws, input, symmetry

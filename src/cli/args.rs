@@ -1,5 +1,6 @@
 //! The arguments, as data.
 
+use super::named::Named;
 use super::{
     accuracy, analyze, bench, catalog, check, completions, draw, drive, examples, explain, export,
     fix, grip, import, lint, list, man, new, report, search, statics, sweep, verify, watch,
@@ -116,7 +117,7 @@ pub(super) enum Command {
 pub(super) struct File {
     /// A path, `-`, or the name of a built-in mechanism.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(super) file: String,
+    pub(super) file: Named,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

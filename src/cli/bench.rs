@@ -1,6 +1,7 @@
 //! `ozols bench`.
 
 use super::args::Args;
+use super::named::Named;
 use super::progress::Bar;
 use super::request::Which;
 use super::{Done, load, machine, output};
@@ -26,7 +27,7 @@ enum BenchFormat {
 pub(super) struct Bench {
     /// Paths or names of built-in mechanisms; six built-in ones by default.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
-    files: Vec<String>,
+    files: Vec<Named>,
     /// How many of the best are compared.
     #[arg(long, value_name = "K", default_value_t = 10)]
     top: usize,
@@ -68,16 +69,13 @@ pub(super) fn run(args: &Args, a: &Bench) -> anyhow::Result<Done> {
         std::fs::create_dir_all(folder)
             .with_context(|| format!("cannot make the folder {}", folder.display()))?;
     }
-    let built_in = MECHANISMS.map(str::to_owned);
+    let built_in = MECHANISMS.map(Named::from);
     let files = if a.files.is_empty() {
         &built_in
     } else {
         &a.files[..]
     };
-    let mechanisms = files
-        .iter()
-        .map(|file| load::mechanism(file))
-        .collect::<anyhow::Result<Vec<_>>>()?;
+    let (mechanisms, mut well) = load::each(files);
     let effort = Effort {
         looked,
         pool: request.pool.max(if a.quick { 2_000 } else { 100_000 }),
@@ -86,14 +84,23 @@ pub(super) fn run(args: &Args, a: &Bench) -> anyhow::Result<Done> {
     let watch = Stopwatch { clock, repeat };
     let mut bar = Bar::new(args.quiet);
     let mut trials = Vec::new();
-    for m in &mechanisms {
+    for (_, m) in &mechanisms {
         let progress = &mut |way: Way, done, of| {
             bar.step(&format!("{}: {way}", m.name), done, of);
         };
         let found = trial(m, &request, effort, watch, progress);
-        trials.push(found.with_context(|| format!("cannot search {}", m.name))?);
+        match found.with_context(|| format!("cannot search {}", m.name)) {
+            Ok(found) => trials.push(found),
+            Err(e) => {
+                well = false;
+                output::complain(&e);
+            }
+        }
     }
     bar.clear();
+    if trials.is_empty() {
+        return Ok(Done::Partly);
+    }
     let machine = machine::machine();
     if let Some(folder) = &a.output {
         output::files(folder, pictures::files(&trials, &machine))?;
@@ -110,6 +117,6 @@ pub(super) fn run(args: &Args, a: &Bench) -> anyhow::Result<Done> {
             let index = folder.join("index.html");
             writeln!(out, "Written to {}: open it in a browser.", index.display())?;
         }
-        Ok(Done::Found)
+        Ok(if well { Done::Found } else { Done::Partly })
     })
 }

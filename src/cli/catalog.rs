@@ -6,6 +6,7 @@ mod chains;
 mod drawn;
 mod format;
 mod look;
+mod merge;
 
 use super::Done;
 use super::args::Args;
@@ -28,7 +29,7 @@ enum What {
     /// Search mechanisms that were drawn, and keep them beside the structures.
     Search(drawn::Search),
     /// Put the parts of a catalogue together.
-    Merge(build::Merge),
+    Merge(merge::Merge),
     /// Ask a catalogue in SQL, or for its best structures.
     Query(look::Query),
     /// What a catalogue knows of a structure.
@@ -45,7 +46,7 @@ pub(super) fn run(args: &Args, a: &Catalog) -> anyhow::Result<Done> {
         What::Chains(c) => chains::list(c),
         What::Build(b) => build::run(args, b),
         What::Search(s) => drawn::search(args, s),
-        What::Merge(m) => build::merge(m),
+        What::Merge(m) => merge::merge(m),
         What::Query(q) => look::query(q),
         What::Show(s) => look::show(s),
         What::Export(e) => look::export(e),

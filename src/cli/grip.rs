@@ -2,6 +2,8 @@
 
 use super::args::{AnalyzeFormat, Args, File};
 use super::{Done, charts, load, output};
+use crate::api::MAX_DESCRIPTION_BYTES;
+use crate::file::bounded;
 use crate::file::read::trajectory::trajectory;
 use crate::file::read::workload::grip_from_bytes;
 use crate::grip::gripping::grip;
@@ -70,8 +72,8 @@ pub(super) fn run(_: &Args, a: &Grip) -> anyhow::Result<Done> {
     }
     let steps = match &a.motion {
         Some(path) => {
-            let bytes =
-                std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
+            let bytes = bounded::at_most(path, MAX_DESCRIPTION_BYTES)
+                .with_context(|| format!("cannot read {}", path.display()))?;
             let steps = trajectory(&path.display().to_string(), &bytes, file.length_unit.metres)?;
             // Its parts are studied along with the others.
             let parts = steps

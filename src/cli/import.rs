@@ -1,5 +1,6 @@
 //! `ozols import`.
 
+use super::named::Named;
 use super::{Done, output};
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::robots::{self, Options};
@@ -53,7 +54,7 @@ pub(super) struct Reading {
 pub(super) struct Import {
     /// A robot description: URDF, MJCF or SDF, by its root element.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
-    file: String,
+    file: Named,
     #[command(flatten)]
     pub(super) reading: Reading,
     /// Output format.
@@ -115,7 +116,7 @@ impl Reading {
 
 pub(super) fn run(a: &Import) -> anyhow::Result<Done> {
     let options = a.reading.options()?;
-    let imported = description(Path::new(&a.file), &options)?;
+    let imported = description(a.file.path(), &options)?;
     let width = output::error_width();
     output::note(&fit(&imported.report.text(&a.file), width));
     output::to(a.output.as_deref(), |out| {

@@ -1,18 +1,20 @@
 //! `ozols lint`.
 
 use super::import::{Reading, description};
+use super::named::Named;
 use super::tone::{Tone, toned};
 use super::{Done, load, output};
+use crate::file::problem::ImportError;
 use crate::file::text::mechanism_from_bytes;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::held_twice::{HeldTwice, held_twice};
 use crate::redundancy::release::Release;
 use crate::robots::{self, Origin};
 use crate::view::layout::fit;
-use crate::view::lint::{self, Lint as Found};
+use crate::view::lint::{self, Lint as Found, PassedOver};
 use crate::view::next::{self, Step};
 use clap::{Args as ClapArgs, ValueEnum, ValueHint};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum LintFormat {
@@ -26,7 +28,7 @@ enum LintFormat {
 pub(super) struct Lint {
     /// Robot descriptions (URDF, MJCF, SDF), or mechanism files.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath, required = true)]
-    files: Vec<String>,
+    files: Vec<Named>,
     #[command(flatten)]
     reading: Reading,
     /// Output format.
@@ -39,31 +41,40 @@ pub(super) struct Lint {
 
 pub(super) fn run(a: &Lint) -> anyhow::Result<Done> {
     let options = a.reading.options()?;
-    let mut all = Vec::new();
-    for file in &a.files {
-        let (mechanism, imported) = if robots::is_description(file) && Path::new(file).is_file() {
-            let imported = description(Path::new(file), &options)?;
-            (imported.mechanism.clone(), Some(imported))
-        } else {
-            let (name, bytes) = load::named(file)?;
-            (mechanism_from_bytes(&name, &bytes)?, None)
-        };
-        let found = look(&mechanism, imported.as_ref().map(|i| &i.origin))?;
-        all.push(Found::new(file, &mechanism, imported.as_ref(), &found));
-    }
+    // A file that cannot be looked at takes nothing from the others.
+    let mut failed = false;
+    let all: Vec<Result<Found, PassedOver>> = (a.files.iter())
+        .map(|file| one(file, &options).map_err(|e| passed_over(file, &e, &mut failed)))
+        .collect();
+    let found: Vec<&Found> = all.iter().flatten().collect();
+    let others: Vec<PassedOver> = all
+        .iter()
+        .filter_map(|f| f.as_ref().err().cloned())
+        .collect();
     let width = output::width(a.output.as_deref());
     output::to(a.output.as_deref(), |out| {
         match a.format {
             LintFormat::Text => {
-                for lint in &all {
-                    let text = fit(&lint.text(), width);
-                    let verdict = match lint.is_clean() {
-                        true => ("nothing is redundant".to_owned(), Tone::Good),
-                        false => (lint.sigma(), Tone::Bad),
+                for file in &all {
+                    let (text, verdict) = match file {
+                        Err(passed) => {
+                            let good = passed
+                                .rigid
+                                .then(|| ("nothing is redundant".to_owned(), Tone::Good));
+                            (passed.text(), good)
+                        }
+                        Ok(lint) => {
+                            let verdict = match lint.is_clean() {
+                                true => ("nothing is redundant".to_owned(), Tone::Good),
+                                false => (lint.sigma(), Tone::Bad),
+                            };
+                            (lint.text(), Some(verdict))
+                        }
                     };
-                    write!(out, "{}", toned(text, a.output.as_deref(), [verdict]))?;
+                    let text = fit(&text, width);
+                    write!(out, "{}", toned(text, a.output.as_deref(), verdict))?;
                 }
-                let mended = all
+                let mended = found
                     .iter()
                     .filter(|l| l.from_description && l.is_decided() && !l.cheapest.is_empty());
                 let gives = "the cheapest in your own file, all else as it is";
@@ -71,15 +82,38 @@ pub(super) fn run(a: &Lint) -> anyhow::Result<Done> {
                 let steps: Vec<Step> = mended.map(|l| Step::mend(&l.file, &flags, gives)).collect();
                 write!(out, "{}", next::text(&steps, width))?;
             }
-            LintFormat::Json => output::json(out, &lint::json(&all))?,
-            LintFormat::Sarif => output::json(out, &lint::sarif(&all))?,
+            LintFormat::Json => output::json(out, &lint::json(&found, &others))?,
+            LintFormat::Sarif => output::json(out, &lint::sarif(&found, &others))?,
         }
-        Ok(if all.iter().all(Found::is_clean) {
-            Done::Found
-        } else {
-            Done::Nothing
+        Ok(match found.iter().all(|l| l.is_clean()) {
+            _ if failed => Done::Partly,
+            true => Done::Found,
+            false => Done::Nothing,
         })
     })
+}
+
+/// What is found in one file.
+fn one(file: &Named, options: &robots::Options) -> anyhow::Result<Found> {
+    let (mechanism, imported) = if robots::is_description(file) && file.path().is_file() {
+        let imported = description(file.path(), options)?;
+        (imported.mechanism.clone(), Some(imported))
+    } else {
+        let (name, bytes) = load::named(file)?;
+        (mechanism_from_bytes(&name, &bytes)?, None)
+    };
+    let found = look(&mechanism, imported.as_ref().map(|i| &i.origin))?;
+    Ok(Found::new(file, &mechanism, imported.as_ref(), &found))
+}
+
+/// A file that is passed over, said at once where something is wrong with it.
+fn passed_over(file: &str, e: &anyhow::Error, failed: &mut bool) -> PassedOver {
+    let rigid = output::problems(e).is_some_and(ImportError::is_rigid);
+    if !rigid {
+        *failed = true;
+        output::complain(e);
+    }
+    PassedOver::new(file, &format!("{e:#}"), rigid)
 }
 
 /// What a mechanism holds twice. Drives stay as they are, and what no format has a place for.

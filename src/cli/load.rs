@@ -1,5 +1,6 @@
 //! FILE arguments: paths, standard input, and built-in names.
 
+use super::named::Named;
 use super::near;
 use crate::api;
 use crate::builtin;
@@ -14,12 +15,14 @@ use itertools::Itertools;
 use std::io::Read;
 
 /// Reads the mechanism that an argument names. A file wins over a built-in mechanism of the same name.
-pub(super) fn mechanism(file: &str) -> anyhow::Result<Mechanism> {
+pub(super) fn mechanism(file: &Named) -> anyhow::Result<Mechanism> {
     Ok(with_what_is_left_behind(file)?.0)
 }
 
 /// The same, with what a description says besides, in a sentence; none where it says no more.
-pub(super) fn with_what_is_left_behind(file: &str) -> anyhow::Result<(Mechanism, Option<String>)> {
+pub(super) fn with_what_is_left_behind(
+    file: &Named,
+) -> anyhow::Result<(Mechanism, Option<String>)> {
     if let Some(imported) = imported(file)? {
         return Ok((imported.mechanism, imported.report.left_behind()));
     }
@@ -27,9 +30,22 @@ pub(super) fn with_what_is_left_behind(file: &str) -> anyhow::Result<(Mechanism,
     Ok((mechanism_from_bytes(&name, &bytes)?, None))
 }
 
+/// Reads each of several; what is wrong with one is said, and takes nothing from the others. Whether nothing was.
+pub(super) fn each(files: &[Named]) -> (Vec<(&Named, Mechanism)>, bool) {
+    let mut all = Vec::new();
+    for file in files {
+        match mechanism(file) {
+            Ok(found) => all.push((file, found)),
+            Err(e) => super::output::complain(&e),
+        }
+    }
+    let well = all.len() == files.len();
+    (all, well)
+}
+
 /// The name for messages and the bytes of the file that an argument names.
-pub(super) fn named(file: &str) -> anyhow::Result<(String, Vec<u8>)> {
-    if file == "-" {
+pub(super) fn named(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
+    if &**file == "-" {
         let mut bytes = Vec::new();
         // One byte more than allowed, so that the reader can say that there are too many.
         std::io::stdin()
@@ -42,9 +58,9 @@ pub(super) fn named(file: &str) -> anyhow::Result<(String, Vec<u8>)> {
         let text = imported.toml()?;
         return Ok(("the imported mechanism".to_owned(), text.into_bytes()));
     }
-    let path = std::path::Path::new(file);
+    let path = file.path();
     if path.is_file() {
-        return Ok((file.to_owned(), api::bytes(path, MAX_BYTES)?));
+        return Ok((file.to_string(), api::bytes(path, MAX_BYTES)?));
     }
     let Some(text) = builtin::text(file) else {
         bail!(unknown(file))
@@ -53,8 +69,8 @@ pub(super) fn named(file: &str) -> anyhow::Result<(String, Vec<u8>)> {
 }
 
 /// The mechanism of a robot description, with what is doubtful said; none where the argument is no such file.
-fn imported(file: &str) -> anyhow::Result<Option<robots::Imported>> {
-    let path = std::path::Path::new(file);
+fn imported(file: &Named) -> anyhow::Result<Option<robots::Imported>> {
+    let path = file.path();
     if !path.is_file() || !robots::is_description(file) {
         return Ok(None);
     }
@@ -89,8 +105,8 @@ pub(super) fn put_in_plane(mechanism: &mut Mechanism) {
 }
 
 /// The message for a name that is neither a regular file nor built in.
-pub(super) fn unknown(file: &str) -> String {
-    match std::fs::metadata(file) {
+pub(super) fn unknown(file: &Named) -> String {
+    match std::fs::metadata(file.path()) {
         Ok(m) if m.is_dir() => return format!("{file} is a folder; name a file in it"),
         Ok(m) if !m.is_file() => {
             return format!("{file} is no regular file; `-` reads standard input");

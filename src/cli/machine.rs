@@ -18,8 +18,28 @@ fn value(file: &str, key: &str) -> Option<String> {
 }
 
 /// Bytes of memory.
+#[cfg(target_os = "linux")]
 pub(super) fn memory() -> Option<u64> {
-    bytes("/proc/meminfo", "MemTotal")
+    let told = rustix::system::sysinfo();
+    #[allow(
+        clippy::useless_conversion,
+        reason = "it has fewer bits on other processors"
+    )]
+    let (total, unit) = (u64::from(told.totalram), u64::from(told.mem_unit));
+    total.checked_mul(unit)
+}
+
+/// Bytes of memory.
+#[cfg(not(target_os = "linux"))]
+pub(super) fn memory() -> Option<u64> {
+    let mut told = sysinfo::System::new();
+    told.refresh_memory();
+    Some(told.total_memory()).filter(|bytes| *bytes > 0)
+}
+
+/// Bytes of addresses that this process has taken.
+pub(super) fn addresses() -> Option<u64> {
+    bytes("/proc/self/status", "VmSize")
 }
 
 /// The most bytes that this process has held so far.

@@ -1,29 +1,20 @@
 //! How much memory there is, and sizes of memory as words.
 
+mod group;
+mod limits;
+
+pub(super) use limits::share_pools;
+
 use super::machine;
 use crate::score::request::Request;
-use std::fs::read_to_string;
 
 /// A quarter of the memory that the machine has, or that this process may have of it; what the library takes by default where
-/// that is not told.
+/// that is not told. Of addresses that are scarce no more than half of those that are left.
 pub(super) fn quarter() -> usize {
-    let machine = machine::memory().and_then(|bytes| usize::try_from(bytes).ok());
-    let process = read_to_string("/proc/self/limits").unwrap_or_default();
-    let process = after(&process, "Max address space");
-    let group = [
-        "/sys/fs/cgroup/memory.max",
-        "/sys/fs/cgroup/memory/memory.limit_in_bytes",
-    ];
-    let group = group.iter().filter_map(|f| read_to_string(f).ok());
-    let group = group.filter_map(|text| after(&text, "")).min();
-    let known = [machine, process, group].into_iter().flatten().min();
-    known.map_or(Request::default().memory, |all| all / 4)
-}
-
-/// The number that follows a head in a text; none where a word such as "unlimited" does.
-fn after(text: &str, head: &str) -> Option<usize> {
-    let line = text.lines().find_map(|l| l.strip_prefix(head))?;
-    line.split_whitespace().next()?.parse().ok()
+    let most = limits::least().map_or(Request::default().memory as u64, |all| all / 4);
+    let taken = machine::addresses().unwrap_or(0);
+    let left = limits::ulimit().map(|all| all.saturating_sub(taken) / 2);
+    usize::try_from(left.map_or(most, |left| left.min(most))).unwrap_or(usize::MAX)
 }
 
 /// "48 MiB", "3.9 GiB".

@@ -1,40 +1,19 @@
 //! Data to standard output or, whole or not at all, to a file; complaints to standard error.
 
+mod beside;
+mod standard;
+
+pub(super) use beside::abandon;
+
 use super::working;
 use crate::api;
 use crate::file::problem::ImportError;
+use crate::format::plain::{coloured, plain};
 use anyhow::Context;
+use standard::Standard;
 use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
-
-/// The temporary file that is being written, to be removed where the program ends in between.
-static BESIDE: Mutex<Option<PathBuf>> = Mutex::new(None);
-
-/// Removes the temporary file that is being written, if one is.
-pub(super) fn abandon() {
-    if let Some(path) = beside().take() {
-        let _ = std::fs::remove_file(path);
-    }
-}
-
-fn beside() -> MutexGuard<'static, Option<PathBuf>> {
-    BESIDE.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Standard output, on which nothing is drawn over what is written.
-struct Standard(std::io::StdoutLock<'static>);
-
-impl Write for Standard {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        working::rest();
-        self.0.write(bytes)
-    }
-    fn flush(&mut self) -> std::io::Result<()> {
-        self.0.flush()
-    }
-}
 
 /// The file to write to, if it is not standard output.
 fn file(path: Option<&Path>) -> Option<&Path> {
@@ -47,7 +26,7 @@ pub(super) fn to(
     write: impl FnOnce(&mut dyn Write) -> anyhow::Result<super::Done>,
 ) -> anyhow::Result<super::Done> {
     let Some(path) = file(path) else {
-        let mut out = BufWriter::new(Standard(std::io::stdout().lock()));
+        let mut out = BufWriter::new(Standard::new());
         let done = write(&mut out)?;
         out.flush()?;
         return Ok(done);
@@ -80,25 +59,26 @@ pub(super) fn to(
             folder.display()
         );
     }
-    let mut temporary = {
-        let mut beside = beside();
-        let temporary = ordinary().tempfile_in(folder).with_context(whole)?;
-        *beside = Some(temporary.path().to_path_buf());
-        temporary
-    };
+    let mut temporary = beside::begin(folder).with_context(whole)?;
     let done = {
         let mut out = BufWriter::new(temporary.as_file_mut());
         let done = write(&mut out)?;
         out.flush().with_context(whole)?;
         done
     };
+    let older = old.as_ref().is_some_and(|m| m.len() > 0);
     if let Some(old) = old {
         let file = temporary.as_file();
         file.set_permissions(old.permissions())
             .with_context(whole)?;
     }
-    temporary.persist(path).with_context(whole)?;
-    *beside() = None;
+    if let Some(other) = beside::place(temporary, path, older).with_context(whole)? {
+        say(&format!(
+            "{} stays as it was; what was found before the interruption is in {}\n",
+            path.display(),
+            other.display()
+        ));
+    }
     Ok(done)
 }
 
@@ -114,17 +94,6 @@ pub(super) fn files(
         })?;
     }
     Ok(())
-}
-
-/// Makes temporary files that may be read by whom the umask lets: they become results.
-fn ordinary() -> tempfile::Builder<'static, 'static> {
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    builder
 }
 
 /// A value as JSON for people to read and programs to parse.
@@ -175,34 +144,40 @@ pub(super) fn hush() {
 
 /// Says something on standard error; a closed one is no failure.
 pub(super) fn note(text: &str) {
-    if QUIET.load(Ordering::Relaxed) {
-        return;
+    if !QUIET.load(Ordering::Relaxed) {
+        say(text);
     }
+}
+
+/// Says something on standard error, even where only errors are wanted.
+pub(super) fn say(text: &str) {
     working::rest();
-    let _ = write!(std::io::stderr().lock(), "{text}");
+    let _ = write!(std::io::stderr().lock(), "{}", plain(text));
 }
 
 /// Says what went wrong, in colour where standard error is a terminal that wants it (NO_COLOR, CLICOLOR_FORCE), as the
 /// parser of the arguments does.
 pub(super) fn complain(e: &anyhow::Error) {
-    // What went wrong with a file may be why a search went wrong.
-    let file = e
-        .chain()
-        .find_map(|c| match c.downcast_ref::<api::Error>() {
-            Some(api::Error::File(problems)) => Some(problems),
-            _ => c.downcast_ref::<ImportError>(),
-        });
-    let text = match file {
+    let text = match problems(e) {
         Some(import) => import.render(true),
         None => {
             let style = anstyle::AnsiColor::Red.on_default().bold();
-            format!("{style}error:{style:#} {e:#}")
+            format!("{style}error:{style:#} {}", plain(&format!("{e:#}")))
         }
     };
     coloured_note(&text);
 }
 
+/// What is wrong with a file, where that is what went wrong, or why a search did.
+pub(super) fn problems(e: &anyhow::Error) -> Option<&ImportError> {
+    e.chain()
+        .find_map(|c| match c.downcast_ref::<api::Error>() {
+            Some(api::Error::File(problems)) => Some(problems),
+            _ => c.downcast_ref::<ImportError>(),
+        })
+}
+
 /// Says something on standard error, its colours left out where they are not wanted.
 pub(super) fn coloured_note(text: &str) {
-    let _ = writeln!(anstream::stderr().lock(), "{text}");
+    let _ = writeln!(anstream::stderr().lock(), "{}", coloured(text));
 }

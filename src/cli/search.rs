@@ -63,6 +63,9 @@ pub(super) struct Search {
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     format: SearchFormat,
+    /// End a CSV that is not the whole list with a line that says so, `# ...`; without it that is said on standard error.
+    #[arg(long)]
+    comment: bool,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -137,7 +140,14 @@ pub(super) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
                 search_json::write(out, &outcome, variants, none, Some(&seconds))?;
             }
             SearchFormat::Jsonl => search_json::write_lines(out, &outcome, variants)?,
-            SearchFormat::Csv => search_csv::write(out, &outcome, variants)?,
+            SearchFormat::Csv => {
+                if let Some(short) = search_csv::write(out, &outcome, variants)? {
+                    match a.comment {
+                        true => writeln!(out, "# {short}")?,
+                        false => output::say(&format!("{short}\n")),
+                    }
+                }
+            }
         }
         let none = outcome.admissible.total.is_zero() && !outcome.admissible_may_be_more();
         Ok(if none { Done::Nothing } else { Done::Found })

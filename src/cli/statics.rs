@@ -27,7 +27,7 @@ use args::{Statics, StaticsFormat, StaticsMethod};
 use std::path::Path;
 
 pub(super) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
-    let mut m = load::mechanism(a.file.as_deref().unwrap_or("parallel-shears"))?;
+    let mut m = load::mechanism(&a.file.clone().unwrap_or_else(|| "parallel-shears".into()))?;
     if a.planar {
         load::put_in_plane(&mut m);
     }

@@ -1,6 +1,7 @@
 //! `ozols sweep`.
 
 use super::args::{AnalyzeFormat, Args};
+use super::named::Named;
 use super::progress::Bar;
 use super::request::Which;
 use super::{Done, interrupt, load, output};
@@ -32,7 +33,7 @@ fn quantity() -> impl TypedValueParser<Value = Quantity> {
 pub(super) struct SweepArgs {
     /// A mechanism file with [parameter], a path or `-`.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath, required_unless_present = "merge")]
-    file: Option<String>,
+    file: Option<Named>,
     /// Look at every combination of N numbers of each range, its ends among them, and of all values of each list.
     #[arg(long, value_name = "N", default_value_t = 5, conflicts_with = "sobol")]
     grid: usize,
@@ -98,7 +99,7 @@ impl Watch for Watching {
     }
 }
 
-fn sweep(args: &Args, a: &SweepArgs, file: &str) -> anyhow::Result<Sweep> {
+fn sweep(args: &Args, a: &SweepArgs, file: &Named) -> anyhow::Result<Sweep> {
     let (name, bytes) = load::named(file)?;
     let sampling = match a.sobol {
         None => Sampling::Grid { points: a.grid },

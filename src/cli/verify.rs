@@ -2,6 +2,7 @@
 
 use super::args::{Args, File};
 use super::{Done, load, output};
+use crate::file::bounded;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::certificate::{certify, matrix, number_field};
 use crate::redundancy::analysis::StateAnalysis;
@@ -24,6 +25,9 @@ pub(super) struct Verify {
     #[arg(long)]
     planar: bool,
 }
+
+/// Largest file of certificates, in bytes.
+const MOST: usize = 64 << 20;
 
 /// Writes a certificate for each state that has one: of the rank as written, so none where the analysis is of another.
 pub(super) fn write(
@@ -72,7 +76,8 @@ pub(super) fn run(_: &Args, a: &Verify) -> anyhow::Result<Done> {
         load::put_in_plane(&mut m);
     }
     let name = a.certificates.display();
-    let bytes = std::fs::read(&a.certificates).with_context(|| format!("cannot read {name}"))?;
+    let bytes =
+        bounded::at_most(&a.certificates, MOST).with_context(|| format!("cannot read {name}"))?;
     let file = CertificateFile::read(&bytes).with_context(|| format!("cannot read {name}"))?;
     let mut lines = Vec::new();
     let mut done = if file.certificates.is_empty() {

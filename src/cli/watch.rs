@@ -19,7 +19,7 @@ pub(super) struct Watch {
 
 pub(super) fn run(args: &Args, a: &Watch) -> anyhow::Result<Done> {
     let file = a.report.file.file.clone();
-    let path = Path::new(&file);
+    let path = file.path();
     ensure!(
         path.is_file(),
         "{file} is no file that could change; write one: `ozols new mine.toml`, or `ozols new mine.toml --from NAME` for a \

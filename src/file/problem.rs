@@ -201,6 +201,10 @@ pub enum ProblemKind {
         count: usize,
         limit: usize,
     },
+    #[error(
+        "nothing can move: all {links} links are rigidly joined; there is no mechanism to analyse"
+    )]
+    Rigid { links: usize },
     #[error("{count} more problems are not listed; mend those above first")]
     More { count: usize },
 }
@@ -235,6 +239,13 @@ impl ImportError {
             line,
             before.rsplit('\n').next().unwrap_or("").chars().count() + 1,
         )
+    }
+
+    /// Whether all that is wrong is that nothing can move.
+    #[must_use]
+    pub fn is_rigid(&self) -> bool {
+        let rigid = |p: &Problem| matches!(p.kind, ProblemKind::Rigid { .. });
+        !self.problems.is_empty() && self.problems.iter().all(rigid)
     }
 
     /// The problems with the lines they stand on, for a terminal.

@@ -63,14 +63,17 @@ pub(crate) fn catalog_build(
             },
         );
         match ended.map_err(failed)? {
-            Some(Some(e)) => Err(failed(e)),
-            _ => Ok(added),
+            Some(Some(e)) => return Err(failed(e)),
+            None if !stopped() => store.finish_part(shard, all).map_err(failed)?,
+            _ => {}
         }
+        Ok(added)
     })
 }
 
 /// As `ozols catalog merge`; how many structures were added.
 #[pyfunction]
 pub(crate) fn catalog_merge(py: Python<'_>, path: PathBuf, parts: Vec<PathBuf>) -> PyResult<usize> {
-    py.detach(|| Store::merge(&path, &parts)).map_err(failed)
+    let merged = py.detach(|| Store::merge(&path, &parts));
+    merged.map(|m| m.added).map_err(failed)
 }

@@ -198,7 +198,8 @@ impl Outcome {
 
     fn csv(&self, py: Python<'_>) -> PyResult<String> {
         written(py, |out| {
-            search_csv::write(out, &self.0, self.0.variants()).map_err(failed)
+            let written = search_csv::write(out, &self.0, self.0.variants());
+            written.map(drop).map_err(failed)
         })
     }
 

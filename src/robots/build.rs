@@ -248,12 +248,8 @@ pub(crate) fn entries(
         robot.report.approximate(&format!("joint \"{id}\""), what);
     }
     if joints.is_empty() {
-        let n = robot.links.len();
-        return Err(RobotProblem::Whole {
-            message: format!(
-                "nothing can move: all {n} links are rigidly joined; there is no mechanism to analyse"
-            ),
-        });
+        let links = robot.links.len();
+        return Err(RobotProblem::Rigid { links });
     }
     let couplings = coupling::usable(robot, &joints);
     let frame = bodies.of[tree.roots[0]];

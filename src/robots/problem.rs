@@ -60,6 +60,10 @@ pub(crate) enum RobotProblem {
     },
     #[error("{message}")]
     Whole { message: String },
+    #[error(
+        "nothing can move: all {links} links are rigidly joined; there is no mechanism to analyse"
+    )]
+    Rigid { links: usize },
 }
 
 impl RobotProblem {
@@ -69,8 +73,11 @@ impl RobotProblem {
             file: file.to_owned(),
             text: text.to_owned(),
             problems: vec![Problem {
-                kind: ProblemKind::Syntax {
-                    message: self.to_string(),
+                kind: match self {
+                    RobotProblem::Rigid { links } => ProblemKind::Rigid { links },
+                    other => ProblemKind::Syntax {
+                        message: other.to_string(),
+                    },
                 },
                 span,
             }],

@@ -7,6 +7,8 @@ use thiserror::Error;
 
 /// Most samples of a grid.
 pub const MOST: usize = 1_000_000;
+/// Most numbers of a range on a grid.
+pub const FINEST: usize = 100_000;
 /// Most of a sequence: further numbers have no places in it.
 pub const MOST_SOBOL: usize = 1 << 16;
 /// A sequence's fractions have this many: each is a short fraction of two, so that no decimals are made up.
@@ -41,6 +43,11 @@ pub enum SpaceError {
     /// A grid of one point.
     #[error("--grid must be at least 2, the ends of each range")]
     Points,
+    /// A grid of too many.
+    #[error(
+        "--grid must be at most {FINEST} numbers of each range; choose a coarser grid, or --sobol"
+    )]
+    TooFine,
     /// No points.
     #[error("--sobol must be from 1 to {MOST_SOBOL}")]
     Count,
@@ -102,12 +109,24 @@ impl Space {
     pub fn new(parameters: &[Parameter], sampling: Sampling) -> Result<Space, SpaceError> {
         let points = match sampling {
             Sampling::Grid { points } if points < 2 => return Err(SpaceError::Points),
-            Sampling::Grid { points } => points.min(MOST + 1),
+            Sampling::Grid { points } if points > FINEST => return Err(SpaceError::TooFine),
+            Sampling::Grid { points } => points,
             Sampling::Sobol { count, .. } if !(1..=MOST_SOBOL).contains(&count) => {
                 return Err(SpaceError::Count);
             }
             Sampling::Sobol { .. } => 0,
         };
+        // Counted first: numbers that come to nothing take time to make, and room.
+        let sizes = parameters.iter().filter_map(|p| match &p.domain {
+            Domain::Constant => None,
+            Domain::Values(all) => Some(all.len()),
+            Domain::Range(_) => Some(points),
+        });
+        let grid = matches!(sampling, Sampling::Grid { .. });
+        if grid && sizes.clone().fold(1, usize::saturating_mul) > MOST {
+            let parameters = sizes.count();
+            return Err(SpaceError::TooMany { points, parameters });
+        }
         let axes = parameters.iter().filter_map(|p| {
             let grid = match &p.domain {
                 Domain::Constant => return None,
@@ -129,12 +148,6 @@ impl Space {
         };
         if space.axes.is_empty() {
             return Err(SpaceError::Nothing);
-        }
-        if space.len() > MOST {
-            return Err(SpaceError::TooMany {
-                points,
-                parameters: space.axes.len(),
-            });
         }
         Ok(space)
     }

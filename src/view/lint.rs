@@ -1,5 +1,9 @@
 //! What robot descriptions hold twice: text, JSON, and SARIF for code scanning.
 
+mod passed_over;
+
+pub use passed_over::PassedOver;
+
 use crate::format::number::{brief, cost};
 use crate::format::phrase::plural;
 use crate::geom::vector::Vector;
@@ -304,15 +308,17 @@ fn name(d: Vector) -> String {
     }
 }
 
-/// What was found in some files as JSON.
+/// What was found in some files as JSON, and which were passed over.
 #[must_use]
-pub fn json(all: &[Lint]) -> Value {
-    json!({ "files": all })
+pub fn json(all: &[&Lint], passed_over: &[PassedOver]) -> Value {
+    let mut out = json!({ "files": all });
+    passed_over::in_json(&mut out, passed_over);
+    out
 }
 
-/// What was found in some files as SARIF 2.1.0.
+/// What was found in some files as SARIF 2.1.0, and which were passed over.
 #[must_use]
-pub fn sarif(all: &[Lint]) -> Value {
+pub fn sarif(all: &[&Lint], passed_over: &[PassedOver]) -> Value {
     let result = |lint: &Lint, f: &Finding| {
         let mut place = json!({
             "artifactLocation": { "uri": f.file.as_ref().unwrap_or(&lint.file) },
@@ -333,10 +339,10 @@ pub fn sarif(all: &[Lint]) -> Value {
     };
     let results: Vec<Value> = all
         .iter()
-        .flat_map(|l| l.findings.iter().map(move |f| (l, f)))
+        .flat_map(|l| l.findings.iter().map(move |f| (*l, f)))
         .map(|(l, f)| result(l, f))
         .collect();
-    json!({
+    let mut out = json!({
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
         "version": "2.1.0",
         "runs": [{
@@ -351,5 +357,7 @@ pub fn sarif(all: &[Lint]) -> Value {
             } },
             "results": results,
         }],
-    })
+    });
+    passed_over::in_sarif(&mut out, passed_over);
+    out
 }

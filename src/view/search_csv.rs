@@ -39,44 +39,45 @@ const SCORES: [&str; 8] = [
     "front",
 ];
 
-/// Writes the variants as they come, and a comment at the end where they are not all that was asked for.
+/// Writes the variants as they come, and gives what there is to say where they are not all that was asked for.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write(out: &mut dyn Write, outcome: &Outcome, mut variants: Variants<'_>) -> io::Result<()> {
+pub fn write(
+    out: &mut dyn Write,
+    outcome: &Outcome,
+    mut variants: Variants<'_>,
+) -> io::Result<Option<String>> {
     rows(out, outcome, &mut variants)?;
     if let Some(found) = &outcome.numeric {
         let all = numeric::from_to(&found.admissible);
         let lines = numeric::lines(outcome).join("; ");
-        writeln!(out, "# numeric: {all} admissible variants. {lines}")?;
-        return Ok(());
+        return Ok(Some(format!("numeric: {all} admissible variants. {lines}")));
     }
     if !outcome.is_confirmed() {
         let lines = second_opinion::lines(outcome).join("; ");
-        writeln!(
-            out,
-            "# not exact: {} admissible variants. {lines}",
+        return Ok(Some(format!(
+            "not exact: {} admissible variants. {lines}",
             outcome.admissible
-        )?;
+        )));
     }
-    if variants.stop() != Stop::Exhausted {
-        let proven = match variants.summary().proven {
-            Some(n) if n > 0 => format!(", the first {n} proven the cheapest"),
-            _ => String::new(),
-        };
-        let (given, of) = (variants.summary().given, &outcome.admissible);
-        let least = if outcome.is_counted() {
-            ""
-        } else {
-            "at least "
-        };
-        let why = variants.stop().word();
-        writeln!(
-            out,
-            "# stopped early ({why}): {given} of {least}{of} admissible variants given{proven}"
-        )?;
+    if variants.stop() == Stop::Exhausted {
+        return Ok(None);
     }
-    Ok(())
+    let proven = match variants.summary().proven {
+        Some(n) if n > 0 => format!(", the first {n} proven the cheapest"),
+        _ => String::new(),
+    };
+    let (given, of) = (variants.summary().given, &outcome.admissible);
+    let least = if outcome.is_counted() {
+        ""
+    } else {
+        "at least "
+    };
+    let why = variants.stop().word();
+    Ok(Some(format!(
+        "stopped early ({why}): {given} of {least}{of} admissible variants given{proven}"
+    )))
 }
 
 fn rows(out: &mut dyn Write, outcome: &Outcome, variants: &mut Variants<'_>) -> io::Result<()> {

@@ -3,6 +3,7 @@
 use crate::catalog::store::{Store, StoreError};
 use crate::format::csv;
 use crate::format::number::{grouped, significant};
+use crate::format::plain::plain;
 use crate::view::layout::{fit, table};
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 use serde_json::{Map, Value};
@@ -55,7 +56,8 @@ fn cell(value: &Value) -> String {
         Value::Number(n) => grouped(&n.to_string()),
         // A count beyond 63 bits.
         Value::String(s) if s.len() > 18 && s.bytes().all(|b| b.is_ascii_digit()) => grouped(s),
-        Value::String(s) => s.clone(),
+        // The database may be anybody's.
+        Value::String(s) => plain(s).into_owned(),
         other => other.to_string(),
     }
 }
@@ -64,7 +66,8 @@ impl Answer {
     /// As a table for people.
     #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
-        let heads: Vec<&str> = self.names.iter().map(String::as_str).collect();
+        let heads: Vec<_> = self.names.iter().map(|n| plain(n)).collect();
+        let heads: Vec<&str> = heads.iter().map(AsRef::as_ref).collect();
         let rows = self.rows.iter().map(|r| r.iter().map(cell).collect());
         format!("{}\n", table(&heads, rows.collect(), width))
     }
@@ -281,7 +284,7 @@ pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
     };
     let next = format!(
         "\nozols catalog export {0} {1} -o gripper.toml               the mechanism\nozols catalog export {0} {1} --variant 1 -o redesign.toml  idea 1 carried out\n",
-        file.display(),
+        plain(&file.display().to_string()),
         s("id"),
     );
     head + &ideas + &next
@@ -307,7 +310,8 @@ pub fn built_text(
     )?;
     let table = Answer { names, rows }.text(width);
     let n = grouped(&added.to_string());
-    let path = file.display();
+    let path = file.display().to_string();
+    let path = plain(&path);
     Ok(format!(
         "{table}\n{n} {what} added to {path}. Go on with\n\n  ozols catalog query {path}\n  ozols catalog page {path} -o grippers.html\n"
     ))

@@ -2,9 +2,11 @@
 
 mod carried_on;
 mod command;
+mod killed;
 mod orbits;
 mod out_of_plane;
 mod rows;
+mod store;
 mod three_jaws;
 mod workload;
 

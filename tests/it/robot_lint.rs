@@ -1,6 +1,6 @@
 //! `ozols lint`: what a description holds twice, by line, where on its motion, and how sure that is.
 
-use crate::common::run_on;
+use crate::common::{run_on, text};
 use crate::robot_fix::{gripper, run};
 use crate::robot_mjcf::mjcf;
 use crate::robots::{folder, legs};
@@ -145,4 +145,166 @@ fn nothing_redundant_is_said_at_once() {
         out.contains("16,777,216 of 16,777,216 variants have σ = 0"),
         "{out}"
     );
+}
+
+/// A welded pair: nothing can move, and there is no loop.
+const WELDED: &str = "<robot name='w'><link name='a'/><link name='b'/><joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint></robot>";
+
+// Once lost: one file that could not be read took the findings of all the others with it, and the SARIF.
+#[test]
+fn lint_goes_on_over_files_that_cannot_be_looked_at() {
+    let at = tempfile::tempdir().unwrap();
+    let put = |name: &str, text: &str| {
+        let path = at.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let (bad, welded) = (put("bad.urdf", "<robot"), put("welded.urdf", WELDED));
+    let all = ["lint", &bad, "nowhere.xml", &gripper(), &welded];
+    let (code, out, err) = run(&all);
+    assert_eq!(code, Some(2));
+    assert!(out.contains(&format!("{bad}: not looked at: ")), "{out}");
+    assert!(out.contains("nowhere.xml: not looked at: "), "{out}");
+    assert!(
+        out.contains(&format!("{welded}: nothing is redundant: nothing can move")),
+        "{out}"
+    );
+    assert!(out.contains("2 redundant constraints"), "{out}");
+    assert!(
+        err.contains("bad.urdf") && err.contains("nowhere.xml"),
+        "{err}"
+    );
+    assert!(!err.contains("welded"), "{err}");
+    let (code, out, _) = run(&[&all[..], &["--format", "sarif"]].concat());
+    assert_eq!(code, Some(2));
+    let v: Value = serde_json::from_str(&out).unwrap();
+    let run_of = &v["runs"][0];
+    assert_eq!(run_of["results"].as_array().unwrap().len(), 2);
+    let told = &run_of["invocations"][0];
+    assert_eq!(told["executionSuccessful"], false);
+    let told = told["toolExecutionNotifications"].as_array().unwrap();
+    let levels: Vec<&str> = told.iter().map(|n| n["level"].as_str().unwrap()).collect();
+    assert_eq!(levels, ["error", "error", "note"]);
+    let place = &told[0]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"];
+    assert_eq!(place, &Value::from(bad));
+    let (_, out, _) = run(&[&all[..], &["--format", "json"]].concat());
+    let v: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(v["files"].as_array().unwrap().len(), 1);
+    assert_eq!(v["passed_over"].as_array().unwrap().len(), 3);
+}
+
+// Once refused.
+#[test]
+fn what_cannot_move_has_nothing_redundant() {
+    let (code, out, err) = run_on("lint", "w.urdf", WELDED, &[]);
+    assert_eq!((code, err.as_str()), (Some(0), ""));
+    assert!(
+        out.contains("nothing is redundant: nothing can move: all 2 links"),
+        "{out}"
+    );
+    let (code, out, _) = run_on("lint", "w.urdf", WELDED, &["--format", "sarif"]);
+    assert_eq!(code, Some(0));
+    let v: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(v["runs"][0]["invocations"][0]["executionSuccessful"], true);
+    // Where nothing is passed over, there is no word of it.
+    let (_, out, _) = run(&["lint", &gripper(), "--format", "sarif"]);
+    assert!(!out.contains("invocations"));
+}
+
+// Every command over many files reports each, and does the rest.
+#[test]
+fn many_files_are_each_reported() {
+    let at = tempfile::tempdir().unwrap();
+    let file = at.path().join("some.db");
+    let file = file.to_str().unwrap();
+    let words = [
+        "catalog",
+        "search",
+        "nosuch",
+        "four-bar",
+        "nowhere.toml",
+        "--ideas",
+        "1",
+        "-o",
+        file,
+    ];
+    let (code, out, err) = run(&words);
+    assert_eq!(code, Some(2));
+    assert!(
+        err.contains("nosuch is neither") && err.contains("nowhere.toml is neither"),
+        "{err}"
+    );
+    assert!(out.contains("1 mechanisms added"), "{out}");
+    let words = [
+        "bench",
+        "nosuch",
+        "four-bar-planar",
+        "--quick",
+        "--format",
+        "csv",
+    ];
+    let (code, out, err) = run(&words);
+    assert_eq!(code, Some(2));
+    assert!(
+        err.contains("nosuch is neither") && out.contains("four-bar-planar"),
+        "{out}{err}"
+    );
+    let merged = at.path().join("merged.db");
+    let words = [
+        "catalog",
+        "merge",
+        "nowhere.db",
+        file,
+        "-o",
+        merged.to_str().unwrap(),
+    ];
+    let (code, out, err) = run(&words);
+    assert_eq!(code, Some(2));
+    assert!(
+        err.contains("nowhere.db") && out.contains("1 structures added"),
+        "{out}{err}"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn names_of_files_may_be_no_text() {
+    use std::ffi::{OsStr, OsString};
+    use std::os::unix::ffi::OsStrExt;
+    let at = tempfile::tempdir().unwrap();
+    let name = |bytes: &[u8]| OsStr::from_bytes(bytes).to_owned();
+    let (toml, urdf) = (name(b"caf\xe9.toml"), name(b"\xff.urdf"));
+    let four_bar = text(&run_bytes(&["show".into(), "four-bar".into()], at.path()).stdout);
+    std::fs::write(at.path().join(&toml), four_bar).unwrap();
+    std::fs::copy(folder().join("mimic_gripper.urdf"), at.path().join(&urdf)).unwrap();
+    let words = |line: &str, file: &OsString| -> Vec<OsString> {
+        let words = line
+            .split(' ')
+            .map(|w| if w == "FILE" { file.clone() } else { w.into() });
+        words.collect()
+    };
+    for (line, file) in [
+        ("check FILE", &toml),
+        ("analyze FILE", &toml),
+        ("search FILE --top 2", &toml),
+        ("draw FILE -o x.svg", &toml),
+        ("report FILE -o x.html", &toml),
+        ("export FILE --to json", &toml),
+        ("catalog search FILE --ideas 1 -o x.db", &toml),
+        ("analyze FILE", &urdf),
+        ("lint FILE", &urdf),
+        ("import FILE", &urdf),
+        ("fix FILE", &urdf),
+        ("analyze four-bar -o FILE", &toml),
+    ] {
+        let o = run_bytes(&words(line, file), at.path());
+        assert!(o.status.success(), "{line}: {}", text(&o.stderr));
+    }
+}
+
+/// Runs the program with words of any bytes.
+#[cfg(unix)]
+fn run_bytes(words: &[std::ffi::OsString], at: &std::path::Path) -> std::process::Output {
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_ozols"));
+    command.args(words).current_dir(at).output().unwrap()
 }

@@ -1,4 +1,4 @@
-//! `ozols catalog build` and `merge`.
+//! `ozols catalog build`.
 
 use super::super::args::Args;
 use super::super::progress::Bar;
@@ -7,8 +7,10 @@ use super::built::built;
 use crate::catalog::build::{build, work};
 use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;
+use crate::file::bounded;
+use crate::file::text::MAX_BYTES;
 use crate::shard::Shard;
-use anyhow::{Context, ensure};
+use anyhow::Context;
 use clap::{Args as ClapArgs, ValueHint};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -64,7 +66,7 @@ impl Build {
     fn spec(&self, seed: u64) -> anyhow::Result<Spec> {
         let text = match &self.spec {
             None => String::new(),
-            Some(path) => std::fs::read_to_string(path)
+            Some(path) => bounded::text(path, MAX_BYTES)
                 .with_context(|| format!("cannot read {}", path.display()))?,
         };
         let file = self.spec.as_deref().map(Path::display);
@@ -121,7 +123,8 @@ pub(super) fn run(args: &Args, a: &Build) -> anyhow::Result<Done> {
     let spec = a.spec(args.seed)?;
     let mut store = Store::create(&a.output, &spec)?;
     let there = store.ids()?;
-    let work = work(&spec, a.shard.unwrap_or(Shard::WHOLE))?;
+    let part = a.shard.unwrap_or(Shard::WHOLE);
+    let work = work(&spec, part)?;
     let all: usize = work.iter().map(|w| w.structures.len()).sum();
     interrupt::be_patient();
     let mut bar = Bar::new(args.quiet);
@@ -144,30 +147,11 @@ pub(super) fn run(args: &Args, a: &Build) -> anyhow::Result<Done> {
     if let Some(Some(e)) = ended {
         return Err(e.into());
     }
+    if !interrupt::pending() {
+        store.finish_part(part, all)?;
+    }
     let path = a.output.display();
     let interrupted =
         interrupt::pending().then(|| format!("the same command carries on with {path}."));
     built(&store, &a.output, (count, "structures"), interrupted)
-}
-
-#[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Merge {
-    /// The parts.
-    #[arg(required = true, value_hint = ValueHint::FilePath)]
-    parts: Vec<PathBuf>,
-    /// The whole; where it is there already, it is added to.
-    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    output: PathBuf,
-}
-
-pub(super) fn merge(a: &Merge) -> anyhow::Result<Done> {
-    let same = |p: &PathBuf| std::fs::canonicalize(p).ok() == std::fs::canonicalize(&a.output).ok();
-    ensure!(
-        !(a.output.exists() && a.parts.iter().any(same)),
-        "{} is one of the parts and the whole; choose another name for the whole",
-        a.output.display()
-    );
-    let added = Store::merge(&a.output, &a.parts)?;
-    let store = Store::open(&a.output)?;
-    built(&store, &a.output, (added, "structures"), None)
 }

@@ -1,14 +1,16 @@
 //! `ozols catalog search`.
 
 use super::super::args::Args;
+use super::super::named::Named;
 use super::super::progress::Bar;
-use super::super::{Done, interrupt, load};
+use super::super::{Done, interrupt, load, output};
 use super::built::built;
 use crate::builtin;
-use crate::catalog::drawn::{drawn, id};
+use crate::catalog::drawn::{Drawn, drawn, id};
 use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;
-use anyhow::{Context, ensure};
+use crate::model::mechanism::Mechanism;
+use anyhow::ensure;
 use clap::{Args as ClapArgs, ValueHint};
 use std::path::PathBuf;
 
@@ -16,7 +18,7 @@ use std::path::PathBuf;
 pub(in crate::cli) struct Search {
     /// Mechanism files, robot files, or names of built-in mechanisms. Each is searched with its own options and workload.
     #[arg(value_hint = ValueHint::FilePath)]
-    files: Vec<String>,
+    files: Vec<Named>,
     /// All built-in grippers, too.
     #[arg(long)]
     grippers: bool,
@@ -31,36 +33,51 @@ pub(in crate::cli) struct Search {
 pub(super) fn search(args: &Args, a: &Search) -> anyhow::Result<Done> {
     let mut files = a.files.clone();
     if a.grippers {
-        files.extend(builtin::grippers().into_iter().map(str::to_owned));
+        files.extend(builtin::grippers().into_iter().map(Named::from));
     }
     ensure!(
         !files.is_empty(),
         "nothing to search: name a FILE, or all built-in grippers by --grippers"
     );
-    // A wrong file is told before any is searched.
-    let mechanisms: Vec<_> = files
-        .iter()
-        .map(|f| load::mechanism(f).with_context(|| f.clone()))
-        .collect::<anyhow::Result<_>>()?;
+    // Wrong files are told before any is searched, and the others are searched.
+    let (mechanisms, mut well) = load::each(&files);
+    if mechanisms.is_empty() {
+        return Ok(Done::Partly);
+    }
+    let of = mechanisms.len();
     let mut store = Store::writable(&a.output)?;
     let mut added = 0;
     interrupt::be_patient();
     let mut bar = Bar::new(args.quiet);
-    for (i, (file, mechanism)) in files.iter().zip(mechanisms).enumerate() {
+    for (i, (file, mechanism)) in mechanisms.into_iter().enumerate() {
         if interrupt::pending() {
             break;
         }
-        let id = id(&mechanism).with_context(|| file.clone())?;
-        if !store.has_drawn(&id, a.ideas)? {
-            let row = drawn(mechanism, a.ideas, Spec::default().nodes);
-            store.add_drawn(&row.with_context(|| file.clone())?)?;
-            added += 1;
+        match searched(&store, mechanism, a.ideas) {
+            Ok(None) => {}
+            Ok(Some(row)) => {
+                store.add_drawn(&row)?;
+                added += 1;
+            }
+            Err(e) => {
+                well = false;
+                output::complain(&e.context(file.to_string()));
+            }
         }
-        bar.step("mechanisms", i + 1, files.len());
+        bar.step("mechanisms", i + 1, of);
     }
     bar.clear();
     let path = a.output.display();
     let interrupted =
         interrupt::pending().then(|| format!("the same command carries on with {path}."));
-    built(&store, &a.output, (added, "mechanisms"), interrupted)
+    let done = built(&store, &a.output, (added, "mechanisms"), interrupted)?;
+    Ok(if well { done } else { Done::Partly })
+}
+
+/// What a search of a mechanism finds; nothing where it is kept already.
+fn searched(store: &Store, m: Mechanism, ideas: usize) -> anyhow::Result<Option<Drawn>> {
+    if store.has_drawn(&id(&m)?, ideas)? {
+        return Ok(None);
+    }
+    Ok(Some(drawn(m, ideas, Spec::default().nodes)?))
 }

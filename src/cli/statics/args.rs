@@ -1,5 +1,6 @@
 //! The arguments of `ozols statics`.
 
+use crate::cli::named::Named;
 use clap::{Args as ClapArgs, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
@@ -27,7 +28,7 @@ pub(in crate::cli) enum StaticsFormat {
 pub(in crate::cli) struct Statics {
     /// A path, `-`, or the name of a built-in mechanism; parallel-shears with --stability unless named.
     #[arg(value_name = "FILE", required_unless_present = "stability", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) file: Option<String>,
+    pub(in crate::cli) file: Option<Named>,
     /// How the reactions of four-link groups with a closed contour are found.
     #[arg(long, value_enum, default_value = "all")]
     pub(in crate::cli) method: StaticsMethod,

@@ -1,5 +1,7 @@
 //! Files that change, however an editor writes them: in place, or under another name that is changed to theirs.
 
+use crate::api::MAX_DESCRIPTION_BYTES;
+use crate::file::bounded;
 use anyhow::Context;
 use notify::event::{AccessKind, AccessMode, EventKind};
 use notify::{Event, RecommendedWatcher, RecursiveMode, Watcher};
@@ -57,7 +59,7 @@ impl Changes {
     /// Takes what is in the files now for seen.
     pub(super) fn take(&mut self) {
         for (file, seen) in &mut self.files {
-            *seen = std::fs::read(file).ok();
+            *seen = bounded::bytes(file, MAX_DESCRIPTION_BYTES).ok();
         }
     }
 
@@ -74,7 +76,7 @@ impl Changes {
                 }
             }
             let differs = |(file, seen): &(PathBuf, Option<Vec<u8>>)| {
-                let now = std::fs::read(file).ok();
+                let now = bounded::bytes(file, MAX_DESCRIPTION_BYTES).ok();
                 now.is_some() && now != *seen
             };
             if self.files.iter().any(differs) {

@@ -3,11 +3,12 @@
 use super::error::TableError;
 use super::head::Head;
 use super::rows::{Table, line};
+use crate::file::bounded;
 use crate::shard::Digest;
 use crate::sweep::row::Row;
 use serde::{Deserialize, Serialize};
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// The last line.
@@ -41,20 +42,14 @@ impl Output {
         let ok = |done: io::Result<()>| Output::wrap(path, done);
         let mut open = OpenOptions::new();
         open.read(true).write(true).create(true).truncate(false);
-        let mut file = Output::wrap(path, open.open(path))?;
+        let file = Output::wrap(path, open.open(path))?;
         match file.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => return Err(TableError::Busy(path.to_owned())),
             // Not every file system has locks.
             Err(TryLockError::Error(_)) => {}
         }
-        let mut text = String::new();
-        match file.read_to_string(&mut text) {
-            Err(e) if e.kind() == io::ErrorKind::InvalidData => {
-                return Err(TableError::Other(path.to_owned()));
-            }
-            done => ok(done.map(drop))?,
-        }
+        let read = Lines::begun(path, &mut BufReader::new(&file), Some(head))?;
         let mut out = Output {
             path: path.to_owned(),
             file,
@@ -63,8 +58,7 @@ impl Output {
             finished: false,
         };
         let mut whole = 0;
-        if !text.is_empty() && !is_beginning(&text, head) {
-            let read = Lines::read(path, &text)?;
+        if let Some(read) = read {
             if let Some((what, there, asked)) = read.head.differs(head) {
                 let path = path.to_owned();
                 return Err(TableError::Differs {
@@ -118,10 +112,8 @@ impl Output {
     }
 }
 
-/// Whether a text is no more than the beginning of a first line.
-fn is_beginning(text: &str, head: &Head) -> bool {
-    !text.contains('\n') && line(head).starts_with(text)
-}
+/// No line of a table is longer, in bytes.
+const LONGEST: usize = 1 << 26;
 
 /// The lines of a table as far as they are whole.
 struct Lines {
@@ -134,11 +126,22 @@ struct Lines {
 }
 
 impl Lines {
-    fn read(path: &Path, text: &str) -> Result<Lines, TableError> {
-        let mut lines = text.split_inclusive('\n');
-        let first = lines.next().unwrap_or_default();
+    /// Reads line by line, so that a file that is none is not read to its end. Nothing where there is no more than the beginning
+    /// of the first line `of` a table that is to be made.
+    fn begun(
+        path: &Path,
+        from: &mut impl BufRead,
+        of: Option<&Head>,
+    ) -> Result<Option<Lines>, TableError> {
         let other = || TableError::Other(path.to_owned());
-        let head: Head = serde_json::from_str(first).map_err(|_| other())?;
+        let first = match bounded::line(from, LONGEST) {
+            Err(e) if e.kind() == io::ErrorKind::InvalidData => return Err(other()),
+            done => Output::wrap(path, done)?,
+        };
+        if of.is_some_and(|head| !first.ends_with('\n') && line(head).starts_with(&first)) {
+            return Ok(None);
+        }
+        let head: Head = serde_json::from_str(&first).map_err(|_| other())?;
         let mut out = Lines {
             head,
             rows: Vec::new(),
@@ -146,25 +149,30 @@ impl Lines {
             finished: false,
             whole: first.len(),
         };
-        for text in lines {
+        loop {
+            // What is no row is left of one that was being written.
+            let text = match bounded::line(from, LONGEST) {
+                Err(e) if e.kind() == io::ErrorKind::InvalidData => break,
+                done => Output::wrap(path, done)?,
+            };
             if !text.ends_with('\n') {
                 break;
             }
-            if let Ok(foot) = serde_json::from_str::<Foot>(text) {
+            if let Ok(foot) = serde_json::from_str::<Foot>(&text) {
                 if foot.rows != out.rows.len() || foot.digest != out.digest.hex() {
                     return Err(TableError::Spoilt(path.to_owned()));
                 }
                 out.finished = true;
-                return Ok(out);
+                break;
             }
-            let Ok(row) = serde_json::from_str(text) else {
+            let Ok(row) = serde_json::from_str(&text) else {
                 break;
             };
-            out.digest.add(text);
+            out.digest.add(&text);
             out.rows.push(row);
             out.whole += text.len();
         }
-        Ok(out)
+        Ok(Some(out))
     }
 }
 
@@ -173,16 +181,11 @@ impl Lines {
 /// # Errors
 /// Where it is none, not finished, or was changed.
 pub fn read(path: &Path) -> Result<Table, TableError> {
-    let text = match std::fs::read_to_string(path) {
-        Err(e) if e.kind() == io::ErrorKind::InvalidData => {
-            return Err(TableError::Other(path.to_owned()));
-        }
-        done => Output::wrap(path, done)?,
-    };
-    let lines = Lines::read(path, &text)?;
-    if !lines.finished {
+    let mut from = BufReader::new(Output::wrap(path, bounded::regular(path))?);
+    let lines = Lines::begun(path, &mut from, None)?;
+    let Some(lines) = lines.filter(|l| l.finished) else {
         return Err(TableError::Unfinished(path.to_owned()));
-    }
+    };
     Ok(Table {
         head: lines.head,
         rows: lines.rows,

@@ -3,6 +3,7 @@
 use super::error::TableError;
 use super::lines::{Output, read};
 use super::rows::Table;
+use crate::file::leftover;
 use crate::shard::{Digest, Shard};
 use itertools::Itertools;
 use std::path::{Path, PathBuf};
@@ -63,16 +64,35 @@ pub fn merge(parts: &[PathBuf], whole: &Path) -> Result<Table, TableError> {
     let rows = std::mem::take(&mut all.rows);
     all.digest = Digest::default();
     let text = all.add(rows);
+    clean(whole);
     let mut beside = whole.as_os_str().to_owned();
     beside.push(format!(".{}.tmp", std::process::id()));
     let beside = PathBuf::from(beside);
-    let written = Output::open(&beside, &all.head).and_then(|mut out| {
+    // Held until it has its name, so that nobody takes it for a left one.
+    let placed = Output::open(&beside, &all.head).and_then(|mut out| {
         out.add(&text)?;
-        out.finish(&all.digest)
+        out.finish(&all.digest)?;
+        Output::wrap(whole, std::fs::rename(&beside, whole))
     });
-    let placed = written.and_then(|()| Output::wrap(whole, std::fs::rename(&beside, whole)));
     if placed.is_err() {
         let _ = std::fs::remove_file(&beside);
     }
     placed.map(|()| all)
+}
+
+/// Removes what merges that were killed left beside the whole.
+fn clean(whole: &Path) {
+    let (Some(folder), Some(name)) = (whole.parent(), whole.file_name()) else {
+        return;
+    };
+    let folder = match folder.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => folder,
+    };
+    let name = name.as_encoded_bytes();
+    leftover::clean(folder, |other| {
+        let rest = other.as_encoded_bytes().strip_prefix(name);
+        let number = rest.and_then(|r| r.strip_prefix(b".")?.strip_suffix(b".tmp"));
+        number.is_some_and(|n| !n.is_empty() && n.iter().all(u8::is_ascii_digit))
+    });
 }

@@ -131,6 +131,122 @@ fn tallies_stay_within_the_memory() {
     assert_eq!(v["exact"], false);
 }
 
+/// Once an abort: each thread had 64 MiB of addresses set aside, and with 200 MB of them there was little left for the search.
+#[cfg(target_os = "linux")]
+#[test]
+fn scarce_addresses_end_no_search() {
+    let folder = tempfile::tempdir().unwrap();
+    for contours in [8, 20] {
+        std::fs::write(folder.path().join("x.toml"), ladder(contours)).unwrap();
+        let command = format!(
+            "ulimit -v 200000; exec '{}' search x.toml --count --check none --threads 4 --format json",
+            env!("CARGO_BIN_EXE_ozols")
+        );
+        let mut shell = Command::new("sh");
+        shell.args(["-c", &command]).current_dir(&folder);
+        let o = shell.output().unwrap();
+        assert!(
+            matches!(o.status.code(), Some(0 | 1)),
+            "{contours}: {:?} {}",
+            o.status,
+            text(&o.stderr)
+        );
+    }
+}
+
+/// `ulimit` bounds what a search may hold by default: a quarter.
+#[cfg(target_os = "linux")]
+#[test]
+fn limits_of_the_process_count() {
+    for (limit, most) in [("-v 400000", 98), ("-d 400000", 98)] {
+        let command = format!(
+            "ulimit {limit}; exec '{}' search four-bar --count",
+            env!("CARGO_BIN_EXE_ozols")
+        );
+        let o = Command::new("sh").args(["-c", &command]).output().unwrap();
+        let said = text(&o.stderr);
+        let allowed = said
+            .split('(')
+            .nth(1)
+            .and_then(|s| s.split(' ').next())
+            .unwrap();
+        let allowed: u32 = allowed.parse().unwrap();
+        assert!((20..=most).contains(&allowed), "{limit}: {said}");
+    }
+}
+
+/// Once read to their ends, 1.5 GB of them, by everything but mechanism files and robots.
+#[cfg(target_os = "linux")]
+#[test]
+fn no_reader_reads_without_a_bound() {
+    let folder = tempfile::tempdir().unwrap();
+    let huge = std::fs::File::create(folder.path().join("huge")).unwrap();
+    huge.set_len(1_500_000_000).unwrap();
+    for line in [
+        "check huge",
+        "lint huge",
+        "lint robot.xml",
+        "import robot.xml",
+        "verify four-bar huge",
+        "sweep --merge huge -o whole.jsonl",
+        "sweep four-bar -o huge",
+        "catalog build --spec huge -o x.db",
+        "catalog query huge",
+        "grip lever-gripper --motion huge",
+        "search four-bar --costs huge",
+        "import robot.urdf --loops huge",
+    ] {
+        let _ = std::fs::remove_file(folder.path().join("robot.xml"));
+        std::fs::hard_link(folder.path().join("huge"), folder.path().join("robot.xml")).unwrap();
+        let command = format!(
+            "ulimit -v 1000000; exec '{}' {line} --quiet",
+            env!("CARGO_BIN_EXE_ozols")
+        );
+        let begun = std::time::Instant::now();
+        let mut shell = Command::new("sh");
+        shell.args(["-c", &command]).current_dir(&folder);
+        let o = shell.output().unwrap();
+        let said = text(&o.stderr);
+        assert_eq!(o.status.code(), Some(2), "{line}: {said}");
+        assert!(
+            !said.is_empty() && said.len() < 2000,
+            "{line}: {} bytes",
+            said.len()
+        );
+        assert!(
+            begun.elapsed().as_secs() < 20,
+            "{line}: {:?}",
+            begun.elapsed()
+        );
+    }
+    assert_eq!(huge.metadata().unwrap().len(), 1_500_000_000);
+}
+
+/// Once minutes and gigabytes before the refusal.
+#[test]
+fn a_grid_too_fine_is_refused_at_once() {
+    let text = file(1, &[(0, 1)]) + "[parameter]\na = { range = [1, 2] }\nb = { range = [1, 2] }\n";
+    for (grid, says) in [
+        ("1000000", "at most 100000 numbers of each range"),
+        (
+            "18446744073709551615",
+            "at most 100000 numbers of each range",
+        ),
+        ("1001", "more than 1000000 samples over 2 parameters"),
+    ] {
+        let begun = std::time::Instant::now();
+        let used = text.replace("point = [0, 0, 0]", "point = [\"a\", \"b\", 0]");
+        let o = ozols(&["sweep", "-", "--grid", grid])
+            .write_stdin(used)
+            .output()
+            .unwrap();
+        let said = self::text(&o.stderr);
+        assert_eq!(o.status.code(), Some(2), "{said}");
+        assert!(said.contains(says), "{said}");
+        assert!(begun.elapsed().as_secs() < 5, "{:?}", begun.elapsed());
+    }
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_search_says_how_much_memory_it_took_of_what_it_may() {

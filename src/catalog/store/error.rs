@@ -1,0 +1,84 @@
+//! What is wrong with a catalogue.
+
+use super::version::{OLDEST, VERSION};
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// What is wrong with a catalogue.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum StoreError {
+    /// The file cannot be opened, read or written.
+    #[error("{}: {why}", path.display())]
+    Database {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        why: rusqlite::Error,
+    },
+    /// The file is something else.
+    #[error(
+        "{} is no catalogue of ozols; choose another name, `ozols catalog build -o NAME.db` makes one", .0.display()
+    )]
+    Other(PathBuf),
+    /// Nothing is in it.
+    #[error(
+        "{} is empty: the command that was to make a catalogue of it was ended; run it again, it carries on", .0.display()
+    )]
+    Empty(PathBuf),
+    /// Tables of a version that is not known.
+    #[error("{} was made by a later version of ozols (tables {found}, this one has {VERSION}); take that version", path.display())]
+    Later {
+        /// The file.
+        path: PathBuf,
+        /// Its version.
+        found: i64,
+    },
+    /// Tables too old to be written to.
+    #[error(
+        "{} was made by an early version of ozols (tables {found}) that did not count all that is kept now: it can be read, but to \
+         add to it, build it again under another name (tables {OLDEST} and later are carried on)",
+        path.display()
+    )]
+    Early {
+        /// The file.
+        path: PathBuf,
+        /// Its version.
+        found: i64,
+    },
+    /// It holds something else than what is asked for.
+    #[error(
+        "{} holds another catalogue ({what} differs: {there} there, {asked} asked for); choose another file, or the same options", path.display()
+    )]
+    Differs {
+        /// The file.
+        path: PathBuf,
+        /// Which part.
+        what: String,
+        /// What it holds.
+        there: String,
+        /// What is asked.
+        asked: String,
+    },
+    /// A question that would do more than read the catalogue.
+    #[error(
+        "{}: a catalogue is only read here: no ATTACH, no VACUUM INTO, no settings; ask with SELECT, and -o FILE keeps the answer", .0.display()
+    )]
+    ReadOnly(PathBuf),
+    /// No such structure.
+    #[error("{} has no structure {id}; `ozols catalog query` lists them", path.display())]
+    Unknown {
+        /// The file.
+        path: PathBuf,
+        /// What was asked for.
+        id: String,
+    },
+    /// Several structures begin so.
+    #[error("{id} is the beginning of {count} structures; give more of it")]
+    Several {
+        /// What was asked for.
+        id: String,
+        /// How many.
+        count: usize,
+    },
+}

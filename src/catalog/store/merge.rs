@@ -1,0 +1,191 @@
+//! Parts put together, and what is missing of the whole.
+
+use super::open::plain_name;
+use super::version::OLDEST;
+use super::{Store, StoreError, Stored};
+use crate::catalog::spec::Spec;
+use crate::shard::Shard;
+use num_integer::Integer;
+use std::path::{Path, PathBuf};
+
+/// Parts beyond so many are not told one by one.
+const FINEST: u64 = 100_000;
+
+/// What came of merging.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Merged {
+    /// Structures and drawn mechanisms that were added.
+    pub added: usize,
+    /// Parts that are missing of the whole, in words that `--shard` takes: none where all structures are there.
+    pub missing: Vec<Shard>,
+    /// Files that do not say that all of their part is there: what made them was ended, or of an earlier version.
+    pub unfinished: Vec<PathBuf>,
+}
+
+impl Store {
+    /// Takes in the structures of other catalogues of the same specification that this one has not.
+    ///
+    /// # Errors
+    /// Where one holds another catalogue, or is too old.
+    pub fn merge(path: &Path, parts: &[PathBuf]) -> Stored<Merged> {
+        let mut store: Option<Store> = None;
+        let mut merged = Merged::default();
+        for part in parts {
+            let from = Store::open(part)?;
+            if from.version < OLDEST {
+                return Err(StoreError::Early {
+                    path: part.clone(),
+                    found: from.version,
+                });
+            }
+            let spec = from.meta("spec")?;
+            if spec.is_some() && from.parts()?.is_empty() {
+                merged.unfinished.push(part.clone());
+            }
+            let here = match (store.take(), spec) {
+                (Some(s), None) => s,
+                // Drawn mechanisms alone go with any.
+                (None, None) => Store::writable(path)?,
+                (_, Some(text)) => {
+                    let spec = toml::from_str::<Spec>(&text);
+                    spec.map_err(|_| StoreError::Other(part.clone()))?;
+                    Store::writable_of(path, Some(&text))?
+                }
+            };
+            merged.added += here.take_in(part, from.version)?;
+            store = Some(here);
+        }
+        if let Some(store) = store {
+            merged.missing = store.missing()?;
+        }
+        Ok(merged)
+    }
+
+    /// Notes that all of a part is there: so many structures.
+    ///
+    /// # Errors
+    /// Where the file cannot be written.
+    pub fn finish_part(&mut self, part: Shard, structures: usize) -> Stored<()> {
+        let structures = i64::try_from(structures).unwrap_or(i64::MAX);
+        let sql = "INSERT OR REPLACE INTO parts VALUES (?1, ?2)";
+        let done = self
+            .db
+            .execute(sql, rusqlite::params![part.to_string(), structures]);
+        self.ok(done.map(drop))
+    }
+
+    /// The parts that are all there.
+    fn parts(&self) -> Stored<Vec<Shard>> {
+        let all = || -> rusqlite::Result<Vec<String>> {
+            let mut query = self.db.prepare("SELECT part FROM parts ORDER BY part")?;
+            let parts = query.query_map([], |r| r.get(0))?;
+            parts.collect()
+        };
+        let words = self.ok(all())?;
+        Ok(words.iter().filter_map(|w| w.parse().ok()).collect())
+    }
+
+    /// The parts that are missing of the whole; none where there is no specification that says what the whole is.
+    ///
+    /// # Errors
+    /// Where the file cannot be read.
+    pub fn missing(&self) -> Stored<Vec<Shard>> {
+        if self.meta("spec")?.is_none() {
+            return Ok(Vec::new());
+        }
+        Ok(missing(&self.parts()?))
+    }
+
+    fn take_in(&self, part: &Path, version: i64) -> Stored<usize> {
+        let parts = match version {
+            OLDEST => "",
+            _ => "INSERT OR IGNORE INTO main.parts SELECT * FROM part.parts;",
+        };
+        let all = || -> rusqlite::Result<usize> {
+            self.attach(part)?;
+            // What is there already stays as it is, with no idea of another search of it.
+            self.db.execute_batch(
+                "BEGIN IMMEDIATE;
+                 CREATE TEMP TABLE there AS SELECT id FROM main.structures UNION ALL SELECT id FROM main.drawn;",
+            )?;
+            let count = "SELECT (SELECT count(*) FROM part.structures WHERE id NOT IN there) \
+                         + (SELECT count(*) FROM part.drawn WHERE id NOT IN there)";
+            let added: i64 = self.db.query_row(count, [], |r| r.get(0))?;
+            self.db.execute_batch(&format!(
+                "INSERT INTO main.structures SELECT * FROM part.structures WHERE id NOT IN there;
+                 INSERT INTO main.drawn SELECT * FROM part.drawn WHERE id NOT IN there;
+                 INSERT INTO main.layouts SELECT * FROM part.layouts WHERE structure NOT IN there;
+                 INSERT INTO main.counts SELECT * FROM part.counts WHERE structure NOT IN there;
+                 INSERT INTO main.ideas SELECT * FROM part.ideas WHERE structure NOT IN there;
+                 {parts}
+                 DROP TABLE there; COMMIT; DETACH DATABASE part;"
+            ))?;
+            Ok(usize::try_from(added).unwrap_or(0))
+        };
+        self.ok(all())
+    }
+
+    /// Attaches a part, whatever bytes its name is of.
+    fn attach(&self, part: &Path) -> rusqlite::Result<()> {
+        let name = plain_name(part);
+        #[cfg(unix)]
+        let name = std::os::unix::ffi::OsStrExt::as_bytes(name.as_os_str());
+        #[cfg(not(unix))]
+        let name = name.to_string_lossy();
+        self.db
+            .execute("ATTACH DATABASE ?1 AS part", [&name])
+            .map(drop)
+    }
+}
+
+/// The parts that are missing beside some, in as many as all of those are of.
+fn missing(there: &[Shard]) -> Vec<Shard> {
+    let of = there.iter().fold(
+        1,
+        |all: u64, part| {
+            if all > FINEST { all } else { all.lcm(&part.of) }
+        },
+    );
+    if of > FINEST {
+        return vec![Shard::WHOLE];
+    }
+    let has = |index: u64| there.iter().any(|p| index % p.of == p.index);
+    let all = (0..of).filter(|&index| !has(index));
+    all.map(|index| Shard { index, of }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::missing;
+    use crate::shard::Shard;
+
+    fn words(there: &[&str]) -> String {
+        let there: Vec<Shard> = there.iter().map(|p| p.parse().unwrap()).collect();
+        let all: Vec<String> = missing(&there).iter().map(ToString::to_string).collect();
+        all.join(" ")
+    }
+
+    #[test]
+    fn parts_of_different_numbers_make_a_whole() {
+        assert_eq!(words(&["1/1"]), "");
+        assert_eq!(words(&[]), "1/1");
+        assert_eq!(words(&["1/3", "3/3"]), "2/3");
+        assert_eq!(words(&["1/2", "2/4", "4/4"]), "");
+        assert_eq!(words(&["1/2", "2/4"]), "4/4");
+        // Every piece that is missing is in one of the parts named, and none of these is there.
+        let there: Vec<Shard> = ["1/2", "3/3"].map(|p| p.parse().unwrap()).into();
+        let gone = missing(&there);
+        for piece in 0..200 {
+            let name = piece.to_string();
+            let is_there = there.iter().any(|p| p.has(&name));
+            assert_eq!(is_there, !gone.iter().any(|p| p.has(&name)), "{piece}");
+        }
+    }
+
+    #[test]
+    fn parts_too_many_to_be_named_are_the_whole() {
+        assert_eq!(words(&["1/99991", "1/99989"]), "1/1");
+        let most = u64::MAX.to_string();
+        assert_eq!(words(&[&format!("1/{most}"), "1/2"]), "1/1");
+    }
+}

@@ -1,0 +1,205 @@
+//! Opening catalogues, to read them and to write to them.
+//!
+//! What a file is gets looked at within the transaction that would make it, after whatever a killed command left was rolled
+//! back: so a catalogue that was never finished being made is as good as none, and of several commands that make one file the
+//! first does, and the others find it made.
+
+use super::version::{self, Kind, OLDEST, VERSION};
+use super::{Store, StoreError, Stored};
+use crate::catalog::spec::Spec;
+use rusqlite::hooks::{AuthAction, AuthContext, Authorization};
+use rusqlite::{Connection, ErrorCode, OpenFlags, ffi};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// How long a command waits for others that write to the same file.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// Pragmas that only tell something about the table they are given.
+const TELLING: [&str; 7] = [
+    "foreign_key_list",
+    "index_info",
+    "index_list",
+    "index_xinfo",
+    "table_info",
+    "table_list",
+    "table_xinfo",
+];
+
+impl Store {
+    /// Opens a catalogue to read, and for nothing else: no question can write, or open another file.
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub fn open(path: &Path) -> Stored<Store> {
+        let read = || {
+            let db = connect(path, OpenFlags::SQLITE_OPEN_READ_ONLY)?;
+            let kind = kind(path, &db)?;
+            Ok((db, kind))
+        };
+        let (db, kind) = match read() {
+            Err(StoreError::Database { why, .. }) if is_half_written(&why) => {
+                recover(path)?;
+                read()?
+            }
+            done => done?,
+        };
+        let version = match kind {
+            Kind::Fresh => return Err(StoreError::Empty(path.to_owned())),
+            Kind::Other => return Err(StoreError::Other(path.to_owned())),
+            Kind::Catalogue(found) => known(path, found)?,
+        };
+        Store::wrap(path, version::fill_in(&db, version))?;
+        Store::wrap(path, db.authorizer(Some(only_questions)))?;
+        Ok(Store {
+            path: path.to_owned(),
+            db,
+            version,
+        })
+    }
+
+    /// Opens a catalogue to carry on, or makes one, that holds what a specification asks for.
+    ///
+    /// # Errors
+    /// Where the file is something else, or holds another catalogue.
+    pub fn create(path: &Path, spec: &Spec) -> Stored<Store> {
+        Store::writable_of(path, Some(&spec.canonical()))
+    }
+
+    /// Opens a catalogue to write to, or makes an empty one.
+    ///
+    /// # Errors
+    /// Where the file is something else.
+    pub fn writable(path: &Path) -> Stored<Store> {
+        Store::writable_of(path, None)
+    }
+
+    /// The same, of a specification where there is one.
+    pub(super) fn writable_of(path: &Path, spec: Option<&str>) -> Stored<Store> {
+        let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE;
+        let db = connect(path, flags)?;
+        // Rolls back what a killed command left, and keeps others from making what is missing here.
+        let begun = db.execute_batch("PRAGMA page_size = 8192; BEGIN IMMEDIATE");
+        begun.map_err(|why| unreadable(path, why))?;
+        match kind(path, &db)? {
+            Kind::Other => return Err(StoreError::Other(path.to_owned())),
+            Kind::Fresh => Store::wrap(path, version::make(&db))?,
+            Kind::Catalogue(found) => {
+                if known(path, found)? < OLDEST {
+                    let path = path.to_owned();
+                    return Err(StoreError::Early { path, found });
+                }
+                Store::wrap(path, version::migrate(&db, found))?;
+            }
+        }
+        let mut store = Store {
+            path: path.to_owned(),
+            db,
+            version: VERSION,
+        };
+        if let Some(spec) = spec {
+            store.be_of(spec)?;
+        }
+        let done = store.db.execute_batch("COMMIT");
+        store.ok(done)?;
+        Ok(store)
+    }
+
+    /// Notes what the catalogue is of, or sees that it is the same.
+    fn be_of(&mut self, spec: &str) -> Stored<()> {
+        match self.meta("spec")? {
+            Some(there) if there != spec => Err(differs(&self.path, &there, spec)),
+            Some(_) => Ok(()),
+            None => {
+                self.set_meta("spec", spec)?;
+                self.set_meta("ozols", env!("CARGO_PKG_VERSION"))
+            }
+        }
+    }
+}
+
+/// The version found, where it is one.
+fn known(path: &Path, found: i64) -> Stored<i64> {
+    let path = path.to_owned();
+    match found {
+        1..=VERSION => Ok(found),
+        later if later > VERSION => Err(StoreError::Later { path, found }),
+        _ => Err(StoreError::Other(path)),
+    }
+}
+
+/// Opens a database. Names stand for files whatever they look like, and what a foreign file says of itself is not trusted.
+fn connect(path: &Path, flags: OpenFlags) -> Stored<Connection> {
+    let flags = flags | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    let open = || {
+        let db = Connection::open_with_flags(plain_name(path), flags)?;
+        db.busy_timeout(PATIENCE)?;
+        db.pragma_update(None, "trusted_schema", false)?;
+        Ok(db)
+    };
+    Store::wrap(path, open())
+}
+
+/// A name that SQLite takes for that of a file: `:memory:` is one here, too.
+pub(super) fn plain_name(path: &Path) -> PathBuf {
+    match path.is_absolute() {
+        true => path.to_owned(),
+        false => Path::new(".").join(path),
+    }
+}
+
+fn kind(path: &Path, db: &Connection) -> Stored<Kind> {
+    version::kind(db).map_err(|why| unreadable(path, why))
+}
+
+/// What cannot be read is no database, or cannot be read.
+fn unreadable(path: &Path, why: rusqlite::Error) -> StoreError {
+    let path = path.to_owned();
+    match why.sqlite_error_code() {
+        Some(ErrorCode::NotADatabase) => StoreError::Other(path),
+        _ => StoreError::Database { path, why },
+    }
+}
+
+/// Whether a killed command left something to be rolled back, which whoever only reads may not do.
+fn is_half_written(why: &rusqlite::Error) -> bool {
+    let code = why.sqlite_error().map(|e| e.extended_code);
+    matches!(
+        code,
+        Some(ffi::SQLITE_READONLY_ROLLBACK | ffi::SQLITE_READONLY_RECOVERY)
+    )
+}
+
+/// Rolls back what a killed command left.
+fn recover(path: &Path) -> Stored<()> {
+    let db = connect(path, OpenFlags::SQLITE_OPEN_READ_WRITE)?;
+    kind(path, &db).map(drop)
+}
+
+fn only_questions(asked: AuthContext<'_>) -> Authorization {
+    match asked.action {
+        AuthAction::Attach { .. } | AuthAction::Detach { .. } => Authorization::Deny,
+        AuthAction::Pragma {
+            pragma_name,
+            pragma_value: Some(_),
+        } if !TELLING.contains(&pragma_name) => Authorization::Deny,
+        _ => Authorization::Allow,
+    }
+}
+
+/// What two specifications differ in.
+fn differs(path: &Path, there: &str, asked: &str) -> StoreError {
+    let line = |text: &str, other: &str| {
+        let lines = other.lines().collect::<BTreeSet<_>>();
+        let differs = text.lines().find(|l| !lines.contains(l));
+        differs.unwrap_or("nothing").to_owned()
+    };
+    let (there, asked) = (line(there, asked), line(asked, there));
+    StoreError::Differs {
+        path: path.to_owned(),
+        what: asked.split(" = ").next().unwrap_or("it").to_owned(),
+        there,
+        asked,
+    }
+}

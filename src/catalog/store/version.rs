@@ -1,0 +1,178 @@
+//! Versions of the tables, and how older ones are read and carried on.
+//!
+//! Every catalogue bears the version of its tables. One of [`OLDEST`] or later is brought up to date when it is next written
+//! to, in the transaction that looks at it. Any older one can be read: what it did not keep is NULL.
+
+use rusqlite::Connection;
+
+/// What marks a file as a catalogue: "ozcg".
+const APPLICATION: i64 = 0x6f7a_6367;
+/// Version of the tables.
+pub(super) const VERSION: i64 = 5;
+/// The oldest version that can be carried on: those before lack counts that only building again gives.
+pub(super) const OLDEST: i64 = 4;
+
+/// The tables, each column with what it holds; the file carries these words, too (`.schema` shows them).
+pub const TABLES: &str = include_str!("../tables.sql");
+
+/// What each version but the first has beside the one before it, as statements that make it of that one.
+const STEPS: [(i64, &str); 1] = [(
+    5,
+    "CREATE TABLE parts (               -- parts of the structures that are all there
+  part TEXT PRIMARY KEY,           -- 3/7, the third of seven; 1/1 is the whole
+  structures INTEGER NOT NULL      -- how many it has
+) WITHOUT ROWID;",
+)];
+
+/// Views in the place of tables that lack something, for whoever reads a version before the one named.
+const VIEWS: [(i64, &str); 7] = [
+    (
+        5,
+        "CREATE TEMP VIEW parts AS SELECT NULL AS part, NULL AS structures WHERE 0;",
+    ),
+    (
+        4,
+        "CREATE TEMP VIEW counts AS SELECT *, NULL AS orbits, NULL AS symmetric FROM main.counts;",
+    ),
+    // In the third the layouts have all but two columns; before that three jaws are not known of, either.
+    (
+        4,
+        "CREATE TEMP VIEW IF NOT EXISTS layouts AS SELECT *, NULL AS closes, NULL AS orbits_w1 FROM main.layouts;",
+    ),
+    (
+        3,
+        "DROP VIEW temp.layouts; CREATE TEMP VIEW layouts AS SELECT *, NULL AS closes, NULL AS orbits_w1, NULL AS jaw_c_motion, \
+         NULL AS tip_c_dx, NULL AS tip_c_dy FROM main.layouts;",
+    ),
+    (
+        3,
+        "CREATE TEMP VIEW structures AS SELECT *, NULL AS jaw_c FROM main.structures;",
+    ),
+    (
+        2,
+        "CREATE TEMP VIEW drawn AS SELECT NULL AS id, NULL AS name, NULL AS description, NULL AS links, NULL AS joints, \
+         NULL AS contours, NULL AS mode, NULL AS input, NULL AS mechanism, NULL AS mobility, NULL AS redundant, NULL AS finite, \
+         NULL AS determinate, NULL AS admissible, NULL AS certainty, NULL AS ideas_asked, NULL AS best_cost WHERE 0;",
+    ),
+    (
+        3,
+        "CREATE TEMP VIEW IF NOT EXISTS drawn AS SELECT *, NULL AS ideas_asked FROM main.drawn;",
+    ),
+];
+
+/// What a file is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// A database without a table, as a kill leaves it that comes while a catalogue is being made.
+    Fresh,
+    /// A catalogue with tables of this version.
+    Catalogue(i64),
+    /// Something else.
+    Other,
+}
+
+/// What an open database is.
+pub(super) fn kind(db: &Connection) -> rusqlite::Result<Kind> {
+    let number = |name: &str| db.pragma_query_value(None, name, |r| r.get::<_, i64>(0));
+    let (application, version) = (number("application_id")?, number("user_version")?);
+    let tables: i64 = db.query_row("SELECT count(*) FROM main.sqlite_schema", [], |r| r.get(0))?;
+    Ok(match (application, version, tables) {
+        (0, 0, 0) => Kind::Fresh,
+        (APPLICATION, version, 1..) => Kind::Catalogue(version),
+        _ => Kind::Other,
+    })
+}
+
+/// Makes the tables, in the transaction that is open.
+pub(super) fn make(db: &Connection) -> rusqlite::Result<()> {
+    db.execute_batch(&format!(
+        "PRAGMA application_id = {APPLICATION}; PRAGMA user_version = {VERSION}; {TABLES}"
+    ))
+}
+
+/// Brings tables of a version from [`OLDEST`] on up to date, in the transaction that is open.
+pub(super) fn migrate(db: &Connection, from: i64) -> rusqlite::Result<()> {
+    for (version, step) in STEPS.iter().filter(|(version, _)| *version > from) {
+        db.execute_batch(&format!("{step} PRAGMA user_version = {version};"))?;
+    }
+    Ok(())
+}
+
+/// Lets tables of an older version be read as those of this one.
+pub(super) fn fill_in(db: &Connection, found: i64) -> rusqlite::Result<()> {
+    for (_, view) in VIEWS.iter().filter(|(version, _)| found < *version) {
+        db.execute_batch(view)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Names and words of the tables and views of a database.
+    fn schema(db: &Connection) -> Vec<(String, String)> {
+        let sql = "SELECT name, sql FROM sqlite_schema WHERE sql IS NOT NULL ORDER BY name";
+        let mut all = db.prepare(sql).unwrap();
+        let rows = all.query_map([], |r| Ok((r.get(0)?, r.get(1)?))).unwrap();
+        rows.map(Result::unwrap).collect()
+    }
+
+    fn fourth() -> Connection {
+        let db = Connection::open_in_memory().unwrap();
+        make(&db).unwrap();
+        db.execute_batch("DROP TABLE parts; PRAGMA user_version = 4;")
+            .unwrap();
+        db
+    }
+
+    #[test]
+    fn what_is_brought_up_to_date_is_as_if_made_so() {
+        let new = Connection::open_in_memory().unwrap();
+        assert_eq!(kind(&new).unwrap(), Kind::Fresh);
+        make(&new).unwrap();
+        assert_eq!(kind(&new).unwrap(), Kind::Catalogue(VERSION));
+        let old = fourth();
+        assert_eq!(kind(&old).unwrap(), Kind::Catalogue(4));
+        migrate(&old, 4).unwrap();
+        assert_eq!(kind(&old).unwrap(), Kind::Catalogue(VERSION));
+        assert_eq!(schema(&old), schema(&new));
+    }
+
+    /// Each version's tables, as far back as there are any, with the columns it lacked taken away.
+    #[test]
+    fn every_column_can_be_asked_of_every_version() {
+        let without = [
+            (4, "DROP TABLE parts;"),
+            (
+                3,
+                "DROP VIEW front; DROP VIEW idea_front; ALTER TABLE layouts DROP COLUMN closes; ALTER TABLE layouts DROP COLUMN orbits_w1; \
+                 ALTER TABLE counts DROP COLUMN orbits; ALTER TABLE counts DROP COLUMN symmetric;",
+            ),
+            (
+                2,
+                "ALTER TABLE structures DROP COLUMN jaw_c; ALTER TABLE layouts DROP COLUMN jaw_c_motion; \
+                 ALTER TABLE layouts DROP COLUMN tip_c_dx; ALTER TABLE layouts DROP COLUMN tip_c_dy; \
+                 ALTER TABLE drawn DROP COLUMN ideas_asked;",
+            ),
+            (1, "DROP TABLE drawn;"),
+        ];
+        for n in 0..=without.len() {
+            let db = Connection::open_in_memory().unwrap();
+            make(&db).unwrap();
+            let wanted = ["structures", "layouts", "drawn", "counts", "ideas", "parts"];
+            let columns = |table: &str| -> std::collections::BTreeSet<String> {
+                let all = db.prepare(&format!("SELECT * FROM {table}")).unwrap();
+                all.column_names().into_iter().map(str::to_owned).collect()
+            };
+            let now = wanted.map(columns);
+            let mut version = VERSION;
+            for (found, taken) in &without[..n] {
+                db.execute_batch(taken).unwrap();
+                version = *found;
+            }
+            fill_in(&db, version).unwrap();
+            assert_eq!(wanted.map(columns), now, "{version}");
+        }
+    }
+}

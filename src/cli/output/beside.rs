@@ -1,0 +1,82 @@
+//! Files that are written beside the ones they are to become, so that these are whole or not there at all.
+
+use super::super::interrupt;
+use crate::file::leftover;
+use std::collections::BTreeSet;
+use std::ffi::OsString;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use tempfile::NamedTempFile;
+
+/// What names of such files begin with.
+const PREFIX: &str = ".tmp-ozols-";
+/// How often a file is begun anew that somebody took for a left one.
+const TRIES: usize = 100;
+
+/// The file that is being written, to be removed where the program ends in between, and the folders that were cleaned.
+static BESIDE: Mutex<(Option<PathBuf>, BTreeSet<PathBuf>)> = Mutex::new((None, BTreeSet::new()));
+
+fn beside() -> MutexGuard<'static, (Option<PathBuf>, BTreeSet<PathBuf>)> {
+    BESIDE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes the file that is being written, if one is.
+pub(in crate::cli) fn abandon() {
+    if let Some(path) = beside().0.take() {
+        let _ = std::fs::remove_file(path);
+    }
+}
+
+/// Begins a file in a folder, and removes those that killed runs left there.
+pub(super) fn begin(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut beside = beside();
+    if beside.1.insert(folder.to_owned()) {
+        leftover::clean(folder, |name| {
+            name.as_encoded_bytes().starts_with(PREFIX.as_bytes())
+        });
+    }
+    let mut file = ordinary().tempfile_in(folder)?;
+    for _ in 0..TRIES {
+        // Held from here on. Whoever cleans up may have taken it before. Not every file system has locks.
+        let _ = file.as_file().lock();
+        if file.path().exists() {
+            break;
+        }
+        file = ordinary().tempfile_in(folder)?;
+    }
+    beside.0 = Some(file.path().to_path_buf());
+    Ok(file)
+}
+
+/// Gives the file that was begun its name. What was interrupted does not take the place of something older that is whole: it is
+/// given a name beside it, which is returned.
+pub(super) fn place(file: NamedTempFile, path: &Path, older: bool) -> io::Result<Option<PathBuf>> {
+    let other = (older && interrupt::exit_code().is_some()).then(|| interrupted(path));
+    file.persist(other.as_deref().unwrap_or(path))?;
+    beside().0 = None;
+    Ok(other)
+}
+
+/// `page.interrupted.html` for `page.html`.
+fn interrupted(path: &Path) -> PathBuf {
+    let mut name: OsString = path.file_stem().unwrap_or_default().to_owned();
+    name.push(".interrupted");
+    if let Some(ending) = path.extension() {
+        name.push(".");
+        name.push(ending);
+    }
+    path.with_file_name(name)
+}
+
+/// Makes files that may be read by whom the umask lets: they become results.
+fn ordinary() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder
+}

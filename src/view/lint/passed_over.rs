@@ -1,0 +1,69 @@
+//! Files that nothing can be said of but why: told in every format, so that those that can be looked at are not lost with them.
+
+use crate::format::plain::line;
+use serde::Serialize;
+use serde_json::{Value, json};
+
+/// A file that could not be looked at, or has nothing to be looked at.
+#[derive(Debug, Clone, Serialize)]
+pub struct PassedOver {
+    /// Name of the file.
+    pub file: String,
+    /// Why, in a line.
+    pub why: String,
+    /// Whether nothing in it can move: then nothing is redundant, and nothing is wrong.
+    pub rigid: bool,
+}
+
+impl PassedOver {
+    /// Why a file is passed over.
+    #[must_use]
+    pub fn new(file: &str, why: &str, rigid: bool) -> PassedOver {
+        let line = why.lines().next().unwrap_or_default();
+        let named = line.strip_prefix(file).map(|l| l.trim_start_matches(": "));
+        PassedOver {
+            file: file.to_owned(),
+            why: named.unwrap_or(line).to_owned(),
+            rigid,
+        }
+    }
+
+    /// A line for people.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let (file, why) = (line(&self.file), line(&self.why));
+        match self.rigid {
+            true => format!("{file}: nothing is redundant: {why}\n"),
+            false => format!("{file}: not looked at: {why}\n"),
+        }
+    }
+
+    /// A notification of SARIF.
+    fn notification(&self) -> Value {
+        json!({
+            "descriptor": { "id": if self.rigid { "nothing-moves" } else { "not-looked-at" } },
+            "level": if self.rigid { "note" } else { "error" },
+            "message": { "text": self.why },
+            "locations": [{ "physicalLocation": { "artifactLocation": { "uri": self.file } } }],
+        })
+    }
+}
+
+/// Tells of them beside the findings in JSON; nothing where there are none.
+pub(super) fn in_json(out: &mut Value, all: &[PassedOver]) {
+    if !all.is_empty() {
+        out["passed_over"] = json!(all);
+    }
+}
+
+/// The same in SARIF.
+pub(super) fn in_sarif(out: &mut Value, all: &[PassedOver]) {
+    if all.is_empty() {
+        return;
+    }
+    let told: Vec<Value> = all.iter().map(PassedOver::notification).collect();
+    out["runs"][0]["invocations"] = json!([{
+        "executionSuccessful": all.iter().all(|p| p.rigid),
+        "toolExecutionNotifications": told,
+    }]);
+}

@@ -1,0 +1,306 @@
+//! The file of a catalogue: versions, parts that are missing, foreign files, and what a question may not do.
+
+use super::command::{at, fails, ok, whole};
+use crate::common::{ozols, run, text};
+use rusqlite::Connection;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use tempfile::{TempDir, tempdir};
+
+/// A catalogue of six structures.
+fn tiny(folder: &TempDir, name: &str, more: &[&str]) -> String {
+    let file = at(folder, name);
+    let words = [
+        "catalog", "build", "--links", "4", "--ideas", "1", "--quiet",
+    ];
+    ok(&[&words[..], &["-o", &file], more].concat());
+    file
+}
+
+fn change(file: &str, sql: &str) {
+    Connection::open(file).unwrap().execute_batch(sql).unwrap();
+}
+
+/// A catalogue as version 4 made it, and what it holds.
+fn fourth(folder: &TempDir, name: &str) -> (String, String) {
+    let file = tiny(folder, name, &[]);
+    change(&file, "DROP TABLE parts; PRAGMA user_version = 4;");
+    let held = whole(&file);
+    (file, held)
+}
+
+#[test]
+fn an_older_catalogue_is_read_as_it_is_and_carried_on() {
+    let folder = tempdir().unwrap();
+    let (file, held) = fourth(&folder, "fourth.db");
+    let bytes = fs::read(&file).unwrap();
+    ok(&["catalog", "query", &file]);
+    ok(&["catalog", "page", &file, "-o", &at(&folder, "page.html")]);
+    assert_eq!(fs::read(&file).unwrap(), bytes, "reading changed it");
+    let version = "SELECT user_version FROM pragma_user_version";
+    let version = || ok(&["catalog", "query", &file, version, "--format", "csv"]);
+    assert_eq!(version(), "user_version\n4\n");
+    // It may be a part, and says nothing of what it has.
+    let merged = at(&folder, "merged.db");
+    let o = run(&["catalog", "merge", &file, "-o", &merged]);
+    assert_eq!(o.status.code(), Some(1));
+    assert!(text(&o.stderr).contains("run the command that made it again"));
+    assert_eq!(whole(&merged), held);
+    // Carried on, it is as if made now.
+    tiny(&folder, "fourth.db", &[]);
+    assert_eq!(version(), "user_version\n5\n");
+    assert_eq!(whole(&file), held);
+    ok(&["catalog", "merge", &file, "-o", &merged]);
+}
+
+/// The third version lacked what only building again gives.
+#[test]
+fn an_early_catalogue_is_read_but_not_added_to() {
+    let folder = tempdir().unwrap();
+    let file = tiny(&folder, "third.db", &[]);
+    let id = ok(&[
+        "catalog",
+        "query",
+        &file,
+        "SELECT structure FROM layouts",
+        "--format",
+        "csv",
+    ]);
+    let id = id.lines().nth(1).unwrap();
+    change(
+        &file,
+        "DROP TABLE parts; PRAGMA user_version = 3; ALTER TABLE counts DROP COLUMN orbits; ALTER TABLE counts DROP COLUMN symmetric;
+         DROP VIEW front; ALTER TABLE layouts DROP COLUMN closes; ALTER TABLE layouts DROP COLUMN orbits_w1;
+         CREATE VIEW front AS SELECT id FROM structures;",
+    );
+    let shown = ok(&["catalog", "show", &file, id]);
+    assert!(shown.contains("As built: W = 1"), "{shown}");
+    ok(&["catalog", "page", &file, "-o", &at(&folder, "page.html")]);
+    let sql = "SELECT count(*) AS n, count(closes) AS known FROM layouts";
+    let csv = ok(&["catalog", "query", &file, sql, "--format", "csv"]);
+    assert!(csv.ends_with(",0\n"), "{csv}");
+    let words = ["build", "--links", "4", "--ideas", "1", "-o", &file];
+    fails(&[&["catalog"], &words[..]].concat(), "it can be read");
+    fails(
+        &["catalog", "merge", &file, "-o", &at(&folder, "m.db")],
+        "it can be read",
+    );
+}
+
+#[test]
+fn a_later_catalogue_is_refused_by_its_version() {
+    let folder = tempdir().unwrap();
+    let file = tiny(&folder, "later.db", &[]);
+    change(&file, "PRAGMA user_version = 99;");
+    let bytes = fs::read(&file).unwrap();
+    for args in [
+        &["query", &file][..],
+        &["build", "--links", "4", "--ideas", "1", "-o", &file],
+        &["search", "four-bar", "-o", &file],
+        &["merge", &file, "-o", &at(&folder, "m.db")],
+    ] {
+        fails(
+            &[&["catalog"], args].concat(),
+            "a later version of ozols (tables 99",
+        );
+    }
+    assert_eq!(fs::read(&file).unwrap(), bytes);
+}
+
+#[test]
+fn parts_that_are_missing_are_named() {
+    let folder = tempdir().unwrap();
+    let part = |i: usize| tiny(&folder, &format!("{i}.db"), &["--shard", &format!("{i}/7")]);
+    let parts: Vec<String> = (1..=7).map(part).collect();
+    let file = at(&folder, "all.db");
+    let merge = |which: &[usize]| {
+        let mut words = vec!["catalog", "merge"];
+        words.extend(which.iter().map(|i| parts[i - 1].as_str()));
+        words.extend(["-o", &file]);
+        let o = run(&words);
+        (o.status.code(), text(&o.stderr))
+    };
+    let (code, said) = merge(&[2, 5]);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(
+        said.contains("of 7 parts 1/7, 3/7, 4/7, 6/7, 7/7 are missing"),
+        "{said}"
+    );
+    assert!(said.contains("--shard"), "{said}");
+    let (code, said) = merge(&[1, 3, 4, 7]);
+    assert_eq!(code, Some(1));
+    assert!(said.contains("of 7 parts 6/7 is missing"), "{said}");
+    assert_eq!(merge(&[6]), (Some(0), String::new()));
+    assert_eq!(whole(&file), whole(&tiny(&folder, "once.db", &[])));
+    // A part that was not finished says so.
+    change(&parts[2], "DELETE FROM parts");
+    fs::remove_file(&file).unwrap();
+    let (code, said) = merge(&[1, 2, 3, 4, 5, 6, 7]);
+    assert_eq!(code, Some(1));
+    assert!(
+        said.contains("3.db does not say") && said.contains("3/7 is missing"),
+        "{said}"
+    );
+}
+
+#[test]
+fn an_empty_file_is_a_catalogue_to_be_made() {
+    let folder = tempdir().unwrap();
+    let file = at(&folder, "empty.db");
+    fs::write(&file, "").unwrap();
+    fails(&["catalog", "query", &file], "is empty");
+    assert_eq!(fs::read(&file).unwrap(), b"");
+    // Pages, but no table: what a kill leaves that comes while it is being made.
+    change(&file, "CREATE TABLE x (y); DROP TABLE x;");
+    assert!(!fs::read(&file).unwrap().is_empty());
+    fails(&["catalog", "query", &file], "run it again, it carries on");
+    tiny(&folder, "empty.db", &[]);
+    // Some other program's database is not touched.
+    let other = at(&folder, "other.db");
+    change(&other, "CREATE TABLE x (y);");
+    let bytes = fs::read(&other).unwrap();
+    for args in [
+        &["query", &other][..],
+        &["build", "--links", "4", "-o", &other],
+        &["search", "four-bar", "-o", &other],
+    ] {
+        fails(&[&["catalog"], args].concat(), "is no catalogue of ozols");
+    }
+    assert_eq!(fs::read(&other).unwrap(), bytes);
+}
+
+/// Once written: `VACUUM INTO` makes a file of a database that is open to be read.
+#[test]
+fn a_question_writes_nothing_and_opens_nothing_else() {
+    let folder = tempdir().unwrap();
+    let file = tiny(&folder, "g.db", &[]);
+    let other = at(&folder, "secret.db");
+    change(
+        &other,
+        "CREATE TABLE secret (word); INSERT INTO secret VALUES ('x');",
+    );
+    let there = || fs::read_dir(&folder).unwrap().count();
+    let (before, bytes) = (there(), fs::read(&file).unwrap());
+    for sql in [
+        &format!("VACUUM INTO '{}'", at(&folder, "copy.db")),
+        "VACUUM",
+        &format!("ATTACH '{other}' AS other"),
+        &format!("ATTACH '{}' AS fresh", at(&folder, "fresh.db")),
+        "DETACH main",
+        "PRAGMA user_version = 7",
+        "PRAGMA journal_mode = WAL",
+        "PRAGMA temp_store_directory = '/'",
+        "CREATE TABLE x (y)",
+        "DROP TABLE ideas",
+        "INSERT INTO meta VALUES ('a', 'b')",
+        "SELECT load_extension('x')",
+        "SELECT writefile('x', 'y')",
+    ] {
+        let o = run(&["catalog", "query", &file, sql]);
+        assert_eq!(o.status.code(), Some(2), "{sql}: {}", text(&o.stdout));
+    }
+    assert_eq!((there(), fs::read(&file).unwrap()), (before, bytes));
+    fails(
+        &["catalog", "query", &file, "ATTACH 'x' AS y"],
+        "ask with SELECT",
+    );
+    let columns = "SELECT count(*) > 5 AS many FROM pragma_table_info('ideas')";
+    assert_eq!(
+        ok(&["catalog", "query", &file, columns, "--format", "csv"]),
+        "many\n1\n"
+    );
+}
+
+/// Names stand for files, whatever SQLite makes of them.
+#[test]
+fn a_name_is_that_of_a_file() {
+    let folder = tempdir().unwrap();
+    let here = |args: &[&str]| {
+        let o = ozols(args).current_dir(&folder).output().unwrap();
+        assert_eq!(o.status.code(), Some(0), "{args:?}: {}", text(&o.stderr));
+    };
+    for name in [":memory:", "file:x.db?mode=memory", "a'b\".db", "%41.db"] {
+        let words = [
+            "catalog", "build", "--links", "4", "--ideas", "1", "--quiet", "-o", name,
+        ];
+        here(&words);
+        assert!(folder.path().join(name).is_file(), "{name}");
+        here(&["catalog", "query", name]);
+        here(&["catalog", "merge", name, "-o", "whole.db"]);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_name_may_be_no_text() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let folder = tempdir().unwrap();
+    let name = OsStr::from_bytes(b"caf\xe9.db");
+    let command = |words: &str, names: &[&OsStr]| {
+        let mut c = Command::new(env!("CARGO_BIN_EXE_ozols"));
+        c.args(words.split(' ')).args(names).current_dir(&folder);
+        let o = c.output().unwrap();
+        assert_eq!(o.status.code(), Some(0), "{words}: {}", text(&o.stderr));
+    };
+    command("catalog build --links 4 --ideas 1 --quiet -o", &[name]);
+    assert!(folder.path().join(name).is_file());
+    command("catalog query", &[name]);
+    let merged = OsStr::from_bytes(b"\xff.db");
+    command("catalog merge", &[name, OsStr::new("-o"), merged]);
+    assert!(folder.path().join(merged).is_file());
+    command(
+        "catalog page",
+        &[merged, OsStr::new("-o"), OsStr::from_bytes(b"\xfe.html")],
+    );
+}
+
+/// What a foreign file says cannot steer a terminal: neither its words, nor the names of its columns, nor its own name.
+#[test]
+fn control_characters_are_escaped() {
+    let folder = tempdir().unwrap();
+    let name = "evil\u{1b}]0;owned\u{7}.db";
+    let file = tiny(&folder, name, &[]);
+    change(
+        &file,
+        "UPDATE structures SET no_layout = no_layout || char(27) || '[2J', chain = chain || char(155) || '31m' || char(127);
+         INSERT INTO drawn SELECT 'drawn-x', 'n' || char(27) || '[1A', char(13) || 'd', 4, 4, 1, 'spatial', 'turn', '', 1, 3, 'f' || char(7), 1, 1,
+         'exact', 1, 1;",
+    );
+    let is_plain = |said: &str| {
+        let odd = said.chars().find(|c| c.is_control() && *c != '\n');
+        assert_eq!(odd, None, "{said:?}");
+        assert!(said.is_empty() || said.contains("\\u{"), "{said:?}");
+    };
+    for args in [
+        &[
+            "query",
+            &file,
+            "SELECT id, chain, no_layout FROM structures",
+        ][..],
+        &[
+            "query",
+            &file,
+            "SELECT name, description, finite FROM drawn",
+        ],
+        &["query", &file, "SELECT 1 AS \"a\u{1b}[31mb\""],
+        &["show", &file, "drawn-x"],
+        &["search", "four-bar", "--ideas", "1", "-o", &file],
+        &["build", "--links", "6", "-o", &file],
+        &["query", &file, "SELECT \u{1b}[31m"],
+        &["show", &file, "\u{1b}[31m"],
+        &["query", &format!("{file}\u{1b}[31m")],
+    ] {
+        let o = run(&[&["catalog"], args].concat());
+        let (out, said) = (text(&o.stdout), text(&o.stderr));
+        is_plain(&out);
+        is_plain(&said);
+        assert!(!out.is_empty() || !said.is_empty(), "{args:?}");
+    }
+    // Data stay what they are.
+    let sql = "SELECT name FROM drawn WHERE id = 'drawn-x'";
+    let csv = ok(&["catalog", "query", &file, sql, "--format", "csv"]);
+    assert_eq!(csv, "name\nn\u{1b}[1A\n");
+    assert!(Path::new(&file).is_file());
+}
