@@ -4,6 +4,7 @@
 mod controls;
 pub mod costs;
 mod digits;
+mod doubted;
 pub mod findings;
 mod guessed;
 pub mod lint;

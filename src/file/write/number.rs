@@ -4,7 +4,7 @@ use crate::file::schema::Coordinate;
 use crate::geom::expr::{Digits, End, Expr, Written, half_of};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{Signed, ToPrimitive};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
 /// A decimal of fewer significant digits is not taken for a rounded one.
 const SHORT: usize = 3;
@@ -16,6 +16,10 @@ pub(super) fn coordinate(e: &Expr) -> Coordinate {
         return Coordinate::Expression(e.to_string());
     };
     let written = e.written();
+    if matches!(written, Written::Stated(half) if half > 0.0) && is_chosen(&value) {
+        // As whole numbers they would be exact.
+        return Coordinate::Expression(format!("{value}.00"));
+    }
     if value.is_integer()
         && let Ok(whole) = i64::try_from(value.numer())
         && zeros(&value, written).is_none()
@@ -39,6 +43,11 @@ pub(super) fn coordinate(e: &Expr) -> Coordinate {
     } else {
         Coordinate::Expression(e.to_string())
     }
+}
+
+/// Whether it is 0 or 1 in size.
+fn is_chosen(value: &BigRational) -> bool {
+    value.is_zero() || value.abs().is_one()
 }
 
 /// A decimal whose last digit is 0, with all its digits.
