@@ -21,9 +21,9 @@ pub use uncertainty::{FrameNumbers, FrameUncertainty, Uncertainties, uncertainti
 /// Decimals with so many significant digits are taken to be measured or computed, not chosen.
 pub const DIGITS: usize = 9;
 /// Lengths with so many significant digits may have been rounded.
-const LONG_LENGTH: usize = 4;
+pub(crate) const LONG_LENGTH: usize = 4;
 /// Components of directions with so many may.
-const LONG_DIRECTION: usize = 3;
+pub(crate) const LONG_DIRECTION: usize = 3;
 /// One in so many of those has the unit or a coarser one: a last digit that happens to be 0 is one in ten.
 const SHARE: usize = 5;
 

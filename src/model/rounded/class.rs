@@ -174,6 +174,11 @@ fn is_chosen(v: &[Expr]) -> bool {
     if !v.iter().all(short) {
         return false;
     }
+    // Who writes sqrt(3)/2 beside a half knows both.
+    let calculated = |e: &Expr| e.written() == Written::No && e.to_f64() != 0.0;
+    if v.iter().any(calculated) {
+        return true;
+    }
     let square = v.iter().fold(Expr::from(0), |sum, e| sum + e * e);
     if square.rational_ref().is_some_and(One::is_one) {
         return true;

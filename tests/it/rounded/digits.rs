@@ -183,6 +183,7 @@ fn directions_that_are_chosen_stay_exact_beside_long_lengths() {
         "[0.5, 0.5, 0]",
         "[0.0, 0.0, 1.0]",
         "[1, 1, 0]",
+        "[-0.5, \"sqrt(3)/2\", 0]",
     ] {
         assert_eq!(u(chosen).axis[0], [0.0; 3], "{chosen}");
     }
