@@ -5,6 +5,7 @@ pub(crate) mod bounded;
 mod controls;
 pub mod costs;
 mod digits;
+mod doubted;
 pub mod findings;
 mod guessed;
 pub(crate) mod leftover;

@@ -3,6 +3,7 @@
 mod build;
 mod close;
 mod coupling;
+mod digits;
 mod edit;
 mod emit;
 mod fix;

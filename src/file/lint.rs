@@ -1,6 +1,7 @@
 //! What is doubtful in a file that can be used: likely slips, and what has no effect.
 
 use crate::closure::contour::{Contour, contour_basis};
+use crate::file::doubted::doubted;
 use crate::file::guessed::guessed;
 use crate::file::locate::Step;
 use crate::file::problem::ImportError;
@@ -84,6 +85,7 @@ fn find(file: &MechanismFile, m: &Mechanism) -> Found {
     structure(file, m, &mut out);
     search(file, m, &mut out);
     out.extend(guessed(file, m));
+    out.extend(doubted(file, m));
     workload(file, m, &mut out);
     out
 }

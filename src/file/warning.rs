@@ -53,6 +53,23 @@ pub enum WarningKind {
     )]
     NearlySpecial { what: String },
     #[error(
+        "the ratio {ratio} of {coupling} is a decimal, known to within {half}; write ratio = \"{fraction}\" if that is meant, or another fraction"
+    )]
+    DoubtedRatio {
+        coupling: String,
+        ratio: String,
+        half: String,
+        fraction: String,
+    },
+    #[error(
+        "the pitch {pitch} of joint \"{joint}\" is a decimal, all but that of a simple lead; write lead = \"{lead}\" in its place if that is meant"
+    )]
+    DoubtedPitch {
+        joint: String,
+        pitch: String,
+        lead: String,
+    },
+    #[error(
         "no contour is closed in any state; nothing can be redundant without one: add the joints that close it"
     )]
     NoContour,

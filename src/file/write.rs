@@ -14,7 +14,7 @@ use crate::file::schema::{
     PointEntry, Quantities, Quantity, SearchEntry, StiffnessEntry, StrokeEntry, ToleranceEntry,
     Unloading, Words, WorkloadEntry,
 };
-use crate::file::write::number::coordinate;
+use crate::file::write::number::{component, coordinate, ratio};
 use crate::geom::expr::Expr;
 use crate::model::coupling::Coupling;
 use crate::model::joint_type::{Freedom, JointType};
@@ -36,7 +36,7 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
     let stated = tolerance::tolerance(m);
     let (mode, plane_normal) = match &m.mode {
         Mode::Spatial => (None, None),
-        Mode::Planar { normal } => (Some("planar".to_owned()), Some(vector(normal))),
+        Mode::Planar { normal } => (Some("planar".to_owned()), Some(direction(normal))),
     };
     MechanismFile {
         name: m.name.clone(),
@@ -158,7 +158,11 @@ pub(crate) fn role(role: Role) -> Option<&'static str> {
 }
 
 fn vector(v: &[Expr; 3]) -> [Coordinate; 3] {
-    [coordinate(&v[0]), coordinate(&v[1]), coordinate(&v[2])]
+    v.each_ref().map(coordinate)
+}
+
+fn direction(v: &[Expr; 3]) -> [Coordinate; 3] {
+    v.each_ref().map(component)
 }
 
 fn same(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
@@ -214,8 +218,8 @@ fn joint(m: &Mechanism, j: &Joint, stated: Option<&ToleranceEntry>) -> JointEntr
         kind: j.joint_type.name().to_owned(),
         freedoms: freedoms(&j.joint_type),
         point: vector(&j.frame.point),
-        axis: Some(vector(&j.frame.axis)),
-        reference: (!is_default(&j.frame)).then(|| vector(&j.frame.reference)),
+        axis: Some(direction(&j.frame.axis)),
+        reference: (!is_default(&j.frame)).then(|| direction(&j.frame.reference)),
         lead: None,
         pitch: screws(&j.joint_type).then(|| coordinate(&j.frame.pitch)),
         tolerance: tolerance::of_point(&j.frame.point, stated),
@@ -237,7 +241,7 @@ fn coupling(m: &Mechanism, c: &Coupling) -> CouplingEntry {
     };
     CouplingEntry {
         joints: [end(0), end(1)],
-        ratio: coordinate(&c.ratio),
+        ratio: ratio(&c.ratio),
     }
 }
 
@@ -249,9 +253,9 @@ fn option(m: &Mechanism, o: &JointOption, present: &Frame) -> OptionEntry {
         kind: Some(o.joint_type.name().to_owned()),
         freedoms: freedoms(&o.joint_type),
         point: (!same(&f.point, &present.point)).then(|| vector(&f.point)),
-        axis: turned.then(|| vector(&f.axis)),
+        axis: turned.then(|| direction(&f.axis)),
         reference: (turned || !same(&f.reference, &present.reference))
-            .then(|| vector(&f.reference)),
+            .then(|| direction(&f.reference)),
         lead: None,
         pitch: (screws(&o.joint_type) && f.pitch.to_string() != present.pitch.to_string())
             .then(|| coordinate(&f.pitch)),

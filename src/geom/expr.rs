@@ -59,7 +59,7 @@ impl Expr {
         let places = i64::try_from(fraction.len()).unwrap_or(i64::MAX) - exponent;
         let digits = (places > 0).then(|| Digits::of(whole, fraction, exponent, true));
         let written = digits.flatten().map_or(Written::No, Written::Decimal);
-        Ok(value.as_written(written))
+        Ok(value.written_as(written))
     }
 
     /// The nearest double, right to the last bit or nearly so even after cancellation; values that vanish to all 256

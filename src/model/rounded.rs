@@ -6,6 +6,7 @@
 
 mod class;
 pub mod ratio;
+mod source;
 mod uncertainty;
 
 use crate::geom::expr::{End, Expr, PI_DIGITS, Written};
@@ -14,14 +15,15 @@ use crate::model::mechanism::{Frame, Mechanism, Mode};
 use std::collections::BTreeMap;
 use std::fmt;
 
+pub(crate) use source::{Largest, Sources};
 pub use uncertainty::{FrameNumbers, FrameUncertainty, Uncertainties, uncertainties};
 
 /// Decimals with so many significant digits are taken to be measured or computed, not chosen.
 pub const DIGITS: usize = 9;
 /// Lengths with so many significant digits may have been rounded.
-const LONG_LENGTH: usize = 4;
+pub(crate) const LONG_LENGTH: usize = 4;
 /// Components of directions with so many may.
-const LONG_DIRECTION: usize = 3;
+pub(crate) const LONG_DIRECTION: usize = 3;
 /// One in so many of those has the unit or a coarser one: a last digit that happens to be 0 is one in ten.
 const SHARE: usize = 5;
 
@@ -211,9 +213,17 @@ fn decimal(expr: &Expr) -> Option<Decimal> {
             unit: 2.0 * d.half,
         }),
         Written::Stated(half) if half > 0.0 => Some(Decimal {
-            digits: None,
+            digits: measured(expr),
             unit: 2.0 * half,
         }),
+        _ => None,
+    }
+}
+
+/// The significant digits of a number as a double, where they are so many that it was measured or computed.
+fn measured(expr: &Expr) -> Option<usize> {
+    match Expr::from_f64(expr.to_f64()).ok()?.written() {
+        Written::Decimal(d) => Some(d.significant).filter(|n| *n >= DIGITS),
         _ => None,
     }
 }

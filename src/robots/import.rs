@@ -10,9 +10,12 @@ use crate::file::read::build;
 use crate::file::schema::MechanismFile;
 use crate::file::text::mechanism_from_str;
 use crate::file::write::{self, Comment};
+use crate::geom::extent::diagonal;
 use crate::model::mechanism::Mechanism;
 use crate::robots::build::{Entries, apply_pose, close_loops, entries, held, root_link};
+use crate::robots::close::size;
 use crate::robots::coupling;
+use crate::robots::digits;
 use crate::robots::formats::{Format, of_root, roots};
 use crate::robots::kinematics::spanning_tree;
 use crate::robots::loops;
@@ -95,6 +98,12 @@ pub fn import(
         joints,
         couplings,
     } = entries(&mut robot, &tree, name, format.name, options).map_err(fail)?;
+    let place = |&j: &usize| {
+        let part = &robot.joints[j];
+        places[part.links[0]].then(&part.sides[0]).translation
+    };
+    let sizes = (size(&robot), diagonal(joints.iter().map(place)));
+    file.tolerance = digits::tolerance(document.element(root), sizes);
     // Problems are shown in the text that would be written.
     let mechanism = build(&file).or_else(|_| {
         let text = write::toml(&file, &comments).unwrap_or_default();

@@ -97,7 +97,7 @@ fn in_range(e: Expr, path: &[Step], out: &mut Findings) -> Expr {
 
 fn read_number(c: &Coordinate, pi_is_a_number: bool, path: &[Step], out: &mut Findings) -> Expr {
     let parsed = match c {
-        Coordinate::Integer(i) => Ok(Expr::from(*i).as_written(Written::Whole)),
+        Coordinate::Integer(i) => Ok(Expr::from(*i).written_as(Written::Whole)),
         Coordinate::Decimal(x) => Expr::from_f64(*x),
         Coordinate::Expression(s) => out.expression(s, pi_is_a_number),
     };

@@ -107,10 +107,11 @@ fn joint_at(joint: &mut Joint, lengths: Option<f64>, directions: Option<f64>, ow
     }
 }
 
-/// A point: all of it where it has a tolerance of its own, else the numbers of it that are written as such, but for 0.
+/// A point: all of it where it has a tolerance of its own, else the numbers of it that are written as such, but for a whole 0.
 fn put(point: &mut [Expr; 3], of_file: Option<f64>, own: Option<f64>) {
     for e in point {
-        let half = own.or_else(|| of_file.filter(|_| is_number(e) && e.to_f64() != 0.0));
+        let half =
+            own.or_else(|| of_file.filter(|_| is_number(e) && !(is_whole(e) && e.to_f64() == 0.0)));
         state(e, half);
     }
 }

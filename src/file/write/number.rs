@@ -2,20 +2,42 @@
 
 use crate::file::schema::Coordinate;
 use crate::geom::expr::{Digits, End, Expr, Written, half_of};
+use crate::model::rounded::ratio::doubt;
+use crate::model::rounded::{LONG_DIRECTION, LONG_LENGTH};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{Signed, ToPrimitive};
-
-/// A decimal of fewer significant digits is not taken for a rounded one.
-const SHORT: usize = 3;
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
 /// A number where it is a decimal of at most 17 digits, else an expression. So is an exact fraction that as a decimal would
 /// look rounded, and a decimal with zeros at its end, which numbers lose.
 pub(super) fn coordinate(e: &Expr) -> Coordinate {
+    written(e, &|d| is_long(d, LONG_LENGTH))
+}
+
+/// The same of a component of a direction.
+pub(super) fn component(e: &Expr) -> Coordinate {
+    written(e, &|d| is_long(d, LONG_DIRECTION))
+}
+
+/// The same of the ratio of a coupling.
+pub(super) fn ratio(e: &Expr) -> Coordinate {
+    written(e, &|d| doubt(d).is_some())
+}
+
+fn is_long(decimal: &Expr, least: usize) -> bool {
+    matches!(decimal.written(), Written::Decimal(d) if d.significant >= least)
+}
+
+/// A number; a fraction that is exact is one where its decimal is `doubtful`.
+fn written(e: &Expr, doubtful: &dyn Fn(&Expr) -> bool) -> Coordinate {
     let Some(value) = e.as_rational() else {
         return Coordinate::Expression(e.to_string());
     };
     let written = e.written();
+    if matches!(written, Written::Stated(half) if half > 0.0) && is_chosen(&value) {
+        // As whole numbers they would be exact.
+        return Coordinate::Expression(format!("{value}.00"));
+    }
     if value.is_integer()
         && let Ok(whole) = i64::try_from(value.numer())
         && zeros(&value, written).is_none()
@@ -29,9 +51,8 @@ pub(super) fn coordinate(e: &Expr) -> Coordinate {
     let Ok(read) = Expr::from_f64(near) else {
         return Coordinate::Expression(e.to_string());
     };
-    let long = matches!(read.written(), Written::Decimal(d) if d.significant >= SHORT);
     let exact = matches!(written, Written::No) || written == Written::Stated(0.0);
-    if exact && long {
+    if exact && doubtful(&read) {
         return Coordinate::Expression(format!("{}/{}", value.numer(), value.denom()));
     }
     if read.as_rational().as_ref() == Some(&value) {
@@ -39,6 +60,11 @@ pub(super) fn coordinate(e: &Expr) -> Coordinate {
     } else {
         Coordinate::Expression(e.to_string())
     }
+}
+
+/// Whether it is 0 or 1 in size.
+fn is_chosen(value: &BigRational) -> bool {
+    value.is_zero() || value.abs().is_one()
 }
 
 /// A decimal whose last digit is 0, with all its digits.

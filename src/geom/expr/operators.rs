@@ -67,7 +67,7 @@ impl Neg for &Expr {
         };
         match self.written() {
             Written::No => negative,
-            written => negative.as_written(written),
+            written => negative.written_as(written),
         }
     }
 }

@@ -379,7 +379,7 @@ impl<'a> Parser<'a, '_> {
         let value = decimal(whole, fraction, exponent).ok_or(ExprError::BadNumber { at })?;
         let digits = Digits::of(whole, fraction, exponent, point);
         let written = digits.map_or(Written::Whole, Written::Decimal);
-        finite(Expr::rational(value).as_written(written), at)
+        finite(Expr::rational(value).written_as(written), at)
     }
 
     fn word(&mut self) -> Result<Value, ExprError> {

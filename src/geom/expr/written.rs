@@ -97,7 +97,7 @@ impl Expr {
     /// The same number, known to within `half` whatever its digits say; exact where `half` is 0. O(size of the number).
     #[must_use]
     pub fn with_half_unit(self, half: f64) -> Expr {
-        self.as_written(Written::Stated(half))
+        self.written_as(Written::Stated(half))
     }
 
     /// Whether it was written as a whole number, without a point. O(1).
@@ -111,7 +111,7 @@ impl Expr {
     }
 
     /// The same number, written so.
-    pub(crate) fn as_written(mut self, written: Written) -> Expr {
+    pub(crate) fn written_as(mut self, written: Written) -> Expr {
         if self.0.written == written {
             return self;
         }
@@ -137,6 +137,6 @@ impl Expr {
             Written::Stated(half) => Written::Stated(half * factor.abs()),
             Written::No | Written::Whole => Written::No,
         };
-        value.as_written(written)
+        value.written_as(written)
     }
 }

@@ -104,10 +104,8 @@ impl Class {
     }
 
     /// Half the unit of a decimal.
-    fn decimal(&self, digits: Digits) -> f64 {
-        let plain = half_of(digits.places);
-        // What the decimal was multiplied by.
-        let factor = digits.half / plain;
+    pub(super) fn decimal(&self, digits: Digits) -> f64 {
+        let (plain, factor) = (half_of(digits.places), digits.factor());
         match self.commonest() {
             Some(most) if digits.end == End::Float => most * factor,
             Some(most) if self.drops_zeros() => {
@@ -137,31 +135,28 @@ impl Class {
             Written::Stated(half) => half,
             Written::Whole => whole(1.0),
             Written::Decimal(digits) if digits.end == End::Float && self.decimals.is_empty() => {
-                whole(digits.half / half_of(digits.places))
+                whole(digits.factor())
             }
             Written::Decimal(digits) => self.decimal(digits),
         }
     }
 
-    /// Half the units of the components of a direction.
-    pub(super) fn direction(&self, v: &[Expr; 3]) -> [f64; 3] {
-        if !self.drops_zeros() && is_chosen(v) {
-            return v.each_ref().map(|e| match e.written() {
-                Written::Stated(half) => half,
-                _ => 0.0,
-            });
-        }
+    /// Half the units of the components of a direction, or of a quaternion.
+    pub(super) fn direction(&self, v: &[Expr]) -> Vec<f64> {
+        let chosen = !self.drops_zeros() && is_chosen(v);
         // One direction is written with one number of places.
         let finest = v.iter().filter_map(digits_of);
         let finest = finest.map(|d| d.half).fold(f64::INFINITY, f64::min);
-        v.each_ref().map(|e| match e.written() {
+        let half = |e: &Expr| match e.written() {
             Written::No | Written::Whole => 0.0,
             Written::Stated(half) => half,
+            Written::Decimal(_) if chosen => 0.0,
             Written::Decimal(digits) => {
                 let half = self.decimal(digits);
                 if self.zeros { half } else { half.min(finest) }
             }
-        })
+        };
+        v.iter().map(half).collect()
     }
 }
 
@@ -174,10 +169,15 @@ fn digits_of(e: &Expr) -> Option<Digits> {
 
 /// Whether a direction of short decimals is as somebody chose it: of length 1 exactly, as (0.6, 0.8, 0) is, or not rounded from
 /// one of length 1, as (1.5, 2, 0).
-fn is_chosen(v: &[Expr; 3]) -> bool {
+fn is_chosen(v: &[Expr]) -> bool {
     let short = |e: &Expr| digits_of(e).is_none_or(|d| d.significant < FEW);
     if !v.iter().all(short) {
         return false;
+    }
+    // Who writes sqrt(3)/2 beside a half knows both.
+    let calculated = |e: &Expr| e.written() == Written::No && e.to_f64() != 0.0;
+    if v.iter().any(calculated) {
+        return true;
     }
     let square = v.iter().fold(Expr::from(0), |sum, e| sum + e * e);
     if square.rational_ref().is_some_and(One::is_one) {

@@ -1,6 +1,7 @@
 //! Ratios that are written as decimals, and the fractions that are meant.
 
 use crate::geom::expr::{End, Expr, Written};
+use crate::model::coupling::Coupling;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
@@ -18,6 +19,16 @@ pub struct Doubt {
     pub half: f64,
     /// The simplest fraction within that.
     pub fraction: BigRational,
+    /// Whether that is so simple that it is no chance.
+    pub likely: bool,
+}
+
+impl Doubt {
+    /// The fraction, where it is no chance.
+    #[must_use]
+    pub fn simple(&self) -> Option<&BigRational> {
+        Some(&self.fraction).filter(|_| self.likely)
+    }
 }
 
 /// What is doubtful in a ratio: a decimal that is all but a simple fraction, -0.6667 for -2/3, or so long that it was rounded.
@@ -42,14 +53,23 @@ pub fn doubt(ratio: &Expr) -> Option<Doubt> {
     }
     let denominator = size.denom().to_f64().unwrap_or(f64::INFINITY);
     let chance = denominator * denominator * 2.0 * digits.half;
-    if chance > LIKELY && digits.significant < LONG {
+    let likely = chance <= LIKELY;
+    if !likely && digits.significant < LONG {
         return None;
     }
     let fraction = if value.is_negative() { -size } else { size };
     Some(Doubt {
         half: digits.half,
         fraction,
+        likely,
     })
+}
+
+/// The same of a coupling. Between a turn and a slide a ratio is a length, and only what is all but a simple fraction is doubted.
+#[must_use]
+pub fn doubt_of(coupling: &Coupling) -> Option<Doubt> {
+    let [a, b] = coupling.ends.map(|e| e.freedom.slides());
+    doubt(&coupling.ratio).filter(|d| d.likely || a == b)
 }
 
 /// The fraction of the least denominator from one positive number to a greater one.

@@ -1,8 +1,9 @@
 //! How well each number of a mechanism is known, by its last digit or by what is stated.
 
 use super::class::{Class, Kind};
-use super::ratio::doubt;
-use crate::geom::expr::{Expr, Written};
+use super::ratio::doubt_of;
+use crate::geom::expr::{End, Expr, Written};
+use crate::model::coupling::Coupling;
 use crate::model::mechanism::{Frame, Mechanism, Mode};
 use std::collections::BTreeMap;
 
@@ -85,15 +86,8 @@ struct Reading {
 #[must_use]
 pub fn uncertainties(mechanism: &Mechanism) -> Option<Uncertainties> {
     let mut reading = Reading::of(mechanism);
-    let ratio = |e: &Expr| match e.written() {
-        Written::Stated(half) => half,
-        _ => doubt(e).map_or(0.0, |d| d.half),
-    };
-    let ratios: Vec<f64> = mechanism
-        .couplings
-        .iter()
-        .map(|c| ratio(&c.ratio))
-        .collect();
+    let ratio = |c: &Coupling| doubt_of(c).map_or(0.0, |d| d.half);
+    let ratios: Vec<f64> = mechanism.couplings.iter().map(ratio).collect();
     if !reading.rounded && ratios.iter().all(|r| *r == 0.0) {
         return None;
     }
@@ -122,6 +116,15 @@ pub fn uncertainties(mechanism: &Mechanism) -> Option<Uncertainties> {
     Some(out)
 }
 
+/// Whether a number is whole as it is written.
+fn is_whole(e: &Expr) -> bool {
+    match e.written() {
+        Written::Whole => true,
+        Written::Decimal(digits) => digits.end == End::Float,
+        Written::No | Written::Stated(_) => false,
+    }
+}
+
 impl Reading {
     fn of(mechanism: &Mechanism) -> Reading {
         let [mut lengths, mut directions] = [Class::default(), Class::default()];
@@ -141,7 +144,9 @@ impl Reading {
             see(&frame.point, Kind::Length);
             see(&frame.axis, Kind::Direction);
             see(&frame.reference, Kind::Direction);
-            see(std::slice::from_ref(&frame.pitch), Kind::Length);
+            if !is_whole(&frame.pitch) {
+                see(std::slice::from_ref(&frame.pitch), Kind::Length);
+            }
         }
         for p in &mechanism.points {
             see(&p.point, Kind::Length);
@@ -182,7 +187,11 @@ impl Reading {
             point: point.0,
             axis: axis.0,
             reference: reference.0,
-            pitch: self.length(&f.pitch),
+            // A whole pitch is chosen.
+            pitch: match is_whole(&f.pitch) {
+                true => 0.0,
+                false => self.length(&f.pitch),
+            },
         };
         let numbers = FrameNumbers {
             point: point.1,
@@ -203,7 +212,10 @@ impl Reading {
         let halves = match kind {
             _ if !self.rounded => [0.0; 3],
             Kind::Length => v.each_ref().map(|e| self.length(e)),
-            Kind::Direction => self.directions.direction(v),
+            Kind::Direction => {
+                let of = self.directions.direction(v);
+                [0, 1, 2].map(|i| of.get(i).copied().unwrap_or(0.0))
+            }
         };
         let number = |i: usize| {
             if halves[i] == 0.0 {

@@ -1,9 +1,12 @@
 //! Each number of a file is known to half a unit of its last digit, as it is written there.
 
+use crate::common::run_on;
+use crate::robots::none;
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
 use ozols::model::mechanism::Mechanism;
 use ozols::model::rounded::{Uncertainties, looks_rounded, uncertainties};
+use ozols::robots::{Options, import};
 use serde_json::{Value, json};
 
 /// A door on two hinges, with these two points and axes.
@@ -114,13 +117,13 @@ fn trailing_zeros_count_in_toml_and_in_json() {
 #[test]
 fn options_parameters_points_ratios_and_leads_are_read_alike() {
     let text = door(["[1.50, \"h\", 0]", "[0, 0, 9]"], [Z, Z], "")
-        + "options = [{ type = \"cylindrical\", point = [1.50, 2.250, 0] }]\n\
+        + "options = [{ type = \"cylindrical\", point = [0, 0, 2.250] }]\n\
            [parameter]\nh = 7.40\n\
            [[point]]\nid = \"tip\"\nlink = \"door\"\npoint = [3.10, 0, 0]\n";
     let m = read(&text);
     assert_eq!(m.joints[0].frame.point[1].half_unit(), Some(0.005));
     let option = m.joints[1].options.iter().find(|o| o.name == "cylindrical");
-    assert_eq!(option.unwrap().frame.point[1].half_unit(), Some(5e-4));
+    assert_eq!(option.unwrap().frame.point[2].half_unit(), Some(5e-4));
     assert_eq!(m.points[0].point[0].half_unit(), Some(0.005));
     let screw = "[[joint]]\nid = \"s\"\nlinks = [\"0\", \"door\"]\ntype = \"helical\"\npoint = [0, 0, 0]\n\
                  axis = [0, 0, 1]\nlead = 5.000\n";
@@ -159,13 +162,13 @@ fn short_decimals_fractions_and_whole_numbers_are_exact() {
 #[test]
 fn every_decimal_of_a_rounded_file_has_its_own_unit() {
     let u = known(&door(
-        ["[151.23, 0.00, 12.0]", "[-149.855, 80, 0]"],
+        ["[151.23, 0.00, 12.0]", "[-149.85, 80, 0]"],
         ["[0.99998, 0.00001, 0.00632]", Z],
         "",
     ))
     .unwrap();
     assert_eq!(u.point[0], [0.005, 0.005, 0.005]);
-    assert_eq!(u.point[1], [5e-4, 0.005, 0.0]);
+    assert_eq!(u.point[1], [0.005, 0.005, 0.0]);
     assert_eq!(u.axis[0], [5e-6; 3]);
     assert_eq!(u.axis[1], [0.0; 3]);
     assert_eq!(u.reference, [[0.0; 3]; 2]);
@@ -180,6 +183,7 @@ fn directions_that_are_chosen_stay_exact_beside_long_lengths() {
         "[0.5, 0.5, 0]",
         "[0.0, 0.0, 1.0]",
         "[1, 1, 0]",
+        "[-0.5, \"sqrt(3)/2\", 0]",
     ] {
         assert_eq!(u(chosen).axis[0], [0.0; 3], "{chosen}");
     }
@@ -251,4 +255,182 @@ fn directions_of_any_size_are_directions() {
     let lengths = door(["[2.6e-49, 0, 0]", "[0, 0, 9]"], [Z, Z], "");
     let error = mechanism_from_str("door.toml", &lengths).unwrap_err();
     assert!(error.to_string().contains("out of range"), "{error}");
+}
+
+#[test]
+fn what_is_stated_goes_before_digits() {
+    let points = ["[151.23, 0, \"1/8\"]", "[-149.85, 80, 0]"];
+    let axes = ["[0.99998, 0.00001, 0.00632]", Z];
+    let u = |more: &str| known(&door(points, axes, more));
+    let both = u("[tolerance]\nlength = 0.01\ndirection = 1e-6\n").unwrap();
+    assert_eq!(both.point, [[0.01, 0.0, 0.0], [0.01, 0.01, 0.0]]);
+    let norm = (0.99998f64.powi(2) + 0.00001f64.powi(2) + 0.00632f64.powi(2)).sqrt();
+    assert!(both.axis[0].iter().all(|h| (h - 1e-6 * norm).abs() < 1e-18));
+    assert_eq!(both.axis[1], [0.0; 3]);
+    let lengths = u("[tolerance]\nlength = 0\n").unwrap();
+    assert_eq!(
+        (lengths.point, lengths.axis[0]),
+        (vec![[0.0; 3]; 2], [5e-6; 3])
+    );
+    assert_eq!(u("[tolerance]\nlength = 0\ndirection = 0\n"), None);
+    // A joint's own holds for the whole of its point.
+    let own = door(points, axes, "").replacen("axis =", "tolerance = 0.2\naxis =", 1)
+        + "[[point]]\nid = \"tip\"\nlink = \"door\"\npoint = [3, 4, 0]\ntolerance = 0.1\n";
+    let m = read(&own);
+    let u = uncertainties(&m).unwrap();
+    assert_eq!(u.point, [[0.2; 3], [0.005, 0.005, 0.0]]);
+    assert_eq!(u.points, [[0.1; 3]]);
+}
+
+#[test]
+fn absurd_tolerances_are_refused_where_they_stand() {
+    for (more, line) in [
+        ("[tolerance]\nlength = -1\n", 4),
+        ("[tolerance]\nlength = 100\n", 4),
+        ("[tolerance]\ndirection = 0.5\n", 4),
+        ("[tolerance]\ndirection = \"two\"\n", 4),
+        ("[tolerance]\nangle = 0.5\n", 4),
+    ] {
+        let text = door(["[0, 0, 0]", "[0, 0, 120]"], [Z, Z], more);
+        let (code, _, stderr) = run_on("check", "door.toml", &text, &[]);
+        assert_eq!(code, Some(2), "{more}");
+        assert!(stderr.contains(&format!("door.toml:{line}:")), "{stderr}");
+    }
+    let text = door(["[0, 0, 0]", "[0, 0, 120]"], [Z, Z], "").replacen(
+        "axis =",
+        "tolerance = -2\naxis =",
+        1,
+    );
+    let (code, _, stderr) = run_on("check", "door.toml", &text, &[]);
+    assert_eq!(code, Some(2));
+    assert!(
+        stderr.contains("tolerance -2 is out of range") && stderr.contains("help: "),
+        "{stderr}"
+    );
+}
+
+#[test]
+fn what_is_written_again_says_the_same() {
+    let stated = door(
+        ["[151.23, 0, 5]", "[-149.85, 80, 0]"],
+        [Z, Z],
+        "[tolerance]\nlength = 0.01\n",
+    );
+    let own = door(["[151.23, 0, 5]", "[-149.85, 80, 0]"], [Z, Z], "").replacen(
+        "axis =",
+        "tolerance = 0.2\naxis =",
+        1,
+    );
+    let turned = door(
+        [
+            "[151.230, 0.000, \"1001/1000\"]",
+            "[\"123456789/10^20\", -80.50, 7.004]",
+        ],
+        ["[0.60000, 0.00000, 0.80000]", Z],
+        "[tolerance]\ndirection = 1e-6\n",
+    );
+    for text in [stated, own, turned] {
+        let (code, again, stderr) = run_on("export", "door.toml", &text, &["--to", "toml"]);
+        assert_eq!(code, Some(0), "{stderr}");
+        assert_eq!(known(&again), known(&text), "{again}");
+        assert!(known(&again).is_some());
+    }
+}
+
+#[test]
+fn decimal_ratios_that_are_all_but_fractions_are_doubted() {
+    let gears = |ratio: &str| {
+        door(["[0, 0, 0]", "[30, 0, 0]"], [Z, Z], "")
+            .replace("links = [\"0\", \"door\"]", "links = [\"0\", \"LINK\"]")
+            .replacen("LINK", "a", 1)
+            .replacen("LINK", "b", 1)
+            .replace(
+                "id = \"door\"\nrole",
+                "id = \"a\"\n[[link]]\nid = \"b\"\nrole",
+            )
+            + &format!("[[coupling]]\njoints = [\"h0\", \"h1\"]\nratio = {ratio}\n")
+    };
+    let told = |ratio: &str| run_on("check", "gears.toml", &gears(ratio), &[]);
+    for (ratio, fraction) in [("-0.6667", "-2/3"), ("1.4286", "10/7")] {
+        let (code, _, stderr) = told(ratio);
+        assert_eq!(code, Some(0), "{stderr}");
+        assert!(
+            stderr.contains(&format!("ratio = \"{fraction}\"")),
+            "{stderr}"
+        );
+        assert!(stderr.contains("h0 ~ h1"), "{stderr}");
+        assert!(uncertainties(&read(&gears(ratio))).unwrap().ratios[0] > 0.0);
+    }
+    for exact in ["\"-2/3\"", "\"1001/1000\"", "-1.5", "\"6667/10^4\"", "3"] {
+        let (_, _, stderr) = told(exact);
+        assert!(!stderr.contains("ratio"), "{exact}: {stderr}");
+        assert_eq!(uncertainties(&read(&gears(exact))), None, "{exact}");
+    }
+}
+
+#[test]
+fn a_pitch_that_is_all_but_that_of_a_simple_lead_is_doubted() {
+    let screw = |pitch: &str| {
+        door(["[0, 0, 0]", "[0, 0, 9]"], [Z, Z], "")
+            + &format!(
+                "[[joint]]\nid = \"s\"\nlinks = [\"0\", \"door\"]\ntype = \"helical\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n{pitch}\n"
+            )
+    };
+    let told = |pitch: &str| run_on("check", "screw.toml", &screw(pitch), &[]).2;
+    assert!(
+        told("pitch = 0.7958").contains("write lead = \"5\""),
+        "{}",
+        told("pitch = 0.7958")
+    );
+    for fine in ["lead = 5", "pitch = 0.8", "pitch = \"5/(2*pi)\""] {
+        assert!(!told(fine).contains("simple lead"), "{}", told(fine));
+    }
+}
+
+/// A bar on two hinges, with these places and axes.
+fn urdf(first: &str, second: &str, axis: &str) -> String {
+    format!(
+        "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>
+        <joint name='p' type='revolute'><parent link='a'/><child link='b'/><origin {first}/><axis xyz='{axis}'/></joint>
+        <joint name='q' type='revolute'><parent link='b'/><child link='c'/><origin {second}/><axis xyz='0 0 1'/></joint></robot>"
+    )
+}
+
+fn of_robot(name: &str, text: &str) -> Option<Uncertainties> {
+    let imported = import(name, text.as_bytes(), &none, &Options::default()).unwrap();
+    // What is written says the same.
+    let toml = imported.toml().unwrap();
+    let again = mechanism_from_str("r.toml", &toml).unwrap();
+    let found = uncertainties(&imported.mechanism);
+    assert_eq!(uncertainties(&again), found, "{toml}");
+    found
+}
+
+#[test]
+fn importers_state_what_the_digits_of_their_formats_say() {
+    let exact = urdf("xyz='0.1 0 0'", "xyz='0.25 0 0' rpy='0 0 0'", "0 0 1");
+    assert_eq!(of_robot("r.urdf", &exact), None);
+    // Five decimals, and trailing zeros among them.
+    let lengths = of_robot(
+        "r.urdf",
+        &urdf("xyz='0.49400 0 0'", "xyz='0.25012 0 0'", "0 0 1"),
+    )
+    .unwrap();
+    assert_eq!(lengths.point[0], [5e-6, 0.0, 0.0]);
+    assert_eq!(lengths.axis, [[0.0; 3]; 2]);
+    // A turn to five digits moves what is half a metre off by as much.
+    let turned = urdf("xyz='0.4 0 0' rpy='1.5708 0 0'", "xyz='0.5 0 0'", "0 0 1");
+    let turned = of_robot("r.urdf", &turned).unwrap();
+    assert!((turned.point[1][0] - 2.5e-5).abs() < 1e-6, "{turned:?}");
+    assert!((turned.axis[0][1] - 5e-5).abs() < 1e-9, "{turned:?}");
+    let mjcf = "<mujoco><worldbody><body name='a' pos='0.1 0 0'><joint name='p' axis='0 0 1'/>
+        <body name='b' pos='0.25 0 0' euler='0 12.50 0'><joint name='q' axis='0 0 1'/></body></body></worldbody></mujoco>";
+    let mjcf = of_robot("r.xml", mjcf).unwrap();
+    let half = 0.005f64.to_radians();
+    let found = mjcf.axis[1].into_iter().fold(0.0, f64::max);
+    assert!((found - half).abs() < 0.05 * half, "{mjcf:?}");
+    let sdf = "<sdf version='1.9'><model name='m'><link name='a'/><link name='b'><pose>0.12345 0 0 0 0 0</pose></link>
+        <joint name='w' type='fixed'><parent>world</parent><child>a</child></joint>
+        <joint name='p' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint></model></sdf>";
+    assert_eq!(of_robot("r.sdf", sdf).unwrap().point[0], [5e-6, 0.0, 0.0]);
 }

@@ -1,0 +1,145 @@
+//! How well the places of a robot are known: by the digits of the numbers that they are calculated from.
+
+use crate::file::schema::{Coordinate, ToleranceEntry};
+use crate::geom::expr::Expr;
+use crate::model::rounded::{Largest, Sources};
+use crate::robots::xml::Element;
+
+/// Elements that place no joint, with all that is in them.
+const OTHERS: [&str; 20] = [
+    "visual",
+    "collision",
+    "inertial",
+    "inertia",
+    "geom",
+    "asset",
+    "camera",
+    "light",
+    "sensor",
+    "plugin",
+    "gazebo",
+    "transmission",
+    "actuator",
+    "contact",
+    "keyframe",
+    "limit",
+    "limits",
+    "dynamics",
+    "material",
+    "mimic",
+];
+/// What is calculated in doubles is known no better, as a part of the size of the robot.
+const LEAST: f64 = 1e-12;
+/// Nor is a place said to be known worse than to this part of the size of the mechanism, and a direction to so many radians.
+const MOST: f64 = 0.09;
+
+/// What is stated of a mechanism made from the elements under a root; nothing where no number there was rounded. The sizes are
+/// those of a robot and of the box round its joints in metres.
+///
+/// Each place is taken to be known as well as the number that is known least, a turn moving what is as far away as the robot
+/// is large.
+pub(crate) fn tolerance(root: Element<'_>, (size, across): (f64, f64)) -> Option<ToleranceEntry> {
+    let mut found = Sources::default();
+    let degrees = Expr::from_f64(1f64.to_radians()).ok()?;
+    let mut unit = (root.name() == "mujoco").then(|| degrees.clone());
+    let mut stack = vec![root];
+    while let Some(e) = stack.pop() {
+        if OTHERS.contains(&e.name()) {
+            continue;
+        }
+        if e.name() == "compiler" {
+            match e.attribute("angle") {
+                Some("radian") => unit = None,
+                Some("degree") => unit = Some(degrees.clone()),
+                _ => {}
+            }
+        }
+        attributes(e, unit.as_ref(), &mut found);
+        texts(e, &degrees, &mut found);
+        stack.extend(e.children());
+    }
+    let Largest {
+        length,
+        direction,
+        turn,
+    } = found.largest()?;
+    let most = if across > 0.0 {
+        MOST * across
+    } else {
+        f64::INFINITY
+    };
+    let shift = length.max(turn * size).max(LEAST * size).min(most);
+    let turned = direction.max(turn).min(MOST);
+    // Two digits of an uncertainty are enough.
+    let entry = |x: f64| Some(Coordinate::Decimal(format!("{x:.1e}").parse().ok()?));
+    Some(ToleranceEntry {
+        length: entry(shift),
+        direction: (turned > 0.0).then(|| entry(turned.max(LEAST))).flatten(),
+    })
+}
+
+fn attributes(e: Element<'_>, unit: Option<&Expr>, out: &mut Sources) {
+    let read = |k: &str| e.attribute(k).map(words).unwrap_or_default();
+    for k in ["pos", "anchor"] {
+        out.lengths.extend(read(k));
+    }
+    match e.name() {
+        "axis" => out.directions.push(read("xyz")),
+        _ => out.lengths.extend(read("xyz")),
+    }
+    if e.name() == "replicate" {
+        out.lengths.extend(read("offset"));
+    }
+    if e.name().starts_with("drake:ball_constraint_p") {
+        out.lengths.extend(read("value"));
+    }
+    for k in ["axis", "zaxis", "quat", "quat_xyzw"] {
+        out.directions.push(read(k));
+    }
+    let mut pose = read("relpose");
+    out.directions.push(pose.split_off(pose.len().min(3)));
+    out.lengths.append(&mut pose);
+    let mut axes = read("xyaxes");
+    let second = axes.split_off(axes.len().min(3));
+    out.directions.extend([axes, second]);
+    out.angles.extend(read("rpy"));
+    let mut turn = read("axisangle");
+    let angle = turn.split_off(turn.len().min(3));
+    out.directions.push(turn);
+    let turned = read("euler").into_iter().chain(angle);
+    out.angles.extend(turned.map(|x| in_radians(x, unit)));
+}
+
+/// The numbers of SDF stand between tags.
+fn texts(e: Element<'_>, degrees: &Expr, out: &mut Sources) {
+    match e.name() {
+        "xyz" => out.directions.push(words(e.text())),
+        "pose" => {
+            let mut all = words(e.text());
+            let turn = all.split_off(all.len().min(3));
+            out.lengths.append(&mut all);
+            let unit = ["true", "1"].contains(&e.attribute("degrees").unwrap_or(""));
+            match e.attribute("rotation_format") {
+                Some("quat_xyzw") => out.directions.push(turn),
+                _ => {
+                    let unit = unit.then_some(degrees);
+                    out.angles
+                        .extend(turn.into_iter().map(|x| in_radians(x, unit)));
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+fn in_radians(x: Expr, unit: Option<&Expr>) -> Expr {
+    match unit {
+        Some(unit) => x.scaled_as_written(&x * unit, unit.to_f64()),
+        None => x,
+    }
+}
+
+fn words(text: &str) -> Vec<Expr> {
+    let read = text.split_whitespace().map(str::parse);
+    read.filter_map(Result::ok).collect()
+}
