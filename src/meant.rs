@@ -26,7 +26,7 @@ use num_rational::BigRational;
 use num_traits::One;
 use number::{Rational3, decimal, to_f64};
 use projection::{Projection, Taken};
-use relations::{Finder, Kind, Use};
+use relations::{Finder, Kind, Relation, Use};
 use together::together;
 use written::{Ray, Written};
 
@@ -50,12 +50,81 @@ pub struct Scene {
     pub moved: f64,
 }
 
+/// What the digits of a scene allow.
+#[derive(Debug, Clone)]
+pub struct Resolved {
+    /// The scene with the most relations.
+    pub scene: Scene,
+    /// Others that the digits do not rule out: with relations that are all but within them, and without those that as well are
+    /// there by chance.
+    pub others: Vec<Scene>,
+}
+
+/// How bold relations are taken.
+#[derive(Debug, Clone, Copy)]
+struct Caution {
+    /// Moves may be larger by this.
+    bold: f64,
+    /// Whether relations count that may be there by chance.
+    weak: bool,
+    /// Whether lines and planes count that points alone make.
+    of_points: bool,
+}
+
+/// A relation that was not taken and asks for no larger move, in errors, may hold in truth.
+const LEFT_OUT: f64 = 4.0;
+/// Moves larger by this than those of relations usually are speak against a relation for sure.
+const BOLD: f64 = 1.6;
+
 /// The scene that is meant; none where its relations cannot be solved within the digits.
 ///
 /// # Complexity
 /// O(p²) pairs of p points, held against each other and against d directions; then O(r² p) for r relations.
 #[must_use]
-pub fn resolve(written: &Written) -> Option<Scene> {
+pub fn resolve(written: &Written) -> Option<Resolved> {
+    let usual = Caution {
+        bold: 1.0,
+        weak: true,
+        of_points: true,
+    };
+    let (scene, doubts) = resolve_with(written, usual)?;
+    let mut others = Vec::new();
+    let bold = Caution {
+        bold: BOLD,
+        ..usual
+    };
+    let shy = Caution {
+        weak: false,
+        ..usual
+    };
+    let plain = Caution {
+        of_points: false,
+        ..usual
+    };
+    let doubted = [
+        (doubts.left_out, bold),
+        (doubts.by_chance, shy),
+        (doubts.of_points, plain),
+    ];
+    for (doubted, caution) in doubted {
+        if doubted > 0
+            && let Some((other, _)) = resolve_with(written, caution)
+        {
+            others.push(other);
+        }
+    }
+    Some(Resolved { scene, others })
+}
+
+/// How many relations are doubtful.
+struct Doubts {
+    left_out: usize,
+    by_chance: usize,
+    /// Lines and planes of points that are nearly those that others make.
+    of_points: usize,
+}
+
+fn resolve_with(written: &Written, caution: Caution) -> Option<(Scene, Doubts)> {
     let errors = written.errors();
     let points: Vec<Vector> = written.points.iter().map(|p| p.value).collect();
     let size = written.size();
@@ -90,8 +159,9 @@ pub fn resolve(written: &Written) -> Option<Scene> {
             .filter(move |r| r.1.0 == k)
             .map(|r| r.0)
     };
-    let within = |k: usize, v: Vector| rays_of(k).all(|r| r.moved(v, 0.0) <= WITHIN);
-    together(&mut of.all, within);
+    let within = WITHIN * caution.bold;
+    let fits = |k: usize, v: Vector| rays_of(k).all(|r| r.moved(v, 0.0) <= within);
+    together(&mut of.all, caution.bold, fits);
     of.all.truncate(own);
     let frame = Frame::of(&of.all);
     let origin = (0..points.len())
@@ -141,14 +211,22 @@ pub fn resolve(written: &Written) -> Option<Scene> {
     let floor = written.floor();
     let allowed = |p: usize, by: Vector| {
         let out = frame.outside(by);
-        (0..3).all(|c| out[c].abs() <= WITHIN * written.points[p].half[c].max(floor))
+        (0..3).all(|c| out[c].abs() <= within * written.points[p].half[c].max(floor))
     };
     let mut finder = Finder::new(&inside, &errors, directions);
     let mut solved = Projection::new(inside.clone(), &weights, &allowed);
-    let found = finder.all();
+    solved.bold = caution.bold;
+    let keep = |all: Vec<Relation>| {
+        all.into_iter()
+            .filter(|r| caution.weak || !r.weak)
+            .collect()
+    };
+    let found = keep(finder.all());
     let mut became = solved.take_all(found, &finder.normals.real);
+    let first = became.len();
     // What points alone make: lines and planes that nothing above keeps.
-    for further in [of_points::lines, of_points::planes_of] {
+    let both = [of_points::lines, of_points::planes_of];
+    for further in both.into_iter().filter(|_| caution.of_points) {
         let more: Vec<(Exact, Use)> = further(&solved, &errors)
             .into_iter()
             .map(|d| {
@@ -157,11 +235,34 @@ pub fn resolve(written: &Written) -> Option<Scene> {
             })
             .collect();
         for one in more {
-            let found = finder.along(vec![one]);
+            let found = keep(finder.along(vec![one]));
             became.extend(solved.take_all(found, &finder.normals.real));
         }
     }
     let normals = finder.normals;
+    let asks = |r: &Relation| {
+        r.rows
+            .iter()
+            .filter_map(|w| solved.asks(w, &normals.real))
+            .fold(0.0, f64::max)
+    };
+    let left_out = became.iter().filter(|(r, b)| {
+        *b == Taken::Refused && {
+            let far = asks(r);
+            far > 0.0 && far <= LEFT_OUT
+        }
+    });
+    let doubts = Doubts {
+        left_out: left_out.count(),
+        by_chance: became
+            .iter()
+            .filter(|(r, b)| *b == Taken::New && r.weak)
+            .count(),
+        of_points: became[first..]
+            .iter()
+            .filter(|(_, b)| *b == Taken::Refused)
+            .count(),
+    };
     let refused = became.iter().filter(|b| b.1 == Taken::Refused).count();
     let relations: Vec<(Kind, Vec<usize>)> = became
         .into_iter()
@@ -219,14 +320,15 @@ pub fn resolve(written: &Written) -> Option<Scene> {
         }
         moved = moved.max(w.moved(to_f64(x), 0.0));
     }
-    Some(Scene {
+    let scene = Scene {
         points: outside,
         rays,
         cluster: of.of_ray.iter().map(|r| r.0).collect(),
         relations,
         refused,
         moved,
-    })
+    };
+    Some((scene, doubts))
 }
 
 /// The file's own axes as directions, where its frame is the scene's.

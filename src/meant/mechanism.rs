@@ -2,7 +2,7 @@
 
 use super::number::Rational3;
 use super::written::{Place, Ray, Written};
-use super::{Scene, resolve};
+use super::{Resolved, Scene, resolve};
 use crate::geom::expr::Expr;
 use crate::geom::vector::real;
 use crate::model::joint_type::{Freedom, JointType};
@@ -18,6 +18,8 @@ pub struct Meant {
     pub mechanism: Mechanism,
     /// The frames of its joints as they are written.
     pub written: Vec<Frame>,
+    /// The same as other scenes have it that the digits do not rule out.
+    pub others: Vec<Mechanism>,
     /// What its scene has.
     pub scene: Scene,
     /// Of which joint each point of the scene is.
@@ -180,36 +182,57 @@ pub fn meant(mechanism: &Mechanism) -> Option<Meant> {
         Mode::Spatial => None,
         Mode::Planar { normal } => Some(all.ray(normal, half.normal, None)),
     };
-    let scene = resolve(&all.written)?;
-    let mut out = mechanism.clone();
-    let put = |f: &mut Frame, s: &Slots| {
-        for (v, x) in [
-            (&mut f.point, s.point.map(|k| &scene.points[k])),
-            (&mut f.axis, s.axis.map(|k| &scene.rays[k])),
-            (&mut f.reference, s.reference.map(|k| &scene.rays[k])),
-        ] {
-            if let Some(x) = x {
-                write(v, x);
-            }
-        }
+    let Resolved { scene, others } = resolve(&all.written)?;
+    let places = Places {
+        own,
+        offered,
+        normal,
     };
-    for ((joint, slots), offered) in out.joints.iter_mut().zip(&own).zip(&offered) {
-        put(&mut joint.frame, slots);
-        let options = joint.options.iter_mut().chain(&mut joint.unloading);
-        for (option, slots) in options.zip(offered) {
-            put(&mut option.frame, slots);
-        }
-    }
-    if let (Mode::Planar { normal: v }, Some(k)) = (&mut out.mode, normal) {
-        write(v, &scene.rays[k]);
-    }
+    let others = others.iter().map(|o| places.put(mechanism, o)).collect();
     Some(Meant {
-        mechanism: out,
+        mechanism: places.put(mechanism, &scene),
+        others,
         written: mechanism.joints.iter().map(|j| j.frame.clone()).collect(),
         scene,
         points: all.points,
         rays: all.rays,
     })
+}
+
+/// Where the frames of a mechanism are in a scene.
+struct Places {
+    own: Vec<Slots>,
+    offered: Vec<Vec<Slots>>,
+    normal: Option<usize>,
+}
+
+impl Places {
+    /// The mechanism with the geometry of a scene.
+    fn put(&self, mechanism: &Mechanism, scene: &Scene) -> Mechanism {
+        let mut out = mechanism.clone();
+        let put = |f: &mut Frame, s: &Slots| {
+            for (v, x) in [
+                (&mut f.point, s.point.map(|k| &scene.points[k])),
+                (&mut f.axis, s.axis.map(|k| &scene.rays[k])),
+                (&mut f.reference, s.reference.map(|k| &scene.rays[k])),
+            ] {
+                if let Some(x) = x {
+                    write(v, x);
+                }
+            }
+        };
+        for ((joint, slots), offered) in out.joints.iter_mut().zip(&self.own).zip(&self.offered) {
+            put(&mut joint.frame, slots);
+            let options = joint.options.iter_mut().chain(&mut joint.unloading);
+            for (option, slots) in options.zip(offered) {
+                put(&mut option.frame, slots);
+            }
+        }
+        if let (Mode::Planar { normal }, Some(k)) = (&mut out.mode, self.normal) {
+            write(normal, &scene.rays[k]);
+        }
+        out
+    }
 }
 
 /// Writes a vector over another, what is the same already as it stands: it may be irrational, and then stays so.

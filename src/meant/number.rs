@@ -22,10 +22,6 @@ pub(super) fn to_f64(v: &Rational3) -> Vector {
     v.each_ref().map(|x| x.to_f64().unwrap_or(f64::NAN))
 }
 
-pub(super) fn dot(a: &Rational3, b: &Rational3) -> BigRational {
-    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
-}
-
 pub(super) fn cross(a: &Rational3, b: &Rational3) -> Rational3 {
     let minor = |i: usize, j: usize| &a[i] * &b[j] - &a[j] * &b[i];
     [minor(1, 2), minor(2, 0), minor(0, 1)]

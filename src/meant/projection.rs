@@ -41,6 +41,8 @@ pub(super) struct Projection<'a> {
     pub(super) rows: Vec<Row>,
     /// Sum of squares of moves, in errors.
     pub(super) square: f64,
+    /// Moves may be larger by this than those of relations usually are.
+    pub(super) bold: f64,
 }
 
 impl<'a> Projection<'a> {
@@ -57,6 +59,7 @@ impl<'a> Projection<'a> {
             basis: Vec::new(),
             rows: Vec::new(),
             square: 0.0,
+            bold: 1.0,
         }
     }
 
@@ -87,7 +90,16 @@ impl<'a> Projection<'a> {
         norm(&a) <= 1e-6 * before
     }
 
-    /// Takes the relations that hold together within the digits; gives those with what became of them.
+    /// The move that a row asks for now, in errors; none where it is decided by what is taken.
+    pub(super) fn asks(&self, row: &Row, normals: &[Vector]) -> Option<f64> {
+        let (a, before) = self.across(row, normals);
+        let left = norm(&a);
+        (left > DEPENDENT * before && before > 0.0)
+            .then(|| (self.residue(row, normals) / left).abs())
+    }
+
+    /// Takes the relations that hold together within the digits, those refused once more at the end; gives those with what
+    /// became of them.
     pub(super) fn take_all(
         &mut self,
         found: Vec<Relation>,
@@ -97,12 +109,19 @@ impl<'a> Projection<'a> {
             let became = self.take(&r.rows, normals);
             (r, became)
         };
-        found.into_iter().map(each).collect()
+        let mut out: Vec<(Relation, Taken)> = found.into_iter().map(each).collect();
+        // What was too far may be near now that others hold.
+        for (r, became) in &mut out {
+            if *became == Taken::Refused {
+                *became = self.take(&r.rows, normals);
+            }
+        }
+        out
     }
 
     /// Takes rows all together or not at all.
     pub(super) fn take(&mut self, rows: &[Row], normals: &[Vector]) -> Taken {
-        let limit = limit(rows.len());
+        let limit = self.bold * limit(rows.len());
         let (points, basis, taken, square) = (
             self.points.clone(),
             self.basis.len(),
@@ -136,8 +155,8 @@ impl<'a> Projection<'a> {
         Taken::Refused
     }
 
-    /// Puts one row, and gives the square of the move; none where it contradicts those taken.
-    fn put(&mut self, row: &Row, normals: &[Vector]) -> Option<f64> {
+    /// A row in errors, without what is decided, and how large it was with it.
+    fn across(&self, row: &Row, normals: &[Vector]) -> (Vec<f64>, f64) {
         let n = normals[row.normal];
         let mut a = vec![0.0; 3 * self.points.len()];
         for &(p, c) in &row.terms {
@@ -146,6 +165,20 @@ impl<'a> Projection<'a> {
             }
         }
         let before = norm(&a);
+        for _ in 0..2 {
+            for b in &self.basis {
+                let part: f64 = a.iter().zip(b).map(|(x, y)| x * y).sum();
+                if part != 0.0 {
+                    a.iter_mut().zip(b).for_each(|(x, y)| *x -= part * y);
+                }
+            }
+        }
+        (a, before)
+    }
+
+    /// Puts one row, and gives the square of the move; none where it contradicts those taken.
+    fn put(&mut self, row: &Row, normals: &[Vector]) -> Option<f64> {
+        let (mut a, before) = self.across(row, normals);
         let residue = self.residue(row, normals);
         let scale: f64 = row
             .terms
@@ -157,14 +190,6 @@ impl<'a> Projection<'a> {
         let round_off = 1e-14 * scale;
         if before == 0.0 {
             return (residue.abs() <= round_off).then_some(0.0);
-        }
-        for _ in 0..2 {
-            for b in &self.basis {
-                let part: f64 = a.iter().zip(b).map(|(x, y)| x * y).sum();
-                if part != 0.0 {
-                    a.iter_mut().zip(b).for_each(|(x, y)| *x -= part * y);
-                }
-            }
         }
         let left = norm(&a);
         if left < DEPENDENT * before {

@@ -29,6 +29,8 @@ pub(super) struct Relation {
     /// How many points share it: planes of many points come before planes of two.
     pub(super) weight: usize,
     pub(super) off: f64,
+    /// Whether as much is to be expected by chance among so many points and normals.
+    pub(super) weak: bool,
 }
 
 /// Normals that rows are along, exact and as doubles; the first three are the frame's axes.
@@ -110,6 +112,16 @@ impl<'a> Finder<'a> {
         out
     }
 
+    /// How far points are apart, that chance is reckoned by.
+    fn size(&self) -> f64 {
+        let far = |p: &Vector| length(sub(*p, self.points[0]));
+        self.points
+            .iter()
+            .map(far)
+            .fold(0.0, f64::max)
+            .max(f64::MIN_POSITIVE)
+    }
+
     fn wide(&self, i: usize, j: usize) -> f64 {
         SPREAD * (self.errors[i] + self.errors[j])
     }
@@ -135,6 +147,7 @@ impl<'a> Finder<'a> {
                     rows,
                     weight: 0,
                     off,
+                    weak: false,
                 });
             }
         }
@@ -186,8 +199,9 @@ impl<'a> Finder<'a> {
         normals.dedup();
         drop(spanning);
         self.directions = directions;
+        let of = normals.len();
         for n in normals {
-            self.planes(n, places, out);
+            self.planes((n, of), places, out);
         }
         for pair in lines {
             self.lines(pair, places, out);
@@ -195,25 +209,30 @@ impl<'a> Finder<'a> {
     }
 
     /// Points in planes square to a normal: neighbours in the order along it.
-    fn planes(&self, normal: usize, places: &[usize], out: &mut Vec<Relation>) {
+    fn planes(&self, (normal, normals): (usize, usize), places: &[usize], out: &mut Vec<Relation>) {
         let n = unit(self.normals.real[normal]);
         let mut at: Vec<(f64, usize)> = places
             .iter()
             .map(|&p| (dot(n, self.points[p]), p))
             .collect();
         at.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let spread = self.size();
         let mut start = 0;
         for k in 1..=at.len() {
             let apart = at
                 .get(k)
                 .is_none_or(|x| x.0 - at[k - 1].0 > self.wide(x.1, at[k - 1].1));
             if apart {
+                let error = self.errors[at[start].1];
+                let chance = by_chance(places.len(), k - start, error / spread);
+                let weak = chance * as_f64(normals) > CHANCE;
                 for w in at[start..k].windows(2) {
                     out.push(Relation {
                         kind: Kind::InPlane,
                         rows: vec![self.difference(w[1].1, w[0].1, normal)],
                         weight: k - start,
                         off: (w[1].0 - w[0].0) / self.wide(w[1].1, w[0].1),
+                        weak,
                     });
                 }
                 start = k;
@@ -249,6 +268,7 @@ impl<'a> Finder<'a> {
                 rows: normals.map(|k| self.difference(p, f, k)).to_vec(),
                 weight: of,
                 off: off(p, f) / self.wide(p, f),
+                weak: false,
             });
         }
     }
@@ -295,6 +315,7 @@ impl<'a> Finder<'a> {
                     rows: (0..3).map(row).collect(),
                     weight: 0,
                     off: off / wide,
+                    weak: false,
                 });
             }
         }
@@ -324,6 +345,8 @@ impl<'a> Finder<'a> {
                 }
             }
             middles.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let error = 2.0 * self.errors[places[0]] / self.size();
+            let chance = by_chance(middles.len(), 2, error) * as_f64(self.directions.len());
             for w in middles.windows(2) {
                 let ((a, i, j), (b, p, q)) = (w[0], w[1]);
                 let wide = 0.8 * (self.wide(i, j) + self.wide(p, q));
@@ -344,10 +367,27 @@ impl<'a> Finder<'a> {
                     rows: vec![Row { terms, normal: n }],
                     weight: 0,
                     off: (b - a) / wide,
+                    weak: chance > CHANCE,
                 });
             }
         }
     }
+}
+
+/// So many relations are to be expected by chance before one is doubted.
+const CHANCE: f64 = 0.02;
+
+#[allow(clippy::cast_precision_loss, reason = "counts are small")]
+fn as_f64(n: usize) -> f64 {
+    n as f64
+}
+
+/// How many sets of `k` of `n` values are together by chance, each known to a part of their spread.
+fn by_chance(n: usize, k: usize, error: f64) -> f64 {
+    let each = |i: usize| as_f64(n - i) / as_f64(i + 1);
+    let sets: f64 = (0..k).map(each).product();
+    // Neighbours may be as far apart as four errors on either side.
+    sets * (8.0 * error).powi(i32::try_from(k).unwrap_or(i32::MAX) - 1)
 }
 
 /// The strongest first.

@@ -133,11 +133,12 @@ fn candidates(all: &[Direction]) -> Vec<Relation> {
     out.into_iter().map(|x| x.2).collect()
 }
 
-/// Turns directions so that all relations hold that can together; `allowed` says whether the digits allow a direction.
+/// Turns directions so that all relations hold that can together; `allowed` says whether the digits allow a direction, and turns
+/// may be larger by `bold` than they usually are.
 ///
 /// # Complexity
 /// O(d³) relations of d directions, each held against those taken.
-pub(super) fn together(all: &mut [Direction], allowed: impl Fn(usize, Vector) -> bool) {
+pub(super) fn together(all: &mut [Direction], bold: f64, allowed: impl Fn(usize, Vector) -> bool) {
     let found = candidates(all);
     let mut turns = Turns {
         all,
@@ -158,7 +159,8 @@ pub(super) fn together(all: &mut [Direction], allowed: impl Fn(usize, Vector) ->
             })
             .collect();
         let units = turns.units();
-        if step.is_some_and(|s| s <= LIMIT) && touched.iter().all(|&d| allowed(d, units[d])) {
+        if step.is_some_and(|s| s <= bold * LIMIT) && touched.iter().all(|&d| allowed(d, units[d]))
+        {
             taken.push(r);
         } else {
             turns.turns = before;

@@ -13,6 +13,8 @@ use crate::rank::verdict::{Verdict, rank_of, resolved, verdict_on};
 pub struct Settled {
     /// It, where it was snapped because that is what is meant or asked for; none where it is as written.
     pub snapped: Option<Mechanism>,
+    /// The same as other scenes have it that the digits do not rule out.
+    pub others: Vec<Mechanism>,
     /// What was moved.
     pub moved: Vec<Moved>,
     /// What would have had to move further than is asked for, and was not.
@@ -67,6 +69,9 @@ pub fn settle(
     }
     // What was asked for is done; what the digits say, only where it is right.
     let right = tolerance.is_some() || out.open.is_none();
+    if right {
+        out.others = scene.map(|s| s.others).unwrap_or_default();
+    }
     if right && (tolerance.is_some() || !moved.is_empty()) {
         out.snapped = Some(found);
         out.moved = moved;

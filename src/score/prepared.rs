@@ -29,7 +29,23 @@ pub struct Prepared {
 }
 
 /// A mechanism made ready for a search, in the places where `file` has its joints and options.
-pub(super) fn as_in_file(ready: &Mechanism, file: &Mechanism, verdicts: &[Verdict]) -> Written {
+pub(super) fn as_in_file(ready: &Mechanism, file: &Mechanism, settled: &Settled) -> Written {
+    let adds = |j: &Joint| {
+        let present = j.options.first();
+        let wider = |p: &JointOption| j.options.iter().all(|o| contains(o, p) == Some(true));
+        present.is_none_or(wider)
+    };
+    let others = settled.others.iter().map(|o| Arc::new(in_places(ready, o)));
+    Written {
+        only_adds: ready.joints.iter().all(adds),
+        mechanism: Arc::new(in_places(ready, file)),
+        others: others.collect(),
+        digits: digits(&settled.verdicts),
+    }
+}
+
+/// A mechanism made ready for a search, its joints and options in the places where another has them.
+fn in_places(ready: &Mechanism, file: &Mechanism) -> Mechanism {
     let mut out = ready.clone();
     for (joint, there) in out.joints.iter_mut().zip(&file.joints) {
         joint.frame = there.frame.clone();
@@ -47,16 +63,7 @@ pub(super) fn as_in_file(ready: &Mechanism, file: &Mechanism, verdicts: &[Verdic
         offered(&mut joint.options, &there.options);
         offered(&mut joint.unloading, &there.unloading);
     }
-    let adds = |j: &Joint| {
-        let present = j.options.first();
-        let wider = |p: &JointOption| j.options.iter().all(|o| contains(o, p) == Some(true));
-        present.is_none_or(wider)
-    };
-    Written {
-        only_adds: ready.joints.iter().all(adds),
-        mechanism: Arc::new(out),
-        digits: digits(verdicts),
-    }
+    out
 }
 
 /// Tells what was moved, and what was not.

@@ -221,7 +221,7 @@ impl Request {
         self.restrict(&mut out)?;
         self.insert(&mut out)?;
         let file = file.filter(|_| numeric.is_none());
-        let written = file.map(|f| as_in_file(&out, &f, &settled.verdicts));
+        let written = file.map(|f| as_in_file(&out, &f, &settled));
         Ok(Prepared {
             written,
             mechanism: out,

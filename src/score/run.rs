@@ -220,7 +220,11 @@ pub fn answer(
                 .to_owned(),
         ));
     }
-    let second = second_opinion((&search, &diagrams), &counted, ranking.as_ref(), request)?;
+    let mut second = second_opinion((&search, &diagrams), &counted, ranking.as_ref(), request)?;
+    if let Some(second) = &mut second {
+        let all = (&counted, &search.counts(&diagrams.admissible, true));
+        second.scenes = other_scenes(&search, all, should_cancel)?;
+    }
     let contradicted = second.as_ref().is_some_and(|s| !s.agrees());
     // A count as written is what was asked for; one as meant is not what is meant.
     if contradicted && !request.as_written && request.symmetry != Symmetry::OnePerOrbit {
@@ -278,6 +282,44 @@ fn second_opinion(
     let drawn = search.sample(diagrams, request.seed).take(DRAWN).collect();
     let said = search.second_opinion(written, (listed, drawn), determinate, request.seed)?;
     Ok(Some(said))
+}
+
+/// The least and the most (determinate, admissible) over the scenes that the digits do not rule out; none where all are the
+/// same, by mobility too.
+fn other_scenes(
+    search: &Search,
+    (determinate, admissible): (&Counts, &Counts),
+    should_cancel: ShouldCancel<'_>,
+) -> Result<Option<[(BigUint, BigUint); 2]>, RunError> {
+    let scenes = search.conditions.written.iter().flat_map(|w| &w.others);
+    let own = (determinate.total.clone(), admissible.total.clone());
+    let (mut range, mut differ) = ([own.clone(), own], false);
+    for scene in scenes {
+        let field = exact_field(scene, 0)?;
+        let mut conditions = search.conditions.clone();
+        conditions.estimate = None;
+        let other = Search::new(field, scene.clone(), conditions)?;
+        let built = other.build(should_cancel, &mut |_| {});
+        let found = (
+            other.counts(&built.determinate, false),
+            other.counts(&built.admissible, true),
+        );
+        differ |= found.0.by_mobility != determinate.by_mobility
+            || found.1.by_mobility != admissible.by_mobility;
+        let [least, most] = &mut range;
+        for (total, least, most) in [
+            (found.0.total, &mut least.0, &mut most.0),
+            (found.1.total, &mut least.1, &mut most.1),
+        ] {
+            if total < *least {
+                least.clone_from(&total);
+            }
+            if total > *most {
+                *most = total;
+            }
+        }
+    }
+    Ok(differ.then_some(range))
 }
 
 /// The search of the mechanism as its file writes it, for singular values.

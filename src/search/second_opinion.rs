@@ -31,6 +31,8 @@ const WHOLE: u32 = 1000;
 pub struct Written {
     /// It, with the links, joints and options of the one that is searched.
     pub mechanism: Arc<Mechanism>,
+    /// The mechanism in other scenes that the digits do not rule out.
+    pub others: Vec<Arc<Mechanism>>,
     /// What its digits tell.
     pub digits: Digits,
     /// Whether each option allows all that the present joint does.
@@ -89,6 +91,8 @@ pub struct SecondOpinion {
     pub contradiction: Option<Contradiction>,
     /// What breaks the law.
     pub below_present: Option<BelowPresent>,
+    /// The least and the most (determinate, admissible) of scenes that the digits do not rule out, where they differ.
+    pub scenes: Option<[(BigUint, BigUint); 2]>,
 }
 
 impl SecondOpinion {
@@ -101,7 +105,7 @@ impl SecondOpinion {
     /// Whether the counts may be called exact: nothing speaks against them, and it is decided what the digits mean.
     #[must_use]
     pub fn confirms(&self) -> bool {
-        self.agrees() && !self.digits.undecided
+        self.agrees() && !self.digits.undecided && self.scenes.is_none()
     }
 }
 
@@ -210,6 +214,7 @@ impl Search {
             narrowest,
             contradiction,
             below_present,
+            scenes: None,
         })
     }
 

@@ -82,6 +82,18 @@ pub fn against(outcome: &Outcome) -> Vec<String> {
             b.present
         ));
     }
+    if let Some([least, most]) = &said.scenes {
+        let range = |a: &num_bigint::BigUint, b: &num_bigint::BigUint| {
+            let [a, b] = [a, b].map(|x| grouped(&x.to_string()));
+            if a == b { a } else { format!("{a} to {b}") }
+        };
+        out.push(format!(
+            "Not exact: the digits allow scenes with {} determinate and {} admissible variants; give more digits, or state \
+             [tolerance]",
+            range(&least.0, &most.0),
+            range(&least.1, &most.1)
+        ));
+    }
     if out.is_empty() && !said.confirms() {
         out.push("Not exact: it is not decided what the digits of the file mean".to_owned());
     }
@@ -132,6 +144,8 @@ pub(super) struct SecondOpinionData {
     narrowest_gap: Option<f64>,
     contradiction: Option<ContradictionData>,
     below_present: Option<String>,
+    /// The least and the most (determinate, admissible) of scenes that the digits do not rule out, where they differ.
+    scenes: Option<[[String; 2]; 2]>,
 }
 
 #[derive(Debug, Serialize)]
@@ -182,6 +196,10 @@ impl SecondOpinionData {
             narrowest_gap: Some(said.narrowest).filter(|g| g.is_finite()),
             contradiction,
             below_present: said.below_present.as_ref().map(|b| b.variants.to_string()),
+            scenes: said
+                .scenes
+                .as_ref()
+                .map(|s| s.each_ref().map(|(a, b)| [a.to_string(), b.to_string()])),
         })
     }
 }
