@@ -54,4 +54,5 @@ mod transition;
 mod trial;
 mod two_sided;
 mod ways;
+pub mod written;
 pub mod written_out;

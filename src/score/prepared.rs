@@ -7,7 +7,7 @@ use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::settled::Settled;
 use crate::rank::verdict::{Meant, Verdict};
 use crate::search::doubt::Digits;
-use crate::search::second_opinion::Written;
+use crate::search::written::Written;
 use std::sync::Arc;
 
 /// What to do about rounded coordinates.

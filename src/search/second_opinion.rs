@@ -5,7 +5,6 @@
 //! keep a law: what only adds freedoms takes no mobility away. One contradiction, and no count is exact.
 
 use crate::geom::exact::ExactError;
-use crate::model::mechanism::Mechanism;
 use crate::rank::numeric::Elimination;
 use crate::search::approximate::{Approximate, Rows};
 use crate::search::at_tolerance::{below, choices};
@@ -14,30 +13,17 @@ use crate::search::brute::Matrices;
 use crate::search::conditions::Search;
 use crate::search::counts::Counts;
 use crate::search::doubt::{Digits, RankRange};
+use crate::search::written::Written;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::SeedableRng;
 use num_bigint::BigUint;
 use num_traits::{ToPrimitive, Zero};
 use rayon::prelude::*;
-use std::sync::Arc;
 
 /// Variants drawn of each kind.
 pub const DRAWN: usize = 128;
 /// Spaces of no more variants than this are asked about whole.
 const WHOLE: u32 = 1000;
-
-/// A mechanism with its coordinates as a file writes them.
-#[derive(Debug, Clone)]
-pub struct Written {
-    /// It, with the links, joints and options of the one that is searched.
-    pub mechanism: Arc<Mechanism>,
-    /// The mechanism in other scenes that the digits do not rule out.
-    pub others: Vec<Arc<Mechanism>>,
-    /// What its digits tell.
-    pub digits: Digits,
-    /// Whether each option allows all that the present joint does.
-    pub only_adds: bool,
-}
 
 /// How singular values went with the ranks of some variants.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -77,10 +77,14 @@ pub(super) fn redesigns(
     let listed = top.max(TIED + 1);
     let request = &as_searched(request, listed);
     let outcome = run(m.clone(), request, &|| false, &mut |_| {})?;
-    let (proven, tied, list) = match (&outcome.ranking, &outcome.diagrams) {
+    let cheapest: Option<Vec<Assignment>> = match (&outcome.numeric, &outcome.diagrams) {
+        (Some(found), _) => Some(found.list(&outcome.search).take(listed).collect()),
+        (None, Some(diagrams)) => Some(outcome.search.cheapest(diagrams, listed).collect()),
+        (None, None) => None,
+    };
+    let (proven, tied, list) = match (&outcome.ranking, cheapest) {
         (Some(pool), _) => ranked(pool),
-        (None, Some(diagrams)) => {
-            let list: Vec<Assignment> = outcome.search.cheapest(diagrams, listed).collect();
+        (None, Some(list)) => {
             let cost = |v: &Assignment| outcome.search.steps.milli(v.key.cost());
             let first = list.first().map(cost);
             let tied = list.iter().take_while(|v| Some(cost(v)) == first).count();

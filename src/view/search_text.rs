@@ -66,7 +66,10 @@ pub fn write(
             write!(out, "{}", fit(&format!("\n  {what}:\n"), width))?;
         }
         writeln!(out, "{}", variants(outcome, &block, width))?;
-        write!(out, "{}", contours(&block, width))?;
+        // Shares of contours are found in exact arithmetic.
+        if outcome.numeric.is_none() {
+            write!(out, "{}", contours(&block, width))?;
+        }
         footnotes.extend(block.iter().filter_map(note));
     }
     let summary = given.summary();
@@ -91,7 +94,8 @@ pub fn write(
         writeln!(out, "\n  stopped early ({why}) after {given} variants")?;
     }
     // Numbers of a sample, or of a list with some left out, mean nothing to other commands.
-    let steps = match outcome.request.generic_only {
+    let undecided = summary.given == 0 && outcome.admissible_may_be_more();
+    let steps = match outcome.request.generic_only || undecided {
         true => Vec::new(),
         false => next(
             outcome,

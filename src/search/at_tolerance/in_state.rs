@@ -1,7 +1,7 @@
 //! What a searched state makes of a variant, by singular values: external and harmful redundant constraints, and whether
 //! bodies are held.
 
-use super::judge::Answer;
+use super::answer::Answer;
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::model::joint_type::{Freedom, JointType};

@@ -1,5 +1,7 @@
 //! One variant judged by its singular values.
 
+use super::answer::Answer;
+use super::in_state::InStateSeen;
 use crate::geom::exact::ExactError;
 use crate::rank::numeric::Elimination;
 use crate::search::approximate::{Approximate, Rows};
@@ -7,8 +9,6 @@ use crate::search::conditions::Search;
 use crate::search::doubt::{Digits, RankRange};
 use crate::search::spent::Redundancy;
 use crate::search::tally::Key;
-
-use super::in_state::InStateSeen;
 
 /// Whether a variant meets some conditions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -163,33 +163,6 @@ impl<'s> Judge<'s> {
                 Answer::Perhaps => standing(false, found),
                 Answer::Yes => standing(true, found),
             },
-        }
-    }
-}
-
-/// Whether a condition is met.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Answer {
-    No,
-    Perhaps,
-    Yes,
-}
-
-impl Answer {
-    /// From whether it is for sure, and whether it may be.
-    pub(super) fn of(sure: bool, may: bool) -> Answer {
-        match (sure, may) {
-            (true, _) => Answer::Yes,
-            (false, true) => Answer::Perhaps,
-            (false, false) => Answer::No,
-        }
-    }
-
-    pub(super) fn and(self, other: Answer) -> Answer {
-        match (self, other) {
-            (Answer::No, _) | (_, Answer::No) => Answer::No,
-            (Answer::Yes, Answer::Yes) => Answer::Yes,
-            _ => Answer::Perhaps,
         }
     }
 }

@@ -1,52 +1,24 @@
 //! Spaces too large to be looked at whole: the cheapest variants in order, and a sample of all.
 
+use super::found::{AtTolerance, BLOCK, List, Met, Sampled, Share, below, order};
 use super::judge::{Judge, Standing};
-use super::{AtTolerance, BLOCK, List, Met, order};
 use crate::search::best::Assignment;
 use crate::search::conditions::Search;
 use crate::search::diagram::Stop;
 use crate::search::in_order::InOrder;
 use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
+use chacha20::rand_core::SeedableRng;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// Variants drawn.
 const DRAWN: usize = 20_000;
 /// Variants looked at in order of cost, at most.
-const IN_ORDER: usize = 100_000;
+const IN_ORDER: usize = 20_000;
 /// Variants looked at before it is asked whether there are enough of them.
 const AT_ONCE: usize = 2048;
 /// Of a normal distribution, 95 % is within so many standard deviations.
 const NORMAL_95: f64 = 1.959_963_985;
-
-/// A share of the variants, from a sample.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Share {
-    /// The share found.
-    pub mean: f64,
-    /// In 95 of 100 samples the true share is at least this, doubtful variants left out,
-    pub low: f64,
-    /// and at most this, doubtful ones taken in.
-    pub high: f64,
-}
-
-/// What a sample says of a space that was not looked at whole.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Sampled {
-    /// Variants drawn, each with the same chance, with repetition.
-    pub drawn: usize,
-    /// The seed.
-    pub seed: u64,
-    /// The determinate variants among them.
-    pub determinate: Share,
-    /// The admissible ones.
-    pub admissible: Share,
-    /// Variants looked at in order of cost.
-    pub in_order: usize,
-    /// The cost in thousandths below which every variant was looked at; none where costs cannot be told apart so finely.
-    pub all_below: Option<i64>,
-}
 
 /// Looks for the `list` cheapest admissible variants in order, and at a sample.
 pub(super) fn search(
@@ -136,19 +108,6 @@ pub(super) fn search(
             Stop::NodeBudget
         },
         list: List::Variants(list),
-    }
-}
-
-/// A number below `n`, each with the same chance.
-pub(in crate::search) fn below(random: &mut ChaCha8Rng, n: usize) -> usize {
-    let n = n.max(1) as u64;
-    // What would favour the first numbers is drawn again.
-    let fair = u64::MAX - u64::MAX % n;
-    loop {
-        let x = random.next_u64();
-        if x < fair {
-            return usize::try_from(x % n).unwrap_or(0);
-        }
     }
 }
 
