@@ -52,6 +52,7 @@ fn handle() -> Result<(), ctrlc::Error> {
 
 fn heard(signal: u8) {
     let _ = FIRST.compare_exchange(0, signal, Ordering::SeqCst, Ordering::SeqCst);
+    output::cut_short();
     let name = NAMES.iter().find(|(n, _)| *n == signal);
     let name = name.map_or("a signal", |(_, name)| name);
     if PATIENT.load(Ordering::SeqCst) && !PENDING.swap(true, Ordering::SeqCst) {

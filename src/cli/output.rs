@@ -3,7 +3,7 @@
 mod beside;
 mod standard;
 
-pub(super) use beside::abandon;
+pub(super) use beside::{abandon, cut_short};
 
 use super::working;
 use crate::api;

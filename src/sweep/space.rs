@@ -109,8 +109,7 @@ impl Space {
     pub fn new(parameters: &[Parameter], sampling: Sampling) -> Result<Space, SpaceError> {
         let points = match sampling {
             Sampling::Grid { points } if points < 2 => return Err(SpaceError::Points),
-            Sampling::Grid { points } if points > FINEST => return Err(SpaceError::TooFine),
-            Sampling::Grid { points } => points,
+            Sampling::Grid { points } => points.min(MOST + 1),
             Sampling::Sobol { count, .. } if !(1..=MOST_SOBOL).contains(&count) => {
                 return Err(SpaceError::Count);
             }
@@ -126,6 +125,9 @@ impl Space {
         if grid && sizes.clone().fold(1, usize::saturating_mul) > MOST {
             let parameters = sizes.count();
             return Err(SpaceError::TooMany { points, parameters });
+        }
+        if points > FINEST {
+            return Err(SpaceError::TooFine);
         }
         let axes = parameters.iter().filter_map(|p| {
             let grid = match &p.domain {

@@ -186,7 +186,7 @@ fn lint_goes_on_over_files_that_cannot_be_looked_at() {
     let levels: Vec<&str> = told.iter().map(|n| n["level"].as_str().unwrap()).collect();
     assert_eq!(levels, ["error", "error", "note"]);
     let place = &told[0]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"];
-    assert_eq!(place, &Value::from(bad));
+    assert_eq!(place, &Value::from(bad.as_str()));
     let (_, out, _) = run(&[&all[..], &["--format", "json"]].concat());
     let v: Value = serde_json::from_str(&out).unwrap();
     assert_eq!(v["files"].as_array().unwrap().len(), 1);

@@ -1,8 +1,9 @@
 //! Parts put together, and what is missing of the whole.
 
+use super::error::StoreError;
+use super::held::{Store, Stored};
 use super::open::plain_name;
 use super::version::OLDEST;
-use super::{Store, StoreError, Stored};
 use crate::catalog::spec::Spec;
 use crate::shard::Shard;
 use num_integer::Integer;

@@ -4,8 +4,9 @@
 //! back: so a catalogue that was never finished being made is as good as none, and of several commands that make one file the
 //! first does, and the others find it made.
 
+use super::error::StoreError;
+use super::held::{Store, Stored};
 use super::version::{self, Kind, OLDEST, VERSION};
-use super::{Store, StoreError, Stored};
 use crate::catalog::spec::Spec;
 use rusqlite::hooks::{AuthAction, AuthContext, Authorization};
 use rusqlite::{Connection, ErrorCode, OpenFlags, ffi};

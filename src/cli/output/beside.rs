@@ -1,11 +1,11 @@
 //! Files that are written beside the ones they are to become, so that these are whole or not there at all.
 
-use super::super::interrupt;
 use crate::file::leftover;
 use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::NamedTempFile;
 
@@ -19,6 +19,14 @@ static BESIDE: Mutex<(Option<PathBuf>, BTreeSet<PathBuf>)> = Mutex::new((None, B
 
 fn beside() -> MutexGuard<'static, (Option<PathBuf>, BTreeSet<PathBuf>)> {
     BESIDE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Whether what is written now may be less than what was asked for.
+static CUT: AtomicBool = AtomicBool::new(false);
+
+/// From now on what is written was cut short.
+pub(in crate::cli) fn cut_short() {
+    CUT.store(true, Ordering::SeqCst);
 }
 
 /// Removes the file that is being written, if one is.
@@ -52,7 +60,7 @@ pub(super) fn begin(folder: &Path) -> io::Result<NamedTempFile> {
 /// Gives the file that was begun its name. What was interrupted does not take the place of something older that is whole: it is
 /// given a name beside it, which is returned.
 pub(super) fn place(file: NamedTempFile, path: &Path, older: bool) -> io::Result<Option<PathBuf>> {
-    let other = (older && interrupt::exit_code().is_some()).then(|| interrupted(path));
+    let other = (older && CUT.load(Ordering::SeqCst)).then(|| interrupted(path));
     file.persist(other.as_deref().unwrap_or(path))?;
     beside().0 = None;
     Ok(other)

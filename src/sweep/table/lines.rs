@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// The last line.
 #[derive(Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -43,11 +44,8 @@ impl Output {
         let mut open = OpenOptions::new();
         open.read(true).write(true).create(true).truncate(false);
         let file = Output::wrap(path, open.open(path))?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => return Err(TableError::Busy(path.to_owned())),
-            // Not every file system has locks.
-            Err(TryLockError::Error(_)) => {}
+        if is_held(&file) {
+            return Err(TableError::Busy(path.to_owned()));
         }
         let read = Lines::begun(path, &mut BufReader::new(&file), Some(head))?;
         let mut out = Output {
@@ -110,6 +108,21 @@ impl Output {
         let done = self.file.write_all(line(&foot).as_bytes());
         Output::wrap(&self.path, done.and_then(|()| self.file.sync_all()))
     }
+}
+
+/// How often, and how long apart, a lock is asked for: a process that is just being started holds for a moment what its parent did.
+const ASKED: (u32, Duration) = (10, Duration::from_millis(20));
+
+/// Whether somebody else is at a file; otherwise it is locked.
+fn is_held(file: &File) -> bool {
+    for _ in 0..ASKED.0 {
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) => std::thread::sleep(ASKED.1),
+            // Not every file system has locks.
+            Ok(()) | Err(TryLockError::Error(_)) => return false,
+        }
+    }
+    true
 }
 
 /// No line of a table is longer, in bytes.

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use tempfile::{TempDir, tempdir};
 
-/// Six structures of four links, each a transaction.
+/// The structures of four links, each a transaction.
 fn tiny<'a>(file: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     let words = ["catalog", "build", "--links", "4", "--ideas", "1"];
     let rest = ["--threads", "1", "--quiet", "-o", file];
@@ -80,7 +80,7 @@ fn wherever_it_is_killed(some: usize, command: &dyn Fn(&str) -> Vec<String>) {
         let file = at(&folder, "counted.db");
         let all = words(&file);
         let all: Vec<&str> = all.iter().map(String::as_str).collect();
-        let (mut low, mut high) = (1, 1 << 20);
+        let (mut low, mut high) = (1_usize, 1 << 12);
         while low < high {
             let middle = (low + high).div_ceil(2);
             remove(&file);
@@ -113,7 +113,7 @@ fn wherever_it_is_killed(some: usize, command: &dyn Fn(&str) -> Vec<String>) {
             assert!(answered || said.contains("is empty"), "{write}: {said}");
         }
         run(&file);
-        assert_eq!(held(&file), wanted, "killed at write {write} of {last}");
+        assert!(held(&file) == wanted, "killed at write {write} of {last}");
         taken += 1;
     }
     eprintln!("{taken} kills at {last} writes");
@@ -211,7 +211,7 @@ fn one_to_eight_may_make_a_catalogue_at_once() {
         for o in at_once(&vec![tiny(&file, &[]); n]) {
             assert_eq!(o.status.code(), Some(0), "{n} at once: {}", text(&o.stderr));
         }
-        assert_eq!(held(&file), wanted, "{n} at once");
+        assert!(held(&file) == wanted, "{n} at once");
     }
 }
 
@@ -245,7 +245,8 @@ fn different_commands_may_make_a_catalogue_at_once() {
         .iter()
         .map(|w| if *w == file { plain.as_str() } else { w })
         .collect::<Vec<_>>());
-    assert_eq!(held(&file), held(&plain));
+    let rows = |file: &str| held(file).split_once("\n").unwrap().1.to_owned();
+    assert!(rows(&file) == rows(&plain));
 }
 
 /// Kills of several at once: those that are left, and those that come after, make the whole.
@@ -275,5 +276,5 @@ fn some_of_several_may_be_killed() {
         }
     }
     ok(&small(&file, &[]));
-    assert_eq!(held(&file), wanted);
+    assert!(held(&file) == wanted);
 }

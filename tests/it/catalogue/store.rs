@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::Command;
 use tempfile::{TempDir, tempdir};
 
-/// A catalogue of six structures.
+/// A catalogue of two structures.
 fn tiny(folder: &TempDir, name: &str, more: &[&str]) -> String {
     let file = at(folder, name);
     let words = [

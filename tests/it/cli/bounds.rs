@@ -225,19 +225,27 @@ fn no_reader_reads_without_a_bound() {
 /// Once minutes and gigabytes before the refusal.
 #[test]
 fn a_grid_too_fine_is_refused_at_once() {
-    let text = file(1, &[(0, 1)]) + "[parameter]\na = { range = [1, 2] }\nb = { range = [1, 2] }\n";
-    for (grid, says) in [
-        ("1000000", "at most 100000 numbers of each range"),
+    let one = file(1, &[(0, 1)]).replace("point = [0, 0, 0]", "point = [\"a\", \"b\", 0]")
+        + "[parameter]\na = { range = [1, 2] }\n";
+    let two = format!("{one}b = {{ range = [1, 2] }}\n");
+    let one = one.replace("\"b\"", "0");
+    for (text, grid, says) in [
+        (&one, "1000000", "at most 100000 numbers of each range"),
         (
-            "18446744073709551615",
-            "at most 100000 numbers of each range",
+            &two,
+            "1000000",
+            "more than 1000000 samples over 2 parameters",
         ),
-        ("1001", "more than 1000000 samples over 2 parameters"),
+        (
+            &two,
+            "18446744073709551615",
+            "more than 1000000 samples over 2 parameters",
+        ),
+        (&two, "1001", "more than 1000000 samples over 2 parameters"),
     ] {
         let begun = std::time::Instant::now();
-        let used = text.replace("point = [0, 0, 0]", "point = [\"a\", \"b\", 0]");
         let o = ozols(&["sweep", "-", "--grid", grid])
-            .write_stdin(used)
+            .write_stdin(text.as_str())
             .output()
             .unwrap();
         let said = self::text(&o.stderr);

@@ -74,7 +74,19 @@ fn a_table_has_the_same_bytes_however_it_was_made() {
         assert!(part.finished && part.rows.len() < 16);
     }
     let reversed: Vec<_> = parts.iter().rev().cloned().collect();
+    // What a merge that was killed left is cleaned; what is none of its files is not.
+    for left in [
+        "merged.jsonl.4242.tmp",
+        "merged.jsonl.tmp",
+        "other.jsonl.4242.tmp",
+    ] {
+        fs::write(at(left), "left").unwrap();
+    }
     let merged = merge(&reversed, &at("merged.jsonl")).unwrap();
+    assert!(!at("merged.jsonl.4242.tmp").exists());
+    for other in ["merged.jsonl.tmp", "other.jsonl.4242.tmp"] {
+        fs::remove_file(at(other)).unwrap();
+    }
     assert!(
         fs::read(at("merged.jsonl")).unwrap() == bytes,
         "in three parts"
