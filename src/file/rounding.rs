@@ -5,7 +5,7 @@ use crate::model::mechanism::Mechanism;
 use crate::model::rounded::looks_rounded;
 use crate::rank::snap::relation::{Moved, Reach, Relation};
 use crate::rank::snap::{size, snap};
-use crate::rank::verdict::{Verdict, reach, verdict};
+use crate::rank::verdict::{Meant, Verdict, reach, verdict};
 use itertools::Itertools;
 
 /// Joints nearer to special than this, in radians and sizes of the mechanism, were hardly meant to miss it.
@@ -50,7 +50,15 @@ fn of_verdict(found: &Verdict) -> WarningKind {
     };
     let state = found.state.clone();
     if found.is_decided() {
+        let understood = match &found.meant {
+            Meant::Snapped {
+                understood: Some(all),
+                ..
+            } => format!(". Understood: {all}"),
+            _ => String::new(),
+        };
         WarningKind::Meant {
+            understood,
             state,
             meant: figures(found.rank()),
             written: figures(found.as_written),

@@ -39,9 +39,10 @@ pub enum WarningKind {
     )]
     Measured { what: String },
     #[error(
-        "state {state}: {meant} is meant, and {written} is what the rounded digits say as written; write roots or expressions such as \"sqrt(3)/2\", or more digits"
+        "state {state}: {meant} is meant, and {written} is what the rounded digits say as written; write roots or expressions such as \"sqrt(3)/2\", or more digits{understood}"
     )]
     Meant {
+        understood: String,
         state: String,
         meant: String,
         written: String,

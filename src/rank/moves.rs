@@ -1,4 +1,4 @@
-//! What a scene that is meant has moved, joint by joint.
+//! What a scene that is meant has, in a sentence, and what it has moved, joint by joint.
 
 use crate::geom::vector::{cross, dot, length, real, sub, unit};
 use crate::meant::mechanism::Meant;
@@ -75,4 +75,42 @@ fn relations(meant: &Meant, j: JointId) -> Vec<(Relation, Option<JointId>)> {
         );
     }
     out
+}
+
+/// What was understood: "13 axes parallel, 14 centres in planes, 4 equal vectors; no number moved by more than 0.9 halves of a
+/// unit of its last digit".
+#[must_use]
+pub fn understood(meant: &Meant) -> String {
+    let mut parts: Vec<String> = Vec::new();
+    let mut groups: Vec<usize> = Vec::new();
+    for (of, &cluster) in meant.rays.iter().zip(&meant.scene.cluster) {
+        groups.resize(groups.len().max(cluster + 1), 0);
+        groups[cluster] += usize::from(of.is_some());
+    }
+    groups.retain(|n| *n > 1);
+    groups.sort_unstable_by(|a, b| b.cmp(a));
+    if !groups.is_empty() {
+        let all: Vec<String> = groups.iter().map(usize::to_string).collect();
+        parts.push(format!("{} axes parallel", all.join(" + ")));
+    }
+    for (kind, what) in [
+        (Kind::Coincident, "centres one with another"),
+        (Kind::InPlane, "in a plane with another"),
+        (Kind::OnLine, "on a line with another"),
+        (Kind::EqualVectors, "equal vectors"),
+        (Kind::Mirrored, "mirrored"),
+    ] {
+        let n = meant.scene.relations.iter().filter(|r| r.0 == kind).count();
+        if n > 0 {
+            parts.push(format!("{n} {what}"));
+        }
+    }
+    if parts.is_empty() {
+        parts.push("no two joints related".to_owned());
+    }
+    format!(
+        "{}; no number moved by more than {:.2} units of its last digit",
+        parts.join(", "),
+        meant.scene.moved / 2.0
+    )
 }

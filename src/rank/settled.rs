@@ -3,7 +3,7 @@
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::model::rounded::looks_rounded;
 use crate::rank::method::NoAnswer;
-use crate::rank::moves::moves;
+use crate::rank::moves::{moves, understood};
 use crate::rank::snap::relation::{Moved, Reach};
 use crate::rank::snap::{size, snap};
 use crate::rank::verdict::{Verdict, rank_of, resolved, verdict_on};
@@ -17,6 +17,8 @@ pub struct Settled {
     pub others: Vec<Mechanism>,
     /// What was moved.
     pub moved: Vec<Moved>,
+    /// What was understood, where digits say what is meant.
+    pub understood: Option<String>,
     /// What would have had to move further than is asked for, and was not.
     pub refused: Vec<Moved>,
     /// The verdicts on the states; none where every digit is exact and no tolerance is asked for, so that there is nothing to
@@ -70,6 +72,7 @@ pub fn settle(
     // What was asked for is done; what the digits say, only where it is right.
     let right = tolerance.is_some() || out.open.is_none();
     if right {
+        out.understood = scene.as_ref().filter(|_| !moved.is_empty()).map(understood);
         out.others = scene.map(|s| s.others).unwrap_or_default();
     }
     if right && (tolerance.is_some() || !moved.is_empty()) {

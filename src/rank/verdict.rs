@@ -8,13 +8,13 @@ use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::geom::vector::{length, real};
 use crate::meant::mechanism::{Meant as Scene, meant as scene_of};
-use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::model::rounded::{Rounded, Units, looks_rounded, uncertainties};
 use crate::rank::field::field_of;
 use crate::rank::least_rows::LeastRows;
 use crate::rank::method::NoAnswer;
 use crate::rank::modular;
-use crate::rank::moves::moves;
+use crate::rank::moves::{moves, understood};
 use crate::rank::nearest::{Nearest, nearest};
 use crate::rank::numeric::NumericError;
 use crate::rank::rounding::bound;
@@ -49,6 +49,8 @@ pub enum Meant {
         rank: usize,
         /// What was moved.
         moved: Vec<Moved>,
+        /// What was understood, where digits say what is meant.
+        understood: Option<String>,
     },
     /// The nearest one whose J has a smaller rank.
     Near {
@@ -237,9 +239,13 @@ pub(super) fn verdict_on(
     tolerance: Option<f64>,
     scene: Option<&Scene>,
 ) -> Result<Verdict, NoAnswer> {
+    let file = mechanism;
+    // In a plane joints must stay square to it: as they are written they have no freedom there.
+    let planar = |_: &&Scene| matches!(file.mode, Mode::Planar { .. });
+    let mechanism = scene.filter(planar).map_or(file, |s| &s.mechanism);
     let (as_written, needed) = exact_rank(mechanism, state)?;
     let real = Closure::new(&Reals, mechanism, state)?;
-    let rounded = looks_rounded(mechanism);
+    let rounded = looks_rounded(file);
     let mut found = Verdict {
         state: mechanism.states[state].clone(),
         freedoms: real.columns.len(),
@@ -261,7 +267,7 @@ pub(super) fn verdict_on(
             Reach::relative(t, size),
         ),
         (None, Some(r)) => {
-            let units = units(mechanism, r);
+            let units = units(file, r);
             (units, Reach::of_units(units, size))
         }
         (None, None) => return Ok(found),
@@ -311,6 +317,7 @@ fn snapped(scene: &Scene, rank: usize) -> Meant {
         mechanism: Box::new(scene.mechanism.clone()),
         rank,
         moved: moves(scene),
+        understood: Some(understood(scene)),
     }
 }
 
@@ -403,6 +410,7 @@ fn meant(
             mechanism: Box::new(snapped.mechanism),
             rank,
             moved: snapped.moved,
+            understood: None,
         });
     }
     // With so few digits a geometry of that rank is near by chance.

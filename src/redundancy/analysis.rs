@@ -230,9 +230,13 @@ fn chosen(
     };
     let (meant, snapped) = match verdict.meant {
         Meant::Snapped {
-            mechanism, moved, ..
+            mechanism,
+            moved,
+            understood,
+            ..
         } => {
-            let words = moved.iter().map(|x| x.words(&mechanism)).collect();
+            let each = || moved.iter().map(|x| x.words(&mechanism)).collect();
+            let words = understood.map_or_else(each, |all| vec![all]);
             (Some(mechanism), words)
         }
         _ => (None, Vec::new()),

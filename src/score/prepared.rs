@@ -68,6 +68,9 @@ fn in_places(ready: &Mechanism, file: &Mechanism) -> Mechanism {
 
 /// Tells what was moved, and what was not.
 pub(super) fn tell_moved(m: &Mechanism, settled: &Settled, tell: &mut dyn FnMut(String)) {
+    if let Some(all) = &settled.understood {
+        return tell(format!("snapped: {all}"));
+    }
     for moved in &settled.moved {
         tell(format!("snapped: {}", moved.words(m)));
     }

@@ -1,7 +1,7 @@
 //! What is asked of a search, in the words of a file or a command line: everything that decides the list of variants, and
 //! how its answer is checked.
 
-use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::model::ranking::{Ranking, Term};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::settled::settle;
@@ -202,7 +202,10 @@ impl Request {
         let states: Vec<StateId> = std::iter::once(StateId::FREE).chain(state).collect();
         let mut settled = settle(&mechanism, &states, self.tolerance()?)?;
         let looked_at = !settled.verdicts.is_empty();
-        let file = looked_at.then(|| mechanism.clone());
+        let planar = matches!(mechanism.mode, Mode::Planar { .. });
+        // In a plane joints have no freedom as they are written.
+        let whole = settled.snapped.as_ref().filter(|_| planar);
+        let file = looked_at.then(|| whole.unwrap_or(&mechanism).clone());
         let mut out = mechanism;
         let numeric = settled.open.filter(|_| !self.as_written);
         let numeric = numeric.map(|_| digits(&settled.verdicts));
