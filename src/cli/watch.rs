@@ -58,6 +58,10 @@ fn look(args: &Args, a: &Report, page: &Path) {
         output::coloured_note(&checked.warnings.render(true));
     }
     match report::write(args, a, Some(page), true) {
+        // What was cut short is told of where it is written.
+        Ok(verdict) if interrupt::exit_code().is_some() => {
+            output::note(&format!("{file}: {verdict}\n"));
+        }
         Ok(verdict) => {
             output::note(&format!("{file}: {verdict}\n  {} is new\n", page.display()));
         }
