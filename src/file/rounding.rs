@@ -1,8 +1,11 @@
 //! What rounded coordinates make doubtful in a file: what is meant, and which joints are all but special.
 
 use crate::file::warning::WarningKind;
-use crate::model::mechanism::Mechanism;
-use crate::model::rounded::looks_rounded;
+use crate::geom::expr::Expr;
+use crate::geom::vector::{across, length, real, sub, unit};
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Joint, JointId, Mechanism};
+use crate::model::rounded::{looks_rounded, uncertainties};
 use crate::rank::snap::relation::{Moved, Reach, Relation};
 use crate::rank::snap::{size, snap};
 use crate::rank::verdict::{Meant, Verdict, reach, verdict};
@@ -31,6 +34,7 @@ pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
             out.push(of_verdict(&found));
         }
     }
+    out.extend(by_default(m));
     let all = nearly(m);
     if !all.is_empty() {
         let more = match all.len().saturating_sub(TOLD) {
@@ -41,6 +45,49 @@ pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
         out.push(WarningKind::NearlySpecial { what });
     }
     out
+}
+
+/// Second axes that are left to the default beside axes that are rounded: they go by the file's x, y and z, so that the same
+/// mechanism turned in space has others.
+fn by_default(m: &Mechanism) -> Option<WarningKind> {
+    let half = uncertainties(m)?;
+    let left = |(j, joint): &(JointId, &Joint)| {
+        let given = |e: &Expr| e.is_written_whole() || e.half_unit().is_some();
+        let types =
+            std::iter::once(&joint.joint_type).chain(joint.offered().map(|o| &o.joint_type));
+        half.axis[j.index()] != [0.0; 3]
+            && types.into_iter().any(JointType::has_second_axis)
+            && joint
+                .frame
+                .reference
+                .iter()
+                .all(|e| !given(e) && e.as_rational().is_some())
+    };
+    let all: Vec<(JointId, &Joint)> = m.joints_with_ids().filter(left).collect();
+    let (_, first) = all.first()?;
+    let axis = unit(real(&first.frame.axis));
+    let here = real(&first.frame.point);
+    let others = m
+        .joints
+        .iter()
+        .map(|other| across(sub(real(&other.frame.point), here), axis));
+    let towards = others.max_by(|a, b| length(*a).total_cmp(&length(*b)))?;
+    let towards = if length(towards) > 0.0 {
+        unit(towards)
+    } else {
+        return None;
+    };
+    let ids = all.iter().map(|(_, j)| j.id.as_str()).take(TOLD).join(", ");
+    let more = match all.len().saturating_sub(TOLD) {
+        0 => String::new(),
+        n => format!(" and {n} more"),
+    };
+    let [x, y, z] = towards.map(|c| format!("{c:.6}"));
+    Some(WarningKind::DefaultReference {
+        joints: format!("{ids}{more}"),
+        first: first.id.clone(),
+        reference: format!("[{x}, {y}, {z}]"),
+    })
 }
 
 fn of_verdict(found: &Verdict) -> WarningKind {

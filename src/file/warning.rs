@@ -50,6 +50,14 @@ pub enum WarningKind {
     #[error("state {state}: {what}")]
     Undecided { state: String, what: String },
     #[error(
+        "the second axes of {joints} are left to the default, which goes by the file's x, y and z: the same mechanism turned in space has others; write them out, such as reference = {reference} at {first}"
+    )]
+    DefaultReference {
+        joints: String,
+        first: String,
+        reference: String,
+    },
+    #[error(
         "nearly special: {what}; make them so exactly if they are meant to be (`ozols export FILE --snap T` does)"
     )]
     NearlySpecial { what: String },

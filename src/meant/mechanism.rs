@@ -5,7 +5,7 @@ use super::written::{Place, Ray, Written};
 use super::{Resolved, Scene, resolve};
 use crate::geom::expr::Expr;
 use crate::geom::vector::real;
-use crate::model::joint_type::{Freedom, JointType};
+use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, Mechanism, Mode};
 use crate::model::rounded::{FrameUncertainty, uncertainties};
 use num_rational::BigRational;
@@ -86,16 +86,9 @@ struct Uses {
 
 impl Uses {
     fn of(joint_type: &JointType) -> Uses {
-        let freedoms = joint_type.freedoms();
-        let turns = freedoms.iter().filter(|f| f.turns()).count();
-        let axis = !freedoms.is_empty() && (turns < 3 || freedoms.len() > 3);
-        let across =
-            |f: &Freedom| matches!(f, Freedom::Rx | Freedom::Ry | Freedom::Tx | Freedom::Ty);
-        let pair = |a, b| freedoms.contains(&a) == freedoms.contains(&b);
-        let both = pair(Freedom::Rx, Freedom::Ry) && pair(Freedom::Tx, Freedom::Ty);
         Uses {
-            axis,
-            reference: axis && freedoms.iter().any(across) && !both,
+            axis: joint_type.is_directed(),
+            reference: joint_type.has_second_axis(),
         }
     }
 

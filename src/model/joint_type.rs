@@ -95,6 +95,26 @@ pub enum JointType {
 }
 
 impl JointType {
+    /// Whether the direction of its axis matters: that of a ball does not.
+    #[must_use]
+    pub fn is_directed(&self) -> bool {
+        let freedoms = self.freedoms();
+        let turns = freedoms.iter().filter(|f| f.turns()).count();
+        !freedoms.is_empty() && (turns < 3 || freedoms.len() > 3)
+    }
+
+    /// Whether its second axis matters: turns about both axes across, or slides along both, are the same whichever way x points.
+    #[must_use]
+    pub fn has_second_axis(&self) -> bool {
+        let across =
+            |f: &Freedom| matches!(f, Freedom::Rx | Freedom::Ry | Freedom::Tx | Freedom::Ty);
+        let freedoms = self.freedoms();
+        let pair = |a, b| freedoms.contains(&a) == freedoms.contains(&b);
+        self.is_directed()
+            && freedoms.iter().any(across)
+            && !(pair(Freedom::Rx, Freedom::Ry) && pair(Freedom::Tx, Freedom::Ty))
+    }
+
     /// The types with a name of their own, in the order of the documentation.
     pub const NAMED: [JointType; 13] = [
         JointType::Revolute,

@@ -10,7 +10,6 @@ use crate::geom::exact_vector::{self, across, is_zero};
 use crate::geom::expr::Expr;
 use crate::geom::extent::Extent;
 use crate::geom::vector::{self, Vector, length, real, sub, unit};
-use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, Joint, JointId, Mechanism, Mode};
 use directions::Directions;
 use places::{Kind, kind, places};
@@ -37,24 +36,6 @@ pub fn size(mechanism: &Mechanism) -> f64 {
         .map(|j| real(&j.frame.point))
         .collect();
     Extent::of(&points).length
-}
-
-/// Whether a joint's axis matters as a direction: that of a ball does not.
-fn directed(joint_type: &JointType) -> bool {
-    let freedoms = joint_type.freedoms();
-    let turns = freedoms.iter().filter(|f| f.turns()).count();
-    turns < 3 || freedoms.len() > 3
-}
-
-/// Whether the second axis of a joint matters.
-fn second(joint_type: &JointType) -> bool {
-    let across = |f: &Freedom| matches!(f, Freedom::Rx | Freedom::Ry | Freedom::Tx | Freedom::Ty);
-    let freedoms = joint_type.freedoms();
-    let pair = |a, b| freedoms.contains(&a) == freedoms.contains(&b);
-    // Turns about both, or slides along both, are the same whichever way x points.
-    directed(joint_type)
-        && freedoms.iter().any(across)
-        && !(pair(Freedom::Rx, Freedom::Ry) && pair(Freedom::Tx, Freedom::Ty))
 }
 
 /// Makes near-coincidences exact: directions within the angle of each other or of square, lines and centres within the
@@ -124,7 +105,7 @@ fn turn(m: &mut Mechanism, angle: f64, why: &mut [Vec<(Relation, Option<JointId>
     let ids = m.joint_ids();
     for j in ids.clone() {
         let joint = &mut m.joints[j];
-        if !directed(&joint.joint_type) {
+        if !joint.joint_type.is_directed() {
             continue;
         }
         if let Some((axis, how, of)) = directions.place(&joint.frame.axis, j) {
@@ -134,7 +115,7 @@ fn turn(m: &mut Mechanism, angle: f64, why: &mut [Vec<(Relation, Option<JointId>
     }
     for j in ids {
         let joint = &mut m.joints[j];
-        if !second(&joint.joint_type) {
+        if !joint.joint_type.has_second_axis() {
             continue;
         }
         let x = across(&joint.frame.reference, &joint.frame.axis);
@@ -162,7 +143,7 @@ fn turned(before: &Joint, after: &Joint) -> f64 {
     };
     let (a, b) = (&before.frame, &after.frame);
     let axis = angle(real(&a.axis), real(&b.axis));
-    if !second(&before.joint_type) {
+    if !before.joint_type.has_second_axis() {
         return axis;
     }
     let x = |f: &Frame| real(&across(&f.reference, &f.axis));

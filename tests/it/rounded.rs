@@ -5,6 +5,7 @@
 
 mod cases;
 mod digits;
+mod law;
 mod program;
 mod search_numeric;
 mod second_opinion;

@@ -58,7 +58,7 @@ impl Noise {
     }
 
     /// Uniform in [-1, 1].
-    fn uniform(&mut self) -> f64 {
+    pub fn uniform(&mut self) -> f64 {
         f64::from(self.0.next_u32()) / f64::from(u32::MAX) * 2.0 - 1.0
     }
 

@@ -1,0 +1,204 @@
+//! The law: whichever way a file of exact geometry is turned in space and however it is rounded, it has the figures of the exact
+//! one, or says that they are not exact. The exact file is the twin.
+//!
+//! A seeded part by default; `OZOLS_FUZZ=2000 cargo test --test integration rounded::law -- --nocapture` takes so many more, of
+//! seeds drawn afresh, and prints a table.
+
+use super::search_numeric::{plain, request, turned};
+use ozols::accuracy::stability::change::Noise;
+use ozols::builtin;
+use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::rank::auto::decide;
+use ozols::score::outcome::Outcome;
+use ozols::score::request::Request;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// Digits after the point.
+const DECIMALS: [usize; 6] = [4, 5, 6, 9, 12, 15];
+
+/// Small enough for a debug build.
+fn small() -> Request {
+    Request {
+        nodes: 20_000,
+        ..request()
+    }
+}
+
+fn tables(o: &Outcome) -> impl PartialEq + std::fmt::Debug {
+    [&o.determinate, &o.admissible].map(|c| (c.total.clone(), c.by_mobility.clone()))
+}
+
+/// What is said of a turned file against the exact one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Said {
+    SameExact,
+    SameNotExact,
+    OtherNotExact,
+    OtherExact,
+}
+
+fn counts(m: &Mechanism, truth: &Outcome) -> (Said, String) {
+    let Ok(found) = ozols::search(m, &small()) else {
+        return (Said::OtherNotExact, "refused".to_owned());
+    };
+    let same = tables(&found) == tables(truth);
+    let said = match (same, found.is_exact() || found.is_determinate_exact()) {
+        (true, true) => Said::SameExact,
+        (true, false) => Said::SameNotExact,
+        (false, false) => Said::OtherNotExact,
+        (false, true) => Said::OtherExact,
+    };
+    let words = format!(
+        "{} for {} admissible",
+        found.admissible.total, truth.admissible.total
+    );
+    (said, words)
+}
+
+/// W and the finite mobility of the free state.
+fn mobilities(m: &Mechanism, exact: &Mechanism) -> (Said, String) {
+    let (Ok(found), Ok(truth)) = (
+        decide(m, StateId::FREE, None),
+        decide(exact, StateId::FREE, None),
+    ) else {
+        return (Said::OtherNotExact, "no verdict".to_owned());
+    };
+    let of =
+        |d: &ozols::rank::auto::Decision| (d.verdict.figures(d.verdict.rank()), d.finite.mobility);
+    let (a, b) = (of(&found), of(&truth));
+    let decided = found.verdict.is_decided() && !found.finite.is_undecided();
+    let said = match (a == b, decided) {
+        (true, true) => Said::SameExact,
+        (true, false) => Said::SameNotExact,
+        (false, false) => Said::OtherNotExact,
+        (false, true) if truth.finite.is_undecided() && a.0 == b.0 => Said::OtherNotExact,
+        (false, true) => Said::OtherExact,
+    };
+    (said, format!("{a:?} for {b:?}, {}", found.verdict.word()))
+}
+
+#[allow(clippy::print_stdout, reason = "the table is what it is run for")]
+fn judge(what: fn(&Mechanism, &Mechanism, &Outcome) -> (Said, String), every: usize) {
+    let asked = std::env::var("OZOLS_FUZZ")
+        .ok()
+        .and_then(|n| n.parse::<usize>().ok());
+    let first: u64 = match asked {
+        // Never the same twice.
+        Some(_) => std::time::SystemTime::now()
+            .duration_since(std::time::UNIX_EPOCH)
+            .map_or(1, |t| t.as_nanos() as u64),
+        None => 1,
+    };
+    let exact: Vec<(usize, &str, Mechanism, Outcome)> = builtin::names()
+        .into_par_iter()
+        .enumerate()
+        .filter_map(|(n, name)| {
+            let m = plain(name);
+            let few = m.joints.len() <= if asked.is_some() { 40 } else { 13 };
+            let truth = few.then(|| ozols::search(&m, &small()).ok())??;
+            let exact = truth.is_exact() && truth.search.size() <= 2_000_000u32.into();
+            exact.then_some((n, name, m, truth))
+        })
+        .collect();
+    let all: Vec<(usize, usize)> = (0..)
+        .flat_map(|turn| (0..exact.len() * DECIMALS.len()).map(move |i| (turn, i)))
+        .step_by(if asked.is_some() { 1 } else { every })
+        .take(asked.unwrap_or(exact.len() * DECIMALS.len() / every))
+        .collect();
+    let found: Vec<(usize, Said, String)> = all
+        .into_par_iter()
+        .map(|(turn, i)| {
+            let (n, name, m, truth) = &exact[i % exact.len()];
+            let decimals = DECIMALS[i / exact.len()];
+            let seed = first.wrapping_add(turn as u64);
+            let turned = turned(m, decimals, &mut Noise::new(seed, *n));
+            let (said, words) = what(&turned, m, truth);
+            (
+                decimals,
+                said,
+                format!("{name} at {decimals} decimals, seed {seed}: {words}"),
+            )
+        })
+        .collect();
+    let mut table = BTreeMap::<usize, BTreeMap<Said, usize>>::new();
+    for (decimals, said, words) in &found {
+        *table
+            .entry(*decimals)
+            .or_default()
+            .entry(*said)
+            .or_default() += 1;
+        if *said > Said::SameNotExact {
+            println!("{said:?}: {words}");
+        }
+    }
+    println!("| decimals | same, exact | same, not exact | other, not exact | other, exact |");
+    for (decimals, of) in &table {
+        let n = |s| of.get(&s).copied().unwrap_or(0);
+        println!(
+            "| {decimals} | {} | {} | {} | {} |",
+            n(Said::SameExact),
+            n(Said::SameNotExact),
+            n(Said::OtherNotExact),
+            n(Said::OtherExact)
+        );
+    }
+    let wrong: Vec<_> = found.iter().filter(|f| f.1 == Said::OtherExact).collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    let fine = found.iter().filter(|f| f.0 >= 6);
+    let same = fine.clone().filter(|f| f.1 <= Said::SameNotExact).count();
+    assert!(same * 10 >= fine.count() * 9, "{table:?}");
+}
+
+#[test]
+fn turned_files_have_the_counts_of_the_exact_one_or_say_that_they_are_not_exact() {
+    judge(|m, _, truth| counts(m, truth), 11);
+}
+
+#[test]
+fn turned_files_have_the_mobility_of_the_exact_one_or_say_that_it_is_not_decided() {
+    judge(|m, exact, _| mobilities(m, exact), 7);
+}
+
+/// A door on two hinges along z, the second off by so many units of its last digit.
+fn door(decimals: usize, along: [f64; 2], off: f64) -> Mechanism {
+    let unit = 10f64.powi(-i32::try_from(decimals).unwrap());
+    let angle = along[0] * std::f64::consts::TAU;
+    let (x, y) = (1.0 + along[1], 2.0 - along[0]);
+    let (u, v) = (x + off * unit * angle.cos(), y + off * unit * angle.sin());
+    let text = format!(
+        "name = \"door\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"door\"\nrole = \"output\"\n\
+         [[joint]]\nid = \"low\"\nlinks = [\"0\", \"door\"]\ntype = \"revolute\"\npoint = [{x:.decimals$}, {y:.decimals$}, \
+         {:.decimals$}]\naxis = [0, 0, 1]\n[[joint]]\nid = \"high\"\nlinks = [\"0\", \"door\"]\ntype = \"revolute\"\npoint = \
+         [{u:.decimals$}, {v:.decimals$}, {:.decimals$}]\naxis = [0, 0, 1]\n[search]\noptions = [\"spherical\"]\n",
+        0.25, 2.25
+    );
+    ozols::file::text::mechanism_from_str("door.toml", &text).unwrap()
+}
+
+#[test]
+fn offsets_beyond_the_digits_are_kept() {
+    let mut noise = Noise::new(5, 0);
+    for decimals in 4..=12 {
+        for off in [2.5, 4.0, 13.0, 137.0, 1000.0] {
+            let along = [noise.uniform(), noise.uniform()];
+            let m = door(decimals, along, off);
+            let d = decide(&m, StateId::FREE, None).unwrap();
+            let w = d.verdict.figures(d.verdict.rank()).0;
+            let sure = d.verdict.is_decided() && d.finite.is_proven();
+            assert!(
+                !(w == 1 && sure),
+                "{off} units at {decimals} decimals: {}",
+                d.line
+            );
+        }
+        let m = door(decimals, [0.3, noise.uniform()], 0.0);
+        let d = decide(&m, StateId::FREE, None).unwrap();
+        assert_eq!(
+            d.verdict.figures(d.verdict.rank()).0,
+            1,
+            "{decimals}: {}",
+            d.line
+        );
+    }
+}
