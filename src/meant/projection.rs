@@ -76,18 +76,24 @@ impl<'a> Projection<'a> {
 
     /// Whether small moves of points in these directions are decided by what is taken.
     pub(super) fn implies(&self, gradients: &[(usize, Vector)]) -> bool {
-        let mut a = vec![0.0; 3 * self.points.len()];
+        let mut a: Vec<(usize, f64)> = Vec::with_capacity(3 * gradients.len());
         for (p, g) in gradients {
             for k in 0..3 {
-                a[3 * p + k] += g[k] * self.errors[*p][k];
+                let (at, by) = (3 * p + k, g[k] * self.errors[*p][k]);
+                match a.iter_mut().find(|x| x.0 == at) {
+                    Some(x) => x.1 += by,
+                    None => a.push((at, by)),
+                }
             }
         }
-        let before = norm(&a);
-        for b in &self.basis {
-            let part: f64 = a.iter().zip(b).map(|(x, y)| x * y).sum();
-            a.iter_mut().zip(b).for_each(|(x, y)| *x -= part * y);
-        }
-        norm(&a) <= 1e-6 * before
+        let square: f64 = a.iter().map(|x| x.1 * x.1).sum();
+        // The basis is orthonormal, so what is left is what its parts leave of the square.
+        let parts = self
+            .basis
+            .iter()
+            .map(|b| a.iter().map(|(at, x)| x * b[*at]).sum::<f64>());
+        let left = square - parts.map(|p| p * p).sum::<f64>();
+        left <= 1e-12 * square
     }
 
     /// The move that a row asks for now, in errors; none where it is decided by what is taken.

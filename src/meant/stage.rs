@@ -1,0 +1,220 @@
+//! A scene between its two frames: what is known before points are moved, and the exact scene that comes of it.
+
+use super::directions::{Directions, of_rays};
+use super::exact_directions::{Exact, exact};
+use super::frame::Frame;
+use super::number::{Rational3, decimal, to_f64};
+use super::projection::{Projection, Row};
+use super::relations::{Normals, Use};
+use super::solve::solve;
+use super::together::together;
+use super::written::{Ray, Written};
+use super::{Caution, Scene, WITHIN, number};
+use crate::geom::vector::{Vector, sub};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::One;
+
+/// What is known of a scene before its points are moved.
+pub(super) struct Stage<'a> {
+    written: &'a Written,
+    /// Moves of so many halves of a last digit are within it.
+    within: f64,
+    floor: f64,
+    size: f64,
+    /// Decimals of a direction's components.
+    pub(super) digits: u32,
+    frame: Frame,
+    origin: usize,
+    of: Directions,
+    exact: Vec<Exact>,
+    /// Which axis of the file each axis of the frame is.
+    same: [Option<usize>; 3],
+    /// The error of each point, in each coordinate.
+    pub(super) errors: Vec<f64>,
+    /// The points in the scene's frame.
+    pub(super) inside: Vec<Vector>,
+}
+
+/// Decimals that leave two digits beyond an error.
+fn places(error: f64) -> u32 {
+    let digits = (-error.log10()).ceil() + 2.0;
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between 4 and 22"
+    )]
+    let digits = digits.clamp(4.0, 22.0) as u32;
+    digits
+}
+
+impl<'a> Stage<'a> {
+    pub(super) fn new(written: &'a Written, caution: Caution) -> Stage<'a> {
+        let errors = written.errors();
+        let points: Vec<Vector> = written.points.iter().map(|p| p.value).collect();
+        let size = written.size();
+        let within = WITHIN * caution.bold;
+        let least = errors.iter().fold(f64::INFINITY, |a, &e| a.min(e));
+        let inexact = written.rays.iter().map(Ray::error).filter(|e| *e > 0.0);
+        let digits = places((least / size).min(inexact.fold(1.0, f64::min))).min(18);
+        let of = directions(written, (&points, &errors), caution.bold, within);
+        let frame = Frame::of(&of.all);
+        let whole = |p: &usize| written.points[*p].half == [0.0; 3];
+        let origin = (0..points.len()).find(whole).unwrap_or(0);
+        let exactly = |ray: usize| frame.inside_exactly(&written.rays[ray].exact);
+        let exact = exact(&of.all, |v| frame.inside(v), exactly, digits);
+        let inside = points.iter().map(|p| frame.inside(sub(*p, points[origin])));
+        let same = [0, 1, 2].map(|k| match &frame.rotation {
+            None => Some(k),
+            Some(r) => (0..3).find(|&c| r[c][k].is_one() || (-&r[c][k]).is_one()),
+        });
+        Stage {
+            written,
+            within,
+            floor: written.floor(),
+            size,
+            digits,
+            origin,
+            inside: inside.collect(),
+            frame,
+            of,
+            exact,
+            same,
+            errors,
+        }
+    }
+
+    /// The directions of the scene, exact; the file's own axes too, where its frame is the scene's.
+    pub(super) fn directions(&self) -> Vec<(Exact, Use)> {
+        let own = number::axes().into_iter().map(Exact::of_axis);
+        let own = own.filter(|_| self.frame.rotation.is_none());
+        let all = self.exact.iter().cloned().chain(own);
+        all.map(|e| (e, Use::Both)).collect()
+    }
+
+    /// Whether a coordinate must stay: it is exact, along an axis that both frames have.
+    fn stays(&self, p: usize, k: usize) -> bool {
+        let half = &self.written.points[p].half;
+        (p == self.origin && *half == [0.0; 3]) || self.same[k].is_some_and(|c| half[c] == 0.0)
+    }
+
+    /// The error of each coordinate in the scene's frame; 0 where it must stay.
+    pub(super) fn weights(&self) -> Vec<Vector> {
+        let weight = |p: usize, k: usize| match self.same[k] {
+            _ if self.stays(p, k) => 0.0,
+            Some(c) => self.written.points[p].half[c].max(1e-15 * self.size),
+            None => self.errors[p],
+        };
+        let all = 0..self.inside.len();
+        all.map(|p| [0, 1, 2].map(|k| weight(p, k))).collect()
+    }
+
+    /// Whether the digits of a point allow a displacement in the scene's frame.
+    pub(super) fn allows(&self, p: usize, by: Vector) -> bool {
+        let (out, half) = (self.frame.outside(by), &self.written.points[p].half);
+        (0..3).all(|c| out[c].abs() <= self.within * half[c].max(self.floor))
+    }
+
+    /// The scene of rows that hold at some points, exact; none where they contradict each other.
+    pub(super) fn scene(&self, rows: &[Row], at: &[Vector], normals: &Normals) -> Option<Scene> {
+        let offset = &self.written.points[self.origin].exact;
+        let rotated = self.frame.rotation.is_some();
+        let start = |p: usize| {
+            let written = &self.written.points[p].exact;
+            self.frame
+                .inside_exactly(&[0, 1, 2].map(|k| &written[k] - &offset[k]))
+        };
+        let weights = self.weights();
+        let value = |p: usize, k: usize| {
+            let still = (at[p][k] - self.inside[p][k]).abs() <= 1e-3 * weights[p][k];
+            if self.stays(p, k) || (!rotated && still) {
+                return start(p)[k].clone();
+            }
+            decimal(at[p][k], places(weights[p][k].min(1.0)))
+        };
+        let stays = |p: usize, k: usize| self.stays(p, k);
+        let inside = solve(rows, &normals.exact, at.len(), value, stays)?;
+        let back = |x: &Rational3| {
+            let x = self.frame.outside_exactly(x);
+            [0, 1, 2].map(|k| &x[k] + &offset[k])
+        };
+        let points: Vec<Rational3> = inside.iter().map(back).collect();
+        let rays = self.rays();
+        Some(Scene {
+            moved: self.moved(&points, &rays),
+            points,
+            rays,
+            inside,
+            cluster: self.of.of_ray.iter().map(|r| r.0).collect(),
+            relations: Vec::new(),
+        })
+    }
+
+    /// The rays in the file's frame; those that are exact as they are written.
+    fn rays(&self) -> Vec<Rational3> {
+        let minus_one = BigRational::from_integer(BigInt::from(-1));
+        let outside: Vec<Rational3> = self
+            .exact
+            .iter()
+            .map(|e| self.frame.outside_exactly(&e.exact))
+            .collect();
+        let all = self.written.rays.iter().zip(&self.of.of_ray);
+        let one = |(ray, (k, sign)): (&Ray, &(usize, f64))| match ray.is_exact() {
+            true => ray.exact.clone(),
+            false if *sign < 0.0 => outside[*k].each_ref().map(|x| x * &minus_one),
+            false => outside[*k].clone(),
+        };
+        all.map(one).collect()
+    }
+
+    /// The largest move of a number, in halves of its last digit.
+    fn moved(&self, points: &[Rational3], rays: &[Rational3]) -> f64 {
+        let point = points.iter().zip(&self.written.points).flat_map(|(x, w)| {
+            let by = to_f64(&[0, 1, 2].map(|k| &x[k] - &w.exact[k]));
+            [0, 1, 2].map(|k| by[k].abs() / w.half[k].max(self.floor))
+        });
+        let inexact = rays
+            .iter()
+            .zip(&self.written.rays)
+            .filter(|r| !r.1.is_exact());
+        let ray = inexact.map(|(x, w)| w.moved(to_f64(x), 0.0));
+        point.chain(ray).fold(0.0, f64::max)
+    }
+}
+
+/// The directions of a scene, those that are square or in one plane made so together.
+fn directions(
+    written: &Written,
+    (points, errors): (&[Vector], &[f64]),
+    bold: f64,
+    within: f64,
+) -> Directions {
+    let mut of = of_rays(&written.rays, points, errors);
+    let own = of.all.len();
+    if Frame::is_the_files(&of.all) {
+        of.add_axes();
+    }
+    let rays = || written.rays.iter().zip(&of.of_ray);
+    let fits = |k: usize, v: Vector| {
+        let mut of_it = rays().filter(|r| r.1.0 == k);
+        of_it.all(|r| r.0.moved(v, 0.0) <= within)
+    };
+    together(&mut of.all, bold, fits);
+    of.all.truncate(own);
+    of
+}
+
+/// The points of a projection, and how many rows it has taken: a scene on the way.
+pub(super) struct Mark {
+    pub(super) rows: usize,
+    pub(super) points: Vec<Vector>,
+}
+
+impl Mark {
+    pub(super) fn of(at: &Projection<'_>) -> Mark {
+        Mark {
+            rows: at.rows.len(),
+            points: at.points.clone(),
+        }
+    }
+}
