@@ -1,11 +1,15 @@
 //! Where numbers fail: geometry, size, scale, noise, rounding and tolerance moved until answers turn wrong.
 
 pub mod change;
+mod digits;
 mod distance;
 mod noise;
+mod offsets;
 mod rounded;
+pub mod said;
 mod scale;
 mod size;
+pub mod special;
 pub mod sweep;
 mod tolerance;
 
@@ -92,6 +96,8 @@ pub fn all(
         scale::study(&some, effort, progress),
         noise::study(&some, effort, progress),
         rounded::study(&some, effort, progress),
+        digits::study(&some, effort, progress),
+        offsets::study(effort, progress),
         tolerance::study(&some, effort, progress),
     ])
 }

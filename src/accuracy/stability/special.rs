@@ -1,0 +1,141 @@
+//! Small mechanisms of special geometry with one joint off, made from a seed and written with so many decimals.
+
+use super::change::Noise;
+use crate::geom::rigid::Motion;
+use crate::geom::vector::Vector;
+use std::fmt::Write as _;
+
+/// What is made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A door on two hinges, one out of line.
+    Door,
+    /// A planar four-bar with one axis tilted.
+    FourBar,
+    /// A spherical four-bar with one axis off the centre.
+    Spherical,
+    /// A plate on three parallel rods, one of which is longer.
+    Rods,
+}
+
+/// Two links, a point and an axis.
+type Hinge = (&'static str, &'static str, Vector, Vector);
+
+const Z: Vector = [0.0, 0.0, 1.0];
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Kind; 4] = [Kind::Door, Kind::FourBar, Kind::Spherical, Kind::Rods];
+
+    /// Its name in pictures.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Door => "door",
+            Kind::FourBar => "four-bar",
+            Kind::Spherical => "spherical four-bar",
+            Kind::Rods => "three rods",
+        }
+    }
+
+    /// (W at the pose, finite mobility), with the offset or without it. Parallel rods stay shaky whatever their lengths.
+    #[must_use]
+    pub fn figures(self, off: bool) -> (i64, i64) {
+        match (self, off) {
+            (_, false) => (1, 1),
+            (Kind::Rods, true) => (1, 0),
+            (_, true) => (0, 0),
+        }
+    }
+
+    /// Its hinges, of a size near 2, one off by a length or an angle.
+    fn hinges(self, off: f64, unit: f64, noise: &mut Noise) -> Vec<Hinge> {
+        // On the grid of the last digit, so that rounding does not change the offset of what is not turned.
+        let mut near = |x: f64| ((x + 0.2 * noise.uniform()) / unit).round() * unit;
+        match self {
+            Kind::Door => {
+                let [x, y, low, high] = [1.3, -0.7, 0.3, 2.2].map(&mut near);
+                let (one, two) = ([x, y, low], [x + off, y, high]);
+                vec![("0", "door", one, Z), ("0", "door", two, Z)]
+            }
+            Kind::FourBar => {
+                let mut at = |x, y| [near(x), near(y), near(0.4)];
+                vec![
+                    ("0", "crank", at(0.3, 0.2), Z),
+                    ("crank", "coupler", at(0.6, 1.3), Z),
+                    ("coupler", "rocker", at(1.8, 1.7), [off, 0.0, 1.0]),
+                    ("rocker", "0", at(2.3, 0.5), Z),
+                ]
+            }
+            Kind::Spherical => {
+                let c = [0.4, -0.3, 0.7].map(&mut near);
+                let mut through = |x, y, z, off: f64| {
+                    let v: Vector = [near(x), near(y), near(z)];
+                    let size = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+                    let v = v.map(|x| x / size);
+                    let r = near(1.0);
+                    ([c[0] + off + r * v[0], c[1] + r * v[1], c[2] + r * v[2]], v)
+                };
+                let ends = [
+                    through(1.0, 0.2, 0.3, 0.0),
+                    through(-0.3, 1.0, 0.3, 0.0),
+                    through(-0.6, -0.6, 1.0, 0.0),
+                    through(0.3, -0.9, 0.5, off),
+                ];
+                let links = ["0", "crank", "coupler", "rocker", "0"];
+                let of = |(i, (p, v)): (usize, (Vector, Vector))| (links[i], links[i + 1], p, v);
+                ends.into_iter().enumerate().map(of).collect()
+            }
+            Kind::Rods => {
+                let length = near(1.4);
+                let rods = [("one", 0.3, 0.0), ("two", 1.1, 0.0), ("three", 2.3, off)];
+                let each = rods.into_iter().flat_map(|(rod, x, longer)| {
+                    let (x, y, z) = (near(x), near(0.3), near(0.4));
+                    let top = [x, y + length + longer, z];
+                    [("0", rod, [x, y, z], Z), (rod, "plate", top, Z)]
+                });
+                each.collect()
+            }
+        }
+    }
+
+    /// The file of one that is off by so many units of the last digit, turned in space or not.
+    #[must_use]
+    pub fn text(self, units: f64, decimals: usize, turned: bool, noise: &mut Noise) -> String {
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_possible_wrap,
+            reason = "12 at most"
+        )]
+        let unit = 10f64.powi(-(decimals as i32));
+        let axis = [(); 3].map(|()| noise.uniform());
+        let angle = std::f64::consts::PI * noise.uniform();
+        let hinges = self.hinges(units * unit, unit, noise);
+        let turn = Motion::turn(axis, if turned { angle } else { 0.0 });
+        let vector = |v: Vector| {
+            let [x, y, z] = turn.direction(v);
+            format!("[{x:.decimals$}, {y:.decimals$}, {z:.decimals$}]")
+        };
+        let mut links: Vec<&str> = hinges.iter().flat_map(|h| [h.0, h.1]).collect();
+        links.sort_unstable();
+        links.dedup();
+        let mut out = format!("name = \"{}\"\n", self.name());
+        for (i, link) in links.iter().enumerate() {
+            let role = match i {
+                0 => "role = \"frame\"\n",
+                1 => "role = \"output\"\n",
+                _ => "",
+            };
+            // Writing to a string does not fail.
+            let _ = write!(out, "[[link]]\nid = \"{link}\"\n{role}");
+        }
+        for (i, (a, b, point, axis)) in hinges.into_iter().enumerate() {
+            let (point, axis) = (vector(point), vector(axis));
+            let _ = write!(
+                out,
+                "[[joint]]\nid = \"j{i}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = {point}\naxis = {axis}\n"
+            );
+        }
+        out
+    }
+}
