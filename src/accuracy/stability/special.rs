@@ -112,9 +112,15 @@ impl Kind {
         let angle = std::f64::consts::PI * noise.uniform();
         let hinges = self.hinges(units * unit, unit, noise);
         let turn = Motion::turn(axis, if turned { angle } else { 0.0 });
-        let vector = |v: Vector| {
+        let vector = |v: Vector, decimals: usize| {
             let [x, y, z] = turn.direction(v);
             format!("[{x:.decimals$}, {y:.decimals$}, {z:.decimals$}]")
+        };
+        // A tilt counts in units of the axes; where points are off, axes have two decimals more, so that only points count.
+        let finer = if self == Kind::FourBar { 0 } else { 2 };
+        let axis_of = |v: Vector| match v == Z && !turned {
+            true => "[0, 0, 1]".to_owned(),
+            false => vector(v, decimals + finer),
         };
         let mut links: Vec<&str> = hinges.iter().flat_map(|h| [h.0, h.1]).collect();
         links.sort_unstable();
@@ -130,7 +136,7 @@ impl Kind {
             let _ = write!(out, "[[link]]\nid = \"{link}\"\n{role}");
         }
         for (i, (a, b, point, axis)) in hinges.into_iter().enumerate() {
-            let (point, axis) = (vector(point), vector(axis));
+            let (point, axis) = (vector(point, decimals), axis_of(axis));
             let _ = write!(
                 out,
                 "[[joint]]\nid = \"j{i}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = {point}\naxis = {axis}\n"
