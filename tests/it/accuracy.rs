@@ -1,6 +1,8 @@
 //! The survey of the methods, and where the naive formulas fail.
 
 use ozols::accuracy::Verdict;
+use ozols::accuracy::stability::change::Noise;
+use ozols::accuracy::stability::special::Kind;
 use ozols::accuracy::survey::{Reply, Survey, cases};
 use ozols::accuracy::timing::Stopwatch;
 use ozols::accuracy::tuned::tolerances;
@@ -147,6 +149,8 @@ fn verdicts(folder: &std::path::Path) -> Vec<(String, String)> {
         "stability-scale.csv",
         "stability-noise.csv",
         "stability-rounded.csv",
+        "stability-digits.csv",
+        "stability-offsets.csv",
         "stability-tolerance.csv",
     ]
     .map(|n| (n.to_owned(), read(n)))
@@ -156,6 +160,25 @@ fn verdicts(folder: &std::path::Path) -> Vec<(String, String)> {
     let timeless: Vec<_> = survey.iter().map(|r| r[..r.len() - 4].join("|")).collect();
     out.push(("survey.csv".to_owned(), timeless.join("\n")));
     out
+}
+
+/// Below half a unit and from five units on nothing is wrong and sure; nearer, the digits of other numbers may make up for it.
+fn offsets_beyond_what_digits_allow_are_kept(csv: &[Vec<String>]) {
+    let column = |name: &str| csv[0].iter().position(|h| h == name).unwrap();
+    let (units, wrong) = (column("units"), column("wrong_and_sure"));
+    for row in &csv[1..] {
+        let u: f64 = row[units].parse().unwrap();
+        assert!((0.5..5.0).contains(&u) || row[wrong] == "0", "{row:?}");
+    }
+}
+
+#[test]
+fn special_mechanisms_are_those_of_their_seed() {
+    for kind in Kind::ALL {
+        let text = |seed| kind.text(3.0, 6, true, &mut Noise::new(seed, 0));
+        assert_eq!(text(1), text(1));
+        assert_ne!(text(1), text(2));
+    }
 }
 
 #[test]
@@ -183,6 +206,7 @@ fn a_quick_run_writes_charts_whose_right_cells_are_right() {
     assert!(svgs >= 10, "{svgs} pictures");
 
     let read = |name: &str| std::fs::read_to_string(at.join(name)).unwrap();
+    offsets_beyond_what_digits_allow_are_kept(&rows(&read("stability-offsets.csv")));
     let survey = rows(&read("survey.csv"));
     let column = |name: &str| survey[0].iter().position(|h| h == name).unwrap();
     let (answer, finite, pose) = (

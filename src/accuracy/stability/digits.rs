@@ -14,7 +14,7 @@ use crate::score::run::run;
 use rayon::prelude::*;
 
 /// Decimals that are tried, finest first: the axis ascends.
-const DECIMALS: [usize; 10] = [15, 12, 10, 9, 8, 7, 6, 5, 4, 3];
+const DECIMALS: [usize; 7] = [12, 9, 7, 6, 5, 4, 3];
 /// What is asked.
 const ASKED: [&str; 3] = ["W at the pose", "finite mobility", "search counts"];
 /// Searches are of at most so many joints,
@@ -86,7 +86,7 @@ fn ask(m: Mechanism, case: &Case, truth: Option<&Outcome>) -> [Option<Said>; 3] 
 
 /// Runs the study.
 pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
-    let (step, turns) = if effort.quick { (3, 1) } else { (1, 2) };
+    let (step, turns) = if effort.quick { (3, 1) } else { (1, 1) };
     let decimals: Vec<usize> = DECIMALS.into_iter().step_by(step).collect();
     let exact: Vec<Option<Outcome>> = cases.par_iter().map(counted).collect();
     let mut rows = ASKED.map(|n| (n.to_owned(), Vec::new()));
@@ -115,7 +115,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_possible_wrap,
-        reason = "15 at most"
+        reason = "12 at most"
     )]
     let values = decimals.iter().map(|&d| 10f64.powi(-(d as i32))).collect();
     let counts = Counts {
