@@ -162,7 +162,7 @@ fn verdicts(folder: &std::path::Path) -> Vec<(String, String)> {
     out
 }
 
-/// Below half a unit and from five units on nothing is wrong and sure; nearer, the digits of other numbers may make up for it.
+/// Below half a unit and from five units on nothing is wrong and sure; nearer ones are still taken away.
 fn offsets_beyond_what_digits_allow_are_kept(csv: &[Vec<String>]) {
     let column = |name: &str| csv[0].iter().position(|h| h == name).unwrap();
     let (units, wrong) = (column("units"), column("wrong_and_sure"));

@@ -118,9 +118,12 @@ impl Kind {
         };
         // A tilt counts in units of the axes; where points are off, axes have two decimals more, so that only points count.
         let finer = if self == Kind::FourBar { 0 } else { 2 };
-        let axis_of = |v: Vector| match v == Z && !turned {
-            true => "[0, 0, 1]".to_owned(),
-            false => vector(v, decimals + finer),
+        let axis_of = |v: Vector| {
+            if v == Z && !turned {
+                "[0, 0, 1]".to_owned()
+            } else {
+                vector(v, decimals + finer)
+            }
         };
         let mut links: Vec<&str> = hinges.iter().flat_map(|h| [h.0, h.1]).collect();
         links.sort_unstable();
