@@ -4,6 +4,7 @@
 //! of the scene's own. Points then: what lies in planes and on lines along those directions, coincides, or is equal as a vector is
 //! solved together by least squares, each relation taken only if all still hold, and at last exactly over the rationals.
 
+mod caution;
 mod check;
 mod consensus;
 mod directions;
@@ -14,156 +15,10 @@ pub mod number;
 mod of_points;
 mod projection;
 pub mod relations;
+pub mod resolve;
+mod row;
+pub mod scene;
 mod solve;
 mod stage;
 mod together;
 pub mod written;
-
-use crate::geom::vector::Vector;
-use check::Images;
-use exact_directions::{Exact, placed};
-use number::Rational3;
-use projection::{Projection, Taken};
-use relations::{Finder, Kind, Relation, Use};
-use stage::{Mark, Stage};
-use written::Written;
-
-/// A move of this many halves of a last digit is within it, rounding in between aside.
-const WITHIN: f64 = 1.3;
-
-/// A scene as it is meant.
-#[derive(Debug, Clone)]
-pub struct Scene {
-    /// Its points, exact, in the file's frame.
-    pub points: Vec<Rational3>,
-    /// The same in a frame of the scene's own.
-    inside: Vec<Rational3>,
-    /// Its directions, exact, of any length.
-    pub rays: Vec<Rational3>,
-    /// For each ray, which direction it has: parallel ones have one.
-    pub cluster: Vec<usize>,
-    /// The independent relations taken, and the points of each.
-    pub relations: Vec<(Kind, Vec<usize>)>,
-    /// The largest move of a coordinate, in halves of its last digit.
-    pub moved: f64,
-}
-
-/// What the digits of a scene allow.
-#[derive(Debug, Clone)]
-pub struct Resolved {
-    /// The scene with the most relations.
-    pub scene: Scene,
-    /// Others that the digits do not rule out: with relations that are all but within them, and without those that as well are
-    /// there by chance.
-    pub others: Vec<Scene>,
-}
-
-/// How bold relations are taken.
-#[derive(Debug, Clone, Copy)]
-struct Caution {
-    /// Moves may be larger by this.
-    bold: f64,
-    /// Whether relations count that may be there by chance.
-    weak: bool,
-}
-
-/// A relation that was not taken and asks for no larger move, in errors, may hold in truth.
-const LEFT_OUT: f64 = 4.0;
-/// Moves larger by this than those of relations usually are speak against a relation for sure.
-const BOLD: f64 = 1.6;
-
-/// The scene that is meant; none where its relations cannot be solved within the digits.
-///
-/// # Complexity
-/// O(p²) pairs of p points, held against each other and against d directions; then O(r² p) for r relations.
-#[must_use]
-pub fn resolve(written: &Written) -> Option<Resolved> {
-    let usual = Caution {
-        bold: 1.0,
-        weak: true,
-    };
-    let (scene, doubts, without) = resolve_with(written, usual)?;
-    let mut others: Vec<Scene> = without.into_iter().collect();
-    let bold = Caution {
-        bold: BOLD,
-        ..usual
-    };
-    let shy = Caution {
-        weak: false,
-        ..usual
-    };
-    for (doubted, caution) in [(doubts.left_out, bold), (doubts.by_chance, shy)] {
-        if doubted > 0
-            && let Some((other, ..)) = resolve_with(written, caution)
-        {
-            others.push(other);
-        }
-    }
-    Some(Resolved { scene, others })
-}
-
-/// How many relations are doubtful.
-struct Doubts {
-    left_out: usize,
-    by_chance: usize,
-    /// Lines and planes of points that are nearly those that others make.
-    of_points: usize,
-}
-
-/// A scene, how doubtful it is, and where it is doubted the same without lines and planes that points alone make.
-fn resolve_with(written: &Written, caution: Caution) -> Option<(Scene, Doubts, Option<Scene>)> {
-    let stage = Stage::new(written, caution);
-    let weights = stage.weights();
-    let allowed = |p: usize, by: Vector| stage.allows(p, by);
-    let directions = stage.directions();
-    let fixed: Vec<Exact> = directions.iter().map(|d| d.0.clone()).collect();
-    let mut finder = Finder::new(&stage.inside, &stage.errors, directions);
-    let mut solved = Projection::new(stage.inside.clone(), &weights, &allowed);
-    solved.bold = caution.bold;
-    let keep = |all: Vec<Relation>| {
-        let certain = all.into_iter().filter(|r| caution.weak || !r.weak);
-        certain.collect()
-    };
-    let found = keep(finder.all());
-    let mut became = solved.take_all(found, &finder.normals.real);
-    let (first, plain) = (became.len(), Mark::of(&solved));
-    // What points alone make: lines and planes that nothing above keeps.
-    for further in [of_points::lines, of_points::planes_of] {
-        for d in further(&solved, &stage.errors) {
-            let e = placed(d.unit, d.error, &fixed, stage.digits);
-            let of = if d.plane { Use::Planes } else { Use::Lines };
-            let found = keep(finder.along(vec![(e, of)]));
-            became.extend(solved.take_all(found, &finder.normals.real));
-        }
-    }
-    let normals = finder.normals;
-    let scene = stage.scene(&solved.rows, &solved.points, &normals)?;
-    let images = Images::of(&scene.inside, &normals.exact);
-    // What follows from others to rounding alone does not hold.
-    let broken = |(r, b): &&(Relation, Taken)| {
-        *b == Taken::Refused || (*b == Taken::Implied && !r.rows.iter().all(|w| images.holds(w)))
-    };
-    let left_out = |(r, b): &&(Relation, Taken)| {
-        let asks = r.rows.iter().filter_map(|w| solved.asks(w, &normals.real));
-        let far = asks.fold(0.0, f64::max);
-        *b == Taken::Refused && far > 0.0 && far <= LEFT_OUT
-    };
-    let doubts = Doubts {
-        left_out: became.iter().filter(left_out).count(),
-        by_chance: became
-            .iter()
-            .filter(|(r, b)| *b == Taken::New && r.weak)
-            .count(),
-        of_points: became[first..].iter().filter(broken).count(),
-    };
-    let without = (doubts.of_points > 0)
-        .then(|| stage.scene(&solved.rows[..plain.rows], &plain.points, &normals))
-        .flatten();
-    let taken = became.into_iter().filter(|b| b.1 == Taken::New);
-    let relations = taken.map(|(r, _)| (r.kind, r.rows[0].terms.iter().map(|t| t.0).collect()));
-    let scene = Scene {
-        relations: relations.collect(),
-        ..scene
-    };
-    Some((scene, doubts, without))
-}

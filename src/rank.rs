@@ -4,6 +4,7 @@ pub mod along_stroke;
 pub mod asked_stroke;
 pub mod auto;
 pub mod certificate;
+pub mod coordinates;
 pub mod counting;
 pub mod direction;
 mod elimination_order;

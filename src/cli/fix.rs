@@ -183,15 +183,17 @@ fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAna
         };
         return Ok((before, plan));
     }
-    let (changed, w, sigma) = variant::kth(m.clone(), request, k, |v| {
-        (v.mechanism(), v.mobility(), v.redundant())
+    // What is added is told against the mechanism as it is meant, which is the one that was searched.
+    let (before_it, changed, w, sigma) = variant::kth(m.clone(), request, k, |v| {
+        let searched = v.outcome().search.mechanism.clone();
+        (searched, v.mechanism(), v.mobility(), v.redundant())
     })?;
     ensure!(
-        changed.joints.len() == m.joints.len(),
+        changed.joints.len() == before_it.joints.len(),
         "variant {k} puts in joints that are not of one joint's kind; choose another"
     );
     let mut releases = Vec::new();
-    for (i, (old, new)) in m.joints.iter().zip(&changed.joints).enumerate() {
+    for (i, (old, new)) in before_it.joints.iter().zip(&changed.joints).enumerate() {
         let all = added((&old.frame, &old.joint_type), (&new.frame, &new.joint_type))?;
         ensure!(
             old.joint_type.freedoms().len() + all.len() == new.joint_type.freedoms().len(),

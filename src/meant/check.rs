@@ -1,7 +1,7 @@
 //! Whether relations hold exactly, looked at modulo a prime: what only rounding makes hold does not.
 
 use super::number::Rational3;
-use super::projection::Row;
+use super::row::Row;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;

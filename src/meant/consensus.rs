@@ -110,11 +110,10 @@ impl Evidence {
         let (mut m, mut g) = ([[prior.powi(-2), 0.0], [0.0, prior.powi(-2)]], [0.0; 2]);
         for l in self.agreeing(turn) {
             let weight = l.error.powi(-2);
-            for i in 0..2 {
-                for j in 0..2 {
-                    m[i][j] += weight * l.row[i] * l.row[j];
-                }
-                g[i] += weight * l.row[i] * l.row[2];
+            for (i, (m, g)) in m.iter_mut().zip(&mut g).enumerate() {
+                m[0] += weight * l.row[i] * l.row[0];
+                m[1] += weight * l.row[i] * l.row[1];
+                *g += weight * l.row[i] * l.row[2];
             }
         }
         let det = m[0][0] * m[1][1] - m[0][1] * m[1][0];

@@ -1,5 +1,6 @@
 //! The directions of a scene that are written, parallel ones as one.
 
+use super::caution::WITHIN;
 use super::consensus::{Refined, refined, square_to};
 use super::written::{Ray, pairs};
 use crate::geom::vector::{Vector, X, Y, Z, add_scaled, cross, dot, length, scale, unit};
@@ -76,7 +77,7 @@ pub(super) fn of_rays(rays: &[Ray], points: &[Vector], errors: &[f64]) -> Direct
             .filter(|r| r.1.0 == k)
             .map(|r| r.0)
             .collect();
-        let allowed = |v: Vector| own.iter().all(|r| r.moved(v, 0.0) <= super::WITHIN);
+        let allowed = |v: Vector| own.iter().all(|r| r.moved(v, 0.0) <= WITHIN);
         let Refined { unit, error, tilts } = refined(unit(sum), d.error, &pairs, allowed);
         (d.unit, d.error, d.tilts) = (unit, error, tilts);
     }

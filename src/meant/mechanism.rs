@@ -1,8 +1,9 @@
 //! A mechanism as a scene, and the scene that is meant as a mechanism.
 
 use super::number::Rational3;
+use super::resolve::{Resolved, resolve};
+use super::scene::Scene;
 use super::written::{Place, Ray, Written};
-use super::{Resolved, Scene, resolve};
 use crate::geom::expr::Expr;
 use crate::geom::vector::real;
 use crate::model::joint_type::JointType;

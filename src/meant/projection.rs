@@ -2,16 +2,8 @@
 //! taken so far still hold with no coordinate moved by more than its digits allow.
 
 use super::relations::Relation;
-use crate::geom::vector::{Vector, dot};
-
-/// Σ coefficient · normal · point = 0, the coefficients adding up to zero.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Row {
-    /// Points with their coefficients.
-    pub(super) terms: Vec<(usize, i32)>,
-    /// Which of the normals.
-    pub(super) normal: usize,
-}
+use super::row::Row;
+use crate::geom::vector::{Vector, dot, sub};
 
 /// What became of a relation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,6 +16,12 @@ pub(super) enum Taken {
     Refused,
 }
 
+/// Rounds of alternating projections,
+const ROUNDS: usize = 64;
+/// each further than to the box, for speed,
+const BEYOND: f64 = 1.6;
+/// until no coordinate is so much outside, in errors.
+const SLACK: f64 = 0.01;
 /// A relation is told by others where so little of it is left.
 const DEPENDENT: f64 = 1e-7;
 
@@ -33,8 +31,8 @@ pub(super) struct Projection<'a> {
     pub(super) points: Vec<Vector>,
     /// Error of each point, in each coordinate of the frame; 0 where it must stay.
     errors: &'a [Vector],
-    /// Whether a displacement of a point is within its digits.
-    allowed: &'a dyn Fn(usize, Vector) -> bool,
+    /// The displacement of a point that its digits allow, nearest to one that is wished for.
+    clipped: &'a dyn Fn(usize, Vector) -> Vector,
     /// Orthonormal directions that are decided, in errors.
     basis: Vec<Vec<f64>>,
     /// Independent relations taken.
@@ -49,13 +47,13 @@ impl<'a> Projection<'a> {
     pub(super) fn new(
         points: Vec<Vector>,
         errors: &'a [Vector],
-        allowed: &'a dyn Fn(usize, Vector) -> bool,
+        clipped: &'a dyn Fn(usize, Vector) -> Vector,
     ) -> Projection<'a> {
         Projection {
             start: points.clone(),
             points,
             errors,
-            allowed,
+            clipped,
             basis: Vec::new(),
             rows: Vec::new(),
             square: 0.0,
@@ -70,7 +68,7 @@ impl<'a> Projection<'a> {
         // Differences from the first point, so that nothing large cancels.
         row.terms
             .iter()
-            .map(|&(p, c)| f64::from(c) * dot(n, crate::geom::vector::sub(self.points[p], first)))
+            .map(|&(p, c)| f64::from(c) * dot(n, sub(self.points[p], first)))
             .sum()
     }
 
@@ -78,8 +76,8 @@ impl<'a> Projection<'a> {
     pub(super) fn implies(&self, gradients: &[(usize, Vector)]) -> bool {
         let mut a: Vec<(usize, f64)> = Vec::with_capacity(3 * gradients.len());
         for (p, g) in gradients {
-            for k in 0..3 {
-                let (at, by) = (3 * p + k, g[k] * self.errors[*p][k]);
+            for (k, (g, error)) in g.iter().zip(self.errors[*p]).enumerate() {
+                let (at, by) = (3 * p + k, g * error);
                 match a.iter_mut().find(|x| x.0 == at) {
                     Some(x) => x.1 += by,
                     None => a.push((at, by)),
@@ -145,13 +143,7 @@ impl<'a> Projection<'a> {
             }
         }
         let touched = self.rows.len() > taken;
-        let fits = moved <= limit * limit
-            && (!touched
-                || (0..self.points.len()).all(|p| {
-                    let by = crate::geom::vector::sub(self.points[p], self.start[p]);
-                    by == [0.0; 3] || (self.allowed)(p, by)
-                }));
-        if fits {
+        if moved <= limit * limit && (!touched || self.relax()) {
             return if touched { Taken::New } else { Taken::Implied };
         }
         self.points = points;
@@ -159,6 +151,52 @@ impl<'a> Projection<'a> {
         self.rows.truncate(taken);
         self.square = square;
         Taken::Refused
+    }
+
+    /// Moves points, what is taken kept, to where the digits of all allow it; false where they get no nearer to that.
+    ///
+    /// Alternating projections: to the box of the digits, and back to where all rows hold.
+    fn relax(&mut self) -> bool {
+        let mut last = f64::INFINITY;
+        for round in 0..ROUNDS {
+            let mut by = vec![0.0; 3 * self.points.len()];
+            let mut over: f64 = 0.0;
+            for (p, point) in self.points.iter().enumerate() {
+                let moved = sub(*point, self.start[p]);
+                if moved == [0.0; 3] {
+                    continue;
+                }
+                let to = (self.clipped)(p, moved);
+                for k in 0..3 {
+                    if self.errors[p][k] > 0.0 {
+                        let back = (to[k] - moved[k]) / self.errors[p][k];
+                        by[3 * p + k] = BEYOND * back;
+                        over = over.max(back.abs());
+                    }
+                }
+            }
+            if over <= SLACK {
+                return true;
+            }
+            if round % 8 == 7 {
+                if over > 0.9 * last {
+                    return false;
+                }
+                last = over;
+            }
+            for b in &self.basis {
+                let part: f64 = by.iter().zip(b).map(|(x, y)| x * y).sum();
+                if part != 0.0 {
+                    by.iter_mut().zip(b).for_each(|(x, y)| *x -= part * y);
+                }
+            }
+            for (p, point) in self.points.iter_mut().enumerate() {
+                for k in 0..3 {
+                    point[k] += by[3 * p + k] * self.errors[p][k];
+                }
+            }
+        }
+        false
     }
 
     /// A row in errors, without what is decided, and how large it was with it.

@@ -2,7 +2,7 @@
 
 use super::exact_directions::Exact;
 use super::number::{Rational3, axes, cross, scaled, to_f64};
-use super::projection::Row;
+use super::row::Row;
 use super::written::SPREAD;
 use crate::geom::vector::{self, Vector, add, dot, length, sub, unit};
 

@@ -1,7 +1,7 @@
 //! Linear relations solved exactly: free coordinates keep decimals, the others follow.
 
 use super::number::Rational3;
-use super::projection::Row;
+use super::row::Row;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use std::collections::BTreeMap;
@@ -42,8 +42,7 @@ pub(super) fn solve(
         let mut of: BTreeMap<usize, BigRational> = BTreeMap::new();
         let mut constant = BigRational::zero();
         for &(p, c) in &row.terms {
-            for k in 0..3 {
-                let n = &normals[row.normal][k];
+            for (k, n) in normals[row.normal].iter().enumerate() {
                 if n.is_zero() {
                     continue;
                 }

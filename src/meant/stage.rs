@@ -1,15 +1,17 @@
 //! A scene between its two frames: what is known before points are moved, and the exact scene that comes of it.
 
+use super::caution::{Caution, WITHIN};
 use super::directions::{Directions, of_rays};
 use super::exact_directions::{Exact, exact};
 use super::frame::Frame;
-use super::number::{Rational3, decimal, to_f64};
-use super::projection::{Projection, Row};
+use super::number::{self, Rational3, decimal, to_f64};
+use super::projection::Projection;
 use super::relations::{Normals, Use};
+use super::row::Row;
+use super::scene::Scene;
 use super::solve::solve;
 use super::together::together;
 use super::written::{Ray, Written};
-use super::{Caution, Scene, WITHIN, number};
 use crate::geom::vector::{Vector, sub};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -53,11 +55,11 @@ impl<'a> Stage<'a> {
         let errors = written.errors();
         let points: Vec<Vector> = written.points.iter().map(|p| p.value).collect();
         let size = written.size();
-        let within = WITHIN * caution.bold;
+        let within = caution.bold;
         let least = errors.iter().fold(f64::INFINITY, |a, &e| a.min(e));
         let inexact = written.rays.iter().map(Ray::error).filter(|e| *e > 0.0);
         let digits = places((least / size).min(inexact.fold(1.0, f64::min))).min(18);
-        let of = directions(written, (&points, &errors), caution.bold, within);
+        let of = directions(written, (&points, &errors), caution.bold);
         let frame = Frame::of(&of.all);
         let whole = |p: &usize| written.points[*p].half == [0.0; 3];
         let origin = (0..points.len()).find(whole).unwrap_or(0);
@@ -109,10 +111,15 @@ impl<'a> Stage<'a> {
         all.map(|p| [0, 1, 2].map(|k| weight(p, k))).collect()
     }
 
-    /// Whether the digits of a point allow a displacement in the scene's frame.
-    pub(super) fn allows(&self, p: usize, by: Vector) -> bool {
+    /// The displacement in the scene's frame that the digits of a point allow, nearest to another.
+    pub(super) fn clipped(&self, p: usize, by: Vector) -> Vector {
         let (out, half) = (self.frame.outside(by), &self.written.points[p].half);
-        (0..3).all(|c| out[c].abs() <= self.within * half[c].max(self.floor))
+        let most = half.map(|h| self.within * h.max(self.floor));
+        if (0..3).all(|c| out[c].abs() <= most[c]) {
+            return by;
+        }
+        let inside = [0, 1, 2].map(|c| out[c].clamp(-most[c], most[c]));
+        self.frame.inside(inside)
     }
 
     /// The scene of rows that hold at some points, exact; none where they contradict each other.
@@ -183,12 +190,7 @@ impl<'a> Stage<'a> {
 }
 
 /// The directions of a scene, those that are square or in one plane made so together.
-fn directions(
-    written: &Written,
-    (points, errors): (&[Vector], &[f64]),
-    bold: f64,
-    within: f64,
-) -> Directions {
+fn directions(written: &Written, (points, errors): (&[Vector], &[f64]), bold: f64) -> Directions {
     let mut of = of_rays(&written.rays, points, errors);
     let own = of.all.len();
     if Frame::is_the_files(&of.all) {
@@ -197,7 +199,7 @@ fn directions(
     let rays = || written.rays.iter().zip(&of.of_ray);
     let fits = |k: usize, v: Vector| {
         let mut of_it = rays().filter(|r| r.1.0 == k);
-        of_it.all(|r| r.0.moved(v, 0.0) <= within)
+        of_it.all(|r| r.0.moved(v, 0.0) <= WITHIN * bold)
     };
     together(&mut of.all, bold, fits);
     of.all.truncate(own);

@@ -1,8 +1,9 @@
 //! The automatic choice: the cheapest method that is certain for this mechanism, and one line that says what was chosen,
 //! why, and what was left out.
 
+use super::coordinates::Coordinates;
 use super::field::field_of;
-use super::finite::{Finite, finite, finite_within, within};
+use super::finite::{Finite, finite_known, within};
 use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 use super::numeric::Elimination;
 use super::snap::size;
@@ -55,20 +56,22 @@ fn finite_of(m: &Mechanism, state: StateId, found: &Verdict) -> Result<Finite, N
     let exactly = |m: &Mechanism, rank: usize| {
         let exact = field_of(m, state, 0)?;
         let closure = Closure::new(&exact, m, state)?;
-        match accuracy {
-            Some(_) => finite_within(&exact, m, &closure, rank, accuracy),
-            None => finite(&exact, m, &closure, rank),
-        }
+        let known = match accuracy {
+            None => Coordinates::Exact,
+            Some(a) if found.resolved => Coordinates::Meant(a),
+            Some(a) => Coordinates::Within(a),
+        };
+        finite_known(&exact, m, &closure, rank, known)
     };
     Ok(match &found.meant {
         Meant::AsWritten => exactly(m, found.as_written)?,
-        // What is snapped is exact.
         Meant::Snapped {
             mechanism, rank, ..
         } => {
             let exact = field_of(mechanism, state, 0)?;
             let closure = Closure::new(&exact, mechanism, state)?;
-            finite(&exact, mechanism, &closure, *rank)?
+            let known = Coordinates::Meant(accuracy.unwrap_or(0.0));
+            finite_known(&exact, mechanism, &closure, *rank, known)?
         }
         Meant::Near {
             mechanism, rank, ..

@@ -22,7 +22,7 @@ use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};
 /// # Complexity
 /// O(n log n) for contours of n joints in all.
 #[must_use]
-pub fn parts(closure: &Closure<Residue>) -> Vec<Vec<JointId>> {
+pub fn parts<T>(closure: &Closure<T>) -> Vec<Vec<JointId>> {
     let of_contours = closure
         .contours
         .iter()

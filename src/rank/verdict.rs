@@ -32,7 +32,7 @@ const LEFT_OVER: f64 = 1e-4;
 /// Nothing is known better in double precision, relative to the largest singular value.
 const LEAST: f64 = 1e-13;
 /// A scene whose numbers would have to move by more halves of their last digit is not the one that is meant.
-const FURTHEST: f64 = 1.5;
+const FURTHEST: f64 = 1.2;
 /// Units of coordinates, relative to the size, above which a geometry that is near says nothing.
 const COARSE: f64 = 5e-5;
 
@@ -88,6 +88,8 @@ pub struct Verdict {
     pub tolerance: f64,
     /// What is meant.
     pub meant: Meant,
+    /// Whether a scene is known that the digits say is meant: of it, or of what is written, relations are exact.
+    pub resolved: bool,
     /// What rows of J, as it is written, are enough for its rank; empty where all are taken.
     pub needed: String,
 }
@@ -256,6 +258,7 @@ pub(super) fn verdict_on(
         meant: Meant::AsWritten,
         needed,
         rounded,
+        resolved: scene.is_some(),
     };
     let size = size(mechanism);
     let (units, reach) = match (tolerance, &found.rounded) {
@@ -404,14 +407,16 @@ fn meant(
     (units, reach): (Units, Reach),
     asked: bool,
 ) -> Result<Meant, NoAnswer> {
-    let snapped = snap(mechanism, reach);
-    if rank_of(&snapped.mechanism, state)? == rank {
-        return Ok(Meant::Snapped {
-            mechanism: Box::new(snapped.mechanism),
-            rank,
-            moved: snapped.moved,
-            understood: None,
-        });
+    if asked {
+        let snapped = snap(mechanism, reach);
+        if rank_of(&snapped.mechanism, state)? == rank {
+            return Ok(Meant::Snapped {
+                mechanism: Box::new(snapped.mechanism),
+                rank,
+                moved: snapped.moved,
+                understood: None,
+            });
+        }
     }
     // With so few digits a geometry of that rank is near by chance.
     let coarse = units.direction.max(units.length / size(mechanism)) > COARSE;

@@ -286,14 +286,16 @@ fn numerically(
             let redundant = whole.rows + measured.mobility() - whole.freedoms;
             let bodies = e.lost_mobility + int(whole.mobility) - e.working_mobility;
             let lost = bodies - (int(measured.mobility()) - working);
-            Some(External {
+            let found = External {
                 actual_mobility: actual,
                 working_mobility: working,
                 lost_mobility: lost,
                 redundant: e.constraints - (actual - working) - lost,
                 by_rank: int(redundant) - int(free_redundant),
                 ..e
-            })
+            };
+            // Ranks of two states at a tolerance may contradict each other; then neither is told.
+            Some(found).filter(|x| x.redundant == x.by_rank)
         }
         None => None,
     };

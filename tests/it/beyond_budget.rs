@@ -187,7 +187,7 @@ fn every_output_says_what_is_proven_and_what_is_estimated() {
     let mean = v["admissible_estimate"]["mean"].as_f64().unwrap();
     let least: f64 = v["admissible"].as_str().unwrap().parse().unwrap();
     assert!(mean > least, "{mean} {least}");
-    assert!(told(&["--format", "csv"]).contains("the first 3 proven the cheapest"));
+    assert!(told(&["--format", "csv", "--comment"]).contains("the first 3 proven the cheapest"));
     let last = told(&["--format", "jsonl"])
         .lines()
         .last()

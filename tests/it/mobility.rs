@@ -369,7 +369,9 @@ proptest! {
         prop_assume!(matches!(m.mode, Mode::Spatial) && m.name != "wren-platform");
         let before = decide(&m, StateId::FREE, None).unwrap();
         let after = decide(&as_measured(&m, seed, 1e-13, 1.0), StateId::FREE, None).unwrap();
-        prop_assert_eq!(before.verdict.rank(), after.verdict.rank());
+        // Off by a thousand units of the sixteenth digit, which may leave it open.
+        let rank = before.verdict.rank();
+        prop_assert!((after.verdict.at_least()..=after.verdict.rank()).contains(&rank), "{} {rank}: {}", m.name, after.line);
         // Coordinates off by rounding may leave open what exact ones decide, and never say otherwise.
         prop_assert!(after.finite.could_be(i64::try_from(before.finite.mobility).unwrap()), "{:?} {:?}", before.finite, after.finite);
     }

@@ -7,9 +7,7 @@ use std::collections::BTreeMap;
 
 /// So many long decimals without a trailing zero are no chance.
 const MANY: usize = 10;
-/// A number shorter by so many places at most has lost zeros.
-const LOST: i32 = 2;
-/// And so has one with fewer significant digits.
+/// A direction of decimals with fewer significant digits may have been chosen.
 const FEW: usize = 3;
 
 /// What a number is.
@@ -108,16 +106,8 @@ impl Class {
         let (plain, factor) = (half_of(digits.places), digits.factor());
         match self.commonest() {
             Some(most) if digits.end == End::Float => most * factor,
-            Some(most) if self.drops_zeros() => {
-                let shorter = plain > most && plain <= most * 10f64.powi(LOST) * 1.5;
-                let few = digits.significant < FEW;
-                let half = if shorter || few {
-                    plain.min(most)
-                } else {
-                    plain
-                };
-                half * factor
-            }
+            // What is shorter than most was chosen, or has lost zeros.
+            Some(most) if !self.zeros => plain.min(most) * factor,
             _ if digits.end == End::Float => 0.0,
             _ => digits.half,
         }

@@ -199,7 +199,7 @@ fn a_bennett_linkage_from_cad_has_the_counts_of_the_exact_one() {
     for word in ["Checked", "Proven", "proven"] {
         assert!(!text.contains(word), "{word} in {text}");
     }
-    let csv = on(&["--format", "csv"]);
+    let csv = on(&["--format", "csv", "--comment"]);
     assert!(
         csv.lines().last().unwrap().starts_with("# numeric: 8 "),
         "{csv}"

@@ -53,13 +53,9 @@ fn the_program_says_where_singular_values_contradict() {
     for word in ["Checked", "Proven"] {
         assert!(!text.contains(word), "{word} in {text}");
     }
-    assert!(
-        on("csv")
-            .lines()
-            .last()
-            .unwrap()
-            .starts_with("# not exact: ")
-    );
+    let comment = [&options[..], &["--format", "csv", "--comment"]].concat();
+    let (_, csv, _) = run_on("search", "it.toml", &file, &comment);
+    assert!(csv.lines().last().unwrap().starts_with("# not exact: "));
     assert!(on("jsonl").contains("\"certainty\":\"contradicted\""));
     let v: Value = serde_json::from_str(&on("json")).unwrap();
     assert_eq!(

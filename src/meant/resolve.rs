@@ -1,0 +1,128 @@
+//! The scene that is meant, and others that the digits do not rule out.
+
+use super::caution::Caution;
+use super::check::Images;
+use super::exact_directions::{Exact, placed};
+use super::of_points;
+use super::projection::{Projection, Taken};
+use super::relations::{Finder, Relation, Use};
+use super::scene::Scene;
+use super::stage::{Mark, Stage};
+use super::written::Written;
+use crate::geom::vector::Vector;
+
+/// What the digits of a scene allow.
+#[derive(Debug, Clone)]
+pub struct Resolved {
+    /// The scene with the most relations.
+    pub scene: Scene,
+    /// Others that the digits do not rule out: with relations that are all but within them, and without those that as well are
+    /// there by chance.
+    pub others: Vec<Scene>,
+}
+
+/// A relation that was not taken and asks for no larger move, in errors, may hold in truth.
+const LEFT_OUT: f64 = 4.0;
+/// Moves larger by this than those of relations usually are speak against a relation for sure.
+const BOLD: f64 = 1.6;
+
+/// The scene that is meant; none where its relations cannot be solved within the digits.
+///
+/// # Complexity
+/// O(p²) pairs of p points, held against each other and against d directions; then O(r² p) for r relations.
+#[must_use]
+pub fn resolve(written: &Written) -> Option<Resolved> {
+    let usual = Caution {
+        bold: 1.0,
+        weak: true,
+    };
+    let (scene, doubts, without) = resolve_with(written, usual)?;
+    let mut others: Vec<Scene> = without.into_iter().collect();
+    let bold = Caution {
+        bold: BOLD,
+        ..usual
+    };
+    let shy = Caution {
+        weak: false,
+        ..usual
+    };
+    for (doubted, caution) in [(doubts.left_out, bold), (doubts.by_chance, shy)] {
+        if doubted > 0
+            && let Some((other, ..)) = resolve_with(written, caution)
+        {
+            others.push(other);
+        }
+    }
+    Some(Resolved { scene, others })
+}
+
+/// How many relations are doubtful.
+struct Doubts {
+    left_out: usize,
+    by_chance: usize,
+    /// Lines and planes of points that are nearly those that others make.
+    of_points: usize,
+}
+
+/// A scene, how doubtful it is, and where it is doubted the same without lines and planes that points alone make.
+fn resolve_with(written: &Written, caution: Caution) -> Option<(Scene, Doubts, Option<Scene>)> {
+    let stage = Stage::new(written, caution);
+    let weights = stage.weights();
+    let clipped = |p: usize, by: Vector| stage.clipped(p, by);
+    let directions = stage.directions();
+    let mut fixed: Vec<Exact> = directions.iter().map(|d| d.0.clone()).collect();
+    let mut finder = Finder::new(&stage.inside, &stage.errors, directions);
+    let mut solved = Projection::new(stage.inside.clone(), &weights, &clipped);
+    solved.bold = caution.bold;
+    let keep = |all: Vec<Relation>| {
+        let certain = all.into_iter().filter(|r| caution.weak || !r.weak);
+        certain.collect()
+    };
+    let found = keep(finder.all());
+    let mut became = solved.take_all(found, &finder.normals.real);
+    let (first, plain) = (became.len(), Mark::of(&solved));
+    // What points alone make: lines and planes that nothing above keeps.
+    for further in [of_points::lines, of_points::planes_of] {
+        for d in further(&solved, &stage.errors) {
+            let e = placed(d.unit, d.error, &fixed, stage.digits);
+            let of = if d.plane { Use::Planes } else { Use::Lines };
+            let found = keep(finder.along(vec![(e.clone(), of)]));
+            let found = solved.take_all(found, &finder.normals.real);
+            // Further ones may be square to it.
+            if found.iter().any(|(_, b)| *b == Taken::New) {
+                fixed.push(e);
+            }
+            became.extend(found);
+        }
+    }
+    let normals = finder.normals;
+    let scene = stage.scene(&solved.rows, &solved.points, &normals)?;
+    let images = Images::of(&scene.inside, &normals.exact);
+    // What follows from others to rounding alone does not hold.
+    let broken = |(r, b): &&(Relation, Taken)| {
+        *b == Taken::Refused || (*b == Taken::Implied && !r.rows.iter().all(|w| images.holds(w)))
+    };
+    let left_out = |(r, b): &&(Relation, Taken)| {
+        let asks = r.rows.iter().filter_map(|w| solved.asks(w, &normals.real));
+        let far = asks.fold(0.0, f64::max);
+        *b == Taken::Refused && far > 0.0 && far <= LEFT_OUT
+    };
+    let doubts = Doubts {
+        left_out: became.iter().filter(left_out).count(),
+        by_chance: became
+            .iter()
+            .filter(|(r, b)| *b == Taken::New && r.weak)
+            .count(),
+        of_points: became[first..].iter().filter(broken).count(),
+    };
+    let without = (doubts.of_points > 0)
+        .then(|| stage.scene(&solved.rows[..plain.rows], &plain.points, &normals))
+        .flatten();
+    let taken = became.into_iter().filter(|b| b.1 == Taken::New);
+    let relations = taken.map(|(r, _)| (r.kind, r.rows[0].terms.iter().map(|t| t.0).collect()));
+    let scene = Scene {
+        relations: relations.collect(),
+        ..scene
+    };
+    Some((scene, doubts, without))
+}

@@ -1,0 +1,238 @@
+//! A finite mobility, and how it is known.
+
+/// Why a finite mobility is what it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum How {
+    /// Nothing moves even instantaneously.
+    Rigid,
+    /// J has the full rank of the groups its contours move in and of its couplings: the motion is a manifold. Proven.
+    Submersion {
+        /// Σ of the dimensions of those groups, and the rank of the couplings.
+        dimension: usize,
+    },
+    /// Instantaneous motions are stopped by second or higher order: a shaky pose. Proven.
+    Stopped {
+        /// The order that stops the last of them.
+        order: usize,
+        /// How many instantaneous motions are none.
+        motions: usize,
+    },
+    /// Followed by Newton's method; numeric.
+    Traced {
+        /// Poses closed.
+        poses: usize,
+        /// Whether the pose of the file is a regular one of its motion.
+        regular: bool,
+    },
+    /// Neither proof nor pursuit decides.
+    Undecided {
+        /// The largest dimension of a motion that was found.
+        from: usize,
+        /// The largest dimension that is not excluded.
+        to: usize,
+    },
+    /// Coordinates are rounded too coarsely to tell a motion from a shaky pose, or to tell the rank of J.
+    Rounded {
+        /// The most that it can be.
+        to: usize,
+    },
+    /// Not followed, for it is too large: an upper bound, the instantaneous mobility.
+    Bound,
+}
+
+/// The finite mobility of a state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Finite {
+    /// Dimension of the motion; the least it can be where that is undecided.
+    pub mobility: usize,
+    /// How it is known.
+    pub how: How,
+    /// Whether the rank of J that it starts from is a numeric one.
+    pub numeric: bool,
+}
+
+impl Finite {
+    pub(super) fn new(mobility: usize, how: How) -> Finite {
+        Finite {
+            mobility,
+            how,
+            numeric: false,
+        }
+    }
+
+    /// Where rounded coordinates tell no more than that at most `to` moves instantaneously.
+    pub(in crate::rank) fn rounded(to: usize) -> Finite {
+        Finite::new(0, How::Rounded { to })
+    }
+
+    /// Whether it is a range.
+    #[must_use]
+    pub fn is_undecided(&self) -> bool {
+        matches!(self.how, How::Undecided { .. } | How::Rounded { .. })
+    }
+
+    /// The same with a rank that is a numeric one.
+    #[must_use]
+    pub fn by_numeric_rank(self) -> Finite {
+        Finite {
+            numeric: true,
+            ..self
+        }
+    }
+
+    /// Whether it follows from exact arithmetic alone.
+    #[must_use]
+    pub fn is_proven(&self) -> bool {
+        !self.numeric
+            && matches!(
+                self.how,
+                How::Rigid | How::Submersion { .. } | How::Stopped { .. }
+            )
+    }
+
+    /// The most it can be.
+    #[must_use]
+    pub fn at_most(&self) -> usize {
+        match self.how {
+            How::Undecided { to, .. } | How::Rounded { to } => to,
+            _ => self.mobility,
+        }
+    }
+
+    /// Whether it can be this much.
+    #[must_use]
+    pub fn could_be(&self, mobility: i64) -> bool {
+        let least = i64::try_from(self.mobility).unwrap_or(i64::MAX);
+        let most = i64::try_from(self.at_most()).unwrap_or(i64::MAX);
+        (least..=most).contains(&mobility)
+    }
+
+    /// The figure for people: a number, or a range where that is undecided.
+    #[must_use]
+    pub fn figure(&self) -> String {
+        match self.how {
+            How::Undecided { from, to } => format!("{from} to {to}"),
+            How::Rounded { to } => format!("{} to {to}", self.mobility),
+            _ => self.mobility.to_string(),
+        }
+    }
+
+    /// One line for people.
+    #[must_use]
+    pub fn describe(&self) -> String {
+        let line = match self.how {
+            How::Rigid if self.mobility > 0 => {
+                "joints in no contour and idle spins move as they like, nothing else does even instantaneously"
+                    .to_owned()
+            }
+            How::Rigid => "nothing moves even instantaneously".to_owned(),
+            How::Submersion { dimension } => format!(
+                "J has the full rank {dimension} of the groups its contours move in, so this pose is a regular one"
+            ),
+            How::Stopped { order, motions } => {
+                let what = match motions {
+                    1 => "the one instantaneous motion is",
+                    _ => "the instantaneous motions left out are",
+                };
+                let order = match order {
+                    2 => "second order".to_owned(),
+                    3 => "third order".to_owned(),
+                    n => format!("order {n}"),
+                };
+                format!("{what} stopped by {order} (a shaky pose)")
+            }
+            How::Traced { poses, regular } => format!(
+                "followed numerically through {poses} poses; {}",
+                if regular {
+                    "the pose is a regular one"
+                } else {
+                    "the pose of the file is singular or shaky"
+                }
+            ),
+            How::Undecided { from, to } => format!(
+                "undecided: between {from} and {to}; the pose of the file is singular, and following branches from it does not decide"
+            ),
+            How::Rounded { to } => format!(
+                "undecided: between {} and {to}; coordinates are rounded too coarsely to tell a motion from a shaky pose",
+                self.mobility
+            ),
+            How::Bound => "an upper bound: too large to be followed".to_owned(),
+        };
+        match self.how {
+            How::Rigid if self.numeric => format!("{line}, by the numeric rank"),
+            _ if self.numeric => format!("by the numeric rank: {line}"),
+            How::Submersion { .. } | How::Stopped { .. } => format!("proven: {line}"),
+            _ => line,
+        }
+    }
+
+    /// One word for programs.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self.how {
+            How::Rigid if self.mobility > 0 => "free",
+            How::Rigid => "rigid",
+            How::Submersion { .. } => "submersion",
+            How::Stopped { order: 2, .. } => "second-order",
+            How::Stopped { .. } => "higher-order",
+            How::Traced { .. } => "traced",
+            How::Undecided { .. } | How::Rounded { .. } => "undecided",
+            How::Bound => "bound",
+        }
+    }
+
+    /// The finite mobility of two independent parts, or of a part and its idle freedoms.
+    pub(super) fn and(self, other: Finite) -> Finite {
+        use How::{Bound, Rigid, Rounded, Stopped, Submersion, Traced, Undecided};
+        let how = match (self.how, other.how) {
+            (Rounded { .. }, _) | (_, Rounded { .. }) => Rounded {
+                to: self.at_most() + other.at_most(),
+            },
+            (Undecided { .. }, _) | (_, Undecided { .. }) => Undecided {
+                from: self.mobility + other.mobility,
+                to: self.at_most() + other.at_most(),
+            },
+            (Rigid, how) | (how, Rigid) => how,
+            (Submersion { dimension: a }, Submersion { dimension: b }) => {
+                Submersion { dimension: a + b }
+            }
+            (Bound, _) | (_, Bound) => Bound,
+            (
+                Traced { poses, regular },
+                Traced {
+                    poses: more,
+                    regular: too,
+                },
+            ) => Traced {
+                poses: poses + more,
+                regular: regular && too,
+            },
+            (Traced { poses, .. }, Stopped { .. }) | (Stopped { .. }, Traced { poses, .. }) => {
+                Traced {
+                    poses,
+                    regular: false,
+                }
+            }
+            (how @ Traced { .. }, Submersion { .. }) | (Submersion { .. }, how @ Traced { .. }) => {
+                how
+            }
+            (
+                Stopped { order, motions },
+                Stopped {
+                    order: other,
+                    motions: more,
+                },
+            ) => Stopped {
+                order: order.max(other),
+                motions: motions + more,
+            },
+            (how @ Stopped { .. }, Submersion { .. })
+            | (Submersion { .. }, how @ Stopped { .. }) => how,
+        };
+        Finite {
+            mobility: self.mobility + other.mobility,
+            how,
+            numeric: self.numeric || other.numeric,
+        }
+    }
+}
