@@ -2,8 +2,7 @@
 //!
 //! The readers of TOML and JSON give doubles, and 0.49400 as a double is 0.494: it says less of how well it is known.
 
-use crate::file::locate::{Document, Step};
-use crate::file::read::resolve::{index, key};
+use crate::file::locate::{Document, Step, index, key};
 use crate::file::schema::{
     Coordinate, JointEntry, MechanismFile, OptionEntry, ParameterEntry, Unloading,
 };

@@ -1,7 +1,6 @@
 //! Ratios and pitches that are written as decimals and are all but fractions.
 
-use crate::file::locate::Step;
-use crate::file::read::resolve::{index, key};
+use crate::file::locate::{Step, index, key};
 use crate::file::schema::MechanismFile;
 use crate::file::warning::WarningKind;
 use crate::format::number::significant;

@@ -1,7 +1,6 @@
 //! Directions of options that nobody stated, and that are taken from the joint's own, where they mean something else.
 
-use crate::file::locate::Step;
-use crate::file::read::resolve::{index, key};
+use crate::file::locate::{Step, index, key};
 use crate::file::schema::{JointEntry, MechanismFile, OptionTable};
 use crate::file::warning::WarningKind;
 use crate::model::joint_type::JointType;

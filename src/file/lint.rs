@@ -3,10 +3,9 @@
 use crate::closure::contour::{Contour, contour_basis};
 use crate::file::doubted::doubted;
 use crate::file::guessed::guessed;
-use crate::file::locate::Step;
+use crate::file::locate::{Step, index, key};
 use crate::file::problem::ImportError;
 use crate::file::read::build;
-use crate::file::read::resolve::{index, key};
 use crate::file::read::workload::workload_tables;
 use crate::file::rounding;
 use crate::file::schema::{LinkEntry, MechanismFile, OptionEntry, Unloading};

@@ -13,6 +13,19 @@ pub enum Step {
     Index(usize),
 }
 
+/// A path further by a key.
+pub(crate) fn key(path: &[Step], k: &str) -> Vec<Step> {
+    path.iter()
+        .cloned()
+        .chain([Step::Key(k.to_owned())])
+        .collect()
+}
+
+/// A path further by a place in a list.
+pub(crate) fn index(path: &[Step], i: usize) -> Vec<Step> {
+    path.iter().cloned().chain([Step::Index(i)]).collect()
+}
+
 /// A document whose items can be found; read once for all its problems.
 #[derive(Debug)]
 pub enum Document<'t> {

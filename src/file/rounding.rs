@@ -30,7 +30,8 @@ pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
         let Ok(found) = verdict(m, state, None) else {
             continue;
         };
-        if !found.is_as_written() {
+        // What is meant has mostly the figures of what is written; only others are doubtful.
+        if !found.is_decided() || found.rank() != found.as_written {
             out.push(of_verdict(&found));
         }
     }

@@ -8,6 +8,7 @@
 
 mod enclosure;
 mod error;
+mod half_unit;
 mod node;
 mod operators;
 mod parse;

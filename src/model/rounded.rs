@@ -5,6 +5,7 @@
 //! tilted, and constraints that are redundant in truth count as independent.
 
 mod class;
+mod long;
 pub mod ratio;
 mod source;
 mod uncertainty;
@@ -15,15 +16,13 @@ use crate::model::mechanism::{Frame, Mechanism, Mode};
 use std::collections::BTreeMap;
 use std::fmt;
 
+use class::is_rounded;
+pub(crate) use long::{LONG_DIRECTION, LONG_LENGTH};
 pub(crate) use source::{Largest, Sources};
 pub use uncertainty::{FrameNumbers, FrameUncertainty, Uncertainties, uncertainties};
 
 /// Decimals with so many significant digits are taken to be measured or computed, not chosen.
 pub const DIGITS: usize = 9;
-/// Lengths with so many significant digits may have been rounded.
-pub(crate) const LONG_LENGTH: usize = 4;
-/// Components of directions with so many may.
-pub(crate) const LONG_DIRECTION: usize = 3;
 /// One in so many of those has the unit or a coarser one: a last digit that happens to be 0 is one in ten.
 const SHARE: usize = 5;
 
@@ -86,14 +85,9 @@ struct Seen {
 }
 
 impl Seen {
-    /// Takes in a coordinate of a vector of length `norm`, 0 for a length.
-    fn see(&mut self, v: &Expr, norm: f64, place: &dyn Fn() -> String) {
+    /// Takes in a coordinate of a vector of length `norm`, 0 for a length, that is long from so many digits on.
+    fn see(&mut self, v: &Expr, (norm, least): (f64, usize), place: &dyn Fn() -> String) {
         let direction = norm > 0.0;
-        let least = if direction {
-            LONG_DIRECTION
-        } else {
-            LONG_LENGTH
-        };
         let long = |d: &Decimal| d.digits.is_none_or(|n| n >= least);
         let Some(decimal) = decimal(v).filter(long) else {
             return;
@@ -119,13 +113,29 @@ impl Seen {
             ("axis", &f.axis, true),
             ("reference", &f.reference, true),
         ] {
-            let norm = if direction { length(real(vector)) } else { 0.0 };
+            let kind = if direction {
+                kind_of(vector)
+            } else {
+                (0.0, LONG_LENGTH)
+            };
             for c in vector {
-                self.see(c, norm, &|| format!("{what} of {}", at()));
+                self.see(c, kind, &|| format!("{what} of {}", at()));
             }
         }
-        self.see(&f.pitch, 0.0, &|| format!("pitch of {}", at()));
+        self.see(&f.pitch, (0.0, LONG_LENGTH), &|| {
+            format!("pitch of {}", at())
+        });
     }
+}
+
+/// The length of a direction, and from how many digits on its components are long.
+fn kind_of(direction: &[Expr; 3]) -> (f64, usize) {
+    let least = if is_rounded(direction) {
+        1
+    } else {
+        LONG_DIRECTION
+    };
+    (length(real(direction)), least)
 }
 
 /// A coordinate as it is told.
@@ -145,7 +155,7 @@ fn shared(mut units: Vec<f64>) -> f64 {
 }
 
 /// Whether coordinates of the joints, their options, or the plane are decimals long enough to have been rounded: lengths of
-/// four significant digits and more, directions of three. Fractions and roots written as such are exact however long their
+/// four significant digits and more, directions of three, or of two where they are of length 1 to within them and not exactly. Fractions and roots written as such are exact however long their
 /// decimals are, and so are whole numbers.
 #[must_use]
 pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
@@ -167,9 +177,8 @@ pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
         }
     }
     if let Mode::Planar { normal } = &mechanism.mode {
-        let norm = length(real(normal));
         for c in normal {
-            seen.see(c, norm, &|| "normal of the plane".to_owned());
+            seen.see(c, kind_of(normal), &|| "normal of the plane".to_owned());
         }
     }
     let [measured, any] = seen.first;

@@ -29,6 +29,8 @@ const ROUND_OFF: f64 = 1e-14;
 const GAP: f64 = 1e3;
 /// that ends below this fraction of the largest, says that some are left over from zero.
 const LEFT_OVER: f64 = 1e-4;
+/// A gap narrower than this among what rounding can have made says nothing.
+const CLEAR: f64 = 30.0;
 /// Nothing is known better in double precision, relative to the largest singular value.
 const LEAST: f64 = 1e-13;
 /// A scene whose numbers would have to move by more halves of their last digit is not the one that is meant.
@@ -309,6 +311,10 @@ pub(super) fn verdict_on(
     found.numeric = Some(values.at(near));
     found.meant = match scene {
         Some((s, rank)) if rank == near => snapped(s, rank),
+        // One gap is much like another there.
+        _ if tolerance.is_none() && values.gap(near, ROUND_OFF) < CLEAR => {
+            Meant::Undecided { near: above }
+        }
         _ => meant(mechanism, state, near, (units, reach), tolerance.is_some())?,
     };
     Ok(found)

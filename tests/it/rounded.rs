@@ -9,4 +9,5 @@ mod law;
 mod program;
 mod search_numeric;
 mod second_opinion;
+mod shown;
 mod table;

@@ -209,7 +209,11 @@ fn a_row_is_what_the_other_commands_say_of_the_numbers_written_in() {
         assert_eq!(table.rows.len(), sweep.space.len());
         for row in &table.rows {
             let sample = sweep.space.sample(row.sample);
-            let value = |name: &str| sample.values[name].to_string();
+            // As exact as a sample is, which decimals would not be.
+            let value = |name: &str| match sample.values[name].to_string().split_once('.') {
+                Some((whole, part)) => format!("{whole}{part}/10^{}", part.len()),
+                None => sample.values[name].to_string(),
+            };
             let values = ["height", "offset"].map(|n| (n, value(n)));
             let text = written_in(&text, &values);
             let m = mechanism_from_str("written.toml", &text).unwrap();

@@ -1,9 +1,9 @@
 //! Costs by name: of joint types, of options, of a change itself.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::{Step, key};
 use crate::file::problem::ProblemKind;
-use crate::file::read::resolve::{cost, key};
+use crate::file::read::resolve::cost;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{CostSpec, Joint, Mechanism};
 use itertools::Itertools;

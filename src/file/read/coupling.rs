@@ -3,10 +3,9 @@
 use crate::closure::coupling::{coefficient, in_plane, length_ratio};
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::{Step, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::number::number;
-use crate::file::read::resolve::{index, key};
 use crate::file::schema::MechanismFile;
 use crate::geom::exact::ExactField;
 use crate::geom::expr::Expr;

@@ -5,8 +5,8 @@ mod programme;
 
 use crate::file::findings::Findings;
 use crate::file::locate::Step as Place;
+use crate::file::locate::{index, key};
 use crate::file::read::quantity::{Bound, Table};
-use crate::file::read::resolve::{index, key};
 use crate::file::schema::{DriveEntry, MechanismFile};
 use crate::model::drive::{Cam, Damping, DriveSpec};
 use crate::model::mechanism::Mechanism;

@@ -1,10 +1,9 @@
 //! The `[workload.grip]` table.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::{Step, index, key};
 use crate::file::read::names::joint_by_id;
 use crate::file::read::quantity::{Bound, Table, word};
-use crate::file::read::resolve::{index, key};
 use crate::file::schema::{Diameters, Gravity, GripEntry, MechanismFile};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
 use crate::model::mechanism::{JointId, Mechanism, Role};

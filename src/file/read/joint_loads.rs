@@ -1,13 +1,12 @@
 //! What `[workload]` says of moments, of the stiffness of joints, and of joints made askew.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::{Step, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::motion::{MAX_FORCES, position, quantity};
 use crate::file::read::names::{joint_by_id, link_by_id, states_by_name};
 use crate::file::read::number::vector;
 use crate::file::read::quantity::{Bound, Table};
-use crate::file::read::resolve::{index, key};
 use crate::file::schema::WorkloadEntry;
 use crate::model::joint_type::JointType;
 use crate::model::loads::{ExternalMoment, Face, Misalignment, Stiffness};

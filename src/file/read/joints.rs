@@ -1,13 +1,13 @@
 //! The joints: ends, type, place, the states they act in.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::{Step, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::limits::LIMITS;
 use crate::file::read::names::{check_id, link_by_id};
 use crate::file::read::number::{direction, pitch, vector};
 use crate::file::read::options::options;
-use crate::file::read::resolve::{frame, index, joint_type, key, motion_name, option};
+use crate::file::read::resolve::{frame, joint_type, motion_name, option};
 use crate::file::schema::{JointEntry, MechanismFile, Unloading, Words};
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};

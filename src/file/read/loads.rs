@@ -1,7 +1,7 @@
 //! Masses of links and the `[workload]` table.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::{Step, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::joint_loads::{faces, misalignments, moments, stiffness};
 use crate::file::read::motion::{
@@ -9,7 +9,6 @@ use crate::file::read::motion::{
 };
 use crate::file::read::names::{link_by_id, states_by_name};
 use crate::file::read::number::vector;
-use crate::file::read::resolve::{index, key};
 use crate::file::schema::{
     InertiaEntry, LinkEntry, MechanismFile, Quantities, Quantity, StrokeEntry,
 };

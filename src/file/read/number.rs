@@ -1,9 +1,8 @@
 //! Numbers from their entries: lengths, directions, pitches.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::{Step, index, key};
 use crate::file::problem::ProblemKind;
-use crate::file::read::resolve::{index, key};
 use crate::file::schema::Coordinate;
 use crate::geom::expr::{Expr, ExprError, Written};
 use itertools::Itertools;

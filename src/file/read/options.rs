@@ -1,10 +1,10 @@
 //! What a joint may become.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::{Step, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::limits::LIMITS;
-use crate::file::read::resolve::{contains, index, key, option};
+use crate::file::read::resolve::{contains, option};
 use crate::file::schema::{JointEntry, MechanismFile, OptionEntry};
 use crate::model::mechanism::JointOption;
 

@@ -1,10 +1,9 @@
 //! `[parameter]`: what each may be, and what it is.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::{Step, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::number::number;
-use crate::file::read::resolve::{index, key};
 use crate::file::schema::{Coordinate, MechanismFile, ParameterEntry, VariedEntry};
 use crate::geom::expr::{Expr, WORDS};
 use num_bigint::BigInt;

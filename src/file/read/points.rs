@@ -1,10 +1,9 @@
 //! The points of interest.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::{Step, index, key};
 use crate::file::read::names::{check_id, link_by_id};
 use crate::file::read::number::vector;
-use crate::file::read::resolve::{index, key};
 use crate::file::schema::MechanismFile;
 use crate::model::mechanism::{Mechanism, PointOfInterest};
 

@@ -1,10 +1,9 @@
 //! Numbers with a meaning: angles, and values that must lie in a range.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::{Step, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::number::number;
-use crate::file::read::resolve::key;
 use crate::file::schema::Coordinate;
 use itertools::Itertools;
 use std::f64::consts::PI;

@@ -1,9 +1,9 @@
 //! `[ranking]` and `[joint_types]`.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::{Step, index, key};
 use crate::file::problem::ProblemKind;
-use crate::file::read::resolve::{cost, index, key};
+use crate::file::read::resolve::cost;
 use crate::file::schema::MechanismFile;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, Mechanism, StateId};

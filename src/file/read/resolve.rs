@@ -1,7 +1,7 @@
 //! Joint frames and options from their entries.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::{Step, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::number::{direction, pitch, vector};
 use crate::file::schema::OptionEntry;
@@ -9,17 +9,6 @@ use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, JointOption, StateId};
 use itertools::Itertools;
-
-pub(crate) fn key(path: &[Step], k: &str) -> Vec<Step> {
-    path.iter()
-        .cloned()
-        .chain([Step::Key(k.to_owned())])
-        .collect()
-}
-
-pub(crate) fn index(path: &[Step], i: usize) -> Vec<Step> {
-    path.iter().cloned().chain([Step::Index(i)]).collect()
-}
 
 pub(crate) fn zero3() -> [Expr; 3] {
     [0, 0, 0].map(Expr::from)

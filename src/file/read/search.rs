@@ -2,11 +2,10 @@
 
 use crate::closure::mirror::Plane;
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::{Step, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::costs::costs;
 use crate::file::read::names::{joint_by_id, link_by_id};
-use crate::file::read::resolve::{index, key};
 use crate::file::schema::MechanismFile;
 use crate::geom::extent::diagonal;
 use crate::geom::vector::real;

@@ -1,10 +1,9 @@
 //! How well numbers are known, where the file states it.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::{Step, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::number::number;
-use crate::file::read::resolve::{index, key};
 use crate::file::schema::{Coordinate, MechanismFile};
 use crate::geom::expr::{End, Expr, Written};
 use crate::geom::extent::diagonal;

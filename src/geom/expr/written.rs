@@ -1,8 +1,5 @@
 //! How a number was written: what its last digit says of how well it is known.
 
-use super::node::{Expr, Node};
-use std::sync::Arc;
-
 /// How a number was written; arithmetic makes numbers that were not.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) enum Written {
@@ -77,66 +74,5 @@ impl Digits {
             significant,
             end,
         })
-    }
-}
-
-impl Expr {
-    /// Half a unit of the last digit that was written, of a decimal; or what [`Expr::with_half_unit`] says. `None` for what
-    /// is exact: expressions, roots, fractions, whole numbers, and all that is calculated. O(1).
-    ///
-    /// Trailing zeros count: `0.494` has 5e-4, `0.49400` 5e-6, `1.5e-3` 5e-5.
-    #[must_use]
-    pub fn half_unit(&self) -> Option<f64> {
-        match self.0.written {
-            Written::Decimal(digits) => Some(digits.half),
-            Written::Stated(half) if half > 0.0 => Some(half),
-            _ => None,
-        }
-    }
-
-    /// The same number, known to within `half` whatever its digits say; exact where `half` is 0. O(size of the number).
-    #[must_use]
-    pub fn with_half_unit(self, half: f64) -> Expr {
-        self.written_as(Written::Stated(half))
-    }
-
-    /// Whether it was written as a whole number, without a point. O(1).
-    #[must_use]
-    pub fn is_written_whole(&self) -> bool {
-        self.0.written == Written::Whole
-    }
-
-    pub(crate) fn written(&self) -> Written {
-        self.0.written
-    }
-
-    /// The same number, written so.
-    pub(crate) fn written_as(mut self, written: Written) -> Expr {
-        if self.0.written == written {
-            return self;
-        }
-        if let Some(node) = Arc::get_mut(&mut self.0) {
-            node.written = written;
-            return self;
-        }
-        Expr(Arc::new(Node {
-            kind: self.0.kind.clone(),
-            enclosure: self.0.enclosure.clone(),
-            size: self.0.size,
-            written,
-        }))
-    }
-
-    /// The number times a factor that is exact, its digits worth that much more or less.
-    pub(crate) fn scaled_as_written(&self, value: Expr, factor: f64) -> Expr {
-        let written = match self.0.written {
-            Written::Decimal(digits) => Written::Decimal(Digits {
-                half: digits.half * factor.abs(),
-                ..digits
-            }),
-            Written::Stated(half) => Written::Stated(half * factor.abs()),
-            Written::No | Written::Whole => Written::No,
-        };
-        value.written_as(written)
     }
 }

@@ -1,6 +1,6 @@
 //! What the decimals of one kind, lengths or directions, say together of how they were written.
 
-use super::{LONG_DIRECTION, LONG_LENGTH};
+use super::long::{LONG_DIRECTION, LONG_LENGTH};
 use crate::geom::expr::{Digits, End, Expr, Written, half_of};
 use num_traits::One;
 use std::collections::BTreeMap;
@@ -34,8 +34,23 @@ pub(super) struct Class {
 }
 
 impl Class {
+    /// Takes in a direction: where it is not chosen, its decimals count as long however few digits they have.
+    pub(super) fn see_direction(&mut self, v: &[Expr]) {
+        let least = if is_rounded(v) { 1 } else { LONG_DIRECTION };
+        v.iter().for_each(|e| self.see_from(e, least));
+    }
+
     /// Takes in a number.
     pub(super) fn see(&mut self, e: &Expr, kind: Kind) {
+        let least = match kind {
+            Kind::Length => LONG_LENGTH,
+            Kind::Direction => LONG_DIRECTION,
+        };
+        self.see_from(e, least);
+    }
+
+    /// Takes in a number that is long from so many significant digits on.
+    fn see_from(&mut self, e: &Expr, least: usize) {
         let size = e.to_f64().abs();
         let digits = match e.written() {
             Written::Decimal(digits) if digits.end != End::Float => digits,
@@ -44,10 +59,6 @@ impl Class {
                 return;
             }
             Written::No | Written::Stated(_) => return,
-        };
-        let least = match kind {
-            Kind::Length => LONG_LENGTH,
-            Kind::Direction => LONG_DIRECTION,
         };
         self.zeros |= digits.end == End::Zero;
         // Of equal numbers the one with the most digits says most.
@@ -155,6 +166,11 @@ fn digits_of(e: &Expr) -> Option<Digits> {
         Written::Decimal(digits) if digits.end != End::Float => Some(digits),
         _ => None,
     }
+}
+
+/// Whether a direction is rounded, by what its components are together: two of them decimals at least, and not chosen.
+pub(super) fn is_rounded(v: &[Expr]) -> bool {
+    v.iter().filter(|e| digits_of(e).is_some()).count() > 1 && !is_chosen(v)
 }
 
 /// Whether a direction of short decimals is as somebody chose it: of length 1 exactly, as (0.6, 0.8, 0) is, or not rounded from

@@ -1,7 +1,7 @@
 //! How well numbers are known that are calculated from those of another file.
 
 use super::class::{Class, Kind};
-use super::{LONG_DIRECTION, LONG_LENGTH};
+use super::long::{LONG_DIRECTION, LONG_LENGTH};
 use crate::geom::expr::{End, Expr, Written};
 
 /// The numbers that places are calculated from, as they are written.
@@ -34,8 +34,12 @@ impl Sources {
         self.lengths
             .iter()
             .for_each(|e| lengths.see(e, Kind::Length));
-        let components = self.directions.iter().flatten().chain(&self.angles);
-        components.for_each(|e| directions.see(e, Kind::Direction));
+        self.directions
+            .iter()
+            .for_each(|v| directions.see_direction(v));
+        self.angles
+            .iter()
+            .for_each(|e| directions.see(e, Kind::Direction));
         let [lengths, directions] = [lengths, directions].map(Class::counted);
         if !lengths.is_long() && !directions.is_long() {
             return None;

@@ -74,7 +74,7 @@ struct Reading {
 ///
 /// A number is known to half a unit of its last digit, trailing zeros counted; what is stated goes before. Expressions are
 /// exact. Of the decimals of a file one at least must be long, four significant digits of a length or three of a direction, or
-/// all are taken at their word.
+/// two in a direction that is of length 1 to within them and not exactly, or all are taken at their word.
 ///
 /// Where at least ten decimals of a kind, equal ones counted once, are long and none shows a trailing zero, the writer left them
 /// out: a number one or two places shorter than most, or of fewer than three digits, has the unit of most. So have whole
@@ -130,12 +130,11 @@ impl Reading {
         let [mut lengths, mut directions] = [Class::default(), Class::default()];
         let mut stated = false;
         let mut see = |v: &[Expr], kind: Kind| {
-            for e in v {
-                stated |= matches!(e.written(), Written::Stated(half) if half > 0.0);
-                match kind {
-                    Kind::Length => lengths.see(e, kind),
-                    Kind::Direction => directions.see(e, kind),
-                }
+            let says = |e: &Expr| matches!(e.written(), Written::Stated(half) if half > 0.0);
+            stated |= v.iter().any(says);
+            match kind {
+                Kind::Length => v.iter().for_each(|e| lengths.see(e, kind)),
+                Kind::Direction => directions.see_direction(v),
             }
         };
         let own = mechanism.joints.iter().map(|j| &j.frame);

@@ -211,8 +211,8 @@ fn lost_zeros_are_found_again_where_many_decimals_show_none() {
     assert_eq!(u.half_unit[0], 5e-7);
     // One place less: a lost zero. Whole: the writer's, too.
     assert_eq!(u.point[0], [5e-7, 5e-7, 5e-7]);
-    // Four places less, and four digits: written so. Few digits: lost ones.
-    assert_eq!(u.point[1], [0.005, 5e-7, 5e-7]);
+    // Four places less: chosen, and not to be taken for something else.
+    assert_eq!(u.point[1], [5e-7, 5e-7, 5e-7]);
 }
 
 #[test]

@@ -63,7 +63,7 @@ fn every_command_takes_the_mechanism_as_meant() {
     );
     let (code, stdout, stderr) = on("search", &["--format", "json"]);
     assert_eq!(code, Some(0), "{stderr}");
-    assert!(stderr.contains("snapped: joint 1-2 moved by "), "{stderr}");
+    assert!(stderr.contains("snapped: 4 axes parallel"), "{stderr}");
     let v = value(&stdout);
     assert_eq!(
         (&v["determinate"], &v["measured"]["agree"]),

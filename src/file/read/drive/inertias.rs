@@ -1,8 +1,8 @@
 //! What the bar swings: discs, given by figures or by a link, and a payload.
 
+use crate::file::locate::key;
 use crate::file::read::names::link_by_id;
 use crate::file::read::quantity::Table;
-use crate::file::read::resolve::key;
 use crate::file::schema::DriveEntry;
 use crate::geom::expr::Expr;
 use crate::model::drive::Payload;

@@ -1,7 +1,7 @@
 //! Swings and dwells in order.
 
+use crate::file::locate::{index, key};
 use crate::file::read::quantity::{Bound, Table, word};
-use crate::file::read::resolve::{index, key};
 use crate::file::schema::DriveEntry;
 use crate::model::drive::Step;
 

@@ -1,0 +1,263 @@
+//! Mechanisms as a CAD system writes them, turned in space and rounded: the same redesigns as of the exact ones.
+
+use super::search_numeric::{bare, request, turned};
+use ozols::accuracy::stability::change::Noise;
+use ozols::builtin;
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::rank::auto::decide;
+use ozols::score::outcome::Outcome;
+use ozols::score::request::{List, Request};
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+fn read(text: &str) -> Mechanism {
+    bare(mechanism_from_str("it.toml", text).unwrap_or_else(|e| panic!("{text}: {e}")))
+}
+
+/// A file of links, the first the frame and the last the output, and of joints: name, links, type, point, axis.
+fn file(links: &[&str], joints: &[(&str, [&str; 2], &str, String, String)]) -> String {
+    let mut out = "name = \"it\"\n".to_owned();
+    for (i, link) in links.iter().enumerate() {
+        let role = match i {
+            0 => "role = \"frame\"\n",
+            n if n + 1 == links.len() => "role = \"output\"\n",
+            _ => "",
+        };
+        write!(out, "[[link]]\nid = \"{link}\"\n{role}").unwrap();
+    }
+    for (id, [a, b], kind, point, axis) in joints {
+        write!(
+            out,
+            "[[joint]]\nid = \"{id}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"{kind}\"\npoint = {point}\naxis = {axis}\n"
+        )
+        .unwrap();
+    }
+    out
+}
+
+fn list(v: [impl std::fmt::Display; 3]) -> String {
+    format!("[\"{}\", \"{}\", \"{}\"]", v[0], v[1], v[2])
+}
+
+/// A wedge chuck: a draw bar along z, three jaws that slide out at 120°, each on a wedge of the bar; `number` writes so much of
+/// an expression with its value.
+fn wedge_chuck(number: &dyn Fn(&str, f64) -> String) -> String {
+    let s = 0.75f64.sqrt();
+    let radial = [
+        [("1", 1.0), ("0", 0.0)],
+        [("-1/2", -0.5), ("sqrt(3)/2", s)],
+        [("-1/2", -0.5), ("-sqrt(3)/2", -s)],
+    ];
+    let zero = || list(["0", "0", "0"]);
+    let along = list(["0", "0", "1"]);
+    let mut joints = vec![("bar", ["0", "bar"], "prismatic", zero(), along)];
+    let ids = [["g1", "w1"], ["g2", "w2"], ["g3", "w3"]];
+    for (i, jaw) in ["jaw1", "jaw2", "jaw3"].into_iter().enumerate() {
+        let [x, y] = radial[i].map(|(e, v)| number(e, v));
+        let [px, py] = radial[i].map(|(e, v)| number(&format!("40*({e})"), 40.0 * v));
+        let point = list([px.as_str(), &py, "10"]);
+        let out = list([x.as_str(), &y, "0"]);
+        joints.push((ids[i][0], ["0", jaw], "prismatic", point.clone(), out));
+        // Four up for one out.
+        let wedge = list([x.as_str(), &y, "4"]);
+        joints.push((ids[i][1], ["bar", jaw], "prismatic", point, wedge));
+    }
+    file(&["0", "bar", "jaw1", "jaw2", "jaw3"], &joints)
+}
+
+/// A double wishbone: each arm on two bushes along a slanted line, a knuckle between two ball joints, a tie rod.
+fn double_wishbone() -> String {
+    let at = |x: i32, y: i32, z: i32| list([x, y, z]);
+    file(
+        &["0", "lower", "upper", "tie", "knuckle"],
+        &[
+            (
+                "lower-front",
+                ["0", "lower"],
+                "revolute",
+                at(-150, 350, 95),
+                at(310, -12, 8),
+            ),
+            (
+                "lower-rear",
+                ["0", "lower"],
+                "revolute",
+                at(160, 338, 103),
+                at(310, -12, 8),
+            ),
+            (
+                "upper-front",
+                ["0", "upper"],
+                "revolute",
+                at(-90, 420, 310),
+                at(200, 9, -14),
+            ),
+            (
+                "upper-rear",
+                ["0", "upper"],
+                "revolute",
+                at(110, 429, 296),
+                at(200, 9, -14),
+            ),
+            (
+                "lower-ball",
+                ["lower", "knuckle"],
+                "spherical",
+                at(4, 720, 80),
+                at(0, 0, 1),
+            ),
+            (
+                "upper-ball",
+                ["upper", "knuckle"],
+                "spherical",
+                at(-9, 680, 330),
+                at(0, 0, 1),
+            ),
+            (
+                "rack-end",
+                ["0", "tie"],
+                "spherical",
+                at(-120, 360, 150),
+                at(0, 0, 1),
+            ),
+            (
+                "tie-end",
+                ["tie", "knuckle"],
+                "spherical",
+                at(-130, 700, 140),
+                at(0, 0, 1),
+            ),
+        ],
+    )
+}
+
+/// A tailgate: a lid on two hinges across the car, and a strut of two tubes on either side.
+fn tailgate() -> String {
+    let at = |x: i32, y: i32, z: i32| list([x, y, z]);
+    file(
+        &["0", "tube-l", "rod-l", "tube-r", "rod-r", "lid"],
+        &[
+            (
+                "hinge-l",
+                ["0", "lid"],
+                "revolute",
+                at(0, 480, 1400),
+                at(0, 1, 0),
+            ),
+            (
+                "hinge-r",
+                ["0", "lid"],
+                "revolute",
+                at(0, -480, 1400),
+                at(0, 1, 0),
+            ),
+            (
+                "foot-l",
+                ["0", "tube-l"],
+                "spherical",
+                at(180, 610, 1010),
+                at(0, 0, 1),
+            ),
+            (
+                "strut-l",
+                ["tube-l", "rod-l"],
+                "cylindrical",
+                at(290, 600, 1130),
+                at(110, -10, 120),
+            ),
+            (
+                "head-l",
+                ["rod-l", "lid"],
+                "spherical",
+                at(400, 590, 1250),
+                at(0, 0, 1),
+            ),
+            (
+                "foot-r",
+                ["0", "tube-r"],
+                "spherical",
+                at(180, -610, 1010),
+                at(0, 0, 1),
+            ),
+            (
+                "strut-r",
+                ["tube-r", "rod-r"],
+                "cylindrical",
+                at(290, -600, 1130),
+                at(110, 10, 120),
+            ),
+            (
+                "head-r",
+                ["rod-r", "lid"],
+                "spherical",
+                at(400, -590, 1250),
+                at(0, 0, 1),
+            ),
+        ],
+    )
+}
+
+fn search(m: &Mechanism) -> Outcome {
+    let all = Request {
+        list: List::Top(40),
+        ..request()
+    };
+    ozols::search(m, &all).unwrap()
+}
+
+/// What each idea of a list changes.
+fn ideas(o: &Outcome) -> BTreeSet<String> {
+    let words = |v: ozols::Variant<'_>| v.to_string().split_once(": ").unwrap().1.to_owned();
+    o.variants().map(words).collect()
+}
+
+fn same(exact: &Mechanism, found: &Mechanism, what: &str) {
+    let of = |m: &Mechanism| {
+        let d = decide(m, StateId::FREE, None).unwrap();
+        (d.verdict.figures(d.verdict.rank()), d.finite.mobility)
+    };
+    assert_eq!(of(exact), of(found), "{what}");
+    let (truth, found) = (search(exact), search(found));
+    assert!(truth.is_exact() && found.is_exact(), "{what}");
+    assert_eq!(
+        (&truth.determinate, &truth.admissible),
+        (&found.determinate, &found.admissible),
+        "{what}"
+    );
+    assert_eq!(ideas(&truth), ideas(&found), "{what}");
+}
+
+fn turned_at(exact: &Mechanism, decimals: &[usize], what: &str) {
+    for &d in decimals {
+        for seed in 0..2 {
+            let m = turned(exact, d, &mut Noise::new(seed, d));
+            same(exact, &m, &format!("{what}, {d} decimals, seed {seed}"));
+        }
+    }
+}
+
+#[test]
+fn a_wedge_chuck_with_slides_at_120_degrees_in_decimals_has_the_redesigns_of_the_exact_one() {
+    let exact = read(&wedge_chuck(&|exact, _| exact.to_owned()));
+    let w = decide(&exact, StateId::FREE, None).unwrap();
+    // Seven slides, two directions a contour.
+    assert_eq!(w.verdict.figures(w.verdict.rank()), (1, 12));
+    for d in [3, 4, 6, 9, 12] {
+        let m = read(&wedge_chuck(&|_, x| format!("{x:.d$}")));
+        same(&exact, &m, &format!("{d} decimals"));
+    }
+    turned_at(&exact, &[4, 6, 9, 12, 15], "wedge chuck");
+}
+
+#[test]
+fn a_double_wishbone_and_a_tailgate_have_the_redesigns_of_the_exact_ones() {
+    turned_at(&read(&double_wishbone()), &[4, 6, 9], "double wishbone");
+    turned_at(&read(&tailgate()), &[4, 6, 9], "tailgate");
+}
+
+#[test]
+fn a_turned_toggle_gripper_of_twelve_decimals_has_all_redesigns_at_rod_ends() {
+    let text = builtin::text("gripper-slider-two-fingers").unwrap();
+    turned_at(&read(text), &[6, 12, 15], "toggle gripper");
+}
