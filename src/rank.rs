@@ -34,4 +34,5 @@ pub mod snap;
 pub mod subgroup;
 mod tangent_cone;
 pub mod trace;
+mod values;
 pub mod verdict;

@@ -31,7 +31,7 @@ pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
             continue;
         };
         // What is meant has mostly the figures of what is written; only others are doubtful.
-        if !found.is_decided() || found.rank() != found.as_written {
+        if !found.agrees() {
             out.push(of_verdict(&found));
         }
     }

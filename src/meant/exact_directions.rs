@@ -88,7 +88,7 @@ pub(super) fn placed(v: Vector, error: f64, fixed: &[Exact], digits: u32) -> Exa
         return Exact::new(exact, same.error);
     }
     // Normals of planes it may lie in, those it fits best first.
-    let mut planes: Vec<(f64, Rational3, Vector)> = Vec::new();
+    let mut planes: Vec<(f64, Rational3, Vector, f64)> = Vec::new();
     let mut offer = |normal: Rational3, slack: f64| {
         let n = to_f64(&normal);
         let size = length(n);
@@ -98,7 +98,7 @@ pub(super) fn placed(v: Vector, error: f64, fixed: &[Exact], digits: u32) -> Exa
         let n = unit(n);
         let off = dot(n, v).abs();
         if off <= 1.1 * (error + slack) {
-            planes.push((off, normal, n));
+            planes.push((off, normal, n, error + slack));
         }
     };
     for (i, a) in fixed.iter().enumerate() {
@@ -125,7 +125,7 @@ pub(super) fn placed(v: Vector, error: f64, fixed: &[Exact], digits: u32) -> Exa
             let meet = if along < 0.0 { meet.map(|x| -x) } else { meet };
             let of = Exact::new(meet, error.min(1e-15));
             let sine = length(cross_f64(a.2, b.2));
-            if length(cross_f64(of.unit, v)) <= 2.0 * error / sine {
+            if length(cross_f64(of.unit, v)) <= 2.0 * a.3.max(b.3) / sine {
                 return of;
             }
             in_plane(v, &a.1, error, digits)
@@ -136,7 +136,12 @@ pub(super) fn placed(v: Vector, error: f64, fixed: &[Exact], digits: u32) -> Exa
 }
 
 fn free(v: Vector, error: f64, digits: u32) -> Exact {
-    Exact::new(v.map(|x| decimal(x, digits)), error)
+    Exact::new(v.map(|x| decimal(x, digits)), error.max(last(digits)))
+}
+
+/// What a direction of so many decimals is off by.
+fn last(digits: u32) -> f64 {
+    10f64.powi(-i32::try_from(digits).unwrap_or(i32::MAX))
 }
 
 /// A rational direction near one, square to a normal.
@@ -154,5 +159,5 @@ fn in_plane(v: Vector, normal: &Rational3, error: f64, digits: u32) -> Exact {
     if is_zero(&w) {
         return free(v, error, digits);
     }
-    Exact::new(w, error)
+    Exact::new(w, error.max(last(digits)))
 }

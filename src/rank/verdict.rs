@@ -16,19 +16,12 @@ use crate::rank::method::NoAnswer;
 use crate::rank::modular;
 use crate::rank::moves::{moves, understood};
 use crate::rank::nearest::{Nearest, nearest};
-use crate::rank::numeric::NumericError;
 use crate::rank::rounding::bound;
-use crate::rank::scaled::{NumericRank, scaled};
+use crate::rank::scaled::NumericRank;
 use crate::rank::snap::relation::{Moved, Reach};
 use crate::rank::snap::{size, snap};
-use ozols_dense::singular_values;
+use crate::rank::values::{ROUND_OFF, relative_values};
 
-/// Singular values below this fraction of the largest are zero in double precision.
-const ROUND_OFF: f64 = 1e-14;
-/// A gap this wide among the values that the exact rank counts,
-const GAP: f64 = 1e3;
-/// that ends below this fraction of the largest, says that some are left over from zero.
-const LEFT_OVER: f64 = 1e-4;
 /// A gap narrower than this among what rounding can have made says nothing.
 const CLEAR: f64 = 30.0;
 /// Nothing is known better in double precision, relative to the largest singular value.
@@ -154,6 +147,12 @@ impl Verdict {
     #[must_use]
     pub fn is_as_written(&self) -> bool {
         matches!(self.meant, Meant::AsWritten)
+    }
+
+    /// Whether what is written and what is meant have the same figures.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.is_decided() && self.rank() == self.as_written
     }
 
     /// Why it is not decided, and what to do.
@@ -351,57 +350,6 @@ fn units(mechanism: &Mechanism, r: &Rounded) -> Units {
     Units {
         length: 2.0 * points.fold(0.0, f64::max),
         direction: 2.0 * directions.fold(0.0, f64::max),
-    }
-}
-
-/// Singular values over the largest, falling.
-struct Values {
-    largest: f64,
-    relative: Vec<f64>,
-}
-
-fn relative_values(closure: &Closure<f64>) -> Result<Option<Values>, NoAnswer> {
-    let mut relative = singular_values(&scaled(closure))
-        .ok_or_else(|| NoAnswer::Failed(NumericError::NoConvergence.to_string()))?;
-    let largest = relative.first().copied().filter(|s| *s > 0.0);
-    Ok(largest.map(|largest| {
-        relative.iter_mut().for_each(|v| *v /= largest);
-        Values { largest, relative }
-    }))
-}
-
-impl Values {
-    fn above(&self, tolerance: f64) -> usize {
-        self.relative.iter().filter(|v| **v > tolerance).count()
-    }
-
-    /// The rank with the gap it rests on.
-    fn at(&self, rank: usize) -> NumericRank {
-        let value = |i: usize| self.relative.get(i).copied();
-        NumericRank {
-            rank,
-            kept: rank.checked_sub(1).and_then(value).unwrap_or(1.0),
-            dropped: value(rank).unwrap_or(0.0),
-        }
-    }
-
-    /// How far apart the last value of a rank and the next one are, with values below a floor as high as that.
-    fn gap(&self, rank: usize, floor: f64) -> f64 {
-        let found = self.at(rank);
-        found.kept.max(floor) / found.dropped.max(floor)
-    }
-
-    /// The rank with the widest gap. Zeros that rounding disturbs to second order only are as large as its square.
-    fn widest_gap(&self, from: usize, below: usize, tolerance: f64) -> usize {
-        let floor = (tolerance * tolerance).max(ROUND_OFF);
-        let gap = |rank: usize| self.gap(rank, floor);
-        let wider = |a: &usize, b: &usize| gap(*a).total_cmp(&gap(*b));
-        (from..below).max_by(wider).unwrap_or(from)
-    }
-
-    /// The rank at a gap so wide, and values so small below it, that they are likely left over from zero.
-    fn left_over(&self, rank: usize) -> Option<usize> {
-        (1..rank).find(|&r| self.gap(r, ROUND_OFF) >= GAP && self.at(r).dropped < LEFT_OVER)
     }
 }
 

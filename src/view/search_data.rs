@@ -242,7 +242,7 @@ impl<'a> Measured<'a> {
                 value: &why.value,
             },
             tolerance: verdicts.iter().fold(0.0, |a, v| a.max(v.tolerance)),
-            agree: verdicts.iter().all(Verdict::is_as_written),
+            agree: verdicts.iter().all(Verdict::agrees),
             states: states.collect(),
         }
     }
