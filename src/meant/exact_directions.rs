@@ -29,6 +29,8 @@ impl Exact {
 
 /// Relations of directions hold to this by now.
 const TOGETHER: f64 = 1e-12;
+/// What doubles leave of a plane that two directions span.
+const ROUND_OFF: f64 = 1e-14;
 /// Planes are told apart by this sine.
 const APART: f64 = 1e-4;
 
@@ -89,24 +91,21 @@ pub(super) fn placed(v: Vector, error: f64, fixed: &[Exact], digits: u32) -> Exa
     }
     // Normals of planes it may lie in, those it fits best first.
     let mut planes: Vec<(f64, Rational3, Vector, f64)> = Vec::new();
-    let mut offer = |normal: Rational3, slack: f64| {
-        let n = to_f64(&normal);
-        let size = length(n);
-        if size < 1e-9 {
-            return;
-        }
-        let n = unit(n);
+    // Exact normals grow long: only those of planes that are near are made.
+    let mut offer = |n: Vector, slack: f64, normal: &dyn Fn() -> Rational3| {
         let off = dot(n, v).abs();
         if off <= 1.1 * (error + slack) {
-            planes.push((off, normal, n, error + slack));
+            planes.push((off, normal(), n, error + slack));
         }
     };
     for (i, a) in fixed.iter().enumerate() {
-        offer(a.exact.clone(), a.error);
+        offer(a.unit, a.error, &|| a.exact.clone());
         for b in &fixed[..i] {
-            let sine = length(cross_f64(a.unit, b.unit));
+            let normal = cross_f64(a.unit, b.unit);
+            let sine = length(normal);
             if sine > 0.01 {
-                offer(cross(&a.exact, &b.exact), (a.error + b.error) / sine);
+                let slack = (a.error + b.error) / sine + ROUND_OFF;
+                offer(unit(normal), slack, &|| cross(&a.exact, &b.exact));
             }
         }
     }

@@ -21,6 +21,8 @@ pub struct Resolved {
     pub others: Vec<Scene>,
 }
 
+/// Directions of points that further ones may be square to; numbers would grow long in a chain of them.
+const MOST: usize = 2;
 /// A relation that was not taken and asks for no larger move, in errors, may hold in truth.
 const LEFT_OUT: f64 = 4.0;
 /// Moves larger by this than those of relations usually are speak against a relation for sure.
@@ -82,6 +84,7 @@ fn resolve_with(written: &Written, caution: Caution) -> Option<(Scene, Doubts, O
     let mut became = solved.take_all(found, &finder.normals.real);
     let (first, plain) = (became.len(), Mark::of(&solved));
     // What points alone make: lines and planes that nothing above keeps.
+    let directions_of_rays = fixed.len();
     for further in [of_points::lines, of_points::planes_of] {
         for d in further(&solved, &stage.errors) {
             let e = placed(d.unit, d.error, &fixed, stage.digits);
@@ -89,14 +92,19 @@ fn resolve_with(written: &Written, caution: Caution) -> Option<(Scene, Doubts, O
             let found = keep(finder.along(vec![(e.clone(), of)]));
             let found = solved.take_all(found, &finder.normals.real);
             // Further ones may be square to it.
-            if found.iter().any(|(_, b)| *b == Taken::New) {
+            if fixed.len() < directions_of_rays + MOST
+                && found.iter().any(|(_, b)| *b == Taken::New)
+            {
                 fixed.push(e);
             }
             became.extend(found);
         }
     }
     let normals = finder.normals;
-    let scene = stage.scene(&solved.rows, &solved.points, &normals)?;
+    let without = || stage.scene(&solved.rows[..plain.rows], &plain.points, &normals);
+    let scene = stage
+        .scene(&solved.rows, &solved.points, &normals)
+        .or_else(without)?;
     let images = Images::of(&scene.inside, &normals.exact);
     // What follows from others to rounding alone does not hold.
     let broken = |(r, b): &&(Relation, Taken)| {
@@ -115,9 +123,7 @@ fn resolve_with(written: &Written, caution: Caution) -> Option<(Scene, Doubts, O
             .count(),
         of_points: became[first..].iter().filter(broken).count(),
     };
-    let without = (doubts.of_points > 0)
-        .then(|| stage.scene(&solved.rows[..plain.rows], &plain.points, &normals))
-        .flatten();
+    let without = (doubts.of_points > 0).then(without).flatten();
     let taken = became.into_iter().filter(|b| b.1 == Taken::New);
     let relations = taken.map(|(r, _)| (r.kind, r.rows[0].terms.iter().map(|t| t.0).collect()));
     let scene = Scene {

@@ -8,8 +8,21 @@ use std::collections::BTreeMap;
 
 /// A pivot is at least this part of the largest.
 const LARGE: f64 = 0.2;
+/// Multiplications of words after which it is given up: about a second. Numbers grow long where many relations of no pattern
+/// lean on each other.
+const WORK: u64 = 200_000_000;
 
-/// Points that fulfil rows exactly. `value` gives what a coordinate is where it is free, `fixed` whether it must stay.
+fn bits(x: &BigRational) -> u64 {
+    x.numer().bits() + x.denom().bits()
+}
+
+/// Word multiplications of a product of two numbers, and of its reduction.
+fn work(a: &BigRational, b: &BigRational) -> u64 {
+    let words = (bits(a) + bits(b)) / 64 + 1;
+    words * words
+}
+
+/// Points that fulfil rows exactly; none where rows contradict each other, or numbers grow too long. `value` gives what a coordinate is where it is free, `fixed` whether it must stay.
 ///
 /// # Complexity
 /// O(r² w) operations on rationals for r rows of w coordinates.
@@ -27,18 +40,16 @@ pub(super) fn solve(
     let width = |r: &&Row| -> u64 {
         let n = &normals[r.normal];
         n.iter()
-            .map(|x| {
-                if x.is_zero() {
-                    0
-                } else {
-                    x.numer().bits() + x.denom().bits()
-                }
-            })
+            .map(|x| if x.is_zero() { 0 } else { bits(x) })
             .sum()
     };
     let mut rows: Vec<&Row> = rows.iter().collect();
     rows.sort_by_key(width);
+    let mut spent = 0;
     for row in rows {
+        if spent > WORK {
+            return None;
+        }
         let mut of: BTreeMap<usize, BigRational> = BTreeMap::new();
         let mut constant = BigRational::zero();
         for &(p, c) in &row.terms {
@@ -64,6 +75,7 @@ pub(super) fn solve(
             let Some(by) = of.remove(&v) else { continue };
             let (_, eq, c) = &solved[pivot_of[&v]];
             for (w, x) in eq {
+                spent += work(&by, x);
                 let entry = of.entry(*w).or_insert_with(BigRational::zero);
                 *entry -= &by * x;
             }
@@ -73,7 +85,6 @@ pub(super) fn solve(
         let size = |x: &BigRational| x.abs().to_f64().unwrap_or(0.0);
         // Of those large enough the shortest, so that numbers stay short.
         let largest = of.values().map(size).fold(0.0, f64::max);
-        let bits = |x: &BigRational| x.numer().bits() + x.denom().bits();
         let short = of
             .iter()
             .filter(|x| size(x.1) >= LARGE * largest)
@@ -89,10 +100,14 @@ pub(super) fn solve(
         of.values_mut().for_each(|x| *x /= &by);
         constant /= &by;
         for (_, eq, c) in &mut solved {
+            if spent > WORK {
+                return None;
+            }
             let Some(by) = eq.remove(&pivot) else {
                 continue;
             };
             for (w, x) in &of {
+                spent += work(&by, x);
                 let entry = eq.entry(*w).or_insert_with(BigRational::zero);
                 *entry -= &by * x;
             }

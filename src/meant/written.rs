@@ -87,11 +87,17 @@ impl Ray {
 
     /// How far its components would move, in halves of their last digits or what is least, to have a direction.
     pub(super) fn moved(&self, v: Vector, least: f64) -> f64 {
-        let along = dot(v, self.value) / dot(v, v);
         let least = least.max(DOUBLE * length(self.value));
-        (0..3)
-            .map(|k| (along * v[k] - self.value[k]).abs() / self.half[k].max(least))
-            .fold(0.0, f64::max)
+        let at = |along: f64| {
+            (0..3)
+                .map(|k| (along * v[k] - self.value[k]).abs() / self.half[k].max(least))
+                .fold(0.0, f64::max)
+        };
+        // A component that is exact says how long the direction is, if any is.
+        let exact = (0..3).filter(|&k| self.half[k] == 0.0 && self.value[k] != 0.0 && v[k] != 0.0);
+        exact
+            .map(|k| at(self.value[k] / v[k]))
+            .fold(at(dot(v, self.value) / dot(v, v)), f64::min)
     }
 
     /// Whether every component is exact.

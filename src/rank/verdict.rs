@@ -311,9 +311,9 @@ pub(super) fn verdict_on(
     found.meant = match scene {
         Some((s, rank)) if rank == near => snapped(s, rank),
         // One gap is much like another there.
-        _ if tolerance.is_none() && values.gap(near, ROUND_OFF) < CLEAR => {
-            Meant::Undecided { near: above }
-        }
+        _ if tolerance.is_none() && values.gap(near, ROUND_OFF) < CLEAR => Meant::Undecided {
+            near: values.left_over(above).unwrap_or(above),
+        },
         _ => meant(mechanism, state, near, (units, reach), tolerance.is_some())?,
     };
     Ok(found)

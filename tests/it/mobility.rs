@@ -104,8 +104,15 @@ fn the_automatic_choice_is_right_on_every_built_in_mechanism_turned_and_measured
                     e.finite_mobility.unwrap(),
                     e.redundant.unwrap(),
                 );
-                // Right or undecided: where rounding hides a branch, nothing else can be said.
-                let right = (is.0, is.2) == (stated.0, stated.2) && s.finite.could_be(stated.1);
+                // Right or undecided: where rounding hides a branch, nothing else can be said, nor where noise is a thousand
+                // times the last digit: what is no rounding is not taken away.
+                let (most, sigma) = s
+                    .at_most()
+                    .map_or((is.0, is.2), |(w, sigma)| (w as i64, sigma as i64));
+                let right = (is.0..=most).contains(&stated.0)
+                    && (is.2..=sigma).contains(&stated.2)
+                    && (what.contains("noise") || most == is.0)
+                    && s.finite.could_be(stated.1);
                 if !right {
                     wrong.push(format!(
                         "{name} {what}: stated W, finite W, σ {stated:?}, found {is:?}: {}; {}",

@@ -19,8 +19,8 @@ const DECIMALS: [usize; 7] = [12, 9, 7, 6, 5, 4, 3];
 const ASKED: [&str; 3] = ["W at the pose", "finite mobility", "search counts"];
 /// Searches are of at most so many joints,
 const JOINTS: usize = 8;
-/// and so many variants.
-const VARIANTS: u32 = 1000;
+/// and so many variants; fewer in a quick run.
+const VARIANTS: [u32; 2] = [1000, 81];
 
 /// The same with its present joints as the only options of the file.
 fn plain(mut m: Mechanism) -> Mechanism {
@@ -51,10 +51,10 @@ fn search(mechanism: Mechanism) -> Option<Outcome> {
 }
 
 /// The exact counts of a mechanism that is small enough.
-fn counted(case: &Case) -> Option<Outcome> {
+fn counted(case: &Case, most: u32) -> Option<Outcome> {
     let small = case.state == StateId::FREE && case.mechanism.joints.len() <= JOINTS;
     let found = small.then(|| search(plain(case.mechanism.clone())))??;
-    (found.is_exact() && found.search.size() <= VARIANTS.into()).then_some(found)
+    (found.is_exact() && found.search.size() <= most.into()).then_some(found)
 }
 
 /// Admissible and determinate ones, in all and by W.
@@ -88,7 +88,8 @@ fn ask(m: Mechanism, case: &Case, truth: Option<&Outcome>) -> [Option<Said>; 3] 
 pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let (step, turns) = if effort.quick { (3, 1) } else { (1, 1) };
     let decimals: Vec<usize> = DECIMALS.into_iter().step_by(step).collect();
-    let exact: Vec<Option<Outcome>> = cases.par_iter().map(counted).collect();
+    let most = VARIANTS[usize::from(effort.quick)];
+    let exact: Vec<Option<Outcome>> = cases.par_iter().map(|c| counted(c, most)).collect();
     let mut rows = ASKED.map(|n| (n.to_owned(), Vec::new()));
     for (n, &d) in decimals.iter().enumerate() {
         progress("digits", n, decimals.len());
