@@ -31,7 +31,7 @@ pub struct Settled {
 /// Settles which mechanism is meant in some states; `tolerance` is that of `--snap`.
 ///
 /// # Errors
-/// As [`verdict`].
+/// As [`verdict`](crate::rank::verdict::verdict).
 ///
 /// # Guarantee
 /// Where nothing is open, the exact rank of J in each state is that of the verdict on it.

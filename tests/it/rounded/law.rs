@@ -32,22 +32,22 @@ fn tables(o: &Outcome) -> impl PartialEq + std::fmt::Debug {
 /// What is said of a turned file against the exact one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Said {
-    SameExact,
-    SameNotExact,
-    OtherNotExact,
-    OtherExact,
+    Same,
+    SameDoubted,
+    OtherDoubted,
+    OtherAndSure,
 }
 
 fn counts(m: &Mechanism, truth: &Outcome) -> (Said, String) {
     let Ok(found) = ozols::search(m, &small()) else {
-        return (Said::OtherNotExact, "refused".to_owned());
+        return (Said::OtherDoubted, "refused".to_owned());
     };
     let same = tables(&found) == tables(truth);
     let said = match (same, found.is_exact() || found.is_determinate_exact()) {
-        (true, true) => Said::SameExact,
-        (true, false) => Said::SameNotExact,
-        (false, false) => Said::OtherNotExact,
-        (false, true) => Said::OtherExact,
+        (true, true) => Said::Same,
+        (true, false) => Said::SameDoubted,
+        (false, false) => Said::OtherDoubted,
+        (false, true) => Said::OtherAndSure,
     };
     let words = format!(
         "{} for {} admissible",
@@ -62,18 +62,18 @@ fn mobilities(m: &Mechanism, exact: &Mechanism) -> (Said, String) {
         decide(m, StateId::FREE, None),
         decide(exact, StateId::FREE, None),
     ) else {
-        return (Said::OtherNotExact, "no verdict".to_owned());
+        return (Said::OtherDoubted, "no verdict".to_owned());
     };
     let of =
         |d: &ozols::rank::auto::Decision| (d.verdict.figures(d.verdict.rank()), d.finite.mobility);
     let (a, b) = (of(&found), of(&truth));
     let decided = found.verdict.is_decided() && !found.finite.is_undecided();
     let said = match (a == b, decided) {
-        (true, true) => Said::SameExact,
-        (true, false) => Said::SameNotExact,
-        (false, false) => Said::OtherNotExact,
-        (false, true) if truth.finite.is_undecided() && a.0 == b.0 => Said::OtherNotExact,
-        (false, true) => Said::OtherExact,
+        (true, true) => Said::Same,
+        (true, false) => Said::SameDoubted,
+        (false, false) => Said::OtherDoubted,
+        (false, true) if truth.finite.is_undecided() && a.0 == b.0 => Said::OtherDoubted,
+        (false, true) => Said::OtherAndSure,
     };
     (said, format!("{a:?} for {b:?}, {}", found.verdict.word()))
 }
@@ -128,7 +128,7 @@ fn judge(what: fn(&Mechanism, &Mechanism, &Outcome) -> (Said, String), every: us
             .or_default()
             .entry(*said)
             .or_default() += 1;
-        if *said > Said::SameNotExact {
+        if *said > Said::SameDoubted {
             println!("{said:?}: {words}");
         }
     }
@@ -137,16 +137,16 @@ fn judge(what: fn(&Mechanism, &Mechanism, &Outcome) -> (Said, String), every: us
         let n = |s| of.get(&s).copied().unwrap_or(0);
         println!(
             "| {decimals} | {} | {} | {} | {} |",
-            n(Said::SameExact),
-            n(Said::SameNotExact),
-            n(Said::OtherNotExact),
-            n(Said::OtherExact)
+            n(Said::Same),
+            n(Said::SameDoubted),
+            n(Said::OtherDoubted),
+            n(Said::OtherAndSure)
         );
     }
-    let wrong: Vec<_> = found.iter().filter(|f| f.1 == Said::OtherExact).collect();
+    let wrong: Vec<_> = found.iter().filter(|f| f.1 == Said::OtherAndSure).collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
     let fine = found.iter().filter(|f| f.0 >= 6);
-    let same = fine.clone().filter(|f| f.1 <= Said::SameNotExact).count();
+    let same = fine.clone().filter(|f| f.1 <= Said::SameDoubted).count();
     assert!(same * 10 >= fine.count() * 9, "{table:?}");
 }
 
