@@ -4,7 +4,7 @@ use super::class::{Class, Kind};
 use super::ratio::doubt_of;
 use crate::geom::expr::{End, Expr, Written};
 use crate::model::coupling::Coupling;
-use crate::model::mechanism::{Frame, Mechanism, Mode};
+use crate::model::mechanism::{Frame, Joint, Mechanism, Mode};
 use std::collections::BTreeMap;
 
 /// Half units of the numbers of a frame, in the file's own numbers; 0 where they are exact.
@@ -65,6 +65,8 @@ struct Reading {
     directions: Class,
     /// Whether any decimal is long, or any uncertainty stated.
     rounded: bool,
+    /// Whether the file is turned in space: most axes of its joints are decimals.
+    turned: bool,
     /// Indices of numbers by kind and size.
     seen: BTreeMap<(Kind, u64), usize>,
     distinct: [usize; 2],
@@ -79,7 +81,7 @@ struct Reading {
 /// Where at least ten decimals of a kind, equal ones counted once, are long and none shows a trailing zero, the writer left them
 /// out: a number one or two places shorter than most, or of fewer than three digits, has the unit of most. So have whole
 /// numbers among the lengths and those that end in `.0`. Whole zeros, and whole numbers in directions, are exact; but where
-/// directions are decimals and lengths are whole numbers, these are rounded to whole numbers.
+/// most axes are decimals and lengths are whole numbers, these are rounded to whole numbers.
 ///
 /// # Complexity
 /// O(n log n) for n numbers.
@@ -125,6 +127,15 @@ fn is_whole(e: &Expr) -> bool {
     }
 }
 
+/// Whether more of the axes have decimals than whole numbers alone. What is offered says nothing of how a file is turned.
+fn is_turned(mechanism: &Mechanism) -> bool {
+    let axes = mechanism.joints.iter();
+    let axes = axes.filter(|j| j.joint_type.is_directed());
+    let decimal = |j: &Joint| j.frame.axis.iter().any(|e| !is_whole(e));
+    let (turned, straight): (Vec<&Joint>, _) = axes.partition(|j| decimal(j));
+    turned.len() > straight.len()
+}
+
 impl Reading {
     fn of(mechanism: &Mechanism) -> Reading {
         let [mut lengths, mut directions] = [Class::default(), Class::default()];
@@ -156,6 +167,7 @@ impl Reading {
         let [lengths, directions] = [lengths, directions].map(Class::counted);
         let rounded = stated || lengths.is_long() || directions.is_long();
         Reading {
+            turned: directions.is_long() && is_turned(mechanism),
             lengths,
             directions,
             rounded,
@@ -170,7 +182,7 @@ impl Reading {
             return [0.0; 2];
         }
         let lengths = self.lengths.commonest();
-        let whole = self.directions.is_long() && self.lengths.has_whole();
+        let whole = self.turned && self.lengths.has_whole();
         let lengths = lengths.unwrap_or(if whole { 0.5 } else { 0.0 });
         [lengths, self.directions.commonest().unwrap_or(0.0)]
     }
@@ -204,7 +216,7 @@ impl Reading {
         if !self.rounded {
             return 0.0;
         }
-        self.lengths.length(e, self.directions.is_long())
+        self.lengths.length(e, self.turned)
     }
 
     fn vector(&mut self, v: &[Expr; 3], kind: Kind) -> ([f64; 3], [Option<usize>; 3]) {
