@@ -20,5 +20,6 @@ mod row;
 pub mod scene;
 mod solve;
 mod stage;
+mod symmetry;
 mod together;
 pub mod written;

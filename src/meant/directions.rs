@@ -84,6 +84,20 @@ pub(super) fn of_rays(rays: &[Ray], points: &[Vector], errors: &[f64]) -> Direct
     Directions { all, of_ray }
 }
 
+impl Direction {
+    /// One that points make.
+    pub(super) fn of_points(unit: Vector, error: f64) -> Direction {
+        Direction {
+            unit,
+            error,
+            rays: 0,
+            exact: None,
+            plane: false,
+            tilts: square_to(unit).map(|e| (e, error)),
+        }
+    }
+}
+
 impl Directions {
     /// Adds the file's own axes, exact, where they are not there.
     pub(super) fn add_axes(&mut self) {
@@ -91,14 +105,7 @@ impl Directions {
             if self.all.iter().any(|d| length(cross(d.unit, e)) == 0.0) {
                 continue;
             }
-            self.all.push(Direction {
-                unit: e,
-                error: 0.0,
-                rays: 0,
-                exact: None,
-                plane: false,
-                tilts: square_to(e).map(|t| (t, 0.0)),
-            });
+            self.all.push(Direction::of_points(e, 0.0));
         }
     }
 }

@@ -21,6 +21,11 @@ impl Exact {
         Exact::new(exact, 0.0)
     }
 
+    /// One instead of another that is near.
+    pub(super) fn near(exact: Rational3, other: &Exact) -> Exact {
+        Exact::new(exact, other.error)
+    }
+
     fn new(exact: Rational3, error: f64) -> Exact {
         let unit = unit(to_f64(&exact));
         Exact { exact, unit, error }

@@ -2,7 +2,7 @@
 //! the file's axes, else turned by a rotation of rational numbers, so that what is exact in one is exact in the other.
 
 use super::directions::Direction;
-use super::number::{Rational3, decimal, to_f64};
+use super::number::{Rational3, Whole, decimal, to_f64};
 use crate::geom::vector::{Vector, X, Y, Z, across, cross, dot, length, unit};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -16,6 +16,8 @@ const DIGITS: u32 = 18;
 pub(super) struct Frame {
     /// By rows; none where the frames are one.
     pub(super) rotation: Option<[Rational3; 3]>,
+    /// The same as whole numbers, outwards and inwards.
+    whole: Option<[Whole<3>; 2]>,
     real: [Vector; 3],
 }
 
@@ -24,6 +26,7 @@ impl Frame {
     fn file() -> Frame {
         Frame {
             rotation: None,
+            whole: None,
             real: [X, Y, Z],
         }
     }
@@ -55,7 +58,10 @@ impl Frame {
         let frequent = frequent.or(used().filter(other).min_by(sharper).map(|d| d.unit));
         let any = if z[0].abs() < 0.9 { X } else { Y };
         let x = unit(across(axis.or(frequent).unwrap_or(any), z));
-        Frame::turned([x, cross(z, x), z])
+        match [x, z].iter().flatten().all(|c| c.is_finite()) {
+            true => Frame::turned([x, cross(z, x), z]),
+            false => Frame::file(),
+        }
     }
 
     /// The rational rotation nearest to the one whose columns are these axes.
@@ -106,7 +112,9 @@ impl Frame {
             [off(&x, &z, -1, &y), off(&y, &z, 1, &x), diagonal(&x, &y)],
         ];
         let real = rotation.each_ref().map(to_f64);
+        let out = Whole::of(rotation.each_ref());
         Frame {
+            whole: Some([out.clone(), out.transposed()]),
             rotation: Some(rotation),
             real,
         }
@@ -124,19 +132,17 @@ impl Frame {
 
     /// An exact vector of the file in the scene's frame.
     pub(super) fn inside_exactly(&self, v: &Rational3) -> Rational3 {
-        match &self.rotation {
+        match &self.whole {
             None => v.clone(),
-            Some(r) => [0, 1, 2].map(|j| &r[0][j] * &v[0] + &r[1][j] * &v[1] + &r[2][j] * &v[2]),
+            Some([_, inwards]) => inwards.times(v),
         }
     }
 
     /// The same exactly, the other way.
     pub(super) fn outside_exactly(&self, v: &Rational3) -> Rational3 {
-        match &self.rotation {
+        match &self.whole {
             None => v.clone(),
-            Some(r) => r
-                .each_ref()
-                .map(|row| &row[0] * &v[0] + &row[1] * &v[1] + &row[2] * &v[2]),
+            Some([outwards, _]) => outwards.times(v),
         }
     }
 }

@@ -1,9 +1,9 @@
 //! A mechanism as a scene, and the scene that is meant as a mechanism.
 
-use super::number::Rational3;
+use super::number::{Rational3, is_same};
 use super::resolve::{Resolved, resolve};
 use super::scene::Scene;
-use super::written::{Place, Ray, Written};
+use super::written::{Place, Ray, Symmetry, Written};
 use crate::geom::expr::Expr;
 use crate::geom::vector::real;
 use crate::model::joint_type::JointType;
@@ -176,6 +176,7 @@ pub fn meant(mechanism: &Mechanism) -> Option<Meant> {
         Mode::Spatial => None,
         Mode::Planar { normal } => Some(all.ray(normal, half.normal, None)),
     };
+    all.written.symmetry = stated(mechanism, &own, &offered);
     let Resolved { scene, others } = resolve(&all.written)?;
     let places = Places {
         own,
@@ -191,6 +192,36 @@ pub fn meant(mechanism: &Mechanism) -> Option<Meant> {
         points: all.points,
         rays: all.rays,
     })
+}
+
+/// The images that the file states; none of a third of a turn, which rational numbers have in frames of its own alone.
+fn stated(mechanism: &Mechanism, own: &[Slots], offered: &[Vec<Slots>]) -> Option<Symmetry> {
+    let search = &mechanism.search;
+    if search.order() != 2 {
+        return None;
+    }
+    let mut out = Symmetry {
+        turned: search.mirror.is_empty(),
+        points: Vec::new(),
+        rays: Vec::new(),
+    };
+    for (j, _) in mechanism.joints_with_ids() {
+        let (a, b) = (j.index(), search.image(j).index());
+        if b < a {
+            continue;
+        }
+        let pairs = offered[a].iter().zip(&offered[b]);
+        for (s, t) in std::iter::once((&own[a], &own[b])).chain(pairs) {
+            out.points
+                .extend(s.point.zip(t.point).map(<[usize; 2]>::from));
+            let rays = [(s.axis, t.axis), (s.reference, t.reference)];
+            let rays = rays.into_iter().filter_map(|(x, y)| x.zip(y));
+            out.rays.extend(rays.map(<[usize; 2]>::from));
+        }
+    }
+    out.points.sort_unstable();
+    out.points.dedup();
+    Some(out)
 }
 
 /// Where the frames of a mechanism are in a scene.
@@ -210,8 +241,9 @@ impl Places {
                 (&mut f.axis, s.axis.map(|k| &scene.rays[k])),
                 (&mut f.reference, s.reference.map(|k| &scene.rays[k])),
             ] {
-                if let Some(x) = x {
-                    write(v, x);
+                match x {
+                    Some(x) => write(v, x),
+                    None => settled(v),
                 }
             }
         };
@@ -225,7 +257,19 @@ impl Places {
         if let (Mode::Planar { normal }, Some(k)) = (&mut out.mode, self.normal) {
             write(normal, &scene.rays[k]);
         }
+        for p in &mut out.points {
+            settled(&mut p.point);
+        }
         out
+    }
+}
+
+/// What no relation depends on is as it stands, and no longer doubted.
+fn settled(v: &mut [Expr; 3]) {
+    for e in v {
+        if let (true, Some(x)) = (e.half_unit().is_some(), e.as_rational()) {
+            *e = Expr::rational(x);
+        }
     }
 }
 
@@ -233,8 +277,9 @@ impl Places {
 fn write(v: &mut [Expr; 3], x: &Rational3) {
     let before = rational(v);
     for k in 0..3 {
-        if before[k] != x[k] {
+        if !is_same(&before[k], &x[k]) {
             v[k] = Expr::rational(x[k].clone());
         }
     }
+    settled(v);
 }

@@ -2,8 +2,9 @@
 
 use crate::geom::vector::Vector;
 use num_bigint::BigInt;
+use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{ToPrimitive, Zero};
+use num_traits::{One, ToPrimitive, Zero};
 
 /// A vector of rational numbers.
 pub type Rational3 = [BigRational; 3];
@@ -13,8 +14,56 @@ pub(super) fn decimal(x: f64, places: u32) -> BigRational {
     let Some(exact) = BigRational::from_float(x) else {
         return BigRational::zero();
     };
-    let scale = BigRational::from_integer(BigInt::from(10).pow(places));
-    (exact * &scale).round() / scale
+    let scale = BigInt::from(10).pow(places);
+    // Halves go away from zero; whole numbers alone, since rational ones are reduced at every step.
+    let (numer, denom) = (exact.numer() * &scale * 2, exact.denom());
+    let half = if x < 0.0 { -denom } else { denom.clone() };
+    BigRational::new((numer + half) / (denom * 2), scale)
+}
+
+/// Whether two numbers in lowest terms are the same: as their parts are, which needs no division.
+pub(super) fn is_same(a: &BigRational, b: &BigRational) -> bool {
+    a.numer() == b.numer() && a.denom() == b.denom()
+}
+
+/// Vectors as whole numbers over one denominator.
+#[derive(Debug, Clone)]
+pub(super) struct Whole<const N: usize> {
+    numer: [[BigInt; 3]; N],
+    denom: BigInt,
+}
+
+impl<const N: usize> Whole<N> {
+    pub(super) fn of(all: [&Rational3; N]) -> Whole<N> {
+        let each = all.iter().flat_map(|v| v.iter());
+        let denom = each.fold(BigInt::one(), |d, x| d.lcm(x.denom()));
+        let part = |x: &BigRational| x.numer() * (&denom / x.denom());
+        Whole {
+            numer: all.map(|v| v.each_ref().map(part)),
+            denom,
+        }
+    }
+}
+
+impl Whole<3> {
+    /// The same rows as columns.
+    pub(super) fn transposed(&self) -> Whole<3> {
+        let entry = |i: usize, j: usize| self.numer[j][i].clone();
+        Whole {
+            numer: [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j))),
+            denom: self.denom.clone(),
+        }
+    }
+
+    /// The products of the rows with a vector: reduced once, not after every sum.
+    pub(super) fn times(&self, v: &Rational3) -> Rational3 {
+        let Whole { numer: [v], denom } = Whole::of([v]);
+        let denom = denom * &self.denom;
+        self.numer.each_ref().map(|row| {
+            let sum = &row[0] * &v[0] + &row[1] * &v[1] + &row[2] * &v[2];
+            BigRational::new(sum, denom.clone())
+        })
+    }
 }
 
 /// The nearest doubles.
@@ -42,5 +91,47 @@ pub(super) fn scaled(v: Rational3) -> Rational3 {
     match largest.filter(|m| !m.is_zero()) {
         Some(m) => v.map(|x| x / &m),
         None => v,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ratio(n: i64, d: i64) -> BigRational {
+        BigRational::new(n.into(), d.into())
+    }
+
+    #[test]
+    fn decimals_are_the_nearest() {
+        for (x, places, expected) in [
+            (0.125, 2, ratio(13, 100)),
+            (-0.125, 2, ratio(-13, 100)),
+            (0.124, 2, ratio(12, 100)),
+            (-7.5e-9, 4, ratio(0, 1)),
+            (1.0 / 3.0, 6, ratio(333_333, 1_000_000)),
+            (-123.456, 0, ratio(-123, 1)),
+        ] {
+            assert_eq!(decimal(x, places), expected, "{x}");
+        }
+    }
+
+    #[test]
+    fn products_are_those_of_rational_numbers() {
+        let rows: [Rational3; 3] = [
+            [ratio(1, 3), ratio(-2, 7), ratio(0, 1)],
+            [ratio(5, 6), ratio(1, 14), ratio(-1, 3)],
+            [ratio(2, 1), ratio(0, 1), ratio(9, 10)],
+        ];
+        let v = [ratio(3, 5), ratio(-7, 11), ratio(1, 2)];
+        let whole = Whole::of(rows.each_ref());
+        for (i, x) in whole.times(&v).iter().enumerate() {
+            let sum = (0..3).fold(ratio(0, 1), |s, k| s + &rows[i][k] * &v[k]);
+            assert!(is_same(x, &sum));
+        }
+        for (j, x) in whole.transposed().times(&v).iter().enumerate() {
+            let sum = (0..3).fold(ratio(0, 1), |s, k| s + &rows[k][j] * &v[k]);
+            assert!(is_same(x, &sum));
+        }
     }
 }

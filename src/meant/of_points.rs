@@ -1,6 +1,5 @@
 //! Directions that points make, and nothing else: lines through three of them or along two rods, planes through four.
 
-use super::consensus::square_to;
 use super::directions::Direction;
 use super::projection::Projection;
 use super::written::{Pair, pairs};
@@ -11,12 +10,8 @@ const MOST: usize = 60;
 
 fn direction(unit: Vector, error: f64, plane: bool) -> Direction {
     Direction {
-        unit,
-        error,
-        rays: 0,
-        exact: None,
         plane,
-        tilts: square_to(unit).map(|e| (e, error)),
+        ..Direction::of_points(unit, error)
     }
 }
 
@@ -89,6 +84,8 @@ pub(super) fn planes_of(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
         return Vec::new();
     }
     let mut found: Vec<(usize, Vector, f64)> = Vec::new();
+    // Planes that were looked at, by a point of each: three other points of one have nothing new to say.
+    let mut seen: Vec<(Vector, usize)> = Vec::new();
     for i in 0..n {
         for j in 0..i {
             for k in 0..j {
@@ -104,6 +101,15 @@ pub(super) fn planes_of(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
                 if found.iter().any(|f| length(cross(f.1, normal)) < 2.0 * off) {
                     continue;
                 }
+                let known = |s: &(Vector, usize)| {
+                    let w = sub(points[k], points[s.1]);
+                    length(cross(s.0, normal)) < 2.0 * off
+                        && dot(s.0, w).abs() <= 2.0 * off * length(w) + errors[k]
+                };
+                if seen.iter().any(known) {
+                    continue;
+                }
+                seen.push((normal, k));
                 let mut places = 0;
                 for l in 0..n {
                     let w = sub(points[l], points[k]);

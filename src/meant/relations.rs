@@ -46,7 +46,7 @@ impl Normals {
         Normals { exact, real }
     }
 
-    fn index(&mut self, normal: Rational3) -> usize {
+    pub(super) fn index(&mut self, normal: Rational3) -> usize {
         let v = unit(to_f64(&normal));
         let same = |w: &Vector| length(vector::cross(*w, v)) < 1e-13;
         if let Some(k) = self.real.iter().position(same) {
@@ -59,7 +59,7 @@ impl Normals {
     }
 
     /// Two normals square to a direction.
-    fn square_to(&mut self, d: &Rational3) -> [usize; 2] {
+    pub(super) fn square_to(&mut self, d: &Rational3) -> [usize; 2] {
         let v = to_f64(d);
         let mut order = [0, 1, 2];
         order.sort_by(|&a, &b| v[a].abs().total_cmp(&v[b].abs()));

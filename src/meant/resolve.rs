@@ -10,6 +10,8 @@ use super::scene::Scene;
 use super::stage::{Mark, Stage};
 use super::written::Written;
 use crate::geom::vector::Vector;
+use num_bigint::BigInt;
+use num_rational::BigRational;
 
 /// What the digits of a scene allow.
 #[derive(Debug, Clone)]
@@ -21,6 +23,8 @@ pub struct Resolved {
     pub others: Vec<Scene>,
 }
 
+/// Sizes smaller than this, and larger than its inverse, are extreme.
+const SMALL: f64 = 1e-6;
 /// Directions of points that further ones may be square to; numbers would grow long in a chain of them.
 const MOST: usize = 2;
 /// A relation that was not taken and asks for no larger move, in errors, may hold in truth.
@@ -34,6 +38,29 @@ const BOLD: f64 = 1.6;
 /// O(p²) pairs of p points, held against each other and against d directions; then O(r² p) for r relations.
 #[must_use]
 pub fn resolve(written: &Written) -> Option<Resolved> {
+    let size = written.size();
+    if (SMALL..SMALL.recip()).contains(&size) {
+        return resolved(written);
+    }
+    // Squares of lengths such as 10^-200 are nothing in doubles.
+    let power = -size.log10().floor();
+    if !power.is_finite() {
+        return None;
+    }
+    #[allow(clippy::cast_possible_truncation, reason = "308 at most")]
+    let power = power as i32;
+    let mut out = resolved(&written.resized(power)?)?;
+    let back = BigRational::from_integer(BigInt::from(10)).pow(-power);
+    for scene in std::iter::once(&mut out.scene).chain(&mut out.others) {
+        for x in scene.points.iter_mut().flatten() {
+            *x *= &back;
+        }
+    }
+    Some(out)
+}
+
+/// The same of a geometry of no extreme size.
+fn resolved(written: &Written) -> Option<Resolved> {
     let usual = Caution {
         bold: 1.0,
         weak: true,
@@ -80,8 +107,10 @@ fn resolve_with(written: &Written, caution: Caution) -> Option<(Scene, Doubts, O
         let certain = all.into_iter().filter(|r| caution.weak || !r.weak);
         certain.collect()
     };
+    let stated = stage.stated(&mut finder.normals);
+    let mut became = solved.take_all(stated, &finder.normals.real);
     let found = keep(finder.all());
-    let mut became = solved.take_all(found, &finder.normals.real);
+    became.extend(solved.take_all(found, &finder.normals.real));
     let (first, plain) = (became.len(), Mark::of(&solved));
     // What points alone make: lines and planes that nothing above keeps.
     let directions_of_rays = fixed.len();

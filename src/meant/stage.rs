@@ -6,7 +6,7 @@ use super::exact_directions::{Exact, exact};
 use super::frame::Frame;
 use super::number::{self, Rational3, decimal, to_f64};
 use super::projection::Projection;
-use super::relations::{Normals, Use};
+use super::relations::{Normals, Relation, Use};
 use super::row::Row;
 use super::scene::Scene;
 use super::solve::solve;
@@ -30,6 +30,8 @@ pub(super) struct Stage<'a> {
     origin: usize,
     of: Directions,
     exact: Vec<Exact>,
+    /// Which direction is that of the symmetry that is stated.
+    symmetric: Option<usize>,
     /// Which axis of the file each axis of the frame is.
     same: [Option<usize>; 3],
     /// The error of each point, in each coordinate.
@@ -59,12 +61,23 @@ impl<'a> Stage<'a> {
         let least = errors.iter().fold(f64::INFINITY, |a, &e| a.min(e));
         let inexact = written.rays.iter().map(Ray::error).filter(|e| *e > 0.0);
         let digits = places((least / size).min(inexact.fold(1.0, f64::min))).min(18);
-        let of = directions(written, (&points, &errors), caution.bold);
+        let (of, symmetric) = directions(written, (&points, &errors), caution.bold);
         let frame = Frame::of(&of.all);
         let whole = |p: &usize| written.points[*p].half == [0.0; 3];
         let origin = (0..points.len()).find(whole).unwrap_or(0);
         let exactly = |ray: usize| frame.inside_exactly(&written.rays[ray].exact);
-        let exact = exact(&of.all, |v| frame.inside(v), exactly, digits);
+        let mut exact = exact(&of.all, |v| frame.inside(v), exactly, digits);
+        if let (Some(symmetry), Some(own)) = (&written.symmetry, symmetric) {
+            let n = exact[own].exact.clone();
+            for (a, b) in symmetry.pairs(&of) {
+                let image = Exact::near(symmetry.image_exactly(&n, &exact[a].exact), &exact[b]);
+                if of.all[b].exact.is_none()
+                    && fits(written, &of, caution.bold)(b, frame.outside(image.unit))
+                {
+                    exact[b] = image;
+                }
+            }
+        }
         let inside = points.iter().map(|p| frame.inside(sub(*p, points[origin])));
         let same = [0, 1, 2].map(|k| match &frame.rotation {
             None => Some(k),
@@ -81,6 +94,7 @@ impl<'a> Stage<'a> {
             frame,
             of,
             exact,
+            symmetric,
             same,
             errors,
         }
@@ -92,6 +106,14 @@ impl<'a> Stage<'a> {
         let own = own.filter(|_| self.frame.rotation.is_none());
         let all = self.exact.iter().cloned().chain(own);
         all.map(|e| (e, Use::Both)).collect()
+    }
+
+    /// The relations of the symmetry that is stated.
+    pub(super) fn stated(&self, normals: &mut Normals) -> Vec<Relation> {
+        match (&self.written.symmetry, self.symmetric) {
+            (Some(s), Some(own)) => s.relations(&self.exact[own].exact, &self.inside, normals),
+            _ => Vec::new(),
+        }
     }
 
     /// Whether a coordinate must stay: it is exact, along an axis that both frames have.
@@ -189,21 +211,37 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// The directions of a scene, those that are square or in one plane made so together.
-fn directions(written: &Written, (points, errors): (&[Vector], &[f64]), bold: f64) -> Directions {
+/// Whether the digits of the rays of a direction allow another.
+fn fits<'a>(
+    written: &'a Written,
+    of: &Directions,
+    bold: f64,
+) -> impl Fn(usize, Vector) -> bool + use<'a> {
+    let of_ray = of.of_ray.clone();
+    move |k, v| {
+        let mut of_it = written.rays.iter().zip(&of_ray).filter(|r| r.1.0 == k);
+        of_it.all(|r| r.0.moved(v, 0.0) <= WITHIN * bold)
+    }
+}
+
+/// The directions of a scene, those that are square or in one plane made so together; and which of them is that of the symmetry
+/// that is stated.
+fn directions(
+    written: &Written,
+    (points, errors): (&[Vector], &[f64]),
+    bold: f64,
+) -> (Directions, Option<usize>) {
     let mut of = of_rays(&written.rays, points, errors);
+    let symmetry = written.symmetry.as_ref();
+    let symmetric = symmetry.and_then(|s| s.put(&mut of, points, errors));
     let own = of.all.len();
     if Frame::is_the_files(&of.all) {
         of.add_axes();
     }
-    let rays = || written.rays.iter().zip(&of.of_ray);
-    let fits = |k: usize, v: Vector| {
-        let mut of_it = rays().filter(|r| r.1.0 == k);
-        of_it.all(|r| r.0.moved(v, 0.0) <= WITHIN * bold)
-    };
+    let fits = fits(written, &of, bold);
     together(&mut of.all, bold, fits);
     of.all.truncate(own);
-    of
+    (of, symmetric)
 }
 
 /// The points of a projection, and how many rows it has taken: a scene on the way.

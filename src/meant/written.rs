@@ -2,6 +2,9 @@
 
 use super::number::Rational3;
 use crate::geom::vector::{Vector, dot, length, sub, unit};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
 
 /// A point as it is written.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +28,17 @@ pub struct Ray {
     pub half: Vector,
 }
 
+/// Points and directions of a scene that are each other's images, or their own, as a file states it.
+#[derive(Debug, Clone)]
+pub struct Symmetry {
+    /// Whether half a turn carries them over, and not a mirror.
+    pub turned: bool,
+    /// Pairs of points; a point that is its own image with itself.
+    pub points: Vec<[usize; 2]>,
+    /// Pairs of rays; a ray that is its own image with itself.
+    pub rays: Vec<[usize; 2]>,
+}
+
 /// The geometry of a file as it is written.
 #[derive(Debug, Clone, Default)]
 pub struct Written {
@@ -32,6 +46,8 @@ pub struct Written {
     pub points: Vec<Place>,
     /// Its directions.
     pub rays: Vec<Ray>,
+    /// What it states of images.
+    pub symmetry: Option<Symmetry>,
 }
 
 /// Relative errors of double precision, times ten: no number is known better.
@@ -50,6 +66,27 @@ impl Written {
         } else {
             1.0
         }
+    }
+
+    /// The same with lengths ten times larger so many times; none where that is too large or small for doubles.
+    pub(super) fn resized(&self, power: i32) -> Option<Written> {
+        let (by, exactly) = (
+            10f64.powi(power),
+            BigRational::from_integer(BigInt::from(10)).pow(power),
+        );
+        let mut out = self.clone();
+        for p in &mut out.points {
+            for k in 0..3 {
+                p.exact[k] *= &exactly;
+                p.value[k] = p.exact[k].to_f64()?;
+                p.half[k] *= by;
+            }
+        }
+        let finite = out.points.iter().all(|p| {
+            let all = p.value.iter().chain(&p.half);
+            all.copied().all(f64::is_finite)
+        });
+        (finite && by.is_finite()).then_some(out)
     }
 
     /// The farthest coordinate from zero, that double precision is relative to.

@@ -10,4 +10,5 @@ mod program;
 mod search_numeric;
 mod second_opinion;
 mod shown;
+mod symmetry;
 mod table;
