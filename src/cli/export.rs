@@ -12,6 +12,9 @@ use clap::Args as ClapArgs;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use std::path::PathBuf;
 
+/// The format that holds exact numbers.
+const TOML: &str = "toml";
+
 #[derive(Debug, ClapArgs)]
 pub(super) struct Export {
     #[command(flatten)]
@@ -41,8 +44,9 @@ pub(super) fn run(_: &Args, a: &Export) -> anyhow::Result<Done> {
     let request = a.chosen.of(a.which.request(a.state.as_deref())?);
     if let Some(k) = a.chosen.place() {
         m = variant::kth(m, request, k, |v| v.mechanism())?;
-    } else if request.snap.is_some() {
-        m = request.snapped(&m, &mut note)?;
+    } else if request.snap.is_some() || a.to == TOML {
+        // Other formats hold decimals, in which the two are one.
+        m = request.meant(&m, &mut note)?;
     }
     let text = text(&m, &a.to, left_behind)?;
     output::to(a.output.as_deref(), |out| {

@@ -233,17 +233,28 @@ impl Request {
         })
     }
 
-    /// What `--snap` makes of a mechanism. `tell` hears what was moved.
+    /// The mechanism that is meant in all its states, or what `--snap` makes of it; as it is written where that is asked for, or
+    /// where nothing exact is meant. `tell` hears what was moved, or why nothing was.
     ///
     /// # Errors
     /// Where the tolerance is none, or there is no verdict on the mechanism.
-    pub fn snapped(
+    pub fn meant(
         &self,
         mechanism: &Mechanism,
         tell: &mut dyn FnMut(String),
     ) -> Result<Mechanism, RequestError> {
-        let settled = settle(mechanism, &[], self.tolerance()?)?;
+        let tolerance = self.tolerance()?;
+        let states: Vec<StateId> = match tolerance {
+            None if self.as_written => return Ok(mechanism.clone()),
+            None => mechanism.states_with_ids().map(|(s, _)| s).collect(),
+            // What is asked for needs no verdict.
+            Some(_) => Vec::new(),
+        };
+        let settled = settle(mechanism, &states, tolerance)?;
         tell_moved(mechanism, &settled, tell);
+        if settled.open.is_some() {
+            tell("written as it stands: the geometry that its digits mean is not exact, or they do not decide it (`ozols check` tells more)".to_owned());
+        }
         Ok(settled.snapped.unwrap_or_else(|| mechanism.clone()))
     }
 

@@ -21,9 +21,9 @@ use num_traits::{ToPrimitive, Zero};
 use rayon::prelude::*;
 
 /// Variants drawn of each kind.
-pub const DRAWN: usize = 128;
+pub const DRAWN: usize = 64;
 /// Spaces of no more variants than this are asked about whole.
-const WHOLE: u32 = 1000;
+const WHOLE: u32 = 256;
 
 /// How singular values went with the ranks of some variants.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::error::ExprError;
 use super::node::{Expr, Function, Kind};
-use super::rational::{MAX_BITS, bits, decimal};
+use super::rational::{MAX_BITS, bits, decimal, fraction};
 use super::written::{Digits, Written};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -49,6 +49,13 @@ impl Expr {
         pi_is_a_number: bool,
         names: Names<'_>,
     ) -> Result<Expr, ExprError> {
+        if text.len() > MAX_TEXT / 5
+            && let Some(e) = fraction(text)
+                .map(Expr::rational)
+                .filter(|e| e.to_f64().is_finite())
+        {
+            return Ok(e);
+        }
         if text.len() > MAX_TEXT {
             return Err(ExprError::TooLong { len: text.len() });
         }

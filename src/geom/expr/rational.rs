@@ -2,11 +2,13 @@
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::Signed;
+use num_traits::{Signed, Zero};
 use std::sync::LazyLock;
 
 /// Rationals wider than this stay unevaluated, so that repeated squaring cannot exhaust memory.
 pub(super) const MAX_BITS: u64 = 1 << 14;
+/// The longest fraction of two whole numbers alone that is read: exact geometry of rounded files has long ones.
+const MAX_FRACTION: usize = 4800;
 
 /// Decimals of π that stand for it, far more than any double has.
 pub const PI_DIGITS: usize = 40;
@@ -40,4 +42,49 @@ pub(super) fn decimal(whole: &str, fraction: &str, exponent: i64) -> Option<BigR
     } else {
         BigRational::from_integer(digits * scale)
     })
+}
+
+/// A fraction of two whole numbers, and nothing else; `None` too where it is wider than rationals may be.
+pub(super) fn fraction(text: &str) -> Option<BigRational> {
+    let (sign, digits) = match text.strip_prefix('-') {
+        Some(rest) => (-1, rest),
+        None => (1, text),
+    };
+    let (numer, denom) = digits.split_once('/')?;
+    let whole = |t: &str| {
+        let digits = t.bytes().all(|b| b.is_ascii_digit());
+        digits.then(|| BigInt::parse_bytes(t.as_bytes(), 10))?
+    };
+    if text.len() > MAX_FRACTION {
+        return None;
+    }
+    let (numer, denom) = (whole(numer)?, whole(denom)?);
+    if denom.is_zero() {
+        return None;
+    }
+    Some(BigRational::new(numer * sign, denom)).filter(|r| bits(r) <= MAX_BITS)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::geom::expr::Expr;
+
+    #[test]
+    fn long_fractions_are_read_again_and_endless_ones_refused() {
+        // Exact geometry of rounded files: both parts beyond what doubles hold.
+        let long = format!("-{}/{}7", "12345".repeat(140), "98765".repeat(141));
+        let e: Expr = long.parse().expect("a fraction");
+        let near = -12345.0 / 98765.0 * 1e-6;
+        assert!((e.to_f64() / near - 1.0).abs() < 1e-4, "{}", e.to_f64());
+        let again: Expr = e.to_string().parse().expect("the same");
+        assert_eq!(e.as_rational(), again.as_rational());
+        for text in [
+            format!("1/{}", "0".repeat(900)),
+            format!("1/{}", "7".repeat(6000)),
+            format!("{}/3", "7".repeat(900)),
+            format!("sqrt(1/{})", "7".repeat(1200)),
+        ] {
+            assert!(text.parse::<Expr>().is_err(), "{text}");
+        }
+    }
 }

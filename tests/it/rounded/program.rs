@@ -4,6 +4,7 @@ use crate::common::{out, run, run_on, text};
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::vector::{length, real, sub};
 use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::model::rounded::{looks_rounded, uncertainties};
 use ozols::rank::registry;
 use ozols::rank::snap::relation::Reach;
 use ozols::rank::snap::{size, snap};
@@ -96,6 +97,36 @@ fn every_command_takes_the_mechanism_as_meant() {
         (&1.into(), &0.into()),
         "{s:#}"
     );
+}
+
+#[test]
+fn what_is_meant_is_exported_exactly_and_what_is_written_on_demand() {
+    let file = tilted(6);
+    let export = |more: &[&str]| {
+        let (code, text, stderr) = run_on(
+            "export",
+            "it.toml",
+            &file,
+            &[&["--to", "toml"], more].concat(),
+        );
+        assert_eq!(code, Some(0), "{stderr}");
+        (text, stderr)
+    };
+    let (meant, told) = export(&[]);
+    assert!(told.contains("snapped: 4 axes parallel"), "{told}");
+    let again = mechanism_from_str("again.toml", &meant).unwrap();
+    assert!(looks_rounded(&again).is_none(), "{meant}");
+    let (_, stdout, stderr) = run_on("search", "again.toml", &meant, &["--format", "json"]);
+    assert!(!stderr.contains("snapped"), "{stderr}");
+    let v = value(&stdout);
+    assert_eq!(
+        (&v["determinate"], &v["exact"]),
+        (&"34".into(), &true.into())
+    );
+    let (written, told) = export(&["--as-written"]);
+    assert!(!told.contains("snapped"), "{told}");
+    let same = |text: &str| uncertainties(&mechanism_from_str("x.toml", text).unwrap());
+    assert_eq!(same(&written), same(&file));
 }
 
 #[test]

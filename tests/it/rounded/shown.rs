@@ -1,10 +1,12 @@
 //! Mechanisms as a CAD system writes them, turned in space and rounded: the same redesigns as of the exact ones.
 
+use super::digits::door;
 use super::search_numeric::{bare, request, turned};
 use ozols::accuracy::stability::change::Noise;
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::model::rounded::uncertainties;
 use ozols::rank::auto::decide;
 use ozols::score::outcome::Outcome;
 use ozols::score::request::{List, Request};
@@ -281,4 +283,19 @@ fn a_turned_toggle_gripper_of_twelve_decimals_has_all_redesigns_at_rod_ends() {
         turned_at(&read(text), &HINGES, &[6, 12, 15], "toggle gripper"),
         6
     );
+}
+
+#[test]
+fn one_oblique_axis_or_option_turns_no_file() {
+    // Metres without decimals: half a unit would let points a metre apart be one.
+    let oblique = "[0.7071067811865475, 0, -0.7071067811865475]";
+    let hinges = |z| door(["[-3, 0, 0]", "[-2, 0, -1]"], ["[0, 0, 1]", z], "");
+    let option = "[[joint.options]]\ntype = \"custom\"\nfreedoms = [\"rx\", \"ry\", \"rz\", \"tz\"]\naxis = OBLIQUE\n";
+    for file in [
+        hinges(oblique),
+        hinges("[0, 0, 1]") + &option.replace("OBLIQUE", oblique),
+    ] {
+        let m = mechanism_from_str("door.toml", &file).unwrap();
+        assert_eq!(uncertainties(&m).unwrap().point, [[0.0; 3]; 2]);
+    }
 }
