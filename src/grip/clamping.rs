@@ -209,7 +209,8 @@ fn hardest_of(pose: &Pose, load: &GripLoad, mass: f64, case: &Case) -> Hardest {
     let mut worst = at([1.0, 0.0, 0.0]);
     for u in cube_directions() {
         let found = climbed(&at, at(u));
-        if hardness(&found.1.verdict) > hardness(&worst.1.verdict) {
+        // Mirror images are as hard: rounding must not put one before the other.
+        if hardness(&found.1.verdict) > hardness(&worst.1.verdict) * (1.0 + 1e-6) {
             worst = found;
         }
     }
@@ -249,7 +250,7 @@ fn climbed(
             break;
         }
         let next = at(slope.map(|x| x / steep));
-        if hardness(&next.1.verdict) <= now * (1.0 + 1e-6) {
+        if hardness(&next.1.verdict) <= now * (1.0 + 1e-9) {
             break;
         }
         here = next;
