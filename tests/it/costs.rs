@@ -204,3 +204,21 @@ fn choices_cost_what_the_formula_says() {
     }
     assert!(seen > 100, "{seen}");
 }
+
+/// Where what a file asks for its own joints makes changes pay, the cheapest variant costs less than nothing; a bound in
+/// thousandths is the last whole step that is within it.
+#[test]
+fn bounds_are_whole_steps_above_the_cheapest() {
+    let text = ozols::builtin::text("gripper-10").unwrap();
+    let mut m = mechanism_from_str("gripper-10", text).unwrap();
+    m.search.costs.by_type_milli = vec![("revolute".to_owned(), 9000)];
+    let s = Search::new(exact_field(&m, 0).unwrap(), &m, Conditions::default()).unwrap();
+    assert!(s.steps.base_milli < 0 && s.steps.unit_milli > 1);
+    for step in [0, 1, 2, 17, 400] {
+        let milli = s.steps.base_milli + i64::from(step) * s.steps.unit_milli;
+        for within in [0, 1, s.steps.unit_milli - 1] {
+            assert_eq!(s.steps.above(milli + within), u64::try_from(step).unwrap());
+        }
+        assert_eq!(s.steps.milli(u64::try_from(step).unwrap()), milli);
+    }
+}
