@@ -1,15 +1,18 @@
 //! What a gripper can hold over a range of diameters and motions, and the drive moment that takes.
 
 use crate::format::number::decimals;
-use crate::geom::vector::unit;
+use crate::geom::vector::{length, unit};
 use crate::grip::contact::{Gripper, Pose, Unholdable};
 use crate::grip::holding::{Holding, HoldingError, Load, Outcome, Slip, Spatial, hold};
 use crate::grip::lever_arm::{Arms, Lever, LeverError};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, Pivots, Toward};
 use itertools::Itertools;
 
-/// Directions looked at for loads of any direction, before the worst is refined: to the faces, edges and corners of a cube.
+/// Directions from which loads of any direction are followed uphill, before the worst is refined: to the faces, edges and corners
+/// of a cube.
 pub const DIRECTIONS: usize = 26;
+/// Most steps uphill from each of them; a few are enough.
+const CLIMB: usize = 20;
 
 /// What statics say of the hardest case of a diameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -201,11 +204,13 @@ fn hardest_of(pose: &Pose, load: &GripLoad, mass: f64, case: &Case) -> Hardest {
     if case.any == 0.0 {
         return at([0.0; 3]).1;
     }
-    // The moment is a convex function of the load, so its greatest value over a ball lies on the sphere.
+    // The moment is a convex function of the load, so its greatest value over a ball lies on the sphere; there may be several
+    // that are greatest nearby, and the greatest of all need not be near the best of a few directions.
     let mut worst = at([1.0, 0.0, 0.0]);
     for u in cube_directions() {
-        let found = at(u);
-        if hardness(&found.1.verdict) > hardness(&worst.1.verdict) {
+        let found = climbed(&at, at(u));
+        // Mirror images are as hard: rounding must not put one before the other.
+        if hardness(&found.1.verdict) > hardness(&worst.1.verdict) * (1.0 + 1e-6) {
             worst = found;
         }
     }
@@ -223,6 +228,34 @@ fn hardest_of(pose: &Pose, load: &GripLoad, mass: f64, case: &Case) -> Hardest {
         }
     }
     worst.1
+}
+
+/// From a direction on to where the moment grows no more. Its slope there, made a direction, is where its tangent is greatest
+/// over the ball, and a convex function is nowhere below its tangent: every step goes up.
+fn climbed(
+    at: impl Fn(Spatial) -> (Spatial, Hardest),
+    mut here: (Spatial, Hardest),
+) -> (Spatial, Hardest) {
+    /// Of a difference that stands for a slope.
+    const STEP: f64 = 1e-3;
+    for _ in 0..CLIMB {
+        let (u, now) = (here.0, hardness(&here.1.verdict));
+        let slope = [0, 1, 2].map(|i| {
+            let mut aside = u;
+            aside[i] += STEP;
+            hardness(&at(aside).1.verdict) - now
+        });
+        let steep = length(slope);
+        if !(steep.is_finite() && steep > 0.0) {
+            break;
+        }
+        let next = at(slope.map(|x| x / steep));
+        if hardness(&next.1.verdict) <= now * (1.0 + 1e-9) {
+            break;
+        }
+        here = next;
+    }
+    here
 }
 
 /// The gripper for a diameter.
@@ -243,7 +276,7 @@ fn gripper(spec: &GripSpec, lever: Lever, diameter: f64) -> Gripper {
 /// Studies every diameter of a gripper in every case of its load.
 ///
 /// # Guarantee
-/// A load of any direction is looked at in [`DIRECTIONS`] directions and refined about the worst: a lower bound of the
+/// A load of any direction is followed uphill from [`DIRECTIONS`] directions and refined about the worst: a lower bound of the
 /// moment over all directions, and in practice its value.
 ///
 /// # Errors

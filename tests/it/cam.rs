@@ -49,6 +49,46 @@ proptest! {
     }
 }
 
+/// The roller's centre at a turn, from the fall alone.
+fn centre(cam: &Cam, turn: f64) -> [f64; 2] {
+    let r = cam.radius - cam.fall(turn.abs());
+    [r * turn.cos(), r * turn.sin()]
+}
+
+/// Radius of the circle through three points, without bound where they turn to the right.
+fn circle([a, b, c]: [[f64; 2]; 3]) -> f64 {
+    let side = |p: [f64; 2], q: [f64; 2]| (q[0] - p[0]).hypot(q[1] - p[1]);
+    let twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    match twice > 0.0 {
+        true => side(a, b) * side(b, c) * side(c, a) / (2.0 * twice),
+        false => f64::INFINITY,
+    }
+}
+
+proptest! {
+    /// Measured on the path itself: circles through neighbouring points, and the angle between the path and the circle round
+    /// the axis, which is that between its normal and the follower's way.
+    #[test]
+    fn curvature_and_pressure_angle_are_those_of_the_path(
+        psi in 0.1..1.5f64, stroke in 0.004..0.02f64, radius in 0.05..0.12f64, half in 0.4..1.2f64,
+    ) {
+        let cam = Cam { half_swing: half, from: 0.0, stroke, mounting: psi, radius, roller: 0.003 };
+        let (profile, step) = (cam.profile(360), 1e-4 * half);
+        // Where the profile is looked at, but for the crest and the grooves, at which the path has corners.
+        let turns = profile.points.iter().map(|p| p.turn).filter(|t| t.abs() > 2.0 * step && t.abs() < half - 2.0 * step);
+        let bulge = |t: f64| circle([t - step, t, t + step].map(|t| centre(&cam, t)));
+        let least = turns.map(bulge).fold(radius, f64::min);
+        prop_assert!((profile.least_curvature / least - 1.0).abs() < 1e-3, "{} {least}", profile.least_curvature);
+        // The path falls fastest where it comes to a groove.
+        let [a, b] = [half - 1e-6 * half, half].map(|t| centre(&cam, t));
+        let (way, arm) = ([b[0] - a[0], b[1] - a[1]], b);
+        let across = (way[0] * arm[1] - way[1] * arm[0]).abs();
+        let inwards = -(way[0] * arm[0] + way[1] * arm[1]);
+        let angle = inwards.atan2(across);
+        prop_assert!((profile.pressure_angle - angle).abs() < 1e-4, "{} {angle}", profile.pressure_angle);
+    }
+}
+
 /// The built-in module: its spring for this run, the pulses of its electromagnets, what they take.
 #[test]
 fn electromagnets_are_on_until_the_push_begins() {

@@ -3,6 +3,7 @@
 mod carried_on;
 mod command;
 mod killed;
+mod motions;
 mod orbits;
 mod out_of_plane;
 mod rows;

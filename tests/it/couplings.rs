@@ -1,5 +1,6 @@
 //! Couplings of joints: figures derived by hand, what the file may say, and every method on the same rows.
 
+mod counted;
 mod exchange;
 
 use crate::common::ozols;

@@ -1,5 +1,7 @@
 //! Exports read back as the same mechanism.
 
+mod physical;
+
 use crate::common::{out, ozols};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;

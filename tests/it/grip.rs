@@ -1,5 +1,6 @@
 //! Clamping levers against `[Pavlenko & Godunko 2010]`, and holding forces against independent statics.
 
+mod cases;
 mod motion;
 mod published;
 

@@ -383,3 +383,21 @@ proptest! {
         prop_assert!(after.finite.could_be(i64::try_from(before.finite.mobility).unwrap()), "{:?} {:?}", before.finite, after.finite);
     }
 }
+
+/// The line that a rod spins about goes through both its balls, and through no other joint.
+#[test]
+fn a_rod_spins_about_the_line_of_its_balls() {
+    let m = ozols::Mechanism::builtin("rssr").unwrap();
+    let found = &ozols::analyze(&m).unwrap()[0];
+    let [idle] = &found.idle[..] else {
+        panic!("{:?}", found.idle)
+    };
+    let names = |ids: &[ozols::model::mechanism::JointId]| -> Vec<String> {
+        ids.iter().map(|&j| m.joints[j].id.clone()).collect()
+    };
+    assert_eq!(idle.links, [m.link("2").unwrap()]);
+    assert_eq!(
+        (names(&idle.through), idle.turns),
+        (vec!["1-2".to_owned(), "2-3".to_owned()], true)
+    );
+}

@@ -1,6 +1,7 @@
 //! Ranking of variants under a workload.
 
 mod command;
+mod floor;
 
 use crate::common::out;
 use ozols::builtin;
@@ -344,6 +345,13 @@ proptest! {
             front += 1;
         }
     }
+}
+
+#[test]
+fn equals_do_not_dominate_each_other() {
+    let points = [vec![1.0, 2.0], vec![1.0, 2.0], vec![1.0, 3.0]];
+    assert!(!dominates(&points[0], &points[1]) && dominates(&points[0], &points[2]));
+    assert_eq!(fronts(&points, 3), [Some(0), Some(0), Some(1)]);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod command;
 mod family;
+mod point_masses;
 
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;

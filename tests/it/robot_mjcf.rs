@@ -258,3 +258,55 @@ fn includes_on_disk() {
         assert_eq!(o.status.code(), Some(code), "{file}");
     }
 }
+
+// Each copy stands where the step takes it from the one before, in that one's own axes: round a square, as MuJoCo has it.
+#[test]
+fn mjcf_replicates_go_round() {
+    let t = toml_of(
+        "m.xml",
+        &mjcf(
+            "<worldbody><replicate count='3' offset='1 0 0' euler='0 0 90' sep='-'>
+             <body name='b' pos='0 0 2'><joint name='j' axis='1 0 0'/></body></replicate></worldbody>",
+        ),
+    );
+    for (name, place) in [
+        ("j-0", "point = [0, 0, 2]\naxis = [1, 0, 0]"),
+        ("j-1", "point = [1, 0, 2]\naxis = [0, 1, 0]"),
+        ("j-2", "point = [1, 1, 2]\naxis = [-1, 0, 0]"),
+    ] {
+        let joint = t
+            .split("[[joint]]")
+            .find(|x| x.contains(&format!("id = \"{name}\"")));
+        assert!(joint.is_some_and(|j| j.contains(place)), "{name}\n{t}");
+    }
+}
+
+// Two rods of length 1 drawn straight are to reach a place at 1.5: the elbow goes the way its range allows, and a range is
+// counted as the joint's values are, from `ref`.
+#[test]
+fn mjcf_ranges_count_from_the_reference() {
+    for (range, sign) in [("130 240", -1.0), ("-40 70", 1.0)] {
+        let t = toml_of(
+            "m.xml",
+            &mjcf(&format!(
+                "<worldbody><site name='goal' pos='1.5 0 0'/><body name='a'><joint name='s'/>
+                 <body name='b' pos='1 0 0'><joint name='e' ref='100' range='{range}'/><site name='tip' pos='1 0 0'/></body>
+                 </body></worldbody><equality><connect site1='tip' site2='goal'/></equality>"
+            )),
+        );
+        let elbow = t
+            .split("[[joint]]")
+            .find(|x| x.contains("id = \"e\""))
+            .unwrap();
+        let at = elbow.split("point = [").nth(1).unwrap();
+        let at: Vec<f64> = at[..at.find(']').unwrap()]
+            .split(", ")
+            .map(|x| x.parse().unwrap())
+            .collect();
+        // Above or below the line between the ends, by √(1 - 0.75²); a turn to the left leaves the elbow below.
+        let wanted = [0.75, sign * (1.0 - 0.5625_f64).sqrt()];
+        for (found, wanted) in at.iter().zip(wanted) {
+            assert!((found - wanted).abs() < 1e-6, "{range}: {at:?} {wanted:?}");
+        }
+    }
+}

@@ -101,3 +101,62 @@ fn what_is_wrong_with_a_screw_is_told() {
     );
     let _ = json(&["analyze", "screw-jack", "--format", "json"]);
 }
+
+/// 10 mm a radian: metres a turn in SDF, metres a radian in MuJoCo's equality; by SDF's old tag it is minus radians a metre.
+#[test]
+fn leads_are_written_and_read_in_the_formats_own_units() {
+    use ozols::robots::{Options, formats, import};
+    let m = ozols::file::text::mechanism_from_str("jack.toml", &jack("pitch = 10")).unwrap();
+    assert_eq!(m.length_unit.symbol, "mm");
+    let number = |text: &str, before: &str| -> f64 {
+        let from = text.find(before).unwrap_or_else(|| panic!("{text}")) + before.len();
+        let end = text[from..].find(['<', ' ', '"']).unwrap();
+        text[from..from + end].parse().unwrap()
+    };
+    let near =
+        |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-12, "{found} {wanted}");
+    let sdf = formats::write(&m, "sdf").unwrap();
+    near(
+        number(&sdf, "<screw_thread_pitch>"),
+        0.01 * std::f64::consts::TAU,
+    );
+    let mjcf = formats::write(&m, "mjcf").unwrap();
+    near(number(&mjcf, "polycoef=\"0 "), 0.01);
+    // Read back, and by the old tag; a turn of the screw carries what hangs on it along.
+    let none = |_: &str| Err(std::io::Error::other("no files"));
+    let model = |pitch: &str| {
+        format!(
+            "<sdf version='1.9'><model name='m'><link name='0'/><link name='1'/><link name='2'/>\
+             <joint name='w' type='fixed'><parent>world</parent><child>0</child></joint>\
+             <joint name='s' type='screw'><parent>0</parent><child>1</child><axis><xyz>0 0 2</xyz></axis>{pitch}</joint>\
+             <joint name='h' type='revolute'><pose>0 0 1 0 0 0</pose><parent>1</parent><child>2</child>\
+             <axis><xyz>1 0 0</xyz></axis></joint></model></sdf>"
+        )
+    };
+    for pitch in [
+        "<screw_thread_pitch>0.06283185307179587</screw_thread_pitch>",
+        "<thread_pitch>-100</thread_pitch>",
+    ] {
+        let at = |turns: f64| {
+            let options = Options {
+                pose: vec![("s".to_owned(), vec![turns * std::f64::consts::TAU])],
+                ..Options::default()
+            };
+            import("m.sdf", model(pitch).as_bytes(), &none, &options)
+                .unwrap()
+                .toml()
+                .unwrap()
+        };
+        near(number(&at(0.0).replace('\n', " "), "pitch = "), 0.01);
+        let hinge = |text: &str| {
+            let part = text
+                .split("[[joint]]")
+                .find(|j| j.contains("id = \"h\""))
+                .unwrap()
+                .to_owned();
+            number(&part.replace(']', " "), "point = [0, 0, ")
+        };
+        near(hinge(&at(0.0)), 1.0);
+        assert!((hinge(&at(1.0)) - 1.0 - 0.0628318530718).abs() < 1e-9);
+    }
+}

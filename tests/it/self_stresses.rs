@@ -259,3 +259,68 @@ fn what_a_state_adds_is_counted_without_what_is_there_already() {
     let said = out(&["analyze", "gripper-10", "--state", "clamped"]);
     assert!(said.contains("External: σ = "), "{said}");
 }
+
+/// What joints bear of a self-stress: nothing along or about what they leave free, and every link is in equilibrium.
+#[test]
+fn joints_bear_what_they_can_and_links_are_in_equilibrium() {
+    use ozols::geom::vector::{Vector, add, cross, dot, length, real, scale, unit};
+    use ozols::model::joint_type::Freedom;
+    use ozols::model::mechanism::Role;
+    use ozols::redundancy::analysis::{Method, analyse};
+    let mut seen = 0;
+    for name in ozols::builtin::names() {
+        let m = ozols::Mechanism::builtin(name).unwrap();
+        if m.joints.len() > 30 {
+            continue;
+        }
+        let states: Vec<_> = m.state_ids().collect();
+        let found = analyse(&m, &states, Method::Modular).unwrap();
+        // What a coupling passes on is borne along a freedom.
+        let all = found.iter().flat_map(|s| &s.self_stresses);
+        for stress in all.filter(|s| s.couplings.is_empty()) {
+            let mut on_link = vec![([0.0; 3], [0.0; 3]); m.links.len()];
+            for at in &stress.joints {
+                let Some(borne) = at.borne else { continue };
+                let joint = &m.joints[at.joint];
+                let z = unit(real(&joint.frame.axis));
+                let reference = real(&joint.frame.reference);
+                let x = unit(add(reference, scale(z, -dot(reference, z))));
+                let axes = [x, cross(z, x), z];
+                let free = |f: &Freedom| match f {
+                    Freedom::Rx => dot(borne.moment, axes[0]),
+                    Freedom::Ry => dot(borne.moment, axes[1]),
+                    Freedom::Rz => dot(borne.moment, axes[2]),
+                    Freedom::Tx => dot(borne.force, axes[0]),
+                    Freedom::Ty => dot(borne.force, axes[1]),
+                    Freedom::Tz => dot(borne.force, axes[2]),
+                    Freedom::Screw => 0.0,
+                };
+                for f in joint.joint_type.freedoms() {
+                    assert!(free(f).abs() < 1e-7, "{name} {} {f:?}: {borne:?}", joint.id);
+                }
+                let named = |flags: [bool; 3], v: Vector| {
+                    (0..3).all(|i| flags[i] == (v[i].abs() > 1e-9) || v[i].abs() < 1e-7)
+                };
+                assert!(named(at.moments, borne.moment), "{name} {at:?}");
+                assert!(named(at.forces, borne.force), "{name} {at:?}");
+                let moment = scale(borne.moment, stress.size);
+                let moment = add(moment, cross(real(&joint.frame.point), borne.force));
+                for (link, sign) in [(joint.links[0], -1.0), (joint.links[1], 1.0)] {
+                    let (f, t) = &mut on_link[link];
+                    *f = add(*f, scale(borne.force, sign));
+                    *t = add(*t, scale(moment, sign));
+                }
+                seen += 1;
+            }
+            let far = m.joints.iter().map(|j| length(real(&j.frame.point)));
+            let far = far.fold(stress.size, f64::max);
+            for (l, (f, t)) in m.link_ids().zip(&on_link) {
+                if m.links[l].role != Role::Frame {
+                    let left = length(*f).max(length(*t) / far);
+                    assert!(left < 1e-7, "{name} {}: {left}", m.links[l].id);
+                }
+            }
+        }
+    }
+    assert!(seen > 500, "{seen}");
+}

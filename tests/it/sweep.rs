@@ -386,3 +386,59 @@ fn strokes_states_and_methods_are_swept_too() {
         }
     }
 }
+
+/// Positions of a sliding drive are in the file's unit, as its stroke is, and so are the ranges in which forces act.
+#[test]
+fn sliding_drives_are_told_in_the_files_unit() {
+    let text = LOADED
+        .replacen("drive = true\n", "", 1)
+        .replace("axis = [1, 0, 0]\n", "axis = [1, 0, 0]\ndrive = true\n")
+        .replace("to = \"30deg\"\nsteps = 3", "to = 8\nsteps = 4")
+        .replace(
+            "force = [-100, 0, 0]\n",
+            "force = [-100, 0, 0]\nfrom = 3\nto = 5\n",
+        );
+    let table = all(&sweep(&text, Sampling::Grid { points: 2 }, asked()), None);
+    for row in &table.rows {
+        let told = row.forces.as_ref().unwrap().get().unwrap();
+        // Of 0, 2, 4, 6 and 8 mm the one where the force acts.
+        assert!((told.drive_position - 4.0).abs() < 1e-6, "{told:?}");
+        assert!(told.peak_force > 99.0 && told.complete);
+    }
+}
+
+/// Of two figures that are as common the lesser is the common one, and what has more is special; strokes that end early have no
+/// say in the greatest and the least peak.
+#[test]
+fn ties_and_strokes_that_end_early_are_told_apart() {
+    use ozols::sweep::forces::Forces;
+    use ozols::sweep::known::Known;
+    let mut table = all(&sweep(LOADED, Sampling::Grid { points: 2 }, asked()), None);
+    table.rows.truncate(5);
+    let peak = |peak_force: f64, complete| {
+        Some(Known::Yes(Forces {
+            peak_force,
+            joint: "1-2".to_owned(),
+            drive_position: 0.0,
+            positions: 4,
+            complete,
+            unique: true,
+        }))
+    };
+    let rows = [
+        (7, peak(1.0, false)),
+        (6, peak(5.0, true)),
+        (6, peak(9.0, false)),
+        (7, peak(3.0, true)),
+        (8, peak(5.0, true)),
+    ];
+    for (row, (redundant, forces)) in table.rows.iter_mut().zip(rows) {
+        (row.states[0].redundant, row.forces) = (redundant, forces);
+    }
+    let summary = table.summary();
+    assert_eq!(summary.redundant[0].special, [0, 3, 4]);
+    let peaks = summary.peaks.unwrap();
+    // The first of several that are as great.
+    assert_eq!(peaks.least_and_greatest, Some([3, 1]));
+    assert_eq!((peaks.samples, peaks.incomplete), (5, 2));
+}

@@ -160,6 +160,30 @@ fn pressure_stays_on_the_face() {
     assert!(number(&contact(&wedged, "below")["normal"]) > 9.81);
 }
 
+/// By hand: a moment about the normal asks each of two faces for M/2, which even pressure on a round face bears where N is at
+/// least M/2 over 2/3 μ r: ∫ μ p ρ dA over the disc. In millimetres as in metres.
+#[test]
+fn a_part_that_is_twisted_needs_its_pressure() {
+    let metres =
+        between("[0, 0, 0]") + "[[workload.moment]]\nlink = \"part\"\nmoment = [0, 1.5, 0]\n";
+    let metres = metres.replace("friction = 0.2", "friction = 0.2\nradius = 0.03");
+    let millimetres = metres
+        .replace("name = \"vice\"", "name = \"vice\"\nlength_unit = \"mm\"")
+        .replace("radius = 0.03", "radius = 30")
+        .replace("0.3, 0]", "300, 0]")
+        .replace("0.1, 0]", "100, 0]");
+    for content in [&metres, &millimetres] {
+        let faces = solved(content, &["--state", "clamped", "--unilateral"]);
+        for name in ["above", "below"] {
+            let c = contact(&faces, name);
+            assert_eq!(c["touch"], "pushes", "{c}");
+            near(number(&c["normal"]), 0.75 / (2.0 / 3.0 * 0.2 * 0.03), 1e-3);
+        }
+        let joints = solved(content, &["--state", "clamped"]);
+        assert_eq!(contact(&joints, "above")["touch"], "slips");
+    }
+}
+
 /// The built-in gripper: with the forces that stand for the part left in the clamped state, its pads pulled with 54 N.
 #[test]
 fn the_gripper_no_longer_pulls_at_its_part() {

@@ -5,12 +5,16 @@ use crate::closure::tree::spanning_tree;
 use crate::geom::vector::{Vector, sub};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
+use crate::motion::pose::Pose;
 use crate::robots::formats::Written;
 use crate::robots::physical::{head, inertial, left_out};
 use crate::robots::problem::ExportError;
 use crate::robots::single_freedoms::{
     Names, Single, comment, escape, number, numbers, place, singles,
 };
+use crate::statics::reactions::Unsolved;
+use crate::statics::reactions::drives::driven;
+use crate::statics::reactions::geometry::Geometry;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -75,12 +79,7 @@ pub(crate) fn mjcf(m: &Mechanism) -> Result<Written, ExportError> {
     if !w.equalities.is_empty() {
         let _ = writeln!(out, "  <equality>\n{}  </equality>", w.equalities.concat());
     }
-    let drives = m.joints_in(StateId::FREE).filter(|&j| m.joints[j].drive);
-    let motors = drives.filter_map(|j| {
-        let (_, name) = w.joints.iter().find(|((k, _), _)| *k == j)?;
-        Some(format!("    <motor joint=\"{}\"/>\n", escape(name)))
-    });
-    let motors: String = motors.collect();
+    let motors: String = w.motors().concat();
     if !motors.is_empty() {
         let _ = writeln!(out, "  <actuator>\n{motors}  </actuator>");
     }
@@ -219,6 +218,26 @@ impl Writer<'_> {
                 self.equalities.push(equality(follows, leads, ratio));
             }
         }
+    }
+
+    /// Motors of the driven joints, each on the freedom that statics have its drive hold: a slider may turn about its guide.
+    fn motors(&self) -> Vec<String> {
+        let (m, free) = (self.m, StateId::FREE);
+        let held = Pose::of_file(m, free)
+            .and_then(|pose| Geometry::new(m, free, &pose))
+            .map_err(Unsolved::from)
+            .and_then(|g| driven(m, &g))
+            .unwrap_or_default();
+        let drives = m.joints_in(free).filter(|&j| m.joints[j].drive);
+        let motors = drives.filter_map(|j| {
+            let of_drive = held.iter().find(|(k, _)| *k == j);
+            // A ball is one joint whichever of its turns is held.
+            let name = of_drive
+                .and_then(|h| self.joints.get(h))
+                .or_else(|| self.joints.iter().find(|((k, _), _)| *k == j).map(|x| x.1))?;
+            Some(format!("    <motor joint=\"{}\"/>\n", escape(name)))
+        });
+        motors.collect()
     }
 
     /// The bodies on a link.

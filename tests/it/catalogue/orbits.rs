@@ -192,3 +192,24 @@ fn a_file_says_what_a_turn_carries_round() {
         "{told}"
     );
 }
+
+/// Necklaces of two and of three beads, turned until all are back in place: counted one by one, and from those that a turn keeps.
+#[test]
+fn orbits_are_those_of_necklaces() {
+    use ozols::search::counts::orbits;
+    for order in [2usize, 3] {
+        for colours in 1..6usize {
+            let all = colours.pow(u32::try_from(order).unwrap());
+            let beads = |n: usize| (0..order).map(move |i| n / colours.pow(i as u32) % colours);
+            let least = |n: usize| {
+                let beads: Vec<usize> = beads(n).collect();
+                let turned = |k: usize| [&beads[k..], &beads[..k]].concat();
+                (0..order).map(turned).min()
+            };
+            let necklaces: std::collections::BTreeSet<_> = (0..all).map(least).collect();
+            let kept = (0..all).filter(|&n| beads(n).all(|b| Some(b) == beads(n).next()));
+            let found = orbits(&all.into(), &kept.count().into(), order);
+            assert_eq!(found, necklaces.len().into(), "{order} {colours}");
+        }
+    }
+}

@@ -1,5 +1,6 @@
 //! Three jaws: as many structures as move in threefold places, laid out exactly so, closing together.
 
+use super::motions::bracketed;
 use super::{each_of, form, moved, plain};
 use crate::common::run;
 use itertools::Itertools;
@@ -166,6 +167,9 @@ fn threefold_layouts_are_exact_and_their_jaws_close_together() {
             let speed = (radius(a) - radius(b)).abs() / (2.0 * step);
             let stated = laid.layout.looks.closing / 2.0;
             assert!((speed - stated).abs() < 1e-4 * stated, "{speed} {stated}");
+            let mean = bracketed(&s, &laid.figures, 1.5, 2.0 * speed);
+            let told = laid.figures.force[1];
+            assert!((told / mean - 1.0).abs() < 0.3, "{told} {mean}");
         }
         // Work in is work out: three jaws, whose openings are twice their ways.
         let f = &laid.figures;

@@ -81,6 +81,86 @@ fn exported_as_mimic_joints() {
     );
 }
 
+/// b goes with a quarter of a, and b is driven: a goes with four times b. Lengths are in metres on whichever side they are.
+#[test]
+fn ratios_are_turned_over_where_the_second_joint_leads() {
+    use ozols::robots::formats;
+    let driven = |joint: &str| format!("{joint}\ndrive = true");
+    for (first, second, ratio, multiplier) in [
+        (TURN, TURN, "\"1/4\"", "4"),
+        // 1/20 rad a mm is 20 mm a radian; 12.5 mm a radian are 80 rad a m.
+        (SLIDE, TURN, "\"1/20\"", "0.02"),
+        (TURN, SLIDE, "12.5", "80"),
+        (SLIDE, SLIDE, "\"-2/5\"", "-2.5"),
+    ] {
+        let m = mechanism(&pair(first, &driven(second), &coupled("a", "b", ratio)));
+        let urdf = formats::write(&m, "urdf").unwrap();
+        assert!(
+            urdf.contains(&format!("<mimic joint=\"b\" multiplier=\"{multiplier}\"")),
+            "{urdf}"
+        );
+        let sdf = formats::write(&m, "sdf").unwrap();
+        assert!(
+            sdf.contains(&format!(
+                "<mimic joint=\"b\" axis=\"axis\"><multiplier>{multiplier}<"
+            )),
+            "{sdf}"
+        );
+    }
+    // MuJoCo's equality says the second by the first, whichever is driven.
+    for (first, second, ratio, factor) in [
+        (SLIDE, TURN, "\"1/20\"", "50"),
+        (TURN, SLIDE, "12.5", "0.0125"),
+        (TURN, TURN, "\"1/4\"", "0.25"),
+    ] {
+        let m = mechanism(&pair(first, &driven(second), &coupled("a", "b", ratio)));
+        let mjcf = formats::write(&m, "mjcf").unwrap();
+        let wanted = format!("joint1=\"b\" joint2=\"a\" polycoef=\"0 {factor} 0 0 0\"");
+        assert!(mjcf.contains(&wanted), "{mjcf}");
+    }
+}
+
+/// Turns of both links about z where the first joint has gone by 0.3.
+fn turns(m: &ozols::Mechanism) -> [f64; 2] {
+    use ozols::motion::follow::follow;
+    use ozols::motion::pose::Pose;
+    let pose = Pose::of_file(m, StateId::FREE).unwrap();
+    let way = follow(&pose, 0, &[], [0.0, 0.3], 1);
+    let last = way.reached.last().unwrap().pose();
+    ["1", "2"].map(|id| {
+        let link = &last.links[m.link(id).unwrap()];
+        link.sine()[2].atan2(link.cosine())
+    })
+}
+
+/// A joint whose second link is the frame moves its first the other way: what was geared to go along goes along in every format.
+#[test]
+fn joints_named_backwards_turn_the_same_way_in_every_format() {
+    use ozols::robots::{Options, formats, import};
+    let none = |_: &str| Err(std::io::Error::other("no files"));
+    for (backwards, wanted) in [("\"1\", \"0\"", -2.0), ("\"0\", \"1\"", 2.0)] {
+        let text = pair(TURN, TURN, &coupled("a", "b", "2"));
+        let text = text.replacen("\"0\", \"1\"", backwards, 1);
+        let m = mechanism(&text);
+        let ratio = |m: &ozols::Mechanism| {
+            let [one, two] = turns(m);
+            two / one
+        };
+        assert!((ratio(&m) - wanted).abs() < 1e-9);
+        for to in ["urdf", "sdf", "mjcf"] {
+            let text = formats::write(&m, to).unwrap();
+            let i = import(
+                &format!("x.{to}"),
+                text.as_bytes(),
+                &none,
+                &Options::default(),
+            );
+            let back = mechanism(&i.unwrap().toml().unwrap());
+            assert!((ratio(&back) - wanted).abs() < 1e-9, "{to}\n{text}");
+        }
+    }
+}
+
 const MJCF: &str = r#"<mujoco><worldbody>
   <body name="1"><joint name="a" type="hinge" axis="0 0 2"/><geom size="1"/>
     <body name="2" pos="1 0 0"><joint name="b" type="slide" axis="1 0 0"/><geom size="1"/></body></body>

@@ -1,7 +1,7 @@
 //! Expressions for coordinates, such as `sqrt(3)/2` and `cos(36deg)`.
 
 use super::runs;
-use ozols::geom::expr::Expr;
+use ozols::geom::expr::{Expr, ExprError};
 use proptest::prelude::*;
 use proptest::sample::select;
 
@@ -77,6 +77,39 @@ fn numbers_too_small_for_a_double_are_refused() {
     read("1e-92^9");
     assert!("1e-92^9".parse::<Expr>().is_err());
     assert!("1e-300".parse::<Expr>().is_ok());
+}
+
+/// A fraction with nothing below the line has no value, and that is said of it, however nothing is written.
+#[test]
+fn nothing_divides_by_zero() {
+    for nothing in [
+        "0",
+        "(1-1)",
+        "(sqrt(2)-sqrt(2))",
+        "(cos(60deg)-1/2)",
+        "sin(pi)",
+    ] {
+        for text in [
+            format!("1/{nothing}"),
+            format!("{nothing}^-1"),
+            format!("{nothing}^-2"),
+            format!("2*({nothing})^-3"),
+        ] {
+            let said = text.parse::<Expr>().unwrap_err();
+            assert!(
+                matches!(said, ExprError::DivisionByZero { .. }),
+                "{text}: {said}"
+            );
+        }
+        assert_eq!(
+            format!("{nothing}^0").parse::<Expr>().unwrap().to_f64(),
+            1.0
+        );
+        assert_eq!(
+            format!("{nothing}^2").parse::<Expr>().unwrap().to_f64(),
+            0.0
+        );
+    }
 }
 
 proptest! {

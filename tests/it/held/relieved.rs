@@ -234,3 +234,34 @@ fn where_no_option_can_help_that_is_said() {
     assert!(said.contains(part), "{said}");
     assert!(said.contains("stays as it is for it is driven"), "{said}");
 }
+
+/// The tongs with a ball pivot put at their contact are the tongs with a pad: 1 + 3 motions while nothing is held, for the pad stays
+/// on its jaw, and 2 redundant constraints round a part [Pogrebnyak 2018, by the external formula 12 - (4 - 0) - 6].
+#[test]
+fn pads_stay_on_their_jaws_when_the_part_is_gone() {
+    use ozols::model::mechanism::StateId;
+    use ozols::redundancy::analysis::{Method, analyse, exact_field};
+    use ozols::search::conditions::{Conditions, InState, Search};
+    let m = ozols::Mechanism::builtin("tongs").unwrap();
+    let state = StateId::new(1);
+    let conditions = Conditions {
+        state: Some(InState::holding(state)),
+        ..Conditions::default()
+    };
+    let s = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();
+    let diagrams = s.build(&|| false, &mut |_| {});
+    let mut padded = 0;
+    for v in s.cheapest(&diagrams, 100) {
+        let variant = s.realize(&v.choices);
+        let found = analyse(&variant, &[StateId::FREE, state], Method::Modular).unwrap();
+        let external = found[1].external.unwrap();
+        assert_eq!(found[0].mobility as i64, s.mobility(v.key));
+        assert_eq!(external.by_rank, i64::from(v.key.external()));
+        assert_eq!(external.redundant, external.by_rank);
+        if v.key.changes() == 1 {
+            assert_eq!((found[0].mobility, external.redundant), (4, 2));
+            padded += 1;
+        }
+    }
+    assert_eq!(padded, 1);
+}

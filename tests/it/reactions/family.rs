@@ -26,6 +26,13 @@ fn self_stresses_are_in_equilibrium_and_as_many_as_the_redundant_constraints() {
 /// each and forces ±F; least energy under M1 + M2 = F L gives the stiffness.
 #[test]
 fn a_misaligned_joint_strains_as_by_hand() {
+    // Of length 2 the joints' mean distance from their middle is 1, and lengths in it are metres.
+    for length in [2.0, 5.0, 0.3] {
+        strained(length);
+    }
+}
+
+fn strained(l: f64) {
     let text = r#"
 name = "bar"
 [[link]]
@@ -43,7 +50,7 @@ point = [0, 0, 0]
 id = "b"
 links = ["0", "1"]
 type = "fixed"
-point = [2, 0, 0]
+point = [LENGTH, 0, 0]
 [workload.stiffness.default]
 linear = 1000
 angular = 300
@@ -52,14 +59,15 @@ joint = "b"
 angle = 0.01
 axis = "z"
 "#;
-    let m = mechanism_from_str("bar.toml", text).unwrap();
+    let text = text.replace("LENGTH", &l.to_string());
+    let m = mechanism_from_str("bar.toml", &text).unwrap();
     let s = solve(&m);
     assert_eq!(s.self_stresses.len(), 6);
     let elastic = s.elastic.as_ref().unwrap();
     assert!(left_over(&m, elastic) < 1e-12);
     // Round the contour: M about b = m, force F along y at b; at a the opposite, moment -(m + F L).
     // Energy ½(m² + (m + F L)²)/ka + ½·2F²/kl - m θ: its gradient vanishes.
-    let (ka, kl, l, theta) = (300.0, 1000.0, 2.0, 0.01);
+    let (ka, kl, theta) = (300.0, 1000.0, 0.01);
     // (2m + F L)/ka = θ, L(m + F L)/ka + 2F/kl = 0
     let det = (2.0 / ka) * (l * l / ka + 2.0 / kl) - (l / ka) * (l / ka);
     let (moment, force) = (
