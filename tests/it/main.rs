@@ -49,6 +49,7 @@ mod reactions_cycle;
 mod report_page;
 mod robot_fix;
 mod robot_lint;
+mod robot_masses;
 mod robot_mjcf;
 mod robot_models;
 mod robot_readers;
