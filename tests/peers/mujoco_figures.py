@@ -7,6 +7,10 @@ import numpy as np
 ZERO = 1e-6
 
 
+# Else these go to a file in the folder of whoever runs this.
+mujoco.set_mju_user_warning(lambda message: None)
+
+
 def integrate(model, q, v):
     mujoco.mj_integratePos(model, q, v, 1.0)
 

@@ -43,7 +43,9 @@ def fallen(model, q, damped):
         mujoco.mj_step(m, d)
         opened = max(opened, float(np.abs(d.efc_pos[: d.ne]).max(initial=0)))
     m.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_LIMIT)
-    return d.qpos.copy(), opened
+    # MuJoCo begins anew where its numbers ran away.
+    ran_away = any(w.number for w in d.warning)
+    return d.qpos.copy(), np.inf if ran_away else opened
 
 
 def damping(model, q):
@@ -57,7 +59,8 @@ def damping(model, q):
 
 def apart(before, after, q, there, marks, size, own=True):
     """How far the links are apart after a second, and how far they went, as shares of the model's size: with their `own` masses
-    where MuJoCo keeps the loops closed with these, which it does not where something weighs next to nothing, else all alike."""
+    where MuJoCo keeps the loops closed with these, which it does not where something weighs next to nothing, else all alike.
+    Nothing where it does not keep them closed in the owner's model either way."""
     if not own:
         alike(before, after, marks)
     ours, theirs = marks
@@ -65,8 +68,8 @@ def apart(before, after, q, there, marks, size, own=True):
     slow = damping(before, q)
     velocities = after.same_velocities(before)
     (one, opened), (two, _) = fallen(before, q, dict(enumerate(slow))), fallen(after, there, {b: slow[a] for a, b in velocities})
-    if own and opened > APART * size:
-        return apart(before, after, q, there, marks, size, own=False)
+    if opened > APART * size:
+        return apart(before, after, q, there, marks, size, own=False) if own else None
     start, end = before.seen(q, ours), before.seen(one, ours)
     found = after.seen(two, theirs)
     gap = lambda a, b: max((float(np.abs(x - y).max()) for n in names for x, y in zip(a[n], b[n])), default=0.0)
