@@ -48,6 +48,8 @@ mod reactions;
 mod reactions_cycle;
 mod report_page;
 mod robot_fix;
+mod robot_ideas;
+mod robot_lasting;
 mod robot_lint;
 mod robot_masses;
 mod robot_mjcf;
