@@ -56,6 +56,7 @@ mod robot_mjcf;
 mod robot_models;
 mod robot_readers;
 mod robot_sdf;
+mod robot_taken;
 mod robots;
 mod rounded;
 mod screws;
