@@ -183,7 +183,7 @@ fn candidates(
 }
 
 /// More for a slide at a joint that has got one, for each: a ball on three slides holds nothing.
-const SLIDES: i64 = 1500;
+const SLIDES: i64 = 3000;
 /// Less for a turn at a hinge that has got one: it becomes a ball, and no second joint changes.
 const BALL: i64 = -500;
 /// More for a slide at a joint that got a turn, and the other way round: a ball and a cylindrical joint are two joints.

