@@ -10,6 +10,7 @@ pub mod idle;
 mod joint_wrench;
 pub mod measured;
 pub mod motion;
+pub mod moved;
 pub mod over_motion;
 pub mod release;
 pub mod share;

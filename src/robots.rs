@@ -11,6 +11,7 @@ pub mod formats;
 mod graph;
 mod import;
 mod kinematics;
+mod light;
 mod loops;
 mod mimic;
 mod mjcf;

@@ -65,7 +65,8 @@ pub(super) fn run(a: &Fix) -> anyhow::Result<Done> {
     let again = api::description_of(&a.file, text.as_bytes(), &options).context(
         "the edited file cannot be read again; nothing is written; report this with the file",
     )?;
-    let after = lint::look(&again.mechanism, Some(&again.origin))?.analysis;
+    let found = lint::look(&again.mechanism, Some(&again.origin))?;
+    let (lasting, after) = (found.lasting, found.analysis);
     ensure!(
         (after.mobility, after.redundant) == (plan.mobility, plan.redundant),
         "read again, the edited file has W = {}, σ = {} where W = {}, σ = {} was to be; nothing is written",
@@ -74,11 +75,21 @@ pub(super) fn run(a: &Fix) -> anyhow::Result<Done> {
         plan.mobility,
         plan.redundant
     );
+    ensure!(
+        a.chosen.place().is_some() || lasting == 0 || after.at_most().is_some(),
+        "read again, the edited file has {lasting} redundant over its motion; nothing is written; look at another pose (--pose)"
+    );
     output::to(a.output.as_deref(), |out| {
         out.write_all(text.as_bytes())?;
         Ok(Done::Found)
     })?;
     let mut lines = summary(&a.file, &releases, [&before, &after]);
+    if after.redundant > lasting && after.at_most().is_none() {
+        lines += &format!(
+            "  {} redundant at this pose only, where the model is in a special place\n",
+            after.redundant - lasting
+        );
+    }
     if let Some((_, most)) = after.at_most() {
         lines += &format!(
             "  as written; within their digits the coordinates leave open whether up to {most} stay redundant: look at other joints (--at), or give more digits\n"
@@ -139,7 +150,7 @@ fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis
         Release::Freedom { joint, .. } => at.contains(&m.joints[joint].id),
     };
     let mut found = lint::look_at(m, Some(&imported.origin), &wanted)?;
-    let (_, most) = found.range();
+    let most = found.lasting;
     ensure!(
         found.analysis.at_most().is_none(),
         "what is redundant is not decided: coordinates are rounded too coarsely, or the pose is next to a special one; look at another pose (--pose), or give more digits (`ozols check` names the coordinates)"
@@ -165,7 +176,8 @@ fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis
     let plan = Plan {
         releases,
         mobility: found.analysis.mobility,
-        redundant: 0,
+        // What is redundant at this pose only stays.
+        redundant: found.analysis.redundant - most,
     };
     Ok((found.analysis, plan))
 }

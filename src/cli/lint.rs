@@ -7,6 +7,7 @@ use super::{Done, load, output};
 use crate::file::problem::ImportError;
 use crate::file::text::mechanism_from_bytes;
 use crate::model::mechanism::{JointId, Mechanism};
+use crate::motion::pose::Pose;
 use crate::redundancy::held_twice::{HeldTwice, held_twice};
 use crate::redundancy::release::Release;
 use crate::robots::{self, Origin};
@@ -140,5 +141,7 @@ pub(super) fn look_at(
         Release::Freedom { joint, .. } => origin.is_none_or(|o| o.can_be_freed(joint)),
         Release::Coupling(_) => true,
     };
-    Ok(held_twice(m, &closes, &|r| written(r) && wanted(r))?)
+    let inside = |pose: &Pose| origin.is_none_or(|o| o.is_inside(pose, m.length_unit.metres));
+    let may = |r: &Release| written(r) && wanted(r);
+    Ok(held_twice(m, &closes, &may, Some(&inside))?)
 }

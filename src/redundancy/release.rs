@@ -21,6 +21,8 @@ use ozols_dense::{Matrix, solve, svd};
 const NOTHING: f64 = 1e-6;
 /// A release that the others leave less work than this does not count: digits decide it.
 const LEAST: f64 = 1e-5;
+/// One that does so much work, as a share of the most that any does, does well.
+const WELL: f64 = 0.03;
 /// Directions nearer than this are one.
 const ALIKE: f64 = 1e-5;
 
@@ -230,25 +232,49 @@ impl<'a> Stressed<'a> {
     /// list; fewer than σ where no such set is among them.
     #[must_use]
     pub fn cheapest(&self, candidates: &[(i64, Release)]) -> Vec<usize> {
+        self.chosen(candidates, &|i, _| candidates[i].0)
+    }
+
+    /// A set of that kind, chosen one by one, each the cheapest of those that remove more: by costs that may rest on those
+    /// chosen before. Where they do, the whole need not be the cheapest. What hardly works on a stress is chosen only where
+    /// nothing else is left: it would have to move far to let little go.
+    #[must_use]
+    pub fn chosen(
+        &self,
+        candidates: &[(i64, Release)],
+        cost: &dyn Fn(usize, &[usize]) -> i64,
+    ) -> Vec<usize> {
         let powers: Vec<Vec<f64>> = candidates.iter().map(|(_, r)| self.powers(r)).collect();
-        let mut costs: Vec<i64> = candidates.iter().map(|(c, _)| *c).collect();
-        costs.sort_unstable();
-        costs.dedup();
+        let strongest = powers.iter().map(|p| norm(p)).fold(0.0, f64::max);
+        let well = self.chosen_above(&powers, LEAST.max(WELL * strongest), cost);
+        if well.len() == self.redundant() {
+            return well;
+        }
+        self.chosen_above(&powers, LEAST, cost)
+    }
+
+    fn chosen_above(
+        &self,
+        powers: &[Vec<f64>],
+        enough: f64,
+        cost: &dyn Fn(usize, &[usize]) -> i64,
+    ) -> Vec<usize> {
         let (mut chosen, mut span): (Vec<usize>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
-        for cost in costs {
-            while span.len() < self.redundant() {
-                let left = |i: usize| norm(&rest(&powers[i], &span));
-                let alike = (0..candidates.len()).filter(|&i| candidates[i].0 == cost);
-                let left: Vec<(usize, f64)> = alike.map(|i| (i, left(i))).collect();
-                let most = left.iter().fold(0.0, |m: f64, (_, x)| m.max(*x));
-                // The first that does about as well as the best.
-                let Some(&(i, _)) = left.iter().find(|(_, x)| *x > LEAST && *x > most / 2.0) else {
-                    break;
-                };
-                let r = rest(&powers[i], &span);
-                span.push(r.iter().map(|x| x / norm(&r)).collect());
-                chosen.push(i);
-            }
+        while span.len() < self.redundant() {
+            let left = (0..powers.len()).map(|i| (i, norm(&rest(&powers[i], &span))));
+            let left: Vec<(usize, f64)> = left.filter(|(_, x)| *x > enough).collect();
+            let Some(least) = left.iter().map(|&(i, _)| cost(i, &chosen)).min() else {
+                break;
+            };
+            let alike = left.iter().filter(|(i, _)| cost(*i, &chosen) == least);
+            let most = alike.clone().fold(0.0, |m: f64, (_, x)| m.max(*x));
+            // The first that does about as well as the best.
+            let Some(&(i, _)) = alike.clone().find(|(_, x)| *x > most / 2.0) else {
+                break;
+            };
+            let r = rest(&powers[i], &span);
+            span.push(r.iter().map(|x| x / norm(&r)).collect());
+            chosen.push(i);
         }
         chosen
     }

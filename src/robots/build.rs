@@ -64,7 +64,10 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, R
         .filter(held)
         .or_else(|| (0..robot.links.len()).find(|l| !child.contains(l) && robot.world != Some(*l)))
         .unwrap_or(0);
-    let apart = robot.floats && !loose(robot, &spanning_tree(robot, root)).is_empty();
+    // A model that nothing holds to the world falls, as far as engines are concerned.
+    let falls = robot.world.is_none_or(|w| !held(&w));
+    let parts = loose(robot, &spanning_tree(robot, root)).len();
+    let apart = robot.floats && (falls || parts > 0);
     if !options.floating && !apart {
         return Ok(root);
     }
@@ -82,8 +85,13 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, R
         robot.report.map("floating base");
     }
     if apart && !options.floating {
-        let what = "parts that no joint holds float in the world, each by itself";
-        robot.report.pose.push(what.to_owned());
+        let what = match parts == 0 {
+            true => {
+                "nothing holds the model to the world: it floats with 6 freedoms (--frame LINK holds a link)"
+            }
+            false => "parts that no joint holds float in the world, each by itself",
+        };
+        robot.report.moved(what.to_owned());
     }
     Ok(world)
 }
@@ -172,7 +180,7 @@ pub(crate) fn close_loops(
             0 => String::new(),
             n => format!("; {n} outside their limits"),
         };
-        robot.report.pose.push(format!(
+        robot.report.moved(format!(
             "{loops} open by {first:.1e} m in the pose of the file, closed to {left:.1e} m by moving joints{moved}{limits}"
         ));
         return Ok(());
@@ -192,7 +200,7 @@ pub(crate) fn close_loops(
     });
     if options.open {
         let note = format!("loops open, the widest {what}; the figures are those of that pose");
-        robot.report.pose.push(note);
+        robot.report.moved(note);
         return Ok(());
     }
     Err(RobotProblem::Whole {

@@ -39,6 +39,8 @@ pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
                     let freedoms = robot.joints[j].joint_type.freedoms();
                     matches!(freedoms, [Freedom::Rz | Freedom::Tz | Freedom::Screw])
                 };
+                let value = robot.joints[a].values.first().copied().unwrap_or(0.0);
+                let ratio = coupling.at(value);
                 let twice = out.iter().any(|u| u.ends == [a, b] || u.ends == [b, a]);
                 match [a, b].into_iter().find(|j| !written.contains(j)) {
                     Some(j) => format!("joint {} is within a rigid body", robot.joints[j].id),
@@ -46,13 +48,19 @@ pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
                         "only joints of one freedom are coupled".to_owned()
                     }
                     None if twice => "the two are coupled already".to_owned(),
-                    None if coupling.ratio == 0.0 => {
+                    None if ratio == 0.0 => {
                         format!("times 0, so that {follower} would stand still")
                     }
                     None => {
+                        if coupling.higher != [0.0; 3] {
+                            let what = format!(
+                                "{follower} is a polynomial of {leader}; here it follows {ratio} times as fast, the derivative at this pose"
+                            );
+                            robot.report.approximate(&coupling.element, what);
+                        }
                         out.push(Usable {
                             ends: [a, b],
-                            ratio: coupling.ratio,
+                            ratio,
                             said_by: coupling.said_by,
                         });
                         continue;

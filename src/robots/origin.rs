@@ -2,6 +2,7 @@
 
 use crate::geom::rigid::Motion;
 use crate::model::mechanism::JointId;
+use crate::motion::pose::Pose;
 use crate::robots::parts::{Part, Robot};
 use crate::robots::xml::{Document, Element};
 
@@ -62,6 +63,24 @@ impl Origin {
     #[must_use]
     pub fn is_actuated(&self, joint: JointId) -> bool {
         self.part(joint).drive || self.part(joint).pulled
+    }
+
+    /// Whether all joints of one freedom are within their limits in a pose; the mechanism's unit of length is so many metres.
+    #[must_use]
+    pub fn is_inside(&self, pose: &Pose, metres: f64) -> bool {
+        pose.columns.iter().all(|c| {
+            let part = self.part(c.joint);
+            let (Some((low, high)), [value]) = (part.limits, &part.values[..]) else {
+                return true;
+            };
+            let unit = match c.freedom.slides() {
+                true => pose.length * metres,
+                false => 1.0,
+            };
+            // Limits are often where the joint stands.
+            let slack = 1e-6 * (high - low).max(1e-3);
+            (low - slack..=high + slack).contains(&(value + c.moved * unit))
+        })
     }
 
     /// Whether a joint can be given freedoms where it stands.

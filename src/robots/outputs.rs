@@ -86,7 +86,8 @@ fn meant(robot: &Robot, bodies: &Bodies, joints: &[usize], frame: usize) -> Vec<
     let named = (0..n).filter(|&l| moves(bodies.of[l]) && is_effector(&robot.links[l]));
     let named: Vec<usize> = named.map(|l| bodies.of[l]).collect();
     let floating = joints.iter().map(|&j| &robot.joints[j]);
-    let floating = floating.filter(|p| p.joint_type.freedoms().len() == 6);
+    // What is driven in all ways is led, and leads nowhere.
+    let floating = floating.filter(|p| p.joint_type.freedoms().len() == 6 && !p.drive);
     let floating = floating.flat_map(|p| p.links.map(|l| bodies.of[l]));
     let floating: Vec<usize> = floating.filter(|&b| b != frame).collect();
     if !named.is_empty() {

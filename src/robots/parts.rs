@@ -101,12 +101,22 @@ pub(crate) fn free() -> JointType {
 pub(crate) struct Ratio {
     /// Names of the joint that leads and the one that follows.
     pub(super) joints: [String; 2],
-    /// Rate of the follower over that of the leader, in radians and metres.
+    /// Rate of the follower over that of the leader, in radians and metres, where the leader is at its reference.
     pub(super) ratio: f64,
+    /// Coefficients of the second to fourth power of the leader's value, where the follower's is a polynomial of it.
+    pub(super) higher: [f64; 3],
     /// The element that says so, in words.
     pub(super) element: String,
     /// That element.
     pub(super) said_by: usize,
+}
+
+impl Ratio {
+    /// The rate where the leader has a value: the derivative of the polynomial.
+    pub(super) fn at(&self, value: f64) -> f64 {
+        let [two, three, four] = self.higher;
+        self.ratio + value * (2.0 * two + value * (3.0 * three + value * 4.0 * four))
+    }
 }
 
 /// A robot as read.

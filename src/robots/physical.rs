@@ -33,6 +33,24 @@ pub(crate) fn inertial(m: &Mechanism, link: LinkId, origin: Vector) -> Option<In
     })
 }
 
+/// What is told where links have no mass of their own in the mechanism.
+pub(crate) const GRAM: &str =
+    "links without a mass weigh a gram, as engines refuse what moves without";
+
+/// The same of a link that moves, which engines refuse without mass or inertia: a gram where the file states none.
+pub(crate) fn moving(m: &Mechanism, link: LinkId, origin: Vector) -> Inertial {
+    let found = inertial(m, link, origin).filter(|i| i.mass > 0.0);
+    let mut out = found.unwrap_or(Inertial {
+        mass: 1e-3,
+        centre: [0.0; 3],
+        tensor: [0.0; 6],
+    });
+    if out.tensor[..3].iter().any(|x| *x <= 0.0) {
+        out.tensor = [1e-6, 1e-6, 1e-6, 0.0, 0.0, 0.0];
+    }
+    out
+}
+
 /// Comments at the head of a robot description: what the mechanism says of itself, and what is told of its writing.
 pub(crate) fn head(m: &Mechanism, indent: &str, told: &[String]) -> String {
     let own = Some(&m.description).filter(|d| !d.is_empty());

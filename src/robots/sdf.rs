@@ -1,6 +1,7 @@
 //! SDF, read, mended and written.
 
 pub(super) mod fix;
+mod gearbox;
 mod include;
 mod joints;
 pub(super) mod read;

@@ -41,6 +41,8 @@ pub struct Report {
     pub coupling_rows: usize,
     /// How the pose was found and how well the loops close.
     pub pose: Vec<String>,
+    /// Those of these that make the mechanism another than is drawn: joints moved, loops taken open, bases that float.
+    pub moved: Vec<String>,
     /// Links and joints of the mechanism.
     pub size: (usize, usize),
     /// Links taken as outputs, and whether that was asked for.
@@ -50,6 +52,12 @@ pub struct Report {
 impl Report {
     pub(crate) fn map(&mut self, kind: &str) {
         *self.mapped.entry(kind.to_owned()).or_default() += 1;
+    }
+
+    /// Says of the pose what is not as drawn.
+    pub(crate) fn moved(&mut self, what: String) {
+        self.pose.push(what.clone());
+        self.moved.push(what);
     }
 
     pub(crate) fn approximate(&mut self, element: &str, what: impl Into<String>) {

@@ -32,7 +32,7 @@ impl Outcome {
             } => !m.joints[joint].drive && one(m, joint, &[(slides, direction)]).is_some(),
             Release::Coupling(_) => false,
         };
-        let held = held_twice(m, &|_| false, &free).ok()?;
+        let held = held_twice(m, &|_| false, &free, None).ok()?;
         if held.cheapest.is_empty() || held.cheapest.len() < held.range().1 {
             return None;
         }

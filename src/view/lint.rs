@@ -17,6 +17,8 @@ use serde_json::{Value, json};
 
 /// Remedies told of each finding.
 const REMEDIES: usize = 3;
+/// Notes told of how a file was read.
+const NOTES: usize = 6;
 /// Joints named in a line.
 const JOINTS: usize = 8;
 
@@ -31,6 +33,8 @@ pub struct Lint {
     pub redundant: usize,
     /// The most that σ can be.
     pub redundant_at_most: usize,
+    /// How many of them are redundant over the motion, as far as is known; the others are so at this pose only.
+    pub redundant_over_motion: usize,
     /// How sure σ is, in a word, and in a line.
     pub certainty_kind: &'static str,
     /// The line.
@@ -41,8 +45,10 @@ pub struct Lint {
     pub over_motion: Option<String>,
     /// Rows of couplings that are left out of the figures: W is up to so many too high, σ may be too low.
     pub left_out: usize,
-    /// What was read approximately.
+    /// What was read approximately, or left out though it may hold or move something.
     pub approximated: Vec<String>,
+    /// What is not as drawn: joints moved to close loops, bases that float.
+    pub moved: Vec<String>,
     /// Each redundant constraint.
     pub findings: Vec<Finding>,
     /// The cheapest releases that remove them all and let nothing move; none where there are not enough.
@@ -73,6 +79,8 @@ pub struct Finding {
     pub assembly: String,
     /// The cheapest releases that remove it.
     pub remedies: Vec<String>,
+    /// Whether it is redundant over the motion, as far as is known: else at this pose only, which is no fault.
+    pub lasts: bool,
     /// All that in a sentence.
     pub message: String,
 }
@@ -85,13 +93,14 @@ impl Lint {
         let report = read.map(|i| &i.report);
         let (least, most) = found.range();
         let words = Words { m, found };
-        let finding = |d: &Duplicate| words.finding(d, origin);
-        let whole = found.cheapest.len() == most;
+        let finding = |(i, d): (usize, &Duplicate)| words.finding(d, i < found.lasting, origin);
+        let whole = found.cheapest.len() == found.lasting;
         Lint {
             file: file.to_owned(),
             mobility: found.analysis.mobility,
             redundant: least,
             redundant_at_most: most,
+            redundant_over_motion: found.lasting,
             certainty_kind: found.analysis.certainty.word(),
             certainty: found.analysis.certainty.describe(),
             over_motion_kind: found.over.map(|o| o.word()),
@@ -103,7 +112,8 @@ impl Lint {
                     .map(|n| format!("{}: {}", n.element, n.what))
                     .collect()
             }),
-            findings: found.list.iter().map(finding).collect(),
+            moved: report.map_or(Vec::new(), |r| r.moved.clone()),
+            findings: found.list.iter().enumerate().map(finding).collect(),
             cheapest: match whole {
                 true => found.cheapest.iter().map(|&i| words.remedy(i)).collect(),
                 false => Vec::new(),
@@ -112,10 +122,15 @@ impl Lint {
         }
     }
 
-    /// Whether nothing is redundant, for sure.
+    /// Whether nothing is redundant, for sure, or at this pose only.
     #[must_use]
     pub fn is_clean(&self) -> bool {
-        self.redundant_at_most == 0
+        self.redundant_over_motion == 0
+    }
+
+    /// How many are redundant at this pose only.
+    fn passing(&self) -> usize {
+        self.redundant_at_most - self.redundant_over_motion
     }
 
     /// Whether σ is one number.
@@ -128,14 +143,24 @@ impl Lint {
     #[must_use]
     pub fn text(&self) -> String {
         let Lint { file, mobility, .. } = self;
-        if self.is_clean() {
+        if self.redundant_at_most == 0 {
             return format!(
-                "{file}: nothing is redundant (σ = 0, W = {mobility}){}\n",
-                self.left_out()
+                "{file}: nothing is redundant (σ = 0, W = {mobility}){}\n{}",
+                self.left_out(),
+                self.told()
             );
         }
-        let sigma = self.sigma();
-        let mut out = format!("{file}: {sigma}, W = {mobility}{}\n", self.left_out());
+        let (sigma, passing) = (self.sigma(), self.passing());
+        let mut out = match self.is_clean() {
+            true => format!(
+                "{file}: nothing is redundant over the motion; {sigma} at this pose, W = {mobility} there{}\n",
+                self.left_out()
+            ),
+            false => format!("{file}: {sigma}, W = {mobility}{}\n", self.left_out()),
+        };
+        if passing > 0 && !self.is_clean() {
+            out += &format!("  {passing} of them at this pose only\n");
+        }
         if let Some(over) = &self.over_motion {
             let what = match self.is_decided() {
                 true => "redundant",
@@ -143,12 +168,14 @@ impl Lint {
             };
             out += &format!("  {what} {over}\n");
         }
+        out += &self.told();
         for f in &self.findings {
             let place = match (&f.file, f.line, f.column) {
                 (Some(file), Some(line), Some(column)) => format!("{file}:{line}:{column}: "),
                 _ => String::new(),
             };
-            out += &format!("\n{place}{}\n", f.message);
+            let note = if f.lasts { "" } else { "note: " };
+            out += &format!("\n{place}{note}{}\n", f.message);
             if !f.remedies.is_empty() {
                 out += &format!("  remedies: {}\n", f.remedies.join("; "));
             }
@@ -158,9 +185,33 @@ impl Lint {
         }
         if !self.cheapest.is_empty() {
             out += &format!(
-                "\n  cheapest that removes all: {}\n",
+                "\n  cheapest that removes all{}: {}\n",
+                if passing > 0 { " that last" } else { "" },
                 self.cheapest.join("; ")
             );
+        }
+        out
+    }
+
+    /// What was not taken as it is drawn, each with a word for programs.
+    fn notes(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        let moved = self.moved.iter().map(|n| ("not-as-drawn", n.as_str()));
+        let left = self
+            .approximated
+            .iter()
+            .map(|n| ("approximated", n.as_str()));
+        moved.chain(left)
+    }
+
+    /// The same in lines.
+    fn told(&self) -> String {
+        let all = self.notes();
+        let mut out: String = all
+            .take(NOTES)
+            .map(|(_, n)| format!("  note: {n}\n"))
+            .collect();
+        if let more @ 1.. = self.notes().count().saturating_sub(NOTES) {
+            out += &format!("  note: {more} more of the kind, which `ozols import` tells\n");
         }
         out
     }
@@ -208,7 +259,7 @@ impl Words<'_> {
         &self.m.joints[j].id
     }
 
-    fn finding(&self, d: &Duplicate, origin: Option<&Origin>) -> Finding {
+    fn finding(&self, d: &Duplicate, lasts: bool, origin: Option<&Origin>) -> Finding {
         let (constraint, row, assembly) = match d.row {
             Release::Coupling(q) => (
                 self.coupling(q),
@@ -238,7 +289,8 @@ impl Words<'_> {
         let duplicates: Vec<String> = joints.chain(couplings).collect();
         let contours = &self.found.analysis.per_contour;
         let contours = d.contours.iter().filter_map(|&k| contours.get(k));
-        let remedies = d.remedies.iter().take(REMEDIES);
+        // What passes as the model moves needs none.
+        let remedies = d.remedies.iter().take(if lasts { REMEDIES } else { 0 });
         let more = match duplicates.len().saturating_sub(JOINTS) {
             0 => String::new(),
             n => format!(" and {n} more"),
@@ -248,10 +300,17 @@ impl Words<'_> {
             Release::Coupling(_) => row.clone(),
             Release::Freedom { .. } => format!("row {row}"),
         };
+        let message = match lasts {
+            true => {
+                format!("{constraint}, {row_words} duplicates {shown}{more}; assembly {assembly}")
+            }
+            false => {
+                format!("{constraint}, {row_words} duplicates {shown}{more} at this pose only")
+            }
+        };
         Finding {
-            message: format!(
-                "{constraint}, {row_words} duplicates {shown}{more}; assembly {assembly}"
-            ),
+            message,
+            lasts,
             file: place.as_ref().map(|p| p.file.clone()),
             line: place.as_ref().map(|p| p.at[0]),
             column: place.as_ref().map(|p| p.at[1]),
@@ -332,7 +391,7 @@ pub fn sarif(all: &[&Lint], passed_over: &[PassedOver]) -> Value {
         };
         json!({
             "ruleId": "redundant-constraint",
-            "level": if lint.is_decided() { "warning" } else { "note" },
+            "level": if lint.is_decided() && f.lasts { "warning" } else { "note" },
             "message": { "text": format!("{}{more}", f.message) },
             "locations": [{ "physicalLocation": place }],
         })
@@ -358,6 +417,9 @@ pub fn sarif(all: &[&Lint], passed_over: &[PassedOver]) -> Value {
             "results": results,
         }],
     });
-    passed_over::in_sarif(&mut out, passed_over);
+    let notes = all
+        .iter()
+        .flat_map(|l| l.notes().map(|(id, n)| (l.file.as_str(), id, n)));
+    passed_over::in_sarif(&mut out, passed_over, notes);
     out
 }

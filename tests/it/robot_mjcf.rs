@@ -191,8 +191,6 @@ fn mjcf_errors() {
             "joint \"j\" is there twice",
         ),
         (one("<composite/>"), "save the compiled model"),
-        (one("<flexcomp/>"), "save the compiled model"),
-        (one("<attach/>"), "save the compiled model"),
         (
             one("<joint/><body quat='1 0 0 0' euler='0 0 0'/>"),
             "two orientations",

@@ -335,7 +335,7 @@ fn nothing_is_said_that_need_not_be() {
         (i.report.approximated.len(), i.report.doubts().as_str()),
         (0, "")
     );
-    // A loop that is open as drawn and a coupling that is not linear: both are told, and not told.
+    // A loop that is open as drawn and a coupling that is a polynomial: both are told, and not told.
     let doubtful = mjcf(
         "<worldbody><body name='a'><joint name='j'/><body name='b' pos='0 1 0'><joint name='k'/></body></body>
          <body name='c' pos='2 0 0'><joint name='l' ref='0.2'/></body></worldbody><equality>
@@ -348,7 +348,7 @@ fn nothing_is_said_that_need_not_be() {
     assert!(
         run_on("import", "m.xml", &doubtful, &[])
             .2
-            .contains("not linear")
+            .contains("is a polynomial of l")
     );
 }
 

@@ -37,7 +37,11 @@ fn sdf_kinds() {
         let text = sdf(&format!(
             "<link name='a'/><link name='b'/><joint name='j' type='{kind}'><parent>a</parent><child>b</child>{more}</joint>"
         ));
-        import("m.sdf", text.as_bytes(), &none, &Options::default())
+        let options = Options {
+            frame: Some("a".to_owned()),
+            ..Options::default()
+        };
+        import("m.sdf", text.as_bytes(), &none, &options)
     };
     let axis = "<axis><xyz>0 0 1</xyz></axis>";
     let skew = "<axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 1 1</xyz></axis2>";
@@ -63,7 +67,8 @@ fn sdf_kinds() {
         assert_eq!(figures(&i, 1e-9)[4], freedoms, "{kind}");
     }
     for (kind, more, words) in [
-        ("gearbox", axis, "revolute, continuous"),
+        ("gearbox", axis, "gearbox_reference_body"),
+        ("belt", axis, "revolute, continuous"),
         ("revolute", "", "has no <axis>"),
         ("revolute", "<axis><xyz>0 0 0</xyz></axis>", "direction"),
         (

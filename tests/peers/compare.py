@@ -1,4 +1,4 @@
-"""Lints and fixes models with ozols, and asks MuJoCo and Pinocchio what became of them.
+"""Lints and fixes models with ozols, and asks MuJoCo, Pinocchio and sdformat what became of them.
 
 usage: compare.py OZOLS MODELS [PATTERN]
 MODELS is a folder of published models, one folder each, which may not be there; PATTERN is of the names of those wanted. Ends
@@ -15,11 +15,16 @@ import tempfile
 import time
 
 import generate
+import loading
 import mujoco_figures
 import numpy as np
 import pinocchio_figures
+import second
+import urdf_in_mujoco
 
 STEPS = 60
+# Poses farther apart, inside the limits.
+POSES = 20
 # The same place, as a fraction of a model's size.
 SAME = 1e-6
 OWN = pathlib.Path(__file__).parent.parent / "data/robots"
@@ -50,6 +55,12 @@ def lint(file, *more):
 def size(peer, q):
     peer.jacobian(q)
     return max(float(np.abs(peer.data.xpos).max()), 1e-3)
+
+
+def loads(name, file, ending, of=None):
+    """Every engine takes what is written, and all of it."""
+    for why in loading.refused(file, ending, of):
+        failures.append(f"{name}: {why}")
 
 
 def mjcf(name, file, truth=None, rounding=0.0):
@@ -87,11 +98,12 @@ def mjcf(name, file, truth=None, rounding=0.0):
         if code != 0:
             failures.append(f"{name}: not fixed: {err.strip().splitlines()[0]}")
             return
+        loads(f"{name}, fixed", t.name, ".xml", file)
         after = mujoco_figures.Model(t.name)
     follow(name, before, after, q, peer)
 
 
-def follow(name, before, after, q, peer, by_places=False):
+def follow(name, before, after, q, peer, by_places=False, steps=STEPS):
     """The way of the model as it was, step by step, in the model as it is: closed there, of full rank, and nowhere else.
 
     "The same" is to a millionth of the model's size, and ten times what the model as it was is open by where it does not close.
@@ -101,6 +113,7 @@ def follow(name, before, after, q, peer, by_places=False):
     random = np.random.default_rng(7)
     v = random.normal(size=before.model.nv)
     whole, there = size(before, q), after.model.qpos0.copy()
+    first = q.copy()
     links = [n for n in before.places(q) if n in after.places(there) and "~" not in n]
     # Three points of each link, as far out as it reaches.
     corners = np.vstack([np.zeros(3), np.eye(3)[:2]])
@@ -114,7 +127,7 @@ def follow(name, before, after, q, peer, by_places=False):
         gaps = [np.abs(a - b).max() for n in links for a, b in zip(found[n], wanted[n])]
         return float(max(gaps, default=0.0))
 
-    for step in range(STEPS):
+    for step in range(steps):
         j, _ = before.jacobian(q)
         v = v - np.linalg.pinv(j, rcond=before.zero) @ (j @ v)
         if np.abs(v).max() < 1e-9:
@@ -147,6 +160,23 @@ def follow(name, before, after, q, peer, by_places=False):
             expect(at, "the pose it closes to again", bool(apart(back, wanted) < near), True)
         if any(f.startswith(name) for f in failures):
             return
+    for number, q in enumerate(before.wander(first, POSES, random)):
+        wanted = before.seen(q, ours)
+        there = after.match(theirs, wanted, there) if by_places else after.embed(before, q)
+        at = f"{name}, pose {number}"
+        expect(at, "the same place", bool(apart(there, wanted) < SAME * whole + 10 * before.zero), True)
+        figures = after.figures(there)
+        expect(at, "W", figures["w"], peer["w"])
+        expect(at, "redundant", figures["redundant"], 0)
+        if any(f.startswith(name) for f in failures):
+            return
+    # Of places alone, the format between knows no masses.
+    fell = second.apart(before, after, first, start, (ours, theirs), whole, own=not by_places)
+    if fell is None:
+        notes.append(f"{name}: MuJoCo does not keep its loops closed for a second")
+        return
+    off, went = fell
+    expect(name, f"a second later {off:.1e} of its size apart (it went {went:.1e})", bool(off < second.APART + before.zero), True)
 
 
 def urdf(name, file, side):
@@ -173,14 +203,22 @@ def urdf(name, file, side):
         if code != 0:
             failures.append(f"{name}: not fixed: {err.strip().splitlines()[0]}")
             return
+        loads(f"{name}, fixed", t.name, ".urdf", file)
         after = pinocchio_figures.Model(t.name, side)
         figures, _ = after.figures()
         expect(f"{name}, fixed", "W", figures["w"], peer["w"])
         expect(f"{name}, fixed", "redundant", figures["redundant"], 0)
-        for step, (w, redundant, apart) in enumerate(before.along(after, STEPS)):
+        for step, (w, redundant, apart) in enumerate(before.along(after, STEPS, POSES)):
             expect(f"{name}, step {step}", "W", w, peer["w"])
             expect(f"{name}, step {step}", "redundant", redundant, 0)
             expect(f"{name}, step {step}", "the same place", bool(apart < SAME), True)
+        # The same in MuJoCo, with its loops, but for the small steps.
+        models = [mujoco_figures.Model(urdf_in_mujoco.model(f, side)) for f in (file, t.name)]
+        q, gap = models[0].close(models[0].model.qpos0)
+        if gap > 1e-7:
+            notes.append(f"{name}: MuJoCo does not close it from where it is drawn")
+            return
+        follow(f"{name} in MuJoCo", *models, q, models[0].figures(q), steps=0)
 
 
 def as_mjcf(folder, file, more):
@@ -220,6 +258,7 @@ def through(name, file, more=(), truth=None, moves=True):
         if code != 0:
             failures.append(f"{name}: not fixed: {err.strip().splitlines()[0]}")
             return
+        loads(f"{name}, fixed", fixed, fixed.suffix, file)
         after, why = as_mjcf(folder, fixed, more)
         if after is None:
             failures.append(f"{name}: fixed, not read: {why}")
@@ -246,6 +285,23 @@ def one(task):
     return list(rows), list(failures), list(notes), time.perf_counter() - began
 
 
+def exported(name, folder, file):
+    """What ozols writes of a model in the other formats."""
+    for ending in (".urdf", ".sdf", ".xml"):
+        out = folder / f"exported{ending}"
+        code, _, err = ozols("export", file, "--to", {".xml": "mjcf"}.get(ending, ending[1:]), "-o", out)
+        if code != 0:
+            notes.append(f"{name}: not written as {ending[1:]}: {err.strip().splitlines()[0]}")
+            continue
+        loads(f"{name}, as {ending[1:]}", out, ending)
+        if ending == ".urdf" and "mimic" not in out.read_text():
+            found, _ = lint(file)
+            model = mujoco_figures.Model(urdf_in_mujoco.model(out))
+            figures = model.figures(model.close(model.model.qpos0)[0])
+            expect(f"{name}, as urdf", "W", figures["w"], found["mobility"])
+            expect(f"{name}, as urdf", "redundant", figures["redundant"], found["redundant"])
+
+
 def generated(name, kind, number, how, digits):
     """A generated model in one joining; the figures to be had are those of MuJoCo of the model in full digits."""
     whole, model = generate.tree(kind, number), generate.tree(kind, number, digits)
@@ -263,7 +319,10 @@ def generated(name, kind, number, how, digits):
 
         if how in ["connect", "site", "weld"]:
             rounded = digits < generate.FULL
-            mjcf(name, put(".xml", model.mjcf(how)), figures(how) if rounded else None, 10.0**-digits)
+            file = put(".xml", model.mjcf(how))
+            mjcf(name, file, figures(how) if rounded else None, 10.0**-digits)
+            if how == "connect" and not rounded:
+                exported(name, folder, file)
             return
         if how == "yaml":
             text, side = model.urdf(beside=True)

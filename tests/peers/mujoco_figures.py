@@ -7,6 +7,10 @@ import numpy as np
 ZERO = 1e-6
 
 
+# Else these go to a file in the folder of whoever runs this.
+mujoco.set_mju_user_warning(lambda message: None)
+
+
 def integrate(model, q, v):
     mujoco.mj_integratePos(model, q, v, 1.0)
 
@@ -15,7 +19,7 @@ class Model:
     def __init__(self, path, zero=ZERO):
         """What is relatively less than `zero` counts as nothing where the model is closed and moved."""
         self.zero = zero
-        self.model = mujoco.MjModel.from_xml_path(str(path))
+        self.model = path if isinstance(path, mujoco.MjModel) else mujoco.MjModel.from_xml_path(str(path))
         flags = mujoco.mjtDisableBit
         for name in ("mjDSBL_CONTACT", "mjDSBL_LIMIT", "mjDSBL_FRICTIONLOSS"):
             self.model.opt.disableflags |= int(getattr(flags, name))
@@ -144,6 +148,44 @@ class Model:
             a, b = m.jnt_qposadr[j], o.jnt_qposadr[i]
             out[a : a + n] = q[b : b + n]
         return out
+
+    def same_velocities(self, other):
+        """Pairs of velocities, of the other model and of this one, of the joints that both have."""
+        m, o = self.model, other.model
+        waiting, out = {}, []
+        for j in range(m.njnt):
+            waiting.setdefault(self.key(j), []).append(j)
+        for i in range(o.njnt):
+            a, b = o.jnt_dofadr[i], m.jnt_dofadr[waiting[other.key(i)].pop(0)]
+            out += [(a + k, b + k) for k in range({0: 6, 1: 3, 2: 1, 3: 1}[int(o.jnt_type[i])])]
+        return out
+
+    def within(self, q):
+        """Whether hinges and slides are within their limits, where they have some."""
+        m = self.model
+        one = [j for j in range(m.njnt) if m.jnt_limited[j] and m.jnt_type[j] > 1]
+        return all(m.jnt_range[j, 0] <= q[m.jnt_qposadr[j]] <= m.jnt_range[j, 1] for j in one)
+
+    def wander(self, q, poses, random, step=0.05):
+        """Closed poses on the motion through one, inside the limits: as many as asked, fewer where there is no way on."""
+        q, v = np.array(q, dtype=float), random.normal(size=self.model.nv)
+        inside, found = self.within(q), 0
+        for _ in range(10 * poses):
+            if found == poses:
+                return
+            j, _ = self.jacobian(q)
+            along = v - np.linalg.pinv(j, rcond=self.zero) @ (j @ v) if len(j) else v
+            if np.abs(along).max() < 1e-9:
+                return
+            there = q.copy()
+            integrate(self.model, there, step * along / np.abs(along).max())
+            there, gap = self.close(there)
+            # A file whose pose is outside the limits has none to keep.
+            if gap > max(1e-7, self.zero * (self.zero > ZERO)) or inside and not self.within(there):
+                v = random.normal(size=self.model.nv)
+                continue
+            q, v, found = there, along, found + 1
+            yield q.copy()
 
     def key(self, j):
         m = self.model

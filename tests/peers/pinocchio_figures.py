@@ -81,17 +81,22 @@ class Model:
         q, gap = self.start()
         return self.of(q), gap
 
-    def along(self, other, steps):
-        """The way of this model in another that has its joints and more: W, redundant and the gap at each step."""
+    def along(self, other, steps, poses):
+        """The way of this model in another that has its joints and more: W, redundant and the gap at each small step, and then in
+        poses farther apart, inside the limits."""
         q, _ = self.start()
         random = np.random.default_rng(5)
         v = random.normal(size=self.model.nv)
-        for _ in range(steps):
+        inside = self.within(q)
+        for step in [0.003] * steps + [0.05] * poses:
             j, _ = self.jacobian(q)
             v = v - np.linalg.pinv(j, rcond=1e-8) @ (j @ v)
             v = v / np.abs(v).max()
-            q = pin.integrate(self.model, q, 0.003 * v)
-            q, _ = self.close(q)
+            beside, gap = self.close(pin.integrate(self.model, q, step * v))
+            if gap > 1e-9 or step > 0.01 and inside and not self.within(beside):
+                v = random.normal(size=self.model.nv)
+                continue
+            q = beside
             there = pin.neutral(other.model)
             for name in self.model.names[1:]:
                 i, k = self.model.getJointId(name), other.model.getJointId(name)
@@ -99,6 +104,10 @@ class Model:
                 there[b.idx_q : b.idx_q + b.nq] = q[a.idx_q : a.idx_q + a.nq]
             figures = other.of(there)
             yield figures["w"], figures["redundant"], float(np.abs(other.jacobian(there)[1]).max())
+
+    def within(self, q):
+        m = self.model
+        return bool(((m.lowerPositionLimit <= q) & (q <= m.upperPositionLimit)).all())
 
 
 def of_mjcf(file):

@@ -55,7 +55,11 @@ pub(crate) fn read(
                     "an equality of tendon lengths (1 row) is left out",
                 );
             }
-            "flex" | "flexvert" | "flexstrain" | "distance" => {
+            "flex" | "flexvert" | "flexstrain" => {
+                let what = "it holds a deformable body, which is left out";
+                robot.report.approximate(&e.label(), what);
+            }
+            "distance" => {
                 return Err(e.unsupported("it is not a joint", "remove it"));
             }
             other => robot.report.drop(other, e.attribute("name")),
@@ -181,23 +185,18 @@ fn coupling(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
         return Ok(());
     };
     // Value of joint 1 less its reference, as a polynomial of that of joint 2 less its own.
-    let polynomial = polynomial(e)?;
-    let [_, ratio, higher @ ..] = polynomial;
-    if higher.iter().any(|x| *x != 0.0) {
-        let what = format!(
-            "{a} and {b} are independent joints; their coupling (1 row) is left out, for it is not linear"
-        );
-        left_out(robot, what);
-        let what = format!("coupled to {b}, not linearly; here an independent joint");
-        comment(a, &what, robot);
-        return Ok(());
+    let [_, ratio, higher @ ..] = polynomial(e)?;
+    if higher != [0.0; 3] {
+        comment(a, &format!("coupled to {b} by a polynomial"), robot);
+    } else {
+        comment(a, &format!("coupled to {b} times {ratio}"), robot);
     }
-    comment(a, &format!("coupled to {b} times {ratio}"), robot);
     robot.couplings.push(Ratio {
         joints: [b.to_owned(), a.to_owned()],
         ratio,
         element,
         said_by: e.id,
+        higher,
     });
     Ok(())
 }

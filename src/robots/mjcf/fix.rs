@@ -5,15 +5,13 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
 use crate::geom::vector::Vector;
 use crate::robots::edit::{Edits, Freed, Freeing};
+use crate::robots::light::Light;
 use crate::robots::mjcf::context::compiler;
 use crate::robots::mjcf::defaults::Defaults;
 use crate::robots::origin::Origin;
 use crate::robots::parts::Part;
 use crate::robots::single_freedoms::{escape, numbers};
 use crate::robots::xml::Element;
-
-/// Moving bodies must have mass and inertia; in kg and kg·m².
-const INERTIAL: &str = "<inertial pos=\"0 0 0\" mass=\"1e-4\" diaginertia=\"1e-7 1e-7 1e-7\"/>";
 
 /// Gives joints freedoms.
 pub(crate) fn free(
@@ -212,7 +210,7 @@ impl<'a> File<'a> {
         let point = frame.then(&part.sides[0]).translation;
         let between = edits.name(&format!("{}_between", part.id));
         let inner = self.joints(&part.id, point, &frame, (body, freed), edits)?;
-        edits.within(body, &whole(&between, inner, None));
+        edits.within(body, &self.whole(&between, inner, None));
         edits.set(e, "body1", &between)?;
         self.inserted.push((Mark::Within(body.id), freed.len()));
         Ok(())
@@ -247,10 +245,20 @@ impl<'a> File<'a> {
         let start = found.node().span.start;
         let (before, after) = (&raw[..span.start - start], &raw[span.end - start..]);
         let copied = format!("{before}{}{after}", escape(&copy));
-        edits.after(found, &whole(&between, inner, Some(copied)));
+        edits.after(found, &self.whole(&between, inner, Some(copied)));
         edits.set(e, "site1", &copy)?;
         self.inserted.push((Mark::Site(found.id), freed.len()));
         Ok(())
+    }
+
+    /// The lines of a body in between.
+    fn whole(&self, name: &str, inner: Vec<String>, site: Option<String>) -> Vec<String> {
+        let mut out = vec![format!("<body name=\"{}\">", escape(name))];
+        let light = Light::in_description(&self.origin.document).mjcf();
+        let inner = std::iter::once(light).chain(inner).chain(site);
+        out.extend(inner.map(|l| format!("  {l}")));
+        out.push("</body>".to_owned());
+        out
     }
 
     /// Zeros for the new joints in the positions and speeds of keyframes.
@@ -303,17 +311,6 @@ impl<'a> File<'a> {
         }
         Ok(())
     }
-}
-
-/// The lines of a body in between.
-fn whole(name: &str, inner: Vec<String>, site: Option<String>) -> Vec<String> {
-    let mut out = vec![format!("<body name=\"{}\">", escape(name))];
-    let inner = std::iter::once(INERTIAL.to_owned())
-        .chain(inner)
-        .chain(site);
-    out.extend(inner.map(|l| format!("  {l}")));
-    out.push("</body>".to_owned());
-    out
 }
 
 /// Where the words of a text begin.

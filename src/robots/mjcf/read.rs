@@ -80,7 +80,10 @@ pub(crate) fn read(
                     }
                 }
             }
-            "deformable" => return Err(section.unsupported("deformable bodies", "remove them")),
+            "deformable" => {
+                let what = "deformable bodies are no links; left out";
+                robot.report.approximate(&section.label(), what);
+            }
             other => robot.report.drop(other, None),
         }
     }
@@ -133,7 +136,11 @@ fn bodies<'a>(
                 "joint" | "freejoint" => {
                     return Err(e.unsupported("the world cannot move", "put the joint into a body"));
                 }
-                "composite" | "flexcomp" | "attach" => {
+                "flexcomp" | "attach" => {
+                    let what = "what it makes when the model is compiled is left out; save the compiled model from MuJoCo as XML to have that, too";
+                    robot.report.approximate(&e.label(), what);
+                }
+                "composite" => {
                     let remedy = "save the compiled model from MuJoCo as XML and import that";
                     return Err(e.unsupported("it makes bodies when the model is compiled", remedy));
                 }
@@ -201,13 +208,15 @@ fn body<'a>(
     robot.report.map("body");
     if joints.is_empty() {
         let link = robot.link(&name, world);
-        let part = Part::new(
-            &name,
-            [parent, link],
-            [place, Motion::IDENTITY],
-            JointType::Fixed,
-        )
-        .said_by(e);
+        // What a hand or a recording moves in all six ways: a drive, and no part of the frame.
+        let mocap = e.attribute("mocap") == Some("true");
+        let kind = if mocap { free() } else { JointType::Fixed };
+        let sides = [place, Motion::IDENTITY];
+        let mut part = Part::new(&name, [parent, link], sides, kind).said_by(e);
+        if mocap {
+            part.drive = true;
+            robot.report.map("mocap body, as a drive");
+        }
         robot.joints.push(part);
         return Ok(link);
     }

@@ -7,7 +7,8 @@ use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::motion::pose::Pose;
 use crate::robots::formats::Written;
-use crate::robots::physical::{head, inertial, left_out};
+use crate::robots::light::Light;
+use crate::robots::physical::{GRAM, head, left_out, moving};
 use crate::robots::problem::ExportError;
 use crate::robots::single_freedoms::{
     Names, Single, comment, escape, number, numbers, place, singles,
@@ -17,9 +18,6 @@ use crate::statics::reactions::drives::driven;
 use crate::statics::reactions::geometry::Geometry;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-
-/// MuJoCo wants mass of what moves: of links whose mass the mechanism does not state, in kg and kg·m².
-const LIGHT: &str = "mass=\"1e-3\" diaginertia=\"1e-6 1e-6 1e-6\"";
 
 /// The mechanism's free state as MJCF; bodies have the global axes, each its origin at the joint that holds it.
 ///
@@ -70,7 +68,7 @@ pub(crate) fn mjcf(m: &Mechanism) -> Result<Written, ExportError> {
     if m.links_with_ids()
         .any(|(l, k)| l != frame && k.mass.is_none())
     {
-        told.push("links without a mass weigh a gram, for MuJoCo's sake".to_owned());
+        told.push(GRAM.to_owned());
     }
     out += &head(m, "  ", &told);
     out += "  <compiler angle=\"radian\"/>\n  <worldbody>\n";
@@ -190,7 +188,7 @@ impl Writer<'_> {
                     escape(&name),
                     numbers(from)
                 ));
-                lines.push(format!("  <inertial pos=\"0 0 0\" {LIGHT}/>"));
+                lines.push(format!("  {}", Light::in_mechanism(self.m).mjcf()));
                 lines.extend(inner.into_iter().map(|l| format!("  {l}")));
                 lines.push("</body>".to_owned());
                 format!(
@@ -261,20 +259,13 @@ impl Writer<'_> {
             };
             let (name, pos) = (escape(name), numbers(sub(at, from)));
             let _ = writeln!(out, "{indent}<body name=\"{name}\" pos=\"{pos}\">{role}");
-            let weight = match inertial(self.m, child, at) {
-                Some(i) if i.mass > 0.0 && i.tensor[..3].iter().all(|x| *x > 0.0) => format!(
-                    "pos=\"{}\" mass=\"{}\" fullinertia=\"{}\"",
-                    numbers(i.centre),
-                    i.mass,
-                    i.tensor.map(|x| number(x).to_string()).join(" ")
-                ),
-                Some(i) if i.mass > 0.0 => format!(
-                    "pos=\"{}\" mass=\"{}\" diaginertia=\"1e-6 1e-6 1e-6\"",
-                    numbers(i.centre),
-                    i.mass
-                ),
-                _ => format!("pos=\"0 0 0\" {LIGHT}"),
-            };
+            let i = moving(self.m, child, at);
+            let weight = format!(
+                "pos=\"{}\" mass=\"{}\" fullinertia=\"{}\"",
+                numbers(i.centre),
+                i.mass,
+                i.tensor.map(|x| number(x).to_string()).join(" ")
+            );
             let _ = writeln!(out, "{indent}  <inertial {weight}/>");
             for line in own.get(&child).into_iter().flatten() {
                 let _ = writeln!(out, "{indent}  {line}");

@@ -3,12 +3,10 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
 use crate::robots::edit::{Edits, Freeing};
+use crate::robots::light::Light;
 use crate::robots::origin::Origin;
 use crate::robots::single_freedoms::{escape, numbers};
 use crate::robots::xml::Element;
-
-/// Links must have mass; in kg and kg·m².
-const INERTIAL: &str = "<inertial><mass>1e-4</mass><inertia><ixx>1e-7</ixx><iyy>1e-7</iyy><izz>1e-7</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial>";
 
 /// Gives joints freedoms.
 pub(crate) fn free(
@@ -16,6 +14,7 @@ pub(crate) fn free(
     all: &[Freeing<'_>],
     edits: &mut Edits<'_>,
 ) -> Result<(), ImportError> {
+    let light = Light::in_description(&origin.document).sdf();
     for &(part, e, freed) in all {
         let remedy = "choose another joint (--at)";
         let (Some(child), "joint") = (e.child("child"), e.name()) else {
@@ -71,7 +70,7 @@ pub(crate) fn free(
             let axis = numbers(frame.inverse().direction(*direction));
             lines.push(format!("<!-- {why} -->"));
             lines.push(format!(
-                "<link name=\"{}\">{link_pose}{INERTIAL}</link>",
+                "<link name=\"{}\">{link_pose}{light}</link>",
                 escape(&between)
             ));
             chain.push((name, kind, between, axis));

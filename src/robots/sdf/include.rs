@@ -8,13 +8,25 @@ use crate::robots::xml::{self, Document, Element, MAX_BYTES};
 /// Deepest nesting of files, and most includes in all.
 const LIMITS: (usize, usize) = (16, 1000);
 
-/// Puts models in place of all `<include>` elements below `root`; says of each file whether it is older than SDF 1.5.
+/// What files include that is no mechanism, and that few have at hand: Gazebo's own light and floor.
+const SCENERY: [&str; 2] = ["model://sun", "model://ground_plane"];
+
+/// What became of the includes.
+pub(super) struct Expanded {
+    /// Of each file, whether it is older than SDF 1.5.
+    pub(super) old: Vec<bool>,
+    /// Includes that are left out, as nothing in them moves.
+    pub(super) scenery: Vec<String>,
+}
+
+/// Puts models in place of all `<include>` elements below `root`.
 pub(super) fn expand(
     document: &mut Document,
     root: usize,
     read: Reader<'_>,
-) -> Result<Vec<bool>, ImportError> {
+) -> Result<Expanded, ImportError> {
     let mut old = vec![is_old(document.element(root))];
+    let mut scenery = Vec::new();
     let mut count = 0;
     // With the names of the files that are open.
     let mut stack = vec![(root, Vec::<String>::new())];
@@ -30,6 +42,10 @@ pub(super) fn expand(
             }
             count += 1;
             let (model, uri) = included(document, c, (&open, count), read, &mut old)?;
+            let Some(model) = model else {
+                scenery.push(uri);
+                continue;
+            };
             let mut names = open.clone();
             names.push(uri);
             all.push(model);
@@ -37,7 +53,7 @@ pub(super) fn expand(
         }
         document.nodes[id].children = all;
     }
-    Ok(old)
+    Ok(Expanded { old, scenery })
 }
 
 fn is_old(root: Element<'_>) -> bool {
@@ -47,14 +63,14 @@ fn is_old(root: Element<'_>) -> bool {
     version.is_some_and(|v| v < 1.5)
 }
 
-/// The model that an include names, with what the include says of it.
+/// The model that an include names, with what the include says of it; none where it is a light or the floor. And the name.
 fn included(
     document: &mut Document,
     id: usize,
     (open, count): (&[String], usize),
     read: Reader<'_>,
     old: &mut Vec<bool>,
-) -> Result<(usize, String), ImportError> {
+) -> Result<(Option<usize>, String), ImportError> {
     let e = document.element(id);
     let uri = e
         .child("uri")
@@ -97,6 +113,7 @@ fn included(
     }
     let bytes = match read(&uri) {
         Ok(bytes) => bytes,
+        Err(_) if SCENERY.contains(&uri.trim_end_matches('/')) => return Ok((None, uri)),
         Err(error) => {
             let why = format!("it cannot be read ({error})");
             return Err(refuse(
@@ -116,6 +133,9 @@ fn included(
     old.push(is_old(document.element(inner)));
     let (e, found) = (document.element(id), document.element(inner));
     let models: Vec<usize> = found.named("model").map(|m| m.id).collect();
+    if models.is_empty() && found.child("light").is_some() {
+        return Ok((None, uri));
+    }
     let [model] = models[..] else {
         return Err(refuse(
             e,
@@ -139,5 +159,5 @@ fn included(
     if let Some(name) = name.filter(|n| !n.is_empty()) {
         document.nodes[model].rename(name);
     }
-    Ok((model, uri))
+    Ok((Some(model), uri))
 }

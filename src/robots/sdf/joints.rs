@@ -6,12 +6,12 @@ use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
 use crate::model::joint_type::JointType;
 use crate::robots::parts::{Part, Ratio, Robot, free};
 use crate::robots::problem::RobotProblem;
-use crate::robots::sdf::scene::{Scene, absolute, end, located};
+use crate::robots::sdf::scene::{Scene, absolute, end, located, of_joint};
 use crate::robots::urdf::read::{same_link, unknown_type};
 use crate::robots::xml::Element;
 
 pub(crate) const TYPES: &str =
-    "revolute, continuous, prismatic, screw, universal, revolute2, ball, fixed, floating";
+    "revolute, continuous, prismatic, screw, universal, revolute2, ball, fixed, floating, gearbox";
 /// A parent frame this far from the joint, as a fraction of the lengths in the file, is where the joint is to go.
 pub(crate) const APART: f64 = 1e-6;
 
@@ -55,6 +55,8 @@ pub(crate) fn axis(
     match xyz.attribute("expressed_in").filter(|f| !f.is_empty()) {
         Some("world") => Ok(v),
         Some(f) => Ok(located(xyz, &absolute(scope, f), scene)?.1.direction(v)),
+        // A joint between models is of the world.
+        None if in_model && scope.is_empty() && !scene.placed.contains_key("__model__") => Ok(v),
         None if in_model => Ok(located(xyz, &format!("{scope}__model__"), scene)?
             .1
             .direction(v)),
@@ -78,11 +80,7 @@ pub(crate) fn joint(
     if parent == child {
         return Err(same_link(e));
     }
-    let world = scene
-        .placed
-        .get(&name)
-        .and_then(|p| p.world)
-        .unwrap_or(Motion::IDENTITY);
+    let world = of_joint(scene, e, &name).unwrap_or(Motion::IDENTITY);
     let local = |d: Vector| world.inverse().direction(d);
     let joint_type = match word {
         "revolute" | "continuous" | "hinge" => JointType::Revolute,
@@ -187,6 +185,7 @@ fn mimic(
         ratio,
         element: e.label(),
         said_by: m.id,
+        higher: [0.0; 3],
     });
     Ok(Some(leader))
 }

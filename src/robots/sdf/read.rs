@@ -7,9 +7,12 @@ use crate::model::joint_type::JointType;
 use crate::robots::options::{Options, Reader};
 use crate::robots::parts::{Part, Robot};
 use crate::robots::problem::RobotProblem;
-use crate::robots::sdf::include;
+use crate::robots::sdf::gearbox::gearbox;
+use crate::robots::sdf::include::{self, Expanded};
 use crate::robots::sdf::joints::{joint, weld};
-use crate::robots::sdf::scene::{Placed, Scene, absolute, end, insert, moves_with, resolve};
+use crate::robots::sdf::scene::{
+    BESIDE, Placed, Scene, absolute, end, insert, moves_with, resolve,
+};
 use crate::robots::urdf::read::ball_constraint;
 use crate::robots::xml::{Document, Element};
 
@@ -20,10 +23,14 @@ pub(crate) fn read(
     inner: Reader<'_>,
     options: &Options,
 ) -> Result<Robot, ImportError> {
-    let old = include::expand(document, root, inner)?;
+    let Expanded { old, scenery } = include::expand(document, root, inner)?;
     let (root, assemble) = (document.element(root), options.assemble);
     let mut models: Vec<(Element<'_>, bool)> = root.named("model").map(|m| (m, false)).collect();
     let mut robot = Robot::new("robot");
+    for uri in &scenery {
+        robot.report.drop("include of a light or floor", Some(uri));
+    }
+    let mut among = Vec::new();
     for w in root.named("world") {
         models.extend(w.named("model").map(|m| (m, false)));
         for e in w
@@ -32,10 +39,10 @@ pub(crate) fn read(
         {
             robot.report.drop(e.name(), e.attribute("name"));
         }
-        if let Some(e) = w.child("joint").or(w.child("frame")) {
-            let why = "joints and frames between models of a world are not read";
-            return Err(e.unsupported(why, "put the models into one <model>"));
-        }
+        among.extend(
+            w.children()
+                .filter(|e| ["joint", "frame"].contains(&e.name())),
+        );
     }
     let Some(first) = models.first() else {
         let what = "<model>".to_owned();
@@ -59,7 +66,7 @@ pub(crate) fn read(
         assemble,
         ..Scene::default()
     };
-    let alone = models.len() == 1;
+    let alone = models.len() == 1 && among.is_empty();
     models.reverse();
     let mut stack: Vec<(Element<'_>, String, bool)> = models
         .into_iter()
@@ -76,6 +83,10 @@ pub(crate) fn read(
         model(m, &outer, &scope, &mut scene, &mut robot)?;
         let nested: Vec<_> = m.named("model").map(|n| (n, scope.clone(), true)).collect();
         stack.extend(nested.into_iter().rev());
+    }
+    // Those of the world name what is in its models by the models' names.
+    for e in among {
+        named_place(e, "", "world", false, &mut scene)?;
     }
     resolve(&mut scene)?;
     for p in scene.placed.values() {
@@ -102,8 +113,15 @@ pub(crate) fn read(
         .values()
         .map(|p| length(p.raw.translation))
         .fold(1e-3, f64::max);
-    for (e, scope) in std::mem::take(&mut scene.joints) {
+    let is_gearbox = |e: &Element<'_>| e.attribute("type") == Some("gearbox");
+    let joints = std::mem::take(&mut scene.joints).into_iter();
+    let (gearboxes, joints): (Vec<_>, Vec<_>) = joints.partition(|(e, _)| is_gearbox(e));
+    for (e, scope) in joints {
         joint(e, &scope, &scene, size, &mut robot)?;
+    }
+    // These couple joints that are read by now.
+    for (e, scope) in gearboxes {
+        gearbox(e, &scope, &scene, &mut robot)?;
     }
     for (e, scope) in std::mem::take(&mut scene.constraints) {
         match e.name() {
@@ -219,22 +237,18 @@ fn model<'a>(
                     scene.fixed.push(link);
                 }
             }
-            "frame" => {
-                let name = named(e)?;
-                let (raw, relative) = pose(e)?;
-                let to = e.attribute("attached_to").filter(|a| !a.is_empty());
-                let to = to.map_or_else(|| own.clone(), |a| absolute(scope, a));
-                let relative = relative.map_or_else(|| to.clone(), |r| absolute(scope, r));
-                insert(scene, name, placed(e, relative, raw, to, None))?;
-            }
+            "frame" => named_place(e, scope, &own, false, scene)?,
             "joint" => {
-                e.room("joints", scene.joints.len())?;
-                let name = named(e)?;
-                let (raw, relative) = pose(e)?;
-                let child = absolute(scope, end(e, "child")?.1);
-                let relative = relative.map_or_else(|| child.clone(), |r| absolute(scope, r));
-                insert(scene, name, placed(e, relative, raw, child, None))?;
-                scene.joints.push((e, scope.to_owned()));
+                let wanted = e.attribute("name");
+                let others = ["link", "frame", "model"].into_iter();
+                let shared = others
+                    .flat_map(|tag| m.named(tag).collect::<Vec<_>>())
+                    .any(|o| o.attribute("name") == wanted);
+                named_place(e, scope, &own, shared, scene)?;
+            }
+            "drake:joint" => {
+                let what = "a joint of Drake's own, which is not read: what it holds is loose here";
+                robot.report.approximate(&e.label(), what);
             }
             "drake:weld_constraint" | "drake:ball_constraint" => {
                 e.room("constraints", scene.constraints.len())?;
@@ -248,4 +262,38 @@ fn model<'a>(
         }
     }
     Ok(())
+}
+
+/// Takes in a frame or joint, whose place is relative to `own` where nothing is said; a joint that shares its name has its
+/// frame beside it.
+fn named_place<'a>(
+    e: Element<'a>,
+    scope: &str,
+    own: &str,
+    shared: bool,
+    scene: &mut Scene<'a>,
+) -> Result<(), ImportError> {
+    let mut name = format!("{scope}{}", e.required("name")?);
+    let (raw, relative) = pose(e)?;
+    let attached_to = if e.name() == "joint" {
+        e.room("joints", scene.joints.len())?;
+        scene.joints.push((e, scope.to_owned()));
+        if shared {
+            name += BESIDE;
+        }
+        absolute(scope, end(e, "child")?.1)
+    } else {
+        let to = e.attribute("attached_to").filter(|a| !a.is_empty());
+        to.map_or_else(|| own.to_owned(), |a| absolute(scope, a))
+    };
+    let relative_to = relative.map_or_else(|| attached_to.clone(), |r| absolute(scope, r));
+    let placed = Placed {
+        element: e,
+        relative_to,
+        raw,
+        attached_to,
+        world: None,
+        link: None,
+    };
+    insert(scene, name, placed)
 }

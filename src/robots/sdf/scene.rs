@@ -33,6 +33,17 @@ pub(crate) struct Scene<'a> {
     pub(super) assemble: bool,
 }
 
+/// Ends the name of the frame of a joint that is called as a link beside it is.
+pub(crate) const BESIDE: &str = "~joint";
+
+/// The place of a joint, once known.
+pub(crate) fn of_joint(scene: &Scene<'_>, e: Element<'_>, name: &str) -> Option<Motion> {
+    let own = |p: &&Placed<'_>| p.element.id == e.id;
+    let found = scene.placed.get(name).filter(own);
+    let found = found.or_else(|| scene.placed.get(&format!("{name}{BESIDE}")));
+    found.and_then(|p| p.world)
+}
+
 /// A name as seen from a scope.
 pub(crate) fn absolute(scope: &str, name: &str) -> String {
     if name == "world" {

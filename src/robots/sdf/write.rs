@@ -3,15 +3,16 @@
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::robots::formats::Written;
+use crate::robots::light::Light;
 use crate::robots::mimic::{Follows, mimics, settled, stand_in};
-use crate::robots::physical::{head, inertial, left_out};
+use crate::robots::physical::{head, left_out, moving};
 use crate::robots::single_freedoms::{
     Names, Place, Single, comment, escape, number, numbers, place, singles,
 };
 use std::fmt::Write;
 
 /// The mechanism's free state as SDF 1.9. All links have the global axes; joints of several freedoms that SDF does not
-/// know become joints in series through links without mass.
+/// know become joints in series through light links.
 pub(crate) fn sdf(m: &Mechanism) -> Written {
     // Mimic joints are of 1.11.
     let version = if m.couplings_in(StateId::FREE).next().is_some() {
@@ -28,6 +29,7 @@ pub(crate) fn sdf(m: &Mechanism) -> Written {
     let joints: Vec<JointId> = m.joints_in(StateId::FREE).collect();
     let written: Vec<bool> = m.joint_ids().map(|j| joints.contains(&j)).collect();
     let (follows, unsaid) = mimics(m, &written);
+    let light = Light::in_mechanism(m).sdf();
     let mut told = left_out(m);
     told.extend(unsaid);
     if m.links.iter().any(|l| l.mass.is_none()) {
@@ -53,7 +55,8 @@ pub(crate) fn sdf(m: &Mechanism) -> Written {
         let Some(n) = links[l].as_deref().filter(|n| *n != world) else {
             continue;
         };
-        let weight = inertial(m, l, [0.0; 3]).map_or("/>".to_owned(), |i| {
+        let stated = link.mass.as_ref().map(|_| moving(m, l, [0.0; 3]));
+        let weight = stated.map_or("/>".to_owned(), |i| {
             let [xx, yy, zz, xy, xz, yz] = i.tensor.map(number);
             format!(
                 "><inertial><pose>{} 0 0 0</pose><mass>{}</mass><inertia><ixx>{xx}</ixx><iyy>{yy}</iyy><izz>{zz}</izz><ixy>{xy}</ixy><ixz>{xz}</ixz><iyz>{yz}</iyz></inertia></inertial></link>",
@@ -76,14 +79,20 @@ pub(crate) fn sdf(m: &Mechanism) -> Written {
     }
     for &j in &joints {
         let joint = &m.joints[j];
-        let p = place(m, joint);
+        let mut p = place(m, joint);
         let id = names.fit(&joint.id);
         ids[j].clone_from(&id);
         if joint.drive {
             let _ = writeln!(body, "    <!-- {} is driven -->", comment(&id));
         }
-        let ends = joint.links.map(name);
-        if let Some((kind, more)) = known(&joint.joint_type, &p) {
+        let mut ends = joint.links.map(name);
+        // The world is nobody's child: passed from the other end, a joint moves the other way about what comes last.
+        let back = ends[1] == world;
+        if back {
+            ends.reverse();
+            p.axes = p.axes.map(|a| a.map(|x| -x));
+        }
+        if let Some((kind, more)) = known(&joint.joint_type, &p, back) {
             let more = match follows[j] {
                 Some(f) => more.replacen("</axis>", &format!("{}</axis>", follow(f)), 1),
                 None => more,
@@ -91,7 +100,10 @@ pub(crate) fn sdf(m: &Mechanism) -> Written {
             write_joint(&mut body, &id, kind, ends, p.point, &more);
             continue;
         }
-        let all = singles(&joint.joint_type, &p);
+        let mut all = singles(&joint.joint_type, &p);
+        if back {
+            all.reverse();
+        }
         let mut from = ends[0].to_owned();
         for (i, single) in all.iter().enumerate() {
             let last = i + 1 == all.len();
@@ -101,7 +113,7 @@ pub(crate) fn sdf(m: &Mechanism) -> Written {
                 names.fit(&format!("{id}~{}", i + 1))
             };
             if !last {
-                let _ = writeln!(out, "    <link name=\"{}\"/>", escape(&to));
+                let _ = writeln!(out, "    <link name=\"{}\">{light}</link>", escape(&to));
             }
             let part = if i == 0 {
                 id.clone()
@@ -140,9 +152,10 @@ fn axis(tag: &str, d: [f64; 3]) -> String {
     )
 }
 
-/// The SDF joint of a type, where there is one, and what goes into it.
-fn known(t: &JointType, p: &Place) -> Option<(&'static str, String)> {
+/// The SDF joint of a type, where there is one, and what goes into it; `back` where it is passed from its second link.
+fn known(t: &JointType, p: &Place, back: bool) -> Option<(&'static str, String)> {
     let [x, _, z] = p.axes;
+    let (first, second) = if back { (x, z) } else { (z, x) };
     Some(match t {
         JointType::Revolute | JointType::Prismatic | JointType::Helical => {
             let [single] = singles(t, p)[..] else {
@@ -150,7 +163,7 @@ fn known(t: &JointType, p: &Place) -> Option<(&'static str, String)> {
             };
             elementary(single)
         }
-        JointType::Universal => ("universal", axis("axis", z) + &axis("axis2", x)),
+        JointType::Universal => ("universal", axis("axis", first) + &axis("axis2", second)),
         JointType::Spherical => ("ball", String::new()),
         JointType::Fixed => ("fixed", String::new()),
         _ => return None,

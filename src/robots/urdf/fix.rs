@@ -1,8 +1,9 @@
-//! Joints of one more freedom in a URDF file: links without mass and joints put in between the parent
+//! Joints of one more freedom in a URDF file: light links and joints put in between the parent
 //! of a joint, or the first link of a loop, and the joint.
 
 use crate::file::problem::ImportError;
 use crate::robots::edit::{Edits, Freeing};
+use crate::robots::light::Light;
 use crate::robots::origin::Origin;
 use crate::robots::single_freedoms::{comment, escape, numbers};
 use crate::robots::xml::Element;
@@ -13,6 +14,7 @@ pub(crate) fn free(
     all: &[Freeing<'_>],
     edits: &mut Edits<'_>,
 ) -> Result<(), ImportError> {
+    let light = Light::in_description(&origin.document).urdf();
     for &(part, e, freed) in all {
         // A loop's first link has the place of the loop in its own attributes, a joint in an element of its own.
         let (tag, at) = match e.name() {
@@ -34,7 +36,10 @@ pub(crate) fn free(
             let between = edits.name(&format!("{}_{word}_link", part.id));
             let name = edits.name(&format!("{}_{word}", part.id));
             lines.push(format!("<!-- {why} -->"));
-            lines.push(format!("<link name=\"{}\"/>", escape(&between)));
+            lines.push(format!(
+                "<link name=\"{}\">{light}</link>",
+                escape(&between)
+            ));
             lines.push(format!(
                 "<joint name=\"{}\" type=\"{kind}\"><parent link=\"{}\"/><child link=\"{}\"/>{place}<axis xyz=\"{}\"/>{limit}</joint>",
                 escape(&name),

@@ -39,6 +39,15 @@ pub(crate) fn read(
             robot.report.drop(c.name(), None);
         }
     }
+    // Every reader knows the world, and takes what hangs on it for fixed.
+    let on_world = |j: Element<'_>| {
+        let parent = j.child("parent");
+        parent.is_some_and(|p| p.attribute("link") == Some("world"))
+    };
+    if robot.frame("world").is_none() && root.named("joint").any(on_world) {
+        robot.link("world", Motion::IDENTITY);
+        robot.report.map("world");
+    }
     for e in root.children() {
         e.room("joints", robot.joints.len())?;
         match e.name() {
@@ -177,6 +186,7 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
             ratio,
             element: e.label(),
             said_by: m.id,
+            higher: [0.0; 3],
         });
     }
     for c in e.children() {

@@ -5,8 +5,9 @@ use crate::geom::vector::sub;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::robots::formats::Written;
+use crate::robots::light::Light;
 use crate::robots::mimic::{mimics, settled, stand_in};
-use crate::robots::physical::{self, inertial, left_out};
+use crate::robots::physical::{self, GRAM, inertial, left_out, moving};
 use crate::robots::problem::ExportError;
 use crate::robots::single_freedoms::{
     Names, Single, comment, escape, number, numbers, place, singles,
@@ -27,12 +28,18 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<Written, ExportError> {
     let mut ids = vec![String::new(); m.joints.len()];
     let mut single = vec![false; m.joints.len()];
     let frame = m.frame();
+    let light = Light::in_mechanism(m).urdf();
     let link = |l: LinkId, at: [f64; 3], head: &mut String, names: &mut Names| {
         let n = names.fit(&m.links[l].id);
-        let weight = inertial(m, l, at).map_or("/>".to_owned(), |i| {
+        // What stands still needs no mass, and some readers want none of it.
+        let weight = match l == frame {
+            true => inertial(m, l, at),
+            false => Some(moving(m, l, at)),
+        };
+        let weight = weight.map_or("/>".to_owned(), |i| {
             let [xx, yy, zz, xy, xz, yz] = i.tensor.map(number);
             format!(
-                "><inertial><origin xyz=\"{}\"/><mass value=\"{}\"/><inertia ixx=\"{xx}\" iyy=\"{yy}\" izz=\"{zz}\" ixy=\"{xy}\" ixz=\"{xz}\" iyz=\"{yz}\"/></inertial></link>",
+                "><inertial><origin xyz=\"{}\"/><mass value=\"{}\"/><inertia ixx=\"{xx}\" ixy=\"{xy}\" ixz=\"{xz}\" iyy=\"{yy}\" iyz=\"{yz}\" izz=\"{zz}\"/></inertial></link>",
                 numbers(i.centre),
                 i.mass
             )
@@ -62,8 +69,8 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<Written, ExportError> {
             let held = if last {
                 child.clone()
             } else {
-                let between = names.fit(&format!("{id}~{}", i + 1));
-                let _ = writeln!(head, "  <link name=\"{}\"/>", escape(&between));
+                let between = names.fit(&format!("{id}~{}~link", i + 1));
+                let _ = writeln!(head, "  <link name=\"{}\">{light}</link>", escape(&between));
                 between
             };
             let part = if i == 0 {
@@ -103,8 +110,8 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<Written, ExportError> {
             });
         }
         for (i, (kind, axis)) in parts.iter().enumerate() {
-            let between = names.fit(&format!("{id}~{}", i + 1));
-            let _ = writeln!(head, "  <link name=\"{}\"/>", escape(&between));
+            let between = names.fit(&format!("{id}~{}~link", i + 1));
+            let _ = writeln!(head, "  <link name=\"{}\">{light}</link>", escape(&between));
             let part = joint_names.fit(&format!("{id}~{}", i + 1));
             let ends = [a.as_str(), between.as_str()];
             let text = tree_joint(&part, kind, ends, sub(p.point, from), *axis, "");
@@ -131,6 +138,11 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<Written, ExportError> {
     let (follows, unsaid) = mimics(m, &single);
     let mut told = left_out(m);
     told.extend(unsaid);
+    if m.links_with_ids()
+        .any(|(l, k)| l != frame && k.mass.is_none())
+    {
+        told.push(GRAM.to_owned());
+    }
     if body.contains(LIMIT) {
         told.push("what slides has limits of 1 m that are made up: URDF wants some".to_owned());
     }

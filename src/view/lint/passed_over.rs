@@ -40,13 +40,21 @@ impl PassedOver {
 
     /// A notification of SARIF.
     fn notification(&self) -> Value {
-        json!({
-            "descriptor": { "id": if self.rigid { "nothing-moves" } else { "not-looked-at" } },
-            "level": if self.rigid { "note" } else { "error" },
-            "message": { "text": self.why },
-            "locations": [{ "physicalLocation": { "artifactLocation": { "uri": self.file } } }],
-        })
+        let (id, level) = match self.rigid {
+            true => ("nothing-moves", "note"),
+            false => ("not-looked-at", "error"),
+        };
+        notification(&self.file, id, level, &self.why)
     }
+}
+
+fn notification(file: &str, id: &str, level: &str, text: &str) -> Value {
+    json!({
+        "descriptor": { "id": id },
+        "level": level,
+        "message": { "text": text },
+        "locations": [{ "physicalLocation": { "artifactLocation": { "uri": file } } }],
+    })
 }
 
 /// Tells of them beside the findings in JSON; nothing where there are none.
@@ -56,12 +64,21 @@ pub(super) fn in_json(out: &mut Value, all: &[PassedOver]) {
     }
 }
 
-/// The same in SARIF.
-pub(super) fn in_sarif(out: &mut Value, all: &[PassedOver]) {
-    if all.is_empty() {
+/// The same in SARIF, and the notes on files that were looked at: file, word and text.
+pub(super) fn in_sarif<'a>(
+    out: &mut Value,
+    all: &[PassedOver],
+    notes: impl Iterator<Item = (&'a str, &'a str, &'a str)>,
+) {
+    let notes = notes.map(|(file, id, text)| notification(file, id, "note", text));
+    let told: Vec<Value> = all
+        .iter()
+        .map(PassedOver::notification)
+        .chain(notes)
+        .collect();
+    if told.is_empty() {
         return;
     }
-    let told: Vec<Value> = all.iter().map(PassedOver::notification).collect();
     out["runs"][0]["invocations"] = json!([{
         "executionSuccessful": all.iter().all(|p| p.rigid),
         "toolExecutionNotifications": told,

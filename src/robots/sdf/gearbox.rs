@@ -1,0 +1,70 @@
+//! `<joint type="gearbox">`: no joint of its own, but a ratio of the turns of two hinges on one body.
+
+use crate::file::problem::ImportError;
+use crate::geom::rigid::Motion;
+use crate::geom::vector::{cross, dot, length};
+use crate::model::joint_type::JointType;
+use crate::robots::parts::{Ratio, Robot};
+use crate::robots::sdf::joints::axis;
+use crate::robots::sdf::scene::{Scene, absolute, end, located, of_joint};
+use crate::robots::xml::Element;
+
+/// Couples the hinges of its parent and of its child on the body that it refers to: the child turns the other way, so many times
+/// as fast. Where there are no such hinges it is left out, which is said.
+pub(crate) fn gearbox(
+    e: Element<'_>,
+    scope: &str,
+    scene: &Scene<'_>,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    let name = format!("{scope}{}", e.required("name")?);
+    let world = of_joint(scene, e, &name).unwrap_or(Motion::IDENTITY);
+    let times = match e.child("gearbox_ratio") {
+        Some(r) => r.text_numbers::<1>()?[0],
+        None => 1.0,
+    };
+    let (_, on) = end(e, "gearbox_reference_body")?;
+    let (on, _) = located(e, &absolute(scope, on), scene)?;
+    let mut found = Vec::new();
+    for (tag, way) in [("parent", "axis"), ("child", "axis2")] {
+        let (c, link) = end(e, tag)?;
+        let (link, _) = located(c, &absolute(scope, link), scene)?;
+        let way = if e.child(way).is_some() { way } else { "axis" };
+        let about = axis(e, way, scope, scene, &world)?;
+        found.extend(hinge(robot, [on, link], about));
+    }
+    let [(leader, first), (follower, second)] = found[..] else {
+        let what = "it has not a hinge of its parent and one of its child on the body it refers to, about its axes; its coupling (1 row) is left out";
+        robot.report.coupling_rows += 1;
+        robot.report.approximate(&e.label(), what);
+        return Ok(());
+    };
+    let id = |j: usize| robot.joints[j].id.clone();
+    let joints = [id(leader), id(follower)];
+    robot.joints[follower].comment = Some(format!("geared to {}", joints[0]));
+    robot.couplings.push(Ratio {
+        joints,
+        ratio: -times * first * second,
+        element: e.label(),
+        said_by: e.id,
+        higher: [0.0; 3],
+    });
+    robot.report.map("gearbox");
+    Ok(())
+}
+
+/// The hinge of a link on another about a direction, and the sign of its turn about that.
+fn hinge(robot: &Robot, [on, link]: [usize; 2], about: [f64; 3]) -> Option<(usize, f64)> {
+    robot.joints.iter().enumerate().find_map(|(j, p)| {
+        let sense = match p.links {
+            ends if ends == [on, link] => 1.0,
+            ends if ends == [link, on] => -1.0,
+            _ => return None,
+        };
+        let own = robot.places[p.links[0]].then(&p.sides[0]).direction(p.axis);
+        let along = dot(own, about);
+        let parallel = length(cross(own, about)) < 1e-6 * along.abs();
+        let fits = p.joint_type == JointType::Revolute && parallel;
+        fits.then_some((j, sense * along.signum()))
+    })
+}
