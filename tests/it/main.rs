@@ -38,6 +38,7 @@ mod least_rows;
 mod library;
 mod licences;
 mod mobility;
+mod mutants;
 mod order;
 mod phrases;
 mod png;
