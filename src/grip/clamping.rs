@@ -208,7 +208,7 @@ fn hardest_of(pose: &Pose, load: &GripLoad, mass: f64, case: &Case) -> Hardest {
     // that are greatest nearby, and the greatest of all need not be near the best of a few directions.
     let mut worst = at([1.0, 0.0, 0.0]);
     for u in cube_directions() {
-        let found = climbed(&at, at(u));
+        let found = climbed(at, at(u));
         // Mirror images are as hard: rounding must not put one before the other.
         if hardness(&found.1.verdict) > hardness(&worst.1.verdict) * (1.0 + 1e-6) {
             worst = found;

@@ -198,29 +198,20 @@ fn equalities_of_mujoco() {
             .zip([0.25, -1.0])
             .all(|(x, y)| (x.to_f64() - y).abs() < 1e-12)
     );
-    for (equality, why) in [
-        (
-            r#"<joint joint1="b" joint2="a" polycoef="0 1 0.5 0 0"/>"#,
-            "it is not linear",
-        ),
-        (
-            r#"<joint joint1="b" joint2="a" polycoef="0 0"/>"#,
-            "times 0",
-        ),
-    ] {
-        let i = mjcf(equality);
-        assert_eq!(
-            (i.report.coupling_rows, i.report.kept),
-            (1, None),
-            "{equality}"
-        );
-        assert!(
-            i.report.text("x.xml").contains(why),
-            "{}",
-            i.report.text("x.xml")
-        );
-        assert_eq!(exact(&mechanism(&i.toml().unwrap())).mobility, 3);
-    }
+    // A polynomial by its derivative at the pose.
+    let i = mjcf(r#"<joint joint1="b" joint2="a" polycoef="0 1 0.5 0 0"/>"#);
+    let told = i.report.text("x.xml");
+    assert!(told.contains("the derivative at this pose"), "{told}");
+    let m = mechanism(&i.toml().unwrap());
+    assert_eq!(
+        (m.couplings[0].ratio.to_f64(), exact(&m).mobility),
+        (1.0, 2)
+    );
+    let i = mjcf(r#"<joint joint1="b" joint2="a" polycoef="0 0"/>"#);
+    assert_eq!((i.report.coupling_rows, i.report.kept.clone()), (1, None));
+    let told = i.report.text("x.xml");
+    assert!(told.contains("times 0"), "{told}");
+    assert_eq!(exact(&mechanism(&i.toml().unwrap())).mobility, 3);
     // A joint held at a constant moves no more.
     let i = mjcf(r#"<joint joint1="b"/>"#);
     assert_eq!(exact(&mechanism(&i.toml().unwrap())).mobility, 2);

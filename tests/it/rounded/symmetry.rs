@@ -80,7 +80,6 @@ fn mirror_pairs_of_built_in_grippers_hold_in_turned_files() {
     ] {
         let exact = bare(mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap());
         let [same, all] = same(name, &exact, &[4, 6, 9, 12]);
-        println!("{name}: {same} of {all}");
         sum = [sum[0] + same, sum[1] + all];
     }
     assert!(sum[0] * 10 >= sum[1] * 9, "{sum:?}");
