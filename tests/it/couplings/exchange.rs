@@ -208,7 +208,7 @@ fn equalities_of_mujoco() {
         (1.0, 2)
     );
     let i = mjcf(r#"<joint joint1="b" joint2="a" polycoef="0 0"/>"#);
-    assert_eq!((i.report.coupling_rows, i.report.kept.clone()), (1, None));
+    assert_eq!((i.report.coupling_rows, i.report.kept), (1, None));
     let told = i.report.text("x.xml");
     assert!(told.contains("times 0"), "{told}");
     assert_eq!(exact(&mechanism(&i.toml().unwrap())).mobility, 3);
