@@ -198,7 +198,7 @@ fn the_missing_angle_is_that_of_the_disc_that_misses_more() {
     let text = |first: &str, second: &str| {
         format!(
             "name = \"d\"\n[workload.drive]\nswing_angle = 90\nswing_time = 0.4\nshear_modulus = 8e10\n\
-             allowable_stress = 6e8\ninertia = {first}\nsecond_inertia = {second}\nviscous_damping = 0.02\n"
+             allowable_stress = 6e8\ninertia = {first}\nsecond_inertia = {second}\nviscous_damping = 0.02\nfriction_moment = 0.3\n"
         )
     };
     for text in [text("0.3", "0.1"), text("0.1", "0.3")] {
