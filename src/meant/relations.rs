@@ -298,21 +298,14 @@ impl<'a> Finder<'a> {
                     continue;
                 }
                 done[b] = true;
-                let mut terms = std::collections::BTreeMap::new();
-                for (x, c) in [(i, 1), (j, -1), (p, -sign), (q, sign)] {
-                    *terms.entry(x).or_insert(0) += c;
-                }
-                let terms: Vec<(usize, i32)> = terms.into_iter().filter(|t| t.1 != 0).collect();
-                if terms.len() < 3 {
+                let row = |n| Row::sum(&[(i, 1), (j, -1), (p, -sign), (q, sign)], n);
+                let rows: Vec<Row> = (0..3).map(row).collect();
+                if rows[0].terms.len() < 3 {
                     continue;
                 }
-                let row = |normal| Row {
-                    terms: terms.clone(),
-                    normal,
-                };
                 out.push(Relation {
                     kind: Kind::EqualVectors,
-                    rows: (0..3).map(row).collect(),
+                    rows,
                     weight: 0,
                     off: off / wide,
                     weak: false,
@@ -354,17 +347,13 @@ impl<'a> Finder<'a> {
                 if (i == j && p == q) || b - a > wide {
                     continue;
                 }
-                let mut terms = std::collections::BTreeMap::new();
-                for (x, c) in [(i, 1), (j, 1), (p, -1), (q, -1)] {
-                    *terms.entry(x).or_insert(0) += c;
-                }
-                let terms: Vec<(usize, i32)> = terms.into_iter().filter(|t| t.1 != 0).collect();
-                if terms.len() < 2 {
+                let row = Row::sum(&[(i, 1), (j, 1), (p, -1), (q, -1)], n);
+                if row.terms.len() < 2 {
                     continue;
                 }
                 out.push(Relation {
                     kind: Kind::Mirrored,
-                    rows: vec![Row { terms, normal: n }],
+                    rows: vec![row],
                     weight: 0,
                     off: (b - a) / wide,
                     weak: chance > CHANCE,

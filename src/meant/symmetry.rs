@@ -10,7 +10,6 @@ use super::written::{SPREAD, Symmetry};
 use crate::geom::vector::{Vector, add, add_scaled, cross, dot, length, sub, unit};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use std::collections::BTreeMap;
 
 /// Images nearer than so many errors tell no direction.
 const FAR: f64 = 30.0;
@@ -125,23 +124,15 @@ impl Symmetry {
         };
         let mut out = Vec::new();
         for &[a, b] in &self.points {
-            let differences = difference.iter().map(|&n| (vec![(a, 1), (b, -1)], n));
             let [p, q] = first;
-            let middles = middle
-                .iter()
-                .map(|&n| (vec![(a, 1), (b, 1), (p, -1), (q, -1)], n));
-            for (terms, normal) in differences.chain(middles) {
-                let mut sum = BTreeMap::new();
-                for (point, c) in terms {
-                    *sum.entry(point).or_insert(0) += c;
-                }
-                let terms: Vec<(usize, i32)> = sum.into_iter().filter(|t| t.1 != 0).collect();
-                if terms.is_empty() {
-                    continue;
-                }
+            let differences = difference.iter();
+            let differences = differences.map(|&n| Row::sum(&[(a, 1), (b, -1)], n));
+            let middles = middle.iter();
+            let middles = middles.map(|&n| Row::sum(&[(a, 1), (b, 1), (p, -1), (q, -1)], n));
+            for row in differences.chain(middles).filter(|r| !r.terms.is_empty()) {
                 out.push(Relation {
                     kind: Kind::Mirrored,
-                    rows: vec![Row { terms, normal }],
+                    rows: vec![row],
                     weight: 0,
                     off: 0.0,
                     weak: false,

@@ -1,8 +1,7 @@
 //! A mechanism in another of its poses.
 
 use crate::geom::expr::Expr;
-use crate::geom::vector::{Vector, real, scale, sub};
-use crate::geom::vector::{add, length};
+use crate::geom::vector::{Vector, add, length, real, scale, sub};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::motion::pose::Pose;
@@ -29,7 +28,7 @@ pub fn moved(m: &Mechanism, pose: &Pose) -> Option<Mechanism> {
         let frame = &mut out.joints[j].frame;
         frame.point = written(add(scale(at, pose.length), pose.middle))?;
         let of = |wanted: &[Freedom]| direction(pose, j, wanted);
-        let carried = |d: &[Expr; 3]| turned(pose, joint.links[0], real(d));
+        let carried = |d: &[Expr; 3]| pose.links[joint.links[0].index()].direction(real(d));
         let z = of(&[Freedom::Rz, Freedom::Tz, Freedom::Screw]);
         let x = of(&[Freedom::Rx, Freedom::Tx]);
         frame.axis = written(z.unwrap_or_else(|| carried(&joint.frame.axis)))?;
@@ -38,13 +37,7 @@ pub fn moved(m: &Mechanism, pose: &Pose) -> Option<Mechanism> {
     Some(out)
 }
 
-/// A direction of the pose of the file as a link has turned it.
-#[must_use]
-pub fn turned(pose: &Pose, link: LinkId, d: Vector) -> Vector {
-    pose.links[link.index()].direction(d)
-}
-
-/// The same the other way round.
+/// A direction of a link in another pose, as it is in the pose of the file.
 #[must_use]
 pub fn turned_back(pose: &Pose, link: LinkId, d: Vector) -> Vector {
     pose.links[link.index()].inverse().direction(d)

@@ -12,6 +12,14 @@ fn masses_and_products_of_inertia_are_in_the_formats_own_order() {
         links = [\"0\", \"1\"]\ntype = \"revolute\"\npoint = [4, 8, 16]\naxis = [0, 1, 0]\n";
     let m = mechanism_from_str("arm.toml", text).unwrap();
     let [xx, yy, zz, xy, yz, zx] = [1.5, 2.5, 3.5, 0.25, -0.5, 0.75];
+    let entries = [
+        ("ixx", xx),
+        ("iyy", yy),
+        ("izz", zz),
+        ("ixy", xy),
+        ("ixz", zx),
+        ("iyz", yz),
+    ];
     let numbers = |text: &str| -> Vec<f64> {
         text.split_whitespace()
             .map(|x| x.parse().unwrap())
@@ -53,14 +61,7 @@ fn masses_and_products_of_inertia_are_in_the_formats_own_order() {
         &[2.5],
         "urdf",
     );
-    for (name, value) in [
-        ("ixx", xx),
-        ("iyy", yy),
-        ("izz", zz),
-        ("ixy", xy),
-        ("ixz", zx),
-        ("iyz", yz),
-    ] {
+    for (name, value) in entries {
         near(
             &numbers(one("inertia").attribute(name).unwrap()),
             &[value],
@@ -79,14 +80,7 @@ fn masses_and_products_of_inertia_are_in_the_formats_own_order() {
     };
     near(&one("pose")[..3], &[0.01, 0.02, 0.03], "sdf");
     near(&one("mass"), &[2.5], "sdf");
-    for (name, value) in [
-        ("ixx", xx),
-        ("iyy", yy),
-        ("izz", zz),
-        ("ixy", xy),
-        ("ixz", zx),
-        ("iyz", yz),
-    ] {
+    for (name, value) in entries {
         near(&one(name), &[value], name);
     }
 }
