@@ -3,6 +3,7 @@
 mod mobility;
 
 use super::coordinates::{Coordinates, is_less};
+use super::field::field_of;
 use super::higher_order::HigherOrder;
 use super::scaled::{rank_of_values, scaled};
 use super::trace::Traced;
@@ -253,20 +254,52 @@ fn numeric_parts(mechanism: &Mechanism, state: StateId) -> Option<Parts> {
     let parts = parts::parts(&closure);
     let inside = |j: JointId| parts.iter().any(|p| p.contains(&j));
     let free = closure.columns.iter().filter(|c| !inside(c.joint)).count();
-    let mobility = |part: &Mechanism| {
-        let own = Closure::new(&Reals, part, state).ok()?;
-        let values = singular_values(&scaled(&own))?;
-        Some(own.columns.len() - rank_of_values(values, SEPARATE).rank)
-    };
     let each = parts.iter().map(|joints| {
         let part = parts::alone(mechanism, joints);
-        mobility(&part).map(|w| (part, w))
+        numeric_mobility(&part, state).map(|w| (part, w))
     });
     Some((free, each.collect::<Option<_>>()?))
 }
 
+/// The instantaneous mobility of a mechanism in doubles whose geometry was moved until it has it.
+fn numeric_mobility(mechanism: &Mechanism, state: StateId) -> Option<usize> {
+    let own = Closure::new(&Reals, mechanism, state).ok()?;
+    let values = singular_values(&scaled(&own))?;
+    Some(own.columns.len() - rank_of_values(values, SEPARATE).rank)
+}
+
 /// [`within`] of one part.
 fn whole_within(
+    mechanism: &Mechanism,
+    state: StateId,
+    instantaneous: usize,
+    accuracy: f64,
+) -> Result<Finite, ExactError> {
+    // A rod between two balls spins wherever they are, whatever the digits. What is locked of it exactly may be left by rounding
+    // alone, where the rod lies all but along a plane of the ball's axes.
+    let mut locked = mechanism.clone();
+    let idle = field_of(mechanism, state, 0)
+        .ok()
+        .and_then(|exact| parts::lock_idle(&exact, &mut locked, state).ok())
+        .filter(|&idle| {
+            idle > 0 && numeric_mobility(&locked, state) == instantaneous.checked_sub(idle)
+        });
+    match idle {
+        Some(idle) => {
+            let spins = Finite::new(idle, How::Rigid);
+            Ok(spins.and(without_spins(
+                &locked,
+                state,
+                instantaneous - idle,
+                accuracy,
+            )?))
+        }
+        None => without_spins(mechanism, state, instantaneous, accuracy),
+    }
+}
+
+/// [`whole_within`] of a part whose idle spins are locked.
+fn without_spins(
     mechanism: &Mechanism,
     state: StateId,
     instantaneous: usize,
@@ -278,7 +311,10 @@ fn whole_within(
     } else {
         COARSE
     };
-    if accuracy > coarse && instantaneous > 0 {
+    if instantaneous == 0 {
+        return Ok(Finite::new(0, How::Rigid).by_numeric_rank());
+    }
+    if accuracy > coarse {
         return Ok(Finite::rounded(instantaneous));
     }
     if instantaneous == 1 && is_less(&Pose::of_file(mechanism, state)?, 1, 1, accuracy) {
