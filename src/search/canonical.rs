@@ -1,8 +1,9 @@
 //! A numbering of variables that does not depend on how the file lists links and joints.
 //!
-//! Variables differ by what their choices do, which is in exact numbers; those that do the same differ by the links they
-//! join, and these by their other joints. What is still alike after such refinement of colours is told apart by name, so
-//! that the same mechanism has the same numbering whatever the order of its tables.
+//! Variables differ by how many freedoms their choices have and what they cost; those alike in this differ by the links they
+//! join, and these by their other joints. What is still alike after such refinement of colours is told apart by name. So the
+//! same mechanism has the same numbering whatever the order of its tables, and however it is turned, moved or scaled: no
+//! coordinate is looked at.
 //!
 //! # Sources
 //! Refinement of colours: Weisfeiler & Leman, "The reduction of a graph to canonical form" (1968).
@@ -14,13 +15,16 @@ use std::collections::BTreeMap;
 /// The variables in their canonical order.
 ///
 /// # Complexity
-/// O(v log v) comparisons of what choices do, then O((v + n) log n) for each round of refinement, n at most.
+/// O(v log v) comparisons of choices, then O((v + n) log n) for each round of refinement, n at most.
 pub(super) fn canonical(mechanism: &Mechanism, space: &Space, variables: &[usize]) -> Vec<usize> {
     let effect = |&v: &usize| {
         let choices = &space.variables[v].choices;
         choices
             .iter()
-            .map(|c| (&c.spans, c.cost_milli))
+            .map(|c| {
+                let freedoms: Vec<usize> = c.spans.iter().map(Vec::len).collect();
+                (freedoms, c.cost_milli)
+            })
             .collect::<Vec<_>>()
     };
     let joined = |v: usize| {

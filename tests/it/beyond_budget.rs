@@ -164,9 +164,9 @@ fn estimates_are_near_the_count_and_right_on_average() {
 
 #[test]
 fn every_output_says_what_is_proven_and_what_is_estimated() {
-    let file = ladder(5, 1, false);
+    let file = ladder(6, 1, false);
     let told = |more: &[&str]| {
-        let args = [&["search", "-", "--nodes", "6000", "--top", "3"], more].concat();
+        let args = [&["search", "-", "--nodes", "3000", "--top", "3"], more].concat();
         let o = ozols(&args).write_stdin(file.clone()).output().unwrap();
         assert_eq!(o.status.code(), Some(0), "{}", text(&o.stderr));
         text(&o.stdout)

@@ -221,7 +221,7 @@ fn an_idea_says_what_is_added_where() {
         ..Request::default()
     };
     let outcome = search(&gripper, &request).unwrap();
-    let ideas = outcome.search.ideas(outcome.diagrams.as_ref().unwrap(), 5);
+    let ideas = outcome.search.ideas(outcome.diagrams.as_ref().unwrap(), 20);
     // 11 redundant constraints, one of which is the turn of the slider that the rods share: 11 freedoms are added.
     for idea in &ideas {
         let added: u32 = idea.added.iter().map(|a| u32::from(a.times)).sum();
