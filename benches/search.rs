@@ -15,9 +15,10 @@ use ozols::file::text::mechanism_from_str;
 use ozols::geom::scalars::Reals;
 use ozols::model::joint_type::{Freedom, JointType};
 use ozols::model::mechanism::{JointOption, Mechanism, StateId};
-use ozols::rank::{modular, numeric};
+use ozols::rank::exact::modular;
+use ozols::rank::numeric;
 use ozols::redundancy::analysis::exact_field;
-use ozols::search::conditions::{Conditions, Search};
+use ozols::search::question::conditions::{Conditions, Search};
 use std::hint::black_box;
 use std::time::Duration;
 

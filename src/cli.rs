@@ -1,46 +1,11 @@
 //! The command line: arguments as data, one file per command, three exit codes.
 
-mod accuracy;
-mod analyze;
-mod args;
-mod bench;
-mod catalog;
-mod charts;
-mod check;
-mod clamped;
-mod completions;
-mod draw;
-mod drive;
+mod command;
 mod examples;
-mod explain;
-mod export;
-mod fix;
-mod grip;
-mod import;
-mod interrupt;
-mod lint;
-mod list;
-mod load;
-mod machine;
-mod man;
-mod memory;
-mod moving;
-mod named;
-mod near;
-mod new;
-mod output;
-mod progress;
-mod report;
-mod request;
-mod search;
-mod statics;
-mod sweep;
-mod tone;
-mod variant;
-mod verify;
-mod watch;
-mod working;
+mod option;
+mod terminal;
 
+use crate::cli::option::args::Command;
 use clap::Parser;
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -60,7 +25,7 @@ enum Done {
 #[must_use]
 pub fn run() -> ExitCode {
     let words: Vec<OsString> = std::env::args_os().collect();
-    memory::share_pools(&words);
+    terminal::memory::share_pools(&words);
     ExitCode::from(run_with(words))
 }
 
@@ -68,10 +33,10 @@ pub fn run() -> ExitCode {
 /// bad input or failure, 130 interrupted by Ctrl-C, 143 by SIGTERM and 129 by SIGHUP.
 pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = words.into_iter().collect();
-    let args = match args::Args::try_parse_from(&words) {
+    let args = match option::args::Args::try_parse_from(&words) {
         Ok(args) => args,
         Err(_) if words.len() == 1 => {
-            return finish(output::to(None, |out| {
+            return finish(terminal::output::to(None, |out| {
                 write!(out, "{}", examples::FIRST)?;
                 Ok(Done::Found)
             }));
@@ -84,46 +49,46 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         }
     };
     let result = prepare(&args).and_then(|()| match &args.command {
-        args::Command::Analyze(a) => analyze::run(&args, a),
-        args::Command::Search(a) => search::run(&args, a),
-        args::Command::Statics(a) => statics::run(&args, a),
-        args::Command::Grip(a) => grip::run(&args, a),
-        args::Command::Drive(a) => drive::run(&args, a),
-        args::Command::Verify(a) => verify::run(&args, a),
-        args::Command::Import(a) => import::run(a),
-        args::Command::Lint(a) => lint::run(a),
-        args::Command::Fix(a) => fix::run(a),
-        args::Command::Draw(a) => draw::run(&args, a),
-        args::Command::Report(a) => report::run(&args, a),
-        args::Command::Watch(a) => watch::run(&args, a),
-        args::Command::Export(a) => export::run(&args, a),
-        args::Command::Accuracy(a) => accuracy::run(&args, a),
-        args::Command::Bench(a) => bench::run(&args, a),
-        args::Command::Catalog(a) => catalog::run(&args, a),
-        args::Command::Sweep(a) => sweep::run(&args, a),
-        args::Command::Check(a) => check::run(&args, a),
-        args::Command::New(a) => new::run(&args, a),
-        args::Command::List(a) => list::run(a),
-        args::Command::Show(a) => check::show(a),
-        args::Command::Schema => check::schema(),
-        args::Command::Explain(a) => explain::run(a),
-        args::Command::Completions(a) => completions::run(a),
-        args::Command::Man(a) => man::run(a),
+        Command::Analyze(a) => command::analyze::run(&args, a),
+        Command::Search(a) => command::search::run(&args, a),
+        Command::Statics(a) => command::statics::run(&args, a),
+        Command::Grip(a) => command::grip::run(&args, a),
+        Command::Drive(a) => command::drive::run(&args, a),
+        Command::Verify(a) => command::verify::run(&args, a),
+        Command::Import(a) => command::import::run(a),
+        Command::Lint(a) => command::lint::run(a),
+        Command::Fix(a) => command::fix::run(a),
+        Command::Draw(a) => command::draw::run(&args, a),
+        Command::Report(a) => command::report::run(&args, a),
+        Command::Watch(a) => command::watch::run(&args, a),
+        Command::Export(a) => command::export::run(&args, a),
+        Command::Accuracy(a) => command::accuracy::run(&args, a),
+        Command::Bench(a) => command::bench::run(&args, a),
+        Command::Catalog(a) => command::catalog::run(&args, a),
+        Command::Sweep(a) => command::sweep::run(&args, a),
+        Command::Check(a) => command::check::run(&args, a),
+        Command::New(a) => command::new::run(&args, a),
+        Command::List(a) => command::list::run(a),
+        Command::Show(a) => command::check::show(a),
+        Command::Schema => command::check::schema(),
+        Command::Explain(a) => command::explain::run(a),
+        Command::Completions(a) => command::completions::run(a),
+        Command::Man(a) => command::man::run(a),
     });
     finish(result)
 }
 
 /// The exit code, after what went wrong is said.
 fn finish(result: anyhow::Result<Done>) -> u8 {
-    working::rest();
-    let interrupted = |code| interrupt::exit_code().unwrap_or(code);
+    terminal::spinner::rest();
+    let interrupted = |code| terminal::interrupt::exit_code().unwrap_or(code);
     match result {
         Ok(Done::Found) => interrupted(0),
         Ok(Done::Nothing) => interrupted(1),
         Ok(Done::Partly) => interrupted(2),
-        Err(e) if output::is_broken_pipe(&e) => interrupted(0),
+        Err(e) if terminal::output::is_broken_pipe(&e) => interrupted(0),
         Err(e) => {
-            output::complain(&e);
+            terminal::output::complain(&e);
             2
         }
     }
@@ -132,11 +97,11 @@ fn finish(result: anyhow::Result<Done>) -> u8 {
 /// Most threads: each takes some memory, and more of them than processors are of no use.
 const THREADS: usize = 1024;
 
-fn prepare(args: &args::Args) -> anyhow::Result<()> {
-    interrupt::listen()?;
-    working::show(args.quiet);
+fn prepare(args: &option::args::Args) -> anyhow::Result<()> {
+    terminal::interrupt::listen()?;
+    terminal::spinner::show(args.quiet);
     if args.quiet {
-        output::hush();
+        terminal::output::hush();
     }
     if let Some(threads) = args.threads {
         anyhow::ensure!(

@@ -4,41 +4,27 @@
 //! same bytes for the same input. Labels never touch each other or a symbol; where there is no room beside what they
 //! name, they stand farther away on a leader.
 
-mod couplings;
-mod dice;
-mod graph;
-mod ground;
-mod initial_layout;
 mod kinematic;
-mod labels;
-mod layout;
-mod layout_penalty;
 pub mod marks;
-mod mirror;
-mod pairs;
-mod piece;
+mod place;
 #[cfg(feature = "png")]
 pub mod png;
-mod projection;
 mod scheme;
-mod shapes;
 mod sheet;
-mod sight;
 mod subject;
-mod swap;
-mod symbols;
+mod symbol;
 
 pub use crate::svg::plane::Rect;
 pub use kinematic::moving::{Moved, RATE, kinematic_along, kinematic_moving};
 pub use kinematic::scene::{Scene, Shown, kinematic_scene};
 pub use kinematic::{kinematic, kinematic_seen, kinematic_stressed, kinematic_with};
 
-pub use pairs::joint_type;
+pub use place::view_direction::Sight;
 pub use scheme::{scheme, scheme_with};
 pub use sheet::{Drawing, Label};
-pub use sight::Sight;
 pub use subject::{Marks, Subject};
-pub use swap::Swap;
+pub use symbol::pairs::joint_type;
+pub use symbol::swap::Swap;
 
 /// How large a picture of a drawing is.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -23,7 +23,7 @@ use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{AnalysisError, StateAnalysis};
 use crate::score::outcome::Outcome;
 use crate::score::variant::Variant;
-use crate::search::certify::Summary;
+use crate::search::check::singular_values::Summary;
 use crate::view::analysis::Analysis;
 use data::Data;
 use maud::{Markup, PreEscaped, html};

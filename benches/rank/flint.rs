@@ -3,7 +3,7 @@
 use super::{Case, Timed, best, micro};
 use ozols::linalg::echelon;
 use ozols::linalg::modp::{Field, Residue};
-use ozols::rank::modular;
+use ozols::rank::exact::modular;
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::process::{Command, Stdio};

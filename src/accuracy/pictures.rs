@@ -9,7 +9,7 @@ use crate::chart::{Axis, Bands, Cell, Chart, Kind, Matrix, Scale, Series, Style}
 use crate::format::number::{duration, scientific, signed};
 use crate::format::phrase::list;
 use crate::rank::method::MobilityMethod;
-use crate::rank::registry;
+use crate::rank::method::registry;
 
 /// The methods that no other one beats in both share and time, the fastest first.
 #[must_use]

@@ -4,9 +4,9 @@ use super::Verdict;
 use super::cases::Case;
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
+use crate::rank::method::registry;
 use crate::rank::method::{Answer, Certainty, NoAnswer, Quantity};
 use crate::rank::numeric::Elimination;
-use crate::rank::registry;
 use rayon::prelude::*;
 
 /// A floating-point method at its best tolerance.

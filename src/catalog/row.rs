@@ -18,9 +18,9 @@ use crate::score::request::{Check, List, Request};
 use crate::score::run::{RunError, run};
 use crate::score::terms::Scores;
 use crate::score::variant::{changes, in_words};
-use crate::search::conditions::Symmetry;
-use crate::search::counts::orbits;
-use crate::search::ideas::{self, Idea};
+use crate::search::answer::counts::orbits;
+use crate::search::answer::freedom_patterns::{self, Idea};
+use crate::search::question::conditions::Symmetry;
 use crate::synthesis::figures::{Figures, figures};
 use crate::synthesis::layout::{Layout, NoLayout, layout};
 use crate::synthesis::mechanism::mechanism_file;
@@ -254,7 +254,7 @@ pub(super) fn ideas(outcome: &Outcome, top: usize) -> Vec<IdeaRow> {
     let evaluator = Evaluator::in_states(search, ClearanceSum::Worst, &[]).ok();
     let mut scratch = Scratch::default();
     let row = |idea: Idea| IdeaRow {
-        adds: ideas::in_words(&search.mechanism, &idea.added),
+        adds: freedom_patterns::in_words(&search.mechanism, &idea.added),
         changes: in_words(search, &changes(search, &idea.first)),
         cost_milli: search.steps.milli(idea.first.key.cost()),
         change_count: idea.first.key.changes(),

@@ -3,7 +3,8 @@
 mod arrow;
 mod axes;
 mod body;
-mod carried;
+mod concentric;
+mod coupler_curves;
 mod frame;
 mod gears;
 mod legend;
@@ -11,26 +12,25 @@ mod loads;
 mod marked;
 pub(super) mod moving;
 mod naming;
-mod nest;
 mod part;
 mod points;
+mod posed;
 pub(super) mod scene;
 mod sliding;
 mod symbol;
-mod ways;
 use self::arrow::Arrow;
 use self::body::Body;
 use self::marked::{Marked, marked};
 use self::symbol::Symbol;
-use super::couplings;
-use super::ground::{Foot, Ground, grounds};
-use super::projection::places::places;
-use super::projection::{self, Place, Projection, bounds};
-use super::sheet::{Anchor, Caption, Drawing, Sheet, plan};
-use super::sight::Sight;
 use super::subject::{Mark, Subject, roominess};
-use super::swap::{self, Swap};
-use super::symbols;
+use crate::draw::place::projection::places::places;
+use crate::draw::place::projection::{self, Place, Projection, bounds};
+use crate::draw::place::view_direction::Sight;
+use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, plan};
+use crate::draw::symbol::couplings;
+use crate::draw::symbol::ground::{Foot, Ground, grounds};
+use crate::draw::symbol::swap::{self, Swap};
+use crate::draw::symbol::symbols;
 use crate::model::mechanism::{Joint, JointId, LinkId, Role};
 use crate::redundancy::stress::SelfStress;
 use crate::svg::plane::{Point, Rect, add, mean, norm, polyline, scale, sub, unit};
@@ -155,7 +155,7 @@ impl<'a> Kinematic<'a> {
         }
         let at: Vec<Point> = places.iter().map(|p| projection.flat(p.point)).collect();
         let of: Vec<&Joint> = joints.iter().map(|&j| &m.joints[j]).collect();
-        let sizes = nest::sizes(&at, &of);
+        let sizes = crate::draw::kinematic::concentric::sizes(&at, &of);
         let spots: Vec<Spot> = joints
             .iter()
             .zip(&at)

@@ -2,9 +2,9 @@
 
 use super::subject::Marks;
 use crate::model::mechanism::{JointId, Mechanism};
-use crate::search::best::Assignment;
-use crate::search::conditions::Search;
-use crate::search::space::choice_name;
+use crate::search::answer::k_best::Assignment;
+use crate::search::question::conditions::Search;
+use crate::search::question::space::choice_name;
 
 /// The mechanism that a variant is, with its changes marked for drawing.
 #[must_use]

@@ -1,8 +1,8 @@
 //! A drawing as PNG. DejaVu Sans is built in, so that the picture is the same on every machine, one without fonts
 //! included; the system's fonts are looked at only for characters it lacks.
 
-use super::Size;
-use super::sheet::Drawing;
+use crate::draw::Size;
+use crate::draw::sheet::Drawing;
 use resvg::usvg::fontdb::Database;
 use resvg::{tiny_skia, usvg};
 use skrifa::{FontRef, MetadataProvider};

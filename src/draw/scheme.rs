@@ -3,14 +3,14 @@
 mod contours;
 mod naming;
 
-use super::graph::{Graph, ring};
-use super::labels::Place;
-use super::layout::{Layout, layout};
-use super::shapes::{HALF, hatch, hatch_with, outline, rounded};
-use super::sheet::{Anchor, Caption, Drawing, SMALL, Sheet, Swatch, plan};
 use super::subject::{Mark, Subject, roominess};
-use super::swap::{self, Swap};
 use crate::closure::contour::{Contour, contour_basis};
+use crate::draw::place::graph::{Graph, ring};
+use crate::draw::place::layout::{Layout, layout};
+use crate::draw::sheet::labels::Place;
+use crate::draw::sheet::shapes::{HALF, hatch, hatch_with, outline, rounded};
+use crate::draw::sheet::{Anchor, Caption, Drawing, SMALL, Sheet, Swatch, plan};
+use crate::draw::symbol::swap::{self, Swap};
 use crate::geom::expr::Expr;
 use crate::model::mechanism::{JointId, LinkId, Role};
 use crate::svg::plane::{Point, Rect, add, inside, mean, norm, polyline, scale, sub, to_segment};

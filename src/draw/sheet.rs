@@ -1,5 +1,8 @@
 //! The sheet a drawing is on: title, style, legend, and a record of every label and symbol.
 
+pub(in crate::draw) mod labels;
+pub(in crate::draw) mod shapes;
+
 use crate::svg::plane::{Point, Rect, add, polyline};
 use crate::svg::text::{cut, width};
 use crate::svg::xml::{Xml, number};
@@ -18,7 +21,7 @@ const WIDEST: f64 = 560.0;
 
 /// The look. Its classes are its own, so that charts and drawings may share a page; colours stand outright, since many
 /// viewers of files know no CSS variables.
-const STYLE: &str = include_str!("sheet.css");
+const STYLE: &str = include_str!("sheet/sheet.css");
 
 /// A text of a drawing and the room it takes at 0.6 of its size a character.
 #[derive(Debug, Clone)]

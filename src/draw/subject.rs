@@ -1,6 +1,6 @@
 //! What is drawn: a mechanism in one state, and what a redesign of it changed.
 
-use super::sheet::{SMALL, Shape, Swatch};
+use crate::draw::sheet::{SMALL, Shape, Swatch};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::svg::text::width;

@@ -6,9 +6,9 @@ use crate::geom::vector::{across, length, real, sub, unit};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, JointId, Mechanism};
 use crate::model::rounded::{looks_rounded, uncertainties};
-use crate::rank::snap::relation::{Moved, Reach, Relation};
-use crate::rank::snap::{size, snap};
-use crate::rank::verdict::{Meant, Verdict, reach, verdict};
+use crate::rank::rounded::snap::relation::{Moved, Reach, Relation};
+use crate::rank::rounded::snap::{size, snap};
+use crate::rank::rounded::verdict::{Meant, Verdict, reach, verdict};
 use itertools::Itertools;
 
 /// Joints nearer to special than this, in radians and sizes of the mechanism, were hardly meant to miss it.

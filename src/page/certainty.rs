@@ -1,9 +1,10 @@
 //! How sure the figures of a page are: the same words as those of `analyze` and `search`.
 
 use super::{Page, Redesigns};
-use crate::search::primes::{PrimeCheck, Verdict};
+use crate::search::check::second_prime::{PrimeCheck, Verdict};
 use crate::view::analysis::{Analysis, LeftOut, State};
-use crate::view::{early, search_text};
+use crate::view::search::stopped_early;
+use crate::view::search::text;
 use maud::{Markup, html};
 
 pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
@@ -58,9 +59,9 @@ fn search(r: &Redesigns<'_>) -> Vec<String> {
         Some(_) => lines.push("Not checked by a second prime: interrupted".to_owned()),
         None => lines.push("One prime, without a second opinion".to_owned()),
     }
-    let early = early::stopped(found);
+    let early = stopped_early::stopped(found);
     lines.push(early.unwrap_or_else(|| "Every variant was counted; none was left out".to_owned()));
-    lines.extend(early::estimated(found));
+    lines.extend(stopped_early::estimated(found));
     if let Some((why, verdicts)) = &found.measured {
         let written = verdicts.iter().all(|v| v.is_as_written());
         let searched = if written {
@@ -72,7 +73,7 @@ fn search(r: &Redesigns<'_>) -> Vec<String> {
         };
         lines.push(format!("The coordinates look rounded ({why}); {searched}"));
     }
-    lines.extend(search_text::notes(&r.summary));
+    lines.extend(text::notes(&r.summary));
     lines.extend(
         found
             .check

@@ -3,11 +3,11 @@
 use crate::closure::matrix::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::model::mechanism::{LinkId, Mechanism, Role, StateId};
-use crate::rank::modular;
+use crate::rank::exact::modular;
 use crate::redundancy::idle::idle_motions;
 use crate::redundancy::motion::motions;
 use crate::redundancy::share::shares;
-use crate::view::idle;
+use crate::view::analysis::idle;
 
 /// W and σ of a state of a mechanism.
 pub(super) fn figures(

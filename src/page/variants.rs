@@ -6,10 +6,10 @@ use super::{Page, Redesigns, figures};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::AnalysisError;
 use crate::score::variant::Variant;
-use crate::search::certify::CHECKED;
-use crate::search::ideas;
-use crate::search::space::{Variable, choice_name};
-use crate::view::search_text;
+use crate::search::answer::freedom_patterns;
+use crate::search::check::singular_values::CHECKED;
+use crate::search::question::space::{Variable, choice_name};
+use crate::view::search::text;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -160,11 +160,11 @@ impl Found {
             }),
             agree: column(r, |c| c.second().opinion().map(|o| o.agree)),
             lucky: column(r, |c| c.over_stroke().and_then(|s| s.lucky())),
-            notes: column(r, search_text::note),
+            notes: column(r, text::note),
             exact: r.found.is_exact(),
             adds: column(r, |c| {
                 let added = c.idea().map(|i| &i.added);
-                added.map(|a| ideas::in_words(&search.mechanism, a))
+                added.map(|a| freedom_patterns::in_words(&search.mechanism, a))
             }),
             stands_for: column(r, |c| c.idea().map(|i| i.variants.to_string())),
             workload: workload(r),

@@ -6,7 +6,7 @@ use crate::model::ranking::Term;
 use crate::score::bearing::{Bearing, Bearings};
 use crate::score::ranking::{Ranked, RankedPool};
 use crate::score::terms::Scores;
-use crate::view::ranking::{head, notes};
+use crate::view::search::ranking::{head, notes};
 use serde::Serialize;
 
 /// Columns of the variants; `None` in them where the loads of a variant have no equilibrium.

@@ -4,14 +4,14 @@ use crate::mechanism::Mechanism;
 use crate::told::{Told, failed, json, state};
 use ozols::file::read::motion;
 use ozols::model::mechanism::StateId;
-use ozols::rank::asked_stroke::Asked;
-use ozols::rank::registry;
-use ozols::rank::verdict::verdict;
+use ozols::rank::method::registry;
+use ozols::rank::rounded::verdict::verdict;
+use ozols::rank::stroke::request::Asked;
 use ozols::redundancy::analysis::{Method, analyse};
 use ozols::view::analysis::Analysis;
-use ozols::view::mobility::ByMethod;
+use ozols::view::analysis::mobility::ByMethod;
+use ozols::view::analysis::suggestions::advise;
 use ozols::view::stroke::Stroke;
-use ozols::view::suggestions::advise;
 use pyo3::prelude::*;
 
 /// As `ozols analyze`.

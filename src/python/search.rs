@@ -8,10 +8,13 @@ use ozols::model::ranking::Term;
 use ozols::score::request::{Check, Inserts, JointOptions, List, Method, Request};
 use ozols::score::run::{Event, run};
 use ozols::score::variant;
-use ozols::search::best::Assignment;
-use ozols::search::conditions::Symmetry;
-use ozols::view::variant_data::VariantData;
-use ozols::view::{search_csv, search_data, search_json, search_text};
+use ozols::search::answer::k_best::Assignment;
+use ozols::search::question::conditions::Symmetry;
+use ozols::view::search::csv;
+use ozols::view::search::data;
+use ozols::view::search::json;
+use ozols::view::search::text;
+use ozols::view::search::variant::VariantData;
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use std::ffi::CString;
@@ -181,7 +184,7 @@ pub(crate) struct Outcome(Arc<ozols::Outcome>);
 impl Outcome {
     /// All but the variants, as JSON.
     fn counts(&self, py: Python<'_>) -> PyResult<String> {
-        py.detach(|| json(&search_data::SearchData::new(&self.0)))
+        py.detach(|| json(&data::SearchData::new(&self.0)))
     }
 
     /// The same with the variants asked for and what is told of them: what the command prints, but for the seconds.
@@ -192,13 +195,13 @@ impl Outcome {
                 o.relaxations().map_err(failed)?,
                 o.hopeless().map_err(failed)?,
             );
-            search_json::write(out, o, o.variants(), (&eased, &why), None).map_err(failed)
+            json::write(out, o, o.variants(), (&eased, &why), None).map_err(failed)
         })
     }
 
     fn csv(&self, py: Python<'_>) -> PyResult<String> {
         written(py, |out| {
-            let written = search_csv::write(out, &self.0, self.0.variants());
+            let written = csv::write(out, &self.0, self.0.variants());
             written.map(drop).map_err(failed)
         })
     }
@@ -211,7 +214,7 @@ impl Outcome {
                 o.hopeless().map_err(failed)?,
             );
             let name = &o.search.mechanism.name;
-            search_text::write(out, o, o.variants(), (&eased, &why), name, None).map_err(failed)
+            text::write(out, o, o.variants(), (&eased, &why), name, None).map_err(failed)
         })
     }
 

@@ -1,19 +1,26 @@
 //! Finite (full-cycle) mobility: the dimension of the motion that is really there, beside the instantaneous f - rank J.
 
+pub mod coordinates;
+pub mod displacement_group;
+pub mod higher_order;
+pub mod independent_parts;
+pub mod local_dimension;
 mod mobility;
+pub(in crate::rank) mod power_series;
+pub(in crate::rank) mod tangent_cone;
 
-use super::coordinates::{Coordinates, is_less};
-use super::field::field_of;
-use super::higher_order::HigherOrder;
-use super::scaled::{rank_of_values, scaled};
-use super::trace::Traced;
-use super::{modular, parts, subgroup, trace};
 use crate::closure::matrix::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::scalars::Reals;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::pose::Pose;
+use crate::rank::exact::field::field_of;
+use crate::rank::exact::modular;
+use crate::rank::finite::coordinates::{Coordinates, is_less};
+use crate::rank::finite::higher_order::HigherOrder;
+use crate::rank::finite::local_dimension::Traced;
+use crate::rank::numeric::scaling::{rank_of_values, scaled};
 use ozols_dense::singular_values;
 
 pub use mobility::{Finite, How};
@@ -38,7 +45,7 @@ const CLOSINGS: usize = 1_000;
 /// Where a coordinate has no value in the field.
 ///
 /// # Complexity
-/// One rank, and where nothing is proven the closings of [`trace::mobility`].
+/// One rank, and where nothing is proven the closings of [`local_dimension::mobility`].
 pub fn finite(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -63,20 +70,20 @@ pub fn finite_known(
         return Ok(known);
     }
     let state = closure.state;
-    let parts = parts::parts(closure);
+    let parts = independent_parts::parts(closure);
     // Joints in no contour move as they like.
     let inside = |j: JointId| parts.iter().any(|p| p.contains(&j));
     let free = closure.columns.iter().filter(|c| !inside(c.joint)).count();
     let mut total = Finite::new(free, How::Rigid);
     for joints in &parts {
-        let mut part = parts::alone(mechanism, joints);
+        let mut part = independent_parts::alone(mechanism, joints);
         let mut own = Closure::new(exact, &part, state)?;
         let mut rank = modular::rank(exact, &own);
         if let Some(known) = without_motion(exact, &part, &own, rank)? {
             total = total.and(known);
             continue;
         }
-        let idle = parts::lock_idle(exact, &mut part, state)?;
+        let idle = independent_parts::lock_idle(exact, &mut part, state)?;
         if idle > 0 {
             total.mobility += idle;
             own = Closure::new(exact, &part, state)?;
@@ -103,9 +110,9 @@ fn without_motion(
         return Ok(Some(Finite::new(0, How::Rigid)));
     }
     // Couplings are linear in the joints' coordinates, so those that depend on others do so all along the motion.
-    let mut dimension = subgroup::coupling_rank(exact, closure);
+    let mut dimension = displacement_group::coupling_rank(exact, closure);
     for contour in &closure.contours {
-        dimension += subgroup::group_dimension(exact, mechanism, contour)?;
+        dimension += displacement_group::group_dimension(exact, mechanism, contour)?;
     }
     Ok((rank == dimension).then_some(Finite::new(instantaneous, How::Submersion { dimension })))
 }
@@ -187,7 +194,7 @@ fn pursued(pose: &Pose, instantaneous: usize, shaky: bool) -> Option<Traced> {
         return None;
     }
     let budget = (WORK / work.max(1)).clamp(40, CLOSINGS);
-    trace::mobility(pose, instantaneous, shaky, budget)
+    local_dimension::mobility(pose, instantaneous, shaky, budget)
 }
 
 /// What following the motion says.
@@ -251,11 +258,11 @@ type Parts = (usize, Vec<(Mechanism, usize)>);
 /// The parts that a mechanism in doubles falls into.
 fn numeric_parts(mechanism: &Mechanism, state: StateId) -> Option<Parts> {
     let closure = Closure::new(&Reals, mechanism, state).ok()?;
-    let parts = parts::parts(&closure);
+    let parts = independent_parts::parts(&closure);
     let inside = |j: JointId| parts.iter().any(|p| p.contains(&j));
     let free = closure.columns.iter().filter(|c| !inside(c.joint)).count();
     let each = parts.iter().map(|joints| {
-        let part = parts::alone(mechanism, joints);
+        let part = independent_parts::alone(mechanism, joints);
         numeric_mobility(&part, state).map(|w| (part, w))
     });
     Some((free, each.collect::<Option<_>>()?))
@@ -280,7 +287,7 @@ fn whole_within(
     let mut locked = mechanism.clone();
     let idle = field_of(mechanism, state, 0)
         .ok()
-        .and_then(|exact| parts::lock_idle(&exact, &mut locked, state).ok())
+        .and_then(|exact| independent_parts::lock_idle(&exact, &mut locked, state).ok())
         .filter(|&idle| {
             idle > 0 && numeric_mobility(&locked, state) == instantaneous.checked_sub(idle)
         });

@@ -1,4 +1,11 @@
-//! What every way of saying how far a mechanism moves has in common; [`super::registry`] lists them.
+//! What every way of saying how far a mechanism moves has in common; [`crate::rank::method::registry`] lists them.
+
+pub mod auto;
+pub mod finite_exact;
+pub mod formulas;
+pub mod generic;
+pub mod registry;
+pub mod sum_of_loops;
 
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::{Mechanism, StateId};

@@ -1,12 +1,16 @@
 //! Rank in floating point: from pivots or QR factors of J as it stands, or from singular values of J scaled so that units
 //! do not matter.
 
+pub(in crate::rank) mod rounding_bound;
+pub mod scaling;
+pub(in crate::rank) mod values;
+
 use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
-pub use super::scaled::NumericRank;
-use super::scaled::{as_it_stands, rank_of_values, scaled};
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
+pub use crate::rank::numeric::scaling::NumericRank;
+use crate::rank::numeric::scaling::{as_it_stands, rank_of_values, scaled};
 use ozols_dense::{Format, Matrix, singular_values};
 use thiserror::Error;
 

@@ -5,7 +5,7 @@ use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
-use crate::rank::modular;
+use crate::rank::exact::modular;
 use crate::redundancy::motion::Speeds;
 
 /// The external constraints of a state, counted and by rank.

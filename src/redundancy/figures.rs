@@ -3,8 +3,8 @@
 use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::rank::field::field_of;
-use crate::rank::modular;
+use crate::rank::exact::field::field_of;
+use crate::rank::exact::modular;
 use crate::redundancy::external::present_links;
 
 /// What a state is in numbers.

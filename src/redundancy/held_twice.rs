@@ -6,7 +6,7 @@ use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Mechanism, Role, StateId};
 use crate::motion::pose::Pose;
 use crate::rank::method::Certainty;
-use crate::rank::verdict::verdict;
+use crate::rank::rounded::verdict::verdict;
 use crate::redundancy::analysis::{AnalysisError, Method, StateAnalysis, analyse};
 use crate::redundancy::moved::{moved, turned_back};
 use crate::redundancy::over_motion::{Where, redundant_where};

@@ -6,7 +6,7 @@ use crate::geom::scalars::Scalars;
 use crate::linalg::echelon::{Echelon, combination, relations};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
-use crate::rank::direction::Direction;
+use crate::rank::reduce::axis_names::Direction;
 use crate::redundancy::motion::{Speeds, twist};
 
 /// One idle motion.

@@ -4,7 +4,7 @@ use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactError;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
-use crate::rank::scaled::{Scaling, scaled};
+use crate::rank::numeric::scaling::{Scaling, scaled};
 use crate::redundancy::share::{ContourShare, CouplingShare};
 use ozols_dense::{Matrix, singular_values, svd};
 

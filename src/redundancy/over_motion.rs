@@ -5,9 +5,9 @@ use crate::format::phrase::plural;
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::motion::pose::Pose;
+use crate::rank::finite::local_dimension::motions;
 use crate::rank::finite::{Finite, How};
-use crate::rank::scaled::rank_of_values;
-use crate::rank::trace::motions;
+use crate::rank::numeric::scaling::rank_of_values;
 use ozols_dense::singular_values;
 
 /// Further poses looked at where nothing else tells what holds over the motion, and where looking takes long.

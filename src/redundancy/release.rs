@@ -14,7 +14,7 @@ use crate::geom::scalars::Reals;
 use crate::geom::vector::{Vector, across, cross, dot, length, real, sub, unit};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, Mechanism, StateId};
-use crate::rank::scaled::{Scaling, scaled};
+use crate::rank::numeric::scaling::{Scaling, scaled};
 use ozols_dense::{Matrix, solve, svd};
 
 /// A share of a stress of unit length below this is none.

@@ -6,8 +6,8 @@ use crate::linalg::modp::Residue;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
 use crate::model::rounded::looks_rounded;
-use crate::rank::field::field_of;
-use crate::rank::modular;
+use crate::rank::exact::field::field_of;
+use crate::rank::exact::modular;
 
 /// Self-stresses of a state in the pose of the file, with the freedoms that drives hold, by one prime; `None` for mechanisms of
 /// a plane, whose equations are others, and where coordinates look rounded, so that they do not say.

@@ -4,7 +4,7 @@ use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::verdict::verdict;
+use crate::rank::rounded::verdict::verdict;
 use crate::robots::parts::Robot;
 use crate::robots::warning::Kept;
 

@@ -4,7 +4,7 @@ use crate::file::schema::{Coordinate, JointEntry, MechanismFile, OptionEntry, Op
 use crate::geom::vector::{Vector, cross, dot};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::rank::verdict::verdict;
+use crate::rank::rounded::verdict::verdict;
 use crate::redundancy::release::{Release, Stressed};
 use crate::robots::coupling::LARGEST;
 

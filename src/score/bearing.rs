@@ -6,7 +6,7 @@ use crate::score::evaluate::{Evaluator, Load, ScoreError};
 use crate::score::outcome::Outcome;
 use crate::score::terms::Scores;
 use crate::score::variant::Variant;
-use crate::search::best::Assignment;
+use crate::search::answer::k_best::Assignment;
 use crate::statics::reactions::Unsolved;
 use rayon::prelude::*;
 

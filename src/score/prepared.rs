@@ -4,10 +4,10 @@ use crate::file::read::resolve::contains;
 use crate::model::mechanism::{Joint, JointOption, Mechanism};
 use crate::model::rounded::Rounded;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::rank::settled::Settled;
-use crate::rank::verdict::{Meant, Verdict};
-use crate::search::doubt::Digits;
-use crate::search::written::Written;
+use crate::rank::rounded::intended::Settled;
+use crate::rank::rounded::verdict::{Meant, Verdict};
+use crate::search::question::as_written::Written;
+use crate::search::question::rounded_rank::Digits;
 use std::sync::Arc;
 
 /// What to do about rounded coordinates.

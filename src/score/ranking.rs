@@ -8,7 +8,7 @@ use crate::score::elimination::Scratch;
 use crate::score::evaluate::Evaluator;
 use crate::score::pareto::fronts;
 use crate::score::terms::Scores;
-use crate::search::best::Assignment;
+use crate::search::answer::k_best::Assignment;
 use crate::statics::reactions::Unsolved;
 use num_bigint::BigUint;
 use rayon::prelude::*;

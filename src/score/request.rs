@@ -4,10 +4,10 @@
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::model::ranking::{Ranking, Term};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::rank::settled::settle;
+use crate::rank::rounded::intended::settle;
 use crate::score::prepared::{LooksRounded, Prepared, as_in_file, digits, nearest, tell_moved};
 pub use crate::score::request_error::RequestError;
-use crate::search::conditions::{Conditions, InState, Symmetry};
+use crate::search::question::conditions::{Conditions, InState, Symmetry};
 
 /// How many of the cheapest variants a ranking scores at most, unless told otherwise: it ends before where the best are
 /// proven. At about ten microseconds each these take a fifth of a second.
@@ -62,7 +62,7 @@ pub enum Check {
     None,
     /// The whole search over two primes, which must agree.
     Prime,
-    /// That, and each variant given, up to [`CHECKED`](crate::search::certify::CHECKED), analysed again by singular values.
+    /// That, and each variant given, up to [`CHECKED`](crate::search::check::singular_values::CHECKED), analysed again by singular values.
     Full,
 }
 

@@ -9,15 +9,15 @@ use crate::score::outcome::Outcome;
 use crate::score::prepared::LooksRounded;
 use crate::score::ranking::{Ranked, RankedPool, Ranker};
 use crate::score::request::{Check, List, Method, Request, RequestError};
-use crate::search::best::Assignment;
-use crate::search::building::Diagrams;
-use crate::search::certify::CHECKED;
-use crate::search::conditions::{Conditions, Search, SearchError, Symmetry};
-use crate::search::counts::Counts;
+use crate::search::answer::counts::Counts;
+use crate::search::answer::k_best::Assignment;
+use crate::search::build::Diagrams;
+use crate::search::check::second_opinion::{DRAWN, SecondOpinion};
+use crate::search::check::second_prime::{self, Disagreement, PrimeCheck};
+use crate::search::check::singular_values::CHECKED;
 use crate::search::diagram::{Progress, Stop};
-use crate::search::doubt::Digits;
-use crate::search::primes::{self, Disagreement, PrimeCheck};
-use crate::search::second_opinion::{DRAWN, SecondOpinion};
+use crate::search::question::conditions::{Conditions, Search, SearchError, Symmetry};
+use crate::search::question::rounded_rank::Digits;
 use num_bigint::BigUint;
 use std::sync::Arc;
 use thiserror::Error;
@@ -153,13 +153,13 @@ pub fn answer(
         None => (search.build(should_cancel, progress), None),
         Some(twin) => {
             let both = [&search, twin];
-            let (first, second) = primes::build_both(both, should_cancel, progress);
+            let (first, second) = second_prime::build_both(both, should_cancel, progress);
             let compared = match request.list {
                 List::Top(k) => k,
                 List::All | List::Sample(_) | List::Nothing => COMPARED,
             };
-            let verdict = primes::compare(both, [&first, &second], compared)?;
-            let primes = primes::primes(both);
+            let verdict = second_prime::compare(both, [&first, &second], compared)?;
+            let primes = second_prime::primes(both);
             (first, Some(PrimeCheck { primes, verdict }))
         }
     };
@@ -390,7 +390,7 @@ fn orbits(
         && !ended(&stops)
         && !ended(&second.1)
     {
-        primes::compare_counts([search, twin], [&first.0, &second.0])?;
+        second_prime::compare_counts([search, twin], [&first.0, &second.0])?;
     }
     Ok((first.0, stops))
 }

@@ -8,7 +8,7 @@ use crate::score::evaluate::Evaluator;
 use crate::score::evaluate::Load;
 use crate::score::joint_types::JointType;
 use crate::score::terms::{ErrorSum, Scores, axis_of};
-use crate::search::best::Assignment;
+use crate::search::answer::k_best::Assignment;
 use crate::statics::reactions::follow::follow_to;
 use crate::statics::reactions::{Choice, JointReaction, Reactions, Unsolved};
 

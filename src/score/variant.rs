@@ -9,12 +9,12 @@ use crate::redundancy::share::{ContourShare, shares};
 use crate::score::outcome::Outcome;
 use crate::score::ranking::Ranked;
 use crate::score::terms::Scores;
-use crate::search::best::Assignment;
-use crate::search::certify::{Certified, Second};
-use crate::search::conditions::Search;
-use crate::search::ideas::Idea;
-use crate::search::over_stroke::OverStroke;
-use crate::search::space::choice_name;
+use crate::search::answer::freedom_patterns::Idea;
+use crate::search::answer::k_best::Assignment;
+use crate::search::check::other_poses::OverStroke;
+use crate::search::check::singular_values::{Certified, Second};
+use crate::search::question::conditions::Search;
+use crate::search::question::space::choice_name;
 use itertools::Itertools;
 use std::fmt;
 

@@ -3,19 +3,32 @@
 //! Nodes are kept as reduced row echelon forms over a prime field, which are canonical, so equal spaces meet in one
 //! hash table.
 
+pub(in crate::search) mod choice_inclusion;
+pub(in crate::search) mod completion;
+pub mod frontier;
+pub(in crate::search) mod layer;
+pub(in crate::search) mod minimize;
+pub mod output_motion;
+pub(in crate::search) mod product;
+pub mod redundancy_so_far;
+pub mod stage;
+pub mod state_copies;
+pub(in crate::search) mod stop;
+pub(in crate::search) mod transition;
+
 use crate::geom::exact::ExactField;
 use crate::linalg::modp::{Field, Residue};
-use crate::search::growth::{Grown, grown};
-use crate::search::lanes::Move;
-use crate::search::lookahead::Lookahead;
-pub use crate::search::merge::DEAD;
-use crate::search::merge::{CUT, Merge, Nodes};
-use crate::search::missing::Ceiling;
-use crate::search::space::Space;
-use crate::search::spent::{Limits, Redundancy, Spent};
-use crate::search::stage::Stage;
-pub use crate::search::stop::Stop;
-use crate::search::transition::{Children, Worker};
+use crate::search::diagram::choice_inclusion::{Grown, grown};
+use crate::search::diagram::completion::Ceiling;
+pub use crate::search::diagram::layer::DEAD;
+use crate::search::diagram::layer::{CUT, Merge, Nodes};
+use crate::search::diagram::output_motion::Lookahead;
+use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
+use crate::search::diagram::stage::Stage;
+use crate::search::diagram::state_copies::Move;
+pub use crate::search::diagram::stop::Stop;
+use crate::search::diagram::transition::{Children, Worker};
+use crate::search::question::space::Space;
 use rayon::prelude::*;
 
 /// Building progress, for whoever shows it.

@@ -8,12 +8,15 @@
 //! Ears: Whitney, "Non-separable and planar graphs", Trans. AMS 34 (1932). The choice of orders by the sizes of real
 //! diagrams: Rudell, "Dynamic variable ordering for ordered binary decision diagrams", ICCAD 1993.
 
+pub(in crate::search) mod canonical;
+pub(in crate::search) mod trial;
+
 use crate::geom::exact::ExactField;
 use crate::model::mechanism::{LinkId, Mechanism};
-use crate::search::blocks::Block;
-use crate::search::canonical::canonical;
-use crate::search::space::Space;
-use crate::search::trial::{Trial, Trials};
+use crate::search::order::canonical::canonical;
+use crate::search::order::trial::{Trial, Trials};
+use crate::search::question::space::Space;
+use crate::search::reduce::biconnected::Block;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// Orders kept after each contour.

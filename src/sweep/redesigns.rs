@@ -10,7 +10,7 @@ use crate::score::request::{Check, List, Request};
 use crate::score::run::{RunError, run};
 use crate::score::terms::Scores;
 use crate::score::variant::{changes, in_words};
-use crate::search::best::Assignment;
+use crate::search::answer::k_best::Assignment;
 use crate::sweep::forces::{is_loaded, rounded};
 use serde::{Deserialize, Serialize};
 

@@ -6,7 +6,7 @@ use crate::file::text::mechanism_at;
 use crate::geom::expr::Expr;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::Certainty;
-use crate::rank::registry;
+use crate::rank::method::registry;
 use crate::redundancy::analysis::{AnalysisError, Method, StateAnalysis, analyse};
 use crate::sweep::Sweep;
 use crate::sweep::forces::{Forces, forces};

@@ -2,9 +2,9 @@
 
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::asked_stroke::{Asked, AskedError};
 use crate::rank::method::NoAnswer;
-use crate::rank::verdict::verdict;
+use crate::rank::rounded::verdict::verdict;
+use crate::rank::stroke::request::{Asked, AskedError};
 use crate::sweep::forces::rounded;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;

@@ -1,6 +1,11 @@
 //! An analysis as what is told of it, as JSON, as text and on the page; the keys of JSON are a stable contract.
 
+pub mod idle;
+pub mod least_rows;
+pub mod mechanism;
+pub mod mobility;
 pub mod next;
+pub mod suggestions;
 mod text;
 
 use crate::geom::expr::PI_DIGITS;
@@ -8,10 +13,9 @@ use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::share::{ContourShare, CouplingShare};
 use crate::redundancy::stress::{JointWrench, Verdict};
-use crate::view::idle;
-use crate::view::least_rows::{Part, least_rows};
+use crate::view::analysis::least_rows::{Part, least_rows};
+use crate::view::analysis::suggestions::{Advice, Suggestions};
 use crate::view::stroke::Stroke;
-use crate::view::suggestions::{Advice, Suggestions};
 use serde::Serialize;
 
 /// The analysis of a mechanism.

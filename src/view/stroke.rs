@@ -4,9 +4,9 @@ use crate::chart::{Axis, Chart, Scale, Series, Style};
 use crate::format::number::decimals;
 use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::along_stroke::StrokeFigures;
-use crate::rank::asked_stroke::Asked;
-use crate::view::layout::table;
+use crate::rank::stroke::analysis::StrokeFigures;
+use crate::rank::stroke::request::Asked;
+use crate::view::terminal::layout::table;
 use itertools::Itertools;
 use serde::Serialize;
 use std::fmt::Write;
@@ -36,7 +36,7 @@ pub struct Stroke<'a> {
     pub stop: Option<Stop>,
 }
 
-/// The figures of one pose; see [`crate::rank::along_stroke::PoseFigures`].
+/// The figures of one pose; see [`crate::rank::stroke::analysis::PoseFigures`].
 #[derive(Debug, Serialize)]
 #[allow(missing_docs, reason = "named as there")]
 pub struct Pose<'a> {
@@ -99,8 +99,8 @@ impl<'a> Stroke<'a> {
         [from, to]: [f64; 2],
         found: &StrokeFigures,
     ) -> Stroke<'a> {
-        let outputs = |p: &crate::rank::along_stroke::PoseFigures| {
-            let one = |o: &crate::rank::along_stroke::Output| Output {
+        let outputs = |p: &crate::rank::stroke::analysis::PoseFigures| {
+            let one = |o: &crate::rank::stroke::analysis::Output| Output {
                 link: &m.links[o.link].id,
                 point: o.point,
                 turn: o.turn,

@@ -8,8 +8,8 @@ use ozols::accuracy::timing::Stopwatch;
 use ozols::accuracy::tuned::tolerances;
 use ozols::closure::matrix::Closure;
 use ozols::geom::scalars::Reals;
+use ozols::rank::method::registry;
 use ozols::rank::numeric::Elimination;
-use ozols::rank::registry;
 use std::sync::LazyLock;
 use std::time::Duration;
 

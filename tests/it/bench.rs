@@ -10,7 +10,7 @@ use ozols::accuracy::timing::{Machine, Stopwatch};
 use ozols::file::text::mechanism_from_str;
 use ozols::rank::numeric::Elimination;
 use ozols::score::request::{Check, List, Request};
-use ozols::search::approximate::Approximate;
+use ozols::search::check::brute_float::Approximate;
 use serde_json::Value;
 use std::time::Duration;
 

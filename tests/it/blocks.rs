@@ -4,8 +4,8 @@
 use num_bigint::BigUint;
 use ozols::file::text::mechanism_from_str;
 use ozols::redundancy::analysis::exact_field;
-use ozols::search::building::Diagrams;
-use ozols::search::conditions::{Conditions, Search};
+use ozols::search::build::Diagrams;
+use ozols::search::question::conditions::{Conditions, Search};
 use proptest::prelude::*;
 use std::fmt::Write;
 

@@ -11,10 +11,10 @@ use ozols::geom::expr::Expr;
 use ozols::geom::number_field::NumberField;
 use ozols::linalg::number_ring::{Element, NumberRing};
 use ozols::model::mechanism::{Mechanism, StateId};
-use ozols::rank::certificate::{
+use ozols::rank::exact::certificate::{
     Budget, Certificate, NoCertificate, certify, certify_matrix, matrix, number_field,
 };
-use ozols::rank::rational;
+use ozols::rank::exact::rational;
 use ozols::redundancy::analysis::{Method, analyse};
 use ozols::verify::certificate::{CertificateFile, FORMAT};
 use ozols::verify::matrix::MatrixOverRing;

@@ -4,8 +4,8 @@ use crate::common::{json, out, ozols};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::exact_field;
-use ozols::search::conditions::{Conditions, InState, Search};
-use ozols::search::primes::{Verdict, build_both, compare, compare_counts, primes};
+use ozols::search::check::second_prime::{Verdict, build_both, compare, compare_counts, primes};
+use ozols::search::question::conditions::{Conditions, InState, Search};
 use serde_json::Value;
 use std::fs;
 
@@ -33,7 +33,7 @@ fn both(text: &str) -> Result<(Verdict, [u64; 2]), String> {
     let (first, second) = (over(0), over(1));
     let searches = [&first, &second];
     let (a, b) = build_both(searches, &|| false, &mut |_| {});
-    let counts = |s: &Search, d: &ozols::search::building::Diagrams| {
+    let counts = |s: &Search, d: &ozols::search::build::Diagrams| {
         (
             s.counts(&d.determinate, false),
             s.counts(&d.admissible, true),

@@ -7,7 +7,7 @@ use crate::common::ozols;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::method::NoAnswer;
-use ozols::rank::registry::by_name;
+use ozols::rank::method::registry::by_name;
 use ozols::redundancy::analysis::{Method, StateAnalysis, analyse};
 
 const FRAME: &str = r#"
@@ -312,7 +312,7 @@ fn every_method_counts_the_rows() {
 /// A certificate proves the rank with the coupling of its file, and of no other.
 #[test]
 fn certificates_hold_the_coupling() {
-    use ozols::rank::certificate::{certify, matrix, number_field};
+    use ozols::rank::exact::certificate::{certify, matrix, number_field};
     let text = ozols::builtin::text("geared-five-bar").unwrap();
     let m = mechanism(text);
     let certificate = certify(&m, StateId::FREE).unwrap();
@@ -374,7 +374,7 @@ fn redesigns_of_a_geared_gripper() {
 #[test]
 fn couplings_have_mirror_images() {
     use ozols::redundancy::analysis::exact_field;
-    use ozols::search::conditions::{Conditions, Search, Symmetry};
+    use ozols::search::question::conditions::{Conditions, Search, Symmetry};
     let text = pair(
         TURN,
         TURN,

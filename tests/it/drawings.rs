@@ -17,7 +17,7 @@ use ozols::draw::{Drawing, Rect, Subject, kinematic, marks, scheme};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
-use ozols::search::conditions::{Conditions, InState, Search};
+use ozols::search::question::conditions::{Conditions, InState, Search};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;

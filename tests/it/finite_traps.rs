@@ -8,9 +8,9 @@ use ozols::builtin;
 use ozols::closure::matrix::Closure;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
-use ozols::rank::field::field_of;
+use ozols::rank::exact::field::field_of;
+use ozols::rank::exact::modular;
 use ozols::rank::finite::{Finite, How, finite};
-use ozols::rank::modular;
 
 fn judged(m: &Mechanism) -> (usize, Finite) {
     let exact = field_of(m, StateId::FREE, 0).unwrap();
@@ -80,7 +80,9 @@ fn idle_spins_are_finite_motions() {
         let (_, found) = judged(&m);
         let mut part = m.clone();
         let exact = field_of(&m, StateId::FREE, 0).unwrap();
-        let idle = ozols::rank::parts::lock_idle(&exact, &mut part, StateId::FREE).unwrap();
+        let idle =
+            ozols::rank::finite::independent_parts::lock_idle(&exact, &mut part, StateId::FREE)
+                .unwrap();
         assert!(found.mobility >= idle, "{name}: {found:?}, {idle} idle");
     }
 }

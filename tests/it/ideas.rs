@@ -6,7 +6,7 @@ use num_bigint::BigUint;
 use ozols::geom::vector::{cross, real, unit};
 use ozols::model::joint_type::Freedom;
 use ozols::model::mechanism::{JointId, JointOption, Mechanism, StateId};
-use ozols::search::best::Assignment;
+use ozols::search::answer::k_best::Assignment;
 use ozols::{Outcome, Request, search};
 use std::collections::{BTreeMap, BTreeSet};
 

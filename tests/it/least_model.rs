@@ -7,10 +7,10 @@ use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
 use ozols::redundancy::analysis::exact_field;
-use ozols::search::building::Diagrams;
-use ozols::search::conditions::{Conditions, Search};
-use ozols::search::counts::Counts;
+use ozols::search::answer::counts::Counts;
+use ozols::search::build::Diagrams;
 use ozols::search::diagram::Stop;
+use ozols::search::question::conditions::{Conditions, Search};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 

@@ -4,10 +4,12 @@ use crate::common::{ozols, text, timeless};
 use ozols::model::ranking::Term;
 use ozols::score::request::{Check, JointOptions, List, Method};
 use ozols::score::run::{Event, run};
-use ozols::search::conditions::Symmetry;
+use ozols::search::answer::why_none::Hopeless;
 use ozols::search::diagram::Stop;
-use ozols::search::relax::Hopeless;
-use ozols::view::{search_csv, search_json, search_text};
+use ozols::search::question::conditions::Symmetry;
+use ozols::view::search::csv;
+use ozols::view::search::json;
+use ozols::view::search::text;
 use ozols::{Error, Mechanism, Outcome, Request, Scheme};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -19,7 +21,7 @@ fn json(outcome: &Outcome) -> String {
     let mut out = Vec::new();
     let eased = outcome.relaxations().unwrap();
     let why = outcome.hopeless().unwrap();
-    search_json::write(&mut out, outcome, outcome.variants(), (&eased, &why), None).unwrap();
+    json::write(&mut out, outcome, outcome.variants(), (&eased, &why), None).unwrap();
     String::from_utf8(out).unwrap()
 }
 
@@ -221,14 +223,14 @@ fn csv_and_text_are_those_of_the_command() {
     let mut outcome = search("four-bar", &Request::default());
     let printed = |format: &str| ozols(&["search", "four-bar", "--format", format]).output();
     let mut csv = Vec::new();
-    search_csv::write(&mut csv, &outcome, outcome.variants()).unwrap();
+    csv::write(&mut csv, &outcome, outcome.variants()).unwrap();
     assert_eq!(csv, printed("csv").unwrap().stdout);
     let mut text = Vec::new();
     // People are given ideas.
     outcome.request.distinct = true;
     let variants = outcome.variants();
     let none = (&[][..], &Hopeless::default());
-    search_text::write(&mut text, &outcome, variants, none, "four-bar", None).unwrap();
+    text::write(&mut text, &outcome, variants, none, "four-bar", None).unwrap();
     assert_eq!(text, printed("text").unwrap().stdout);
 }
 

@@ -8,10 +8,13 @@ use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
 use ozols::model::mechanism::{Frame, Mechanism, Mode, StateId};
 use ozols::motion::pose::Pose;
-use ozols::rank::auto::decide;
-use ozols::rank::field::field_of;
+use ozols::rank::exact::field::field_of;
+use ozols::rank::exact::modular;
+use ozols::rank::finite::local_dimension;
 use ozols::rank::finite::{How, finite, followed};
-use ozols::rank::{generic, modular, registry, trace};
+use ozols::rank::method::auto::decide;
+use ozols::rank::method::generic;
+use ozols::rank::method::registry;
 use ozols::redundancy::analysis::{Method, analyse};
 use ozols_dense::Matrix;
 use proptest::prelude::*;
@@ -187,7 +190,7 @@ fn what_is_proven_is_found_by_following_the_motion_too() {
 /// A group of fewer dimensions needs fewer rows, and the rank stays; the dimension is that of the span at random places.
 #[test]
 fn groups_need_no_more_rows_than_dimensions() {
-    use ozols::rank::subgroup::{Kind, whole_group};
+    use ozols::rank::finite::displacement_group::{Kind, whole_group};
     let mut fewer = 0;
     for name in builtin::names() {
         let m = built_in(name);
@@ -261,7 +264,7 @@ fn poses_reached_in_steps_are_closed_and_rigid() {
         let mut pose = Pose::of_file(&built_in(name), StateId::FREE).unwrap();
         let f = pose.columns.len();
         for _ in 0..20 {
-            let span = trace::motions(&pose);
+            let span = local_dimension::motions(&pose);
             let step: Vec<f64> = (0..f).map(|r| 0.05 * span[(r, 0)]).collect();
             let q = pose.close(step, &[]).unwrap();
             pose = pose.moved(&q);

@@ -7,7 +7,7 @@ use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::motion::follow::{Followed, Why, follow, slides};
 use ozols::motion::pose::Pose;
-use ozols::rank::along_stroke::{StrokeFigures, StrokeRequest, stroke};
+use ozols::rank::stroke::analysis::{StrokeFigures, StrokeRequest, stroke};
 use ozols::statics::assur::decompose;
 use ozols::statics::planar::PlanarMechanism;
 use ozols::statics::planar_motion::Motion;

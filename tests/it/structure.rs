@@ -12,7 +12,7 @@ use ozols::linalg::echelon;
 use ozols::linalg::modp::Residue;
 use ozols::model::joint_type::Freedom;
 use ozols::model::mechanism::{JointId, Mechanism, StateId};
-use ozols::rank::modular;
+use ozols::rank::exact::modular;
 use ozols::redundancy::analysis::exact_field;
 use ozols::redundancy::share::shares;
 use proptest::prelude::*;

@@ -6,9 +6,9 @@ use ozols::file::text::mechanism_from_str;
 use ozols::model::joint_type::JointType;
 use ozols::model::mechanism::{JointId, JointOption, Link, LinkId, Mechanism, Role, StateId};
 use ozols::redundancy::analysis::{Method, StateAnalysis, analyse};
-use ozols::search::suggest::{USUAL, USUAL_UNLOADING, single_changes};
+use ozols::search::answer::single_changes::{USUAL, USUAL_UNLOADING, single_changes};
 use ozols::view::analysis::Analysis;
-use ozols::view::suggestions::{Advice, concerned};
+use ozols::view::analysis::suggestions::{Advice, concerned};
 use proptest::prelude::*;
 
 fn read(text: &str) -> Mechanism {
@@ -125,7 +125,7 @@ fn quickly(m: &Mechanism, state: StateId) -> Vec<Line> {
         .iter()
         .map(|x| (std::cmp::Reverse(x.removes), x.cost_milli));
     assert!(keys.is_sorted());
-    let line = |x: &ozols::search::suggest::Suggestion| {
+    let line = |x: &ozols::search::answer::single_changes::Suggestion| {
         (
             m.joints[x.joint].id.clone(),
             x.to.as_ref().map(|o| o.name.clone()),

@@ -13,7 +13,7 @@ use ozols::model::joint_type::{Freedom, JointType};
 use ozols::model::mechanism::{Frame, JointId, LinkId, Mechanism, Mode, Role, StateId};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
 use ozols::redundancy::stress::{SelfStress, Verdict};
-use ozols::search::conditions::{Conditions, InState, Search, Symmetry};
+use ozols::search::question::conditions::{Conditions, InState, Search, Symmetry};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 

@@ -6,9 +6,9 @@ use num_bigint::BigUint;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
 use ozols::redundancy::analysis::exact_field;
-use ozols::search::conditions::{Conditions, Search, Symmetry};
-use ozols::search::counts::Counts;
-use ozols::search::primes::{Verdict, build_both, compare};
+use ozols::search::answer::counts::Counts;
+use ozols::search::check::second_prime::{Verdict, build_both, compare};
+use ozols::search::question::conditions::{Conditions, Search, Symmetry};
 use proptest::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 

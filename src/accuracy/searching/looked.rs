@@ -2,11 +2,11 @@
 
 use crate::geom::exact::ExactError;
 use crate::score::outcome::Outcome;
-use crate::search::best::Assignment;
-use crate::search::brute::Seen;
-use crate::search::conditions::Search;
-use crate::search::space::Variable;
-use crate::search::tally::Key;
+use crate::search::answer::count_tables::Key;
+use crate::search::answer::k_best::Assignment;
+use crate::search::check::brute::Seen;
+use crate::search::question::conditions::Search;
+use crate::search::question::space::Variable;
 use num_bigint::BigUint;
 use num_traits::ToPrimitive;
 use rayon::prelude::*;

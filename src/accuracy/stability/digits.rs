@@ -7,7 +7,7 @@ use super::{Effort, Progress, Study};
 use crate::accuracy::survey::Case;
 use crate::format::phrase::list;
 use crate::model::mechanism::{JointOption, Mechanism, StateId};
-use crate::rank::auto::decide;
+use crate::rank::method::auto::decide;
 use crate::score::outcome::Outcome;
 use crate::score::request::{Check, List, Request};
 use crate::score::run::run;

@@ -15,10 +15,12 @@ use crate::format::phrase::list;
 use crate::geom::expr::Expr;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::field::field_of;
+use crate::rank::exact::field::field_of;
+use crate::rank::exact::modular;
+use crate::rank::method::registry;
 use crate::rank::method::{Answer, NoAnswer};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::rank::{modular, registry, scaled};
+use crate::rank::numeric::scaling;
 use ozols_dense::singular_values;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -139,7 +141,7 @@ fn truth(m: &Mechanism) -> (Truth, usize) {
 fn smallest(m: &Mechanism, rank: usize) -> f64 {
     let values = Closure::new(&Reals, m, StateId::FREE)
         .ok()
-        .and_then(|c| singular_values(&scaled::scaled(&c)));
+        .and_then(|c| singular_values(&scaling::scaled(&c)));
     let mut values = values.unwrap_or_default();
     values.sort_by(|a, b| b.total_cmp(a));
     match (

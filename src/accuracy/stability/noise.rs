@@ -10,8 +10,8 @@ use crate::format::number::scientific;
 use crate::format::phrase::list;
 use crate::geom::scalars::Reals;
 use crate::rank::method::MobilityMethod;
+use crate::rank::method::registry;
 use crate::rank::numeric::Elimination;
-use crate::rank::registry;
 use rayon::prelude::*;
 
 /// What is asked: the floating-point methods at these tolerances,

@@ -8,7 +8,7 @@ use super::{Effort, Progress, Study};
 use crate::file::text::mechanism_from_str;
 use crate::format::phrase::list;
 use crate::model::mechanism::StateId;
-use crate::rank::auto::decide;
+use crate::rank::method::auto::decide;
 use rayon::prelude::*;
 
 /// Offsets in units of the last digit. Between half a unit and one and a half the digits allow both.

@@ -9,7 +9,7 @@ use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::numeric::Elimination;
-use crate::rank::verdict::verdict;
+use crate::rank::rounded::verdict::verdict;
 use rayon::prelude::*;
 
 /// Decimals that are tried.

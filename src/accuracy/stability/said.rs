@@ -3,7 +3,7 @@
 use super::Picture;
 use crate::chart::{Axis, Chart, Scale, Series, Style};
 use crate::format::csv;
-use crate::rank::auto::Decision;
+use crate::rank::method::auto::Decision;
 
 /// What is said against the truth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -8,8 +8,8 @@ use crate::accuracy::survey::Case;
 use crate::format::number::scientific;
 use crate::format::phrase::list;
 use crate::rank::method::MobilityMethod;
+use crate::rank::method::registry;
 use crate::rank::numeric::Elimination;
-use crate::rank::registry;
 use rayon::prelude::*;
 
 /// Runs the study.

@@ -11,9 +11,10 @@ use crate::format::csv;
 use crate::format::number::duration;
 use crate::format::phrase::list;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::field::field_of;
+use crate::rank::exact::field::field_of;
+use crate::rank::exact::modular;
+use crate::rank::method::registry;
 use crate::rank::method::{Answer, MobilityMethod, NoAnswer};
-use crate::rank::{modular, registry};
 use serde::Serialize;
 use std::time::Duration;
 

@@ -1,6 +1,6 @@
 //! Arrows on links, for forces and moments: what they are in space and how they look from a side.
 
-use crate::draw::projection::{Vector, View, dot, norm as norm3};
+use crate::draw::place::projection::{Vector, View, dot, norm as norm3};
 use crate::draw::sheet::Shape;
 use crate::svg::plane::{Point, add, norm, scale, sub, unit};
 use std::f64::consts::{PI, TAU};

@@ -1,8 +1,8 @@
 //! The directions of the coordinates and the scale, below the drawing.
 
 use super::Kinematic;
-use crate::draw::labels::{self, Wish};
-use crate::draw::projection;
+use crate::draw::place::projection;
+use crate::draw::sheet::labels::{self, Wish};
 use crate::draw::sheet::{Anchor, PAD, Sheet};
 use crate::svg::plane::{Rect, add, norm, polyline, scale, sub};
 

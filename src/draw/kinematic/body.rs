@@ -1,7 +1,7 @@
 //! The shape of a link: a bar where its joints are in a row, a plate where they are not.
 
-use super::nest::one_place;
-use crate::draw::piece::hull;
+use crate::draw::kinematic::concentric::one_place;
+use crate::draw::symbol::pieces::hull;
 use crate::svg::plane::{Point, add, cross, dot, mean, norm, scale, sub, unit};
 
 /// A plate thinner than this, in pixels, is a bar.

@@ -2,9 +2,11 @@
 
 use super::Kinematic;
 use super::body::Body;
-use super::carried::Carried;
 use super::marked::draw_mark;
-use crate::draw::projection::{Place, Vector, add as add3, cross, norm, scale as times, sub};
+use crate::draw::kinematic::posed::Carried;
+use crate::draw::place::projection::{
+    Place, Vector, add as add3, cross, norm, scale as times, sub,
+};
 use crate::draw::sheet::Sheet;
 use crate::geom::vector::{dot, unit};
 use crate::model::mechanism::LinkId;

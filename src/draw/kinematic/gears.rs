@@ -1,7 +1,7 @@
 //! Coupled joints as what makes them move together: gears as their pitch circles, a pinion as that of its rack.
 
 use super::Kinematic;
-use crate::draw::projection::{self, Place, add, cross, dot, norm, scale, sub};
+use crate::draw::place::projection::{self, Place, add, cross, dot, norm, scale, sub};
 use crate::geom::vector::Vector;
 use crate::model::coupling::Coupling;
 use crate::model::joint_type::Freedom;

@@ -1,9 +1,9 @@
 //! What a kinematic scheme says in words: the rows of its legend, and itself for those who do not see it.
 
 use super::{Kinematic, Spot, symbol};
-use crate::draw::ground::Ground;
 use crate::draw::sheet::{Sheet, Swatch};
-use crate::draw::symbols;
+use crate::draw::symbol::ground::Ground;
+use crate::draw::symbol::symbols;
 use crate::format::number::decimals;
 use crate::model::joint_type::JointType;
 use crate::svg::plane::{Point, add};

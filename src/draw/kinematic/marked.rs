@@ -1,6 +1,6 @@
 //! Points of interest on links: those of the file, and the faces of jaws.
 
-use crate::draw::projection::{Vector, real};
+use crate::draw::place::projection::{Vector, real};
 use crate::draw::sheet::Sheet;
 use crate::model::mechanism::{LinkId, Mechanism, Role, StateId};
 use crate::svg::plane::{Point, add, polyline};

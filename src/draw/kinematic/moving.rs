@@ -1,12 +1,12 @@
 //! A kinematic scheme over the way of its drive: one picture a pose, shown one after the other.
 
-use super::carried::Carried;
 use super::frame::Frame;
 use super::symbol::Symbol;
 use super::{Kinematic, STRIP};
-use crate::draw::projection::{Place, bounds};
+use crate::draw::kinematic::posed::Carried;
+use crate::draw::place::projection::{Place, bounds};
+use crate::draw::place::view_direction::Sight;
 use crate::draw::sheet::{Caption, Drawing, Plan, Sheet, Swatch, plan};
-use crate::draw::sight::Sight;
 use crate::draw::subject::Subject;
 use crate::motion::pose::Pose;
 use crate::motion::way::Way;

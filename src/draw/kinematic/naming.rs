@@ -1,9 +1,9 @@
 //! Where the names of joints and links go.
 
 use super::Kinematic;
-use crate::draw::ground::Ground;
-use crate::draw::labels::{self, Line, Wish};
 use crate::draw::sheet::SMALL;
+use crate::draw::sheet::labels::{self, Line, Wish};
+use crate::draw::symbol::ground::Ground;
 use crate::svg::plane::{Point, Rect, add, scale, sub, unit};
 use crate::svg::text::{cut, width};
 

@@ -1,8 +1,8 @@
 //! Pieces of symbols as a program that turns them has them: numbers in the frame of a joint, or on paper.
 
-use crate::draw::piece::{Form, Piece};
-use crate::draw::projection::Vector;
+use crate::draw::place::projection::Vector;
 use crate::draw::sheet::Shape;
+use crate::draw::symbol::pieces::{Form, Piece};
 use crate::svg::plane::Point;
 use serde::Serialize;
 

@@ -4,15 +4,15 @@
 
 use super::Kinematic;
 use super::arrow::Arrow;
-use super::carried::Carried;
 use super::frame::Frame;
 use super::moving::{Moved, flag_row, poses};
 use super::part::{Part, below, flat, paper, part, tidy};
-use crate::draw::projection::{Vector, View, add, cross, dot, norm, scale, sub};
+use crate::draw::kinematic::posed::Carried;
+use crate::draw::place::projection::{Vector, View, add, cross, dot, norm, scale, sub};
+use crate::draw::place::view_direction::Sight;
 use crate::draw::sheet::{Caption, Drawing, Sheet, plan};
-use crate::draw::sight::Sight;
 use crate::draw::subject::Subject;
-use crate::draw::symbols;
+use crate::draw::symbol::symbols;
 use crate::geom::vector::Z;
 use crate::model::mechanism::LinkId;
 use crate::motion::pose::Pose;
@@ -282,7 +282,9 @@ impl Kinematic<'_> {
         }
         // the ground, straight below whatever the view
         for ground in &self.grounds {
-            let there = |i: &usize| super::nest::one_place(self.spots[*i].at, ground.from);
+            let there = |i: &usize| {
+                crate::draw::kinematic::concentric::one_place(self.spots[*i].at, ground.from)
+            };
             let Some(i) = (0..self.spots.len()).find(there) else {
                 continue;
             };

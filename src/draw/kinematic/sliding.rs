@@ -1,9 +1,9 @@
 //! What slides along what in a moving scheme, and how far.
 
 use super::Kinematic;
-use super::carried::Carried;
-use super::nest::one_place;
-use crate::draw::projection::{Vector, dot, scale as times, sub as sub3};
+use crate::draw::kinematic::concentric::one_place;
+use crate::draw::kinematic::posed::Carried;
+use crate::draw::place::projection::{Vector, dot, scale as times, sub as sub3};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::LinkId;
 

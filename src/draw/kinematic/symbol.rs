@@ -1,10 +1,10 @@
 //! The symbol of a joint, with the ring of a drive.
 
-use crate::draw::piece::Pose;
-use crate::draw::projection::{Place, View};
+use crate::draw::place::projection::{Place, View};
 use crate::draw::sheet::{Shape, Sheet};
 use crate::draw::subject::{Mark, Subject};
-use crate::draw::symbols;
+use crate::draw::symbol::pieces::Pose;
+use crate::draw::symbol::symbols;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::JointId;
 use crate::svg::plane::Rect;

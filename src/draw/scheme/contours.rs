@@ -1,8 +1,8 @@
 //! The contours of a scheme: each tinted, where it has an area and where it has none.
 
 use super::{Scheme, Share};
-use crate::draw::shapes::{HALF, grid, outline, rounded};
 use crate::draw::sheet::Sheet;
+use crate::draw::sheet::shapes::{HALF, grid, outline, rounded};
 use crate::svg::plane::{Point, area, inside, to_segment};
 
 /// Half the width of the band that stands for a contour without an area.

@@ -1,9 +1,9 @@
 //! Where the names of joints and links and the numbers of contours go.
 
 use super::Scheme;
-use crate::draw::labels::{Line, Place, Wish, place};
-use crate::draw::shapes::{HALF, grid, outline};
 use crate::draw::sheet::SMALL;
+use crate::draw::sheet::labels::{Line, Place, Wish, place};
+use crate::draw::sheet::shapes::{HALF, grid, outline};
 use crate::model::mechanism::Role;
 use crate::svg::plane::{Point, Rect, add, area, inside, mean, norm, scale, sub, to_segment, unit};
 use crate::svg::text::{cut, width};

@@ -2,9 +2,9 @@
 
 use super::State;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::search::suggest::{USUAL, USUAL_UNLOADING};
-use crate::view::next::{Step, file_name, word};
-use crate::view::suggestions::Suggestions;
+use crate::search::answer::single_changes::{USUAL, USUAL_UNLOADING};
+use crate::view::analysis::suggestions::Suggestions;
+use crate::view::terminal::next_commands::{Step, file_name, word};
 use itertools::Itertools;
 
 /// What to do after an analysis of `file`; `snap` is the tolerance its coordinates were snapped by, where they were.

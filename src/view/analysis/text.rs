@@ -2,8 +2,8 @@
 
 use super::{Analysis, AsWritten, Contour, Coupling, External, LeftOut, SelfStress, State, Wrench};
 use crate::format::phrase::{list, plural};
-use crate::view::idle;
-use crate::view::layout::{fit, table};
+use crate::view::analysis::idle;
+use crate::view::terminal::layout::{fit, table};
 use itertools::Itertools;
 use std::fmt::Write;
 

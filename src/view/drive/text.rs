@@ -7,7 +7,7 @@ use crate::drive::torsion::stored_energy;
 use crate::format::number::significant;
 use crate::format::phrase::plural;
 use crate::view::drive::{Cam, Design, Drive, Endurance, Remedies};
-use crate::view::layout::{fit, table};
+use crate::view::terminal::layout::{fit, table};
 use std::fmt::Write;
 
 /// Rows of the programme shown before the rest is left out.

@@ -9,7 +9,7 @@ use crate::model::grip::GripLoad;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::view::grip::reason;
 use crate::view::grip::text::effort_of_drive;
-use crate::view::layout::table;
+use crate::view::terminal::layout::table;
 use serde::Serialize;
 use std::fmt::Write;
 

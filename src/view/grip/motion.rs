@@ -6,7 +6,7 @@ use crate::format::phrase::plural;
 use crate::grip::clamping::Verdict;
 use crate::grip::motion::Step as Found;
 use crate::model::mechanism::LengthUnit;
-use crate::view::layout::{fit, table};
+use crate::view::terminal::layout::{fit, table};
 use serde::Serialize;
 use std::fmt::Write;
 

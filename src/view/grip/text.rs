@@ -4,7 +4,7 @@ use crate::format::number::significant;
 use crate::format::phrase::plural;
 use crate::model::grip::{LeverDrive, PartMass, Pivots, Toward};
 use crate::view::grip::{Contact, Diameter, Grip};
-use crate::view::layout::{fit, table};
+use crate::view::terminal::layout::{fit, table};
 use std::fmt::Write;
 
 /// The report, fitted to a terminal of `width` columns where one is given.

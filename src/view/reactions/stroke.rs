@@ -6,10 +6,10 @@ use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::drives::slides;
 use crate::statics::reactions::{Cycle, NEARLY_SINGULAR};
-use crate::view::layout::table as text_table;
-use crate::view::prefix::prefix;
 use crate::view::reactions::text::NOTHING;
 use crate::view::reactions::{HEADS, Joint, Reactions};
+use crate::view::terminal::layout::table as text_table;
+use crate::view::terminal::si_prefix::prefix;
 use serde::Serialize;
 use std::fmt::Write;
 

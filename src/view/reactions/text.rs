@@ -3,9 +3,9 @@
 use crate::format::number::{figure, significant};
 use crate::format::phrase::{list, plural};
 use crate::statics::reactions::NEARLY_SINGULAR;
-use crate::view::layout::{fit, table};
-use crate::view::prefix::prefix;
 use crate::view::reactions::{Contact, Joint, Reactions};
+use crate::view::terminal::layout::{fit, table};
+use crate::view::terminal::si_prefix::prefix;
 use std::fmt::Write;
 
 /// Self-stresses told at most.

@@ -8,8 +8,8 @@ use crate::statics::cycle::Moment;
 use crate::statics::inertia::{LinkInertia, link_inertias};
 use crate::statics::kinetostatics::Source;
 use crate::statics::planar::PairId;
-use crate::view::prefix::prefix;
 use crate::view::statics::{Statics, magnitudes};
+use crate::view::terminal::si_prefix::prefix;
 use itertools::Itertools;
 
 /// Named figures of a group's reactions.

@@ -5,8 +5,8 @@ use crate::format::number::figure;
 use crate::statics::contour_group::force_plan::{Plan, PlanForce, PlanKind, force_plans};
 use crate::statics::cycle::Moment;
 use crate::statics::kinetostatics::Source;
-use crate::view::prefix::prefix;
 use crate::view::statics::Statics;
+use crate::view::terminal::si_prefix::prefix;
 
 /// The drawing of each group, with the name of its file.
 #[must_use]

@@ -7,10 +7,10 @@ use crate::statics::contour_group::solutions::GroupMethod;
 use crate::statics::cycle::Moment;
 use crate::statics::kinetostatics::Equilibrium;
 use crate::statics::planar::PairId;
-use crate::view::layout::{fit, table};
-use crate::view::prefix::prefix;
 use crate::view::statics::link_motion::LinkMotion;
 use crate::view::statics::{Decomposed, Group, Statics, Structures, magnitudes};
+use crate::view::terminal::layout::{fit, table};
+use crate::view::terminal::si_prefix::prefix;
 use itertools::Itertools;
 use std::fmt::Write;
 

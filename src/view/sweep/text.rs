@@ -3,7 +3,7 @@
 use super::{Change, Peak, State, Sweep, Told};
 use crate::format::number::{significant, tooltip};
 use crate::format::phrase::plural;
-use crate::view::layout::{fit, table};
+use crate::view::terminal::layout::{fit, table};
 use itertools::Itertools;
 use std::collections::BTreeMap;
 

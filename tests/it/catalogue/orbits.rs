@@ -10,7 +10,7 @@ use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::geom::vector::real;
 use ozols::model::mechanism::Mechanism;
 use ozols::redundancy::analysis::exact_field;
-use ozols::search::conditions::{Conditions, Search};
+use ozols::search::question::conditions::{Conditions, Search};
 use std::collections::{BTreeMap, BTreeSet};
 use tempfile::tempdir;
 
@@ -196,7 +196,7 @@ fn a_file_says_what_a_turn_carries_round() {
 /// Necklaces of two and of three beads, turned until all are back in place: counted one by one, and from those that a turn keeps.
 #[test]
 fn orbits_are_those_of_necklaces() {
-    use ozols::search::counts::orbits;
+    use ozols::search::answer::counts::orbits;
     for order in [2usize, 3] {
         for colours in 1..6usize {
             let all = colours.pow(u32::try_from(order).unwrap());

@@ -3,7 +3,7 @@
 use super::certified;
 use num_rational::BigRational;
 use ozols::linalg::number_ring::Element;
-use ozols::rank::certificate::Certificate;
+use ozols::rank::exact::certificate::Certificate;
 use ozols::verify;
 use ozols::verify::matrix::MatrixOverRing;
 

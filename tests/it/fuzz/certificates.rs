@@ -4,7 +4,7 @@ use super::{edits, runs, spoilt};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
-use ozols::rank::certificate::{certify, matrix, number_field};
+use ozols::rank::exact::certificate::{certify, matrix, number_field};
 use ozols::verify;
 use ozols::verify::certificate::{CertificateFile, FORMAT};
 use ozols::verify::matrix::MatrixOverRing;

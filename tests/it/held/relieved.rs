@@ -241,7 +241,7 @@ fn where_no_option_can_help_that_is_said() {
 fn pads_stay_on_their_jaws_when_the_part_is_gone() {
     use ozols::model::mechanism::StateId;
     use ozols::redundancy::analysis::{Method, analyse, exact_field};
-    use ozols::search::conditions::{Conditions, InState, Search};
+    use ozols::search::question::conditions::{Conditions, InState, Search};
     let m = ozols::Mechanism::builtin("tongs").unwrap();
     let state = StateId::new(1);
     let conditions = Conditions {

@@ -7,7 +7,7 @@ use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
 use ozols::model::ranking::ClearanceSum;
 use ozols::score::evaluate::Evaluator;
-use ozols::search::best::Assignment;
+use ozols::search::answer::k_best::Assignment;
 
 #[test]
 fn the_command_changes_the_order_and_says_why() {

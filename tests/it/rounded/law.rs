@@ -8,7 +8,7 @@ use super::search_numeric::{plain, request, turned};
 use ozols::accuracy::stability::change::Noise;
 use ozols::builtin;
 use ozols::model::mechanism::{Mechanism, StateId};
-use ozols::rank::auto::decide;
+use ozols::rank::method::auto::decide;
 use ozols::score::outcome::Outcome;
 use ozols::score::request::Request;
 use rayon::prelude::*;
@@ -64,8 +64,9 @@ fn mobilities(m: &Mechanism, exact: &Mechanism) -> (Said, String) {
     ) else {
         return (Said::OtherDoubted, "no verdict".to_owned());
     };
-    let of =
-        |d: &ozols::rank::auto::Decision| (d.verdict.figures(d.verdict.rank()), d.finite.mobility);
+    let of = |d: &ozols::rank::method::auto::Decision| {
+        (d.verdict.figures(d.verdict.rank()), d.finite.mobility)
+    };
     let (a, b) = (of(&found), of(&truth));
     let decided = found.verdict.is_decided() && !found.finite.is_undecided();
     let said = match (a == b, decided) {
@@ -174,7 +175,7 @@ fn most_built_ins_at_six_decimals_are_decided() {
                 decide(&m, state, None).ok()?,
                 decide(&exact, state, None).ok()?,
             );
-            let figures = |d: &ozols::rank::auto::Decision| {
+            let figures = |d: &ozols::rank::method::auto::Decision| {
                 (d.verdict.figures(d.verdict.rank()), d.finite.mobility)
             };
             let is_decided = found.verdict.is_decided() && !found.finite.is_undecided();

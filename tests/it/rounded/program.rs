@@ -5,9 +5,9 @@ use ozols::file::text::mechanism_from_str;
 use ozols::geom::vector::{length, real, sub};
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::model::rounded::{looks_rounded, uncertainties};
-use ozols::rank::registry;
-use ozols::rank::snap::relation::Reach;
-use ozols::rank::snap::{size, snap};
+use ozols::rank::method::registry;
+use ozols::rank::rounded::snap::relation::Reach;
+use ozols::rank::rounded::snap::{size, snap};
 use ozols::redundancy::analysis::{Method, analyse};
 use serde_json::Value;
 

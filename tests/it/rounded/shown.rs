@@ -7,7 +7,7 @@ use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::model::rounded::uncertainties;
-use ozols::rank::auto::decide;
+use ozols::rank::method::auto::decide;
 use ozols::score::outcome::Outcome;
 use ozols::score::request::{List, Request};
 use std::collections::BTreeSet;

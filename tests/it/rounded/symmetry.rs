@@ -7,7 +7,7 @@ use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
 use ozols::score::request::Request;
-use ozols::search::conditions::Symmetry;
+use ozols::search::question::conditions::Symmetry;
 
 const BOTH: [Symmetry; 2] = [Symmetry::SymmetricOnly, Symmetry::OnePerOrbit];
 

@@ -3,8 +3,8 @@
 use super::cases::{Case, cases};
 use ozols::accuracy::stability::change::{Noise, turned_and_rounded};
 use ozols::model::mechanism::Mechanism;
-use ozols::rank::auto::decide;
-use ozols::rank::verdict::verdict;
+use ozols::rank::method::auto::decide;
+use ozols::rank::rounded::verdict::verdict;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 

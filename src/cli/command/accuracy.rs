@@ -1,0 +1,84 @@
+//! `ozols accuracy`.
+
+use crate::accuracy::folder;
+use crate::accuracy::stability::{self, Effort};
+use crate::accuracy::survey::Survey;
+use crate::accuracy::timing::Stopwatch;
+use crate::cli::Done;
+use crate::cli::option::args::Args;
+use crate::cli::terminal::machine;
+use crate::cli::terminal::output;
+use crate::cli::terminal::progress::Bar;
+use crate::view::accuracy::survey::summary;
+use crate::view::terminal::next_commands::{self, Step};
+use anyhow::{Context, ensure};
+use clap::Args as ClapArgs;
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Accuracy {
+    /// Write charts and tables to this folder, index.html first among them; without it only the table is printed.
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Fewer repeats and coarser stability charts: some seconds instead of a minute or two.
+    #[arg(long)]
+    quick: bool,
+    /// Times each answer is timed; the median counts. 5 by default, 1 with --quick.
+    #[arg(long, value_name = "N")]
+    repeat: Option<usize>,
+}
+
+pub(in crate::cli) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
+    let repeat = a.repeat.unwrap_or(if a.quick { 1 } else { 5 });
+    ensure!(repeat > 0, "--repeat must be at least 1");
+    // The folder before the work: a bad path should not cost a minute.
+    if let Some(folder) = &a.output {
+        std::fs::create_dir_all(folder)
+            .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    }
+    let mut bar = Bar::new(args.quiet);
+    let clock = machine::clock;
+    let machine = machine::machine();
+    let survey = Survey::new(Stopwatch { clock, repeat }, &mut |done, of| {
+        bar.step("timing the methods", done, of);
+    })?;
+    if let Some(folder) = &a.output {
+        let effort = Effort {
+            quick: a.quick,
+            seed: args.seed,
+            clock,
+        };
+        let studies = stability::all(&survey.cases, effort, &mut |what, done, of| {
+            bar.step(what, done, of);
+        })?;
+        let files = folder::files(&survey, &studies, &machine);
+        output::files(folder, files)?;
+        bar.clear();
+        let sentences = studies
+            .iter()
+            .map(|s| (s.title.as_str(), s.sentence.as_str()));
+        let text = summary(&survey, sentences, &machine, output::width(None));
+        return output::to(None, |out| {
+            writeln!(
+                out,
+                "{text}\nWritten to {}: open it in a browser.",
+                folder.join("index.html").display()
+            )?;
+            Ok(Done::Found)
+        });
+    }
+    bar.clear();
+    output::to(None, |out| {
+        let text = summary(&survey, [], &machine, output::width(None));
+        let charts = Step {
+            command: "ozols accuracy -o accuracy".to_owned(),
+            gives: "the same as charts, and where each method's numbers fail".to_owned(),
+        };
+        write!(
+            out,
+            "{text}{}",
+            next_commands::text(&[charts], output::width(None))
+        )?;
+        Ok(Done::Found)
+    })
+}

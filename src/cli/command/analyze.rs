@@ -1,0 +1,195 @@
+//! `ozols analyze`.
+
+use crate::cli::Done;
+use crate::cli::command::verify;
+use crate::cli::option::args::{AnalyzeFormat, Args, File};
+use crate::cli::option::load;
+use crate::cli::terminal::colour::{Tone, toned};
+use crate::cli::terminal::output;
+use crate::file::read::motion::stroke;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::method::registry;
+use crate::rank::method::{MobilityMethod, RankOfJ};
+use crate::rank::rounded::verdict::verdict;
+use crate::rank::stroke::request::Asked;
+use crate::redundancy::analysis::{Method, analyse};
+use crate::view::analysis::mobility::ByMethod;
+use crate::view::analysis::next::next as steps;
+use crate::view::analysis::suggestions;
+use crate::view::analysis::{Analysis, State};
+use crate::view::stroke::Stroke;
+use crate::view::terminal::layout::fit;
+use crate::view::terminal::next_commands;
+use anyhow::{Context, bail};
+use clap::Args as ClapArgs;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use std::path::PathBuf;
+
+/// A rank method by its name, listed the surest first.
+fn rank_method() -> impl TypedValueParser<Value = &'static dyn MobilityMethod> {
+    let each = registry::ALL.into_iter().rev();
+    let values = each.map(|m| PossibleValue::new(m.name()).help(m.about().help));
+    PossibleValuesParser::new(values)
+        .try_map(|name| registry::by_name(&name).ok_or("there is no such method"))
+}
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Analyze {
+    #[command(flatten)]
+    pub(in crate::cli) file: File,
+    /// A state named in the file, such as free or clamped, or all.
+    #[arg(long, default_value = "all")]
+    pub(in crate::cli) state: String,
+    /// How the rank is found.
+    #[arg(long, value_parser = rank_method(), default_value = "auto")]
+    method: &'static dyn MobilityMethod,
+    /// Relative tolerance of the floating-point methods, and of snapping measured geometry; by default what suits the
+    /// method and the digits.
+    #[arg(long, visible_alias = "snap", value_name = "T")]
+    pub(in crate::cli) tolerance: Option<f64>,
+    /// Model the mechanism in its plane (normal z) with 3 rows per contour, whatever the file says.
+    #[arg(long)]
+    pub(in crate::cli) planar: bool,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    pub(in crate::cli) format: AnalyzeFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(in crate::cli) output: Option<PathBuf>,
+    /// Also write a proof of each state's rank to a JSON file, for `ozols verify`.
+    #[arg(long, value_name = "FILE")]
+    pub(in crate::cli) certificate: Option<PathBuf>,
+    /// Also look at the poses over a range of the drive, in steps: 0:360deg:72. Counted from the pose of the file; radians
+    /// where no unit stands, the file's length unit for drives that slide. In the first state unless --state names one.
+    #[arg(long, value_name = "FROM:TO:STEPS", allow_hyphen_values = true)]
+    pub(in crate::cli) stroke: Option<String>,
+    /// The joint that moves over the stroke, JOINT:FREEDOM where it has several; by default the file's first drive. The
+    /// file's other drives are held, unless this is none of them.
+    #[arg(long, value_name = "JOINT", requires = "stroke")]
+    pub(in crate::cli) drive: Option<String>,
+    /// Write a chart of the conditioning over the stroke to a file.
+    #[arg(long, value_name = "FILE", requires = "stroke")]
+    pub(in crate::cli) svg: Option<PathBuf>,
+}
+
+pub(in crate::cli) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
+    let mut mechanism = load::mechanism(&a.file.file)?;
+    if a.planar {
+        load::put_in_plane(&mut mechanism);
+    }
+    let states: Vec<StateId> = match (a.state.as_str(), mechanism.state(&a.state)) {
+        (_, Some(s)) => vec![s],
+        ("all", None) if a.stroke.is_some() => vec![StateId::FREE],
+        ("all", None) => mechanism.state_ids().collect(),
+        (other, None) => bail!(
+            "{} has no state {other}; it has: {}",
+            mechanism.name,
+            mechanism.states.join(", ")
+        ),
+    };
+    if let Some(t) = a.tolerance
+        && !(t > 0.0 && t < 1.0)
+    {
+        bail!("--tolerance, or --snap, must be between 0 and 1");
+    }
+    if a.tolerance.is_some() && matches!(a.method.about().rank, RankOfJ::Exact | RankOfJ::NotFound)
+    {
+        bail!(
+            "--tolerance is nothing to --method {}, which rounds nothing; leave it out, or use auto or svd",
+            a.method.name()
+        );
+    }
+    let over = mechanism.state(&a.state).unwrap_or(StateId::FREE);
+    let asked = a
+        .stroke
+        .as_ref()
+        .map(|_| verdict(&mechanism, over, a.tolerance));
+    let asked = asked.transpose()?;
+    let stroke = match (&a.stroke, &asked) {
+        (Some(range), Some(verdict)) => Some(Asked::new(
+            &mechanism,
+            over,
+            (range, stroke(range)?),
+            a.drive.as_deref(),
+            (verdict, a.tolerance),
+        )?),
+        _ => None,
+    };
+    let Some(method) = Method::of(a.method, a.tolerance) else {
+        return mobility_alone(&mechanism, &states, a);
+    };
+    let found = analyse(&mechanism, &states, method)?;
+    if let Some(path) = &a.certificate {
+        verify::write(path, &mechanism, &states, &found)?;
+    }
+    let stroke = stroke.as_ref().map(Stroke::of);
+    if let (Some(s), Some(path)) = (&stroke, &a.svg) {
+        output::to(Some(path), |out| {
+            write!(out, "{}", s.chart().svg())?;
+            Ok(Done::Found)
+        })?;
+    }
+    let advice = suggestions::advise(&mechanism, &states, &found)?;
+    let analysis = Analysis {
+        stroke,
+        ..Analysis::new(&mechanism, &found, &advice)
+    };
+    let next = steps(&mechanism, &analysis.states, &a.file.file, a.tolerance);
+    let width = output::width(a.output.as_deref());
+    output::to(a.output.as_deref(), |out| {
+        match a.format {
+            AnalyzeFormat::Json => output::json(out, &analysis)?,
+            AnalyzeFormat::Text => {
+                let verdicts = analysis.states.iter().map(|s| (s.verdict(), tone(s)));
+                let text = toned(analysis.text(width), a.output.as_deref(), verdicts);
+                write!(out, "{text}")?;
+                if let Some(s) = &analysis.stroke {
+                    write!(out, "\n{}", fit(&s.text(width), width))?;
+                }
+                write!(out, "{}", next_commands::text(&next, width))?;
+            }
+        }
+        // A stroke that could not be finished is no success.
+        let stopped = analysis.stroke.is_some_and(|s| s.stop.is_some());
+        Ok(if stopped { Done::Nothing } else { Done::Found })
+    })
+}
+
+/// Whether a verdict is good news.
+fn tone(s: &State<'_>) -> Tone {
+    match (s.redundant, s.redundant_at_most) {
+        (_, Some(_)) => Tone::Doubtful,
+        (0, None) => Tone::Good,
+        _ => Tone::Bad,
+    }
+}
+
+/// By a method that gives a mobility and nothing else.
+fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> anyhow::Result<Done> {
+    let method = a.method;
+    if a.stroke.is_some() {
+        bail!(
+            "--stroke needs the rank of J, which --method {} does not give; use auto or svd",
+            method.name()
+        );
+    }
+    if a.certificate.is_some() {
+        bail!(
+            "--method {} counts and finds no rank, so that there is no certificate of one; use auto, or leave --certificate out",
+            method.name()
+        );
+    }
+    let answers = states
+        .iter()
+        .map(|&s| Ok((s, method.answer(mechanism, s)?)))
+        .collect::<anyhow::Result<Vec<_>>>()
+        .with_context(|| format!("{} by {}", mechanism.name, method.about().title))?;
+    let found = ByMethod::new(mechanism, method, &answers);
+    output::to(a.output.as_deref(), |out| {
+        match a.format {
+            AnalyzeFormat::Json => output::json(out, &found)?,
+            AnalyzeFormat::Text => write!(out, "{}", found.text())?,
+        }
+        Ok(Done::Found)
+    })
+}

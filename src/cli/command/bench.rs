@@ -1,0 +1,125 @@
+//! `ozols bench`.
+
+use crate::accuracy::searching::way::Way;
+use crate::accuracy::searching::{Effort, MECHANISMS, pictures, table, trial};
+use crate::accuracy::timing::Stopwatch;
+use crate::cli::Done;
+use crate::cli::option::args::Args;
+use crate::cli::option::load;
+use crate::cli::option::named::Named;
+use crate::cli::option::request::Which;
+use crate::cli::terminal::machine;
+use crate::cli::terminal::output;
+use crate::cli::terminal::progress::Bar;
+use crate::score::request::{List, Request};
+use crate::search::question::conditions::Symmetry;
+use crate::view::accuracy::bench::{BenchData, text};
+use anyhow::{Context, ensure};
+use clap::{Args as ClapArgs, ValueEnum, ValueHint};
+use std::path::PathBuf;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum BenchFormat {
+    Text,
+    Json,
+    /// One way of one mechanism a line.
+    Csv,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Bench {
+    /// Paths or names of built-in mechanisms; six built-in ones by default.
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    files: Vec<Named>,
+    /// How many of the best are compared.
+    #[arg(long, value_name = "K", default_value_t = 10)]
+    top: usize,
+    /// Variants that brute force looks at, in a space of no more all of them. 20,000 by default, 1,000 with --quick.
+    #[arg(long, value_name = "N")]
+    looked: Option<usize>,
+    /// Times each way is timed, fewer where it takes long; the median counts. 5 by default, 1 with --quick.
+    #[arg(long, value_name = "N")]
+    repeat: Option<usize>,
+    /// Fewer repeats, variants and pools: seconds instead of a minute.
+    #[arg(long)]
+    quick: bool,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    format: BenchFormat,
+    /// Write charts, the table and a page to this folder, index.html first among them.
+    #[arg(long, short, value_name = "DIR", conflicts_with = "format")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    which: Which,
+}
+
+pub(in crate::cli) fn run(args: &Args, a: &Bench) -> anyhow::Result<Done> {
+    let repeat = a.repeat.unwrap_or(if a.quick { 1 } else { 5 });
+    let looked = a.looked.unwrap_or(if a.quick { 1_000 } else { 20_000 });
+    ensure!(repeat > 0, "--repeat must be at least 1");
+    ensure!(looked > 0, "--looked must be at least 1");
+    let request = Request {
+        list: List::Top(a.top),
+        seed: args.seed,
+        ..a.which.request(None)?
+    };
+    ensure!(
+        request.symmetry != Symmetry::OnePerOrbit,
+        "--one-per-orbit counts pairs, and brute force looks at each variant: leave it out, or take --symmetric"
+    );
+    // The folder and the files before the work: a bad path should not cost a minute.
+    if let Some(folder) = &a.output {
+        std::fs::create_dir_all(folder)
+            .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    }
+    let built_in = MECHANISMS.map(Named::from);
+    let files = if a.files.is_empty() {
+        &built_in
+    } else {
+        &a.files[..]
+    };
+    let (mechanisms, mut well) = load::each(files);
+    let effort = Effort {
+        looked,
+        pool: request.pool.max(if a.quick { 2_000 } else { 100_000 }),
+    };
+    let clock = machine::clock;
+    let watch = Stopwatch { clock, repeat };
+    let mut bar = Bar::new(args.quiet);
+    let mut trials = Vec::new();
+    for (_, m) in &mechanisms {
+        let progress = &mut |way: Way, done, of| {
+            bar.step(&format!("{}: {way}", m.name), done, of);
+        };
+        let found = trial(m, &request, effort, watch, progress);
+        match found.with_context(|| format!("cannot search {}", m.name)) {
+            Ok(found) => trials.push(found),
+            Err(e) => {
+                well = false;
+                output::complain(&e);
+            }
+        }
+    }
+    bar.clear();
+    if trials.is_empty() {
+        return Ok(Done::Partly);
+    }
+    let machine = machine::machine();
+    if let Some(folder) = &a.output {
+        output::files(folder, pictures::files(&trials, &machine))?;
+    }
+    output::to(None, |out| {
+        match a.format {
+            BenchFormat::Text => {
+                write!(out, "{}", text(&trials, &machine, output::width(None)))?;
+            }
+            BenchFormat::Json => output::json(out, &BenchData::new(&trials, &machine))?,
+            BenchFormat::Csv => write!(out, "{}", table::csv(&trials))?,
+        }
+        if let Some(folder) = &a.output {
+            let index = folder.join("index.html");
+            writeln!(out, "Written to {}: open it in a browser.", index.display())?;
+        }
+        Ok(if well { Done::Found } else { Done::Partly })
+    })
+}

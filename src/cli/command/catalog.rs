@@ -1,0 +1,55 @@
+//! `ozols catalog`.
+
+mod build;
+mod built;
+mod chains;
+mod drawn;
+mod format;
+mod look;
+mod merge;
+
+use crate::cli::Done;
+use crate::cli::option::args::Args;
+use clap::{Args as ClapArgs, Subcommand};
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Catalog {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Debug, Subcommand)]
+enum What {
+    /// How many chains, frames, drives and grippers there are.
+    Count(chains::Count),
+    /// The chains, by the codes that name them.
+    Chains(chains::Chains),
+    /// Lay out, search and score every structure, into a database; carries on where it was ended.
+    Build(build::Build),
+    /// Search mechanisms that were drawn, and keep them beside the structures.
+    Search(drawn::Search),
+    /// Put the parts of a catalogue together.
+    Merge(merge::Merge),
+    /// Ask a catalogue in SQL, or for its best structures.
+    Query(look::Query),
+    /// What a catalogue knows of a structure.
+    Show(look::Show),
+    /// A structure as a mechanism file, or one of its ideas carried out.
+    Export(look::Export),
+    /// A catalogue as one page to look at.
+    Page(look::Page),
+}
+
+pub(in crate::cli) fn run(args: &Args, a: &Catalog) -> anyhow::Result<Done> {
+    match &a.what {
+        What::Count(c) => chains::count(args, c),
+        What::Chains(c) => chains::list(c),
+        What::Build(b) => build::run(args, b),
+        What::Search(s) => drawn::search(args, s),
+        What::Merge(m) => merge::merge(m),
+        What::Query(q) => look::query(q),
+        What::Show(s) => look::show(s),
+        What::Export(e) => look::export(e),
+        What::Page(p) => look::page(p),
+    }
+}

@@ -1,0 +1,158 @@
+//! `ozols catalog build`.
+
+use super::built::built;
+use crate::catalog::build::{build, work};
+use crate::catalog::spec::Spec;
+use crate::catalog::store::Store;
+use crate::cli::Done;
+use crate::cli::option::args::Args;
+use crate::cli::terminal::interrupt;
+use crate::cli::terminal::progress::Bar;
+use crate::file::bounded;
+use crate::file::text::MAX_BYTES;
+use crate::shard::Shard;
+use anyhow::Context;
+use clap::{Args as ClapArgs, ValueHint};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Build {
+    /// Numbers of links, the last included; chains of mobility 1 have an even number.
+    #[arg(long, value_name = "N..M")]
+    links: Option<String>,
+    /// Jaws: 2 or 3, these at 120°; 2 by default.
+    #[arg(long, value_name = "N")]
+    jaws: Option<usize>,
+    /// How the driver moves: slide, turn; both by default.
+    #[arg(long, value_name = "INPUT", value_delimiter = ',')]
+    input: Vec<String>,
+    /// How structures are laid out: generic, mirror (with a slide), half-turn (with a turning input), threefold (three jaws and a
+    /// turning input); all by default.
+    #[arg(long, value_name = "SYMMETRY", value_delimiter = ',')]
+    symmetry: Vec<String>,
+    /// Layouts with each jaw on a parallelogram: with, without or only.
+    #[arg(long, value_name = "WORD")]
+    parallel: Option<String>,
+    /// What may be put in place of a hinge.
+    #[arg(long, value_name = "TYPES", value_delimiter = ',')]
+    options: Vec<String>,
+    /// What may be put in series with a hinge, on a link of its own; nothing by default.
+    #[arg(long, value_name = "TYPES", value_delimiter = ',')]
+    unloading: Vec<String>,
+    /// Ideas kept of each structure; 10 by default.
+    #[arg(long, value_name = "K")]
+    ideas: Option<usize>,
+    /// The longest link over the shortest at most; 8 by default.
+    #[arg(long, value_name = "X")]
+    ratio: Option<f64>,
+    /// The least transmission angle of a rod, in degrees; 15 by default.
+    #[arg(long, value_name = "DEGREES")]
+    transmission: Option<f64>,
+    /// Crossings of links at most; 6 by default.
+    #[arg(long, value_name = "N")]
+    crossings: Option<usize>,
+    /// A file that says all this, in TOML; what is given beside it counts more.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    spec: Option<PathBuf>,
+    /// Make part I of N alone, from 1; `ozols catalog merge` puts the parts together.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// The database; where there is one of the same catalogue, what it has not is added.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: PathBuf,
+}
+
+impl Build {
+    fn spec(&self, seed: u64) -> anyhow::Result<Spec> {
+        let text = match &self.spec {
+            None => String::new(),
+            Some(path) => bounded::text(path, MAX_BYTES)
+                .with_context(|| format!("cannot read {}", path.display()))?,
+        };
+        let file = self.spec.as_deref().map(Path::display);
+        let mut spec: Spec = match &file {
+            None => Spec::default(),
+            Some(file) => toml::from_str(&text).with_context(|| file.to_string())?,
+        };
+        let alone = spec.clone();
+        if let Some(links) = &self.links {
+            spec.links.clone_from(links);
+        }
+        let lists = [
+            (&self.input, &mut spec.inputs),
+            (&self.symmetry, &mut spec.symmetries),
+            (&self.options, &mut spec.options),
+            (&self.unloading, &mut spec.unloading),
+        ];
+        for (given, there) in lists {
+            if !given.is_empty() {
+                there.clone_from(given);
+            }
+        }
+        if let Some(word) = &self.parallel {
+            spec.parallel.clone_from(word);
+        }
+        spec.jaws = self.jaws.unwrap_or(spec.jaws);
+        spec.ideas = self.ideas.unwrap_or(spec.ideas);
+        spec.ratio = self.ratio.unwrap_or(spec.ratio);
+        spec.transmission = self.transmission.unwrap_or(spec.transmission);
+        spec.crossings = self.crossings.unwrap_or(spec.crossings);
+        if seed != 1 {
+            spec.seed = seed;
+        }
+        let Err(wrong) = spec.check() else {
+            return Ok(spec);
+        };
+        // Of the file, where no flag did it.
+        let file = file.filter(|_| alone.check().as_ref() == Err(&wrong));
+        let has = |line: &str| {
+            let key = line.split('=').next().map(str::trim);
+            key.is_some() && key == wrong.key()
+        };
+        let line = text.lines().position(has).map(|n| n + 1);
+        let place = file.zip(line).map(|(file, line)| format!("{file}:{line}"));
+        let wrong = anyhow::Error::new(wrong);
+        Err(match place {
+            None => wrong,
+            Some(place) => wrong.context(place),
+        })
+    }
+}
+
+pub(super) fn run(args: &Args, a: &Build) -> anyhow::Result<Done> {
+    let spec = a.spec(args.seed)?;
+    let mut store = Store::create(&a.output, &spec)?;
+    let there = store.ids()?;
+    let part = a.shard.unwrap_or(Shard::WHOLE);
+    let work = work(&spec, part)?;
+    let all: usize = work.iter().map(|w| w.structures.len()).sum();
+    interrupt::be_patient();
+    let mut bar = Bar::new(args.quiet);
+    let mut count = 0;
+    let ended = build(
+        &spec,
+        &work,
+        |s| interrupt::pending() || there.contains(&s.id()),
+        |row| {
+            count += 1;
+            bar.step("structures", there.len() + count, all);
+            match store.add(&row) {
+                Err(e) => ControlFlow::Break(Some(e)),
+                Ok(()) if interrupt::pending() => ControlFlow::Break(None),
+                Ok(()) => ControlFlow::Continue(()),
+            }
+        },
+    )?;
+    bar.clear();
+    if let Some(Some(e)) = ended {
+        return Err(e.into());
+    }
+    if !interrupt::pending() {
+        store.finish_part(part, all)?;
+    }
+    let path = a.output.display();
+    let interrupted =
+        interrupt::pending().then(|| format!("the same command carries on with {path}."));
+    built(&store, &a.output, (count, "structures"), interrupted)
+}

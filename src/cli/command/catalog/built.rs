@@ -1,0 +1,24 @@
+//! What a catalogue holds once something was added to it.
+
+use crate::catalog::store::Store;
+use crate::cli::Done;
+use crate::cli::terminal::output;
+use crate::view::catalog::structures::built_text;
+use std::path::Path;
+
+/// Says what a catalogue holds now that so many of something were added, and that it was interrupted where it was.
+pub(super) fn built(
+    store: &Store,
+    path: &Path,
+    added: (usize, &str),
+    interrupted: Option<String>,
+) -> anyhow::Result<Done> {
+    output::to(None, |out| {
+        let text = built_text(store, path, added, output::width(None))?;
+        write!(out, "{text}")?;
+        if let Some(what) = interrupted {
+            writeln!(out, "\nInterrupted: {what}")?;
+        }
+        Ok(Done::Found)
+    })
+}

@@ -1,0 +1,86 @@
+//! `ozols catalog search`.
+
+use super::built::built;
+use crate::builtin;
+use crate::catalog::drawn::{Drawn, drawn, id};
+use crate::catalog::spec::Spec;
+use crate::catalog::store::Store;
+use crate::cli::Done;
+use crate::cli::option::args::Args;
+use crate::cli::option::load;
+use crate::cli::option::named::Named;
+use crate::cli::terminal::interrupt;
+use crate::cli::terminal::output;
+use crate::cli::terminal::progress::Bar;
+use crate::model::mechanism::Mechanism;
+use anyhow::ensure;
+use clap::{Args as ClapArgs, ValueHint};
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Search {
+    /// Mechanism files, robot files, or names of built-in mechanisms. Each is searched with its own options and workload.
+    #[arg(value_hint = ValueHint::FilePath)]
+    files: Vec<Named>,
+    /// All built-in grippers, too.
+    #[arg(long)]
+    grippers: bool,
+    /// Ideas kept of each.
+    #[arg(long, value_name = "K", default_value_t = Spec::default().ideas)]
+    ideas: usize,
+    /// The database; where it is there already, it is added to.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: PathBuf,
+}
+
+pub(super) fn search(args: &Args, a: &Search) -> anyhow::Result<Done> {
+    let mut files = a.files.clone();
+    if a.grippers {
+        files.extend(builtin::grippers().into_iter().map(Named::from));
+    }
+    ensure!(
+        !files.is_empty(),
+        "nothing to search: name a FILE, or all built-in grippers by --grippers"
+    );
+    // Wrong files are told before any is searched, and the others are searched.
+    let (mechanisms, mut well) = load::each(&files);
+    if mechanisms.is_empty() {
+        return Ok(Done::Partly);
+    }
+    let of = mechanisms.len();
+    let mut store = Store::writable(&a.output)?;
+    let mut added = 0;
+    interrupt::be_patient();
+    let mut bar = Bar::new(args.quiet);
+    for (i, (file, mechanism)) in mechanisms.into_iter().enumerate() {
+        if interrupt::pending() {
+            break;
+        }
+        match searched(&store, mechanism, a.ideas) {
+            Ok(None) => {}
+            Ok(Some(row)) => {
+                store.add_drawn(&row)?;
+                added += 1;
+            }
+            Err(e) => {
+                well = false;
+                output::complain(&e.context(file.to_string()));
+            }
+        }
+        bar.step("mechanisms", i + 1, of);
+    }
+    bar.clear();
+    let path = a.output.display();
+    let interrupted =
+        interrupt::pending().then(|| format!("the same command carries on with {path}."));
+    let done = built(&store, &a.output, (added, "mechanisms"), interrupted)?;
+    Ok(if well { done } else { Done::Partly })
+}
+
+/// What a search of a mechanism finds; nothing where it is kept already.
+fn searched(store: &Store, m: Mechanism, ideas: usize) -> anyhow::Result<Option<Drawn>> {
+    if store.has_drawn(&id(&m)?, ideas)? {
+        return Ok(None);
+    }
+    Ok(Some(drawn(m, ideas, Spec::default().nodes)?))
+}

@@ -1,0 +1,179 @@
+//! `ozols catalog query`, `show`, `export` and `page`.
+
+use super::format::CatalogFormat;
+use crate::api::Scheme;
+use crate::catalog::store::Store;
+use crate::cli::Done;
+use crate::cli::terminal::output;
+use crate::model::mechanism::Mechanism;
+use crate::page::catalogue::catalogue;
+use crate::redundancy::analysis::exact_field;
+use crate::search::question::conditions::{Conditions, Search};
+use crate::view::catalog::structures::{Answer, StructureData, show_text};
+use anyhow::{Context, ensure};
+use clap::{Args as ClapArgs, ValueHint};
+use std::path::{Path, PathBuf};
+
+/// What is shown where no question is asked: the best of each kind first.
+const BEST: &str = "SELECT * FROM (SELECT id, links, input, symmetry AS layout, parallel, jaw_a_motion AS jaws, force_mean AS force, \
+     determinate_w1 AS determinate, best_cost AS cost, round(transmission) AS transmission FROM structures JOIN layouts ON structure = id \
+     UNION ALL SELECT id, links, input, name || iif(mode = 'planar', ' (planar)', ''), NULL, NULL, NULL, admissible, best_cost, NULL FROM drawn) \
+     ORDER BY links, layout = 'generic', parallel = 0, cost, transmission DESC, id LIMIT 25";
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Query {
+    /// The database.
+    #[arg(value_hint = ValueHint::FilePath)]
+    file: PathBuf,
+    /// A question in SQL; the best structures where left out. `ozols catalog query FILE "SELECT sql FROM sqlite_schema"` shows the
+    /// tables with all columns explained.
+    sql: Option<String>,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    format: CatalogFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: Option<PathBuf>,
+}
+
+/// The catalogue in a file.
+fn open(file: &Path) -> anyhow::Result<Store> {
+    ensure!(
+        file.exists(),
+        "there is no file {0}; `ozols catalog build -o {0}` makes a catalogue",
+        file.display()
+    );
+    Ok(Store::open(file)?)
+}
+
+/// The mechanism of a structure as TOML.
+fn laid_out(store: &Store, file: &Path, id: &str) -> anyhow::Result<String> {
+    store.mechanism(id)?.with_context(|| {
+        format!(
+            "{id} has no layout; `ozols catalog show {} {id}` says why",
+            file.display()
+        )
+    })
+}
+
+pub(super) fn query(a: &Query) -> anyhow::Result<Done> {
+    let store = open(&a.file)?;
+    let (names, rows) = store.query(a.sql.as_deref().unwrap_or(BEST), None)?;
+    let answer = Answer { names, rows };
+    let path = a.output.as_deref();
+    output::to(path, |out| {
+        match a.format {
+            CatalogFormat::Text => write!(out, "{}", answer.text(output::width(path)))?,
+            CatalogFormat::Json => output::json(out, &answer)?,
+            CatalogFormat::Csv => write!(out, "{}", answer.csv())?,
+        }
+        Ok(if answer.rows.is_empty() {
+            Done::Nothing
+        } else {
+            Done::Found
+        })
+    })
+}
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Show {
+    /// The database.
+    #[arg(value_hint = ValueHint::FilePath)]
+    file: PathBuf,
+    /// The structure: its id or the beginning of it, or its whole name.
+    id: String,
+    /// JSON instead of text.
+    #[arg(long)]
+    json: bool,
+    /// Write its kinematic scheme to a file, too.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    svg: Option<PathBuf>,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: Option<PathBuf>,
+}
+
+pub(super) fn show(a: &Show) -> anyhow::Result<Done> {
+    let store = open(&a.file)?;
+    let id = store.find(&a.id)?;
+    if let Some(picture) = &a.svg {
+        let mechanism = Mechanism::from_toml(&laid_out(&store, &a.file, &id)?)?;
+        let drawn = crate::api::draw(&mechanism, Scheme::Kinematic)?;
+        output::to(Some(picture), |out| {
+            out.write_all(drawn.as_bytes())?;
+            Ok(Done::Found)
+        })?;
+    }
+    let data = StructureData::read(&store, &id)?;
+    let path = a.output.as_deref();
+    output::to(path, |out| {
+        if a.json {
+            output::json(out, &data)?;
+        } else {
+            write!(out, "{}", show_text(&data, &a.file, output::width(path)))?;
+        }
+        Ok(Done::Found)
+    })
+}
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Export {
+    /// The database.
+    #[arg(value_hint = ValueHint::FilePath)]
+    file: PathBuf,
+    /// The structure: its id or the beginning of it, or its whole name.
+    id: String,
+    /// Carry out the first variant of idea K.
+    #[arg(long, value_name = "K")]
+    variant: Option<usize>,
+    /// Format: toml, json, urdf, mjcf, sdf, dot or graphml.
+    #[arg(long, value_name = "FORMAT", default_value = "toml")]
+    to: String,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: Option<PathBuf>,
+}
+
+pub(super) fn export(a: &Export) -> anyhow::Result<Done> {
+    let store = open(&a.file)?;
+    let id = store.find(&a.id)?;
+    let text = laid_out(&store, &a.file, &id)?;
+    let text = match a.variant {
+        None if a.to == "toml" => text,
+        None => crate::cli::command::export::text(&Mechanism::from_toml(&text)?, &a.to, None)?,
+        Some(k) => {
+            let choices = store
+                .choices(&id, k)?
+                .with_context(|| format!("{id} has no idea {k} in {}", a.file.display()))?;
+            let mechanism = Mechanism::from_toml(&text)?;
+            let field = exact_field(&mechanism, 0)?;
+            let search = Search::new(field, mechanism, Conditions::default())?;
+            let mut made = search.realize(&choices);
+            made.name = format!("{id}-idea-{k}");
+            crate::cli::command::export::text(&made, &a.to, None)?
+        }
+    };
+    output::to(a.output.as_deref(), |out| {
+        out.write_all(text.as_bytes())?;
+        Ok(Done::Found)
+    })
+}
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Page {
+    /// The database.
+    #[arg(value_hint = ValueHint::FilePath)]
+    file: PathBuf,
+    /// The page.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: PathBuf,
+}
+
+pub(super) fn page(a: &Page) -> anyhow::Result<Done> {
+    let store = open(&a.file)?;
+    let page = catalogue(&store, &a.file.display().to_string())?;
+    output::to(Some(&a.output), |out| {
+        out.write_all(page.as_bytes())?;
+        Ok(Done::Found)
+    })
+}

@@ -1,0 +1,90 @@
+//! `ozols catalog merge`.
+
+use super::built::built;
+use crate::catalog::store::{Merged, Store};
+use crate::cli::Done;
+use crate::cli::terminal::output;
+use crate::shard::Shard;
+use anyhow::ensure;
+use clap::{Args as ClapArgs, ValueHint};
+use itertools::Itertools;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Merge {
+    /// The parts.
+    #[arg(required = true, value_hint = ValueHint::FilePath)]
+    parts: Vec<PathBuf>,
+    /// The whole; where it is there already, it is added to.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: PathBuf,
+}
+
+pub(super) fn merge(a: &Merge) -> anyhow::Result<Done> {
+    let same = |p: &PathBuf| std::fs::canonicalize(p).ok() == std::fs::canonicalize(&a.output).ok();
+    ensure!(
+        !(a.output.exists() && a.parts.iter().any(same)),
+        "{} is one of the parts and the whole; choose another name for the whole",
+        a.output.display()
+    );
+    // A part that cannot be taken in takes nothing from the others.
+    let (mut merged, mut well) = (Merged::default(), true);
+    let mut whole = None;
+    for part in &a.parts {
+        match Store::merge(&a.output, std::slice::from_ref(part)) {
+            Ok(one) => {
+                merged.added += one.added;
+                merged.unfinished.extend(one.unfinished);
+                merged.missing = one.missing;
+                whole = Some(&a.output);
+            }
+            Err(e) => {
+                well = false;
+                output::complain(&e.into());
+            }
+        }
+    }
+    let Some(whole) = whole else {
+        return Ok(Done::Partly);
+    };
+    let store = Store::open(whole)?;
+    built(&store, whole, (merged.added, "structures"), None)?;
+    if !merged.missing.is_empty() {
+        output::note(&missing(&merged, whole));
+    }
+    Ok(match merged.missing.is_empty() {
+        _ if !well => Done::Partly,
+        true => Done::Found,
+        false => Done::Nothing,
+    })
+}
+
+/// Parts named one by one.
+const NAMED: usize = 12;
+
+/// What is missing of the whole, and how to come by it.
+fn missing(merged: &Merged, whole: &Path) -> String {
+    let mut out = String::new();
+    for file in &merged.unfinished {
+        out += &format!(
+            "{} does not say that all of its part is there: run the command that made it again, it adds what is missing\n",
+            file.display()
+        );
+    }
+    let whole = whole.display();
+    let all = merged.missing.len();
+    if merged.missing == [Shard::WHOLE] {
+        return out + &format!("{whole} is not known to be whole\n");
+    }
+    let more = match all.saturating_sub(NAMED) {
+        0 => String::new(),
+        n => format!(" and {n} more"),
+    };
+    let parts = merged.missing.iter().take(NAMED).join(", ");
+    out + &format!(
+        "{whole} is not whole: of {} parts {parts}{more} {} missing; make them by `ozols catalog build --shard`, and merge them \
+         into the same file\n",
+        merged.missing[0].of,
+        if all == 1 { "is" } else { "are" },
+    )
+}

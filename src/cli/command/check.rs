@@ -1,0 +1,163 @@
+//! `ozols check`, `show` and `schema`.
+
+use crate::builtin;
+use crate::cli::Done;
+use crate::cli::option::args::{Args, File};
+use crate::cli::option::load;
+use crate::cli::terminal::colour::{Tone, toned};
+use crate::cli::terminal::output;
+use crate::file::lint::{Checked, across, check};
+use crate::file::locate::Step;
+use crate::file::read::workload::tables_alone;
+use crate::file::warning::{WarningKind, Warnings};
+use crate::format::phrase::plural;
+use crate::grip::jaw_loads::{Gripping, JawError};
+use crate::model::mechanism::Mechanism;
+use crate::redundancy::analysis::{Method, analyse};
+use crate::view::analysis::mechanism::describe;
+use crate::view::search::costs;
+use crate::view::terminal::layout::fit;
+use anyhow::{Context, bail};
+use clap::Args as ClapArgs;
+
+/// What `show` calls the table of costs; no built-in mechanism has this name.
+const COSTS: &str = "costs";
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Show {
+    /// The name of a built-in mechanism; or `costs`, for the table of default costs that --costs takes.
+    #[arg(value_name = "NAME")]
+    name: String,
+}
+
+pub(in crate::cli) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
+    let (name, bytes) = load::named(&a.file)?;
+    if let Some((name, tables)) = tables_alone(&name, &bytes)? {
+        return output::to(None, |out| {
+            writeln!(out, "{name}: workload {}: valid", tables.join(", "))?;
+            Ok(Done::Found)
+        });
+    }
+    let mut checked = check(&name, &bytes)?;
+    for state in checked.mechanism.state_ids() {
+        match Gripping::new(&checked.mechanism, state) {
+            // What cannot be held is for `ozols grip` to say; the file is valid.
+            Ok(_) | Err(JawError::Nominal(_)) => {}
+            Err(e) => return Err(e).with_context(|| format!("{name}: [workload.grip]")),
+        }
+    }
+    stale(&checked.mechanism, &mut checked.warnings);
+    let Checked {
+        mechanism,
+        tables,
+        warnings,
+    } = &checked;
+    if !warnings.warnings.is_empty() && !args.quiet {
+        output::coloured_note(&warnings.render(true));
+    }
+    output::to(None, |out| {
+        let verdict = match warnings.warnings.len() {
+            0 => "valid".to_owned(),
+            n => format!("valid, {}", plural(n, "warning")),
+        };
+        let mut text = format!("{}: {verdict}\n", mechanism.name);
+        for line in describe(mechanism, across(mechanism)) {
+            text += &format!("  {line}\n");
+        }
+        for table in tables {
+            text += &format!("  workload {table}: for `ozols {table}`\n");
+        }
+        let tone = match warnings.warnings.len() {
+            0 => Tone::Good,
+            _ => Tone::Doubtful,
+        };
+        let text = fit(&text, output::width(None));
+        write!(out, "{}", toned(text, None, [(verdict, tone)]))?;
+        Ok(Done::Found)
+    })
+}
+
+/// Warns of the figures that the file states where the analysis finds others.
+fn stale(m: &Mechanism, warnings: &mut Warnings) {
+    for (i, e) in m.expected.iter().enumerate() {
+        let Some(s) = m.state(&e.state) else {
+            continue;
+        };
+        // Why there is no analysis is for `ozols analyze` to say.
+        let Ok(found) = analyse(m, &[s], Method::Auto { tolerance: None }) else {
+            continue;
+        };
+        // What is not decided is not at odds with a figure.
+        let Some(found) = found.first().filter(|f| f.at_most().is_none()) else {
+            continue;
+        };
+        let int = |n: usize| i64::try_from(n).ok();
+        let figures = [
+            ("mobility", e.mobility, int(found.mobility)),
+            (
+                "finite_mobility",
+                // A range is at odds with a figure only outside it.
+                e.finite_mobility,
+                e.finite_mobility
+                    .filter(|&w| found.finite.could_be(w))
+                    .or(int(found.finite.mobility)),
+            ),
+            (
+                "working_mobility",
+                e.working_mobility,
+                int(found.working_mobility),
+            ),
+            (
+                "local_mobility",
+                e.local_mobility,
+                int(found.local_mobility),
+            ),
+            ("redundant", e.redundant, int(found.redundant)),
+            (
+                "external_redundant",
+                e.external_redundant,
+                found.external.map(|x| x.by_rank),
+            ),
+        ];
+        for (key, stated, found) in figures {
+            let (Some(stated), Some(found)) = (stated, found) else {
+                continue;
+            };
+            if stated != found {
+                let path = [
+                    Step::Key("expected".to_owned()),
+                    Step::Index(i),
+                    Step::Key(key.to_owned()),
+                ];
+                let state = e.state.clone();
+                warnings.add(
+                    &path,
+                    WarningKind::Stale {
+                        key,
+                        state,
+                        stated,
+                        found,
+                    },
+                );
+            }
+        }
+    }
+}
+
+pub(in crate::cli) fn show(a: &Show) -> anyhow::Result<Done> {
+    let costs = (a.name == COSTS).then(costs::toml);
+    let Some(text) = costs.as_deref().or_else(|| builtin::text(&a.name)) else {
+        bail!(load::no_built_in(&a.name))
+    };
+    output::to(None, |out| {
+        write!(out, "{text}")?;
+        Ok(Done::Found)
+    })
+}
+
+pub(in crate::cli) fn schema() -> anyhow::Result<Done> {
+    output::to(None, |out| {
+        writeln!(out, "{:#}", crate::file::schema::json_schema())?;
+        Ok(Done::Found)
+    })
+}

@@ -1,0 +1,122 @@
+//! `ozols statics` of a mechanism that grips: the part cut free, its contact forces on the jaws.
+
+use crate::cli::Done;
+use crate::cli::command::statics::args::{Statics, StaticsFormat, StaticsMethod};
+use crate::cli::terminal::output;
+use crate::format::number::significant;
+use crate::grip::clamped::{Found, clamped};
+use crate::grip::clamping::Row;
+use crate::grip::jaw_loads::Gripping;
+use crate::statics::contour_group::solutions::GroupMethod;
+use crate::view;
+use crate::view::grip::clamped::{Clamped, Gripped, NotHeld, pose};
+use crate::view::reactions::{Reactions, text::reactions};
+use crate::view::statics::{csv::csv, text::statics};
+use anyhow::{Context, ensure};
+
+/// The diameter asked for, or the hardest; none where it is not held.
+fn chosen<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g Row>> {
+    let Some(diameter) = a.diameter else {
+        return Ok(g.study.hardest());
+    };
+    let unit = g.mechanism.length_unit;
+    let near = |r: &&Row| (r.diameter / unit.metres - diameter).abs() < 1e-6 * diameter.abs();
+    let found = g.study.rows.iter().find(near);
+    let known = || {
+        let all = g.study.rows.iter().take(30);
+        let all = all.map(|r| significant(r.diameter / unit.metres));
+        all.collect::<Vec<_>>().join(", ")
+    };
+    let row = found.with_context(|| {
+        format!(
+            "--diameter {diameter} {} is not one of the diameters of [workload.grip]: {}",
+            unit.symbol,
+            known()
+        )
+    })?;
+    Ok(Some(row).filter(|r| r.holds()))
+}
+
+pub(in crate::cli) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
+    for (given, flag) in [
+        (a.stroke.is_some(), "--stroke"),
+        (a.svg.is_some(), "--svg"),
+        (a.stability, "--stability"),
+    ] {
+        ensure!(
+            !given,
+            "{flag} needs a motion, and the levers stand still round the part; --diameter picks another part"
+        );
+    }
+    ensure!(
+        !matches!(a.method, StaticsMethod::Delta | StaticsMethod::Projective),
+        "joints round a part are solved by equilibrium alone; use --method equilibrium"
+    );
+    let Some(row) = chosen(g, a)? else {
+        return not_held(g, a);
+    };
+    let Some(found) = clamped(g, row, a.spatial)? else {
+        return not_held(g, a);
+    };
+    let (m, grip) = (&found.mechanism, Clamped::new(g, row, &found));
+    let width = output::width(a.output.as_deref());
+    output::to(a.output.as_deref(), |out| {
+        match &found.found {
+            Found::Planar(s) => {
+                let shown = view::statics::Statics::new(&m.name, s, &GroupMethod::ALL);
+                match a.format {
+                    StaticsFormat::Json => {
+                        let state = Some(m.states[g.state].as_str());
+                        let reactions = shown;
+                        output::json(
+                            out,
+                            &Gripped {
+                                reactions,
+                                state,
+                                grip,
+                            },
+                        )?;
+                    }
+                    StaticsFormat::Csv => write!(out, "{}", csv(&shown))?,
+                    StaticsFormat::Text => {
+                        write!(out, "{}{}", grip.text(true, width), statics(&shown, width))?;
+                    }
+                }
+            }
+            Found::Spatial(s) => {
+                let shown = Reactions::new(m, g.state, s);
+                match a.format {
+                    StaticsFormat::Json => {
+                        let reactions = shown;
+                        output::json(
+                            out,
+                            &Gripped {
+                                reactions,
+                                state: None,
+                                grip,
+                            },
+                        )?;
+                    }
+                    StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
+                    StaticsFormat::Text => {
+                        let text = reactions(&shown, &pose(g, row), width);
+                        write!(out, "{}{text}", grip.text(false, width))?;
+                    }
+                }
+            }
+        }
+        Ok(Done::Found)
+    })
+}
+
+/// Says why there are no forces: exit code 1.
+fn not_held(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
+    let shown = NotHeld::new(g);
+    output::to(a.output.as_deref(), |out| {
+        match a.format {
+            StaticsFormat::Json => output::json(out, &shown)?,
+            StaticsFormat::Csv | StaticsFormat::Text => write!(out, "{}", shown.text())?,
+        }
+        Ok(Done::Nothing)
+    })
+}

@@ -1,0 +1,24 @@
+//! `ozols completions`.
+
+use crate::cli::Done;
+use crate::cli::option::args::Args;
+use crate::cli::terminal::output;
+use clap::Args as ClapArgs;
+use clap::CommandFactory;
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Completions {
+    /// The shell.
+    #[arg(value_enum, value_name = "SHELL")]
+    shell: clap_complete::Shell,
+}
+
+pub(in crate::cli) fn run(a: &Completions) -> anyhow::Result<Done> {
+    // The generator panics where it cannot write, so it writes to memory.
+    let mut script = Vec::new();
+    clap_complete::generate(a.shell, &mut Args::command(), "ozols", &mut script);
+    output::to(None, |out| {
+        out.write_all(&script)?;
+        Ok(Done::Found)
+    })
+}

@@ -1,0 +1,258 @@
+//! `ozols draw`.
+
+use crate::cli::Done;
+use crate::cli::option::args::{Args, File};
+use crate::cli::option::load;
+use crate::cli::option::motion::Moving;
+use crate::cli::option::request::Which;
+use crate::cli::option::variant;
+use crate::cli::option::variant::Chosen;
+use crate::cli::terminal::output;
+use crate::draw::{self, Drawing, Sight, Size, Subject};
+use crate::model::mechanism::StateId;
+use crate::redundancy::analysis::{Method, analyse};
+use crate::view::analysis::Analysis;
+use anyhow::{Context, bail, ensure};
+use clap::{Args as ClapArgs, ValueEnum};
+use std::io::IsTerminal;
+use std::path::PathBuf;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum DrawKind {
+    /// Links as polygons, joints as circles with their class, contours tinted by their redundant constraints.
+    Scheme,
+    /// Links and the symbols of joints in place, from the coordinates.
+    Kinematic,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Draw {
+    #[command(flatten)]
+    file: File,
+    /// What is drawn.
+    #[arg(long, value_enum, default_value = "scheme")]
+    kind: DrawKind,
+    /// A state named in the file.
+    #[arg(long, default_value = "free")]
+    state: String,
+    #[command(flatten)]
+    chosen: Chosen,
+    /// The side a kinematic scheme is seen from: x, y, z, iso, or the direction towards the reader such as "1,-2,0.5"; the one
+    /// with least overlap where it is left out.
+    #[arg(long, value_name = "SIDE", value_parser = side, allow_hyphen_values = true)]
+    view: Option<[f64; 3]>,
+    /// What goes up on paper: x, y, z, or a direction such as "0,1,1"; z where it is left out.
+    #[arg(long, value_name = "AXIS", value_parser = axis, allow_hyphen_values = true)]
+    up: Option<[f64; 3]>,
+    /// An animated SVG of the kinematic scheme: the drive goes its way, once round or to and fro, at 30 pictures a second. It
+    /// stands still for readers who ask for less motion, and on paper.
+    #[arg(long)]
+    motion: bool,
+    /// With --motion, an idle freedom to and fro instead of the drive: its number in the list of `ozols analyze`, from 1.
+    #[arg(long, value_name = "K", requires = "motion", conflicts_with_all = ["stroke", "drive"])]
+    idle: Option<usize>,
+    /// A self-stress as arrows on the links that it loads, in the kinematic scheme: its number in the list of `ozols analyze`,
+    /// from 1. Straight arrows are forces; arrows with two heads, arcs where they are seen from their end, are moments.
+    #[arg(long, value_name = "K", conflicts_with_all = ["motion", "stroke", "drive"])]
+    self_stress: Option<usize>,
+    /// The way of the drive from the pose of the file, such as 0:90deg:60 or -5:5:60 (lengths in the file's unit): from, to,
+    /// pictures less one. As far as it goes where it is left out. Without --motion the kinematic scheme stands still, with the
+    /// ways of its points over the stroke.
+    #[arg(long, value_name = "FROM:TO:STEPS", allow_hyphen_values = true)]
+    stroke: Option<String>,
+    /// The joint that moves, where it is not the file's drive: 0-1, or 0-1:tz for one of several freedoms.
+    #[arg(long, value_name = "JOINT")]
+    drive: Option<String>,
+    /// PNG instead of SVG (where built with the feature `png`); a file named .png is one anyway.
+    #[arg(long)]
+    png: bool,
+    /// Pixels of a PNG for each of the drawing's; 2 by default.
+    #[arg(long, value_name = "X")]
+    scale: Option<f64>,
+    /// Width of a PNG in pixels.
+    #[arg(long, value_name = "PIXELS", conflicts_with = "scale")]
+    width: Option<u32>,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+    #[command(flatten, next_help_heading = "The list that --variant is of")]
+    which: Which,
+}
+
+impl Draw {
+    /// Whether a motion is shown, which only the kinematic scheme can.
+    fn moves(&self) -> bool {
+        self.motion || self.stroke.is_some() || self.drive.is_some()
+    }
+}
+
+/// The direction towards the reader that a side stands for.
+fn side(text: &str) -> Result<[f64; 3], String> {
+    match text.trim() {
+        "x" => Ok([1.0, 0.0, 0.0]),
+        // x to the right and z up
+        "y" => Ok([0.0, -1.0, 0.0]),
+        "z" => Ok([0.0, 0.0, 1.0]),
+        "iso" => Ok([1.0, 1.0, 1.0]),
+        _ => numbers(text).ok_or_else(|| {
+            "give x, y, z, iso, or three numbers that are not all zero, such as \"1,-2,0.5\""
+                .to_owned()
+        }),
+    }
+}
+
+/// The direction that goes up.
+fn axis(text: &str) -> Result<[f64; 3], String> {
+    match text.trim() {
+        "x" => Ok([1.0, 0.0, 0.0]),
+        "y" => Ok([0.0, 1.0, 0.0]),
+        "z" => Ok([0.0, 0.0, 1.0]),
+        _ => numbers(text).ok_or_else(|| {
+            "give x, y, z, or three numbers that are not all zero, such as \"0,1,1\"".to_owned()
+        }),
+    }
+}
+
+/// A direction as three numbers.
+fn numbers(text: &str) -> Option<[f64; 3]> {
+    let parts: Option<Vec<f64>> = text.split(',').map(|p| p.trim().parse().ok()).collect();
+    let direction: [f64; 3] = parts?.try_into().ok()?;
+    let size = direction.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    (size > 0.0 && size.is_finite()).then(|| direction.map(|x| x / size))
+}
+
+pub(in crate::cli) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
+    let wanted = picture(a)?;
+    ensure!(
+        a.moves()
+            || a.self_stress.is_some()
+            || a.kind == DrawKind::Kinematic
+            || (a.view.is_none() && a.up.is_none()),
+        "--view and --up are for the kinematic scheme, which has coordinates: add --kind kinematic"
+    );
+    let mut mechanism = load::mechanism(&a.file.file)?;
+    let Some(state) = mechanism.state(&a.state) else {
+        bail!(
+            "{} has no state {}; it has: {}",
+            mechanism.name,
+            a.state,
+            mechanism.states.join(", ")
+        );
+    };
+    let mut marks = None;
+    let searched = state != StateId::FREE;
+    let request = a.which.request(searched.then_some(a.state.as_str()))?;
+    let request = a.chosen.of(request);
+    let mut tolerance = None;
+    if let Some(k) = a.chosen.place() {
+        let (realized, changes) = variant::kth(mechanism, request, k, |v| {
+            let search = &v.outcome().search;
+            draw::marks::of_variant(search, v.assignment(), &format!("variant {k}"))
+        })?;
+        (mechanism, marks) = (realized, Some(changes));
+    } else {
+        tolerance = request.tolerance()?;
+    }
+    let found = analyse(&mechanism, &[state], Method::Auto { tolerance })?;
+    let subject = Subject {
+        mechanism: &mechanism,
+        state,
+        analysis: found.first(),
+        marks,
+    };
+    let sight = Sight {
+        toward: a.view,
+        up: a.up,
+    };
+    let first = found.first().context("no state was analysed")?;
+    let drawing = if let Some(k) = a.self_stress {
+        let told = Analysis::new(&mechanism, &found, &[]);
+        let told = told.states.first().map_or(&[][..], |s| &s.self_stresses);
+        let k = k.wrapping_sub(1);
+        let (Some(stress), Some(words)) = (first.self_stresses.get(k), told.get(k)) else {
+            bail!(
+                "state {} has {}",
+                a.state,
+                match first.self_stresses.len() {
+                    0 => "no self-stress: nothing in it is redundant".to_owned(),
+                    n => format!("self-stresses 1 to {n}, in the order of `ozols analyze`"),
+                }
+            );
+        };
+        ensure!(
+            stress.joints.iter().any(|w| w.borne.is_some()),
+            "self-stress {} is of so many numbers that they were left uncomputed",
+            k + 1
+        );
+        draw::kinematic_stressed(&subject, &sight, (stress, &words.name(k)))
+    } else if a.moves() {
+        let moving = match a.idle {
+            Some(k) => Moving::idle(&mechanism, first, state, k.wrapping_sub(1))?,
+            None => Moving::new(&mechanism, state, a.stroke.as_deref(), a.drive.as_deref())?,
+        };
+        if a.motion {
+            draw::kinematic_moving(&subject, &sight, &moving.moved())
+        } else {
+            draw::kinematic_along(&subject, &sight, &moving.moved())
+        }
+    } else {
+        match a.kind {
+            DrawKind::Scheme => draw::scheme(&subject),
+            DrawKind::Kinematic => draw::kinematic_seen(&subject, &sight),
+        }
+    };
+    let bytes = match wanted {
+        Some(size) => png(&drawing, size)?,
+        None => drawing.svg.into_bytes(),
+    };
+    output::to(a.output.as_deref(), |out| {
+        out.write_all(&bytes)?;
+        Ok(Done::Found)
+    })
+}
+
+/// What PNG is wanted, if it is; said before any work is done.
+fn picture(a: &Draw) -> anyhow::Result<Option<Size>> {
+    let named = a.output.as_ref().and_then(|p| p.extension());
+    if !a.png && !named.is_some_and(|e| e.eq_ignore_ascii_case("png")) {
+        ensure!(
+            a.scale.is_none() && a.width.is_none(),
+            "--scale and --width are for PNG: add --png, or -o with a name that ends in .png; SVG is of any size"
+        );
+        return Ok(None);
+    }
+    ensure!(
+        cfg!(feature = "png"),
+        "this ozols was built without PNG: build it with `cargo build --release --features png`, or write SVG and turn \
+         it into PNG by another program"
+    );
+    ensure!(
+        a.output.is_some() || !std::io::stdout().is_terminal(),
+        "a PNG is no text for a terminal: give a file with -o"
+    );
+    let scale = a.scale.unwrap_or(2.0);
+    ensure!(
+        scale > 0.0 && scale <= 100.0,
+        "--scale must be above 0 and at most 100"
+    );
+    ensure!(a.width != Some(0), "--width must be at least 1");
+    Ok(Some(a.width.map_or(Size::Scale(scale), Size::Width)))
+}
+
+#[cfg(feature = "png")]
+fn png(drawing: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
+    let picture = draw::png::png(drawing, size)?;
+    if !picture.missing.is_empty() {
+        let missing: String = picture.missing.iter().collect();
+        output::note(&format!(
+            "warning: no font of this machine has {missing}; they are missing in the PNG\n"
+        ));
+    }
+    Ok(picture.png)
+}
+
+#[cfg(not(feature = "png"))]
+fn png(_: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
+    // `picture` has refused it
+    bail!("built without PNG: {size:?}")
+}

@@ -1,0 +1,109 @@
+//! `ozols explain`.
+
+mod pair;
+
+use crate::cli::Done;
+use crate::cli::terminal::did_you_mean;
+use crate::cli::terminal::output;
+use crate::model::joint_type::JointType;
+use crate::terms::{Term, Terms};
+use crate::view::terminal::layout::table;
+use anyhow::{bail, ensure};
+use clap::Args as ClapArgs;
+use itertools::Itertools;
+use std::io::Write;
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Explain {
+    /// The term, such as sigma, σ, or redundant constraint, or a joint type, such as sphere-in-cylinder; all terms where left
+    /// out.
+    #[arg(value_name = "TERM")]
+    term: Vec<String>,
+    /// Draw the joint type into this file, as SVG.
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// Columns of running text where the output is no terminal.
+const COLUMNS: u16 = 100;
+
+pub(in crate::cli) fn run(a: &Explain) -> anyhow::Result<Done> {
+    let terms = Terms::builtin();
+    let word = a.term.join(" ");
+    if word.trim().is_empty() {
+        return output::to(None, |out| {
+            writeln!(out, "{}", all(&terms, output::width(None)))?;
+            writeln!(out, "\n{}", pair::all(output::width(None)))?;
+            writeln!(
+                out,
+                "\nozols explain TERM says more of one, and of a joint type."
+            )?;
+            Ok(Done::Found)
+        });
+    }
+    let joint_type = JointType::NAMED
+        .iter()
+        .find(|t| t.name() == pair::word(&word));
+    if let Some(joint_type) = joint_type {
+        return pair::explain(joint_type, a.output.as_deref());
+    }
+    ensure!(
+        a.output.is_none(),
+        "-o draws a joint type, and {word:?} is none; they are: {}",
+        JointType::NAMED.iter().join(", ")
+    );
+    let Some(term) = terms.find(&word) else {
+        // Several words may stand for one term; each is named once.
+        let types: Vec<&str> = JointType::NAMED.iter().map(JointType::name).collect();
+        let near = did_you_mean::near(&word, terms.words().chain(types));
+        let names = near
+            .iter()
+            .map(|w| terms.find(w).map_or(*w, |t| t.name.as_str()));
+        bail!(
+            "no term and no joint type {word:?}{} (`ozols explain` lists all)",
+            did_you_mean::question(&names.unique().collect_vec())
+        )
+    };
+    output::to(None, |out| {
+        one(out, &terms, term)?;
+        Ok(Done::Found)
+    })
+}
+
+fn all(terms: &Terms, width: Option<u16>) -> String {
+    let rows = terms.term.iter().map(|t| {
+        // Signs and the commonest words come first in the file.
+        let also = t.also.iter().take(2).join(", ");
+        vec![t.name.clone(), also, t.first_sentence().to_owned()]
+    });
+    table(&["term", "also", "what it is"], rows.collect(), width)
+}
+
+fn one(out: &mut dyn Write, terms: &Terms, term: &Term) -> std::io::Result<()> {
+    let width = usize::from(output::width(None).unwrap_or(COLUMNS).min(COLUMNS));
+    let fill = |text: &str| {
+        let options = textwrap::Options::new(width).subsequent_indent("           ");
+        textwrap::fill(text, options)
+    };
+    writeln!(out, "{}\n", term.name)?;
+    writeln!(out, "{}\n", textwrap::fill(&term.text, width))?;
+    if !term.also.is_empty() {
+        writeln!(
+            out,
+            "{}",
+            fill(&format!("  also     {}", term.also.join(", ")))
+        )?;
+    }
+    writeln!(
+        out,
+        "{}",
+        fill(&format!("  related  {}", term.related.join(", ")))
+    )?;
+    writeln!(out, "  see      {}", term.see)?;
+    for s in &term.source {
+        let source = terms.sources.get(s).unwrap_or(s);
+        writeln!(out, "{}", fill(&format!("  source   {source}")))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,123 @@
+//! The reference of joint types.
+
+use crate::cli::Done;
+use crate::cli::terminal::output;
+use crate::draw;
+use crate::format::number::cost;
+use crate::model::joint_type::{Freedom, JointType};
+use crate::terms::PairWords;
+use crate::view::terminal::layout::table;
+use itertools::Itertools;
+use std::path::Path;
+
+/// Columns of running text where the output is no terminal.
+const COLUMNS: u16 = 100;
+
+/// A joint type as it stands in files, of what is typed.
+pub(super) fn word(typed: &str) -> String {
+    typed.trim().to_lowercase().replace(['_', ' '], "-")
+}
+
+/// A row for each.
+pub(super) fn all(width: Option<u16>) -> String {
+    let words = PairWords::builtin();
+    let rows = JointType::NAMED.iter().map(|t| {
+        let freedoms = t.freedoms().iter().map(|f| f.name()).join(" ");
+        let about = words.get(t.name()).map_or("", |w| w.about.as_str());
+        vec![
+            t.name().to_owned(),
+            t.class().to_owned(),
+            freedoms,
+            cost(t.default_cost_milli()),
+            about.to_owned(),
+        ]
+    });
+    let head = ["joint type", "class", "freedoms", "cost", "what it is"];
+    table(&head, rows.collect(), width)
+}
+
+/// All that is known of one; its picture goes into a file.
+pub(super) fn explain(of: &JointType, picture: Option<&Path>) -> anyhow::Result<Done> {
+    if let Some(path) = picture {
+        output::to(Some(path), |out| {
+            out.write_all(draw::joint_type(of).svg.as_bytes())?;
+            Ok(Done::Found)
+        })?;
+    }
+    let words = PairWords::builtin();
+    let Some(w) = words.get(of.name()) else {
+        return Ok(Done::Nothing);
+    };
+    let width = usize::from(output::width(None).unwrap_or(COLUMNS).min(COLUMNS));
+    let row = |head: &str, text: &str| {
+        let options = textwrap::Options::new(width)
+            .initial_indent("  ")
+            .subsequent_indent("             ");
+        textwrap::fill(&format!("{head:<11}{text}"), options)
+    };
+    let freedoms = match of.freedoms() {
+        [] => "none".to_owned(),
+        list => list
+            .iter()
+            .map(|f| format!("{} {}", f.name(), meaning(*f)))
+            .join(", "),
+    };
+    let screws = of.freedoms().contains(&Freedom::Screw);
+    let own = if screws { "\nlead = 5" } else { "" };
+    let needs = !w.reference.starts_with("does not matter");
+    let reference = if needs { "\nreference = [1, 0, 0]" } else { "" };
+    let lines = [
+        row("freedoms", &freedoms),
+        row(
+            "class",
+            &format!("{} ({} constraints)", of.class(), 6 - of.freedoms().len()),
+        ),
+        row("axis z", &w.axis),
+        row("reference x", &w.reference),
+        row(
+            "cost",
+            &format!(
+                "{} by default, in revolute joints; [search.costs] of a file or --costs states others (`ozols show costs`)",
+                cost(of.default_cost_milli())
+            ),
+        ),
+        row("made as", &w.hardware.join("; ")),
+    ];
+    output::to(None, |out| {
+        writeln!(
+            out,
+            "{}\n\n{}\n",
+            of.name(),
+            textwrap::fill(&w.about, width)
+        )?;
+        for line in &lines {
+            writeln!(out, "{line}")?;
+        }
+        writeln!(
+            out,
+            "\n[[joint]]\nid = \"1-2\"\nlinks = [\"1\", \"2\"]\ntype = \"{}\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]{reference}{own}",
+            of.name()
+        )?;
+        if needs {
+            let guess = "Without a reference, x is the first of the global axes that is not along z, which may not be what is meant.";
+            writeln!(out, "\n{}", textwrap::fill(guess, width))?;
+        }
+        if picture.is_none() {
+            writeln!(out, "\nozols explain {} -o {0}.svg draws it.", of.name())?;
+        }
+        Ok(Done::Found)
+    })
+}
+
+/// A freedom in words.
+fn meaning(f: Freedom) -> &'static str {
+    match f {
+        Freedom::Rx => "(turn about x)",
+        Freedom::Ry => "(turn about y)",
+        Freedom::Rz => "(turn about z)",
+        Freedom::Tx => "(shift along x)",
+        Freedom::Ty => "(shift along y)",
+        Freedom::Tz => "(shift along z)",
+        Freedom::Screw => "(turn about z with a shift along it)",
+    }
+}

@@ -1,0 +1,125 @@
+//! `ozols grip`.
+
+use crate::api::MAX_DESCRIPTION_BYTES;
+use crate::cli::Done;
+use crate::cli::option::args::{AnalyzeFormat, Args, File};
+use crate::cli::option::load;
+use crate::cli::terminal::charts;
+use crate::cli::terminal::output;
+use crate::file::bounded;
+use crate::file::read::trajectory::trajectory;
+use crate::file::read::workload::grip_from_bytes;
+use crate::grip::gripping::grip;
+use crate::grip::motion::along;
+use crate::model::grip::Toward;
+use crate::view;
+use crate::view::grip::{charts::charts, motion::Motion, text};
+use crate::view::terminal::next_commands::{self, Step};
+use anyhow::{Context, bail, ensure};
+use clap::Args as ClapArgs;
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Grip {
+    #[command(flatten)]
+    pub(in crate::cli) file: File,
+    /// A further acceleration of the gripper in m/s², in its axes (repeatable): 5,0,-2.
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    pub(in crate::cli) acceleration: Vec<[f64; 3]>,
+    /// A further acceleration of the gripper in m/s², in any direction; `ozols drive` prints one.
+    #[arg(long, value_name = "A")]
+    pub(in crate::cli) any_acceleration: Option<f64>,
+    /// A motion as CSV, one step a line: columns ax, ay, az in m/s², and if wanted gx, gy, gz (gravity in the gripper's axes),
+    /// time, diameter. The least clamping is found for every step.
+    #[arg(long, value_name = "CSV", value_hint = clap::ValueHint::FilePath)]
+    pub(in crate::cli) motion: Option<PathBuf>,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    pub(in crate::cli) format: AnalyzeFormat,
+    /// Also write charts, each as SVG and CSV, into this folder.
+    #[arg(long, value_name = "DIR")]
+    pub(in crate::cli) svg: Option<PathBuf>,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(in crate::cli) output: Option<PathBuf>,
+}
+
+fn vector(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|t| t.trim().parse::<f64>().ok().filter(|x| x.abs() <= 1e6))
+        .collect::<Option<_>>()
+        .unwrap_or_default();
+    <[f64; 3]>::try_from(numbers)
+        .map_err(|_| "give three numbers such as 5,0,-2, none beyond 1e6".to_owned())
+}
+
+pub(in crate::cli) fn run(_: &Args, a: &Grip) -> anyhow::Result<Done> {
+    let (name, bytes) = load::named(&a.file.file)?;
+    let mut file = grip_from_bytes(&name, &bytes)?;
+    let mut further: Vec<Toward> = a.acceleration.iter().map(|v| Toward::Fixed(*v)).collect();
+    if let Some(size) = a.any_acceleration {
+        ensure!(
+            (0.0..=1e6).contains(&size),
+            "--any-acceleration must be a number from 0 to 1e6 m/s²"
+        );
+        further.push(Toward::Any(size));
+    }
+    match &mut file.spec.load {
+        Some(load) => load.accelerations.extend(further),
+        None if further.is_empty() => {}
+        None => bail!(
+            "{} states no load; give [workload.grip] a mass and friction before accelerations",
+            file.name
+        ),
+    }
+    let steps = match &a.motion {
+        Some(path) => {
+            let bytes = bounded::at_most(path, MAX_DESCRIPTION_BYTES)
+                .with_context(|| format!("cannot read {}", path.display()))?;
+            let steps = trajectory(&path.display().to_string(), &bytes, file.length_unit.metres)?;
+            // Its parts are studied along with the others.
+            let parts = steps
+                .iter()
+                .map(|s| s.diameter.unwrap_or(file.spec.diameter));
+            let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a;
+            for part in parts.collect::<Vec<f64>>() {
+                if !file.spec.diameters.iter().any(|d| near(*d, part)) {
+                    file.spec.diameters.push(part);
+                }
+            }
+            file.spec.diameters.sort_by(f64::total_cmp);
+            Some(steps)
+        }
+        None => None,
+    };
+    let found = grip(&file.spec, file.mechanism.as_ref())?;
+    let mut shown = view::grip::Grip::new(&file, &found);
+    if let Some(steps) = steps {
+        let along = along(&file.spec, &found, &steps)?;
+        shown.motion = Some(Motion::new(&along, file.length_unit));
+    }
+    if let Some(folder) = &a.svg {
+        charts::write(folder, None, &charts(&shown), &[])?;
+    }
+    output::to(a.output.as_deref(), |out| {
+        match a.format {
+            AnalyzeFormat::Json => output::json(out, &shown)?,
+            AnalyzeFormat::Text => {
+                let width = output::width(a.output.as_deref());
+                write!(out, "{}", text::grip(&shown, width))?;
+                if a.svg.is_none() {
+                    let gives = "charts of the arms and the drive moment";
+                    let charts = Step::new("grip", &a.file.file, "--svg charts", gives);
+                    write!(out, "{}", next_commands::text(&[charts], width))?;
+                }
+            }
+        }
+        let held_along = shown.motion.as_ref().is_none_or(|m| m.holds);
+        Ok(if shown.holds && held_along {
+            Done::Found
+        } else {
+            Done::Nothing
+        })
+    })
+}

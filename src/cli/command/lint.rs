@@ -1,0 +1,149 @@
+//! `ozols lint`.
+
+use crate::cli::Done;
+use crate::cli::command::import::{Reading, description};
+use crate::cli::option::load;
+use crate::cli::option::named::Named;
+use crate::cli::terminal::colour::{Tone, toned};
+use crate::cli::terminal::output;
+use crate::file::problem::ImportError;
+use crate::file::text::mechanism_from_bytes;
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::motion::pose::Pose;
+use crate::redundancy::held_twice::{HeldTwice, held_twice};
+use crate::redundancy::release::Release;
+use crate::robots::{self, Origin};
+use crate::view::robots::lint::{self, Lint as Found, PassedOver};
+use crate::view::terminal::layout::fit;
+use crate::view::terminal::next_commands::{self, Step};
+use clap::{Args as ClapArgs, ValueEnum, ValueHint};
+use std::path::PathBuf;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum LintFormat {
+    Text,
+    Json,
+    /// SARIF 2.1.0, for code scanning.
+    Sarif,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Lint {
+    /// Robot descriptions (URDF, MJCF, SDF), or mechanism files.
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath, required = true)]
+    files: Vec<Named>,
+    #[command(flatten)]
+    reading: Reading,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    format: LintFormat,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
+    let options = a.reading.options()?;
+    // A file that cannot be looked at takes nothing from the others.
+    let mut failed = false;
+    let all: Vec<Result<Found, PassedOver>> = (a.files.iter())
+        .map(|file| one(file, &options).map_err(|e| passed_over(file, &e, &mut failed)))
+        .collect();
+    let found: Vec<&Found> = all.iter().flatten().collect();
+    let others: Vec<PassedOver> = all
+        .iter()
+        .filter_map(|f| f.as_ref().err().cloned())
+        .collect();
+    let width = output::width(a.output.as_deref());
+    output::to(a.output.as_deref(), |out| {
+        match a.format {
+            LintFormat::Text => {
+                for file in &all {
+                    let (text, verdict) = match file {
+                        Err(passed) => {
+                            let good = passed
+                                .rigid
+                                .then(|| ("nothing is redundant".to_owned(), Tone::Good));
+                            (passed.text(), good)
+                        }
+                        Ok(lint) => {
+                            let verdict = match lint.is_clean() {
+                                true => ("nothing is redundant".to_owned(), Tone::Good),
+                                false => (lint.sigma(), Tone::Bad),
+                            };
+                            (lint.text(), Some(verdict))
+                        }
+                    };
+                    let text = fit(&text, width);
+                    write!(out, "{}", toned(text, a.output.as_deref(), verdict))?;
+                }
+                let mended = found
+                    .iter()
+                    .filter(|l| l.from_description && l.is_decided() && !l.cheapest.is_empty());
+                let gives = "the cheapest in your own file, all else as it is";
+                let flags = a.reading.flags();
+                let steps: Vec<Step> = mended.map(|l| Step::mend(&l.file, &flags, gives)).collect();
+                write!(out, "{}", next_commands::text(&steps, width))?;
+            }
+            LintFormat::Json => output::json(out, &lint::json(&found, &others))?,
+            LintFormat::Sarif => output::json(out, &lint::sarif(&found, &others))?,
+        }
+        Ok(match found.iter().all(|l| l.is_clean()) {
+            _ if failed => Done::Partly,
+            true => Done::Found,
+            false => Done::Nothing,
+        })
+    })
+}
+
+/// What is found in one file.
+fn one(file: &Named, options: &robots::Options) -> anyhow::Result<Found> {
+    let (mechanism, imported) = if robots::is_description(file) && file.path().is_file() {
+        let imported = description(file.path(), options)?;
+        (imported.mechanism.clone(), Some(imported))
+    } else {
+        let (name, bytes) = load::named(file)?;
+        (mechanism_from_bytes(&name, &bytes)?, None)
+    };
+    let found = look(&mechanism, imported.as_ref().map(|i| &i.origin))?;
+    Ok(Found::new(file, &mechanism, imported.as_ref(), &found))
+}
+
+/// A file that is passed over, said at once where something is wrong with it.
+fn passed_over(file: &str, e: &anyhow::Error, failed: &mut bool) -> PassedOver {
+    let rigid = output::problems(e).is_some_and(ImportError::is_rigid);
+    if !rigid {
+        *failed = true;
+        output::complain(e);
+    }
+    PassedOver::new(file, &format!("{e:#}"), rigid)
+}
+
+/// What a mechanism holds twice. Drives stay as they are, and what no format has a place for.
+pub(in crate::cli) fn look(m: &Mechanism, origin: Option<&Origin>) -> anyhow::Result<HeldTwice> {
+    look_at(m, origin, &|r| match *r {
+        Release::Freedom { joint, .. } => !is_actuated(m, origin, joint),
+        Release::Coupling(_) => true,
+    })
+}
+
+/// Whether a joint is a drive, or moved by an actuator in a way that a mechanism has no word for.
+pub(in crate::cli) fn is_actuated(m: &Mechanism, origin: Option<&Origin>, joint: JointId) -> bool {
+    m.joints[joint].drive || origin.is_some_and(|o| o.is_actuated(joint))
+}
+
+/// The same with releases that are wanted alone.
+pub(in crate::cli) fn look_at(
+    m: &Mechanism,
+    origin: Option<&Origin>,
+    wanted: &dyn Fn(&Release) -> bool,
+) -> anyhow::Result<HeldTwice> {
+    let closes = |j: JointId| origin.is_some_and(|o| o.closes(j));
+    let written = |r: &Release| match *r {
+        Release::Freedom { joint, .. } => origin.is_none_or(|o| o.can_be_freed(joint)),
+        Release::Coupling(_) => true,
+    };
+    let inside = |pose: &Pose| origin.is_none_or(|o| o.is_inside(pose, m.length_unit.metres));
+    let may = |r: &Release| written(r) && wanted(r);
+    Ok(held_twice(m, &closes, &may, Some(&inside))?)
+}

@@ -1,0 +1,170 @@
+//! `ozols list`.
+
+use crate::builtin;
+use crate::cli::Done;
+use crate::cli::terminal::did_you_mean;
+use crate::cli::terminal::output;
+use crate::format::csv;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::redundancy::figures::figures;
+use crate::view::terminal::layout::{fit, table};
+use anyhow::Context;
+use clap::{Args as ClapArgs, ValueEnum};
+use rayon::prelude::*;
+use serde::Serialize;
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct List {
+    /// Only those with every one of these words in name, family or description.
+    #[arg(value_name = "WORD")]
+    words: Vec<String>,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    format: ListFormat,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ListFormat {
+    Text,
+    Json,
+    /// One state of one mechanism a line.
+    Csv,
+}
+
+/// A state of a mechanism as data; the same keys in JSON and CSV.
+#[derive(Debug, Serialize)]
+struct Row {
+    name: &'static str,
+    family: &'static str,
+    state: String,
+    links: usize,
+    joints: usize,
+    contours: usize,
+    freedoms: usize,
+    mobility: usize,
+    redundant: usize,
+    description: String,
+}
+
+/// The narrowest column that a description is worth.
+const NARROWEST: usize = 16;
+
+pub(in crate::cli) fn run(a: &List) -> anyhow::Result<Done> {
+    let rows = wanted(a)?;
+    if rows.is_empty() {
+        let hint = did_you_mean::hint(&a.words.join("-"), builtin::names());
+        output::note(&format!(
+            "no built-in mechanism has all of: {}{hint}\n",
+            a.words.join(", ")
+        ));
+        return Ok(Done::Nothing);
+    }
+    match a.format {
+        ListFormat::Text => text(a, rows),
+        ListFormat::Json => output::to(None, |out| {
+            output::json(out, &rows)?;
+            Ok(Done::Found)
+        }),
+        ListFormat::Csv => output::to(None, |out| {
+            write!(out, "{}", csv::records(rows))?;
+            Ok(Done::Found)
+        }),
+    }
+}
+
+fn text(a: &List, rows: Vec<Row>) -> anyhow::Result<Done> {
+    let header = ["mechanism", "state", "n", "p", "k", "f", "W", "σ"];
+    let (mut cells, mut notes) = (Vec::new(), Vec::new());
+    let (mut family, mut name) = ("", "");
+    for r in rows {
+        let first = name != r.name;
+        let heading = (family != r.family).then_some(r.family);
+        (family, name) = (r.family, r.name);
+        let numbers = [
+            r.links,
+            r.joints,
+            r.contours,
+            r.freedoms,
+            r.mobility,
+            r.redundant,
+        ];
+        let shown = if first { r.name } else { "" };
+        let mut row = vec![shown.to_owned(), r.state];
+        row.extend(numbers.map(|n| n.to_string()));
+        cells.push(row);
+        notes.push((heading, if first { r.description } else { String::new() }));
+    }
+    let table = table(&header, cells, None);
+    let width = output::width(None).map(usize::from);
+    output::to(None, |out| {
+        let lines: Vec<&str> = table.lines().collect();
+        let (head, body) = lines.split_at(2);
+        for line in head {
+            let room = width.unwrap_or(usize::MAX);
+            writeln!(out, "{}", console::truncate_str(line, room, ""))?;
+        }
+        let columns = lines.iter().map(|l| measure(l)).max().unwrap_or(0) + 2;
+        for (line, (heading, description)) in body.iter().zip(&notes) {
+            if let Some(heading) = heading {
+                writeln!(out, "\n{heading}")?;
+            }
+            let gap = " ".repeat(columns - measure(line));
+            match width.map(|w| w.saturating_sub(columns)) {
+                _ if description.is_empty() => writeln!(out, "{line}")?,
+                None => writeln!(out, "{line}{gap}{description}")?,
+                Some(left) if left < NARROWEST => writeln!(out, "{line}")?,
+                Some(left) => {
+                    let short = console::truncate_str(description, left, "…");
+                    writeln!(out, "{line}{gap}{short}")?;
+                }
+            }
+        }
+        if a.words.is_empty() {
+            let signs = "\nn links, p joints, k contours, f freedoms, W mobility, σ redundant constraints; see `ozols explain`\n";
+            write!(out, "{}", fit(signs, output::width(None)))?;
+        }
+        Ok(Done::Found)
+    })
+}
+
+/// A row for each state of the mechanisms wanted.
+fn wanted(a: &List) -> anyhow::Result<Vec<Row>> {
+    let words: Vec<String> = a.words.iter().map(|w| w.to_lowercase()).collect();
+    let of = |(family, name)| rows(&words, family, name);
+    let families = builtin::families();
+    let all: Vec<_> = families
+        .into_iter()
+        .flat_map(|(family, names)| names.into_iter().map(move |name| (family, name)))
+        .collect();
+    let rows: anyhow::Result<Vec<Vec<Row>>> = all.into_par_iter().map(of).collect();
+    Ok(rows?.into_iter().flatten().collect())
+}
+
+/// The rows of a mechanism; none where it has not all the words.
+fn rows(words: &[String], family: &'static str, name: &'static str) -> anyhow::Result<Vec<Row>> {
+    let m = Mechanism::builtin(name)?;
+    let about = format!("{name} {family} {}", m.description).to_lowercase();
+    if !words.iter().all(|w| about.contains(w)) {
+        return Ok(Vec::new());
+    }
+    let row = |(state, of): (StateId, &String)| {
+        let s = figures(&m, state).with_context(|| format!("built-in mechanism {name}"))?;
+        Ok(Row {
+            name,
+            family,
+            state: of.clone(),
+            links: s.links,
+            joints: s.joints,
+            contours: s.contours,
+            freedoms: s.freedoms,
+            mobility: s.mobility,
+            redundant: s.redundant,
+            description: m.description.clone(),
+        })
+    };
+    m.states_with_ids().map(row).collect()
+}
+
+fn measure(line: &str) -> usize {
+    console::measure_text_width(line)
+}

@@ -1,0 +1,235 @@
+//! `ozols report`.
+
+use crate::cli::Done;
+use crate::cli::option::args::{Args, File};
+use crate::cli::option::load;
+use crate::cli::option::motion::Moving;
+use crate::cli::option::request::Checked;
+use crate::cli::terminal::interrupt;
+use crate::cli::terminal::output;
+use crate::cli::terminal::progress::{Watch, note};
+use crate::draw::{Drawing, Moved, Scene, Shown, Sight, Subject, kinematic_scene};
+use crate::model::mechanism::{Mechanism, Mode, StateId};
+use crate::page::{Commands, Page, Redesigns, SHOWN, html};
+use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
+use crate::redundancy::stress::SelfStress;
+use crate::score::outcome::Outcome;
+use crate::score::request::{List, Request};
+use crate::score::variants::Variants;
+use crate::view::analysis::{Analysis, State};
+use crate::view::terminal::next_commands::{file_name, flags, word};
+use anyhow::ensure;
+use clap::Args as ClapArgs;
+use itertools::Itertools;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Report {
+    #[command(flatten)]
+    pub(in crate::cli) file: File,
+    /// How many of the best variants the page holds, 10000 at most.
+    #[arg(long, value_name = "K", default_value_t = 200)]
+    top: usize,
+    #[command(flatten)]
+    pub(in crate::cli) checked: Checked,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub(in crate::cli) output: Option<PathBuf>,
+}
+
+/// A page with more variants than this is of no use to anybody.
+const MOST: usize = 10_000;
+
+pub(in crate::cli) fn run(args: &Args, a: &Report) -> anyhow::Result<Done> {
+    write(args, a, a.output.as_deref(), false)?;
+    Ok(Done::Found)
+}
+
+/// Writes the page, which looks for newer ones where it is `live`, and gives the verdict on each state in a few words.
+pub(in crate::cli) fn write(
+    args: &Args,
+    a: &Report,
+    path: Option<&Path>,
+    live: bool,
+) -> anyhow::Result<String> {
+    ensure!(
+        (1..=MOST).contains(&a.top),
+        "--top must be from 1 to {MOST} in a report; `ozols search` gives longer lists"
+    );
+    let request = Request {
+        list: List::Top(a.top),
+        ..a.checked.request(args.seed)?
+    };
+    let written = load::mechanism(&a.file.file)?;
+    // An unknown state is a mistake; geometry that cannot be searched is not.
+    let prepared = request.prepare(written.clone(), &mut note)?;
+    let states: Vec<StateId> = written.state_ids().collect();
+    let method = Method::Auto {
+        tolerance: request.snap,
+    };
+    let states = analyse(&written, &states, method)?;
+    let figures = Analysis::new(&written, &states, &[]).states;
+    let words = |s: &State<'_>| format!("{}: {}, W = {}", s.state, s.verdict(), s.mobility);
+    let verdict = figures.iter().map(words).join("; ");
+    let conditions = request.conditions(&prepared, &mut note);
+    let mechanism = Arc::new(prepared.mechanism);
+    let write = |redesigns: Result<Redesigns<'_>, String>, ideas: Option<Redesigns<'_>>| {
+        let page = html(&Page {
+            mechanism: &mechanism,
+            states: &states,
+            live,
+            redesigns,
+            ideas,
+            scenes: scenes(&mechanism, &states),
+            commands: commands(&mechanism, a, &request),
+        })?;
+        output::to(path, |out| {
+            out.write_all(page.as_bytes())?;
+            Ok(Done::Found)
+        })
+    };
+    // What is known of the mechanism as it is stands, even where its coordinates do not allow a search.
+    let conditions = match conditions {
+        Ok(conditions) => conditions,
+        Err(why) => {
+            write(Err(format!("{why}.")), None)?;
+            return Ok(verdict);
+        }
+    };
+    let mut watch = Watch::new(args.quiet);
+    let outcome = watch.answer(mechanism.clone(), conditions, &request)?;
+    let ideas = (!request.distinct).then(|| {
+        let given = outcome.ideas_unless(&interrupt::pending);
+        redesigns(&outcome, given)
+    });
+    let variants = outcome.variants_unless(&interrupt::pending);
+    write(Ok(redesigns(&outcome, variants)), ideas)?;
+    Ok(verdict)
+}
+
+/// A list of the page.
+fn redesigns<'o>(found: &'o Outcome, mut given: Variants<'o>) -> Redesigns<'o> {
+    let variants = given.by_ref().collect();
+    Redesigns {
+        found,
+        variants,
+        summary: given.summary(),
+        interrupted: given.interrupted(),
+    }
+}
+
+/// The mechanism in space in each state: as far as its drive goes, with its idle freedoms and its self-stresses. None of a plane
+/// mechanism where there is nothing of these.
+fn scenes(mechanism: &Mechanism, states: &[StateAnalysis]) -> Vec<Option<(Drawing, Scene)>> {
+    let one = |(found, state): (&StateAnalysis, StateId)| {
+        let m = found.meant.as_deref().unwrap_or(mechanism);
+        let told = Analysis::new(m, std::slice::from_ref(found), &[]);
+        let told = told.states.first()?;
+        let drive = Moving::new(m, state, None, None).ok();
+        let idle =
+            (0..found.idle.len().min(SHOWN)).filter_map(|k| Moving::idle(m, found, state, k).ok());
+        let mut moving: Vec<Moving> = drive.into_iter().chain(idle).collect();
+        let stresses = told
+            .self_stresses
+            .iter()
+            .zip(&found.self_stresses)
+            .enumerate();
+        let known = |s: &SelfStress| s.joints.iter().any(|w| w.borne.is_some());
+        let stresses = stresses.filter(|(_, (_, s))| known(s)).take(SHOWN);
+        let stresses: Vec<_> = stresses.map(|(k, (words, s))| (words.name(k), s)).collect();
+        if moving.is_empty() {
+            if stresses.is_empty() && matches!(m.mode, Mode::Planar { .. }) {
+                return None;
+            }
+            moving.push(Moving::still(m, state).ok()?);
+        }
+        let moves: Vec<(String, Moved<'_>)> = moving
+            .iter()
+            .map(|m| (m.moved().words.to_owned(), m.moved()))
+            .collect();
+        let subject = Subject {
+            mechanism: m,
+            state,
+            analysis: Some(found),
+            marks: None,
+        };
+        let shown = Shown {
+            moves: &moves,
+            stresses: &stresses,
+        };
+        Some(kinematic_scene(&subject, &Sight::default(), shown))
+    };
+    states.iter().zip(mechanism.state_ids()).map(one).collect()
+}
+
+/// The commands that give what the page shows.
+fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
+    let file = word(&a.file.file);
+    let list = flags(mechanism, request);
+    let mut more = vec![list.clone()];
+    if request.poses > 0 {
+        more.push(format!("--poses {}", request.poses));
+    }
+    if request.generic_only {
+        more.push("--generic-only".to_owned());
+    }
+    more.push(format!("--top {}", a.top));
+    let more = more.iter().filter(|m| !m.is_empty()).join(" ");
+    let row = |what: &str, command: String| (what.to_owned(), command);
+    let named = |ending: &str| file_name(&mechanism.name, ending);
+    // `--idea` says that ideas are meant.
+    let plain = flags(
+        mechanism,
+        &Request {
+            distinct: false,
+            ..request.clone()
+        },
+    );
+    let of_one = |name: &str| {
+        let row_of = |what: &str, command: &str, rest: &str| {
+            let rest = rest.replace("NAME", name);
+            let number = if request.distinct { "idea" } else { name };
+            let number = format!("--{number} {{}}");
+            let words = [command, &file, &plain, &number, &rest];
+            row(what, words.iter().filter(|w| !w.is_empty()).join(" "))
+        };
+        // `draw` and `export` count the lucky variants, too.
+        if request.generic_only {
+            return Vec::new();
+        }
+        vec![
+            row_of("The same drawing", "ozols draw", "-o NAME-{}.svg"),
+            row_of("It as a file", "ozols export", "--to toml -o NAME-{}.toml"),
+        ]
+    };
+    let longer = [&list, "{}", "--top 10000"];
+    let longer = longer.iter().filter(|w| !w.is_empty()).join(" ");
+    Commands {
+        rows: vec![
+            row(
+                "This page",
+                format!("ozols report {file} {more} -o report.html"),
+            ),
+            row("The mechanism as it is", format!("ozols analyze {file}")),
+            row(
+                "The variants, as text or data",
+                format!("ozols search {file} {more} --format text|json|csv"),
+            ),
+            row(
+                "The mechanism for other programs",
+                format!("ozols export {file} --to sdf -o {}", named("sdf")),
+            ),
+            row(
+                "A drawing",
+                format!(
+                    "ozols draw {file} --kind scheme|kinematic -o {}",
+                    named("svg")
+                ),
+            ),
+        ],
+        variant: of_one("variant"),
+        idea: of_one("idea"),
+        longer: format!("ozols report {file} {longer} -o report.html"),
+    }
+}

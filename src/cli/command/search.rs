@@ -1,0 +1,185 @@
+//! `ozols search`.
+
+use crate::cli::Done;
+use crate::cli::option::args::{Args, File};
+use crate::cli::option::load;
+use crate::cli::option::request::Checked;
+use crate::cli::terminal::colour::{Tone, toned};
+use crate::cli::terminal::interrupt;
+use crate::cli::terminal::machine;
+use crate::cli::terminal::memory;
+use crate::cli::terminal::output;
+use crate::cli::terminal::progress::Watch;
+use crate::format::number::{duration, grouped};
+use crate::score::outcome::Outcome;
+use crate::score::request::{List, Method, Request};
+use crate::view::search::csv;
+use crate::view::search::json;
+use crate::view::search::text;
+use clap::{Args as ClapArgs, ValueEnum};
+use num_traits::Zero;
+use std::path::PathBuf;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum SearchFormat {
+    Text,
+    Json,
+    /// One variant a line.
+    Jsonl,
+    /// One variant a line.
+    Csv,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum SearchMethod {
+    /// The span diagram.
+    Diagram,
+    /// Look at every variant; counts only. For checking and comparison.
+    Brute,
+}
+
+#[derive(Debug, ClapArgs)]
+#[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
+pub(in crate::cli) struct Search {
+    #[command(flatten)]
+    file: File,
+    /// How many of the best variants to give.
+    #[arg(long, value_name = "K", default_value_t = 10)]
+    top: usize,
+    /// Give every admissible variant, cheapest first.
+    #[arg(long, conflicts_with_all = ["top", "sample", "count", "rank", "distinct"])]
+    all: bool,
+    /// Give N admissible variants drawn at random, each with the same chance, instead of the best.
+    #[arg(long, value_name = "N", conflicts_with_all = ["top", "count", "rank", "distinct"])]
+    sample: Option<usize>,
+    /// Counts only.
+    #[arg(long, conflicts_with = "rank")]
+    count: bool,
+    /// Find the best without counting all: as fast as a search for a cost, however many variants there are.
+    #[arg(long, conflicts_with_all = ["all", "sample", "count"])]
+    no_count: bool,
+    /// Every variant in the text, though a short list that is the cheapest for certain would give the first of each idea only
+    /// (see --distinct).
+    #[arg(long, conflicts_with = "distinct")]
+    no_distinct: bool,
+    #[command(flatten)]
+    checked: Checked,
+    /// Diagram, or brute force for checking.
+    #[arg(long, value_enum, default_value = "diagram")]
+    method: SearchMethod,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    format: SearchFormat,
+    /// End a CSV that is not the whole list with a line that says so, `# ...`; without it that is said on standard error.
+    #[arg(long)]
+    comment: bool,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// A list this long is one to be read.
+const SHORT: usize = 100;
+
+impl Search {
+    fn request(&self, seed: u64) -> anyhow::Result<Request> {
+        Ok(Request {
+            list: match (self.all, self.sample, self.count) {
+                (true, ..) => List::All,
+                (_, Some(n), _) => List::Sample(n),
+                (.., true) => List::Nothing,
+                _ => List::Top(self.top),
+            },
+            method: match self.method {
+                SearchMethod::Diagram => Method::Diagram,
+                SearchMethod::Brute => Method::Brute,
+            },
+            counted: !self.no_count,
+            ..self.checked.request(seed)?
+        })
+    }
+
+    /// Whether people are given the first variant of each idea: the first rows of all variants are often one idea many times.
+    /// Not where a search was cut short: of ideas none is then proven the cheapest, of variants some may be. Nor where further poses
+    /// are looked at: the first variant of an idea may owe its place to this one, and the next not.
+    fn tells_ideas(&self, outcome: &Outcome) -> bool {
+        let short = matches!(outcome.request.list, List::Top(1..=SHORT));
+        let text = matches!(self.format, SearchFormat::Text);
+        let one_pose = outcome.request.poses == 0 && !outcome.request.generic_only;
+        let counted = outcome.is_counted() || outcome.is_numeric_whole();
+        let plain = outcome.ranking.is_none() && one_pose && counted;
+        text && short && plain && !self.no_distinct
+    }
+}
+
+pub(in crate::cli) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
+    let begun = machine::clock();
+    let seconds = || (machine::clock() - begun).as_secs_f64();
+    let mechanism = load::mechanism(&a.file.file)?;
+    let request = a.request(args.seed)?;
+    let mut outcome = Watch::new(args.quiet).run(mechanism, &request)?;
+    outcome.request.distinct |= a.tells_ideas(&outcome);
+    let (eased, why) = match a.format {
+        SearchFormat::Text | SearchFormat::Json => (outcome.relaxations()?, outcome.hopeless()?),
+        SearchFormat::Jsonl | SearchFormat::Csv => Default::default(),
+    };
+    let none = (&eased[..], &why);
+    let done = output::to(a.output.as_deref(), |out| {
+        let variants = outcome.variants_unless(&interrupt::pending);
+        match a.format {
+            SearchFormat::Text => {
+                let width = output::width(a.output.as_deref());
+                let file = &a.file.file;
+                if request.list == List::All {
+                    text::write(out, &outcome, variants, none, file, width)?;
+                } else {
+                    let mut text = Vec::new();
+                    text::write(&mut text, &outcome, variants, none, file, width)?;
+                    let text = String::from_utf8(text)?;
+                    write!(
+                        out,
+                        "{}",
+                        toned(text, a.output.as_deref(), [verdict(&outcome)])
+                    )?;
+                }
+            }
+            SearchFormat::Json => {
+                json::write(out, &outcome, variants, none, Some(&seconds))?;
+            }
+            SearchFormat::Jsonl => json::write_lines(out, &outcome, variants)?,
+            SearchFormat::Csv => {
+                if let Some(short) = csv::write(out, &outcome, variants)? {
+                    match a.comment {
+                        true => writeln!(out, "# {short}")?,
+                        false => output::say(&format!("{short}\n")),
+                    }
+                }
+            }
+        }
+        let none = outcome.admissible.total.is_zero() && !outcome.admissible_may_be_more();
+        Ok(if none { Done::Nothing } else { Done::Found })
+    })?;
+    // The output itself is the same every time.
+    if a.format == SearchFormat::Text && !args.quiet {
+        let allowed = memory::words(request.memory as u64);
+        let held = machine::peak().map_or(String::new(), |peak| {
+            format!(", {} of memory ({allowed} allowed)", memory::words(peak))
+        });
+        output::note(&format!("Searched in {}{held}.\n", duration(seconds())));
+    }
+    Ok(done)
+}
+
+/// How many there are, and whether that is good news.
+fn verdict(outcome: &Outcome) -> (String, Tone) {
+    let total = &outcome.admissible.total;
+    if outcome.numeric.is_some() {
+        ("numeric".to_owned(), Tone::Bad)
+    } else if !outcome.is_confirmed() {
+        ("not exact".to_owned(), Tone::Bad)
+    } else if total.is_zero() {
+        ("none".to_owned(), Tone::Bad)
+    } else {
+        (grouped(&total.to_string()), Tone::Good)
+    }
+}

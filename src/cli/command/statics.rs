@@ -1,0 +1,277 @@
+//! `ozols statics`.
+
+pub(in crate::cli) mod args;
+
+use crate::cli::Done;
+use crate::cli::command::clamped;
+use crate::cli::option::args::Args;
+use crate::cli::option::load;
+use crate::cli::terminal::charts;
+use crate::cli::terminal::output;
+use crate::file::read::motion::stroke;
+use crate::grip::jaw_loads::{Gripping, JawError};
+use crate::model::loads::Stroke;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::redundancy::with_drives_held::exact_self_stresses;
+use crate::statics::contour_group::solutions::GroupMethod;
+use crate::statics::contour_group::stability::{GROUPS, study};
+use crate::statics::cycle;
+use crate::statics::reactions::contact::object_at;
+use crate::statics::reactions::{Cycle, Unsolved};
+use crate::statics::solve::{Answer, Model, StaticsError, solve};
+use crate::view;
+use crate::view::grip::clamped::NotHeld;
+use crate::view::reactions::stroke::Stroke as StrokeView;
+use crate::view::reactions::{Reactions, text::reactions};
+use crate::view::statics::{Structures, charts as drawn, csv::csv, force_plans::plans, text};
+use crate::view::terminal::layout::table;
+use crate::view::terminal::next_commands::{self, Step};
+use anyhow::{Context, bail};
+use args::{Statics, StaticsFormat, StaticsMethod};
+use std::path::Path;
+
+pub(in crate::cli) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
+    let mut m = load::mechanism(&a.file.clone().unwrap_or_else(|| "parallel-shears".into()))?;
+    if a.planar {
+        load::put_in_plane(&mut m);
+    }
+    let Some(state) = m.state(&a.state) else {
+        bail!(
+            "{} has no state {}; it has: {}",
+            m.name,
+            a.state,
+            m.states.join(", ")
+        )
+    };
+    match Gripping::new(&m, state) {
+        // The nominal part is out of reach, so nothing is held.
+        Err(JawError::Nominal(why)) => {
+            return output::to(a.output.as_deref(), |out| {
+                writeln!(out, "{}: the part cannot be held: {why}", m.name)?;
+                Ok(Done::Nothing)
+            });
+        }
+        found => match found? {
+            Some(gripping) if a.groups => return groups(&gripping.mechanism, state, a),
+            Some(gripping) => return clamped::run(&gripping, a),
+            None => {}
+        },
+    }
+    if let Some(diameter) = a.diameter {
+        bail!(
+            "--diameter {diameter}: no grip loads state {} of {}; give [workload.grip] contacts, and --state one that has them",
+            a.state,
+            m.name
+        );
+    }
+    if a.groups {
+        return groups(&m, state, a);
+    }
+    let stroke = match &a.stroke {
+        Some(text) => Some(stroke(text)?),
+        None => m.loads.stroke,
+    };
+    if let (true, Some(folder)) = (a.stability, &a.output) {
+        return stability(&m, state, stroke, folder, args.seed);
+    }
+    let own = matches!(a.method, StaticsMethod::Delta | StaticsMethod::Projective);
+    if a.unilateral && !m.joints_in(state).any(|j| object_at(&m, j).is_some()) {
+        bail!(
+            "--unilateral is for contacts with an object, and state {} of {} has none: a link of role = \"object\", and joints of \
+             type fixed, planar, cylinder-on-plane or sphere-on-plane to it",
+            a.state,
+            m.name
+        );
+    }
+    let model = match (a.unilateral, a.spatial, own || a.svg.is_some()) {
+        (true, ..) => Model::Pushing,
+        (_, true, _) => Model::Spatial,
+        (_, false, true) => Model::Planar,
+        (_, false, false) => Model::Either,
+    };
+    let found = match solve(&m, state, stroke, model) {
+        // Not held is an answer, and no failure.
+        Err(StaticsError::Spatial(why @ Unsolved::Loose)) => {
+            return output::to(a.output.as_deref(), |out| {
+                match a.format {
+                    StaticsFormat::Json => {
+                        output::json(out, &NotHeld::because(&m, state, &why.to_string()))?
+                    }
+                    StaticsFormat::Csv | StaticsFormat::Text => {
+                        writeln!(out, "{}, state {}: {why}", m.name, a.state)?;
+                    }
+                }
+                Ok(Done::Nothing)
+            });
+        }
+        found => found?,
+    };
+    match &found {
+        Answer::Planar(found) => planar(&m, found, own, a)?,
+        Answer::Spatial(found) => spatial(&m, state, stroke, found, a)?,
+    };
+    // A stroke that could not be finished is no success.
+    Ok(if found.complete() {
+        Done::Found
+    } else {
+        Done::Nothing
+    })
+}
+
+fn planar(m: &Mechanism, found: &cycle::Statics, own: bool, a: &Statics) -> anyhow::Result<Done> {
+    let methods: &[GroupMethod] = match a.method {
+        StaticsMethod::Delta => &[GroupMethod::Delta],
+        StaticsMethod::Projective => &[GroupMethod::Projective],
+        StaticsMethod::Equilibrium => &[GroupMethod::Equilibrium],
+        StaticsMethod::All => &GroupMethod::ALL,
+    };
+    if own && found.contour_groups.is_empty() {
+        bail!(
+            "{} has no four-link group with a closed contour, which --method delta and projective are for; use --method equilibrium",
+            m.name
+        );
+    }
+    let shown = view::statics::Statics::new(&m.name, found, methods);
+    if let Some(folder) = &a.svg {
+        let plans = plans(&shown)
+            .into_iter()
+            .map(|(name, plan)| charts::Drawing {
+                name,
+                files: vec![("svg", plan.svg()), ("csv", plan.csv())],
+                title: plan.title,
+            });
+        let plans: Vec<charts::Drawing> = plans.collect();
+        charts::write(folder, Some(&m.name), &drawn::cycle(&shown), &plans)?;
+    }
+    output::to(a.output.as_deref(), |out| {
+        match a.format {
+            StaticsFormat::Json => output::json(out, &shown)?,
+            StaticsFormat::Csv => write!(out, "{}", csv(&shown))?,
+            StaticsFormat::Text => {
+                let width = output::width(a.output.as_deref());
+                write!(out, "{}", text::statics(&shown, width))?;
+                let loaded = found.moments.iter().any(|x| !x.loads.is_empty());
+                let file = a.file.as_deref().unwrap_or(&m.name);
+                let mut steps = Vec::new();
+                if loaded && a.svg.is_none() {
+                    let gives =
+                        "charts of reactions and accelerations over the cycle, and the force plans";
+                    steps.push(Step::new("statics", file, "--svg charts", gives));
+                }
+                if loaded {
+                    let more = "--format csv -o reactions.csv";
+                    let gives = "every joint's reaction at every position";
+                    steps.push(Step::new("statics", file, more, gives));
+                }
+                write!(out, "{}", next_commands::text(&steps, width))?;
+            }
+        }
+        Ok(Done::Found)
+    })
+}
+
+fn spatial(
+    m: &Mechanism,
+    state: StateId,
+    stroke: Option<Stroke>,
+    found: &Cycle,
+    a: &Statics,
+) -> anyhow::Result<Done> {
+    let width = output::width(a.output.as_deref());
+    if let ([(_, Ok(one))], None) = (&found.positions[..], stroke) {
+        let exact = exact_self_stresses(m, state, &found.drives);
+        let shown = Reactions::new(m, state, one).with_exact(exact);
+        return output::to(a.output.as_deref(), |out| {
+            match a.format {
+                StaticsFormat::Json => output::json(out, &shown)?,
+                StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
+                StaticsFormat::Text => {
+                    write!(out, "{}", reactions(&shown, "pose of the file", width))?;
+                    let file = a.file.as_deref().unwrap_or(&m.name);
+                    let step = match shown.unique {
+                        false => Step::new(
+                            "search",
+                            file,
+                            "",
+                            "redesigns without redundant constraints, whose reactions are the only ones",
+                        ),
+                        true => Step::new(
+                            "statics",
+                            file,
+                            "--spatial --format csv -o reactions.csv",
+                            "the components of every joint's reaction",
+                        ),
+                    };
+                    write!(out, "{}", next_commands::text(&[step], width))?;
+                }
+            }
+            Ok(Done::Found)
+        });
+    }
+    let shown = StrokeView::new(m, state, found);
+    output::to(a.output.as_deref(), |out| {
+        match a.format {
+            StaticsFormat::Json => output::json(out, &shown)?,
+            StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
+            StaticsFormat::Text => write!(out, "{}", shown.text(width))?,
+        }
+        Ok(Done::Found)
+    })
+}
+
+fn groups(m: &Mechanism, state: StateId, a: &Statics) -> anyhow::Result<Done> {
+    let (planar, found) = cycle::structures(m, state)?;
+    let shown = Structures::new(&m.name, &planar, &found);
+    output::to(a.output.as_deref(), |out| {
+        match a.format {
+            StaticsFormat::Json => output::json(out, &shown)?,
+            StaticsFormat::Csv => bail!("--groups has no CSV; use --format json"),
+            StaticsFormat::Text => {
+                let width = output::width(a.output.as_deref());
+                write!(out, "{}", text::structures(&shown, width))?;
+            }
+        }
+        Ok(if found.iter().any(|x| x.found.is_ok()) {
+            Done::Found
+        } else {
+            Done::Nothing
+        })
+    })
+}
+
+fn stability(
+    m: &Mechanism,
+    state: StateId,
+    stroke: Option<Stroke>,
+    folder: &Path,
+    seed: u64,
+) -> anyhow::Result<Done> {
+    let found = cycle::statics(m, state, stroke)?;
+    let base = found.heaviest_contour_group().with_context(|| {
+        format!(
+            "{} has no four-link group with a closed contour to compare the methods on",
+            m.name
+        )
+    })?;
+    let found = study(base, seed);
+    let all: Vec<drawn::Named> = found.iter().map(|(f, s)| drawn::stability(*f, s)).collect();
+    charts::write(folder, Some("Stability of the δ-point method"), &all, &[])?;
+    let rows = found.iter().flat_map(|(f, s)| drawn::stability_rows(*f, s));
+    output::to(None, |out| {
+        writeln!(
+            out,
+            "Relative error against exact arithmetic by distance from each failure, median of {GROUPS} groups\n"
+        )?;
+        let header = [
+            "failure", "figure", "method", "1", "1e-3", "1e-6", "1e-9", "1e-12", "1e-15",
+        ];
+        let table = table(&header, rows.collect(), output::width(None));
+        writeln!(out, "{table}\n")?;
+        writeln!(
+            out,
+            "Charts and tables: {}",
+            folder.join("index.html").display()
+        )?;
+        Ok(Done::Found)
+    })
+}

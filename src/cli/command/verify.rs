@@ -1,0 +1,127 @@
+//! `ozols verify`, and the certificates that `ozols analyze` writes for it.
+
+use crate::cli::Done;
+use crate::cli::option::args::{Args, File};
+use crate::cli::option::load;
+use crate::cli::terminal::output;
+use crate::file::bounded;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::exact::certificate::{certify, matrix, number_field};
+use crate::redundancy::analysis::StateAnalysis;
+use crate::verify::certificate::{CertificateFile, FORMAT, Without};
+use crate::verify::check;
+use anyhow::{Context, bail};
+use clap::Args as ClapArgs;
+use std::io::Write;
+use std::path::Path;
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Verify {
+    #[command(flatten)]
+    file: File,
+    /// The certificates, as written by `ozols analyze FILE --certificate CERTIFICATES`.
+    #[arg(value_name = "CERTIFICATES")]
+    certificates: PathBuf,
+    /// The certificates were made with `analyze --planar`.
+    #[arg(long)]
+    planar: bool,
+}
+
+/// Largest file of certificates, in bytes.
+const MOST: usize = 64 << 20;
+
+/// Writes a certificate for each state that has one: of the rank as written, so none where the analysis is of another.
+pub(in crate::cli) fn write(
+    path: &Path,
+    m: &Mechanism,
+    states: &[StateId],
+    found: &[StateAnalysis],
+) -> anyhow::Result<()> {
+    let mut file = CertificateFile {
+        format: FORMAT.to_owned(),
+        mechanism: m.name.clone(),
+        certificates: Vec::new(),
+        without: Vec::new(),
+    };
+    for (&state, s) in states.iter().zip(found) {
+        let certificate = if s.as_written.is_some() || s.at_most().is_some() {
+            Err("a certificate is of what is written, and rounded coordinates mean something else; write roots or expressions".to_owned())
+        } else if m.has_pi() {
+            Err("a certificate is of exact numbers, and digits of pi stand in a pitch".to_owned())
+        } else {
+            certify(m, state).map_err(|reason| reason.to_string())
+        };
+        match certificate {
+            Ok(certificate) => file.certificates.push(certificate),
+            Err(reason) => {
+                let state = m.states[state].clone();
+                let _ = writeln!(
+                    std::io::stderr().lock(),
+                    "note: no certificate of state {state}: {reason}"
+                );
+                file.without.push(Without { state, reason });
+            }
+        }
+    }
+    output::to(Some(path), |out| {
+        serde_json::to_writer(&mut *out, &file)?;
+        writeln!(out)?;
+        Ok(Done::Found)
+    })?;
+    Ok(())
+}
+
+pub(in crate::cli) fn run(_: &Args, a: &Verify) -> anyhow::Result<Done> {
+    let mut m = load::mechanism(&a.file.file)?;
+    if a.planar {
+        load::put_in_plane(&mut m);
+    }
+    let name = a.certificates.display();
+    let bytes =
+        bounded::at_most(&a.certificates, MOST).with_context(|| format!("cannot read {name}"))?;
+    let file = CertificateFile::read(&bytes).with_context(|| format!("cannot read {name}"))?;
+    let mut lines = Vec::new();
+    let mut done = if file.certificates.is_empty() {
+        Done::Nothing
+    } else {
+        Done::Found
+    };
+    for certificate in &file.certificates {
+        let Some(state) = m.state(&certificate.state) else {
+            bail!(
+                "{name} is about a state {}; {} has: {}",
+                certificate.state,
+                m.name,
+                m.states.join(", ")
+            )
+        };
+        let field = number_field(&m, state)?;
+        let (rows, columns) = (certificate.rows, certificate.columns);
+        lines.push(match check(&matrix(&field, &m, state)?, certificate) {
+            Ok(rank) => format!(
+                "{}, state {}: rank {rank} of the {rows} x {columns} closure matrix is proven",
+                m.name, certificate.state
+            ),
+            Err(flaw) => {
+                done = Done::Nothing;
+                format!(
+                    "{}, state {}: certificate rejected: {flaw}",
+                    m.name, certificate.state
+                )
+            }
+        });
+    }
+    for Without { state, reason } in &file.without {
+        lines.push(format!(
+            "{}, state {state}: no certificate: {reason}",
+            m.name
+        ));
+    }
+    output::to(None, |out| {
+        for line in lines {
+            writeln!(out, "{line}")?;
+        }
+        Ok(done)
+    })
+}

@@ -1,0 +1,8 @@
+//! Arguments that several commands have.
+
+pub(in crate::cli) mod args;
+pub(in crate::cli) mod load;
+pub(in crate::cli) mod motion;
+pub(in crate::cli) mod named;
+pub(in crate::cli) mod request;
+pub(in crate::cli) mod variant;

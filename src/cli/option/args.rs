@@ -1,0 +1,147 @@
+//! The arguments, as data.
+
+use crate::cli::command::accuracy;
+use crate::cli::command::analyze;
+use crate::cli::command::bench;
+use crate::cli::command::catalog;
+use crate::cli::command::check;
+use crate::cli::command::completions;
+use crate::cli::command::draw;
+use crate::cli::command::drive;
+use crate::cli::command::explain;
+use crate::cli::command::export;
+use crate::cli::command::fix;
+use crate::cli::command::grip;
+use crate::cli::command::import;
+use crate::cli::command::lint;
+use crate::cli::command::list;
+use crate::cli::command::man;
+use crate::cli::command::new;
+use crate::cli::command::report;
+use crate::cli::command::search;
+use crate::cli::command::statics;
+use crate::cli::command::sweep;
+use crate::cli::command::verify;
+use crate::cli::command::watch;
+use crate::cli::examples;
+use crate::cli::option::named::Named;
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum, ValueHint};
+
+/// A search engine for statically determinate mechanisms.
+///
+/// FILE is a path to a mechanism file (TOML, or JSON with the ending .json) or to a robot description (.urdf, .xml,
+/// .sdf; see `ozols import` for more control), `-` for standard input, or the name of a built-in mechanism (see `ozols
+/// list`).
+#[derive(Debug, Parser)]
+#[command(
+    name = "ozols",
+    version,
+    max_term_width = 100,
+    after_help = examples::MAIN
+)]
+pub(in crate::cli) struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub(in crate::cli) command: Command,
+    /// Nothing but errors on standard error: no progress bar, no report of an import, no warnings.
+    #[arg(long, short, global = true)]
+    pub(in crate::cli) quiet: bool,
+    /// Threads to use; all processors by default. Results do not depend on it.
+    #[arg(long, global = true, value_name = "N")]
+    pub(in crate::cli) threads: Option<usize>,
+    /// Seed of random samples.
+    #[arg(long, global = true, value_name = "N", default_value_t = 1)]
+    pub(in crate::cli) seed: u64,
+}
+
+#[derive(Debug, Subcommand)]
+pub(in crate::cli) enum Command {
+    /// Mobility and redundant constraints in each state.
+    #[command(after_help = examples::ANALYZE)]
+    Analyze(analyze::Analyze),
+    /// Every redesign that removes the redundant constraints: exact counts and the best ones.
+    #[command(after_help = examples::SEARCH)]
+    Search(search::Search),
+    /// Assur groups of a planar mechanism, and its joint reactions over the cycle.
+    #[command(after_help = examples::STATICS)]
+    Statics(statics::args::Statics),
+    /// What a lever gripper can hold, and the drive moment it takes.
+    #[command(after_help = examples::GRIP)]
+    Grip(grip::Grip),
+    /// Size a torsional drive of two discs and run its programme.
+    #[command(after_help = examples::DRIVE)]
+    Drive(drive::Drive),
+    /// Confirm the certificates of rank that `ozols analyze --certificate` wrote.
+    #[command(after_help = examples::VERIFY)]
+    Verify(verify::Verify),
+    /// Make a mechanism file of a robot description: URDF, MJCF or SDF.
+    #[command(after_help = examples::IMPORT)]
+    Import(import::Import),
+    /// Name each redundant constraint of robot descriptions, with its line and what removes it.
+    #[command(after_help = examples::LINT)]
+    Lint(lint::Lint),
+    /// Let the redundant constraints of a robot description go, in its own file.
+    #[command(after_help = examples::FIX)]
+    Fix(fix::Fix),
+    /// Draw the structural or the kinematic scheme as SVG.
+    #[command(after_help = examples::DRAW)]
+    Draw(draw::Draw),
+    /// One HTML page: the verdict, drawings, contours, and the variants to sort, filter and look at.
+    #[command(after_help = examples::REPORT)]
+    Report(report::Report),
+    /// Write the report anew whenever FILE changes, until Ctrl-C: a page to keep open beside an editor.
+    #[command(after_help = examples::WATCH)]
+    Watch(watch::Watch),
+    /// Write a mechanism in another format: TOML, JSON, URDF, MJCF, SDF, Graphviz DOT, GraphML.
+    #[command(after_help = examples::EXPORT)]
+    Export(export::Export),
+    /// How right and how fast each method is on every built-in mechanism, and where its numbers fail.
+    #[command(after_help = examples::ACCURACY)]
+    Accuracy(accuracy::Accuracy),
+    /// How right and how fast each way of searching is: diagram, brute force, floating point, budgets, pools.
+    #[command(after_help = examples::BENCH)]
+    Bench(bench::Bench),
+    /// The structures that a mechanism can have, before it is drawn: chains, and grippers made of them.
+    #[command(after_help = examples::CATALOG)]
+    Catalog(catalog::Catalog),
+    /// Take the parameters of a mechanism file over a grid or at random: where σ changes, which redesigns are best, peak forces.
+    #[command(after_help = examples::SWEEP)]
+    Sweep(sweep::SweepArgs),
+    /// Write a commented mechanism file to start from.
+    #[command(after_help = examples::NEW)]
+    New(new::New),
+    /// What a file describes, and what is wrong or doubtful in it.
+    #[command(after_help = examples::CHECK)]
+    Check(File),
+    /// The built-in mechanisms.
+    #[command(after_help = examples::LIST)]
+    List(list::List),
+    /// Print the file of a built-in mechanism, or the table of costs.
+    #[command(after_help = examples::SHOW)]
+    Show(check::Show),
+    /// Print the JSON Schema of the mechanism file.
+    #[command(after_help = examples::SCHEMA)]
+    Schema,
+    /// What a word in the output or the help means.
+    #[command(after_help = examples::EXPLAIN)]
+    Explain(explain::Explain),
+    /// Print the script that completes commands and options in a shell.
+    #[command(after_help = examples::COMPLETIONS)]
+    Completions(completions::Completions),
+    /// Print the manual page, or write one for each command.
+    #[command(after_help = examples::MAN)]
+    Man(man::Man),
+}
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct File {
+    /// A path, `-`, or the name of a built-in mechanism.
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) file: Named,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum AnalyzeFormat {
+    Text,
+    Json,
+}

@@ -1,0 +1,126 @@
+//! FILE arguments: paths, standard input, and built-in names.
+
+use crate::api;
+use crate::builtin;
+use crate::cli::option::named::Named;
+use crate::cli::terminal::did_you_mean;
+use crate::closure::coupling::in_plane;
+use crate::file::text::{MAX_BYTES, mechanism_from_bytes};
+use crate::geom::expr::Expr;
+use crate::model::coupling::Coupling;
+use crate::model::mechanism::{Mechanism, Mode};
+use crate::robots;
+use anyhow::bail;
+use itertools::Itertools;
+use std::io::Read;
+
+/// Reads the mechanism that an argument names. A file wins over a built-in mechanism of the same name.
+pub(in crate::cli) fn mechanism(file: &Named) -> anyhow::Result<Mechanism> {
+    Ok(with_what_is_left_behind(file)?.0)
+}
+
+/// The same, with what a description says besides, in a sentence; none where it says no more.
+pub(in crate::cli) fn with_what_is_left_behind(
+    file: &Named,
+) -> anyhow::Result<(Mechanism, Option<String>)> {
+    if let Some(imported) = imported(file)? {
+        return Ok((imported.mechanism, imported.report.left_behind()));
+    }
+    let (name, bytes) = named(file)?;
+    Ok((mechanism_from_bytes(&name, &bytes)?, None))
+}
+
+/// Reads each of several; what is wrong with one is said, and takes nothing from the others. Whether nothing was.
+pub(in crate::cli) fn each(files: &[Named]) -> (Vec<(&Named, Mechanism)>, bool) {
+    let mut all = Vec::new();
+    for file in files {
+        match mechanism(file) {
+            Ok(found) => all.push((file, found)),
+            Err(e) => crate::cli::terminal::output::complain(&e),
+        }
+    }
+    let well = all.len() == files.len();
+    (all, well)
+}
+
+/// The name for messages and the bytes of the file that an argument names.
+pub(in crate::cli) fn named(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
+    if &**file == "-" {
+        let mut bytes = Vec::new();
+        // One byte more than allowed, so that the reader can say that there are too many.
+        std::io::stdin()
+            .lock()
+            .take(MAX_BYTES as u64 + 1)
+            .read_to_end(&mut bytes)?;
+        return Ok(("standard input".to_owned(), bytes));
+    }
+    if let Some(imported) = imported(file)? {
+        let text = imported.toml()?;
+        return Ok(("the imported mechanism".to_owned(), text.into_bytes()));
+    }
+    let path = file.path();
+    if path.is_file() {
+        return Ok((file.to_string(), api::bytes(path, MAX_BYTES)?));
+    }
+    let Some(text) = builtin::text(file) else {
+        bail!(unknown(file))
+    };
+    Ok((format!("{file}.toml"), text.as_bytes().to_vec()))
+}
+
+/// The mechanism of a robot description, with what is doubtful said; none where the argument is no such file.
+fn imported(file: &Named) -> anyhow::Result<Option<robots::Imported>> {
+    let path = file.path();
+    if !path.is_file() || !robots::is_description(file) {
+        return Ok(None);
+    }
+    let imported = crate::cli::command::import::description(path, &robots::Options::default())?;
+    let doubts = imported.report.doubts();
+    if !doubts.is_empty() {
+        crate::cli::terminal::output::note(&format!("{file}: {}\n{doubts}", imported.format.name));
+    }
+    Ok(Some(imported))
+}
+
+/// Models a mechanism in the plane of x and y. A coupling of a freedom that leads out of it has nothing to couple there, and is
+/// left out, which is said.
+pub(in crate::cli) fn put_in_plane(mechanism: &mut Mechanism) {
+    mechanism.mode = Mode::Planar {
+        normal: [0, 0, 1].map(Expr::from),
+    };
+    let all = std::mem::take(&mut mechanism.couplings);
+    let stays = |c: &Coupling| {
+        c.ends
+            .iter()
+            .all(|e| in_plane(mechanism, e.joint, e.freedom))
+    };
+    let (kept, left): (Vec<Coupling>, Vec<Coupling>) = all.into_iter().partition(stays);
+    if !left.is_empty() {
+        let names = left.iter().map(|c| c.name(mechanism)).join(", ");
+        crate::cli::terminal::output::note(&format!(
+            "note: --planar leaves out what couples freedoms out of the plane: {names}\n"
+        ));
+    }
+    mechanism.couplings = kept;
+}
+
+/// The message for a name that is neither a regular file nor built in.
+pub(in crate::cli) fn unknown(file: &Named) -> String {
+    match std::fs::metadata(file.path()) {
+        Ok(m) if m.is_dir() => return format!("{file} is a folder; name a file in it"),
+        Ok(m) if !m.is_file() => {
+            return format!("{file} is no regular file; `-` reads standard input");
+        }
+        _ => {}
+    }
+    let hint = did_you_mean::hint(file, builtin::names());
+    format!(
+        "{file} is neither a file nor a built-in mechanism{hint} (`ozols list` shows those built in)"
+    )
+}
+
+/// The message for a name that is not built in, where a file would not do.
+pub(in crate::cli) fn no_built_in(name: &str) -> String {
+    let hint = did_you_mean::hint(name, builtin::names());
+    format!("{name} is not a built-in mechanism{hint} (`ozols list` shows them)")
+}

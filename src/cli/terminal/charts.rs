@@ -1,0 +1,61 @@
+//! Charts and drawings into a folder, each as SVG and CSV.
+
+use crate::chart::{Chart, page};
+use crate::cli::Done;
+use crate::cli::terminal::output;
+
+/// A drawing beside the charts.
+pub(in crate::cli) struct Drawing {
+    /// Name of its files.
+    pub(in crate::cli) name: String,
+    /// What is shown.
+    pub(in crate::cli) title: String,
+    /// Its texts by ending; one of them svg.
+    pub(in crate::cli) files: Vec<(&'static str, String)>,
+}
+
+use anyhow::Context;
+use std::path::Path;
+
+/// Writes `NAME.svg` and `NAME.csv` of each chart, making the folder where it is missing, and a page of all where it gets a
+/// title; drawings come last.
+pub(in crate::cli) fn write(
+    folder: &Path,
+    title: Option<&str>,
+    charts: &[(String, Chart)],
+    drawings: &[Drawing],
+) -> anyhow::Result<()> {
+    std::fs::create_dir_all(folder)
+        .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    let write = |name: &str, text: &str| {
+        output::to(Some(&folder.join(name)), |out| {
+            write!(out, "{text}")?;
+            Ok(Done::Found)
+        })
+    };
+    let mut parts = Vec::new();
+    for (name, chart) in charts {
+        let svg = chart.svg();
+        write(&format!("{name}.svg"), &svg)?;
+        // Where a line breaks there is no row.
+        let mut table = chart.clone();
+        for series in &mut table.series {
+            series.points.retain(|p| p.1.is_finite());
+        }
+        write(&format!("{name}.csv"), &table.csv())?;
+        // The drawing has its subtitle.
+        parts.push((chart.title.clone(), String::new(), svg));
+    }
+    for drawing in drawings {
+        for (ending, text) in &drawing.files {
+            write(&format!("{}.{ending}", drawing.name), text)?;
+            if *ending == "svg" {
+                parts.push((drawing.title.clone(), String::new(), text.clone()));
+            }
+        }
+    }
+    if let Some(title) = title {
+        write("index.html", &page(title, &parts))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,43 @@
+//! Colour for the verdicts of a text, where a person looks: on a terminal that wants it (NO_COLOR, CLICOLOR_FORCE).
+
+use anstream::{AutoStream, ColorChoice};
+use anstyle::AnsiColor;
+use std::path::Path;
+
+/// What a verdict is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::cli) enum Tone {
+    Good,
+    Doubtful,
+    Bad,
+}
+
+/// A text with each of the verdicts in its colour, the first of each behind the one before; as it is where it goes to a file or
+/// nobody looks.
+pub(in crate::cli) fn toned(
+    text: String,
+    path: Option<&Path>,
+    verdicts: impl IntoIterator<Item = (String, Tone)>,
+) -> String {
+    let to_file = path.is_some_and(|p| p != Path::new("-"));
+    if to_file || AutoStream::choice(&std::io::stdout()) == ColorChoice::Never {
+        return text;
+    }
+    let mut rest = text.as_str();
+    let mut out = String::with_capacity(text.len());
+    for (words, tone) in verdicts {
+        // A terminal so narrow that the words are broken has them without colour.
+        let Some((before, after)) = rest.split_once(&words) else {
+            continue;
+        };
+        let colour = match tone {
+            Tone::Good => AnsiColor::Green,
+            Tone::Doubtful => AnsiColor::Yellow,
+            Tone::Bad => AnsiColor::Red,
+        };
+        let style = colour.on_default().bold();
+        out += &format!("{before}{style}{words}{style:#}");
+        rest = after;
+    }
+    out + rest
+}

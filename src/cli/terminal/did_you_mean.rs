@@ -1,0 +1,60 @@
+//! Which of the known words a mistyped one may have meant.
+
+/// Most words suggested.
+const MOST: usize = 5;
+/// How alike two words must be, from 0 to 1.
+const ALIKE: f64 = 0.75;
+
+/// The known words nearest to `word`, best first: those spelt alike, then those that contain it or are contained in it.
+pub(in crate::cli) fn near<'a>(
+    word: &str,
+    known: impl IntoIterator<Item = &'a str>,
+) -> Vec<&'a str> {
+    let word = word.to_lowercase();
+    if word.is_empty() {
+        return Vec::new();
+    }
+    let mut found: Vec<(f64, &str)> = known
+        .into_iter()
+        .filter_map(|k| {
+            let lower = k.to_lowercase();
+            // The prefix counts for more, as people mistype ends.
+            let alike = strsim::jaro_winkler(&word, &lower);
+            let within = lower.contains(&word) || (lower.len() > 2 && word.contains(&lower));
+            (alike >= ALIKE || within).then_some((alike, k))
+        })
+        .collect();
+    found.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(b.1)));
+    found.truncate(MOST);
+    found.into_iter().map(|(_, k)| k).collect()
+}
+
+/// "; did you mean this, that or the other?", or nothing.
+pub(in crate::cli) fn hint<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    question(&near(word, known))
+}
+
+/// The same of words already chosen.
+pub(in crate::cli) fn question(near: &[&str]) -> String {
+    match near {
+        [] => String::new(),
+        [one] => format!("; did you mean {one}?"),
+        [head @ .., last] => format!("; did you mean {} or {last}?", head.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{hint, near};
+
+    #[test]
+    fn the_nearest_comes_first_and_what_is_far_does_not_come() {
+        let known = ["gripper-10", "gripper-10-planar", "four-bar", "bennett"];
+        assert_eq!(near("gripper10", known)[0], "gripper-10");
+        assert_eq!(near("benett", known), ["bennett"]);
+        assert_eq!(near("fourbar", known), ["four-bar"]);
+        assert!(near("zzz", known).is_empty());
+        assert!(near("", known).is_empty());
+        assert_eq!(hint("benett", known), "; did you mean bennett?");
+    }
+}

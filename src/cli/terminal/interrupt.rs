@@ -1,0 +1,101 @@
+//! What Ctrl-C, SIGTERM and SIGHUP do: a search ends early with what it has, anything else ends at once. Either way the
+//! program says so, leaves no temporary file, and its exit code is 128 and the signal's number.
+
+use crate::cli::terminal::output;
+use crate::cli::terminal::spinner;
+use anyhow::Context;
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
+
+/// SIGHUP, SIGINT and SIGTERM by their numbers, which are the same everywhere.
+const NAMES: [(u8, &str); 3] = [(1, "SIGHUP"), (2, "Ctrl-C"), (15, "SIGTERM")];
+
+/// The first signal that came; 0 while none has.
+static FIRST: AtomicU8 = AtomicU8::new(0);
+/// Whether a signal came that nothing has ended for yet.
+static PENDING: AtomicBool = AtomicBool::new(false);
+/// Whether somebody asks [`pending`] now and then, and has something to give.
+static PATIENT: AtomicBool = AtomicBool::new(false);
+
+/// Listens from now on.
+pub(in crate::cli) fn listen() -> anyhow::Result<()> {
+    handle().context("cannot listen for signals")
+}
+
+#[cfg(unix)]
+fn handle() -> std::io::Result<()> {
+    // nohup starts programs with SIGHUP ignored, and that is to stay so.
+    let heard_of = |signal: &u8| *signal != 1 || !is_ignored(*signal);
+    let numbers = NAMES.map(|(n, _)| n).into_iter().filter(heard_of);
+    let mut signals = signal_hook::iterator::Signals::new(numbers.map(i32::from))?;
+    std::thread::Builder::new()
+        .name("signals".to_owned())
+        .spawn(move || {
+            for signal in signals.forever() {
+                heard(u8::try_from(signal).unwrap_or(2));
+            }
+        })
+        .map(|_| ())
+}
+
+/// Whether a signal was ignored when the program began; unknown is no, off Linux.
+#[cfg(unix)]
+fn is_ignored(signal: u8) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|l| l.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|m| u64::from_str_radix(m.trim(), 16).ok());
+    mask.is_some_and(|m| m >> (signal - 1) & 1 == 1)
+}
+
+#[cfg(not(unix))]
+fn handle() -> Result<(), ctrlc::Error> {
+    ctrlc::set_handler(|| heard(2))
+}
+
+fn heard(signal: u8) {
+    let _ = FIRST.compare_exchange(0, signal, Ordering::SeqCst, Ordering::SeqCst);
+    output::cut_short();
+    let name = NAMES.iter().find(|(n, _)| *n == signal);
+    let name = name.map_or("a signal", |(_, name)| name);
+    if PATIENT.load(Ordering::SeqCst) && !PENDING.swap(true, Ordering::SeqCst) {
+        output::note(&format!(
+            "interrupted by {name}: what was found so far is given; once more ends at once\n"
+        ));
+        return;
+    }
+    spinner::rest();
+    output::abandon();
+    output::note(&format!("interrupted by {name}\n"));
+    std::process::exit(code(signal).into());
+}
+
+fn code(signal: u8) -> u8 {
+    128 + signal
+}
+
+/// From now on the first signal is left to whoever asks [`pending`].
+pub(in crate::cli) fn be_patient() {
+    PATIENT.store(true, Ordering::SeqCst);
+}
+
+/// From now on every signal ends the program at once, as before [`be_patient`].
+pub(in crate::cli) fn be_impatient() {
+    PATIENT.store(false, Ordering::SeqCst);
+}
+
+/// Whether to end early.
+pub(in crate::cli) fn pending() -> bool {
+    PENDING.load(Ordering::Relaxed)
+}
+
+/// What the signal was meant for has ended: the next one is meant for what follows.
+pub(in crate::cli) fn answered() {
+    PENDING.store(false, Ordering::SeqCst);
+}
+
+/// The exit code of a run that was interrupted.
+pub(in crate::cli) fn exit_code() -> Option<u8> {
+    match FIRST.load(Ordering::SeqCst) {
+        0 => None,
+        signal => Some(code(signal)),
+    }
+}

@@ -1,0 +1,73 @@
+//! What times are taken by and measured on.
+
+use crate::accuracy::timing::Machine;
+use std::sync::LazyLock;
+use std::time::{Duration, Instant};
+
+/// The time since the first call.
+pub(in crate::cli) fn clock() -> Duration {
+    static BEGUN: LazyLock<Instant> = LazyLock::new(Instant::now);
+    BEGUN.elapsed()
+}
+
+/// The value of a line such as `model name : AMD EPYC` of a file of the system.
+fn value(file: &str, key: &str) -> Option<String> {
+    let text = std::fs::read_to_string(file).ok()?;
+    let line = text.lines().find(|l| l.starts_with(key))?;
+    Some(line.split_once(':')?.1.trim().to_owned())
+}
+
+/// Bytes of memory.
+#[cfg(target_os = "linux")]
+pub(in crate::cli) fn memory() -> Option<u64> {
+    let told = rustix::system::sysinfo();
+    #[allow(
+        clippy::useless_conversion,
+        reason = "it has fewer bits on other processors"
+    )]
+    let (total, unit) = (u64::from(told.totalram), u64::from(told.mem_unit));
+    total.checked_mul(unit)
+}
+
+/// Bytes of memory.
+#[cfg(not(target_os = "linux"))]
+pub(in crate::cli) fn memory() -> Option<u64> {
+    let mut told = sysinfo::System::new();
+    told.refresh_memory();
+    Some(told.total_memory()).filter(|bytes| *bytes > 0)
+}
+
+/// Bytes of addresses that this process has taken.
+pub(in crate::cli) fn addresses() -> Option<u64> {
+    bytes("/proc/self/status", "VmSize")
+}
+
+/// The most bytes that this process has held so far.
+pub(in crate::cli) fn peak() -> Option<u64> {
+    bytes("/proc/self/status", "VmHWM")
+}
+
+/// A number of kilobytes of a file of the system.
+fn bytes(file: &str, key: &str) -> Option<u64> {
+    let kilobytes = value(file, key)?;
+    Some(1024 * kilobytes.split(' ').next()?.parse::<u64>().ok()?)
+}
+
+/// This machine, as far as its system tells.
+pub(in crate::cli) fn machine() -> Machine {
+    let architecture = std::env::consts::ARCH;
+    let named = ["model name", "Hardware", "cpu model"];
+    let processor = named
+        .iter()
+        .find_map(|key| value("/proc/cpuinfo", key))
+        .or_else(|| std::env::var("PROCESSOR_IDENTIFIER").ok());
+    let threads = rayon::current_num_threads();
+    Machine {
+        processor: processor.unwrap_or_else(|| format!("{architecture} processor")),
+        threads,
+        cores: std::thread::available_parallelism().map_or(threads, usize::from),
+        memory: memory(),
+        system: format!("{} {architecture}", std::env::consts::OS),
+        optimised: !cfg!(debug_assertions),
+    }
+}

@@ -1,0 +1,186 @@
+//! Data to standard output or, whole or not at all, to a file; complaints to standard error.
+
+mod beside;
+mod standard;
+
+pub(in crate::cli) use beside::{abandon, cut_short};
+
+use crate::api;
+use crate::cli::terminal::spinner;
+use crate::file::problem::ImportError;
+use crate::format::plain::{coloured, plain};
+use anyhow::Context;
+use standard::Standard;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The file to write to, if it is not standard output.
+fn file(path: Option<&Path>) -> Option<&Path> {
+    path.filter(|p| *p != Path::new("-"))
+}
+
+/// Runs `write` on standard output, which is also `-`, or on a file that appears under its name only once it is complete.
+pub(in crate::cli) fn to(
+    path: Option<&Path>,
+    write: impl FnOnce(&mut dyn Write) -> anyhow::Result<crate::cli::Done>,
+) -> anyhow::Result<crate::cli::Done> {
+    let Some(path) = file(path) else {
+        let mut out = BufWriter::new(Standard::new());
+        let done = write(&mut out)?;
+        out.flush()?;
+        return Ok(done);
+    };
+    let whole = || format!("cannot write {}", path.display());
+    // A link is followed, so that its target gets the data; a device or pipe has no beside and is written to directly.
+    let path = &std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+    let old = path.metadata().ok();
+    if old.as_ref().is_some_and(|m| !m.is_file() && !m.is_dir()) {
+        let file = std::fs::OpenOptions::new()
+            .write(true)
+            .open(path)
+            .with_context(whole)?;
+        let mut out = BufWriter::new(file);
+        let done = write(&mut out)?;
+        out.flush().with_context(whole)?;
+        return Ok(done);
+    }
+    let folder = path
+        .parent()
+        .filter(|p| !p.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
+    if path.is_dir() {
+        anyhow::bail!("{}: it is a folder; name a file in it", whole());
+    }
+    if !folder.is_dir() {
+        anyhow::bail!(
+            "{}: there is no folder {}; make it first",
+            whole(),
+            folder.display()
+        );
+    }
+    let mut temporary = beside::begin(folder).with_context(whole)?;
+    let done = {
+        let mut out = BufWriter::new(temporary.as_file_mut());
+        let done = write(&mut out)?;
+        out.flush().with_context(whole)?;
+        done
+    };
+    let older = old.as_ref().is_some_and(|m| m.len() > 0);
+    if let Some(old) = old {
+        let file = temporary.as_file();
+        file.set_permissions(old.permissions())
+            .with_context(whole)?;
+    }
+    if let Some(other) = beside::place(temporary, path, older).with_context(whole)? {
+        say(&format!(
+            "{} stays as it was; what was found before the interruption is in {}\n",
+            path.display(),
+            other.display()
+        ));
+    }
+    Ok(done)
+}
+
+/// Writes files, by name and content, to a folder.
+pub(in crate::cli) fn files(
+    folder: &Path,
+    files: impl IntoIterator<Item = (String, String)>,
+) -> anyhow::Result<()> {
+    for (name, text) in files {
+        to(Some(&folder.join(&name)), |out| {
+            out.write_all(text.as_bytes())?;
+            Ok(crate::cli::Done::Found)
+        })?;
+    }
+    Ok(())
+}
+
+/// A value as JSON for people to read and programs to parse.
+pub(in crate::cli) fn json(
+    out: &mut dyn Write,
+    value: &impl serde::Serialize,
+) -> anyhow::Result<()> {
+    Ok(writeln!(out, "{}", serde_json::to_string_pretty(value)?)?)
+}
+
+/// No text is fitted to less.
+const NARROWEST: u16 = 40;
+
+/// Width that standard output is fitted to: what `OZOLS_WIDTH` says, else that of its terminal.
+pub(in crate::cli) fn width(path: Option<&Path>) -> Option<u16> {
+    match file(path) {
+        None => fitted(&console::Term::stdout()),
+        Some(_) => None,
+    }
+}
+
+/// The same of standard error.
+pub(in crate::cli) fn error_width() -> Option<u16> {
+    fitted(&console::Term::stderr())
+}
+
+fn fitted(to: &console::Term) -> Option<u16> {
+    // Not COLUMNS: whoever uses readline, as Python's shell does, hands it to programs whose output is kept.
+    let said = std::env::var("OZOLS_WIDTH")
+        .ok()
+        .and_then(|c| c.parse().ok());
+    let found = said.or_else(|| to.is_term().then(|| to.size().1));
+    found.map(|w: u16| w.max(NARROWEST))
+}
+
+/// Whether the reader of our output has gone away.
+pub(in crate::cli) fn is_broken_pipe(e: &anyhow::Error) -> bool {
+    e.chain().any(|c| {
+        c.downcast_ref::<std::io::Error>()
+            .is_some_and(|io| io.kind() == std::io::ErrorKind::BrokenPipe)
+    })
+}
+
+/// Whether nothing but errors is said on standard error.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// Leaves out all notes from now on.
+pub(in crate::cli) fn hush() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
+/// Says something on standard error; a closed one is no failure.
+pub(in crate::cli) fn note(text: &str) {
+    if !QUIET.load(Ordering::Relaxed) {
+        say(text);
+    }
+}
+
+/// Says something on standard error, even where only errors are wanted.
+pub(in crate::cli) fn say(text: &str) {
+    spinner::rest();
+    let _ = write!(std::io::stderr().lock(), "{}", plain(text));
+}
+
+/// Says what went wrong, in colour where standard error is a terminal that wants it (NO_COLOR, CLICOLOR_FORCE), as the
+/// parser of the arguments does.
+pub(in crate::cli) fn complain(e: &anyhow::Error) {
+    let text = match problems(e) {
+        Some(import) => import.render(true),
+        None => {
+            let style = anstyle::AnsiColor::Red.on_default().bold();
+            format!("{style}error:{style:#} {}", plain(&format!("{e:#}")))
+        }
+    };
+    coloured_note(&text);
+}
+
+/// What is wrong with a file, where that is what went wrong, or why a search did.
+pub(in crate::cli) fn problems(e: &anyhow::Error) -> Option<&ImportError> {
+    e.chain()
+        .find_map(|c| match c.downcast_ref::<api::Error>() {
+            Some(api::Error::File(problems)) => Some(problems),
+            _ => c.downcast_ref::<ImportError>(),
+        })
+}
+
+/// Says something on standard error, its colours left out where they are not wanted.
+pub(in crate::cli) fn coloured_note(text: &str) {
+    let _ = writeln!(anstream::stderr().lock(), "{}", coloured(text));
+}

@@ -1,0 +1,141 @@
+//! What is shown of a run that takes longer than a second, on a terminal only.
+
+use crate::cli::terminal::interrupt;
+use crate::cli::terminal::output;
+use crate::cli::terminal::spinner;
+use crate::model::mechanism::Mechanism;
+use crate::score::outcome::Outcome;
+use crate::score::prepared::LooksRounded;
+use crate::score::request::{List, Request};
+use crate::score::run::{self, Event, RunError, ShouldCancel, Tell};
+use crate::search::diagram::Progress;
+use crate::search::question::conditions::Conditions;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Says what a search noticed.
+pub(in crate::cli) fn note(text: String) {
+    output::note(&format!("{text}\n"));
+}
+
+/// Watches a search: shows how far it has come, and ends it early at a signal.
+pub(in crate::cli) struct Watch {
+    bar: Bar,
+    quiet: bool,
+}
+
+impl Watch {
+    pub(in crate::cli) fn new(quiet: bool) -> Watch {
+        let bar = Bar::new(quiet);
+        Watch { bar, quiet }
+    }
+
+    /// Searches a mechanism.
+    pub(in crate::cli) fn run(
+        &mut self,
+        mechanism: Mechanism,
+        request: &Request,
+    ) -> Result<Outcome, RunError> {
+        self.over(request, |cancel, tell| {
+            run::run(mechanism, request, cancel, tell)
+        })
+    }
+
+    /// Searches one that is prepared.
+    pub(in crate::cli) fn answer(
+        &mut self,
+        mechanism: Arc<Mechanism>,
+        conditions: (Conditions, Option<LooksRounded>),
+        request: &Request,
+    ) -> Result<Outcome, RunError> {
+        self.over(request, |cancel, tell| {
+            run::answer(mechanism, conditions, request, cancel, tell)
+        })
+    }
+
+    fn over<T>(
+        &mut self,
+        request: &Request,
+        search: impl FnOnce(ShouldCancel<'_>, Tell<'_>) -> T,
+    ) -> T {
+        let Watch { bar, quiet } = self;
+        search(&interrupt::pending, &mut |event| match event {
+            Event::Note(text) => note(text),
+            Event::Building(p) => {
+                spinner::rest();
+                interrupt::be_patient();
+                bar.show(p);
+            }
+            Event::Built => {
+                bar.clear();
+                spinner::show(*quiet);
+                // What was found so far is still given, unless it is a list without end; another signal stops the giving.
+                if request.list != List::All {
+                    interrupt::answered();
+                }
+            }
+        })
+    }
+}
+
+/// Shows how far a run has come.
+pub(in crate::cli) struct Bar {
+    bar: Option<ProgressBar>,
+    begun: Instant,
+    wanted: bool,
+}
+
+impl Bar {
+    pub(in crate::cli) fn new(quiet: bool) -> Self {
+        Bar {
+            bar: None,
+            begun: Instant::now(),
+            wanted: !quiet && std::io::stderr().is_terminal(),
+        }
+    }
+
+    /// Shows how far a diagram has come: layer, nodes, and an estimate.
+    fn show(&mut self, p: Progress) {
+        if !self.wanted || self.begun.elapsed() < Duration::from_secs(1) {
+            return;
+        }
+        let bar = self.bar.get_or_insert_with(|| {
+            let bar =
+                ProgressBar::with_draw_target(Some(p.of as u64), ProgressDrawTarget::stderr());
+            let style = ProgressStyle::with_template(
+                "{elapsed_precise} [{bar:30}] joint {pos}/{len} {msg} (about {eta} left)",
+            );
+            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+            bar
+        });
+        bar.set_position(p.done as u64);
+        bar.set_message(format!("{} nodes, {} in this layer", p.nodes, p.layer));
+    }
+
+    /// Shows how far a run of known length has come.
+    pub(in crate::cli) fn step(&mut self, what: &str, done: usize, of: usize) {
+        spinner::rest();
+        if !self.wanted || self.begun.elapsed() < Duration::from_secs(1) {
+            return;
+        }
+        let bar = self.bar.get_or_insert_with(|| {
+            let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+            let style = ProgressStyle::with_template(
+                "{elapsed_precise} [{bar:30}] {pos}/{len} {msg} (about {eta} left)",
+            );
+            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+            bar
+        });
+        bar.set_length(of as u64);
+        bar.set_position(done as u64);
+        bar.set_message(what.to_owned());
+    }
+
+    pub(in crate::cli) fn clear(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}

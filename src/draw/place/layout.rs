@@ -1,0 +1,232 @@
+//! Where the joints of a structural scheme go.
+//!
+//! Links are hyperedges over the joints. A layout starts from several places (the mechanism's own coordinates, Tutte's
+//! barycentric drawing with each contour as the outer face, branches on a circle with the chains between them bundled,
+//! scattered points), is relaxed by stress majorization, and the one with the least crossings and crowding is polished.
+//!
+//! # Sources
+//! Gansner, Koren & North, "Graph drawing by stress majorization", GD 2004. Tutte, "How to draw a graph", 1963.
+
+use crate::draw::place::graph::{Graph, Net, net};
+use crate::draw::place::initial_layout::{self, Start};
+use crate::draw::place::layout_penalty::Crowding;
+use crate::draw::place::mirror::Mirror;
+use crate::svg::plane::{Point, add, dot, mean, norm, scale, sub, unit};
+
+/// A finished layout; the unit of length is about the length of a bar.
+#[derive(Debug, Clone)]
+pub(in crate::draw) struct Layout {
+    /// The joints.
+    pub(in crate::draw) joints: Vec<Point>,
+    /// The middle of each link; the free end of a link with one joint.
+    pub(in crate::draw) hubs: Vec<Point>,
+}
+
+/// A layout to choose from.
+#[derive(Debug, Clone)]
+struct Candidate {
+    cost: f64,
+    /// What the cost is multiplied with.
+    favour: f64,
+    mirror: Option<Mirror>,
+    joints: Vec<Point>,
+}
+
+/// A layout of the graph, starting also from the places given for the joints.
+pub(in crate::draw) fn layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
+    let net = net(graph);
+    if let Some(joints) = initial_layout::ladder(graph) {
+        let hubs = hubs(graph, &net, &joints);
+        return Layout { joints, hubs };
+    }
+    let crowding = Crowding::new(graph);
+    let far = distances(&net);
+    let nodes = net.edges.len();
+    let rounds = (4_000_000 / (nodes * nodes).max(1)).clamp(4, 80);
+    let mut candidates: Vec<Candidate> = Vec::new();
+    let mut take = |mut at: Vec<Point>, start: &Start, favour: f64| {
+        match &start.mirror {
+            Some(mirror) => mirror.apply(&mut at),
+            None => centre(&mut at),
+        }
+        let favour = favour * if start.drawn { 0.85 } else { 1.0 };
+        let favour = favour * if start.mirror.is_some() { 0.75 } else { 1.0 };
+        let cost = crowding.cost(&at[..graph.joints]) * favour;
+        if cost.is_finite() {
+            candidates.push(Candidate {
+                cost,
+                favour,
+                mirror: start.mirror.clone(),
+                joints: at[..graph.joints].to_vec(),
+            });
+        }
+    };
+    for start in initial_layout::all(graph, &net, hints) {
+        take(start.at.clone(), &start, 1.0);
+        let mut relaxed = start.at.clone();
+        for part in 0..4 {
+            relax(&mut relaxed, &far, rounds / 4 + 1);
+            take(relaxed.clone(), &start, 1.0 - 1e-3 * f64::from(part));
+        }
+    }
+    candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    // the best symmetric ones have their chance, whatever they cost before they are polished
+    let symmetric = candidates.iter().filter(|c| c.mirror.is_some());
+    let symmetric: Vec<Candidate> = symmetric.take(2).cloned().collect();
+    candidates.truncate(5);
+    candidates.extend(symmetric);
+    let mut best: Option<Candidate> = None;
+    for mut c in candidates {
+        if crowding.violated(&c.joints) {
+            crowding.polish(&mut c.joints, c.mirror.as_ref());
+            // a symmetric or familiar drawing is worth something, not a crossing
+            let favour = if crowding.violated(&c.joints) {
+                1.0
+            } else {
+                c.favour
+            };
+            c.cost = crowding.cost(&c.joints) * favour;
+        }
+        if best.as_ref().is_none_or(|b| c.cost < b.cost) {
+            best = Some(c);
+        }
+    }
+    let joints = best.map_or_else(
+        || vec![[0.0; 2]; graph.joints],
+        |mut c| {
+            if c.mirror.is_none() {
+                level(graph, &mut c.joints);
+            }
+            c.joints
+        },
+    );
+    let hubs = hubs(graph, &net, &joints);
+    Layout { joints, hubs }
+}
+
+/// Lays the longest direction level, if there is one, with the frame below.
+fn level(graph: &Graph, at: &mut [Point]) {
+    centre(at);
+    let sum = |f: &dyn Fn(&Point) -> f64| at.iter().map(f).sum::<f64>();
+    let (xx, yy, xy) = (
+        sum(&|p| p[0] * p[0]),
+        sum(&|p| p[1] * p[1]),
+        sum(&|p| p[0] * p[1]),
+    );
+    let spread = (xx - yy).hypot(2.0 * xy);
+    if spread > 0.15 * (xx + yy) {
+        let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
+        let (c, s) = (angle.cos(), angle.sin());
+        at.iter_mut()
+            .for_each(|p| *p = [c * p[0] + s * p[1], c * p[1] - s * p[0]]);
+    }
+    let frame = graph.frame.and_then(|l| graph.links.get(l));
+    let down = mean(frame.into_iter().flatten().map(|&j| at[j]));
+    if down[1] < -0.1 {
+        at.iter_mut().for_each(|p| p[1] = -p[1]);
+    }
+}
+
+/// The middles of links; of bars between the same two joints, each bows its own way; loose ends point outward.
+fn hubs(graph: &Graph, net: &Net, joints: &[Point]) -> Vec<Point> {
+    let middle = mean(joints.iter().copied());
+    let mut out: Vec<Point> = Vec::new();
+    for (l, of) in graph.links.iter().enumerate() {
+        let centre = mean(of.iter().map(|&j| joints[j]));
+        out.push(match (of.len(), net.hub[l]) {
+            (1, _) => {
+                // away from the other link of the joint
+                let others = graph.links.iter().enumerate();
+                let other = others
+                    .filter(|(m, o)| *m != l && o.contains(&of[0]))
+                    .flat_map(|(_, o)| o.iter().filter(|&&j| j != of[0]))
+                    .map(|&j| joints[j]);
+                let from = mean(other);
+                let away = if from == [0.0; 2] && joints.len() == 1 {
+                    [1.0, 0.0]
+                } else {
+                    sub(centre, if joints.len() > 2 { middle } else { from })
+                };
+                let twin = out.iter().any(|h| norm(sub(*h, centre)) < 0.8) && joints.len() == 1;
+                let side = if twin { -1.0 } else { 1.0 };
+                add(centre, scale(unit(away), side * 0.75))
+            }
+            (2, Some(_)) => {
+                let along = unit(sub(joints[of[1]], joints[of[0]]));
+                let ends = [of[0].min(of[1]), of[0].max(of[1])];
+                let twins = graph.links[..l]
+                    .iter()
+                    .filter(|o| o.len() == 2 && ends.iter().all(|e| o.contains(e)))
+                    .count();
+                let bow = 0.42 * if twins % 2 == 0 { 1.0 } else { -1.0 } * (1 + twins / 2) as f64;
+                let mut turn = if of[0] == ends[0] { bow } else { -bow };
+                let mut polygons = graph.links.iter().filter(|o| o.len() > 2);
+                if let Some(p) = polygons.find(|o| of.iter().all(|j| o.contains(j))) {
+                    // away from the polygon it lies along
+                    let from = sub(centre, mean(p.iter().map(|&j| joints[j])));
+                    turn = turn.abs().max(0.5) * dot(from, [-along[1], along[0]]).signum();
+                }
+                add(centre, [-along[1] * turn, along[0] * turn])
+            }
+            _ => centre,
+        });
+    }
+    out
+}
+
+/// Lengths of the shortest paths between nodes; far where there is none.
+fn distances(net: &Net) -> Vec<Vec<f64>> {
+    let n = net.edges.len();
+    let apart = 3.0 + (n as f64).sqrt();
+    (0..n)
+        .map(|from| {
+            let mut d = vec![f64::INFINITY; n];
+            d[from] = 0.0;
+            let mut queue = std::collections::VecDeque::from([from]);
+            while let Some(x) = queue.pop_front() {
+                for &(y, length) in &net.edges[x] {
+                    if d[x] + length < d[y] - 1e-12 {
+                        d[y] = d[x] + length;
+                        queue.push_back(y);
+                    }
+                }
+            }
+            d.iter()
+                .map(|&v| if v.is_finite() { v } else { apart })
+                .collect()
+        })
+        .collect()
+}
+
+/// Stress majorization, node by node, with weights 1/d².
+fn relax(at: &mut [Point], far: &[Vec<f64>], rounds: usize) {
+    for _ in 0..rounds {
+        for i in 0..at.len() {
+            let (mut sum, mut weights) = ([0.0, 0.0], 0.0);
+            for j in (0..at.len()).filter(|&j| j != i) {
+                let d = far[i][j].max(1e-3);
+                let w = 1.0 / (d * d);
+                let apart = sub(at[i], at[j]);
+                let length = norm(apart);
+                let dir = if length > 1e-9 {
+                    scale(apart, 1.0 / length)
+                } else {
+                    // coincident nodes part in directions of their own
+                    let angle = 2.4 * (i * 31 + j) as f64;
+                    [angle.cos(), angle.sin()]
+                };
+                let wish = add(at[j], scale(dir, d));
+                sum = add(sum, scale(wish, w));
+                weights += w;
+            }
+            if weights > 0.0 {
+                at[i] = scale(sum, 1.0 / weights);
+            }
+        }
+    }
+}
+
+fn centre(at: &mut [Point]) {
+    let middle = mean(at.iter().copied());
+    at.iter_mut().for_each(|p| *p = sub(*p, middle));
+}

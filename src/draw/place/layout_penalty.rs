@@ -1,0 +1,253 @@
+//! How bad a layout is, and small moves that make it better.
+
+use crate::draw::place::graph::{Graph, radius, ring};
+use crate::draw::place::mirror::Mirror;
+use crate::draw::place::random::Dice;
+use crate::svg::plane::{
+    Point, add, area, cross, inside, mean, norm, segments_cross, sub, to_segment,
+};
+
+/// Joints nearer than this are too near.
+const JOINTS: f64 = 0.62;
+/// A joint nearer to a foreign link than this is too near.
+const CLEAR: f64 = 0.36;
+
+/// The graph with what the cost of a layout needs.
+#[derive(Debug)]
+pub(in crate::draw) struct Crowding<'a> {
+    graph: &'a Graph,
+    /// The links of each joint.
+    of_joint: Vec<Vec<usize>>,
+}
+
+impl<'a> Crowding<'a> {
+    pub(in crate::draw) fn new(graph: &'a Graph) -> Crowding<'a> {
+        let mut of_joint = vec![Vec::new(); graph.joints];
+        for (l, joints) in graph.links.iter().enumerate() {
+            for &j in joints {
+                of_joint[j].push(l);
+            }
+        }
+        Crowding { graph, of_joint }
+    }
+
+    /// The cost of the whole.
+    pub(in crate::draw) fn cost(&self, at: &[Point]) -> f64 {
+        let rings = self.rings(at);
+        let links: f64 = (0..rings.len())
+            .map(|l| self.shape(&rings[l], at) + self.strangers(l, &rings, at))
+            .sum();
+        let mut pairs = 0.0;
+        for l in 0..rings.len() {
+            for m in 0..l {
+                pairs += self.meet(&rings[l], &rings[m], at);
+            }
+        }
+        let mut joints = 0.0;
+        for i in 0..at.len() {
+            for j in 0..i {
+                joints += near(at[i], at[j]);
+            }
+        }
+        links + pairs + joints + self.full_contours(at)
+    }
+
+    /// Whether something crosses or crowds.
+    pub(in crate::draw) fn violated(&self, at: &[Point]) -> bool {
+        let rings = self.rings(at);
+        (0..rings.len()).any(|l| {
+            self.strangers(l, &rings, at) > 0.05
+                || (0..l).any(|m| self.meet(&rings[l], &rings[m], at) > 0.0)
+        }) || (0..at.len()).any(|i| (0..i).any(|j| near(at[i], at[j]) > 0.2))
+    }
+
+    fn rings(&self, at: &[Point]) -> Vec<Vec<usize>> {
+        self.graph.links.iter().map(|of| ring(of, at)).collect()
+    }
+
+    /// Bars of unusual length, polygons of unusual size.
+    fn shape(&self, ring: &[usize], at: &[Point]) -> f64 {
+        let m = ring.len();
+        if m < 2 {
+            return 0.0;
+        }
+        let wish = match m {
+            2 => 1.15,
+            3 => 1.1,
+            m => 2.0 * radius(m) * (std::f64::consts::PI / m as f64).sin(),
+        };
+        let mut sum: f64 = sides(ring)
+            .map(|(a, b)| {
+                let off = norm(sub(at[a], at[b])) - wish;
+                0.4 * off * off * if m > 3 { 0.4 } else { 1.0 }
+            })
+            .sum();
+        if m > 2 {
+            // flat or hollow corners
+            for i in 0..m {
+                let (a, b, c) = (ring[i], ring[(i + 1) % m], ring[(i + 2) % m]);
+                let turn = cross(sub(at[b], at[a]), sub(at[c], at[b]));
+                let least = if m == 3 { 0.45 } else { 0.0 };
+                if turn < least {
+                    sum += 1.5 * (least - turn).min(1.5) + if turn < -0.02 { 3.0 } else { 0.0 };
+                }
+            }
+        }
+        sum
+    }
+
+    /// Joints of others near or on a link.
+    fn strangers(&self, l: usize, rings: &[Vec<usize>], at: &[Point]) -> f64 {
+        let own = &self.graph.links[l];
+        let polygon: Vec<Point> = rings[l].iter().map(|&j| at[j]).collect();
+        (0..at.len())
+            .filter(|j| !own.contains(j))
+            .map(|j| self.stranger(at[j], &rings[l], &polygon, at))
+            .sum()
+    }
+
+    fn stranger(&self, p: Point, ring: &[usize], polygon: &[Point], at: &[Point]) -> f64 {
+        let mut sum = 0.0;
+        for (a, b) in sides(ring) {
+            let d = to_segment(p, at[a], at[b]);
+            if d < CLEAR {
+                sum += 6.0 * ((CLEAR - d) / CLEAR).powi(2);
+            }
+        }
+        if polygon.len() > 2 && inside(p, polygon) {
+            sum += 14.0;
+        }
+        sum
+    }
+
+    /// Crossings of two links.
+    fn meet(&self, one: &[usize], other: &[usize], at: &[Point]) -> f64 {
+        let mut sum = 0.0;
+        for (a, b) in sides(one) {
+            for (c, d) in sides(other) {
+                if a != c
+                    && a != d
+                    && b != c
+                    && b != d
+                    && segments_cross(at[a], at[b], at[c], at[d])
+                {
+                    sum += 10.0;
+                }
+            }
+        }
+        sum
+    }
+
+    /// Foreign joints within contours.
+    fn full_contours(&self, at: &[Point]) -> f64 {
+        self.graph
+            .contours
+            .iter()
+            .map(|contour| {
+                let polygon: Vec<Point> = contour.iter().map(|&j| at[j]).collect();
+                let within = (0..at.len())
+                    .filter(|j| !contour.contains(j) && inside(at[*j], &polygon))
+                    .count();
+                let c = mean(polygon.iter().copied());
+                let round: f64 = polygon.iter().map(|&p| norm(sub(p, c))).fold(0.0, f64::max);
+                // a tint must be seen
+                let small = (0.6 - area(&polygon)).max(0.0);
+                0.5 * within as f64 + 2.0 * small + if round < 0.5 { 1.0 } else { 0.0 }
+            })
+            .sum()
+    }
+
+    /// What moves of one joint change.
+    fn about(&self, j: usize, rings: &[Vec<usize>], at: &[Point]) -> f64 {
+        let own = &self.of_joint[j];
+        let mut sum = 0.0;
+        for &l in own {
+            sum += self.shape(&rings[l], at) + self.strangers(l, rings, at);
+        }
+        for (m, other) in rings.iter().enumerate() {
+            for &l in own.iter().filter(|&&l| l != m) {
+                sum += self.meet(&rings[l], other, at);
+            }
+            if !own.contains(&m) {
+                let polygon: Vec<Point> = other.iter().map(|&k| at[k]).collect();
+                sum += self.stranger(at[j], other, &polygon, at);
+            }
+        }
+        let others = (0..at.len()).filter(|&i| i != j);
+        sum + others.map(|i| near(at[i], at[j])).sum::<f64>()
+    }
+
+    fn twin_about(&self, j: usize, twin: usize, rings: &[Vec<usize>], at: &[Point]) -> f64 {
+        if twin == j {
+            0.0
+        } else {
+            self.about(twin, rings, at)
+        }
+    }
+
+    /// Annealing by moves of single joints; the same for the same graph.
+    pub(in crate::draw) fn polish(&self, at: &mut Vec<Point>, mirror: Option<&Mirror>) {
+        let n = at.len();
+        if n < 2 {
+            return;
+        }
+        let sides: usize = self.graph.links.iter().map(Vec::len).sum();
+        let moves = (3_000_000 / (8 * (sides + n)).max(1)).clamp(200, 6000);
+        let mut dice = Dice::new(n as u64);
+        let mut best = (self.cost(at), at.clone());
+        let mut now = at.clone();
+        let mut rings = self.rings(&now);
+        for step in 0..moves {
+            let cool = 1.0 - step as f64 / moves as f64;
+            let j = dice.below(n);
+            let twin = mirror.map_or(j, |m| m.image(j));
+            let before = self.about(j, &rings, &now) + self.twin_about(j, twin, &rings, &now);
+            let reach = 1.6 * cool * cool + 0.05;
+            let old = [now[j], now[twin]];
+            now[j] = add(now[j], [reach * dice.signed(), reach * dice.signed()]);
+            if twin != j {
+                now[twin] = [now[j][0], -now[j][1]];
+            } else if mirror.is_some() {
+                now[j][1] = 0.0;
+            }
+            let moved = || self.of_joint[j].iter().chain(&self.of_joint[twin]);
+            let kept: Vec<(usize, Vec<usize>)> = moved().map(|&l| (l, rings[l].clone())).collect();
+            for &l in moved() {
+                rings[l] = ring(&self.graph.links[l], &now);
+            }
+            let after = self.about(j, &rings, &now) + self.twin_about(j, twin, &rings, &now);
+            let gain = before - after;
+            if gain < 0.0 && dice.even() > (gain / (1.2 * cool * cool + 1e-9)).exp() {
+                (now[j], now[twin]) = (old[0], old[1]);
+                for (l, ring) in kept {
+                    rings[l] = ring;
+                }
+            } else if step % 16 == 0 || cool < 0.1 {
+                let cost = self.cost(&now);
+                if cost < best.0 {
+                    best = (cost, now.clone());
+                }
+            }
+        }
+        *at = best.1;
+    }
+}
+
+/// The sides of a polygon, or the one bar.
+fn sides(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
+    let count = if ring.len() > 2 {
+        ring.len()
+    } else {
+        ring.len().saturating_sub(1)
+    };
+    (0..count).map(|i| (ring[i], ring[(i + 1) % ring.len()]))
+}
+
+fn near(a: Point, b: Point) -> f64 {
+    let d = norm(sub(a, b));
+    if d < JOINTS {
+        12.0 * ((JOINTS - d) / JOINTS).powi(2)
+    } else {
+        0.0
+    }
+}

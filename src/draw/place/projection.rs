@@ -1,0 +1,323 @@
+//! Where joints are shown and from which side.
+
+pub(in crate::draw) mod places;
+mod view;
+
+use crate::draw::place::projection::view::{FLAT, face_on, unit, views};
+pub(in crate::draw) use crate::draw::place::projection::view::{View, along_z, aslant};
+use crate::draw::place::view_direction::Sight;
+use crate::geom::expr::Expr;
+use crate::geom::extent::diagonal;
+pub(in crate::draw) use crate::geom::vector::{
+    Vector, add, cross, dot, length as norm, scale, sub,
+};
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Frame, JointId, LinkId, Mechanism};
+use crate::svg::plane::{Point, Rect, norm as norm2, segments_cross, sub as sub2, to_segment};
+
+/// Joints nearer than this on paper, in pixels, are in one place.
+pub(in crate::draw) const ONE_PLACE: f64 = 1.5;
+
+/// What the axis of a joint means for a plane of motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Turn {
+    /// It turns about the axis and does not slide along it.
+    Hinge,
+    /// It may slide along the axis.
+    Slide,
+    /// No direction of it is special.
+    Any,
+}
+
+/// A joint in space.
+#[derive(Debug, Clone)]
+pub(in crate::draw) struct Place {
+    /// Its point, perhaps moved along its axis.
+    pub(in crate::draw) point: Vector,
+    /// Its frame.
+    pub(in crate::draw) x: Vector,
+    pub(in crate::draw) y: Vector,
+    pub(in crate::draw) z: Vector,
+    /// What its axis means.
+    turn: Turn,
+    /// Whether the point was moved.
+    pub(in crate::draw) moved: bool,
+}
+
+impl Place {
+    /// The same kind of joint at another point, with its axes turned.
+    pub(in crate::draw) fn carried(&self, point: Vector, turn: impl Fn(Vector) -> Vector) -> Place {
+        Place {
+            point,
+            x: turn(self.x),
+            y: turn(self.y),
+            z: turn(self.z),
+            turn: self.turn,
+            moved: self.moved,
+        }
+    }
+}
+
+/// The place of a joint, as its coordinates have it.
+fn frame(mechanism: &Mechanism, joint: JointId) -> Place {
+    let of = &mechanism.joints[joint];
+    Place {
+        turn: match of.joint_type {
+            JointType::Revolute | JointType::Universal | JointType::Slotted => Turn::Hinge,
+            JointType::Spherical | JointType::Fixed => Turn::Any,
+            _ => Turn::Slide,
+        },
+        ..turned(&of.frame)
+    }
+}
+
+/// A vector in numbers; those that are none count as 0.
+pub(in crate::draw) fn real(v: &[Expr; 3]) -> Vector {
+    let fits = |x: f64| x.is_finite() && x.abs() < 1e120;
+    v.each_ref()
+        .map(|e| Some(e.to_f64()).filter(|&x| fits(x)).unwrap_or_default())
+}
+
+/// A joint's frame in numbers; those that are none count as 0.
+pub(in crate::draw) fn turned(f: &Frame) -> Place {
+    let z = unit(real(&f.axis), [0.0, 0.0, 1.0]);
+    let reference = real(&f.reference);
+    let other = if z[0].abs() < 0.9 {
+        [1.0, 0.0, 0.0]
+    } else {
+        [0.0, 1.0, 0.0]
+    };
+    let across = |v: Vector| sub(v, scale(z, dot(v, z)));
+    let x = unit(across(reference), unit(across(other), other));
+    Place {
+        point: real(&f.point),
+        x,
+        y: cross(z, x),
+        z,
+        turn: Turn::Slide,
+        moved: false,
+    }
+}
+
+/// How a mechanism is put on paper.
+#[derive(Debug, Clone)]
+pub(in crate::draw) struct Projection {
+    /// The side it is seen from.
+    pub(in crate::draw) view: View,
+    /// Pixels in a unit of length.
+    pub(in crate::draw) scale: f64,
+    /// What comes to the origin of the paper.
+    middle: Vector,
+}
+
+impl Projection {
+    /// A point in space, in pixels from what comes to the origin of the paper.
+    pub(in crate::draw) fn in_pixels(&self, p: Vector) -> Vector {
+        scale(sub(p, self.middle), self.scale)
+    }
+
+    /// A point on paper.
+    pub(in crate::draw) fn flat(&self, p: Vector) -> Point {
+        self.view.flat(sub(p, self.middle)).map(|x| x * self.scale)
+    }
+}
+
+/// The view that is asked for, or that with least overlap, for a picture of the given size that has room for some more points,
+/// too.
+pub(in crate::draw) fn best(
+    (places, more): (&[Place], &[Vector]),
+    links: &[(LinkId, Vec<usize>)],
+    frame: LinkId,
+    room: Point,
+    sight: &Sight,
+) -> Projection {
+    let middle = middle(places);
+    let mut best: Option<(f64, Projection)> = None;
+    let candidates = match (sight.view(), planar(places)) {
+        (Some(view), _) => vec![(view, 0.0)],
+        (None, Some(normal)) => vec![(face_on(normal), 0.0)],
+        (None, None) => {
+            let few = places.len() as f64;
+            let dear = |v: &View| match v.name {
+                _ if v.axis => 1.0 + 0.15 * few,
+                "isometric" => 0.0,
+                _ => 0.4 + 0.02 * few,
+            };
+            // links in layers move in a plane as well
+            let layers = hinge(places).filter(|&n| moves_across(places, n));
+            let layers = layers.map(|n| (face_on(n), 0.0));
+            let views = views().into_iter().map(|v| (v, dear(&v)));
+            layers.into_iter().chain(views).collect()
+        }
+    };
+    for (view, dear) in candidates {
+        let view = sight.turned(view);
+        let on: Vec<Point> = places
+            .iter()
+            .map(|p| view.flat(sub(p.point, middle)))
+            .collect();
+        let beside = more.iter().map(|&p| view.flat(sub(p, middle)));
+        let area = bounds(&on.iter().copied().chain(beside).collect::<Vec<_>>());
+        let (w, h) = (area.right - area.left, area.bottom - area.top);
+        let scale = (room[0] / w.max(1e-300)).min(room[1] / h.max(1e-300));
+        let scale = if w.max(h) > 0.0 && scale.is_finite() {
+            scale
+        } else {
+            1.0
+        };
+        let on: Vec<Point> = on.iter().map(|p| [p[0] * scale, p[1] * scale]).collect();
+        let cost = dear + crowd(places, &on, links, frame);
+        if best.as_ref().is_none_or(|(least, _)| cost < least - 1e-9) {
+            let scale = scale * room_for_symbols(&on);
+            let found = Projection {
+                view,
+                scale,
+                middle,
+            };
+            best = Some((cost, found));
+        }
+    }
+    best.map_or_else(
+        || Projection {
+            view: views()[0],
+            scale: 1.0,
+            middle,
+        },
+        |(_, found)| found,
+    )
+}
+
+/// How much larger than its room a drawing is, so that symbols of joints that are not in one place have room beside each
+/// other.
+fn room_for_symbols(on: &[Point]) -> f64 {
+    const APART: f64 = 30.0;
+    const MOST: f64 = 2.2;
+    let mut least = APART;
+    for (i, &a) in on.iter().enumerate() {
+        for &b in &on[..i] {
+            let d = norm2(sub2(a, b));
+            if d > ONE_PLACE {
+                least = least.min(d);
+            }
+        }
+    }
+    (APART / least).min(MOST)
+}
+
+/// The common normal, in any direction, where all points lie in one plane and the mechanism moves in it; an axis of the
+/// coordinates where there is a choice.
+fn planar(places: &[Place]) -> Option<Vector> {
+    let size = extent(places);
+    let first = places.first()?.point;
+    // without a hinge: the plane through the points, if they are not all in a row
+    let far = |of: &dyn Fn(Vector) -> Vector| {
+        let all = places.iter().map(|p| of(sub(p.point, first)));
+        all.max_by(|a, b| norm(*a).total_cmp(&norm(*b)))
+    };
+    let along = unit(far(&|p| p)?, [0.0; 3]);
+    let spread = far(&|p| cross(along, p))?;
+    let spanned = (norm(spread) > 1e-3 * size).then(|| unit(spread, [0.0; 3]));
+    let axes = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
+    let normals = axes.into_iter().chain(hinge(places)).chain(spanned);
+    let off = |p: &Place, n: Vector| dot(sub(p.point, first), n).abs();
+    let flat = |n: &Vector| places.iter().all(|p| off(p, *n) <= FLAT * size);
+    let flat: Vec<Vector> = normals.filter(flat).collect();
+    let found = flat.iter().find(|&&n| moves_across(places, n));
+    let found = found.or_else(|| flat.iter().find(|&&n| mostly_moves_across(places, n)));
+    found.copied()
+}
+
+/// The direction of the first hinge.
+fn hinge(places: &[Place]) -> Option<Vector> {
+    let mut hinges = places.iter().filter(|p| p.turn == Turn::Hinge);
+    hinges.next().map(|p| p.z)
+}
+
+/// Whether hinges turn about this direction and other axes are along or across it.
+fn moves_across(places: &[Place], n: Vector) -> bool {
+    lies_across(places, n) == Some(0)
+}
+
+/// Whether that is so of most hinges, and the others turn about axes across it: a screw's, say, or a shaft's.
+fn mostly_moves_across(places: &[Place], n: Vector) -> bool {
+    let hinges = places.iter().filter(|p| p.turn == Turn::Hinge).count();
+    lies_across(places, n).is_some_and(|other| 2 * other < hinges)
+}
+
+/// How many hinges turn about axes across a direction; none where an axis is aslant.
+fn lies_across(places: &[Place], n: Vector) -> Option<usize> {
+    let mut other = 0;
+    for p in places.iter().filter(|p| p.turn != Turn::Any) {
+        let along = norm(cross(p.z, n)) < FLAT;
+        let across = dot(p.z, n).abs() < FLAT;
+        if !along && !across {
+            return None;
+        }
+        other += usize::from(p.turn == Turn::Hinge && !along);
+    }
+    Some(other)
+}
+
+/// How much joints and links lie on each other.
+fn crowd(places: &[Place], on: &[Point], links: &[(LinkId, Vec<usize>)], frame: LinkId) -> f64 {
+    const NEAR: f64 = 34.0;
+    const CLEAR: f64 = 14.0;
+    let mut cost = 0.0;
+    for i in 0..on.len() {
+        for j in 0..i {
+            let d = norm2(sub2(on[i], on[j]));
+            if d < NEAR && norm(sub(places[i].point, places[j].point)) > 0.0 {
+                cost += 2.0 * ((NEAR - d) / NEAR).powi(2);
+            }
+        }
+    }
+    let moving = || links.iter().filter(|(l, _)| *l != frame);
+    for (n, (_, of)) in moving().enumerate() {
+        for (a, b) in pairs(of) {
+            for (j, &p) in on.iter().enumerate() {
+                if !of.contains(&j) {
+                    let d = to_segment(p, on[a], on[b]);
+                    cost += 0.8 * ((CLEAR - d) / CLEAR).max(0.0);
+                }
+            }
+            for (_, other) in moving().take(n) {
+                let crossing =
+                    |&(c, d): &(usize, usize)| segments_cross(on[a], on[b], on[c], on[d]);
+                cost += 0.12 * pairs(other).iter().filter(|p| crossing(p)).count() as f64;
+            }
+        }
+    }
+    cost
+}
+
+/// The sides of a link.
+fn pairs(of: &[usize]) -> Vec<(usize, usize)> {
+    let n = of.len();
+    let count = if n > 2 { n } else { n.saturating_sub(1) };
+    (0..count).map(|i| (of[i], of[(i + 1) % n])).collect()
+}
+
+/// The rectangle round some points.
+pub(in crate::draw) fn bounds(points: &[Point]) -> Rect {
+    let first = points.first().copied().unwrap_or([0.0; 2]);
+    points.iter().fold(Rect::around(first, 0.0, 0.0), |r, &p| {
+        r.with(&Rect::around(p, 0.0, 0.0))
+    })
+}
+
+fn extent(places: &[Place]) -> f64 {
+    diagonal(places.iter().map(|p| p.point))
+}
+
+fn middle(places: &[Place]) -> Vector {
+    let sum = places.iter().fold([0.0; 3], |s, p| add(s, p.point));
+    scale(sum, 1.0 / places.len().max(1) as f64)
+}
+
+/// A unit vector across another.
+pub(in crate::draw) fn across(z: Vector) -> Vector {
+    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let [a, b] = axes.map(|e| sub(e, scale(z, dot(e, z))));
+    let longer = if norm(a) > norm(b) { a } else { b };
+    unit(longer, [1.0, 0.0, 0.0])
+}

@@ -1,0 +1,153 @@
+//! Sides to look from: those that are asked for by name, and those that are chosen from.
+
+use crate::draw::place::view_direction::Sight;
+use crate::geom::vector::{Vector, cross, dot, length as norm, scale, sub};
+use crate::svg::plane::Point;
+
+/// Points and axes nearer than this to a plane, relative to the size of the whole, lie in it: files of robots have some
+/// six digits.
+pub(super) const FLAT: f64 = 1e-5;
+
+/// A side to look from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct View {
+    /// To the right on paper.
+    pub(crate) right: Vector,
+    /// Up on paper.
+    pub(crate) up: Vector,
+    /// Towards the reader.
+    pub(crate) toward: Vector,
+    /// What it is called.
+    pub(crate) name: &'static str,
+    /// Along an axis of the coordinates.
+    pub(super) axis: bool,
+}
+
+impl View {
+    /// A vector on paper, where y goes down.
+    pub(crate) fn flat(&self, v: Vector) -> Point {
+        [dot(self.right, v), -dot(self.up, v)]
+    }
+}
+
+impl Sight {
+    /// The view that is asked for, if one is.
+    pub(super) fn view(&self) -> Option<View> {
+        let toward = unit(self.toward?, [0.0, 0.0, 1.0]);
+        let mut all = views().into_iter();
+        if let Some(view) = all.find(|v| norm(sub(v.toward, toward)) < FLAT) {
+            return Some(self.turned(view));
+        }
+        let name = if toward
+            .iter()
+            .all(|x| (x.abs() - toward[0].abs()).abs() < FLAT)
+        {
+            "isometric"
+        } else {
+            "seen from the side asked for"
+        };
+        Some(self.turned(upright(toward, name)))
+    }
+
+    /// A view with what goes up as it is asked for.
+    pub(super) fn turned(&self, view: View) -> View {
+        let Some(up) = self.up else { return view };
+        let right = cross(up, view.toward);
+        if norm(right) <= FLAT * norm(up) {
+            return view;
+        }
+        let right = unit(right, view.right);
+        View {
+            right,
+            up: cross(view.toward, right),
+            ..view
+        }
+    }
+}
+
+/// The views to choose from.
+pub(super) fn views() -> Vec<View> {
+    let mut out = vec![
+        View {
+            right: [1.0, 0.0, 0.0],
+            up: [0.0, 1.0, 0.0],
+            toward: [0.0, 0.0, 1.0],
+            name: "seen along z",
+            axis: true,
+        },
+        View {
+            right: [1.0, 0.0, 0.0],
+            up: [0.0, 0.0, 1.0],
+            toward: [0.0, -1.0, 0.0],
+            name: "seen along y",
+            axis: true,
+        },
+        View {
+            right: [0.0, 1.0, 0.0],
+            up: [0.0, 0.0, 1.0],
+            toward: [1.0, 0.0, 0.0],
+            name: "seen along x",
+            axis: true,
+        },
+    ];
+    let iso = (1.0f64 / 3.0).sqrt().asin().to_degrees();
+    let slanted = [(45.0, iso), (-45.0, iso), (135.0, iso), (-135.0, iso)];
+    let turns = (0..24).map(|n| 15.0 * f64::from(n) - 172.5);
+    let others = turns.flat_map(|turn| [16.0, 28.0, 42.0, 58.0].map(|height| (turn, height)));
+    for (n, (azimuth, height)) in slanted.into_iter().chain(others).enumerate() {
+        let (a, h): (f64, f64) = (f64::to_radians(azimuth), f64::to_radians(height));
+        let toward = [a.cos() * h.cos(), a.sin() * h.cos(), h.sin()];
+        let name = if n < 4 { "isometric" } else { "seen aslant" };
+        out.push(upright(toward, name));
+    }
+    out
+}
+
+/// The first isometric view.
+pub(crate) fn aslant() -> View {
+    upright([1.0, 1.0, 1.0].map(|x: f64| x / 3f64.sqrt()), "isometric")
+}
+
+/// The view along z.
+pub(crate) fn along_z() -> View {
+    views()[0]
+}
+
+/// Towards a direction, with z going up, or y where the direction is z.
+fn upright(toward: Vector, name: &'static str) -> View {
+    let right = unit(
+        cross([0.0, 0.0, 1.0], toward),
+        [toward[2].signum(), 0.0, 0.0],
+    );
+    View {
+        right,
+        up: cross(toward, right),
+        toward,
+        name,
+        axis: false,
+    }
+}
+
+/// Along a normal, from the side that the isometric views are on.
+pub(super) fn face_on(normal: Vector) -> View {
+    let mut all = views().into_iter();
+    if let Some(view) = all.find(|v| v.axis && norm(cross(v.toward, normal)) < FLAT) {
+        return view;
+    }
+    let side = dot(normal, [1.0, -1.1, 1.2]);
+    let toward = if side < 0.0 {
+        scale(normal, -1.0)
+    } else {
+        normal
+    };
+    upright(toward, "seen face-on")
+}
+
+pub(super) fn unit(a: Vector, or: Vector) -> Vector {
+    let length = norm(a);
+    if length > 1e-300 && length.is_finite() {
+        scale(a, 1.0 / length)
+    } else {
+        or
+    }
+}

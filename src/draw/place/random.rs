@@ -1,0 +1,29 @@
+//! Numbers for annealing and for scattered starts.
+
+/// Numbers that look random and are the same each time.
+#[derive(Debug)]
+pub(in crate::draw) struct Dice(u64);
+
+impl Dice {
+    pub(in crate::draw) fn new(seed: u64) -> Dice {
+        Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x2545_f491_4f6c_dd1d)
+    }
+
+    /// Even in 0..1.
+    pub(in crate::draw) fn even(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Even in -1..1.
+    pub(in crate::draw) fn signed(&mut self) -> f64 {
+        2.0 * self.even() - 1.0
+    }
+
+    /// Even among 0..n.
+    pub(in crate::draw) fn below(&mut self, n: usize) -> usize {
+        ((self.even() * n as f64) as usize).min(n.saturating_sub(1))
+    }
+}

@@ -1,0 +1,187 @@
+//! Where labels go so that none touches another or a symbol.
+
+use crate::svg::plane::{Point, Rect, norm, segments_cross, sub};
+
+/// A label that wants a place.
+#[derive(Clone, Debug)]
+pub(in crate::draw) struct Wish {
+    /// Its width.
+    pub(in crate::draw) width: f64,
+    /// Its height.
+    pub(in crate::draw) height: f64,
+    /// What it names.
+    pub(in crate::draw) anchor: Point,
+    /// How far from the anchor it must stay.
+    pub(in crate::draw) clear: f64,
+    /// Middles to try first, with their costs.
+    pub(in crate::draw) first: Vec<(Point, f64)>,
+}
+
+/// Where a label went.
+#[derive(Clone, Debug)]
+pub(in crate::draw) struct Place {
+    /// Its box.
+    pub(in crate::draw) rect: Rect,
+    /// A line to what it names, where that is not near.
+    pub(in crate::draw) leader: Option<(Point, Point)>,
+}
+
+/// A line that labels had better not lie on, and how bad that is.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::draw) struct Line {
+    pub(in crate::draw) ends: (Point, Point),
+    pub(in crate::draw) weight: f64,
+}
+
+/// The least space between a label and what is near.
+const GAP: f64 = 2.0;
+/// A label farther than this from what it names has a leader.
+const NEAR: f64 = 9.0;
+const ANGLES: usize = 24;
+
+/// Places the labels one by one; none touches what is taken or one placed before. Each joins what is taken.
+pub(in crate::draw) fn place(wishes: &[Wish], taken: &mut Vec<Rect>, lines: &[Line]) -> Vec<Place> {
+    let mut lines = lines.to_vec();
+    let mut out = Vec::new();
+    for wish in wishes {
+        let place = best(wish, taken, &lines);
+        taken.push(place.rect);
+        if let Some(ends) = place.leader {
+            lines.push(Line { ends, weight: 5.0 });
+        }
+        out.push(place);
+    }
+    out
+}
+
+fn best(wish: &Wish, taken: &[Rect], lines: &[Line]) -> Place {
+    let mut best: Option<(f64, Place)> = None;
+    let mut offer = |cost: f64, place: Place| {
+        if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+            best = Some((cost, place));
+        }
+    };
+    for &(middle, cost) in &wish.first {
+        let rect = Rect::around(middle, wish.width, wish.height);
+        if free(&rect, taken) {
+            let place = Place { rect, leader: None };
+            offer(cost + crossed(&rect, lines), place);
+        }
+    }
+    let mut away = wish.clear + GAP + 0.5;
+    let bounds = taken
+        .iter()
+        .fold(Rect::around(wish.anchor, 1.0, 1.0), |a, b| a.with(b));
+    let farthest = norm(sub(
+        [bounds.left, bounds.top],
+        [bounds.right, bounds.bottom],
+    ));
+    while away < farthest + 40.0 {
+        let far = away - wish.clear;
+        let ring = far * 0.06 + if far > NEAR { 1.5 } else { 0.0 };
+        if best.as_ref().is_some_and(|(least, _)| *least <= ring) {
+            break;
+        }
+        let mut offers = Vec::new();
+        for step in 0..ANGLES {
+            let angle = std::f64::consts::TAU * step as f64 / ANGLES as f64;
+            let rect = beside(wish, angle, away);
+            if !free(&rect, taken) {
+                continue;
+            }
+            // level and upright places read best
+            let slant = 0.25 * (2.0 * angle).sin().abs() + 0.05 * (1.0 - angle.cos());
+            let mut cost = ring + slant + crossed(&rect, lines);
+            let leader = (far > NEAR).then(|| (wish.anchor, rect.nearest(wish.anchor)));
+            if let Some((a, b)) = leader {
+                cost += over(a, b, wish.anchor, taken, lines);
+            }
+            offers.push((cost, Place { rect, leader }));
+        }
+        for (cost, place) in offers {
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, place));
+            }
+        }
+        away += 5.0 + 0.12 * far;
+    }
+    best.map_or_else(
+        || {
+            // outside of everything there always is room
+            let middle = [bounds.right + wish.width / 2.0 + GAP, wish.anchor[1]];
+            let rect = Rect::around(middle, wish.width, wish.height);
+            let leader = Some((wish.anchor, rect.nearest(wish.anchor)));
+            Place { rect, leader }
+        },
+        |(_, place)| place,
+    )
+}
+
+/// The box whose distance from the anchor is `away`, in a direction.
+fn beside(wish: &Wish, angle: f64, away: f64) -> Rect {
+    let (w, h) = (wish.width / 2.0, wish.height / 2.0);
+    let (x, y) = (angle.cos(), angle.sin());
+    // the middle lies on the outline of the rounded box of that distance
+    let (mut low, mut high) = (0.0, away + w + h);
+    for _ in 0..30 {
+        let middle = (low + high) / 2.0;
+        let (dx, dy) = (
+            ((middle * x).abs() - w).max(0.0),
+            ((middle * y).abs() - h).max(0.0),
+        );
+        if dx.hypot(dy) < away {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let middle = [wish.anchor[0] + high * x, wish.anchor[1] + high * y];
+    Rect::around(middle, wish.width, wish.height)
+}
+
+fn free(rect: &Rect, taken: &[Rect]) -> bool {
+    let grown = rect.grown(GAP);
+    !taken.iter().any(|t| t.overlaps(&grown))
+}
+
+fn crossed(rect: &Rect, lines: &[Line]) -> f64 {
+    let on = lines.iter().filter(|l| rect.meets(l.ends.0, l.ends.1));
+    on.map(|l| l.weight).sum()
+}
+
+/// How bad a leader is for what it crosses.
+fn over(a: Point, b: Point, anchor: Point, taken: &[Rect], lines: &[Line]) -> f64 {
+    let boxes = taken
+        .iter()
+        .filter(|t| t.nearest(anchor) != anchor && t.meets(a, b))
+        .count();
+    let lines = lines
+        .iter()
+        .filter(|l| segments_cross(a, b, l.ends.0, l.ends.1));
+    4.0 * boxes as f64 + lines.map(|l| 0.15 * l.weight).sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_of_one_point_keep_apart() {
+        let wish = Wish {
+            width: 60.0,
+            height: 14.0,
+            anchor: [100.0, 100.0],
+            clear: 12.0,
+            first: vec![([100.0, 100.0], 0.0)],
+        };
+        let symbol = Rect::around([100.0, 100.0], 24.0, 24.0);
+        let mut taken = vec![symbol];
+        let places = place(&vec![wish; 40], &mut taken, &[]);
+        for (i, a) in places.iter().enumerate() {
+            assert!(!a.rect.overlaps(&symbol));
+            assert!(!places[..i].iter().any(|b| b.rect.overlaps(&a.rect)));
+        }
+        assert!(places[0].leader.is_none());
+        assert!(places[39].leader.is_some());
+    }
+}

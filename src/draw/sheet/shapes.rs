@@ -1,0 +1,158 @@
+//! Polygons and bars with round corners, their hatching, and points within them.
+
+use crate::svg::plane::{Point, Rect, add, cross, dot, inside, scale, sub, unit};
+use crate::svg::xml::number;
+use std::fmt::Write as _;
+
+/// Half the width of a bar.
+pub(in crate::draw) const HALF: f64 = 8.5;
+
+/// The sides of a polygon, or the pieces of a bar.
+pub(in crate::draw) fn outline(corners: &[Point]) -> Vec<(Point, Point)> {
+    let open = corners.len() < 3;
+    let count = corners.len() - usize::from(open && !corners.is_empty());
+    (0..count)
+        .map(|i| (corners[i], corners[(i + 1) % corners.len()]))
+        .collect()
+}
+
+/// The outline of a polygon or bar, `r` away from it, with round corners.
+pub(in crate::draw) fn rounded(corners: &[Point], r: f64) -> String {
+    let n = corners.len();
+    let mut d = String::new();
+    let turn: f64 = (0..n)
+        .map(|i| cross(corners[i], corners[(i + 1) % n]))
+        .sum();
+    let mut corners = corners.to_vec();
+    if turn < 0.0 {
+        corners.reverse();
+    }
+    let normal = |i: usize| {
+        let along = unit(sub(corners[(i + 1) % n], corners[i % n]));
+        [along[1], -along[0]]
+    };
+    for (i, &corner) in corners.iter().enumerate() {
+        let (before, after) = (normal(i + n - 1), normal(i));
+        let hollow = cross(before, after) < -1e-9;
+        let c = if i == 0 { 'M' } else { 'L' };
+        if hollow {
+            let miter = (1.0 + dot(before, after)).max(0.3);
+            let p = add(corner, scale(add(before, after), r / miter));
+            let _ = write!(d, "{c}{} {}", number(p[0]), number(p[1]));
+        } else {
+            let (p, q) = (add(corner, scale(before, r)), add(corner, scale(after, r)));
+            let _ = write!(
+                d,
+                "{c}{} {}A{r} {r} 0 0 1 {} {}",
+                number(p[0]),
+                number(p[1]),
+                number(q[0]),
+                number(q[1])
+            );
+        }
+    }
+    d.push('Z');
+    d
+}
+
+/// Hatching within a polygon or bar.
+pub(in crate::draw) fn hatch(corners: &[Point]) -> String {
+    hatch_with(corners, HALF - 1.0, 6.5)
+}
+
+pub(in crate::draw) fn hatch_with(corners: &[Point], half: f64, step: f64) -> String {
+    // a polygon that stands for the outline: arcs as short lines
+    let mut area: Vec<Vec<Point>> = Vec::new();
+    for (a, b) in outline(corners) {
+        let along = unit(sub(b, a));
+        let start = (-along[0]).atan2(along[1]);
+        let arc = |from: f64, at: Point| {
+            (0..=12).map(move |i| {
+                let angle = from + std::f64::consts::PI * f64::from(i) / 12.0;
+                add(at, [half * angle.cos(), half * angle.sin()])
+            })
+        };
+        area.push(
+            arc(start, b)
+                .chain(arc(start + std::f64::consts::PI, a))
+                .collect(),
+        );
+    }
+    if corners.len() > 2 {
+        area.push(corners.to_vec());
+    }
+    let across = |p: Point| p[0] + p[1];
+    let all = area.iter().flatten().map(|&p| across(p));
+    let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
+        (l.min(v), h.max(v))
+    });
+    let mut d = String::new();
+    let mut level = low + step;
+    let gap = step * std::f64::consts::SQRT_2;
+    while level < high && d.len() < 40_000 {
+        for (a, b) in spans(&area, level) {
+            let (x1, x2) = ((level + a) / 2.0, (level + b) / 2.0);
+            let _ = write!(
+                d,
+                "M{} {}L{} {}",
+                number(x1),
+                number(level - x1),
+                number(x2),
+                number(level - x2)
+            );
+        }
+        level += gap;
+    }
+    d
+}
+
+/// Where the line x + y = level runs within a union of polygons, as ranges of x - y.
+fn spans(area: &[Vec<Point>], level: f64) -> Vec<(f64, f64)> {
+    let mut ranges: Vec<(f64, f64)> = Vec::new();
+    for polygon in area {
+        let mut cuts: Vec<f64> = Vec::new();
+        for (i, &a) in polygon.iter().enumerate() {
+            let b = polygon[(i + 1) % polygon.len()];
+            let (s, t) = (a[0] + a[1] - level, b[0] + b[1] - level);
+            if (s > 0.0) != (t > 0.0) {
+                let f = s / (s - t);
+                cuts.push((a[0] - a[1]) * (1.0 - f) + (b[0] - b[1]) * f);
+            }
+        }
+        cuts.sort_by(f64::total_cmp);
+        ranges.extend(cuts.chunks_exact(2).map(|c| (c[0], c[1])));
+    }
+    ranges.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut out: Vec<(f64, f64)> = Vec::new();
+    for r in ranges {
+        match out.last_mut() {
+            Some(last) if r.0 <= last.1 => last.1 = last.1.max(r.1),
+            _ => out.push(r),
+        }
+    }
+    out
+}
+
+/// Points of a grid within a polygon.
+pub(in crate::draw) fn grid(polygon: &[Point], steps: usize) -> Vec<Point> {
+    let Some(&first) = polygon.first() else {
+        return Vec::new();
+    };
+    let area = polygon.iter().fold(Rect::around(first, 0.0, 0.0), |r, &p| {
+        r.with(&Rect::around(p, 0.0, 0.0))
+    });
+    let mut out = Vec::new();
+    for i in 0..steps {
+        for j in 0..steps {
+            let t = |k: usize| (k as f64 + 0.5) / steps as f64;
+            let p = [
+                area.left + (area.right - area.left) * t(i),
+                area.top + (area.bottom - area.top) * t(j),
+            ];
+            if inside(p, polygon) {
+                out.push(p);
+            }
+        }
+    }
+    out
+}

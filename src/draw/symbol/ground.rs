@@ -1,0 +1,174 @@
+//! The ground of a kinematic scheme: where the frame is, once for all joints of one place.
+
+use crate::draw::place::projection::bounds;
+use crate::draw::sheet::Sheet;
+use crate::model::mechanism::LinkId;
+use crate::svg::plane::{Point, Rect, add, dot, norm, polyline, scale, sub, unit};
+use std::f64::consts::TAU;
+
+/// Half the hatched line under a pivot.
+const PIVOT: f64 = 11.0;
+/// Half the hatched line that a block slides along.
+const RAIL: f64 = 24.0;
+
+/// A joint as the ground has to know it.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::draw) struct Foot {
+    pub(in crate::draw) at: Point,
+    pub(in crate::draw) room: Rect,
+    /// The direction of a block's slide on paper, and how far its side is from its middle.
+    pub(in crate::draw) slide: Option<(Point, f64)>,
+}
+
+/// The ground at a joint: from the joint to the middle of the hatched line.
+pub(in crate::draw) struct Ground {
+    pub(in crate::draw) from: Point,
+    pub(in crate::draw) to: Point,
+    /// Half the hatched line; a block slides along it, so that no line joins the two, where it is a rail.
+    half: f64,
+}
+
+impl Ground {
+    /// Under a pivot.
+    pub(in crate::draw) fn pivot(from: Point, to: Point) -> Ground {
+        Ground {
+            from,
+            to,
+            half: PIVOT,
+        }
+    }
+
+    /// Makes a rail long enough for a block that goes from `low` to `high` of where it is at rest.
+    pub(in crate::draw) fn lengthen(&mut self, low: Point, high: Point) {
+        if self.is_rail() {
+            let by = scale(add(low, high), 0.5);
+            (self.from, self.to) = (add(self.from, by), add(self.to, by));
+            self.half += norm(sub(high, low)) / 2.0;
+        }
+    }
+
+    /// Whether it is the rail of a block.
+    fn is_rail(&self) -> bool {
+        self.half > PIVOT
+    }
+
+    /// The line from the joint to the ground, where there is one.
+    pub(in crate::draw) fn stem(&self) -> Option<(Point, Point)> {
+        (!self.is_rail()).then_some((self.from, self.to))
+    }
+
+    fn across(&self) -> (Point, Point) {
+        let out = unit(sub(self.to, self.from));
+        ([-out[1], out[0]], out)
+    }
+
+    pub(in crate::draw) fn rect(&self) -> Rect {
+        let (side, out) = self.across();
+        let far = add(self.to, scale(out, 6.0));
+        let corners = [
+            add(self.to, scale(side, self.half)),
+            sub(self.to, scale(side, self.half)),
+            add(far, scale(side, self.half + 3.0)),
+            sub(far, scale(side, self.half + 3.0)),
+        ];
+        bounds(&corners)
+    }
+
+    pub(in crate::draw) fn draw(&self, sheet: &mut Sheet) {
+        let (side, out) = self.across();
+        if let Some((a, b)) = self.stem() {
+            sheet.line("bone", a, b);
+        }
+        sheet.line(
+            "bone",
+            add(self.to, scale(side, self.half)),
+            sub(self.to, scale(side, self.half)),
+        );
+        let mut d = String::new();
+        let strokes = ((self.half - 1.0) / 2.5).floor() as i32 + 1;
+        for i in 0..strokes {
+            let a = add(self.to, scale(side, self.half - 1.0 - 5.0 * f64::from(i)));
+            let b = add(add(a, scale(out, 6.0)), scale(side, -4.0));
+            d += &polyline(&[a, b], false);
+        }
+        sheet.path("fine", &d);
+    }
+}
+
+/// How much two directions are one.
+fn beside(dir: Point, other: Point) -> f64 {
+    let along = dot(dir, unit(other));
+    if along > 0.5 { along } else { 0.0 }
+}
+
+/// The ground at each place of the frame's joints, where there is most room; the free ends of links are given with their
+/// joints.
+pub(in crate::draw) fn grounds(
+    feet: &[Foot],
+    links: &[(LinkId, Vec<usize>)],
+    frame: LinkId,
+    loose: &[(usize, Point)],
+) -> Vec<Ground> {
+    let mut out: Vec<Ground> = Vec::new();
+    let Some((_, of)) = links.iter().find(|(l, _)| *l == frame) else {
+        return out;
+    };
+    let together = |a: Point, b: Point| norm(sub(a, b)) < crate::draw::place::projection::ONE_PLACE;
+    for (n, &i) in of.iter().enumerate() {
+        let at = feet[i].at;
+        if of[..n].iter().any(|&k| together(feet[k].at, at)) {
+            continue;
+        }
+        let here: Vec<usize> = (0..feet.len())
+            .filter(|&k| together(feet[k].at, at))
+            .collect();
+        let room = here
+            .iter()
+            .fold(feet[i].room, |r, &k| r.with(&feet[k].room));
+        let rail = here
+            .iter()
+            .filter(|k| of.contains(k))
+            .find_map(|&k| feet[k].slide);
+        let reach = (room.right - room.left).min(room.bottom - room.top) / 2.0 + 9.0;
+        let mut best: Option<(f64, Ground)> = None;
+        for step in 0..16 {
+            let angle = TAU * f64::from(step) / 16.0;
+            let (dir, ground) = match rail {
+                Some((along, off)) => {
+                    let side = [-along[1], along[0]];
+                    let dir = scale(side, if step % 2 == 0 { 1.0 } else { -1.0 });
+                    let to = add(at, scale(dir, off));
+                    let half = RAIL;
+                    (dir, Ground { from: at, to, half })
+                }
+                None => {
+                    let dir = [angle.cos(), angle.sin()];
+                    (dir, Ground::pivot(at, add(at, scale(dir, reach))))
+                }
+            };
+            // straight down is best, then what is clear
+            let aslant = if step % 4 == 0 { 0.0 } else { 0.9 };
+            let mut cost = 0.25 * (1.0 - dir[1]) + aslant;
+            let near = ground.rect().grown(1.0);
+            for other in feet.iter().filter(|f| !together(f.at, at)) {
+                cost += if near.overlaps(&other.room) { 4.0 } else { 0.0 };
+            }
+            cost += 3.0 * out.iter().filter(|g| g.rect().overlaps(&near)).count() as f64;
+            for (_, other) in links.iter().filter(|(l, _)| *l != frame) {
+                if other.iter().any(|j| here.contains(j)) {
+                    for &j in other.iter().filter(|j| !here.contains(j)) {
+                        cost += 2.5 * beside(dir, sub(feet[j].at, at));
+                    }
+                }
+            }
+            for (_, end) in loose.iter().filter(|(j, _)| here.contains(j)) {
+                cost += 2.5 * beside(dir, sub(*end, at));
+            }
+            if best.as_ref().is_none_or(|(least, _)| cost < least - 1e-9) {
+                best = Some((cost, ground));
+            }
+        }
+        out.extend(best.map(|(_, g)| g));
+    }
+    out
+}

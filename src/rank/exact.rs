@@ -1,0 +1,9 @@
+//! Ranks and kernels in exact arithmetic: modulo primes, over the rationals, and certificates of them.
+
+pub mod certificate;
+pub(in crate::rank) mod elimination_order;
+pub mod field;
+pub(in crate::rank) mod kernel;
+pub mod modular;
+pub mod rational;
+pub mod reconstruct;

@@ -1,0 +1,152 @@
+//! Certificates of rank: made here, checked by [`crate::verify`].
+//!
+//! ```
+//! use ozols::file::text::mechanism_from_str;
+//! use ozols::model::mechanism::StateId;
+//! use ozols::rank::exact::certificate::{certify, matrix, number_field};
+//! use ozols::verify;
+//!
+//! let text = ozols::builtin::text("gripper-10").expect("it is built in");
+//! let gripper = mechanism_from_str("gripper-10.toml", text)?;
+//! let certificate = certify(&gripper, StateId::FREE)?;
+//!
+//! // Whoever doubts it needs only the file and the certificate.
+//! let field = number_field(&gripper, StateId::FREE)?;
+//! let j = matrix(&field, &gripper, StateId::FREE)?;
+//! assert_eq!(verify::check(&j, &certificate)?, 13);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use crate::closure::coupling::coefficients;
+use crate::closure::matrix::Closure;
+use crate::geom::exact::ExactError;
+use crate::geom::number_field::{NumberField, NumberFieldError};
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::exact::field::{coordinates, normal};
+use crate::rank::exact::kernel::Kernel;
+pub use crate::rank::exact::kernel::{Budget, NoCertificate};
+pub use crate::verify::certificate::Certificate;
+use crate::verify::certificate::{FieldClaim, Witness};
+use crate::verify::matrix::MatrixOverRing;
+use crate::verify::{self, Flaw};
+
+/// The number field of the joints present in a state.
+///
+/// # Errors
+/// Where their roots and angles have none that is small enough.
+pub fn number_field(
+    mechanism: &Mechanism,
+    state: StateId,
+) -> Result<NumberField, NumberFieldError> {
+    let frames = mechanism
+        .joints_in(state)
+        .map(|j| &mechanism.joints[j].frame);
+    let couplings = coefficients(mechanism, state);
+    NumberField::for_expressions(
+        frames
+            .flat_map(coordinates)
+            .chain(normal(mechanism))
+            .chain(&couplings),
+    )
+}
+
+/// J of a state over its number field: what a certificate of it is checked against.
+///
+/// # Errors
+/// Where a coordinate has no value in the field.
+///
+/// # Complexity
+/// O(entries) operations in the field.
+pub fn matrix(
+    field: &NumberField,
+    mechanism: &Mechanism,
+    state: StateId,
+) -> Result<MatrixOverRing, ExactError> {
+    let closure = Closure::new(field, mechanism, state)?;
+    let columns = closure.dense(field);
+    let size = [closure.rows(), columns.len()];
+    let entries = columns.into_iter().enumerate().flat_map(|(c, column)| {
+        column
+            .into_iter()
+            .enumerate()
+            .map(move |(r, number)| (r, c, number))
+    });
+    MatrixOverRing::new(field.ring().clone(), field.cosine_order(), size, entries).ok_or_else(
+        || ExactError::NotInField {
+            expression: "an entry of the matrix".to_owned(),
+        },
+    )
+}
+
+/// A certificate of the rank of a state's J, which [`verify::check`] has confirmed.
+///
+/// # Errors
+/// A [`NoCertificate`] where there is none within the [`Budget`].
+///
+/// # Complexity
+/// As [`certify_matrix`].
+pub fn certify(mechanism: &Mechanism, state: StateId) -> Result<Certificate, NoCertificate> {
+    certify_within(mechanism, state, Budget::default())
+}
+
+/// As [`certify`], within a budget.
+///
+/// # Errors
+/// A [`NoCertificate`] where there is none within the budget.
+///
+/// # Complexity
+/// As [`certify_matrix`].
+pub fn certify_within(
+    mechanism: &Mechanism,
+    state: StateId,
+    budget: Budget,
+) -> Result<Certificate, NoCertificate> {
+    let field = number_field(mechanism, state)?;
+    let matrix = matrix(&field, mechanism, state)?;
+    certify_matrix(&field, &matrix, &mechanism.states[state], budget)
+}
+
+/// A certificate of the rank of a matrix over a number field.
+///
+/// # Errors
+/// A [`NoCertificate`] where there is none within the budget.
+///
+/// # Complexity
+/// For each prime, of which there are some two for each 60 bits of the kernel's numbers, O(d · rows · rank · columns +
+/// d² · kernel entries) operations modulo it for degree d; then as [`verify::check`].
+pub fn certify_matrix(
+    field: &NumberField,
+    matrix: &MatrixOverRing,
+    state: &str,
+    budget: Budget,
+) -> Result<Certificate, NoCertificate> {
+    let ring = field.ring();
+    let witnesses = field.witnesses().ok_or(NoCertificate::NoPrimes)?;
+    let field_claim = FieldClaim {
+        cosine_order: field.cosine_order(),
+        relations: (0..ring.generators())
+            .map(|g| ring.relation(g).to_vec())
+            .collect(),
+        witnesses: witnesses
+            .into_iter()
+            .map(|(prime, images)| Witness { prime, images })
+            .collect(),
+    };
+    Kernel::new(field, matrix, budget).run(|minor, kernel| {
+        let certificate = Certificate {
+            state: state.to_owned(),
+            rows: matrix.rows(),
+            columns: matrix.columns(),
+            rank: minor.columns.len(),
+            field: field_claim.clone(),
+            minor,
+            kernel,
+        };
+        match verify::check(matrix, &certificate) {
+            Ok(_) => Ok(Some(certificate)),
+            // Numbers that looked settled and are not yet.
+            Err(Flaw::NotInKernel { .. }) => Ok(None),
+            Err(flaw) => Err(NoCertificate::Rejected(flaw)),
+        }
+    })
+}

@@ -1,0 +1,197 @@
+//! The order in which contours are eliminated, fewest neighbours first, and what each one's front is made of.
+
+use crate::closure::matrix::{Closure, Column};
+use crate::linalg::modp::Residue;
+use crate::model::mechanism::JointId;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// Up to so many contours, looking at all is faster than a heap.
+const FEW: usize = 12;
+
+/// A set of contours for each contour, as rows of bits.
+pub(in crate::rank) struct Sets {
+    words: usize,
+    bits: Vec<u64>,
+}
+
+impl Sets {
+    fn new(k: usize) -> Sets {
+        let words = k.div_ceil(64);
+        Sets {
+            words,
+            bits: vec![0; k * words],
+        }
+    }
+
+    fn insert(&mut self, of: usize, x: usize) {
+        self.bits[of * self.words + x / 64] |= 1 << (x % 64);
+    }
+
+    fn remove(&mut self, of: usize, x: usize) {
+        self.bits[of * self.words + x / 64] &= !(1 << (x % 64));
+    }
+
+    fn row(&self, of: usize) -> &[u64] {
+        &self.bits[of * self.words..(of + 1) * self.words]
+    }
+
+    pub(in crate::rank) fn len(&self, of: usize) -> usize {
+        self.row(of).iter().map(|w| w.count_ones() as usize).sum()
+    }
+
+    fn join(&mut self, of: usize, with: usize) {
+        for w in 0..self.words {
+            self.bits[of * self.words + w] |= self.bits[with * self.words + w];
+        }
+    }
+
+    /// Calls `visit` with each member, ascending.
+    pub(in crate::rank) fn each(&self, of: usize, mut visit: impl FnMut(usize)) {
+        for (w, &word) in self.row(of).iter().enumerate() {
+            let mut left = word;
+            while left != 0 {
+                visit(w * 64 + left.trailing_zeros() as usize);
+                left &= left - 1;
+            }
+        }
+    }
+}
+
+/// What is known before any arithmetic. A coupling takes part as one more contour, of whose rows all but the first are
+/// zeros.
+pub(in crate::rank) struct Plan {
+    /// Per joint, where its columns begin and end.
+    columns_of: Vec<(usize, usize)>,
+    /// Per joint, where its contours begin in `passes`; one more at the end.
+    passes_from: Vec<usize>,
+    /// The contours of each joint, with the direction it is passed in.
+    passes: Vec<(usize, bool)>,
+    /// The contours in the order they are eliminated in.
+    pub(in crate::rank) order: Vec<usize>,
+    /// Per contour, a number that is greater the later it comes in the order.
+    pub(in crate::rank) place: Vec<usize>,
+    /// Per contour, those that its front has rows of besides its own.
+    pub(in crate::rank) neighbours: Sets,
+}
+
+impl Plan {
+    pub(in crate::rank) fn new(closure: &Closure<Residue>) -> Plan {
+        let (k, joints) = (
+            closure.contours.len() + closure.couplings.len(),
+            closure.columns.last().map_or(0, |c| c.joint.index() + 1),
+        );
+        // Joints without columns (rigid ones) link no contours.
+        let mut columns_of = vec![(0, 0); joints];
+        for (i, c) in closure.columns.iter().enumerate() {
+            let range = &mut columns_of[c.joint];
+            if range.1 == 0 {
+                range.0 = i;
+            }
+            range.1 = i + 1;
+        }
+        let with_columns = |j: JointId| columns_of.get(j.index()).is_some_and(|r| r.1 > 0);
+        let incidences = || {
+            let contours = closure.contours.iter().enumerate();
+            let couplings = (closure.contours.len()..).zip(&closure.couplings);
+            contours
+                .flat_map(|(i, c)| c.joints.iter().map(move |&(j, forward)| (i, j, forward)))
+                .filter(|&(_, j, _)| with_columns(j))
+                .chain(couplings.flat_map(|(i, c)| {
+                    c.entries
+                        .each_ref()
+                        .map(|(at, _)| (i, closure.columns[*at].joint, true))
+                }))
+        };
+        let mut passes_from = vec![0; joints + 1];
+        for (_, j, _) in incidences() {
+            passes_from[j.index() + 1] += 1;
+        }
+        for j in 0..joints {
+            passes_from[j + 1] += passes_from[j];
+        }
+        let mut passes = vec![(0, true); passes_from[joints]];
+        for (i, j, forward) in incidences() {
+            // The starts move to the ends, and back below.
+            passes[passes_from[j]] = (i, forward);
+            passes_from[j] += 1;
+        }
+        passes_from.rotate_right(1);
+        passes_from[0] = 0;
+        let mut neighbours = Sets::new(k);
+        for j in 0..joints {
+            let of = &passes[passes_from[j]..passes_from[j + 1]];
+            for &(a, _) in of {
+                for &(b, _) in of.iter().filter(|(b, _)| *b != a) {
+                    neighbours.insert(a, b);
+                }
+            }
+        }
+        let (order, place) = fewest_neighbours_first(k, &mut neighbours);
+        Plan {
+            columns_of,
+            passes_from,
+            passes,
+            order,
+            place,
+            neighbours,
+        }
+    }
+
+    pub(in crate::rank) fn passes(&self, joint: JointId) -> &[(usize, bool)] {
+        match self.passes_from.get(joint.index()..joint.index() + 2) {
+            Some(range) => &self.passes[range[0]..range[1]],
+            None => &[],
+        }
+    }
+
+    pub(in crate::rank) fn columns<'a>(
+        &self,
+        closure: &'a Closure<Residue>,
+        joint: JointId,
+    ) -> impl Iterator<Item = (usize, &'a Column<Residue>)> {
+        let (from, to) = self.columns_of[joint];
+        (from..).zip(&closure.columns[from..to])
+    }
+}
+
+/// The order of elimination, and for each contour a number that grows along it; leaves in each set the neighbours that
+/// the contour has when its turn comes.
+fn fewest_neighbours_first(k: usize, neighbours: &mut Sets) -> (Vec<usize>, Vec<usize>) {
+    // Above all degrees.
+    const DONE: usize = usize::MAX / 2;
+    let mut degree: Vec<usize> = (0..k).map(|c| neighbours.len(c)).collect();
+    let mut order = Vec::with_capacity(k);
+    let mut near = Vec::with_capacity(k.min(64));
+    let mut heap = BinaryHeap::new();
+    if k > FEW {
+        heap.extend(degree.iter().enumerate().map(|(c, &d)| Reverse((d, c))));
+    }
+    while order.len() < k {
+        let c = if k > FEW {
+            match heap.pop() {
+                Some(Reverse((d, c))) if degree[c] == d => c,
+                _ => continue,
+            }
+        } else {
+            (0..k).min_by_key(|&c| degree[c]).unwrap_or(0)
+        };
+        degree[c] = DONE + order.len();
+        order.push(c);
+        near.clear();
+        neighbours.each(c, |n| near.push(n));
+        for &n in &near {
+            neighbours.join(n, c);
+            neighbours.remove(n, n);
+            neighbours.remove(n, c);
+            let now = neighbours.len(n);
+            if now != degree[n] {
+                degree[n] = now;
+                if k > FEW {
+                    heap.push(Reverse((now, n)));
+                }
+            }
+        }
+    }
+    (order, degree)
+}

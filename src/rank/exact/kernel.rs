@@ -1,0 +1,417 @@
+//! The kernel of a matrix over a number field, in reduced form, from its images modulo many primes.
+//!
+//! At a prime that splits the field there are as many homomorphisms as its degree. The reduced kernels of the images are
+//! the images of the reduced kernel, so that their values give the coordinates of each entry modulo the prime; the
+//! coordinates themselves follow by the Chinese remainder theorem and rational reconstruction.
+//!
+//! # Sources
+//! von zur Gathen & Gerhard, "Modern Computer Algebra", ch. 5 (computing modulo many small primes, Chinese remainders,
+//! rational reconstruction).
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::One;
+use thiserror::Error;
+
+use crate::geom::exact::ExactError;
+use crate::geom::number_field::splitting::Splitting;
+use crate::geom::number_field::{NumberField, NumberFieldError};
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::{Field, Residue};
+use crate::linalg::number_ring::Element;
+use crate::rank::exact::reconstruct::{Modulus, Settled, Unknown, inverse_of};
+use crate::verify::Flaw;
+use crate::verify::certificate::{KernelVector, Minor};
+use crate::verify::matrix::MatrixOverRing;
+
+/// Primes that may be useless before the search is given up.
+const MAX_BAD_PRIMES: usize = 64;
+
+/// Numbers in a row that may be too long yet before no more are looked at.
+const MAX_FAILURES: usize = 8;
+
+/// Why there is no certificate. The rank modulo primes is not in doubt for that.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum NoCertificate {
+    /// The coordinates have no number field to compute in.
+    #[error(transparent)]
+    Field(#[from] NumberFieldError),
+    /// The matrix has no entries in the field.
+    #[error(transparent)]
+    Exact(#[from] ExactError),
+    /// The kernel is larger than the budget allows.
+    #[error("the kernel has {coordinates} coordinates, over the budget")]
+    TooLarge {
+        /// f · (f - r) · degree.
+        coordinates: usize,
+    },
+    /// It would take longer than the budget allows.
+    #[error("it takes some {operations} operations, over the budget")]
+    TooMuchWork {
+        /// Operations done and to be done.
+        operations: u64,
+    },
+    /// The numbers in the kernel are longer than the budget allows.
+    #[error("the numbers in the kernel are not settled after {primes} primes")]
+    TooManyPrimes {
+        /// Primes used.
+        primes: usize,
+    },
+    /// Not enough primes split the field.
+    #[error("no prime was found that splits the number field, or shows that it is one")]
+    NoPrimes,
+    /// The certificate that was made has a flaw: a bug.
+    #[error("the certificate did not stand up: {0}; report this with the file")]
+    Rejected(Flaw),
+}
+
+/// How much a certificate may cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Budget {
+    /// Most coordinates of a kernel, f · (f - r) · degree.
+    pub coordinates: usize,
+    /// Most primes.
+    pub primes: usize,
+    /// Most elementary operations, of some nanoseconds each.
+    pub operations: u64,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Budget {
+            coordinates: 2_000_000,
+            primes: 400,
+            operations: 2_000_000_000,
+        }
+    }
+}
+
+/// The pivots of a matrix modulo a prime.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Pivots {
+    rows: Vec<usize>,
+    columns: Vec<usize>,
+}
+
+impl Pivots {
+    /// A prime can only lower the rank and move the pivots to the right.
+    fn worse_than(&self, other: &Pivots) -> bool {
+        (other.columns.len(), &self.columns) > (self.columns.len(), &other.columns)
+    }
+}
+
+/// The matrix modulo a prime under one homomorphism, reduced.
+struct Image {
+    pivots: Pivots,
+    /// Entries of the reduced kernel at the pivots: vector by vector, pivots ascending.
+    entries: Vec<Residue>,
+}
+
+/// What one prime says.
+struct Views {
+    pivots: Pivots,
+    minor: Minor,
+    /// Coordinates of the kernel's entries at the pivots, entry by entry.
+    coordinates: Vec<Residue>,
+}
+
+/// A kernel that is being put together.
+#[derive(Debug)]
+pub(in crate::rank) struct Kernel<'a> {
+    field: &'a NumberField,
+    matrix: &'a MatrixOverRing,
+    budget: Budget,
+    modulus: Modulus,
+    found: Option<(Pivots, Minor)>,
+    unknowns: Vec<Unknown>,
+    operations: u64,
+}
+
+impl<'a> Kernel<'a> {
+    pub(in crate::rank) fn new(
+        field: &'a NumberField,
+        matrix: &'a MatrixOverRing,
+        budget: Budget,
+    ) -> Self {
+        Kernel {
+            field,
+            matrix,
+            budget,
+            modulus: Modulus::default(),
+            found: None,
+            unknowns: Vec::new(),
+            operations: 0,
+        }
+    }
+
+    /// Takes primes until the kernel has stopped changing and `confirm` is content with it: it is handed the minor and
+    /// the vectors, and says false where they were found too early.
+    pub(in crate::rank) fn run<T>(
+        mut self,
+        mut confirm: impl FnMut(Minor, Vec<KernelVector>) -> Result<Option<T>, NoCertificate>,
+    ) -> Result<T, NoCertificate> {
+        let degree = self.field.ring().dimension();
+        let (mut bad, mut attempt) = (0, 1);
+        for splitting in self.field.splittings() {
+            let f = splitting.field;
+            let used = self.modulus.primes();
+            if used >= self.budget.primes {
+                return Err(NoCertificate::TooManyPrimes { primes: used });
+            }
+            let Some(views) = self.views(&splitting) else {
+                bad += 1;
+                if bad > MAX_BAD_PRIMES {
+                    break;
+                }
+                continue;
+            };
+            if let Some((pivots, _)) = &self.found
+                && *pivots != views.pivots
+                && views.pivots.worse_than(pivots)
+            {
+                bad += 1;
+                if bad > MAX_BAD_PRIMES {
+                    break;
+                }
+                continue;
+            }
+            if self
+                .found
+                .as_ref()
+                .is_none_or(|(p, _)| p.columns != views.pivots.columns)
+            {
+                // The first prime, or all those before were unlucky.
+                let free = self.matrix.columns() - views.pivots.columns.len();
+                let coordinates = [self.matrix.columns(), free, degree]
+                    .into_iter()
+                    .fold(1, usize::saturating_mul);
+                if coordinates > self.budget.coordinates {
+                    return Err(NoCertificate::TooLarge { coordinates });
+                }
+                self.unknowns = vec![Unknown::default(); views.coordinates.len()];
+                self.modulus = Modulus::default();
+                self.found = Some((views.pivots, views.minor));
+                attempt = 1;
+            }
+            let Some(inverse) = inverse_of(&self.modulus, f) else {
+                continue;
+            };
+            let mut quiet = self.modulus.primes() > 0;
+            for (unknown, &residue) in self.unknowns.iter_mut().zip(&views.coordinates) {
+                quiet &= unknown.see(f, residue, &self.modulus, inverse);
+            }
+            self.modulus.extend(f);
+            let primes = self.modulus.primes();
+            if quiet {
+                let vectors = self.vectors();
+                self.operations += self.cost_of_checking(&vectors);
+                self.within_budget()?;
+                if let Some((_, minor)) = &self.found
+                    && let Some(done) = confirm(minor.clone(), vectors)?
+                {
+                    return Ok(done);
+                }
+            } else {
+                let open = self
+                    .unknowns
+                    .iter()
+                    .filter(|u| matches!(u, Unknown::Open(_)));
+                self.operations += (open.count() * primes) as u64;
+            }
+            // Reconstruction costs the square of the number of primes: not after every one.
+            if primes >= attempt {
+                self.settle()?;
+                attempt = primes + 1 + primes / 8;
+            }
+            self.within_budget()?;
+        }
+        Err(NoCertificate::NoPrimes)
+    }
+
+    fn within_budget(&self) -> Result<(), NoCertificate> {
+        let operations = self.operations;
+        if operations > self.budget.operations {
+            return Err(NoCertificate::TooMuchWork { operations });
+        }
+        Ok(())
+    }
+
+    /// Operations of the checker's products of J with the kernel.
+    fn cost_of_checking(&self, vectors: &[KernelVector]) -> u64 {
+        let products: usize = vectors
+            .iter()
+            .flat_map(|v| &v.entries)
+            .map(|(column, _)| self.matrix.column(*column).len())
+            .sum();
+        let degree = self.field.ring().dimension();
+        // Each of degree² products of integers, as long as the primes are many.
+        (products * degree * degree * (16 + self.modulus.primes())) as u64
+    }
+
+    /// Reconstructs what is open, as far as the budget goes.
+    fn settle(&mut self) -> Result<(), NoCertificate> {
+        let primes = self.modulus.primes() as u64;
+        let pivots = self.found.as_ref().map_or(0, |(p, _)| p.columns.len());
+        let of_vector = (pivots * self.field.ring().dimension()).max(1);
+        let mut failures = 0;
+        for vector in self.unknowns.chunks_mut(of_vector) {
+            let mut denominator = BigInt::one();
+            for unknown in vector {
+                self.operations += match unknown.settle(&self.modulus, &mut denominator) {
+                    Settled::Before => 0,
+                    Settled::Cheaply => 4 * primes * primes,
+                    Settled::Newly => {
+                        failures = 0;
+                        64 * primes * primes
+                    }
+                    Settled::NotYet => {
+                        failures += 1;
+                        64 * primes * primes
+                    }
+                };
+                // The rest will hardly be shorter.
+                if failures >= MAX_FAILURES {
+                    return Ok(());
+                }
+            }
+            if self.operations > self.budget.operations {
+                break;
+            }
+        }
+        self.within_budget()
+    }
+
+    /// The pivots and the coordinates of the kernel at a prime; `None` where its homomorphisms disagree, or the prime
+    /// divides a denominator or the discriminant.
+    fn views(&mut self, splitting: &Splitting) -> Option<Views> {
+        let (f, ring) = (splitting.field, self.field.ring());
+        let mut values: Vec<Vec<Residue>> = Vec::new();
+        let mut images: Vec<Image> = Vec::new();
+        for homomorphism in &splitting.homomorphisms {
+            let monomials = ring.monomials(f, homomorphism);
+            let image = self.image(f, &monomials)?;
+            if images
+                .first()
+                .is_some_and(|first| first.pivots.columns != image.pivots.columns)
+            {
+                return None;
+            }
+            images.push(image);
+            values.push(monomials);
+        }
+        let degree = values.len();
+        let inverse = inverted(f, values)?;
+        let count = images.first()?.entries.len();
+        let mut coordinates = vec![0; count * degree];
+        for (i, out) in coordinates.chunks_mut(degree).enumerate() {
+            // Most entries are zero.
+            if images.iter().all(|image| image.entries[i] == 0) {
+                continue;
+            }
+            for (o, row) in out.iter_mut().zip(&inverse) {
+                *o = images.iter().zip(row).fold(f.zero(), |sum, (image, &c)| {
+                    f.add(sum, f.mul(c, image.entries[i]))
+                });
+            }
+        }
+        let (rank, columns) = (images[0].pivots.columns.len(), self.matrix.columns());
+        self.operations += (degree * (self.matrix.rows() * rank * columns + count * degree)) as u64;
+        let plain = |r: &Residue| f.to_u64(*r);
+        let pivots = images.swap_remove(0).pivots;
+        Some(Views {
+            minor: Minor {
+                prime: f.modulus(),
+                images: splitting.homomorphisms[0].iter().map(plain).collect(),
+                rows: pivots.rows.clone(),
+                columns: pivots.columns.clone(),
+            },
+            pivots,
+            coordinates,
+        })
+    }
+
+    /// The reduced kernel under one homomorphism.
+    fn image(&self, f: Field, monomials: &[Residue]) -> Option<Image> {
+        let width = self.matrix.columns();
+        let mut rows = vec![vec![f.zero(); width]; self.matrix.rows()];
+        for (row, column, entry) in self.matrix.entries() {
+            rows[row][column] = entry.image(f, monomials)?;
+        }
+        let mut echelon = Echelon::new(f);
+        let independent: Vec<usize> = (0..rows.len())
+            .filter(|&r| echelon.insert(&rows[r]))
+            .collect();
+        let reduced = echelon.reduced();
+        let columns = echelon.pivots();
+        let entries = free_columns(&columns, width)
+            .flat_map(|free| reduced.iter().map(move |row| f.neg(row[free])))
+            .collect();
+        Some(Image {
+            pivots: Pivots {
+                rows: independent,
+                columns,
+            },
+            entries,
+        })
+    }
+
+    /// The vectors as they are known so far.
+    fn vectors(&self) -> Vec<KernelVector> {
+        let Some((pivots, _)) = &self.found else {
+            return Vec::new();
+        };
+        let degree = self.field.ring().dimension();
+        let value = |u: &Unknown| match u {
+            Unknown::Settled(q) => q.clone(),
+            Unknown::Open(_) => BigRational::default(),
+        };
+        let mut elements = self
+            .unknowns
+            .chunks(degree)
+            .map(|c| Element::new(c.iter().map(value).collect()));
+        free_columns(&pivots.columns, self.matrix.columns())
+            .map(|free| {
+                let mut entries: Vec<(usize, Element)> = pivots
+                    .columns
+                    .iter()
+                    .copied()
+                    .zip(elements.by_ref())
+                    .filter(|(_, x)| !x.is_zero())
+                    .collect();
+                let at = entries.partition_point(|(c, _)| *c < free);
+                entries.insert(at, (free, Element::integer(1)));
+                KernelVector { free, entries }
+            })
+            .collect()
+    }
+}
+
+fn free_columns(pivots: &[usize], width: usize) -> impl Iterator<Item = usize> {
+    (0..width).filter(move |c| pivots.binary_search(c).is_err())
+}
+
+/// The inverse of a square matrix, by Gauss and Jordan; `None` where there is none. O(n³).
+fn inverted(f: Field, mut m: Vec<Vec<Residue>>) -> Option<Vec<Vec<Residue>>> {
+    let size = m.len();
+    for (i, row) in m.iter_mut().enumerate() {
+        row.resize(2 * size, f.zero());
+        row[size + i] = f.one();
+    }
+    for c in 0..size {
+        let r = (c..size).find(|&r| m[r][c] != 0)?;
+        m.swap(c, r);
+        let scale = f.inv(m[c][c]);
+        m[c].iter_mut().for_each(|x| *x = f.mul(*x, scale));
+        let pivot = m[c].clone();
+        for row in m
+            .iter_mut()
+            .enumerate()
+            .filter(|(r, _)| *r != c)
+            .map(|(_, row)| row)
+        {
+            f.subtract_multiple(&mut row[c..], &pivot[c..]);
+        }
+    }
+    Some(m.into_iter().map(|row| row[size..].to_vec()).collect())
+}

@@ -1,0 +1,79 @@
+//! Rank by elimination in rational arithmetic: slow, plain, and independent of every prime.
+
+use num_rational::BigRational;
+use num_traits::Zero;
+use std::collections::BTreeMap;
+
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::exact::certificate::{matrix, number_field};
+use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
+use crate::verify::matrix::MatrixOverRing;
+
+/// Rank of a matrix of rational numbers; `None` where an entry is not rational.
+///
+/// Rows are sparse. Each pivot is the shortest number in the row with the fewest entries.
+///
+/// # Complexity
+/// O(rank · rows · columns) operations on fractions whose length may grow in proportion to the rank.
+#[must_use]
+pub fn rank(matrix: &MatrixOverRing) -> Option<usize> {
+    let mut rows: Vec<BTreeMap<usize, BigRational>> = vec![BTreeMap::new(); matrix.rows()];
+    for (row, column, entry) in matrix.entries() {
+        rows[row].insert(column, entry.as_rational()?);
+    }
+    let mut rank = 0;
+    loop {
+        rows.retain(|row| !row.is_empty());
+        let Some(shortest) = (0..rows.len()).min_by_key(|&r| rows[r].len()) else {
+            return Some(rank);
+        };
+        let pivot_row = rows.swap_remove(shortest);
+        let size = |q: &BigRational| q.numer().bits() + q.denom().bits();
+        let Some((&column, pivot)) = pivot_row.iter().min_by_key(|(_, q)| size(q)) else {
+            continue;
+        };
+        rank += 1;
+        for row in &mut rows {
+            let Some(factor) = row.get(&column).map(|x| x / pivot) else {
+                continue;
+            };
+            for (&c, y) in &pivot_row {
+                let x = row.entry(c).or_default();
+                *x -= &factor * y;
+                if x.is_zero() {
+                    row.remove(&c);
+                }
+            }
+        }
+    }
+}
+
+/// [`rank`] as a method.
+#[derive(Debug, Clone, Copy)]
+pub struct Rational;
+
+impl MobilityMethod for Rational {
+    fn about(&self) -> &'static About {
+        &About {
+            name: "rational",
+            title: "exact rational elimination",
+            help: "Exact elimination in fractions (rational coordinates only)",
+            guarantee: "exact at this pose; rational coordinates only",
+            complexity: "O(rank · 6k · f) operations on growing fractions",
+            source: "Gauss; von zur Gathen & Gerhard, Modern Computer Algebra, 2013, ch. 5",
+            rank: RankOfJ::NotFound,
+        }
+    }
+    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+        let field = number_field(mechanism, state)
+            .map_err(|_| NoAnswer::DoesNotApply("coordinates are not rational"))?;
+        let matrix = matrix(&field, mechanism, state)?;
+        let rank = rank(&matrix).ok_or(NoAnswer::DoesNotApply("coordinates are not rational"))?;
+        let int = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
+        Ok(Answer {
+            mobility: int(matrix.columns()) - int(rank),
+            quantity: Quantity::Instantaneous,
+            certainty: Certainty::Exact,
+        })
+    }
+}

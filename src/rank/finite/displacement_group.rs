@@ -1,0 +1,296 @@
+//! The group of displacements each contour moves in, and when it proves that a motion is really there.
+//!
+//! The displacement round a contour is a product of its joints' displacements, so it stays in the group whose Lie algebra
+//! the joints' twists generate under the bracket: 1 dimension for coaxial hinges, 3 for a planar or spherical contour,
+//! 4 for a Schoenflies one, 6 in general [Hervé 1978]. Closing all contours is a map into the product of these groups.
+//! Where J has the full rank of that product, the map is a submersion and the closed poses near this one form a
+//! manifold of dimension f - rank J: the instantaneous mobility is then the finite one, proven, whatever σ is. Couplings
+//! are linear maps of the joints' coordinates besides, and add the rank of their own rows to the product.
+
+use crate::closure::contour::Contour;
+use crate::closure::matrix::{Closure, Column};
+use crate::closure::twist::FrameValues;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::scalars::Scalars;
+use crate::linalg::echelon::{Echelon, rank, relations};
+use crate::linalg::modp::Residue;
+use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
+
+/// The bracket of two twists, [ω1 × ω2; ω1 × v2 + v1 × ω2].
+pub(in crate::rank) fn bracket(exact: &ExactField, a: &[Residue], b: &[Residue]) -> Vec<Residue> {
+    let three = |t: &[Residue], at: usize| [t[at], t[at + 1], t[at + 2]];
+    let (wa, va, wb, vb) = (three(a, 0), three(a, 3), three(b, 0), three(b, 3));
+    let w = exact.cross(wa, wb);
+    let (p, q) = (exact.cross(wa, vb), exact.cross(va, wb));
+    let field = exact.field();
+    let v = [0, 1, 2].map(|i| field.add(p[i], q[i]));
+    vec![w[0], w[1], w[2], v[0], v[1], v[2]]
+}
+
+/// Six-component twists of a joint's freedoms, those that planar mode keeps.
+pub(in crate::rank) fn spatial_twists(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    joint: JointId,
+) -> Result<Vec<Vec<Residue>>, ExactError> {
+    let joint = &mechanism.joints[joint];
+    let values = FrameValues::new(exact, &joint.frame)?;
+    Ok(joint
+        .joint_type
+        .freedoms()
+        .iter()
+        .map(|&f| values.twist(exact, f).to_vec())
+        .collect())
+}
+
+/// Dimension of the group a contour's displacements generate. In planar mode at most 3.
+///
+/// # Errors
+/// Where a coordinate has no value in the field.
+///
+/// # Complexity
+/// At most 15 brackets of at most 6 independent twists.
+pub fn group_dimension(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    contour: &Contour,
+) -> Result<usize, ExactError> {
+    if let Mode::Planar { normal } = &mechanism.mode {
+        // Three rows: turning about the normal and sliding across it. Two slides alone commute.
+        let space = crate::closure::twist::MotionSpace::new(
+            exact,
+            &Mode::Planar {
+                normal: normal.clone(),
+            },
+        )?;
+        let mut algebra = Echelon::new(exact.field());
+        let mut turning = false;
+        for &(j, _) in &contour.joints {
+            let joint = &mechanism.joints[j];
+            for (_, t) in
+                crate::closure::twist::joint_twists(exact, &space, &joint.frame, &joint.joint_type)?
+            {
+                turning |= t[0] != 0;
+                algebra.insert(&t);
+            }
+        }
+        // The bracket of two turns about different points is a slide, of a turn and a slide the slide across it.
+        return Ok(match (turning, algebra.rank()) {
+            (true, r) if r > 1 => 3,
+            (_, r) => r,
+        });
+    }
+    Ok(algebra(exact, mechanism, contour.joints.iter().map(|&(j, _)| j))?.len())
+}
+
+/// Rank of the rows of the couplings alone.
+pub(in crate::rank) fn coupling_rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
+    let rows: Vec<Vec<Residue>> = closure
+        .couplings
+        .iter()
+        .map(|coupling| {
+            let mut row = vec![0; closure.columns.len()];
+            for &(c, x) in &coupling.entries {
+                row[c] = x;
+            }
+            row
+        })
+        .collect();
+    rank(exact.field(), rows.iter().map(Vec::as_slice))
+}
+
+/// A basis of the Lie algebra that the twists of some joints generate.
+fn algebra(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    joints: impl IntoIterator<Item = JointId>,
+) -> Result<Vec<Vec<Residue>>, ExactError> {
+    let mut span = Echelon::new(exact.field());
+    let mut basis: Vec<Vec<Residue>> = Vec::new();
+    for j in joints {
+        if basis.len() == 6 {
+            break;
+        }
+        for t in spatial_twists(exact, mechanism, j)? {
+            if span.insert(&t) {
+                basis.push(t);
+            }
+        }
+    }
+    let mut next = 0;
+    while next < basis.len() && basis.len() < 6 {
+        for other in 0..next {
+            let t = bracket(exact, &basis[next], &basis[other]);
+            if span.insert(&t) {
+                basis.push(t);
+            }
+        }
+        next += 1;
+    }
+    Ok(basis)
+}
+
+/// What kind of displacements a group holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Nothing, or slides only.
+    Translation,
+    /// Turns about one axis, and slides along it at most.
+    Rotation,
+    /// Turns about one direction and slides across it.
+    Planar,
+    /// Turns about one point.
+    Spherical,
+    /// Turns about one direction and every slide.
+    Schoenflies,
+    /// Anything else; all displacements where the dimension is 6.
+    Other,
+}
+
+/// The group that all joints of a state move in together.
+#[derive(Debug, Clone)]
+pub struct Group {
+    dimension: usize,
+    turns: usize,
+    slides: usize,
+    across: bool,
+    /// Whether what turns slides along its axis by the same motion.
+    screws: bool,
+    /// Components of a twist that tell all the others: pivots of the algebra.
+    pivots: Vec<usize>,
+}
+
+impl Group {
+    /// J with one row per dimension of the group and contour: the other components of its twists are combinations of
+    /// these, the same for every column, so the rank is the same.
+    #[must_use]
+    pub fn rows_of(&self, closure: &Closure<Residue>) -> Closure<Residue> {
+        Closure {
+            dim: self.dimension,
+            columns: closure
+                .columns
+                .iter()
+                .map(|c| Column {
+                    twist: self.pivots.iter().map(|&p| c.twist[p]).collect(),
+                    ..c.clone()
+                })
+                .collect(),
+            ..closure.clone()
+        }
+    }
+
+    /// Its dimension, at most 6.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// Its kind.
+    #[must_use]
+    pub fn kind(&self) -> Kind {
+        match (self.turns, self.slides) {
+            (0, _) => Kind::Translation,
+            (1, 0) if !self.screws => Kind::Rotation,
+            (1, 2) if self.across && !self.screws => Kind::Planar,
+            (1, 3) => Kind::Schoenflies,
+            (3, 0) => Kind::Spherical,
+            _ => Kind::Other,
+        }
+    }
+
+    /// Its name with its dimension, for people.
+    #[must_use]
+    pub fn name(&self) -> String {
+        match self.kind() {
+            Kind::Translation if self.slides == 0 => "no motion (0)".to_owned(),
+            Kind::Translation if self.slides == 3 => "the group of translations (3)".to_owned(),
+            Kind::Translation => format!("a group of translations ({})", self.dimension),
+            Kind::Rotation => "the turns about one axis (1)".to_owned(),
+            Kind::Planar => "one plane (3)".to_owned(),
+            Kind::Spherical => "the turns about one point (3)".to_owned(),
+            Kind::Schoenflies => "a Schoenflies group (4)".to_owned(),
+            Kind::Other if self.screws && self.slides == 0 => "one screw (1)".to_owned(),
+            Kind::Other if self.screws => {
+                format!(
+                    "screws of one pitch and slides across them ({})",
+                    self.dimension
+                )
+            }
+            Kind::Other => format!("a group of dimension {}", self.dimension),
+        }
+    }
+}
+
+/// The group generated by all joints of a state together: with fewer than 6 dimensions, that many rows per contour are
+/// enough.
+///
+/// # Errors
+/// Where a coordinate has no value in the field.
+pub fn whole_group(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    state: StateId,
+) -> Result<Group, ExactError> {
+    if let Mode::Planar { .. } = &mechanism.mode {
+        return Ok(Group {
+            dimension: 3,
+            turns: 1,
+            slides: 2,
+            across: true,
+            screws: false,
+            pivots: vec![0, 1, 2],
+        });
+    }
+    group_of(exact, mechanism, mechanism.joints_in(state))
+}
+
+/// The group generated by some joints together, in space.
+///
+/// # Errors
+/// Where a coordinate has no value in the field.
+pub(in crate::rank) fn group_of(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    joints: impl IntoIterator<Item = JointId>,
+) -> Result<Group, ExactError> {
+    let basis = algebra(exact, mechanism, joints)?;
+    let mut turns = Echelon::new(exact.field());
+    for t in &basis {
+        turns.insert(&t[..3]);
+    }
+    // Combinations without a turn are the slides.
+    let parts: Vec<Vec<Residue>> = basis.iter().map(|t| t[..3].to_vec()).collect();
+    let field = exact.field();
+    let slides: Vec<[Residue; 3]> = relations(field, &parts)
+        .into_iter()
+        .map(|c| {
+            let mut v = [0; 3];
+            for (a, t) in c.iter().zip(&basis) {
+                for k in 0..3 {
+                    v[k] = field.add(v[k], field.mul(*a, t[3 + k]));
+                }
+            }
+            v
+        })
+        .collect();
+    let axis = turns
+        .reduced()
+        .first()
+        .map_or([0; 3], |t| [t[0], t[1], t[2]]);
+    let mut whole = Echelon::new(field);
+    basis.iter().for_each(|t| {
+        whole.insert(t);
+    });
+    let across = slides.iter().all(|&v| exact.dot(v, axis) == 0);
+    // Slides across the axis change nothing of what a turn slides along it; a slide along it makes any turn of the screw.
+    let along = |t: &Vec<Residue>| exact.dot([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
+    let screws = turns.rank() == 1 && across && basis.iter().any(|t| along(t) != 0);
+    Ok(Group {
+        dimension: basis.len(),
+        turns: turns.rank(),
+        slides: slides.len(),
+        across,
+        screws,
+        pivots: whole.pivots(),
+    })
+}

@@ -1,0 +1,362 @@
+//! Exact analysis of higher order: power series of the closed poses near a pose, modulo a prime.
+//!
+//! The contours are products of exponentials, so their power series are exact in the field. Solved order by order for the
+//! coordinates that J determines, they leave as many equations g(x) = 0 in the free coordinates x as J has dependent rows:
+//! the closed poses near this one are the zeros of g [Lyapunov-Schmidt reduction; for mechanisms: Lerbet 1999; Müller 2016,
+//! "Higher-order analysis of kinematic singularities"]. Where the powers of degree d of the variables of a random subspace of
+//! m dimensions all lie in the ideal of g's series (a rank, of the Macaulay matrix up to degree d), the pose is isolated
+//! there, even with complex coordinates, and no motion through it has more than n - m dimensions [Bates, Hauenstein,
+//! Peterson & Sommese 2009, "A numerical local dimension test"; Dayton & Zeng 2005]. A nonzero minor modulo the prime is a
+//! nonzero minor, so both are proven where J has its true rank modulo the prime. With m = n nothing moves: for n = 1 that is
+//! shakiness of order d - 1, for d = 2 the second-order test of Connelly & Whiteley 1996.
+
+use crate::closure::matrix::Closure;
+use crate::closure::twist::MotionSpace;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::scalars::Scalars;
+use crate::linalg::modp::{Field, Residue};
+use crate::model::mechanism::Mechanism;
+use crate::motion::pose::Pose;
+use crate::rank::finite::power_series::{Monomials, accumulate};
+
+/// Entries of J² up to which series are asked at all.
+const LARGEST: usize = 40_000;
+/// Products of numbers that one question may cost.
+const WORK: usize = 6_000_000;
+/// Degree up to which series are expanded.
+const DEGREE: usize = 16;
+
+/// A mechanism's contours in an exact field, solved for the coordinates that J determines.
+#[derive(Debug)]
+pub struct HigherOrder {
+    field: Field,
+    /// Twists (ω; v) of the columns.
+    twists: Vec<Vec<Residue>>,
+    /// Contours as columns with their directions.
+    walks: Vec<Vec<(usize, bool)>>,
+    /// Row operations that bring J to reduced echelon form: the first rows belong to the pivots, the others to g.
+    solve: Vec<Vec<Residue>>,
+    /// Pivot columns.
+    pivots: Vec<usize>,
+    /// For each free column, its index and the pivots' coordinates at unit speed.
+    free: Vec<(usize, Vec<Residue>)>,
+}
+
+impl HigherOrder {
+    /// Prepares a mechanism whose J has this rank; none where it is too large.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    ///
+    /// # Complexity
+    /// O((6k)² f).
+    pub fn new(
+        exact: &ExactField,
+        mechanism: &Mechanism,
+        closure: &Closure<Residue>,
+        pose: &Pose,
+        rank: usize,
+    ) -> Result<Option<HigherOrder>, ExactError> {
+        let field = exact.field();
+        let f = closure.columns.len();
+        let rows = 6 * closure.contours.len() + closure.couplings.len();
+        if rows * f > LARGEST {
+            return Ok(None);
+        }
+        let space = MotionSpace::new(exact, &mechanism.mode)?;
+        let twists: Vec<Vec<Residue>> = closure
+            .columns
+            .iter()
+            .map(|c| in_space(exact, &space, &c.twist))
+            .collect();
+        // Within a joint in the order of the poses.
+        let order = |c: usize| {
+            let column = &closure.columns[c];
+            pose.columns
+                .iter()
+                .position(|p| (p.joint, p.freedom) == (column.joint, column.freedom))
+        };
+        let walks: Vec<Vec<(usize, bool)>> = closure
+            .contours
+            .iter()
+            .map(|contour| {
+                let mut walk = Vec::new();
+                for &(j, forward) in &contour.joints {
+                    let mut own: Vec<usize> =
+                        (0..f).filter(|&c| closure.columns[c].joint == j).collect();
+                    own.sort_by_key(|&c| order(c));
+                    if !forward {
+                        own.reverse();
+                    }
+                    walk.extend(own.into_iter().map(|c| (c, forward)));
+                }
+                walk
+            })
+            .collect();
+        // [J | 1], reduced.
+        let mut matrix = vec![vec![0; f + rows]; rows];
+        for (k, walk) in walks.iter().enumerate() {
+            for &(c, forward) in walk {
+                for (i, &t) in twists[c].iter().enumerate() {
+                    matrix[6 * k + i][c] = if forward { t } else { field.neg(t) };
+                }
+            }
+        }
+        for (row, coupling) in matrix[6 * walks.len()..].iter_mut().zip(&closure.couplings) {
+            for &(c, x) in &coupling.entries {
+                row[c] = x;
+            }
+        }
+        for (i, row) in matrix.iter_mut().enumerate() {
+            row[f + i] = field.one();
+        }
+        let pivots = reduce(field, &mut matrix, f);
+        if pivots.len() != rank {
+            return Ok(None);
+        }
+        let free = (0..f)
+            .filter(|c| !pivots.contains(c))
+            .map(|c| (c, (0..rank).map(|i| field.neg(matrix[i][c])).collect()))
+            .collect();
+        let solve = matrix.into_iter().map(|row| row[f..].to_vec()).collect();
+        Ok(Some(HigherOrder {
+            field,
+            twists,
+            walks,
+            solve,
+            pivots,
+            free,
+        }))
+    }
+
+    /// The degree d at which the pose is seen to be isolated in a random subspace of `m` dimensions of its instantaneous
+    /// motions; none where that is not so up to a degree that the work allows.
+    ///
+    /// # Complexity
+    /// At most `WORK` products and as many again for the Macaulay matrices.
+    #[must_use]
+    pub fn isolated(&self, m: usize) -> Option<usize> {
+        let mut random = 0x9e37_79b9_7f4a_7c15_u64;
+        let mut any = || {
+            // xorshift64*: any numbers will do that the geometry does not know.
+            random ^= random >> 12;
+            random ^= random << 25;
+            random ^= random >> 27;
+            self.field
+                .from_i64((random.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 2) as i64)
+        };
+        let f = self.twists.len();
+        let mut monomials = Monomials::new(m);
+        let mut q: Vec<Vec<Residue>> = vec![vec![0; m + 1]; f];
+        for (c, speeds) in &self.free {
+            #[allow(
+                clippy::needless_range_loop,
+                reason = "several rows are filled at once"
+            )]
+            for v in 1..=m {
+                let x = any();
+                q[*c][v] = x;
+                for (&p, &s) in self.pivots.iter().zip(speeds) {
+                    q[p][v] = self.field.add(q[p][v], self.field.mul(x, s));
+                }
+            }
+        }
+        let mut g: Vec<Vec<Residue>> = vec![Vec::new(); self.solve.len() - self.pivots.len()];
+        let mut work = 0;
+        for degree in 2..=DEGREE {
+            monomials.extend(degree);
+            let terms = monomials.count();
+            let products = f * (27 + degree) * monomials.pairs() + self.solve.len().pow(2) * terms;
+            work += products;
+            if work > WORK {
+                return None;
+            }
+            q.iter_mut().for_each(|s| s.resize(terms, 0));
+            g.iter_mut().for_each(|s| s.resize(terms, 0));
+            let gaps: Vec<Vec<Residue>> = self
+                .walks
+                .iter()
+                .flat_map(|walk| self.gap(walk, &q, &monomials))
+                .collect();
+            for t in monomials.of_degree(degree) {
+                for (i, row) in self.solve.iter().enumerate() {
+                    // Couplings are linear: they have no gap of higher order.
+                    let sum = row.iter().zip(&gaps).fold(0, |sum, (&a, gap)| {
+                        self.field.add(sum, self.field.mul(a, gap[t]))
+                    });
+                    match self.pivots.get(i) {
+                        Some(&p) => q[p][t] = self.field.neg(sum),
+                        None => g[i - self.pivots.len()][t] = sum,
+                    }
+                }
+            }
+            match monomials.all_in_ideal(self.field, &g, 8 * WORK) {
+                Some(true) => return Some(degree),
+                Some(false) => {}
+                None => return None,
+            }
+        }
+        None
+    }
+
+    /// The six gaps of a contour as series.
+    fn gap(
+        &self,
+        walk: &[(usize, bool)],
+        q: &[Vec<Residue>],
+        monomials: &Monomials,
+    ) -> Vec<Vec<Residue>> {
+        let f = self.field;
+        let terms = monomials.count();
+        let zero = || vec![0; terms];
+        let mut turn: [[Vec<Residue>; 3]; 3] = [(); 3].map(|()| [(); 3].map(|()| zero()));
+        for (i, row) in turn.iter_mut().enumerate() {
+            row[i][0] = f.one();
+        }
+        let mut shift: [Vec<Residue>; 3] = [(); 3].map(|()| zero());
+        // Σ of series times numbers.
+        let combined = |series: &[Vec<Residue>; 3], by: [Residue; 3]| {
+            let mut out = vec![0; terms];
+            for (s, b) in series.iter().zip(by).filter(|(_, b)| *b != 0) {
+                for (o, &x) in out.iter_mut().zip(s) {
+                    *o = f.add(*o, f.mul(x, b));
+                }
+            }
+            out
+        };
+        for &(c, forward) in walk {
+            if q[c].iter().all(|&x| x == 0) {
+                continue;
+            }
+            let t = &self.twists[c];
+            let angle: Vec<Residue> = if forward {
+                q[c].clone()
+            } else {
+                q[c].iter().map(|&x| f.neg(x)).collect()
+            };
+            let (w, v) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
+            let mut steps: Vec<(Vec<Residue>, [Residue; 3])> = vec![(angle.clone(), v)];
+            let mut turned = None;
+            if w != [0; 3] {
+                let square = w.iter().fold(0, |s, &x| f.add(s, f.mul(x, x)));
+                // sin, 1 - cos and angle - sin of an axis that is no unit vector.
+                let mut series = [angle.clone(), zero(), zero()];
+                let (mut power, mut factor) = (angle.clone(), f.one());
+                for n in 2..=monomials.degree() {
+                    power = monomials.product(f, &power, &angle);
+                    factor = f.mul(factor, f.inv(f.from_i64(n as i64)));
+                    let mut by = factor;
+                    let (kind, half) = if n % 2 == 1 {
+                        (0, n / 2)
+                    } else {
+                        (1, n / 2 - 1)
+                    };
+                    for _ in 0..half {
+                        by = f.neg(f.mul(by, square));
+                    }
+                    accumulate(f, &mut series[kind], &power, by);
+                    if n % 2 == 1 {
+                        let mut by = factor;
+                        for _ in 0..n / 2 - 1 {
+                            by = f.neg(f.mul(by, square));
+                        }
+                        accumulate(f, &mut series[2], &power, by);
+                    }
+                }
+                let [sine, cosine, rest] = series;
+                let once = cross(f, w, v);
+                steps.push((cosine.clone(), once));
+                steps.push((rest, cross(f, w, once)));
+                turned = Some((sine, cosine));
+            }
+            for (row, shift) in turn.iter_mut().zip(&mut shift) {
+                for (series, direction) in &steps {
+                    if *direction != [0; 3] {
+                        let carried = combined(row, *direction);
+                        let moved = monomials.product(f, series, &carried);
+                        accumulate(f, shift, &moved, f.one());
+                    }
+                }
+                if let Some((sine, cosine)) = &turned {
+                    // Columns of ŵ are w × e_j; a row times ŵ is row × w.
+                    let hat = |j: usize| cross(f, w, unit(f, j));
+                    let once: [Vec<Residue>; 3] = [0, 1, 2].map(|j| combined(row, hat(j)));
+                    let twice: [Vec<Residue>; 3] = [0, 1, 2].map(|j| combined(&once, hat(j)));
+                    for j in 0..3 {
+                        let a = monomials.product(f, sine, &once[j]);
+                        let b = monomials.product(f, cosine, &twice[j]);
+                        accumulate(f, &mut row[j], &a, f.one());
+                        accumulate(f, &mut row[j], &b, f.one());
+                    }
+                }
+            }
+        }
+        let half = f.inv(f.from_i64(2));
+        let skew = |a: &[Residue], b: &[Residue]| -> Vec<Residue> {
+            let differences = a.iter().zip(b).map(|(&a, &b)| f.sub(a, b));
+            differences.map(|x| f.mul(half, x)).collect()
+        };
+        let mut out = vec![
+            skew(&turn[2][1], &turn[1][2]),
+            skew(&turn[0][2], &turn[2][0]),
+            skew(&turn[1][0], &turn[0][1]),
+        ];
+        out.extend(shift);
+        out
+    }
+}
+
+/// A twist of a motion space with all its six components.
+fn in_space(exact: &ExactField, space: &MotionSpace<Residue>, twist: &[Residue]) -> Vec<Residue> {
+    let field = exact.field();
+    match space {
+        MotionSpace::Spatial => twist.to_vec(),
+        MotionSpace::Planar { axes } => {
+            // Components are scalar products with axes that are square, not of unit length.
+            let along = |k: usize| {
+                let axis = axes[k];
+                let share = field.mul(twist[k], field.inv(exact.dot(axis, axis)));
+                axis.map(|x| field.mul(share, x))
+            };
+            let (w, a, b) = (along(0), along(1), along(2));
+            let v = [0, 1, 2].map(|i| field.add(a[i], b[i]));
+            [w, v].concat()
+        }
+    }
+}
+
+fn unit(f: Field, j: usize) -> [Residue; 3] {
+    [0, 1, 2].map(|i| if i == j { f.one() } else { 0 })
+}
+
+fn cross(f: Field, a: [Residue; 3], b: [Residue; 3]) -> [Residue; 3] {
+    let minor = |i: usize, j: usize| f.sub(f.mul(a[i], b[j]), f.mul(a[j], b[i]));
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
+/// Reduced row echelon form in place, by the first `width` columns; the pivots' columns, whose rows come first.
+fn reduce(field: Field, matrix: &mut [Vec<Residue>], width: usize) -> Vec<usize> {
+    let mut pivots = Vec::new();
+    for c in 0..width {
+        let at = pivots.len();
+        let Some(found) = (at..matrix.len()).find(|&r| matrix[r][c] != 0) else {
+            continue;
+        };
+        matrix.swap(at, found);
+        let scale = field.inv(matrix[at][c]);
+        matrix[at]
+            .iter_mut()
+            .for_each(|x| *x = field.mul(*x, scale));
+        let row = matrix[at].clone();
+        for (_, other) in matrix
+            .iter_mut()
+            .enumerate()
+            .filter(|(r, other)| *r != at && other[c] != 0)
+        {
+            let by = field.neg(other[c]);
+            accumulate(field, other, &row, by);
+        }
+        pivots.push(c);
+    }
+    pivots
+}

@@ -1,0 +1,154 @@
+//! Independent parts of a mechanism, and idle turns split off, so that each can be judged for itself.
+//!
+//! Joints that share no contour and no coupling, directly or through others, do not see each other: the closed poses of the
+//! mechanism are the product of those of its parts, and finite mobilities add up. With a cycle basis these parts are the
+//! biconnected components of the link graph [Whitney 1932], tied together by couplings.
+//!
+//! Within a part, a link whose joints all leave it free to turn (or slide) in one common group H can do so whatever the rest
+//! does: H acts freely on the closed poses, which are H times those with as many freedoms locked at one of the joints
+//! [Hervé 1978]. So the spin of a rod between two balls is a finite motion, proven.
+
+use crate::closure::matrix::Closure;
+use crate::closure::tied::tied;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::linalg::echelon::{Echelon, relations};
+use crate::linalg::modp::Residue;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};
+use crate::rank::finite::displacement_group::{bracket, spatial_twists};
+
+/// The joints of each part, in file order; joints in no contour and no coupling are in none.
+///
+/// # Complexity
+/// O(n log n) for contours of n joints in all.
+#[must_use]
+pub fn parts<T>(closure: &Closure<T>) -> Vec<Vec<JointId>> {
+    let of_contours = closure
+        .contours
+        .iter()
+        .map(|c| c.joints.iter().map(|&(j, _)| j).collect::<Vec<JointId>>());
+    let of_couplings = closure.couplings.iter().map(|c| {
+        c.entries
+            .iter()
+            .map(|&(i, _)| closure.columns[i].joint)
+            .collect()
+    });
+    tied(of_contours.chain(of_couplings))
+}
+
+/// A mechanism of some of the joints alone, numbered as before; its frame is one of their links.
+#[must_use]
+pub fn alone(mechanism: &Mechanism, joints: &[JointId]) -> Mechanism {
+    let mut out = mechanism.clone();
+    for j in mechanism.joint_ids() {
+        if !joints.contains(&j) {
+            out.joints[j].states = Some(Vec::new());
+        }
+    }
+    let touched = |l: LinkId| {
+        joints
+            .iter()
+            .any(|&j| mechanism.joints[j].links.contains(&l))
+    };
+    if let Some(&first) = joints.first()
+        && !touched(mechanism.frame())
+    {
+        let frame = mechanism.frame();
+        out.links[frame].role = Role::Output;
+        out.links[mechanism.joints[first].links[0]].role = Role::Frame;
+    }
+    out
+}
+
+/// Locks the idle freedoms of links whose joints all leave them free in one group; how many there were.
+///
+/// # Errors
+/// Where a coordinate has no value in the field.
+pub fn lock_idle(
+    exact: &ExactField,
+    mechanism: &mut Mechanism,
+    state: StateId,
+) -> Result<usize, ExactError> {
+    // In a plane a ball is a pin, whose axis is not its own.
+    if matches!(mechanism.mode, Mode::Planar { .. }) {
+        return Ok(0);
+    }
+    let mut whole: Vec<Option<Vec<Vec<Residue>>>> = vec![None; mechanism.joints.len()];
+    for j in mechanism.joints_in(state) {
+        let coupled = mechanism.couplings_of(j).next().is_some();
+        let twists = spatial_twists(exact, mechanism, j)?;
+        if !coupled && is_group(exact, &twists) {
+            whole[j] = Some(twists);
+        }
+    }
+    let mut locked = 0;
+    for link in mechanism.link_ids() {
+        let at: Vec<JointId> = mechanism
+            .joints_in(state)
+            .filter(|&j| mechanism.joints[j].links.contains(&link))
+            .collect();
+        let Some(groups) = at
+            .iter()
+            .map(|&j| whole[j].clone())
+            .collect::<Option<Vec<_>>>()
+        else {
+            continue;
+        };
+        let Some((first, others)) = groups.split_first() else {
+            continue;
+        };
+        if others.is_empty() {
+            continue;
+        }
+        let common = others.iter().fold(first.clone(), |so_far, group| {
+            intersection(exact, &so_far, group)
+        });
+        if common.is_empty() {
+            continue;
+        }
+        // Freedoms of the first joint that complete the common group to all of its own.
+        let mut span = Echelon::new(exact.field());
+        common.iter().for_each(|t| {
+            span.insert(t);
+        });
+        let joint = &mut mechanism.joints[at[0]];
+        let kept = joint.joint_type.freedoms().iter().zip(first);
+        let kept = kept
+            .filter(|(_, t)| span.insert(t))
+            .map(|(&f, _)| f)
+            .collect();
+        joint.joint_type = JointType::Custom(kept);
+        whole[at[0]] = None;
+        locked += common.len();
+    }
+    Ok(locked)
+}
+
+/// Whether the displacements of some independent twists, one after the other, are all those of a group.
+fn is_group(exact: &ExactField, twists: &[Vec<Residue>]) -> bool {
+    let mut span = Echelon::new(exact.field());
+    twists.iter().all(|t| span.insert(t))
+        && twists.iter().enumerate().all(|(i, a)| {
+            twists[..i]
+                .iter()
+                .all(|b| span.contains(&bracket(exact, a, b)))
+        })
+}
+
+/// A basis of the common part of two spans, each given by independent vectors.
+fn intersection(exact: &ExactField, a: &[Vec<Residue>], b: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
+    let field = exact.field();
+    let both: Vec<Vec<Residue>> = a.iter().chain(b).cloned().collect();
+    relations(field, &both)
+        .into_iter()
+        .map(|combination| {
+            let mut sum = vec![0; 6];
+            for (&x, t) in combination.iter().zip(a) {
+                for (s, &y) in sum.iter_mut().zip(t) {
+                    *s = field.add(*s, field.mul(x, y));
+                }
+            }
+            sum
+        })
+        .collect()
+}

@@ -1,0 +1,405 @@
+//! Finite mobility by going there: the dimension of the set of closed poses round a pose, numerically.
+//!
+//! At a regular pose every instantaneous motion extends: a step along it closes with corrections across it alone, and so
+//! at a distance at which shaky poses gape clearly. At a singular pose the set of closed poses is, near by, a cone over its
+//! section with a small sphere [Milnor 1968]. So branches are sought where the sphere is met: starts come from the tangent
+//! cone (`tangent_cone`), and a closed pose on a sphere counts only if it can be followed from sphere to sphere, in
+//! to the pose and out again. The largest dimension of the branches, each examined in the same way at its far end, is the
+//! local one [Wampler, Hauenstein & Sommese 2011].
+//!
+//! Numeric: nothing is proven, and the certainty says so. Random directions come from a fixed seed.
+
+use crate::motion::pose::Pose;
+use crate::rank::finite::tangent_cone::{self, Flat, Quadrics, norm};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
+use ozols_dense::{Matrix, least_squares, svd};
+
+/// Lengths of trial steps at a pose that may be regular: radians, and fractions of the mechanism's size.
+const STEPS: [f64; 3] = [0.2, 0.08, 0.03];
+/// Spheres from which branches are followed.
+const SPHERES: [f64; 3] = [0.1, 0.03, 0.25];
+/// From one sphere to the next.
+const INWARD: f64 = 0.7;
+/// The innermost and the outermost sphere.
+const FOLLOWED: std::ops::Range<f64> = 0.012..0.3;
+/// Branches followed from one singular pose.
+const BRANCHES: usize = 12;
+/// Displacements with a smaller share in a direction do not span it.
+const SPAN: f64 = 0.1;
+/// How often a singular pose may lead to further singular poses.
+const DEPTH: usize = 2;
+/// Newton steps before a pose is given up.
+const NEWTON: usize = 50;
+
+/// What following the motion found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Traced {
+    /// The largest dimension of a motion through poses at or next to the pose.
+    pub mobility: usize,
+    /// The largest dimension that is not excluded.
+    pub at_most: usize,
+    /// Poses closed on the way.
+    pub poses: usize,
+    /// Whether the pose itself is a regular one.
+    pub regular: bool,
+}
+
+/// The dimension of the closed poses at and near `pose`, none where a budget of closed poses runs out. `motions` is the
+/// instantaneous mobility; `shaky` says that not all of it can be motion.
+///
+/// # Complexity
+/// About W closings of O((6k)² f) each at a regular pose, and some hundred at a singular one.
+#[must_use]
+pub fn mobility(pose: &Pose, motions: usize, shaky: bool, budget: usize) -> Option<Traced> {
+    let mut search = Search {
+        random: ChaCha8Rng::seed_from_u64(1),
+        poses: 0,
+        budget,
+    };
+    let found = search.dimension(pose, Some(motions), shaky, 1.0, 0)?;
+    Some(Traced {
+        mobility: found.from,
+        at_most: found.to,
+        poses: search.poses,
+        regular: found.regular,
+    })
+}
+
+/// Null space of J at a pose: `f - rank` orthonormal columns.
+#[must_use]
+pub fn motions(pose: &Pose) -> Matrix {
+    Flat::new(pose, None).kernel
+}
+
+/// A combination of columns.
+fn along(span: &Matrix, weights: &[f64]) -> Vec<f64> {
+    let row = |r: usize| {
+        weights
+            .iter()
+            .enumerate()
+            .map(|(c, w)| span[(r, c)] * w)
+            .sum()
+    };
+    (0..span.nrows()).map(row).collect()
+}
+
+/// Dimensions found and not excluded.
+#[derive(Debug, Clone, Copy)]
+struct Found {
+    from: usize,
+    to: usize,
+    regular: bool,
+}
+
+impl Found {
+    fn exactly(dimension: usize, regular: bool) -> Found {
+        Found {
+            from: dimension,
+            to: dimension,
+            regular,
+        }
+    }
+}
+
+/// Equations beside those of the contours: their values and rows at some coordinates.
+type Beside<'a> = &'a dyn Fn(&[f64]) -> Vec<(f64, Vec<f64>)>;
+
+struct Search {
+    random: ChaCha8Rng,
+    poses: usize,
+    budget: usize,
+}
+
+impl Search {
+    /// A random unit vector.
+    fn direction(&mut self, n: usize) -> Vec<f64> {
+        // A sum of twelve uniform numbers is near enough to normal, the same on every machine.
+        let mut uniform = || f64::from(self.random.next_u32()) / f64::from(u32::MAX) - 0.5;
+        let v: Vec<f64> = (0..n).map(|_| (0..12).map(|_| uniform()).sum()).collect();
+        let size = norm(&v).max(1e-9);
+        v.into_iter().map(|x| x / size).collect()
+    }
+
+    /// Coordinates near `q` that fulfil all equations best, with the gap that is left; none where the budget is spent.
+    fn close(
+        &mut self,
+        pose: &Pose,
+        mut q: Vec<f64>,
+        beside: Beside<'_>,
+    ) -> Option<(Vec<f64>, f64)> {
+        if self.poses >= self.budget {
+            return None;
+        }
+        self.poses += 1;
+        let f = q.len();
+        let mut best = (q.clone(), f64::INFINITY);
+        let mut history: Vec<f64> = Vec::new();
+        for _ in 0..NEWTON {
+            let more = beside(&q);
+            let mut gaps = pose.gaps(&q);
+            let rows = gaps.len();
+            gaps.extend(more.iter().map(|(x, _)| x));
+            let gap = norm(&gaps);
+            if !gap.is_finite() {
+                break;
+            }
+            if gap < best.1 {
+                best = (q.clone(), gap);
+            }
+            let stuck = history.len() >= 10 && gap > 0.7 * history[history.len() - 10];
+            if gap < 1e-14
+                || stuck
+                || (gap < pose.closed() && history.last().is_some_and(|h| gap > 0.1 * h))
+            {
+                break;
+            }
+            history.push(gap);
+            let jacobian = pose.jacobian(&q);
+            let damping = gap.clamp(1e-11_f64.max(1e3 * pose.accuracy()).min(1e-2), 1e-2);
+            let all = rows + more.len();
+            let stacked = Matrix::from_fn(all + f, f, |r, c| {
+                if r < rows {
+                    jacobian[(r, c)]
+                } else if r < all {
+                    more[r - rows].1[c]
+                } else if r - all == c {
+                    damping
+                } else {
+                    0.0
+                }
+            });
+            gaps.resize(all + f, 0.0);
+            let step = least_squares(&stacked, &gaps);
+            let length = norm(&step);
+            if !length.is_finite() || length < 1e-16 {
+                break;
+            }
+            let shorten = (0.3 / length).min(1.0);
+            for (x, s) in q.iter_mut().zip(&step) {
+                *x -= shorten * s;
+            }
+        }
+        Some(best)
+    }
+
+    /// Whether motions in random directions of some orthonormal columns extend to a distance: `None` where that is not
+    /// clear.
+    fn smooth(&mut self, pose: &Pose, span: &Matrix, scale: f64) -> Option<Option<bool>> {
+        let n = span.ncols();
+        let mut open = None;
+        for step in STEPS.map(|s| s * scale) {
+            let mut all = true;
+            for _ in 0..(n + 1).min(4) {
+                let x = self.direction(n);
+                let q = along(span, &x).into_iter().map(|v| v * step).collect();
+                let beside = |q: &[f64]| -> Vec<(f64, Vec<f64>)> {
+                    (0..n)
+                        .map(|c| {
+                            let row: Vec<f64> = (0..q.len()).map(|r| span[(r, c)]).collect();
+                            let along: f64 = row.iter().zip(q).map(|(a, b)| a * b).sum();
+                            (along - step * x[c], row)
+                        })
+                        .collect()
+                };
+                let (_, gap) = self.close(pose, q, &beside)?;
+                if gap > pose.closed() {
+                    all = false;
+                    open = Some(gap);
+                    break;
+                }
+            }
+            if all {
+                // A gap this small at the longer step vanishes at the shorter one by a high order alone.
+                return Some(Some(open.is_none_or(|gap| gap > 1e5 * pose.closed())));
+            }
+        }
+        Some(
+            open.is_some_and(|gap| gap > 30.0 * pose.closed())
+                .then_some(false),
+        )
+    }
+
+    /// A closed pose at a distance from this one, near to `q`.
+    fn on_sphere(&mut self, pose: &Pose, q: &[f64], radius: f64) -> Option<Option<Vec<f64>>> {
+        let size = norm(q).max(1e-300);
+        let start = q.iter().map(|x| x * radius / size).collect();
+        let beside = |q: &[f64]| -> Vec<(f64, Vec<f64>)> {
+            let size = norm(q).max(1e-300);
+            vec![(size - radius, q.iter().map(|x| x / size).collect())]
+        };
+        let (q, gap) = self.close(pose, start, &beside)?;
+        Some((gap < pose.closed()).then_some(q))
+    }
+
+    /// The branch that begins in a direction, where there is one.
+    fn branch(&mut self, pose: &Pose, direction: &[f64], scale: f64) -> Option<Option<Branch>> {
+        for radius in SPHERES.map(|s| s * scale) {
+            let Some(first) = self.on_sphere(pose, direction, radius)? else {
+                continue;
+            };
+            // In to the pose: the same branch on every sphere.
+            let (mut near, mut r, mut joined) = (first.clone(), radius, true);
+            while r * INWARD > FOLLOWED.start * scale {
+                r *= INWARD;
+                match self.on_sphere(pose, &near, r)? {
+                    Some(next) if alike(&near, &next) => near = next,
+                    _ => {
+                        joined = false;
+                        break;
+                    }
+                }
+            }
+            if !joined {
+                continue;
+            }
+            let (mut far, mut r) = (first, radius);
+            while r / INWARD < FOLLOWED.end * scale {
+                r /= INWARD;
+                match self.on_sphere(pose, &far, r)? {
+                    Some(next) if alike(&far, &next) => far = next,
+                    _ => break,
+                }
+            }
+            return Some(Some(Branch { near, far }));
+        }
+        Some(None)
+    }
+
+    /// Dimensions at a pose; `shaky` where it is known that not all instantaneous motions extend.
+    fn dimension(
+        &mut self,
+        pose: &Pose,
+        motions: Option<usize>,
+        shaky: bool,
+        scale: f64,
+        depth: usize,
+    ) -> Option<Found> {
+        let flat = Flat::new(pose, motions);
+        let n = flat.kernel.ncols();
+        if n == 0 {
+            let to = usize::from(!flat.clear);
+            let regular = flat.clear;
+            return Some(Found {
+                from: 0,
+                to,
+                regular,
+            });
+        }
+        if !shaky {
+            match self.smooth(pose, &flat.kernel, scale)? {
+                Some(true) => return Some(Found::exactly(n, true)),
+                Some(false) => {}
+                None => {
+                    return Some(Found {
+                        from: 0,
+                        to: n,
+                        regular: false,
+                    });
+                }
+            }
+        }
+        // Not everything extends, so at most a hypersurface does.
+        let at_most = n - 1;
+        if n == 1 {
+            return Some(Found::exactly(0, false));
+        }
+        let quadrics = Quadrics::new(pose, &flat);
+        if quadrics.is_definite() {
+            return Some(Found::exactly(0, false));
+        }
+        let starts = (0..80).map(|_| self.direction(n)).collect();
+        let seeds = tangent_cone::directions(&quadrics, tangent_cone::sparse(&flat.kernel), starts);
+        let mut directions = tangent_cone::choice(&quadrics, &seeds, BRANCHES);
+        if quadrics.vanish() || directions.len() < 4 {
+            directions.extend((0..8).map(|_| self.direction(n)));
+        }
+        let sampled = if quadrics.vanish() {
+            at_most
+        } else {
+            quadrics.dimension(&seeds).min(at_most)
+        };
+        let from = self.along_branches(pose, &flat, &directions, scale, depth);
+        Some(Found {
+            from,
+            to: if self.poses < self.budget {
+                sampled.max(from)
+            } else {
+                at_most
+            },
+            regular: false,
+        })
+    }
+
+    /// The largest dimension found along branches in some directions, as far as the budget goes.
+    fn along_branches(
+        &mut self,
+        pose: &Pose,
+        flat: &Flat,
+        directions: &[Vec<f64>],
+        scale: f64,
+        depth: usize,
+    ) -> usize {
+        let n = flat.kernel.ncols();
+        let (mut best, mut same) = (0, Vec::new());
+        for x in directions {
+            if best + 1 == n {
+                return best;
+            }
+            let start = along(&flat.kernel, x);
+            let opposite: Vec<f64> = start.iter().map(|x| -x).collect();
+            let found = match self.branch(pose, &start, scale) {
+                Some(None) => self.branch(pose, &opposite, scale),
+                found => found,
+            };
+            let Some(Some(branch)) = found else { continue };
+            // A curve through the pose is a motion.
+            best = best.max(1);
+            let there = pose.moved(&branch.far);
+            let motions = Flat::new(&there, None).kernel.ncols();
+            if motions >= n {
+                same.push(branch);
+            } else if motions > best && depth < DEPTH {
+                let distance = (norm(&branch.far) * 0.5).min(scale);
+                let found = self.dimension(&there, None, false, distance, depth + 1);
+                best = best.max(found.map_or(0, |f| f.from));
+            }
+        }
+        if same.is_empty() || best + 1 == n {
+            return best;
+        }
+        // Nothing changes along the motion: J is short of rank all along it, and the displacements tell its dimension.
+        let f = pose.columns.len();
+        let part = Matrix::from_fn(f, same.len(), |r, c| {
+            same[c].near[r] / norm(&same[c].near).max(1e-300)
+        });
+        if let Some(svd) = svd(&part) {
+            let d = svd.rank(SPAN);
+            let reached = svd.u.cols(0..d);
+            if d < n && d > best && self.smooth(pose, &reached, scale) == Some(Some(true)) {
+                return d;
+            }
+        }
+        if depth < DEPTH {
+            for branch in same.iter().take(3) {
+                let distance = (norm(&branch.far) * 0.5).min(scale);
+                let there = pose.moved(&branch.far);
+                let found = self.dimension(&there, None, true, distance, depth + 1);
+                best = best.max(found.map_or(0, |f| f.from));
+            }
+        }
+        best.min(n - 1)
+    }
+}
+
+/// A curve of closed poses from a pose: coordinates close to it and far from it.
+struct Branch {
+    near: Vec<f64>,
+    far: Vec<f64>,
+}
+
+/// Whether two coordinates lie in nearly the same direction.
+fn alike(a: &[f64], b: &[f64]) -> bool {
+    let dot: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+    dot > 0.9 * norm(a) * norm(b)
+}

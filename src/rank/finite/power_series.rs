@@ -1,0 +1,144 @@
+//! Truncated power series of several variables over a prime field, and their ideals.
+
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::{Field, Residue};
+use std::collections::BTreeMap;
+
+/// The monomials of some variables by degree, and products of truncated series of them.
+#[derive(Debug)]
+pub(in crate::rank) struct Monomials {
+    variables: usize,
+    /// Exponents, a byte a variable; by degree.
+    keys: Vec<u128>,
+    index: BTreeMap<u128, usize>,
+    /// Where each degree begins, and the end.
+    starts: Vec<usize>,
+    /// For each pair whose product is kept, the index of the product: `products[i][j]`.
+    products: Vec<Vec<usize>>,
+}
+
+impl Monomials {
+    /// Degrees 0 and 1 of at most 16 variables.
+    pub(in crate::rank) fn new(variables: usize) -> Monomials {
+        let mut out = Monomials {
+            variables,
+            keys: vec![0],
+            index: BTreeMap::from([(0, 0)]),
+            starts: vec![0, 1],
+            products: Vec::new(),
+        };
+        out.extend(1);
+        out
+    }
+
+    /// Adds the next degree.
+    pub(in crate::rank) fn extend(&mut self, degree: usize) {
+        let before = self.of_degree(degree - 1);
+        for i in before {
+            // Each monomial once: by a variable no earlier than its last one.
+            let key = self.keys[i];
+            let last = (0..self.variables)
+                .rev()
+                .find(|v| key >> (8 * v) & 0xff != 0)
+                .unwrap_or(0);
+            for v in last..self.variables {
+                let next = key + (1 << (8 * v));
+                self.index.insert(next, self.keys.len());
+                self.keys.push(next);
+            }
+        }
+        self.starts.push(self.keys.len());
+        self.products = (0..=degree)
+            .flat_map(|d| self.of_degree(d).map(move |i| (d, i)))
+            .map(|(d, i)| {
+                (0..self.starts[degree - d + 1])
+                    .map(|j| self.index[&(self.keys[i] + self.keys[j])])
+                    .collect()
+            })
+            .collect();
+    }
+
+    pub(in crate::rank) fn degree(&self) -> usize {
+        self.starts.len() - 2
+    }
+
+    pub(in crate::rank) fn count(&self) -> usize {
+        self.keys.len()
+    }
+
+    pub(in crate::rank) fn pairs(&self) -> usize {
+        self.products.iter().map(Vec::len).sum()
+    }
+
+    pub(in crate::rank) fn of_degree(&self, degree: usize) -> std::ops::Range<usize> {
+        self.starts[degree]..self.starts[degree + 1]
+    }
+
+    pub(in crate::rank) fn product(&self, f: Field, a: &[Residue], b: &[Residue]) -> Vec<Residue> {
+        let mut out = vec![0; self.count()];
+        for (&x, products) in a.iter().zip(&self.products).filter(|(x, _)| **x != 0) {
+            for (&y, &at) in b.iter().zip(products).filter(|(y, _)| **y != 0) {
+                out[at] = f.add(out[at], f.mul(x, y));
+            }
+        }
+        out
+    }
+
+    /// Whether all monomials of the highest degree lie in the ideal of some series, up to higher degrees; none where that
+    /// is more than `work` products.
+    pub(in crate::rank) fn all_in_ideal(
+        &self,
+        f: Field,
+        series: &[Vec<Residue>],
+        work: usize,
+    ) -> Option<bool> {
+        let degree = self.degree();
+        let mut independent = Echelon::new(f);
+        for s in series.iter().filter(|s| s.iter().any(|&x| x != 0)) {
+            independent.insert(s);
+        }
+        let rows = independent.reduced();
+        let shifts = |row: &[Residue]| {
+            let order = row.iter().position(|&x| x != 0).unwrap_or(0);
+            let own = (0..=degree)
+                .find(|&d| self.of_degree(d).contains(&order))
+                .unwrap_or(degree);
+            self.starts[degree - own + 1]
+        };
+        let total: usize = rows.iter().map(|r| shifts(r)).sum();
+        if total * self.count().pow(2) > work {
+            return None;
+        }
+        let top = self.of_degree(degree);
+        if total < top.len() {
+            return Some(false);
+        }
+        let mut span = Echelon::new(f);
+        for row in &rows {
+            for i in 0..shifts(row) {
+                let mut shifted = vec![0; self.count()];
+                for (&x, &at) in row.iter().zip(&self.products[i]) {
+                    shifted[at] = x;
+                }
+                span.insert(&shifted);
+            }
+        }
+        let inside = span
+            .reduced()
+            .iter()
+            .filter(|r| {
+                r.iter()
+                    .position(|&x| x != 0)
+                    .is_some_and(|p| top.contains(&p))
+            })
+            .count();
+        Some(inside == top.len())
+    }
+}
+
+/// Adds a multiple of a series.
+pub(in crate::rank) fn accumulate(f: Field, sum: &mut [Residue], series: &[Residue], by: Residue) {
+    for (s, &x) in sum.iter_mut().zip(series).filter(|(_, x)| **x != 0) {
+        *s = f.add(*s, f.mul(by, x));
+    }
+}

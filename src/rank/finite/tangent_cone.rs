@@ -1,0 +1,316 @@
+//! The tangent cone to second order: the instantaneous motions that every self-stress lets pass.
+//!
+//! A motion that begins with speeds x, J x = 0, has accelerations only if each self-stress ω does no work on the gaps of
+//! second order: ω·q(x) = 0, quadratic forms in the weights of the motions [Connelly & Whiteley 1996; Müller 2016]. Their
+//! real zeros are found from many starts by damped Newton steps; a combination of the forms that is definite leaves none.
+
+use crate::motion::pose::{FLAT, Pose};
+use ozols_dense::{Matrix, singular_values, solve, svd, symmetric_eigen};
+
+/// Step of the differences that the forms are taken from.
+const DIFFERENCE: f64 = 1e-4;
+/// Values of a form, relative to the largest coefficient, that count as zero.
+const ZERO: f64 = 1e-6;
+
+/// Singular values in this range are too near to zero to be told from it.
+const UNCLEAR: std::ops::Range<f64> = 1e-9..1e-6;
+
+/// The flat directions of J at a pose.
+pub(in crate::rank) struct Flat {
+    /// Instantaneous motions, orthonormal columns.
+    pub(in crate::rank) kernel: Matrix,
+    /// Self-stresses, orthonormal columns.
+    pub(in crate::rank) stresses: Matrix,
+    /// Whether all singular values are clearly zero or clearly not.
+    pub(in crate::rank) clear: bool,
+}
+
+impl Flat {
+    /// With `motions` columns where their number is known.
+    pub(in crate::rank) fn new(pose: &Pose, motions: Option<usize>) -> Flat {
+        let (f, rows) = (pose.columns.len(), pose.rows());
+        let Some(svd) = svd(&pose.jacobian(&vec![0.0; f])) else {
+            return Flat {
+                kernel: Matrix::zeros(f, 0),
+                stresses: Matrix::identity(rows, rows),
+                clear: false,
+            };
+        };
+        let values = &svd.values;
+        let scale = values.first().map_or(1.0, |s| s.max(1.0));
+        let flat = FLAT.max(10.0 * pose.accuracy());
+        let rank = match motions {
+            Some(n) => f - n.min(f),
+            None => values.iter().filter(|&&s| s > flat * scale).count(),
+        };
+        Flat {
+            kernel: svd.null_space(rank),
+            stresses: svd.left_null_space(rank),
+            clear: motions.is_some()
+                || pose.accuracy() > 0.0
+                || values.iter().all(|s| !UNCLEAR.contains(&(s / scale))),
+        }
+    }
+}
+
+pub(in crate::rank) fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// The quadratic forms.
+#[derive(Debug)]
+pub(in crate::rank) struct Quadrics {
+    /// Symmetric matrices, n × n.
+    forms: Vec<Matrix>,
+    motions: usize,
+}
+
+impl Quadrics {
+    /// The forms of the self-stresses at a pose, the dependent ones left out.
+    pub(in crate::rank) fn new(pose: &Pose, flat: &Flat) -> Quadrics {
+        let n = flat.kernel.ncols();
+        let (f, s) = (flat.kernel.nrows(), flat.stresses.ncols());
+        let works = |x: &[f64]| -> Vec<f64> {
+            let v: Vec<f64> = (0..f)
+                .map(|r| (0..n).map(|c| flat.kernel[(r, c)] * x[c]).sum())
+                .collect();
+            let at = |h: f64| {
+                let q: Vec<f64> = v.iter().map(|v| h * v).collect();
+                pose.jacobian(&q).times(&Matrix::column(&v))
+            };
+            let mut difference = at(DIFFERENCE);
+            difference.add_multiple(-1.0, &at(-DIFFERENCE));
+            let work = flat.stresses.transpose_times(&difference);
+            let work = work.col(0).iter();
+            work.map(|w| w / (4.0 * DIFFERENCE)).collect()
+        };
+        let unit = |pairs: &[usize]| {
+            let mut x = vec![0.0; n];
+            pairs.iter().for_each(|&i| x[i] += 1.0);
+            works(&x)
+        };
+        let single: Vec<Vec<f64>> = (0..n).map(|i| unit(&[i])).collect();
+        let pairs: Vec<(usize, usize)> =
+            (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
+        let mixed: Vec<Vec<f64>> = pairs
+            .iter()
+            .map(|&(i, j)| {
+                if i == j {
+                    single[i].clone()
+                } else {
+                    unit(&[i, j])
+                }
+            })
+            .collect();
+        // One row a form, one column a pair; singular values tell which combinations matter.
+        let table = Matrix::from_fn(s, pairs.len(), |k, p| {
+            let (i, j) = pairs[p];
+            if i == j {
+                single[i][k]
+            } else {
+                (mixed[p][k] - single[i][k] - single[j][k]) / 2.0
+            }
+        });
+        let mut forms = Vec::new();
+        if let Some(svd) = svd(&table) {
+            let floor = ZERO.max(10.0 * pose.accuracy());
+            for k in (0..svd.values.len()).filter(|&k| svd.values[k] > floor) {
+                let row = svd.v.col(k);
+                let mut form = Matrix::zeros(n, n);
+                for (p, &(i, j)) in pairs.iter().enumerate() {
+                    form[(i, j)] = row[p];
+                    form[(j, i)] = row[p];
+                }
+                forms.push(form);
+            }
+        }
+        Quadrics { forms, motions: n }
+    }
+
+    /// Whether there is nothing of second order.
+    pub(in crate::rank) fn vanish(&self) -> bool {
+        self.forms.is_empty()
+    }
+
+    fn times(form: &Matrix, x: &[f64]) -> Vec<f64> {
+        (0..x.len())
+            .map(|i| x.iter().enumerate().map(|(j, x)| form[(i, j)] * x).sum())
+            .collect()
+    }
+
+    fn values(&self, x: &[f64]) -> Vec<f64> {
+        let value = |q: &Matrix| Self::times(q, x).iter().zip(x).map(|(a, b)| a * b).sum();
+        self.forms.iter().map(value).collect()
+    }
+
+    /// The zero of all forms near a unit vector, if there is one.
+    fn zero_near(&self, mut x: Vec<f64>) -> Option<Vec<f64>> {
+        let n = self.motions;
+        for _ in 0..40 {
+            let values = self.values(&x);
+            let gap = norm(&values);
+            if gap < 1e-13 {
+                break;
+            }
+            let gradients: Vec<Vec<f64>> = self.forms.iter().map(|q| Self::times(q, &x)).collect();
+            // (GᵀG + xxᵀ + λ) step = Gᵀ values, G = 2 gradients.
+            let damping = gap.min(1e-2) * 1e-2 + 1e-14;
+            let normal = Matrix::from_fn(n, n, |i, j| {
+                let sum: f64 = gradients.iter().map(|g| 4.0 * g[i] * g[j]).sum();
+                sum + x[i] * x[j] + if i == j { damping } else { 0.0 }
+            });
+            let weighted = |i| {
+                let pairs = gradients.iter().zip(&values);
+                pairs.map(|(g, v)| 2.0 * g[i] * v).sum::<f64>()
+            };
+            let right: Vec<f64> = (0..n).map(weighted).collect();
+            for (x, step) in x.iter_mut().zip(solve(&normal, &right)) {
+                *x -= step;
+            }
+            let size = norm(&x);
+            if !size.is_finite() || size < 1e-9 {
+                return None;
+            }
+            x.iter_mut().for_each(|x| *x /= size);
+        }
+        (norm(&self.values(&x)) < ZERO).then_some(x)
+    }
+
+    /// Dimension that the cone can have at a zero: how many directions change no form.
+    fn nullity(&self, x: &[f64]) -> usize {
+        let n = self.motions;
+        if self.forms.is_empty() {
+            return n;
+        }
+        let gradients: Vec<Vec<f64>> = self.forms.iter().map(|q| Self::times(q, x)).collect();
+        let matrix = Matrix::from_fn(gradients.len(), n, |i, j| gradients[i][j]);
+        let values = singular_values(&matrix).unwrap_or_default();
+        n - values.iter().filter(|&&s| s > 1e-3).count()
+    }
+
+    /// The largest dimension of the cone at the zeros found.
+    pub(in crate::rank) fn dimension(&self, zeros: &[Vec<f64>]) -> usize {
+        let of = |x: &Vec<f64>| self.nullity(x);
+        zeros.iter().map(of).max().unwrap_or(0)
+    }
+
+    /// Whether some combination of the forms is definite, so that they have no common zero.
+    pub(in crate::rank) fn is_definite(&self) -> bool {
+        let n = self.motions;
+        let mut sum: Matrix = Matrix::zeros(n, n);
+        for q in &self.forms {
+            let trace: f64 = (0..n).map(|i| q[(i, i)]).sum();
+            sum.add_multiple(trace, q);
+        }
+        // Towards larger least eigenvalues: add the forms by their values at the least eigenvector.
+        for _ in 0..200 {
+            let Some((values, vectors)) = symmetric_eigen(&sum) else {
+                return false;
+            };
+            let largest = values[0].abs().max(values[n - 1].abs());
+            if values[0] > 1e-3 * largest {
+                return true;
+            }
+            let weights = self.values(vectors.col(0));
+            let size = norm(&weights);
+            if size < 1e-9 {
+                return false;
+            }
+            for (q, w) in self.forms.iter().zip(weights) {
+                sum.add_multiple(w / size * largest.max(1e-3) * 0.2, q);
+            }
+        }
+        false
+    }
+}
+
+/// Zeros of all forms, from the given starts.
+pub(in crate::rank) fn directions(
+    quadrics: &Quadrics,
+    sparse: Vec<Vec<f64>>,
+    random: Vec<Vec<f64>>,
+) -> Vec<Vec<f64>> {
+    if quadrics.vanish() {
+        return Vec::new();
+    }
+    let mut found: Vec<Vec<f64>> = Vec::new();
+    for x in sparse.into_iter().chain(random) {
+        if let Some(x) = quadrics.zero_near(x) {
+            let known = |y: &Vec<f64>| {
+                let dot: f64 = y.iter().zip(&x).map(|(a, b)| a * b).sum();
+                dot.abs() > 1.0 - 1e-8
+            };
+            if !found.iter().any(known) {
+                found.push(x);
+            }
+        }
+    }
+    found
+}
+
+/// Some of the zeros to begin with: those where the cone has the most dimensions first, a few of each.
+pub(in crate::rank) fn choice(
+    quadrics: &Quadrics,
+    zeros: &[Vec<f64>],
+    most: usize,
+) -> Vec<Vec<f64>> {
+    let mut by: Vec<(usize, &Vec<f64>)> = zeros.iter().map(|x| (quadrics.nullity(x), x)).collect();
+    by.sort_by_key(|(n, _)| std::cmp::Reverse(*n));
+    let mut kinds: Vec<usize> = by.iter().map(|(n, _)| *n).collect();
+    kinds.dedup();
+    let each = most.div_ceil(kinds.len().max(1));
+    let of = |k: usize| {
+        by.iter()
+            .filter(move |(n, _)| *n == k)
+            .take(each)
+            .map(|(_, x)| (*x).clone())
+    };
+    kinds.into_iter().flat_map(of).take(most).collect()
+}
+
+/// Motions of few joints: a basis of the kernel in reduced form, as weights of its columns.
+pub(in crate::rank) fn sparse(kernel: &Matrix) -> Vec<Vec<f64>> {
+    let (f, n) = (kernel.nrows(), kernel.ncols());
+    let mut rows: Vec<Vec<f64>> = (0..n)
+        .map(|c| (0..f).map(|r| kernel[(r, c)]).collect())
+        .collect();
+    for i in 0..n {
+        // The largest entry left as the pivot.
+        let largest = |row: &Vec<f64>| {
+            let at = (0..f).max_by(|&a, &b| row[a].abs().total_cmp(&row[b].abs()));
+            at.map_or((0, 0.0), |c| (c, row[c].abs()))
+        };
+        let Some(r) = (i..n).max_by(|&a, &b| largest(&rows[a]).1.total_cmp(&largest(&rows[b]).1))
+        else {
+            break;
+        };
+        rows.swap(i, r);
+        let (c, size) = largest(&rows[i]);
+        if size < 1e-12 {
+            break;
+        }
+        let scale = rows[i][c];
+        rows[i].iter_mut().for_each(|x| *x /= scale);
+        let pivot = rows[i].clone();
+        for (k, row) in rows.iter_mut().enumerate() {
+            if k != i {
+                let by = row[c];
+                row.iter_mut().zip(&pivot).for_each(|(x, p)| *x -= by * p);
+            }
+        }
+    }
+    rows.iter()
+        .map(|row| {
+            let x: Vec<f64> = (0..n)
+                .map(|c| {
+                    row.iter()
+                        .enumerate()
+                        .map(|(r, v)| v * kernel[(r, c)])
+                        .sum()
+                })
+                .collect();
+            let size = norm(&x).max(1e-12);
+            x.into_iter().map(|v| v / size).collect()
+        })
+        .collect()
+}

@@ -1,0 +1,172 @@
+//! The automatic choice: the cheapest method that is certain for this mechanism, and one line that says what was chosen,
+//! why, and what was left out.
+
+use crate::closure::matrix::Closure;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::rounded::Rounded;
+use crate::rank::exact::field::field_of;
+use crate::rank::finite::coordinates::Coordinates;
+use crate::rank::finite::{Finite, finite_known, within};
+use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
+use crate::rank::numeric::Elimination;
+use crate::rank::rounded::snap::size;
+use crate::rank::rounded::verdict::{Meant, Verdict, verdict};
+
+/// A decision for one state.
+#[derive(Debug, Clone)]
+pub struct Decision {
+    /// The rank, and which mechanism it is of.
+    pub verdict: Verdict,
+    /// The mobility that is really there.
+    pub finite: Finite,
+    /// What was chosen, why, and what was left out.
+    pub line: String,
+}
+
+/// Decides for a state; `tolerance` overrides the one that follows from the digits.
+///
+/// # Errors
+/// Where the geometry has no image in a prime field, or the singular values do not converge.
+///
+/// # Complexity
+/// That of [`verdict`], and of the finite mobility.
+pub fn decide(
+    mechanism: &Mechanism,
+    state: StateId,
+    tolerance: Option<f64>,
+) -> Result<Decision, NoAnswer> {
+    let verdict = verdict(mechanism, state, tolerance)?;
+    Ok(Decision {
+        finite: finite_of(mechanism, state, &verdict)?,
+        line: line(&verdict),
+        verdict,
+    })
+}
+
+/// The finite mobility of what is meant.
+fn finite_of(m: &Mechanism, state: StateId, found: &Verdict) -> Result<Finite, NoAnswer> {
+    // What rounding and noise leave of a zero says how well poses can close, and so does the last digit.
+    let size = size(m);
+    let unit = |r: &Rounded| r.units.direction.max(r.units.length / size);
+    let unit = found.rounded.as_ref().map_or(0.0, unit);
+    let most = found.tolerance.max(1e-16);
+    let accuracy = found
+        .numeric
+        .map(|n| (10.0 * n.dropped).max(unit).clamp(1e-16, most));
+    let exactly = |m: &Mechanism, rank: usize| {
+        let exact = field_of(m, state, 0)?;
+        let closure = Closure::new(&exact, m, state)?;
+        let known = match accuracy {
+            None => Coordinates::Exact,
+            Some(a) if found.resolved => Coordinates::Meant(a),
+            Some(a) => Coordinates::Within(a),
+        };
+        finite_known(&exact, m, &closure, rank, known)
+    };
+    Ok(match &found.meant {
+        Meant::AsWritten => exactly(m, found.as_written)?,
+        Meant::Snapped {
+            mechanism, rank, ..
+        } => {
+            let exact = field_of(mechanism, state, 0)?;
+            let closure = Closure::new(&exact, mechanism, state)?;
+            let known = Coordinates::Meant(accuracy.unwrap_or(0.0));
+            finite_known(&exact, mechanism, &closure, *rank, known)?
+        }
+        Meant::Near {
+            mechanism, rank, ..
+        } => within(
+            mechanism,
+            state,
+            found.figures(*rank).0,
+            accuracy.unwrap_or(0.0),
+        )?,
+        Meant::Undecided { near } => Finite::rounded(found.figures(*near).0),
+    })
+}
+
+/// What was chosen and why.
+fn line(found: &Verdict) -> String {
+    let needed = &found.needed;
+    let Some(n) = found.numeric else {
+        return format!("exact geometry, so ranks over prime fields{needed}");
+    };
+    let measured = found.rounded.as_ref().is_some_and(|r| r.digits.is_some());
+    let why = match &found.rounded {
+        Some(r) if r.pi => format!("pi is no exact number ({r}); "),
+        Some(r) if measured => format!("coordinates look measured ({r}); "),
+        Some(r) if !found.is_as_written() => format!("coordinates look rounded ({r}); "),
+        _ => String::new(),
+    };
+    let gap = format!(
+        "singular values at tolerance {:.0e} (smallest kept {:.1e}, largest dropped {:.1e})",
+        found.tolerance, n.kept, n.dropped
+    );
+    let both = format!(
+        "as written, every digit at its word, the rank would be {} (mobility {}) instead of {} (mobility {})",
+        found.as_written,
+        found.figures(found.as_written).0,
+        found.at_least(),
+        found.figures(found.at_least()).0
+    );
+    match &found.meant {
+        Meant::AsWritten if measured => {
+            format!("{why}exact rank as written and {gap} agree{needed}")
+        }
+        Meant::AsWritten => format!(
+            "exact geometry, so ranks over prime fields; no rounding of the last digits changes them{needed}"
+        ),
+        Meant::Snapped { moved, .. } => format!(
+            "{why}snapped within the digits ({} joints), exact rank then; {gap} agree; {both}",
+            moved.len()
+        ),
+        Meant::Near {
+            moved: Some(units), ..
+        } => format!(
+            "{why}a geometry with that rank is within {units:.2} units of the last digits; {gap}; {both}"
+        ),
+        Meant::Near { moved: None, .. } => format!("{why}{gap}; {both}"),
+        Meant::Undecided { .. } => format!("{why}{}", found.undecided()),
+    }
+}
+
+/// The automatic choice as a method; finite mobility.
+#[derive(Debug, Clone, Copy)]
+pub struct Auto;
+
+impl MobilityMethod for Auto {
+    fn about(&self) -> &'static About {
+        &About {
+            name: "auto",
+            title: "automatic choice",
+            help: "The cheapest that is certain: exact where the geometry is, as meant within the digits where it is rounded",
+            guarantee: "as the method it chooses, which it names; finite mobility, or undecided",
+            complexity: "one modular rank, and singular values only where coordinates are decimals",
+            source: "this program",
+            rank: RankOfJ::Chosen,
+        }
+    }
+    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+        let Decision {
+            verdict, finite, ..
+        } = decide(mechanism, state, None)?;
+        if let Meant::Undecided { .. } = verdict.meant {
+            return Err(NoAnswer::Failed(verdict.undecided()));
+        }
+        if finite.is_undecided() {
+            return Err(NoAnswer::Failed(finite.describe()));
+        }
+        let numeric = verdict
+            .numeric
+            .filter(|_| matches!(verdict.meant, Meant::Near { .. }));
+        Ok(Answer {
+            mobility: i64::try_from(finite.mobility).unwrap_or(i64::MAX),
+            quantity: Quantity::Finite,
+            certainty: match numeric {
+                Some(n) => Elimination::Svd.certainty(n, verdict.tolerance),
+                None if finite.is_proven() => Certainty::Exact,
+                None => Certainty::Traced,
+            },
+        })
+    }
+}

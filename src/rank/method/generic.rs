@@ -1,0 +1,159 @@
+//! Generic rank: the mobility the same structure has with its joints in general position, by a pebble game.
+//!
+//! A joint of class c is c bars between two bodies; generically a set of bars is independent exactly where it is
+//! (D, D)-sparse, D = 6 in space and 3 in the plane [Tay 1984; Tay & Whiteley 1984 for hinges; Katoh & Tanigawa 2011],
+//! which the pebble game decides [Lee & Streinu 2008].
+
+use crate::model::mechanism::{LinkId, Mechanism, Mode, StateId};
+use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
+
+/// W = D(n - 1) - the rank of the bars in general position.
+#[derive(Debug, Clone, Copy)]
+pub struct Generic;
+
+/// The (D, D) pebble game: bars are taken in as long as they are independent of those before.
+#[derive(Debug)]
+struct Pebbles {
+    free: Vec<usize>,
+    /// Directed bars: `out[a]` lists the heads of the bars that hold a pebble of `a`.
+    out: Vec<Vec<usize>>,
+}
+
+impl Pebbles {
+    /// Brings one more free pebble to `to` without touching those of `keep`.
+    fn gather(&mut self, to: usize, keep: usize) -> bool {
+        let mut came: Vec<Option<usize>> = vec![None; self.free.len()];
+        let mut stack = vec![to];
+        came[to] = Some(to);
+        came[keep] = Some(keep);
+        while let Some(at) = stack.pop() {
+            if at != to && self.free[at] > 0 {
+                self.free[at] -= 1;
+                self.free[to] += 1;
+                // Turn the path round.
+                let mut head = at;
+                while head != to {
+                    let tail = came[head].unwrap_or(to);
+                    if let Some(i) = self.out[tail].iter().position(|&h| h == head) {
+                        self.out[tail].swap_remove(i);
+                    }
+                    self.out[head].push(tail);
+                    head = tail;
+                }
+                return true;
+            }
+            let heads = self.out[at].clone();
+            for next in heads {
+                if came[next].is_none() {
+                    came[next] = Some(at);
+                    stack.push(next);
+                }
+            }
+        }
+        false
+    }
+
+    fn insert(&mut self, a: usize, b: usize, dim: usize) -> bool {
+        while self.free[a] < dim {
+            if !self.gather(a, b) {
+                break;
+            }
+        }
+        while self.free[a] + self.free[b] <= dim {
+            if !self.gather(b, a) {
+                return false;
+            }
+        }
+        let (tail, head) = if self.free[a] > 0 { (a, b) } else { (b, a) };
+        self.free[tail] -= 1;
+        self.out[tail].push(head);
+        true
+    }
+}
+
+/// Number of independent bars between bodies in general position.
+#[must_use]
+pub fn generic_rank(bodies: usize, bars: &[(usize, usize)], dim: usize) -> usize {
+    let mut game = Pebbles {
+        free: vec![dim; bodies],
+        out: vec![Vec::new(); bodies],
+    };
+    bars.iter()
+        .filter(|&&(a, b)| a != b && game.insert(a, b, dim))
+        .count()
+}
+
+impl MobilityMethod for Generic {
+    fn about(&self) -> &'static About {
+        &About {
+            name: "generic",
+            title: "generic rank (pebble game)",
+            help: "The same structure in general position, by a pebble game",
+            guarantee: "right for joints in general position; special geometry (parallel, concurrent, symmetric) is not seen",
+            complexity: "O(D² n · bars)",
+            source: "Tay 1984; Lee & Streinu 2008",
+            rank: RankOfJ::NotFound,
+        }
+    }
+    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+        if mechanism.couplings_in(state).next().is_some() {
+            return Err(NoAnswer::DoesNotApply(
+                "the pebble game has no couplings of joints",
+            ));
+        }
+        let dim = match mechanism.mode {
+            Mode::Spatial => 6,
+            Mode::Planar { .. } => 3,
+        };
+        let mut links: Vec<LinkId> = Vec::new();
+        let mut bars = Vec::new();
+        for j in mechanism.joints_in(state) {
+            let joint = &mechanism.joints[j];
+            let ends = joint.links.map(|l| {
+                links.iter().position(|&x| x == l).unwrap_or_else(|| {
+                    links.push(l);
+                    links.len() - 1
+                })
+            });
+            let class = usize::saturating_sub(dim, joint.joint_type.freedoms().len());
+            bars.extend(std::iter::repeat_n((ends[0], ends[1]), class));
+        }
+        let rank = generic_rank(links.len(), &bars, dim);
+        let all = dim * (links.len().max(1) - 1);
+        Ok(Answer {
+            mobility: i64::try_from(all).unwrap_or(i64::MAX) - i64::try_from(rank).unwrap_or(0),
+            quantity: Quantity::Count,
+            certainty: Certainty::Counted,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::generic_rank;
+
+    #[test]
+    fn loops_of_hinges() {
+        // A ring of n bodies with hinges (five bars each): mobility n - 6, none below.
+        for n in 3..12_usize {
+            let bars: Vec<_> = (0..n)
+                .flat_map(|i| std::iter::repeat_n((i, (i + 1) % n), 5))
+                .collect();
+            let mobility = 6 * (n - 1) - generic_rank(n, &bars, 6);
+            assert_eq!(mobility, n.saturating_sub(6), "{n}");
+        }
+    }
+
+    #[test]
+    fn planar_chains() {
+        // Pins are two bars in the plane: the four-bar linkage moves, the triangle does not.
+        let ring = |n: usize| -> Vec<_> {
+            (0..n)
+                .flat_map(|i| std::iter::repeat_n((i, (i + 1) % n), 2))
+                .collect()
+        };
+        for (n, w) in [(3, 0), (4, 1), (5, 2)] {
+            assert_eq!(3 * (n - 1) - generic_rank(n, &ring(n), 3), w);
+        }
+    }
+}

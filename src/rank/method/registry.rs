@@ -1,0 +1,34 @@
+//! The list of methods: what `--method`, the survey and the charts offer.
+
+use crate::rank::exact::modular;
+use crate::rank::exact::rational;
+use crate::rank::method::MobilityMethod;
+use crate::rank::method::auto;
+use crate::rank::method::finite_exact;
+use crate::rank::method::formulas;
+use crate::rank::method::generic;
+use crate::rank::method::sum_of_loops;
+use crate::rank::numeric::Elimination;
+
+/// Every method, the cheapest kind first.
+pub const ALL: [&dyn MobilityMethod; 13] = [
+    &formulas::Spatial,
+    &formulas::Planar,
+    &sum_of_loops::Loops,
+    &generic::Generic,
+    &Elimination::Lu32,
+    &Elimination::Lu,
+    &Elimination::Qr32,
+    &Elimination::Qr,
+    &Elimination::Svd,
+    &modular::Modular,
+    &rational::Rational,
+    &finite_exact::Exact,
+    &auto::Auto,
+];
+
+/// The method of a name.
+#[must_use]
+pub fn by_name(name: &str) -> Option<&'static dyn MobilityMethod> {
+    ALL.into_iter().find(|m| m.about().name == name)
+}

@@ -1,0 +1,65 @@
+//! Singular values of J, and the gaps among them that tell what is left over from zero.
+
+use crate::closure::matrix::Closure;
+use crate::rank::method::NoAnswer;
+use crate::rank::numeric::NumericError;
+use crate::rank::numeric::scaling::{NumericRank, scaled};
+use ozols_dense::singular_values;
+
+/// Singular values below this fraction of the largest are zero in double precision.
+pub(in crate::rank) const ROUND_OFF: f64 = 1e-14;
+/// A gap this wide among the values that the exact rank counts,
+const GAP: f64 = 1e3;
+/// that ends below this fraction of the largest, says that some are left over from zero.
+const LEFT_OVER: f64 = 1e-4;
+
+/// Singular values over the largest, falling.
+pub(in crate::rank) struct Values {
+    pub(in crate::rank) largest: f64,
+    relative: Vec<f64>,
+}
+
+pub(in crate::rank) fn relative_values(closure: &Closure<f64>) -> Result<Option<Values>, NoAnswer> {
+    let mut relative = singular_values(&scaled(closure))
+        .ok_or_else(|| NoAnswer::Failed(NumericError::NoConvergence.to_string()))?;
+    let largest = relative.first().copied().filter(|s| *s > 0.0);
+    Ok(largest.map(|largest| {
+        relative.iter_mut().for_each(|v| *v /= largest);
+        Values { largest, relative }
+    }))
+}
+
+impl Values {
+    pub(in crate::rank) fn above(&self, tolerance: f64) -> usize {
+        self.relative.iter().filter(|v| **v > tolerance).count()
+    }
+
+    /// The rank with the gap it rests on.
+    pub(in crate::rank) fn at(&self, rank: usize) -> NumericRank {
+        let value = |i: usize| self.relative.get(i).copied();
+        NumericRank {
+            rank,
+            kept: rank.checked_sub(1).and_then(value).unwrap_or(1.0),
+            dropped: value(rank).unwrap_or(0.0),
+        }
+    }
+
+    /// How far apart the last value of a rank and the next one are, with values below a floor as high as that.
+    pub(in crate::rank) fn gap(&self, rank: usize, floor: f64) -> f64 {
+        let found = self.at(rank);
+        found.kept.max(floor) / found.dropped.max(floor)
+    }
+
+    /// The rank with the widest gap. Zeros that rounding disturbs to second order only are as large as its square.
+    pub(in crate::rank) fn widest_gap(&self, from: usize, below: usize, tolerance: f64) -> usize {
+        let floor = (tolerance * tolerance).max(ROUND_OFF);
+        let gap = |rank: usize| self.gap(rank, floor);
+        let wider = |a: &usize, b: &usize| gap(*a).total_cmp(&gap(*b));
+        (from..below).max_by(wider).unwrap_or(from)
+    }
+
+    /// The rank at a gap so wide, and values so small below it, that they are likely left over from zero.
+    pub(in crate::rank) fn left_over(&self, rank: usize) -> Option<usize> {
+        (1..rank).find(|&r| self.gap(r, ROUND_OFF) >= GAP && self.at(r).dropped < LEFT_OVER)
+    }
+}

@@ -1,0 +1,397 @@
+//! No more rows of the closure equations than the joints move in.
+//!
+//! Joints that are tied by contours or couplings make a block. Where all joints of a block move in a group of fewer than six
+//! dimensions, as in a plane, that many rows a contour do. Where each joint's freedoms are some in a plane (a turn about its
+//! normal, slides along it) and some out of it (tilts about lines of the plane, a slide along the normal), the equations of
+//! the block fall apart into those in the plane and those out of it, and in each only the rows in which anything moves count.
+//! Ranks add up over parts and blocks; the rows that are left out are zero, or combinations of the others whatever the rest of
+//! the mechanism is, so that they are redundant.
+//!
+//! This is of the pose and the geometry it is asked for: rows in which nothing moves here may be those of a motion in another.
+
+use crate::closure::matrix::{Closure, Column, CouplingRow};
+use crate::format::phrase::plural;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::Residue;
+use crate::model::mechanism::{JointId, Mechanism, Mode};
+use crate::rank::exact::modular;
+use crate::rank::finite::displacement_group::{Group, group_of};
+use crate::rank::finite::independent_parts::parts;
+use crate::rank::reduce::axis_names::Direction;
+use crate::rank::reduce::plane::{Rows, planes, seen};
+use itertools::Itertools;
+use std::collections::HashMap;
+
+/// Motions that rows are of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Motions {
+    /// Any.
+    All,
+    /// Those of a group, named with its dimension.
+    Group(String),
+    /// Those in a plane with this normal, where that has a name.
+    InPlane(Option<Direction>),
+    /// Those out of it.
+    OutOfPlane(Option<Direction>),
+}
+
+/// Rows of a block that do not depend on its others.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Part {
+    /// What they are of.
+    pub motions: Motions,
+    /// Rows a contour.
+    pub per_contour: usize,
+    /// All of them, and one for each coupling.
+    pub rows: usize,
+    /// What J has for such motions.
+    pub of: usize,
+    /// Their rank.
+    pub rank: usize,
+}
+
+/// Contours whose joints are tied.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Block {
+    /// The contours, by their places.
+    pub contours: Vec<usize>,
+    /// One part, or that in a plane and that out of it.
+    pub parts: Vec<Part>,
+}
+
+/// The rows that are enough for the rank of J.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LeastRows {
+    /// The blocks, in the order of their first joints.
+    pub blocks: Vec<Block>,
+    /// All rows of J.
+    pub of: usize,
+    /// Rows a contour that J has.
+    dim: usize,
+    /// Whether there are joints in no contour.
+    outside: bool,
+}
+
+impl LeastRows {
+    /// Looks for them, and finds their rank by one prime.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    ///
+    /// # Complexity
+    /// That of [`modular::rank`], and eliminations of six by six numbers, a few for each joint and plane looked at.
+    pub fn new(
+        exact: &ExactField,
+        mechanism: &Mechanism,
+        closure: &Closure<Residue>,
+    ) -> Result<LeastRows, ExactError> {
+        let all = |part| Block {
+            contours: (0..closure.contours.len()).collect(),
+            parts: vec![part],
+        };
+        let tied = parts(closure);
+        let mut blocks = Vec::new();
+        let mut spoken_for = 0;
+        if let Mode::Planar { .. } = mechanism.mode {
+            blocks.push(all(Part::whole(exact, closure)));
+        } else {
+            for (joints, (contours, own)) in tied.iter().zip(of_blocks(closure, &tied)) {
+                spoken_for += if contours.is_empty() { 0 } else { joints.len() };
+                let parts = least(exact, mechanism, joints, &own)?;
+                blocks.push(Block { contours, parts });
+            }
+            // Blocks of one and the same group are told as one.
+            let dimension = |b: &Block| match b.parts.as_slice() {
+                [part] => matches!(part.motions, Motions::Group(_)).then_some(part.per_contour),
+                _ => None,
+            };
+            if blocks.len() > 1
+                && let Ok(Some(one)) = blocks.iter().map(dimension).all_equal_value()
+            {
+                let group = group_of(exact, mechanism, tied.into_iter().flatten())?;
+                if group.dimension() == one {
+                    blocks = vec![all(Part::of_group(exact, &group, closure))];
+                }
+            }
+        }
+        Ok(LeastRows {
+            blocks,
+            of: closure.rows(),
+            dim: closure.dim,
+            outside: mechanism.joints_in(closure.state).count() > spoken_for,
+        })
+    }
+
+    /// Rank of J, by one prime.
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        self.parts().map(|p| p.rank).sum()
+    }
+
+    /// The rows that are enough.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.parts().map(|p| p.rows).sum()
+    }
+
+    /// Whether that is all of them, in one piece for each block.
+    #[must_use]
+    pub fn is_all(&self) -> bool {
+        self.parts().all(|p| p.motions == Motions::All)
+    }
+
+    fn parts(&self) -> impl Iterator<Item = &Part> {
+        self.blocks.iter().flat_map(|b| &b.parts)
+    }
+
+    /// What was taken, and what was left out and why it may be; nothing where all rows are taken as they are.
+    #[must_use]
+    pub fn words(&self, mechanism: &Mechanism, name: impl Fn(usize) -> String) -> String {
+        if self.is_all() {
+            return String::new();
+        }
+        let what = |b: &Block| b.words(mechanism, self.dim);
+        let left_out = |rows, of: String| match rows {
+            0 => String::new(),
+            rows => format!("; left out: {rows} of {of}, redundant whatever the rest"),
+        };
+        let of_all = left_out(self.of - self.rows(), format!("{} rows", self.of));
+        let blocks = self
+            .blocks
+            .iter()
+            .filter(|b| !b.contours.is_empty())
+            .collect_vec();
+        if let [block] = blocks.as_slice() {
+            let left_out = match &block.parts[0] {
+                Part {
+                    motions: Motions::Group(_),
+                    per_contour,
+                    ..
+                } => left_out(self.dim - per_contour, self.dim.to_string()),
+                _ => of_all,
+            };
+            let who = if self.outside {
+                "all joints of contours"
+            } else {
+                "all joints"
+            };
+            return format!("; {who} {}{left_out}", what(block));
+        }
+        let told = blocks.iter().map(|b| (what(b), *b)).into_group_map();
+        let contours = |blocks: &[&Block]| {
+            let all = blocks.iter().flat_map(|b| &b.contours).copied();
+            all.sorted_unstable().collect_vec()
+        };
+        let who = |blocks: &[&Block]| match (contours(blocks).as_slice(), blocks.len()) {
+            (&[one], _) => format!("the joints of contour {}", name(one)),
+            (all, 1) => format!("the joints of {} contours", all.len()),
+            (all, n) => format!("the joints of each of {n} blocks, {} contours,", all.len()),
+        };
+        let each = told.iter().sorted_by_key(|(_, blocks)| contours(blocks));
+        let each = each.map(|(what, blocks)| format!("; {} {what}", who(blocks)));
+        each.chain([of_all]).join("")
+    }
+}
+
+impl Block {
+    fn words(&self, mechanism: &Mechanism, dim: usize) -> String {
+        match self.parts.as_slice() {
+            [inside, outside] => {
+                let normal = match inside.motions {
+                    Motions::InPlane(Some(d)) => format!(" with normal {}", d.words(mechanism)),
+                    _ => String::new(),
+                };
+                if inside.rows == 0 {
+                    return format!(
+                        "move out of a plane{normal} alone, so {} per contour {}",
+                        plural(outside.per_contour, "row"),
+                        does(outside.per_contour)
+                    );
+                }
+                format!(
+                    "move in a plane{normal} {} or out of it {}",
+                    inside.words(),
+                    outside.words()
+                )
+            }
+            [
+                Part {
+                    motions: Motions::Group(name),
+                    per_contour,
+                    ..
+                },
+            ] => {
+                format!(
+                    "move in {name}, so {} per contour {}",
+                    plural(*per_contour, "row"),
+                    does(*per_contour)
+                )
+            }
+            _ => format!("take all {dim} rows per contour"),
+        }
+    }
+}
+
+impl Part {
+    fn new(exact: &ExactField, motions: Motions, least: &Closure<Residue>, of: usize) -> Part {
+        Part {
+            motions,
+            per_contour: least.dim,
+            rows: least.rows(),
+            of,
+            rank: match least.rows() {
+                0 => 0,
+                _ => modular::rank(exact, least),
+            },
+        }
+    }
+
+    fn whole(exact: &ExactField, closure: &Closure<Residue>) -> Part {
+        Part::new(exact, Motions::All, closure, closure.rows())
+    }
+
+    fn of_group(exact: &ExactField, group: &Group, closure: &Closure<Residue>) -> Part {
+        let name = Motions::Group(group.name());
+        Part::new(exact, name, &group.rows_of(closure), closure.rows())
+    }
+
+    /// Redundant constraints of such motions, with those of rows that are left out.
+    #[must_use]
+    pub fn redundant(&self) -> usize {
+        self.of - self.rank
+    }
+
+    fn words(&self) -> String {
+        let (rows, of, rank, redundant) = (self.rows, self.of, self.rank, self.redundant());
+        format!("({rows} of {of} rows, rank {rank}, σ = {redundant})")
+    }
+}
+
+fn does(n: usize) -> &'static str {
+    if n == 1 { "does" } else { "do" }
+}
+
+/// J of each block alone, with the places of its contours; its joints, ascending, are tied to no others.
+fn of_blocks(
+    closure: &Closure<Residue>,
+    blocks: &[Vec<JointId>],
+) -> Vec<(Vec<usize>, Closure<Residue>)> {
+    let alone = || Closure {
+        state: closure.state,
+        dim: closure.dim,
+        contours: Vec::new(),
+        columns: Vec::new(),
+        couplings: Vec::new(),
+        extent: closure.extent,
+        left_out: Vec::new(),
+    };
+    let mut out: Vec<_> = blocks.iter().map(|_| (Vec::new(), alone())).collect();
+    let of: HashMap<JointId, usize> = blocks
+        .iter()
+        .enumerate()
+        .flat_map(|(b, joints)| joints.iter().map(move |&j| (j, b)))
+        .collect();
+    for (place, contour) in closure.contours.iter().enumerate() {
+        let first = contour.joints.first();
+        if let Some(&b) = first.and_then(|(j, _)| of.get(j)) {
+            out[b].0.push(place);
+            out[b].1.contours.push(contour.clone());
+        }
+    }
+    let mut now = vec![0; closure.columns.len()];
+    for (c, column) in closure.columns.iter().enumerate() {
+        if let Some(&b) = of.get(&column.joint) {
+            now[c] = out[b].1.columns.len();
+            out[b].1.columns.push(column.clone());
+        }
+    }
+    for coupling in &closure.couplings {
+        let at = closure.columns[coupling.entries[0].0].joint;
+        if let Some(&b) = of.get(&at) {
+            let entries = coupling.entries.map(|(c, x)| (now[c], x));
+            out[b].1.couplings.push(CouplingRow { entries });
+        }
+    }
+    out
+}
+
+/// The least rows of a block in space.
+fn least(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    joints: &[JointId],
+    closure: &Closure<Residue>,
+) -> Result<Vec<Part>, ExactError> {
+    if closure.contours.is_empty() {
+        return Ok(vec![Part::whole(exact, closure)]);
+    }
+    let group = group_of(exact, mechanism, joints.iter().copied())?;
+    // A coupling may tie what is in the plane to what is out of it.
+    if closure.couplings.is_empty() && group.dimension() > 3 {
+        for plane in planes(exact, mechanism, joints.iter().copied())? {
+            let Some(rows) = plane.rows(exact) else {
+                continue;
+            };
+            let Some([inside, outside]) = fallen_apart(exact, closure, rows) else {
+                continue;
+            };
+            if inside.dim + outside.dim > group.dimension() {
+                break;
+            }
+            let normal = Direction::of(exact, mechanism, plane.normal);
+            let half = closure.rows() / 2;
+            return Ok(vec![
+                Part::new(exact, Motions::InPlane(normal), &inside, half),
+                Part::new(exact, Motions::OutOfPlane(normal), &outside, half),
+            ]);
+        }
+    }
+    Ok(vec![if group.dimension() < closure.dim {
+        Part::of_group(exact, &group, closure)
+    } else {
+        Part::whole(exact, closure)
+    }])
+}
+
+/// J in the rows in a plane and in those out of it, where anything moves, if each joint's freedoms are those of the two
+/// together.
+fn fallen_apart(
+    exact: &ExactField,
+    closure: &Closure<Residue>,
+    rows: [Rows; 2],
+) -> Option<[Closure<Residue>; 2]> {
+    let f = exact.field();
+    let mut all = [Echelon::new(f), Echelon::new(f)];
+    for (_, columns) in &closure.columns.iter().chunk_by(|c| c.joint) {
+        let mut whole = Echelon::new(f);
+        let mut parts = [Echelon::new(f), Echelon::new(f)];
+        for column in columns {
+            whole.insert(&column.twist);
+            for ((part, all), rows) in parts.iter_mut().zip(&mut all).zip(&rows) {
+                let t = seen(f, rows, &column.twist);
+                part.insert(&t);
+                all.insert(&t);
+            }
+        }
+        if whole.rank() < parts[0].rank() + parts[1].rank() {
+            return None;
+        }
+    }
+    let part = |i: usize| {
+        let used = all[i].pivots();
+        let seen = |c: &Column<Residue>| {
+            let t = seen(f, &rows[i], &c.twist);
+            Column {
+                twist: used.iter().map(|&r| t[r]).collect(),
+                ..c.clone()
+            }
+        };
+        Closure {
+            dim: used.len(),
+            columns: closure.columns.iter().map(seen).collect(),
+            ..closure.clone()
+        }
+    };
+    Some([part(0), part(1)])
+}

@@ -1,0 +1,250 @@
+//! The nearest geometry whose closure matrix has a smaller rank, where rounding alone may have raised it.
+//!
+//! With U2 and V2 the singular vectors of J beyond the rank wanted, F = U2ᵀ J V2 vanishes to second order exactly where J has
+//! that rank (Golub & Van Loan, "Matrix Computations", 2013, 8.6). Newton's method takes the smallest change of coordinates, counted
+//! in units of their last digit, that makes it vanish.
+
+use crate::closure::matrix::Closure;
+use crate::closure::twist::{FrameValues, MotionSpace};
+use crate::geom::expr::Expr;
+use crate::geom::scalars::Reals;
+use crate::geom::vector::{length, real};
+use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
+use crate::model::rounded::{Units, may_be_rounded};
+use crate::rank::numeric::scaling::{Scaling, scaled};
+use crate::rank::rounded::snap::size;
+use ozols_dense::{Matrix, svd, thin_svd};
+
+/// Newton steps at most.
+const STEPS: usize = 12;
+/// The largest move of a coordinate that rounding explains, in units of its last digit: half a unit, and what the least
+/// squares spread.
+const MOST: f64 = 1.05;
+/// One in a thousand roundings is further off than what is taken for one, in standard deviations: on one side,
+const RARE: f64 = 3.09;
+/// and on both.
+const RARE_EITHER_WAY: f64 = 3.29;
+/// F counts as zero.
+const ZERO: f64 = 1e-12;
+/// Changes that F feels by less than this part of what it feels most are left alone: they follow from the others.
+const FELT: f64 = 1e-3;
+/// Equations · coordinates · the lesser of them, up to which it is tried.
+const LARGEST: usize = 200_000_000;
+/// A step of a finite difference, relative to the size of what is moved: twists are at most quadratic in coordinates.
+const DIFFERENCE: f64 = 1e-5;
+
+/// A geometry found.
+#[derive(Debug, Clone)]
+pub struct Nearest {
+    /// The mechanism, its coordinates as doubles.
+    pub mechanism: Mechanism,
+    /// The largest change of a coordinate, in units of its last digit.
+    pub moved: f64,
+}
+
+/// A coordinate that may be moved.
+struct Coordinate {
+    joint: JointId,
+    /// 0 for the point, 1 for the axis, 2 for the reference.
+    vector: usize,
+    component: usize,
+    /// A unit of the last digit.
+    unit: f64,
+    /// A step of a finite difference, in such units.
+    step: f64,
+    written: f64,
+}
+
+/// The coordinates of a state that may have been rounded: lengths and directions by their units.
+fn coordinates(m: &Mechanism, state: StateId, units: Units) -> Vec<Coordinate> {
+    // In a plane, axes must stay square to it.
+    let spatial = matches!(m.mode, Mode::Spatial);
+    let size = size(m);
+    let mut out = Vec::new();
+    for joint in m.joints_in(state) {
+        let frame = &m.joints[joint].frame;
+        for (vector, of) in [&frame.point, &frame.axis, &frame.reference]
+            .into_iter()
+            .enumerate()
+        {
+            let norm = length(real(of));
+            let (unit, scale) = match vector {
+                0 => (units.length, size),
+                _ if spatial => (units.direction * norm, norm),
+                _ => continue,
+            };
+            for (component, x) in of.iter().enumerate() {
+                if unit > 0.0 && may_be_rounded(x) {
+                    let written = x.to_f64();
+                    out.push(Coordinate {
+                        joint,
+                        vector,
+                        component,
+                        unit,
+                        step: DIFFERENCE * scale / unit,
+                        written,
+                    });
+                }
+            }
+        }
+    }
+    out
+}
+
+/// The mechanism with its coordinates moved by so many units each.
+fn moved(m: &Mechanism, of: &[Coordinate], by: &[f64]) -> Option<Mechanism> {
+    let mut out = m.clone();
+    for (c, x) in of.iter().zip(by) {
+        let frame = &mut out.joints[c.joint].frame;
+        let vector = match c.vector {
+            0 => &mut frame.point,
+            1 => &mut frame.axis,
+            _ => &mut frame.reference,
+        };
+        vector[c.component] = Expr::from_f64(c.written + x * c.unit).ok()?;
+    }
+    Some(out)
+}
+
+/// The nearest geometry in which J of a state has a rank, no coordinate moved by more than about a unit of its last digit;
+/// none where there is none, or it is too large to be looked for.
+///
+/// # Guarantee
+/// Numeric: the rank of J of what is given back is the one wanted to within doubles. That this is what was meant is likely,
+/// not proven.
+///
+/// # Complexity
+/// At most 12 decompositions of a matrix of (6k - rank)(f - rank) rows and 9p columns.
+#[must_use]
+pub fn nearest(m: &Mechanism, state: StateId, rank: usize, units: Units) -> Option<Nearest> {
+    let of = coordinates(m, state, units);
+    let mut closure = Closure::new(&Reals, m, state).ok()?;
+    let contours = closure.contours.clone();
+    let equations = (closure.rows() - rank) * (closure.columns.len() - rank);
+    if of.is_empty() || equations * of.len() * equations.min(of.len()) > LARGEST {
+        return None;
+    }
+    let (mut by, mut found, mut conditions) = (vec![0.0_f64; of.len()], m.clone(), 0);
+    for _ in 0..STEPS {
+        let matrix = scaled(&closure);
+        let singular = svd(&matrix)?;
+        let beyond = singular.values.get(rank).copied().unwrap_or(0.0);
+        if beyond <= ZERO * singular.values[0] {
+            let most = by.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+            let square: f64 = by.iter().map(|x| x * x).sum();
+            let likely = most <= MOST && square <= largest_square(conditions);
+            return likely.then_some(Nearest {
+                mechanism: found,
+                moved: most,
+            });
+        }
+        let (left, right) = (singular.left_null_space(rank), singular.null_space(rank));
+        let residue = left.transpose_times(&matrix.times(&right));
+        let change = changes(&found, &closure, &of, &by, (&left, &right))?;
+        let (step, felt) = least(&change, &residue)?;
+        conditions = conditions.max(felt);
+        for (x, d) in by.iter_mut().zip(step) {
+            *x -= d;
+        }
+        // Far off already: no step leads back within a unit.
+        if by.iter().any(|x| !x.is_finite() || x.abs() > 10.0 * MOST) {
+            return None;
+        }
+        found = moved(m, &of, &by)?;
+        closure = Closure::with_contours(&Reals, &found, state, contours.clone()).ok()?;
+    }
+    None
+}
+
+/// How F changes with each coordinate, per unit of its last digit: one column a coordinate. Couplings do not feel it: they
+/// are linear in the joints' own rates.
+fn changes(
+    m: &Mechanism,
+    closure: &Closure<f64>,
+    of: &[Coordinate],
+    by: &[f64],
+    (left, right): (&Matrix, &Matrix),
+) -> Option<Matrix> {
+    let scaling = Scaling::of(closure);
+    let space = MotionSpace::new(&Reals, &m.mode).ok()?;
+    let (rows, columns) = (left.ncols(), right.ncols());
+    let mut out = Matrix::zeros(rows * columns, of.len());
+    for (p, c) in of.iter().enumerate() {
+        let joint = &m.joints[c.joint];
+        let frame = &joint.frame;
+        let freedoms = joint.joint_type.freedoms();
+        let shifted = |d: f64| {
+            let mut vectors = [&frame.point, &frame.axis, &frame.reference].map(real);
+            vectors[c.vector][c.component] = c.written + (by[p] + d) * c.unit;
+            FrameValues::of(&Reals, vectors, frame.pitch.to_f64()).within(&space, freedoms)
+        };
+        let (before, after) = (shifted(-c.step), shifted(c.step));
+        for (n, column) in closure.columns.iter().enumerate() {
+            if column.joint != c.joint {
+                continue;
+            }
+            let twist = |f: &FrameValues<f64>| {
+                let t = space.components(&Reals, &f.twist(&Reals, column.freedom))?;
+                Some(scaling.apply(n, &t))
+            };
+            let (a, b) = (twist(&before)?, twist(&after)?);
+            let rate: Vec<f64> = (a.iter().zip(&b))
+                .map(|(a, b)| (b - a) / (2.0 * c.step))
+                .collect();
+            for (k, contour) in closure.contours.iter().enumerate() {
+                let Some(forward) = contour.direction(c.joint) else {
+                    continue;
+                };
+                let sign = if forward { 1.0 } else { -1.0 };
+                for i in 0..rows {
+                    let along: f64 = (rate.iter().enumerate())
+                        .map(|(r, x)| x * left[(closure.dim * k + r, i)])
+                        .sum();
+                    for j in 0..columns {
+                        out[(i * columns + j, p)] += sign * along * right[(n, j)];
+                    }
+                }
+            }
+        }
+    }
+    Some(out)
+}
+
+/// The smallest x with `change · x` = `residue` in what is felt, and in how many ways it is felt.
+fn least(change: &Matrix, residue: &Matrix) -> Option<(Vec<f64>, usize)> {
+    let columns = residue.ncols();
+    let right = Matrix::from_fn(change.nrows(), 1, |r, _| {
+        residue[(r / columns, r % columns)]
+    });
+    let factors = thin_svd(change)?;
+    let felt = factors.rank(FELT);
+    Some((factors.least_norm(felt, &right).col(0).to_vec(), felt))
+}
+
+/// The square of the longest move that rounding explains, in units of the last digit. The errors of rounding are uniform and
+/// independent, of variance 1/12; the smallest move back is their projection to as many dimensions as there are conditions,
+/// so that twelve times its square follows nearly the chi-square law. Of one condition that is the square of a normal number,
+/// of more its quantile is that of Wilson & Hilferty ("The distribution of chi-square", 1931), too high by less than 3 %.
+fn largest_square(conditions: usize) -> f64 {
+    if conditions <= 1 {
+        return RARE_EITHER_WAY.powi(2) / 12.0;
+    }
+    #[allow(clippy::cast_precision_loss, reason = "conditions are few")]
+    let n = conditions as f64;
+    let part = 2.0 / (9.0 * n);
+    n * (1.0 - part + RARE * part.sqrt()).powi(3) / 12.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::largest_square;
+
+    #[test]
+    fn moves_are_as_long_as_chi_square_allows() {
+        // Quantiles of 0.999 from the tables: 10.83, 16.27, 29.59.
+        for (n, quantile) in [(1, 10.83), (3, 16.27), (10, 29.59)] {
+            let found = 12.0 * largest_square(n);
+            assert!((found / quantile - 1.0).abs() < 0.03, "{n}: {found}");
+        }
+    }
+}

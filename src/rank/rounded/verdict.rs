@@ -1,0 +1,396 @@
+//! The verdict on the rank of a state: as written, or as meant where coordinates are rounded, or undecided.
+//!
+//! Rounding raises ranks. A singular value above what rounding can do is there in truth; where all that the exact rank counts
+//! are, it holds. Where not, the widest gap among the others says which rank was meant, and it is taken only if there is such
+//! a geometry within the digits: by snapping, exactly, or else by Newton's method.
+
+use crate::closure::matrix::Closure;
+use crate::geom::scalars::Reals;
+use crate::geom::vector::{length, real};
+use crate::meant::mechanism::{Meant as Scene, meant as scene_of};
+use crate::model::mechanism::{Mechanism, Mode, StateId};
+use crate::model::rounded::{Rounded, Units, looks_rounded, uncertainties};
+use crate::rank::exact::field::field_of;
+use crate::rank::exact::modular;
+use crate::rank::method::NoAnswer;
+use crate::rank::numeric::rounding_bound::bound;
+use crate::rank::numeric::scaling::NumericRank;
+use crate::rank::numeric::values::{ROUND_OFF, relative_values};
+use crate::rank::reduce::sufficient_rows::LeastRows;
+use crate::rank::rounded::moves::{moves, understood};
+use crate::rank::rounded::nearest_lower_rank::{Nearest, nearest};
+use crate::rank::rounded::snap::relation::{Moved, Reach};
+use crate::rank::rounded::snap::{size, snap};
+
+/// A gap narrower than this among what rounding can have made says nothing.
+const CLEAR: f64 = 30.0;
+/// Nothing is known better in double precision, relative to the largest singular value.
+const LEAST: f64 = 1e-13;
+/// A scene whose numbers would have to move by more halves of their last digit is not the one that is meant.
+const FURTHEST: f64 = 1.2;
+/// Units of coordinates, relative to the size, above which a geometry that is near says nothing.
+const COARSE: f64 = 5e-5;
+
+/// Which mechanism a verdict is about.
+#[derive(Debug, Clone)]
+pub enum Meant {
+    /// The one that is written: no rounding of its digits lowers the rank.
+    AsWritten,
+    /// The one with its near-coincidences exact.
+    Snapped {
+        /// It.
+        mechanism: Box<Mechanism>,
+        /// Rank of its J, exact.
+        rank: usize,
+        /// What was moved.
+        moved: Vec<Moved>,
+        /// What was understood, where digits say what is meant.
+        understood: Option<String>,
+    },
+    /// The nearest one whose J has a smaller rank.
+    Near {
+        /// It, in doubles.
+        mechanism: Box<Mechanism>,
+        /// Rank of its J, numeric.
+        rank: usize,
+        /// The largest move of a coordinate, in units of its last digit; none where the one that is written is read at the
+        /// tolerance asked for.
+        moved: Option<f64>,
+    },
+    /// Not decided.
+    Undecided {
+        /// The rank that may be meant.
+        near: usize,
+    },
+}
+
+/// The verdict on a state.
+#[derive(Debug, Clone)]
+pub struct Verdict {
+    /// Name of the state.
+    pub state: String,
+    /// f.
+    pub freedoms: usize,
+    /// Rows of J.
+    pub rows: usize,
+    /// Why coordinates look rounded, where they do.
+    pub rounded: Option<Rounded>,
+    /// Rank of J with every digit taken at its word, by one prime.
+    pub as_written: usize,
+    /// Singular values of the J that is written, at the rank meant; none where every digit is exact.
+    pub numeric: Option<NumericRank>,
+    /// What rounding can do to a singular value, relative to the largest; or the tolerance asked for.
+    pub tolerance: f64,
+    /// What is meant.
+    pub meant: Meant,
+    /// Whether a scene is known that the digits say is meant: of it, or of what is written, relations are exact.
+    pub resolved: bool,
+    /// What rows of J, as it is written, are enough for its rank; empty where all are taken.
+    pub needed: String,
+}
+
+impl Verdict {
+    /// The rank of J; as written where that is not decided, which then is the most it can be.
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        match self.meant {
+            Meant::AsWritten | Meant::Undecided { .. } => self.as_written,
+            Meant::Snapped { rank, .. } | Meant::Near { rank, .. } => rank,
+        }
+    }
+
+    /// The least rank it can be: that of the mechanism that may be meant where it is not decided.
+    #[must_use]
+    pub fn at_least(&self) -> usize {
+        match self.meant {
+            Meant::Undecided { near } => near,
+            _ => self.rank(),
+        }
+    }
+
+    /// (W, σ) of a rank.
+    #[must_use]
+    pub fn figures(&self, rank: usize) -> (usize, usize) {
+        (
+            self.freedoms.saturating_sub(rank),
+            self.rows.saturating_sub(rank),
+        )
+    }
+
+    /// Whether it is decided.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        !matches!(self.meant, Meant::Undecided { .. })
+    }
+
+    /// The mechanism that it is about, where that is not the one that is written.
+    #[must_use]
+    pub fn mechanism(&self) -> Option<&Mechanism> {
+        match &self.meant {
+            Meant::AsWritten | Meant::Undecided { .. } => None,
+            Meant::Snapped { mechanism, .. } | Meant::Near { mechanism, .. } => Some(mechanism),
+        }
+    }
+
+    /// One word for programs.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self.meant {
+            Meant::AsWritten => "as written",
+            Meant::Snapped { .. } => "snapped",
+            Meant::Near { .. } => "near",
+            Meant::Undecided { .. } => "undecided",
+        }
+    }
+
+    /// Whether it is about the mechanism that is written.
+    #[must_use]
+    pub fn is_as_written(&self) -> bool {
+        matches!(self.meant, Meant::AsWritten)
+    }
+
+    /// Whether what is written and what is meant have the same figures.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.is_decided() && self.rank() == self.as_written
+    }
+
+    /// Why it is not decided, and what to do.
+    #[must_use]
+    pub fn undecided(&self) -> String {
+        let ((w, sigma), (near_w, near_sigma)) =
+            (self.figures(self.as_written), self.figures(self.at_least()));
+        let gap = self.numeric.map_or_else(String::new, |n| {
+            format!(
+                "; singular values: {:.1e} above the gap, {:.1e} below it",
+                n.kept, n.dropped
+            )
+        });
+        let snap = self
+            .suggested_tolerance()
+            .map_or_else(String::new, |t| format!(", or allow --snap {t:.0e}"));
+        format!(
+            "undecided: W = {w}, σ = {sigma} as written, W = {near_w}, σ = {near_sigma} if digits are left over from \
+             rounding{gap}. Write roots or expressions such as \"sqrt(3)/2\", give more digits{snap}"
+        )
+    }
+
+    /// A tolerance for `--snap` in the gap below the rank that is likely meant.
+    #[must_use]
+    pub fn suggested_tolerance(&self) -> Option<f64> {
+        let n = self.numeric?;
+        let power = |x: f64| 10f64.powf(x.log10().ceil());
+        let wide = power(n.dropped.max(ROUND_OFF) * 10.0);
+        Some(if wide < n.kept / 10.0 {
+            wide
+        } else {
+            (n.kept * n.dropped).sqrt()
+        })
+    }
+}
+
+/// The exact rank, by the rows that are enough for it.
+fn exact_rank(mechanism: &Mechanism, state: StateId) -> Result<(usize, String), NoAnswer> {
+    let exact = field_of(mechanism, state, 0)?;
+    let closure = Closure::new(&exact, mechanism, state)?;
+    let least = LeastRows::new(&exact, mechanism, &closure)?;
+    let words = least.words(mechanism, |c| closure.contours[c].name(mechanism));
+    Ok((least.rank(), words))
+}
+
+/// The exact rank of J of a mechanism that is snapped, by one prime.
+pub(in crate::rank) fn rank_of(mechanism: &Mechanism, state: StateId) -> Result<usize, NoAnswer> {
+    let exact = field_of(mechanism, state, 0)?;
+    Ok(modular::rank(
+        &exact,
+        &Closure::new(&exact, mechanism, state)?,
+    ))
+}
+
+/// The verdict on a state; `tolerance` is asked for in place of what the digits say: values below it are zero, and joints
+/// are snapped within it.
+///
+/// # Errors
+/// Where the geometry has no image in a prime field, or the singular values do not converge.
+///
+/// # Guarantee
+/// As written where Weyl's bound holds the exact rank against any rounding of the last digits. As meant where a geometry
+/// within the digits has the rank of the widest gap: likely, not proven. Undecided otherwise.
+///
+/// # Complexity
+/// One modular rank; with decimals one singular value decomposition more, and only where they disagree the snapping, and
+/// then [`nearest`].
+pub fn verdict(
+    mechanism: &Mechanism,
+    state: StateId,
+    tolerance: Option<f64>,
+) -> Result<Verdict, NoAnswer> {
+    let scene = resolved(mechanism, tolerance);
+    verdict_on(mechanism, state, tolerance, scene.as_ref())
+}
+
+/// The scene that is meant, where digits say what is and no tolerance is asked for in their place.
+pub(in crate::rank) fn resolved(mechanism: &Mechanism, tolerance: Option<f64>) -> Option<Scene> {
+    let scene = || scene_of(mechanism).filter(|s| s.scene.moved <= FURTHEST);
+    tolerance.is_none().then(scene).flatten()
+}
+
+/// [`verdict`] with the scene that is meant known.
+pub(in crate::rank) fn verdict_on(
+    mechanism: &Mechanism,
+    state: StateId,
+    tolerance: Option<f64>,
+    scene: Option<&Scene>,
+) -> Result<Verdict, NoAnswer> {
+    let file = mechanism;
+    // In a plane joints must stay square to it: as they are written they have no freedom there.
+    let planar = |_: &&Scene| matches!(file.mode, Mode::Planar { .. });
+    let mechanism = scene.filter(planar).map_or(file, |s| &s.mechanism);
+    let (as_written, needed) = exact_rank(mechanism, state)?;
+    let real = Closure::new(&Reals, mechanism, state)?;
+    let rounded = looks_rounded(file);
+    let mut found = Verdict {
+        state: mechanism.states[state].clone(),
+        freedoms: real.columns.len(),
+        rows: real.rows(),
+        as_written,
+        numeric: None,
+        tolerance: 0.0,
+        meant: Meant::AsWritten,
+        needed,
+        rounded,
+        resolved: scene.is_some(),
+    };
+    let size = size(mechanism);
+    let (units, reach) = match (tolerance, &found.rounded) {
+        (Some(t), _) => (
+            Units {
+                length: t * size,
+                direction: t,
+            },
+            Reach::relative(t, size),
+        ),
+        (None, Some(r)) => {
+            let units = units(file, r);
+            (units, Reach::of_units(units, size))
+        }
+        (None, None) => return Ok(found),
+    };
+    let Some(values) = relative_values(&real)? else {
+        return Ok(found);
+    };
+    found.tolerance = match tolerance {
+        Some(t) => t,
+        None => (bound(mechanism, &real, units) / values.largest).max(LEAST),
+    };
+    let above = values.above(found.tolerance);
+    let scene = match scene.filter(|s| s.scene.moved > 0.0) {
+        Some(s) => Some((s, rank_of(&s.mechanism, state)?)),
+        None => None,
+    };
+    let rank = scene.map_or(as_written, |s| s.1);
+    if above >= rank.min(as_written) {
+        found.numeric = Some(values.at(rank));
+        found.meant = match (values.left_over(rank), tolerance, scene) {
+            (Some(near), None, _) => {
+                found.numeric = Some(values.at(near));
+                Meant::Undecided { near }
+            }
+            // No rounding can have made what the digits say is there in truth.
+            (_, _, Some((_, rank))) if above > rank => Meant::Undecided { near: rank },
+            (_, _, Some((s, rank))) => snapped(s, rank),
+            _ => Meant::AsWritten,
+        };
+        return Ok(found);
+    }
+    let near = match tolerance {
+        Some(_) => above,
+        None => values.widest_gap(above, as_written.max(rank + 1), found.tolerance),
+    };
+    found.numeric = Some(values.at(near));
+    found.meant = match scene {
+        Some((s, rank)) if rank == near => snapped(s, rank),
+        // One gap is much like another there.
+        _ if tolerance.is_none() && values.gap(near, ROUND_OFF) < CLEAR => Meant::Undecided {
+            near: values.left_over(above).unwrap_or(above),
+        },
+        _ => meant(mechanism, state, near, (units, reach), tolerance.is_some())?,
+    };
+    Ok(found)
+}
+
+/// The verdict that a scene is meant.
+fn snapped(scene: &Scene, rank: usize) -> Meant {
+    Meant::Snapped {
+        mechanism: Box::new(scene.mechanism.clone()),
+        rank,
+        moved: moves(scene),
+        understood: Some(understood(scene)),
+    }
+}
+
+/// How far the digits of a mechanism allow its joints to be moved; none where they are exact.
+#[must_use]
+pub fn reach(mechanism: &Mechanism) -> Option<Reach> {
+    let size = size(mechanism);
+    looks_rounded(mechanism).map(|r| Reach::of_units(units(mechanism, &r), size))
+}
+
+/// The coarsest units of points, and of the components of directions of unit length.
+fn units(mechanism: &Mechanism, r: &Rounded) -> Units {
+    let Some(half) = uncertainties(mechanism) else {
+        return r.units;
+    };
+    let largest = |v: [f64; 3]| v.into_iter().fold(0.0, f64::max);
+    let points = half.point.iter().map(|v| largest(*v));
+    let frames = mechanism.joints.iter().map(|j| &j.frame);
+    let axes = frames.clone().map(|f| &f.axis).zip(&half.axis);
+    let all = axes.chain(frames.map(|f| &f.reference).zip(&half.reference));
+    let directions = all.map(|(v, h)| largest(*h) / length(real(v)));
+    Units {
+        length: 2.0 * points.fold(0.0, f64::max),
+        direction: 2.0 * directions.fold(0.0, f64::max),
+    }
+}
+
+/// The mechanism that is meant if J is to have a rank.
+fn meant(
+    mechanism: &Mechanism,
+    state: StateId,
+    rank: usize,
+    (units, reach): (Units, Reach),
+    asked: bool,
+) -> Result<Meant, NoAnswer> {
+    if asked {
+        let snapped = snap(mechanism, reach);
+        if rank_of(&snapped.mechanism, state)? == rank {
+            return Ok(Meant::Snapped {
+                mechanism: Box::new(snapped.mechanism),
+                rank,
+                moved: snapped.moved,
+                understood: None,
+            });
+        }
+    }
+    // With so few digits a geometry of that rank is near by chance.
+    let coarse = units.direction.max(units.length / size(mechanism)) > COARSE;
+    let found = (asked || !coarse)
+        .then(|| nearest(mechanism, state, rank, units))
+        .flatten();
+    Ok(match found {
+        Some(Nearest {
+            mechanism: m,
+            moved,
+        }) => Meant::Near {
+            mechanism: Box::new(m),
+            rank,
+            moved: Some(moved),
+        },
+        None if asked => Meant::Near {
+            mechanism: Box::new(mechanism.clone()),
+            rank,
+            moved: None,
+        },
+        None => Meant::Undecided { near: rank },
+    })
+}

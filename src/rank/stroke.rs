@@ -1,0 +1,4 @@
+//! Ranks over a stroke.
+
+pub mod analysis;
+pub mod request;

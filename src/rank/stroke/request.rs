@@ -1,0 +1,325 @@
+//! A stroke in the words of its user: which column moves, which are held, how exactly it is followed.
+
+use crate::geom::exact::ExactError;
+use crate::model::joint_type::Freedom;
+use crate::model::loads;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::motion::follow::{Follower, slides};
+use crate::motion::pose::{FLAT, Pose};
+use crate::rank::rounded::verdict::{Meant, Verdict};
+use crate::rank::stroke::analysis::{StrokeFigures, StrokeRequest, stroke};
+use itertools::Itertools;
+use thiserror::Error;
+
+/// Most steps: every pose on the way is kept.
+const MOST: usize = 10_000;
+
+/// Why a mechanism cannot be followed over a stroke.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum AskedError {
+    /// Which mechanism is meant is not known.
+    #[error("the motion of {name} over a stroke is not known: {why}")]
+    Undecided {
+        /// Name of the mechanism.
+        name: String,
+        /// Why not.
+        why: String,
+    },
+    /// Angles for a drive that slides.
+    #[error(
+        "--stroke {range:?} is in angles, but the drive slides; give lengths in the file's unit, {unit}"
+    )]
+    Angles {
+        /// The range.
+        range: String,
+        /// Symbol of the unit.
+        unit: &'static str,
+    },
+    /// Too far, or in too many steps.
+    #[error("--stroke goes to at most {MOST} steps and {0:.0} radians or length units")]
+    Far(f64),
+    /// A joint without that freedom.
+    #[error("joint {joint} has no freedom{freedom} to be driven in state {state}; {could}")]
+    NoFreedom {
+        /// The joint.
+        joint: String,
+        /// The freedom, after a space; nothing where none was named.
+        freedom: String,
+        /// The state.
+        state: String,
+        /// What could be driven.
+        could: String,
+    },
+    /// A joint with several.
+    #[error(
+        "joint {joint} has several freedoms; say which moves: --drive {}", names.join(" or --drive ")
+    )]
+    Several {
+        /// The joint.
+        joint: String,
+        /// Its freedoms.
+        names: Vec<String>,
+    },
+    /// No such joint.
+    #[error("there is no joint {name}; {could}")]
+    NoJoint {
+        /// What was named.
+        name: String,
+        /// What could be driven.
+        could: String,
+    },
+    /// Nothing is driven.
+    #[error("{name} has no drive; name the joint that moves with --drive: {could}")]
+    NoDrive {
+        /// Name of the mechanism.
+        name: String,
+        /// What could be driven.
+        could: String,
+    },
+    /// No joint can be a drive.
+    #[error("nothing can move in {0}")]
+    Still(String),
+    /// A coordinate has no value.
+    #[error(transparent)]
+    Exact(#[from] ExactError),
+}
+
+/// A stroke that is asked for.
+#[derive(Debug)]
+pub struct Asked<'a> {
+    mechanism: &'a Mechanism,
+    state: StateId,
+    verdict: &'a Verdict,
+    tolerance: Option<f64>,
+    range: loads::Stroke,
+    pose: Pose,
+    drive: usize,
+    held: Vec<usize>,
+}
+
+/// The columns that can be a drive, with their names: those of balls cannot, which have no axes of their own.
+fn names(m: &Mechanism, pose: &Pose) -> Vec<(usize, String)> {
+    let turn = |f: Freedom| matches!(f, Freedom::Rx | Freedom::Ry | Freedom::Rz);
+    let of = |j: JointId| pose.columns.iter().filter(move |c| c.joint == j);
+    let columns = pose.columns.iter().enumerate();
+    columns
+        .filter(|(_, c)| of(c.joint).filter(|c| turn(c.freedom)).count() < 3)
+        .map(|(i, c)| {
+            let id = &m.joints[c.joint].id;
+            let name = if of(c.joint).count() == 1 {
+                id.clone()
+            } else {
+                format!("{id}:{}", c.freedom.name())
+            };
+            (i, name)
+        })
+        .collect()
+}
+
+impl<'a> Asked<'a> {
+    /// What a range, as it was written and read, and the joint named as the drive ask of the mechanism that a verdict is about.
+    ///
+    /// # Units
+    /// Radians, or the file's unit of length, from the pose of the file.
+    ///
+    /// # Errors
+    /// Where the mechanism has no such drive, or which mechanism is meant is not decided.
+    pub fn new(
+        m: &'a Mechanism,
+        state: StateId,
+        (text, range): (&str, loads::Stroke),
+        named: Option<&str>,
+        (verdict, tolerance): (&'a Verdict, Option<f64>),
+    ) -> Result<Asked<'a>, AskedError> {
+        if !verdict.is_decided() {
+            let why = verdict.undecided();
+            let name = m.name.clone();
+            return Err(AskedError::Undecided { name, why });
+        }
+        let m = verdict.mechanism().unwrap_or(m);
+        let pose = Pose::of_file(m, state)?;
+        let (drive, held) = drive(m, &pose, state, named)?;
+        let slide = slides(&pose, drive);
+        lengths_where_it_slides(m, slide, text)?;
+        let far = 1e3 * if slide { pose.length } else { 1.0 };
+        if range.steps > MOST || range.from.abs() > far || range.to.abs() > far {
+            return Err(AskedError::Far(far));
+        }
+        Ok(Asked {
+            mechanism: m,
+            state,
+            verdict,
+            tolerance,
+            range,
+            pose,
+            drive,
+            held,
+        })
+    }
+
+    /// The mechanism that is meant, and the state.
+    #[must_use]
+    pub fn subject(&self) -> (&'a Mechanism, StateId) {
+        (self.mechanism, self.state)
+    }
+
+    /// The drive by name, and whether it slides.
+    #[must_use]
+    pub fn drive(&self) -> (String, bool) {
+        let name = name_of(self.mechanism, &self.pose, self.drive);
+        (name, slides(&self.pose, self.drive))
+    }
+
+    /// From and to.
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        [self.range.from, self.range.to]
+    }
+
+    /// Goes there.
+    #[must_use]
+    pub fn follow(&self) -> StrokeFigures {
+        let found = self.verdict;
+        // Rounded coordinates close no better than what they leave of a zero.
+        let measured = found.rounded.as_ref().is_some_and(|r| r.digits.is_some());
+        let rounded = measured || !matches!(found.meant, Meant::AsWritten);
+        let (mut pose, mut tolerance) = (self.pose.clone(), self.tolerance);
+        if let (true, Some(n)) = (rounded, found.numeric) {
+            pose = pose.with_accuracy((10.0 * n.dropped).clamp(1e-16, found.tolerance));
+            tolerance = Some(found.tolerance.max(FLAT));
+        } else if let Some(t) = tolerance {
+            // Singular values below a hundred times the accuracy count as zero on the way.
+            pose = pose.with_accuracy(t / 100.0);
+        }
+        let request = StrokeRequest {
+            mechanism: self.mechanism,
+            state: self.state,
+            drive: self.drive,
+            held: &self.held,
+            range: self.range(),
+            steps: self.range.steps,
+            tolerance,
+        };
+        stroke(&request, &pose)
+    }
+}
+
+/// The column that moves and those that are held.
+fn drive(
+    m: &Mechanism,
+    pose: &Pose,
+    state: StateId,
+    asked: Option<&str>,
+) -> Result<(usize, Vec<usize>), AskedError> {
+    let names = names(m, pose);
+    let driven = |j: JointId| m.joints[j].drive;
+    let column = |joint: JointId, freedom: Option<&str>| {
+        let mut of: Vec<_> = names
+            .iter()
+            .filter(|(c, _)| pose.columns[*c].joint == joint)
+            .filter(|(c, _)| freedom.is_none_or(|f| pose.columns[*c].freedom.name() == f))
+            .collect();
+        if of.len() > 1 {
+            of.retain(|(c, _)| moves(pose, *c));
+        }
+        match of[..] {
+            [(c, _)] => Ok(*c),
+            [] => Err(AskedError::NoFreedom {
+                joint: m.joints[joint].id.clone(),
+                freedom: freedom.map_or_else(String::new, |f| format!(" {f}")),
+                state: m.states[state].clone(),
+                could: could(m, pose, &names),
+            }),
+            _ => Err(AskedError::Several {
+                joint: m.joints[joint].id.clone(),
+                names: of.iter().map(|(_, n)| n.clone()).collect(),
+            }),
+        }
+    };
+    let chosen = match asked {
+        Some(name) => {
+            let split = name.rsplit_once(':');
+            let (id, freedom) = match (m.joint(name), split) {
+                (None, Some((id, freedom))) if m.joint(id).is_some() => (id, Some(freedom)),
+                _ => (name, None),
+            };
+            let joint = m.joint(id).ok_or_else(|| AskedError::NoJoint {
+                name: name.to_owned(),
+                could: could(m, pose, &names),
+            })?;
+            column(joint, freedom)?
+        }
+        None => {
+            let mut driving = m.joints_in(state).filter(|&j| driven(j));
+            let joint = driving.next().ok_or_else(|| AskedError::NoDrive {
+                name: m.name.clone(),
+                could: could(m, pose, &names),
+            })?;
+            column(joint, None)?
+        }
+    };
+    let own = pose.columns[chosen].joint;
+    let held = (0..pose.columns.len())
+        .filter(|&c| pose.columns[c].joint != own && driven(pose.columns[c].joint))
+        .filter(|_| driven(own))
+        .collect();
+    Ok((chosen, held))
+}
+
+/// The column named, or the drive, or, where there is none, the first that can move; and those that are held.
+///
+/// # Errors
+/// Where there is no such column, or nothing can move.
+pub fn drive_or_any(
+    m: &Mechanism,
+    pose: &Pose,
+    state: StateId,
+    asked: Option<&str>,
+) -> Result<(usize, Vec<usize>), AskedError> {
+    let driven = m.joints_in(state).any(|j| m.joints[j].drive);
+    if asked.is_some() || driven {
+        return drive(m, pose, state, asked);
+    }
+    let first = names(m, pose).into_iter().find(|(c, _)| moves(pose, *c));
+    let first = first.ok_or_else(|| AskedError::Still(m.name.clone()))?;
+    Ok((first.0, Vec::new()))
+}
+
+/// Whether a range, as it was written, is in lengths where the drive slides.
+///
+/// # Errors
+/// Where it is in angles.
+pub fn lengths_where_it_slides(m: &Mechanism, slides: bool, text: &str) -> Result<(), AskedError> {
+    let wrong = slides && (text.contains("deg") || text.contains("rad"));
+    let angles = || AskedError::Angles {
+        range: text.to_owned(),
+        unit: m.length_unit.symbol,
+    };
+    if wrong { Err(angles()) } else { Ok(()) }
+}
+
+/// The name of a column that can be a drive.
+#[must_use]
+pub fn name_of(m: &Mechanism, pose: &Pose, column: usize) -> String {
+    let mut names = names(m, pose).into_iter();
+    names
+        .find(|(c, _)| *c == column)
+        .map_or_else(String::new, |(_, n)| n)
+}
+
+/// Whether a column can move in a pose.
+fn moves(pose: &Pose, column: usize) -> bool {
+    Follower::new(pose.clone(), column, &[]).share() > 1e-6
+}
+
+/// Which joints could be drives in this pose.
+fn could(m: &Mechanism, pose: &Pose, names: &[(usize, String)]) -> String {
+    let moving = names.iter().filter(|(c, _)| moves(pose, *c));
+    let list = moving.map(|(_, n)| n).take(30).join(", ");
+    if list.is_empty() {
+        format!("none can move in {}", m.name)
+    } else {
+        format!("these can move: {list}")
+    }
+}

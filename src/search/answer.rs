@@ -1,0 +1,12 @@
+//! What is read off finished diagrams: counts, the cheapest in order, samples, ideas, single changes, and why there is nothing.
+
+pub(in crate::search) mod completions;
+pub mod count_tables;
+pub mod counts;
+pub mod estimate;
+pub mod freedom_patterns;
+pub mod k_best;
+pub mod proven_cheapest;
+pub mod single_changes;
+pub mod variants_in_order;
+pub mod why_none;

@@ -1,0 +1,394 @@
+//! Variants one by one: in order of cost, or drawn at random with equal chances.
+//!
+//! Both walk down the diagram guided by the tally, so no step is ever taken back: a step is possible exactly when the
+//! node it leads to has a completion with the key that is left.
+
+use crate::search::answer::completions::{Span, Ways};
+use crate::search::answer::count_tables::{Count, Key, Steps, Tally};
+use crate::search::diagram::{DEAD, Diagram};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
+use num_bigint::BigUint;
+use num_traits::Zero;
+use std::fmt;
+
+/// A variant found on a diagram.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Assignment {
+    /// For each variable of the space, the choice.
+    pub choices: Vec<usize>,
+    /// Its properties.
+    pub key: Key,
+}
+
+/// The variants whose key passes a test, cheapest first, then in an order of keys, then by choices in diagram order.
+///
+/// # Complexity
+/// Some passes over the part of the diagram that variants of that cost use, then O(variables) a variant, and less where many
+/// begin alike: what leads on from a node with some of a key left is looked up in the tables once. Memory is the tables and as
+/// much again, however many are asked for.
+pub struct Cheapest<'d, C> {
+    diagram: &'d Diagram,
+    steps: &'d Steps,
+    tally: Tally<C>,
+    /// Keys to come.
+    keys: std::vec::IntoIter<Key>,
+    /// The key whose variants are being given.
+    key: Key,
+    /// The way down the diagram, a place a layer.
+    path: Vec<Place>,
+    choices: Vec<usize>,
+    /// How many may still be given.
+    left: usize,
+    pub(in crate::search) ways: Ways,
+    enter: Enter<'d>,
+}
+
+/// Told layer, node, what is left of the key there and the choices so far; says whether to look at what follows.
+pub type Enter<'d> = Box<dyn FnMut(usize, usize, Key, &[usize]) -> bool + 'd>;
+
+/// A node on the way down, what is left of the key there, its steps, and which of them is the next.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    node: u32,
+    rest: Key,
+    steps: Span,
+    next: u32,
+}
+
+impl<C: Count> fmt::Debug for Cheapest<'_, C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Cheapest")
+            .field("key", &self.key)
+            .field("path", &self.path)
+            .field("left", &self.left)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'d, C: Count> Cheapest<'d, C> {
+    /// The first `top` variants whose key passes `wanted`, as it does for no cost above `ceiling`; those of equal cost in the
+    /// order of `rank`. Of those that begin alike none is given where `enter` refuses the beginning.
+    pub fn new<R: Ord>(
+        diagram: &'d Diagram,
+        steps: &'d Steps,
+        (top, ceiling): (usize, u64),
+        wanted: impl Fn(Key) -> bool,
+        rank: impl Fn(Key) -> R,
+        bytes: usize,
+        enter: Enter<'d>,
+    ) -> Self {
+        let (tally, mut keys) = enough(diagram, steps, (top, ceiling), wanted, bytes);
+        keys.sort_by_key(|&k| (k.cost(), rank(k), k));
+        Cheapest {
+            diagram,
+            steps,
+            tally,
+            keys: keys.into_iter(),
+            key: Key::default(),
+            path: Vec::new(),
+            choices: vec![0; steps.keys.len()],
+            left: top,
+            ways: Ways::within(bytes),
+            enter,
+        }
+    }
+
+    fn steps_from(&mut self, layer: usize, node: u32, rest: Key) -> Span {
+        let (diagram, tally) = (self.diagram, &self.tally);
+        self.ways
+            .from(diagram, self.steps, tally, (layer, node, rest))
+    }
+
+    /// Forgets steps where they are too many, but for those on the way.
+    fn make_room(&mut self) {
+        if !self.ways.is_full() {
+            return;
+        }
+        self.ways.clear();
+        for layer in 0..self.path.len() {
+            let Place {
+                node, rest, steps, ..
+            } = self.path[layer];
+            let anew = self.steps_from(layer, node, rest);
+            let place = &mut self.path[layer];
+            (place.steps, place.next) = (anew, anew.0 + (place.next - steps.0));
+        }
+    }
+}
+
+impl<C: Count> Iterator for Cheapest<'_, C> {
+    type Item = Assignment;
+
+    fn next(&mut self) -> Option<Assignment> {
+        if self.left == 0 {
+            return None;
+        }
+        let last = self.diagram.layers.len();
+        loop {
+            let depth = self.path.len();
+            let Some(place) = self.path.last_mut() else {
+                self.key = self.keys.next()?;
+                if last == 0 {
+                    return self.found();
+                }
+                let (node, rest) = (0, self.key);
+                let steps = self.steps_from(0, node, rest);
+                self.path.push(Place {
+                    node,
+                    rest,
+                    steps,
+                    next: steps.0,
+                });
+                continue;
+            };
+            if place.next == place.steps.1 {
+                self.path.pop();
+                continue;
+            }
+            let at = place.next as usize;
+            place.next += 1;
+            let step = self.ways.steps[at];
+            self.choices[self.diagram.layers[depth - 1].variable] = step.choice as usize;
+            if !(self.enter)(depth, step.node as usize, step.rest, &self.choices) {
+                continue;
+            }
+            if depth == last {
+                return self.found();
+            }
+            let steps = step.then.unwrap_or_else(|| {
+                let then = self.steps_from(depth, step.node, step.rest);
+                self.ways.steps[at].then = Some(then);
+                then
+            });
+            self.path.push(Place {
+                node: step.node,
+                rest: step.rest,
+                steps,
+                next: steps.0,
+            });
+            self.make_room();
+        }
+    }
+}
+
+impl<C> Cheapest<'_, C> {
+    fn found(&mut self) -> Option<Assignment> {
+        self.left -= 1;
+        Some(Assignment {
+            choices: self.choices.clone(),
+            key: self.key,
+        })
+    }
+}
+
+/// A tally of the cheapest variants, `top` of them at least where there are so many, with their keys; fewer where their tables
+/// would take more than some bytes.
+fn enough<C: Count>(
+    diagram: &Diagram,
+    steps: &Steps,
+    (top, ceiling): (usize, u64),
+    wanted: impl Fn(Key) -> bool,
+    bytes: usize,
+) -> (Tally<C>, Vec<Key>) {
+    let least = least_costs(diagram, steps);
+    let mut found = (Tally { tables: Vec::new() }, Vec::new());
+    let Some(floor) = least.completion[0][0] else {
+        return found;
+    };
+    let chosen = steps.keys.iter().flatten().map(|k| k.cost()).max();
+    let ends = diagram.terminals.iter();
+    let end = ends.map(|&r| steps.redundancy(r).cost()).max();
+    let ceiling = ceiling.min(chosen.unwrap_or(0) * steps.keys.len() as u64 + end.unwrap_or(0));
+    let mut slack = 0;
+    loop {
+        let limit = floor.saturating_add(slack).min(ceiling);
+        let bound: Vec<Vec<u64>> = least
+            .prefix
+            .iter()
+            .map(|l| {
+                l.iter()
+                    .map(|p| p.map_or(0, |p| limit.saturating_sub(p)))
+                    .collect()
+            })
+            .collect();
+        let Some(tally) = Tally::<C>::new(diagram, steps, Some(&bound), bytes) else {
+            return found;
+        };
+        let keys: Vec<Key> = tally
+            .totals()
+            .iter()
+            .map(|(k, _)| *k)
+            .filter(|&k| wanted(k))
+            .collect();
+        let count: BigUint = tally
+            .totals()
+            .iter()
+            .filter(|(k, _)| wanted(*k))
+            .map(|(_, c)| c.big())
+            .sum();
+        found = (tally, keys);
+        if count >= BigUint::from(top) || limit >= ceiling {
+            return found;
+        }
+        slack = if slack == 0 { 1 } else { slack * 2 };
+    }
+}
+
+/// Least costs of ways to and from each node; `None` where there is none.
+struct Least {
+    prefix: Vec<Vec<Option<u64>>>,
+    completion: Vec<Vec<Option<u64>>>,
+}
+
+fn least_costs(diagram: &Diagram, steps: &Steps) -> Least {
+    let keys = &steps.keys;
+    let sizes = || {
+        diagram
+            .layers
+            .iter()
+            .map(|l| l.nodes)
+            .chain([diagram.terminals.len()])
+    };
+    let mut prefix: Vec<Vec<Option<u64>>> = sizes().map(|n| vec![None; n]).collect();
+    let mut completion = prefix.clone();
+    prefix[0][0] = Some(0);
+    if let Some(last) = completion.last_mut() {
+        let ends = diagram.terminals.iter();
+        *last = ends.map(|&r| Some(steps.redundancy(r).cost())).collect();
+    }
+    let lower = |slot: &mut Option<u64>, x: u64| *slot = Some(slot.map_or(x, |s| s.min(x)));
+    for (l, layer) in diagram.layers.iter().enumerate() {
+        for (e, &to) in layer
+            .edges
+            .iter()
+            .enumerate()
+            .filter(|(_, to)| **to != DEAD)
+        {
+            if let Some(p) = prefix[l][e / layer.choices] {
+                lower(
+                    &mut prefix[l + 1][to as usize],
+                    p + keys[layer.variable][e % layer.choices].cost(),
+                );
+            }
+        }
+    }
+    for (l, layer) in diagram.layers.iter().enumerate().rev() {
+        for (e, &to) in layer
+            .edges
+            .iter()
+            .enumerate()
+            .filter(|(_, to)| **to != DEAD)
+        {
+            if let Some(c) = completion[l + 1][to as usize] {
+                lower(
+                    &mut completion[l][e / layer.choices],
+                    c + keys[layer.variable][e % layer.choices].cost(),
+                );
+            }
+        }
+    }
+    Least { prefix, completion }
+}
+
+/// Variants whose key passes a test, drawn without end, independently, each with the same chance.
+#[derive(Debug)]
+pub struct Sample<'d, C> {
+    diagram: &'d Diagram,
+    steps: &'d Steps,
+    /// The steps the tally was made with; the variants' own keys are made from `steps`.
+    told: Steps,
+    tally: Tally<C>,
+    /// What there is to draw from, by key, and how much in all.
+    totals: Vec<(Key, BigUint)>,
+    all: BigUint,
+    random: ChaCha8Rng,
+}
+
+impl<'d, C: Count> Sample<'d, C> {
+    /// Makes ready to draw; `told` are the steps the tally was made with.
+    pub fn new(
+        diagram: &'d Diagram,
+        steps: &'d Steps,
+        (told, tally): (Steps, Tally<C>),
+        seed: u64,
+        wanted: impl Fn(Key) -> bool,
+    ) -> Self {
+        let counts = tally.totals().iter().filter(|(k, _)| wanted(*k));
+        let totals: Vec<(Key, BigUint)> = counts.map(|(k, c)| (*k, c.big())).collect();
+        let all = totals.iter().map(|(_, c)| c).sum();
+        let random = ChaCha8Rng::seed_from_u64(seed);
+        Sample {
+            diagram,
+            steps,
+            told,
+            tally,
+            totals,
+            all,
+            random,
+        }
+    }
+}
+
+impl<C: Count> Iterator for Sample<'_, C> {
+    type Item = Assignment;
+
+    fn next(&mut self) -> Option<Assignment> {
+        if self.all.is_zero() {
+            return None;
+        }
+        let (diagram, steps) = (self.diagram, self.steps);
+        let mut ticket = below(&mut self.random, &self.all);
+        let mut key = self.totals[0].0;
+        for (k, c) in &self.totals {
+            if ticket < *c {
+                key = *k;
+                break;
+            }
+            ticket -= c;
+        }
+        let mut choices = vec![0; steps.keys.len()];
+        let (mut node, mut whole) = (0usize, 0u128);
+        for (l, layer) in diagram.layers.iter().enumerate() {
+            for (choice, edge) in self.told.keys[layer.variable].iter().enumerate() {
+                let to = layer.edges[node * layer.choices + choice];
+                let Some(rest) = key.0.checked_sub(edge.0).map(Key) else {
+                    continue;
+                };
+                if to == DEAD {
+                    continue;
+                }
+                let table = &self.tally.tables[l + 1][to as usize];
+                let Ok(i) = table.binary_search_by_key(&rest, |(k, _)| *k) else {
+                    continue;
+                };
+                let size = table[i].1.big();
+                if ticket < size {
+                    choices[layer.variable] = choice;
+                    whole += steps.keys[layer.variable][choice].0;
+                    (node, key) = (to as usize, rest);
+                    break;
+                }
+                ticket -= size;
+            }
+        }
+        whole += steps.redundancy(diagram.terminals[node]).0;
+        Some(Assignment {
+            choices,
+            key: Key(whole),
+        })
+    }
+}
+
+/// A number below `n`, each with the same chance.
+fn below(random: &mut ChaCha8Rng, n: &BigUint) -> BigUint {
+    let bits = n.bits();
+    let mut bytes = vec![0u8; usize::try_from(bits.div_ceil(8)).unwrap_or(0)];
+    loop {
+        random.fill_bytes(&mut bytes);
+        let x = BigUint::from_bytes_le(&bytes) >> (bytes.len() as u64 * 8 - bits);
+        if x < *n {
+            return x;
+        }
+    }
+}

@@ -1,0 +1,249 @@
+//! Single changes: how many redundant constraints each removes alone, before any search.
+//!
+//! A change appends columns to J, the freedoms it adds. Its gain is their rank modulo the image of J, and W grows by the
+//! number of new columns less the gain. So a change whose gain is the number of its columns removes that many redundant
+//! constraints, lets nothing loose, and leaves every motion as it was. The gain is read off the self-stresses: it is the
+//! rank of the powers of the wrenches that the joint carries on the new freedoms, a matrix of six rows at most.
+
+use crate::closure::matrix::Closure;
+use crate::closure::twist::{MotionSpace, joint_twists};
+use crate::geom::exact::{ExactError, ExactField};
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::Residue;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Joint, JointId, JointOption, Mechanism, StateId};
+use crate::redundancy::analysis::exact_field;
+use crate::redundancy::stress::stress_basis;
+use crate::search::question::cost::CostTable;
+use std::cmp::Reverse;
+
+/// What is tried where the file offers nothing: at the mechanism's own joints.
+pub const USUAL: [JointType; 5] = [
+    JointType::Cylindrical,
+    JointType::Universal,
+    JointType::Spherical,
+    JointType::CylindricalUniversal,
+    JointType::SphereInCylinder,
+];
+/// And in series with the joints that a state adds.
+pub const USUAL_UNLOADING: JointType = JointType::Spherical;
+
+/// One change.
+#[derive(Debug, Clone)]
+pub struct Suggestion {
+    /// The joint.
+    pub joint: JointId,
+    /// What is put in its place, where it does not stay.
+    pub to: Option<JointOption>,
+    /// The unloading joint inserted in series, where one is.
+    pub unloading: Option<JointOption>,
+    /// Redundant constraints that go: as many as the change adds freedoms.
+    pub removes: usize,
+    /// Cost of the change in thousandths.
+    pub cost_milli: i64,
+}
+
+/// The single changes of a state that remove redundant constraints and nothing else.
+#[derive(Debug, Clone)]
+pub struct Suggestions {
+    /// The state: of the free one all joints are tried, of another those that it adds.
+    pub state: StateId,
+    /// σ of the state, modulo a prime.
+    pub redundant: usize,
+    /// Whether the file offered nothing here, so that the usual joints were tried.
+    pub usual: bool,
+    /// Number of changes tried.
+    pub tried: usize,
+    /// The changes, those that remove most first, then the cheaper, then in file order.
+    pub list: Vec<Suggestion>,
+}
+
+/// Tries every single change.
+///
+/// # Guarantee
+/// Ranks modulo a prime near 2^61, as those of the search.
+///
+/// # Complexity
+/// One elimination of J, and for each change an elimination of six by six numbers.
+///
+/// # Errors
+/// Where a coordinate has no value in the field.
+pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestions, ExactError> {
+    let exact = &exact_field(mechanism, 0)?;
+    let motion = MotionSpace::new(exact, &mechanism.mode)?;
+    let closure = Closure::new(exact, mechanism, state)?;
+    let stresses = stress_basis(exact, &closure);
+    let costs = CostTable::new(&mechanism.search.costs);
+    let joints: Vec<JointId> = match state {
+        StateId::FREE => mechanism.joints_in(state).collect(),
+        _ => mechanism.joints_added_in(state).collect(),
+    };
+    let offered = |j: &JointId| {
+        let joint = &mechanism.joints[*j];
+        !changes(joint, &present(joint), state, false).is_empty()
+    };
+    let usual = !joints.iter().any(offered);
+    let twists = |o: &JointOption| -> Result<Vec<Vec<Residue>>, ExactError> {
+        let all = joint_twists(exact, &motion, &o.frame, &o.joint_type)?;
+        Ok(all.into_iter().map(|(_, t)| t).collect())
+    };
+    let carried = Carried::new(exact, mechanism, &closure, &stresses);
+    let (mut tried, mut list) = (0, Vec::new());
+    for j in joints {
+        let joint = &mechanism.joints[j];
+        let present = present(joint);
+        let own = twists(&present)?;
+        let wrenches = carried.at(j);
+        for (to, unloading) in changes(joint, &present, state, usual) {
+            let mut columns = twists(to.as_ref().unwrap_or(&present))?;
+            if !spans(exact, &columns, &own) {
+                continue;
+            }
+            if let Some(u) = &unloading {
+                columns.extend(twists(u)?);
+            }
+            tried += 1;
+            let removes = columns.len() - own.len();
+            if removes > 0 && gain(exact, &wrenches, &columns) == removes {
+                let cost_milli = costs.change(&present, to.as_ref(), unloading.as_ref());
+                list.push(Suggestion {
+                    joint: j,
+                    to,
+                    unloading,
+                    removes,
+                    cost_milli,
+                });
+            }
+        }
+    }
+    // The sort is stable: what is alike stays in file order.
+    list.sort_by_key(|s| (Reverse(s.removes), s.cost_milli));
+    Ok(Suggestions {
+        state,
+        redundant: stresses.len(),
+        usual,
+        tried,
+        list,
+    })
+}
+
+/// The joint as it is.
+fn present(joint: &Joint) -> JointOption {
+    joint
+        .options
+        .first()
+        .cloned()
+        .unwrap_or_else(|| JointOption {
+            name: joint.joint_type.name().to_owned(),
+            joint_type: joint.joint_type.clone(),
+            frame: joint.frame.clone(),
+            cost_milli: None,
+            state: None,
+        })
+}
+
+type Change = (Option<JointOption>, Option<JointOption>);
+
+/// What may be done at a joint: another in its place, an unloading joint, or both.
+fn changes(joint: &Joint, present: &JointOption, state: StateId, usual: bool) -> Vec<Change> {
+    if usual {
+        let option = |t: &JointType| JointOption {
+            name: t.name().to_owned(),
+            joint_type: t.clone(),
+            frame: joint.frame.clone(),
+            cost_milli: None,
+            state: None,
+        };
+        return match (state, joint.drive, &joint.joint_type) {
+            (StateId::FREE, true, _) | (StateId::FREE, _, JointType::Fixed) => Vec::new(),
+            (StateId::FREE, ..) => {
+                let others = USUAL.iter().filter(|t| **t != present.joint_type);
+                others.map(|t| (Some(option(t)), None)).collect()
+            }
+            _ => vec![(None, Some(option(&USUAL_UNLOADING)))],
+        };
+    }
+    let offered = |o: &&JointOption| o.state.is_none_or(|s| s == state);
+    let inserted = joint.unloading.iter().filter(offered).cloned().map(Some);
+    let inserted = std::iter::once(None).chain(inserted);
+    inserted
+        .flat_map(|u| {
+            let others = joint.options.iter().skip(1).filter(offered);
+            let others = others.cloned().map(Some);
+            let kept = std::iter::once(None);
+            kept.chain(others).map(move |to| (to, u.clone()))
+        })
+        .filter(|(to, u)| to.is_some() || u.is_some())
+        .collect()
+}
+
+fn spans(exact: &ExactField, columns: &[Vec<Residue>], own: &[Vec<Residue>]) -> bool {
+    let mut span = Echelon::new(exact.field());
+    for c in columns {
+        span.insert(c);
+    }
+    own.iter().all(|t| span.contains(t))
+}
+
+/// The rank of the wrenches' powers on some twists.
+fn gain(exact: &ExactField, wrenches: &[Vec<Residue>], twists: &[Vec<Residue>]) -> usize {
+    let f = exact.field();
+    let mut span = Echelon::new(f);
+    for t in twists {
+        let power = |w: &Vec<Residue>| {
+            let products = w.iter().zip(t).map(|(&a, &b)| f.mul(a, b));
+            products.fold(0, |sum, x| f.add(sum, x))
+        };
+        let powers: Vec<Residue> = wrenches.iter().map(power).collect();
+        span.insert(&powers);
+    }
+    span.rank()
+}
+
+/// What each joint carries under the self-stresses.
+struct Carried<'a> {
+    exact: &'a ExactField,
+    stresses: &'a [Vec<Residue>],
+    dim: usize,
+    /// The contours that pass each joint, and how.
+    passes: Vec<Vec<(usize, bool)>>,
+}
+
+impl<'a> Carried<'a> {
+    fn new(
+        exact: &'a ExactField,
+        mechanism: &Mechanism,
+        closure: &Closure<Residue>,
+        stresses: &'a [Vec<Residue>],
+    ) -> Self {
+        let mut passes = vec![Vec::new(); mechanism.joints.len()];
+        for (i, c) in closure.contours.iter().enumerate() {
+            for &(j, forward) in &c.joints {
+                passes[j].push((i, forward));
+            }
+        }
+        Carried {
+            exact,
+            stresses,
+            dim: closure.dim,
+            passes,
+        }
+    }
+
+    /// A basis of the wrenches that a joint carries, six at most.
+    fn at(&self, joint: JointId) -> Vec<Vec<Residue>> {
+        let (f, dim) = (self.exact.field(), self.dim);
+        let mut span = Echelon::new(f);
+        for stress in self.stresses {
+            if span.rank() == dim {
+                break;
+            }
+            let mut wrench = vec![0; dim];
+            for &(i, forward) in &self.passes[joint] {
+                f.accumulate(&mut wrench, &stress[i * dim..(i + 1) * dim], forward);
+            }
+            span.insert(&wrench);
+        }
+        span.reduced()
+    }
+}

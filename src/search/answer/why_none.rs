@@ -1,0 +1,182 @@
+//! Where a question has no answer: which of its conditions, eased alone, would leave some variants.
+
+use crate::closure::matrix::Closure;
+use crate::geom::exact::ExactError;
+use crate::model::mechanism::{JointId, StateId};
+use crate::redundancy::motion::motions;
+use crate::search::answer::counts::Counts;
+use crate::search::check::brute::Matrices;
+use crate::search::diagram::Stop;
+use crate::search::question::conditions::{Conditions, InState, Search, SearchError};
+use num_bigint::BigUint;
+use num_traits::Zero;
+
+/// A condition eased, by the least that leaves variants.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Relaxation {
+    /// Redundant constraints within the mechanism up to this many.
+    Redundant(u32),
+    /// Redundant constraints that the state adds up to this many.
+    External(u32),
+    /// Mobility up to this.
+    Mobility(i64),
+    /// Up to this many changes.
+    Changes(u32),
+    /// Harmful ones among them up to this many.
+    Harmful(u32),
+    /// Outputs that move in other ways than now.
+    OutputChange,
+    /// Objects that are not held.
+    LooseObject,
+}
+
+/// Why nothing can be found, whatever is chosen.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Hopeless {
+    /// Redundant constraints left within the mechanism with every joint at the freest of its options, where that is more
+    /// than allowed.
+    pub least_redundant: Option<usize>,
+    /// Joints that have no choice, and of which a freer one would remove some of these.
+    pub unchanged: Vec<JointId>,
+    /// Driven joints that nothing moves in the mechanism as it is.
+    pub frozen: Vec<JointId>,
+}
+
+/// Nodes of a diagram at most, where the question took fewer: easing should cost little more than the question did.
+const NODES: usize = 20_000;
+/// How many times the question's nodes, where those are more.
+const MORE: usize = 4;
+
+impl Search {
+    /// What stands in the way of every variant.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    pub fn hopeless(&self) -> Result<Hopeless, ExactError> {
+        let m = &*self.mechanism;
+        let (least, unchanged) = Matrices::new(self).freest();
+        let most = usize::try_from(self.conditions.max_redundant).unwrap_or(usize::MAX);
+        let closure = Closure::new(&self.exact, m, StateId::FREE)?;
+        let kernel = motions(&self.exact, &closure);
+        let moves = |j: JointId| {
+            let columns = closure.columns.iter().enumerate();
+            let mut own = columns.filter(|(_, c)| c.joint == j);
+            own.any(|(at, _)| kernel.iter().any(|speeds| speeds[at] != 0))
+        };
+        let driven = m.joints_in(StateId::FREE).filter(|&j| m.joints[j].drive);
+        Ok(Hopeless {
+            frozen: driven.filter(|&j| !moves(j)).collect(),
+            least_redundant: (least > most).then_some(least),
+            unchanged: if least > most { unchanged } else { Vec::new() },
+        })
+    }
+
+    /// The conditions that, eased alone, leave some variants, with how many; a condition whose search would take too many
+    /// nodes is passed over. `nodes` are those that the question took.
+    ///
+    /// # Errors
+    /// As [`Search::new`].
+    ///
+    /// # Complexity
+    /// One search for each condition, and for redundancies one for each bit of the least that is enough, or two.
+    pub fn relaxations(
+        &self,
+        nodes: usize,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
+        let conditions = &self.conditions;
+        let most = nodes.saturating_mul(MORE).max(NODES);
+        let counted = |change: &dyn Fn(&mut Conditions)| -> Result<Option<Counts>, SearchError> {
+            let mut eased = conditions.clone();
+            eased.nodes = eased.nodes.min(most);
+            (eased.cheapest, eased.counted, eased.estimate) = (0, true, None);
+            change(&mut eased);
+            let search = Search::new(self.exact.clone(), self.mechanism.clone(), eased)?;
+            let diagrams = search.build(cancelled, &mut |_| {});
+            let whole = diagrams.stop() == Stop::Exhausted;
+            let counts = whole.then(|| search.counts(&diagrams.admissible, true));
+            Ok(counts.filter(|c| !c.total.is_zero()))
+        };
+        let mut out = Vec::new();
+        // No variant has more redundant constraints than rows.
+        let rows = u32::try_from(6 * self.mechanism.joints.len()).unwrap_or(u32::MAX);
+        // Diagrams grow with what is allowed, so a little more is tried first: twice as much more each time.
+        let further = |allowed: u32| {
+            let more = std::iter::successors(Some(1u32), |m| m.checked_mul(2));
+            let bounds = more.map(move |m| allowed.saturating_add(m));
+            bounds.take_while(move |b| *b < 2 * rows)
+        };
+        for bound in further(conditions.max_redundant) {
+            if let Some(c) = counted(&|r| r.max_redundant = bound)? {
+                let least = c.by_redundant.iter().next();
+                out.extend(least.map(|(least, n)| (Relaxation::Redundant(*least), n.clone())));
+                break;
+            }
+        }
+        // The least bound that is enough, doubling what is allowed and then halving the gap.
+        let least = |allowed: u32, set: &dyn Fn(&mut InState, u32)| -> Result<_, SearchError> {
+            let with = |most: u32| {
+                counted(&|r: &mut Conditions| {
+                    if let Some(s) = &mut r.state {
+                        set(s, most);
+                    }
+                })
+            };
+            let mut few = allowed;
+            for bound in further(allowed) {
+                let Some(mut found) = with(bound)? else {
+                    few = bound;
+                    continue;
+                };
+                let mut enough = bound;
+                while enough - few > 1 {
+                    let middle = few + (enough - few) / 2;
+                    match with(middle)? {
+                        Some(c) => (enough, found) = (middle, c),
+                        None => few = middle,
+                    }
+                }
+                return Ok(Some((enough, found.total)));
+            }
+            Ok(None)
+        };
+        if let Some(state) = conditions.state {
+            if let Some(allowed) = state.max_external {
+                let found = least(allowed, &|s, most| s.max_external = Some(most))?;
+                out.extend(found.map(|(n, total)| (Relaxation::External(n), total)));
+            }
+            if let Some(allowed) = state.max_harmful {
+                let found = least(allowed, &|s, most| s.max_harmful = Some(most))?;
+                out.extend(found.map(|(n, total)| (Relaxation::Harmful(n), total)));
+            }
+            let loose = |r: &mut Conditions| {
+                if let Some(s) = &mut r.state {
+                    s.hold_objects = false;
+                }
+            };
+            if state.hold_objects
+                && let Some(c) = counted(&loose)?
+            {
+                out.push((Relaxation::LooseObject, c.total));
+            }
+        }
+        if conditions.max_mobility.is_some()
+            && let Some(c) = counted(&|r| r.max_mobility = None)?
+            && let Some((least, n)) = c.by_mobility.iter().next()
+        {
+            out.push((Relaxation::Mobility(*least), n.clone()));
+        }
+        if conditions.max_changes.is_some()
+            && let Some(c) = counted(&|r| r.max_changes = None)?
+            && let Some((least, n)) = c.by_changes.iter().next()
+        {
+            out.push((Relaxation::Changes(*least), n.clone()));
+        }
+        if conditions.keep_output
+            && let Some(c) = counted(&|r| r.keep_output = false)?
+        {
+            out.push((Relaxation::OutputChange, c.total));
+        }
+        Ok(out)
+    }
+}

@@ -1,0 +1,10 @@
+//! Twins and second opinions: every variant looked at, another prime, singular values, other poses. The engine uses none of it.
+
+pub mod brute;
+pub mod brute_float;
+pub mod full_matrices;
+pub mod other_poses;
+pub mod second_opinion;
+pub mod second_prime;
+pub mod singular_values;
+pub mod variant_mechanism;

@@ -1,0 +1,241 @@
+//! The twin of the diagram: look at every variant. Kept for checking and for the comparison of speed.
+
+use crate::closure::matrix::Closure;
+use crate::geom::exact::ExactError;
+use crate::linalg::modp::{Field, Residue};
+use crate::model::mechanism::JointId;
+use crate::redundancy::stress::harmful_count;
+use crate::search::answer::count_tables::Key;
+use crate::search::answer::counts::Counts;
+use crate::search::check::full_matrices::{Layout, WrittenOut};
+use crate::search::diagram::redundancy_so_far::Redundancy;
+use crate::search::question::conditions::Search;
+use crate::search::question::grasp::loose;
+use num_bigint::BigUint;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// What brute force finds out about one variant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Seen {
+    /// Redundant constraints within the mechanism.
+    pub internal: u32,
+    /// Redundant constraints that the state adds; 0 where no state is searched.
+    pub external: i32,
+    /// Dimension of the kept links' motion.
+    pub motion: usize,
+}
+
+impl Seen {
+    /// What ranks say: of the free state's rows, of those with the kept links' motion, and of the searched state's.
+    pub(in crate::search) fn of_ranks(
+        [free, _, state]: [usize; 3],
+        [rank, with_kept]: [usize; 2],
+        of_state: Option<usize>,
+    ) -> Seen {
+        let int = |x: usize| i32::try_from(x).unwrap_or(i32::MAX);
+        Seen {
+            internal: u32::try_from(free - rank).unwrap_or(u32::MAX),
+            external: of_state.map_or(0, |r| int(state - r) - int(free - rank)),
+            motion: with_kept.saturating_sub(rank),
+        }
+    }
+}
+
+/// The closure matrices of all variants at once, over a prime field.
+#[derive(Debug)]
+pub struct Matrices {
+    field: Field,
+    all: WrittenOut<Residue>,
+    /// For each joint without a choice, the columns of every motion.
+    whole: Vec<(JointId, Vec<Vec<Residue>>)>,
+}
+
+impl Matrices {
+    /// Writes the columns of a search's space out.
+    #[must_use]
+    pub fn new(search: &Search) -> Matrices {
+        let (f, variables) = (search.field().field(), &search.space.variables);
+        let spans: Vec<_> = variables
+            .iter()
+            .map(|v| v.choices.iter().map(|c| c.spans.clone()).collect())
+            .collect();
+        let layout = Layout::new(search);
+        let fixed = variables.iter().filter(|v| v.choices.len() == 1);
+        let whole = fixed.flat_map(|v| &v.joints).map(|&j| {
+            let rates = search.mechanism.couplings_of(j).count();
+            let every = (0..search.space.dim).map(|c| {
+                let mut twist = vec![0; search.space.dim + rates];
+                twist[c] = f.one();
+                layout.column(search.field(), j, &twist)
+            });
+            (j, every.collect())
+        });
+        Matrices {
+            field: f,
+            whole: whole.collect(),
+            all: WrittenOut::new(search.field(), search, &layout, &spans),
+        }
+    }
+
+    /// The redundant constraints within the mechanism that are left with every joint at once free to do what any of its
+    /// options allows, and the joints without a choice that would remove some of them.
+    #[must_use]
+    pub fn freest(&self) -> (usize, Vec<JointId>) {
+        let free = self.all.rows[0];
+        let within = |c: &Vec<Residue>| c[..free].to_vec();
+        let all: Vec<Vec<Residue>> = self.all.columns().map(within).collect();
+        let rank = eliminate(self.field, all.clone()).len();
+        let loaded = self.whole.iter().filter(|(_, columns)| {
+            let more = columns.iter().map(within);
+            eliminate(self.field, all.iter().cloned().chain(more).collect()).len() > rank
+        });
+        (free - rank, loaded.map(|(j, _)| *j).collect())
+    }
+
+    /// Looks at one variant.
+    #[must_use]
+    pub fn look(&self, choices: &[usize]) -> Seen {
+        let [free, kept, state] = self.all.rows;
+        let rows = |from: usize, to: usize| -> Vec<Vec<Residue>> {
+            let chosen = self.all.chosen(choices);
+            chosen.map(|c| c[from..to].to_vec()).collect()
+        };
+        let pivots = eliminate(self.field, rows(0, free + kept));
+        let rank = pivots.iter().filter(|&&p| p < free).count();
+        let of_state = match state {
+            0 => None,
+            _ => Some(eliminate(self.field, rows(free + kept, free + kept + state)).len()),
+        };
+        Seen::of_ranks(self.all.rows, [rank, pivots.len()], of_state)
+    }
+}
+
+/// Plain Gaussian elimination of some vectors; the columns of the pivots.
+fn eliminate(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> {
+    let width = vectors.first().map_or(0, Vec::len);
+    let (mut pivots, mut done) = (Vec::new(), 0);
+    for c in 0..width {
+        let Some(i) = (done..vectors.len()).find(|&i| vectors[i][c] != 0) else {
+            continue;
+        };
+        vectors.swap(done, i);
+        let (above, below) = vectors.split_at_mut(done + 1);
+        let pivot = &above[done];
+        // Cross-multiplication needs no inverse.
+        for v in below.iter_mut().filter(|v| v[c] != 0) {
+            let (a, b) = (pivot[c], v[c]);
+            for (x, &y) in v[c..].iter_mut().zip(&pivot[c..]) {
+                *x = f.sub(f.mul(a, *x), f.mul(b, y));
+            }
+        }
+        pivots.push(c);
+        done += 1;
+    }
+    pivots
+}
+
+impl Search {
+    /// Counts by looking at every variant: (determinate, admissible). What the searched state makes of a variant is asked of
+    /// the mechanism that the variant is.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    ///
+    /// # Complexity
+    /// One elimination a variant, in parallel over the choices of the first variables, and with a state some more for those
+    /// that meet the other conditions.
+    pub fn brute(&self) -> Result<(Counts, Counts), ExactError> {
+        let matrices = Matrices::new(self);
+        let (mut all, mut good) = (Counts::default(), Counts::default());
+        for ((key, admissible), count) in self.count(&matrices)? {
+            let count = BigUint::from(count);
+            all.add(self.mobility(key), key, &count);
+            if admissible && self.wanted(key) {
+                good.add(self.mobility(key), key, &count);
+            }
+        }
+        Ok((all, good))
+    }
+
+    /// Every variant with few enough redundant constraints, by its properties and whether it is admissible but for mobility
+    /// and changes.
+    fn count(&self, matrices: &Matrices) -> Result<BTreeMap<(Key, bool), u128>, ExactError> {
+        let steps = &self.steps;
+        let radix: Vec<usize> = steps.keys.iter().map(Vec::len).collect();
+        let head = radix
+            .iter()
+            .scan(1usize, |p, &r| {
+                *p = p.saturating_mul(r);
+                Some(*p)
+            })
+            .take_while(|&p| p <= 4096)
+            .count();
+        let heads: usize = radix[..head].iter().product();
+        let from = |h: usize| {
+            let mut counts: BTreeMap<(Key, bool), u128> = BTreeMap::new();
+            let mut choices = vec![0; radix.len()];
+            let mut rest = h;
+            for (c, r) in choices.iter_mut().zip(&radix[..head]) {
+                (*c, rest) = (rest % r, rest / r);
+            }
+            loop {
+                if let Some((key, admissible)) = self.judge(&choices, matrices.look(&choices))? {
+                    *counts.entry((key, admissible)).or_insert(0) += 1;
+                }
+                let Some(v) = (head..radix.len()).find(|&v| choices[v] + 1 < radix[v]) else {
+                    return Ok(counts);
+                };
+                choices[head..v].fill(0);
+                choices[v] += 1;
+            }
+        };
+        let merge = |mut a: BTreeMap<_, u128>, b: BTreeMap<_, u128>| {
+            for (k, c) in b {
+                *a.entry(k).or_insert(0) += c;
+            }
+            Ok(a)
+        };
+        (0..heads)
+            .into_par_iter()
+            .map(from)
+            .try_reduce(BTreeMap::new, merge)
+    }
+
+    /// The properties of a variant, from its choices and its redundant constraints.
+    #[must_use]
+    pub fn key(&self, choices: &[usize], redundancy: Redundancy) -> Key {
+        let keys = self.steps.keys.iter().zip(choices);
+        let sum: u128 = keys.map(|(keys, &c)| keys[c].0).sum();
+        Key(sum + self.steps.redundancy(redundancy).0)
+    }
+
+    /// The properties of a variant of which this was seen, and whether it is admissible but for W and changes, which
+    /// [`Search::wanted`] knows; `None` where it is not determinate. What the searched state makes of it is asked of the
+    /// mechanism that the variant is.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    pub fn judge(&self, choices: &[usize], seen: Seen) -> Result<Option<(Key, bool)>, ExactError> {
+        if seen.internal > self.conditions.max_redundant {
+            return Ok(None);
+        }
+        let mut found = Redundancy {
+            internal: seen.internal,
+            external: seen.external,
+            harmful: 0,
+        };
+        let mut good = !self.conditions.keep_output || seen.motion == self.kept.1.len();
+        if let Some(s) = self.conditions.state.filter(|_| good) {
+            let realized = self.realize(choices);
+            let closure = Closure::new(&self.exact, &realized, s.state)?;
+            let harmful = harmful_count(&self.exact, &realized, &closure)?;
+            found.harmful = u32::try_from(harmful).unwrap_or(u32::MAX);
+            let beyond = |x: i64, limit: Option<u32>| limit.is_some_and(|l| x > i64::from(l));
+            good = !beyond(seen.external.into(), s.max_external)
+                && !beyond(found.harmful.into(), s.max_harmful)
+                && loose(&self.exact, &realized, s.state, &self.grasps)?.is_empty();
+        }
+        Ok(Some((self.key(choices, found), good)))
+    }
+}

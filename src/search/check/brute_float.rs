@@ -1,0 +1,143 @@
+//! Brute force in floating point: every variant's ranks within a tolerance, to be compared with exact ones.
+
+use crate::closure::matrix::Closure;
+use crate::closure::twist::MotionSpace;
+use crate::geom::exact::ExactError;
+use crate::geom::scalars::Reals;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::rank::numeric::Elimination;
+use crate::rank::numeric::scaling::Scaling;
+use crate::search::check::brute::Seen;
+use crate::search::check::full_matrices::{Layout, Spans, WrittenOut};
+use crate::search::question::conditions::Search;
+use crate::search::question::rounded_rank::{Digits, RankRange};
+use crate::search::question::space::{Choice, columns};
+use ozols_dense::{Matrix, singular_values};
+
+/// Rows of a variant's matrix that have a rank of their own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rows {
+    /// The closure equations of the free state.
+    Free,
+    /// These, and the motion of the kept links.
+    WithKept,
+    /// The closure equations of the searched state; no rows where none is searched.
+    State,
+}
+
+/// The closure matrices of all variants at once, in double precision, as an elimination wants them: as they stand, or for
+/// singular values scaled, so that units do not matter.
+#[derive(Debug)]
+pub struct Approximate {
+    elimination: Elimination,
+    tolerance: f64,
+    all: WrittenOut<f64>,
+}
+
+impl Approximate {
+    /// Writes the columns of a search's space out, for ranks within a tolerance.
+    ///
+    /// # Errors
+    /// None where the search has an exact image already.
+    pub fn new(
+        search: &Search,
+        elimination: Elimination,
+        tolerance: f64,
+    ) -> Result<Approximate, ExactError> {
+        Approximate::of(search, &search.mechanism, elimination, tolerance)
+    }
+
+    /// The same of a mechanism with the links, joints and options of the searched one in other places, such as those that a
+    /// file writes.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value.
+    pub fn of(
+        search: &Search,
+        mechanism: &Mechanism,
+        elimination: Elimination,
+        tolerance: f64,
+    ) -> Result<Approximate, ExactError> {
+        let motion = MotionSpace::new(&Reals, &mechanism.mode)?;
+        let state = search.space.state.unwrap_or(StateId::FREE);
+        let present = Closure::new(&Reals, mechanism, state)?;
+        let scaling = (elimination == Elimination::Svd).then(|| Scaling::of(&present));
+        let of_joint = |choice: &Choice, j: JointId| {
+            let joint = &mechanism.joints[j];
+            let option = &joint.options[choice.option];
+            let inserted = choice.unloading.map(|u| &joint.unloading[u]);
+            let mut columns = columns(&Reals, &motion, mechanism, j, (option, inserted))?.concat();
+            if let Some(scaling) = &scaling {
+                columns.iter_mut().for_each(|c| scaling.unit(c));
+            }
+            Ok(columns)
+        };
+        let mut spans: Vec<Vec<Spans<f64>>> = Vec::new();
+        for v in &search.space.variables {
+            let of_choice = |c| v.joints.iter().map(|&j| of_joint(c, j)).collect();
+            spans.push(
+                v.choices
+                    .iter()
+                    .map(of_choice)
+                    .collect::<Result<_, ExactError>>()?,
+            );
+        }
+        Ok(Approximate {
+            elimination,
+            tolerance,
+            all: WrittenOut::new(&Reals, search, &Layout::new(search), &spans),
+        })
+    }
+
+    /// Looks at one variant; `None` where the arithmetic fails.
+    ///
+    /// # Complexity
+    /// Two or three decompositions.
+    #[must_use]
+    pub fn look(&self, choices: &[usize]) -> Option<Seen> {
+        let [_, kept, state] = self.all.rows;
+        let rank = |rows: Rows| {
+            let matrix = self.matrix(choices, rows);
+            let rank = self.elimination.rank_of(&matrix, self.tolerance);
+            rank.ok().map(|r| r.rank)
+        };
+        let inside = rank(Rows::Free)?;
+        let with_kept = match kept {
+            0 => inside,
+            _ => rank(Rows::WithKept)?,
+        };
+        let of_state = match state {
+            0 => None,
+            _ => Some(rank(Rows::State)?),
+        };
+        Some(Seen::of_ranks(self.all.rows, [inside, with_kept], of_state))
+    }
+
+    /// How many closure equations the free state has, and how many the searched one.
+    #[must_use]
+    pub fn equations(&self) -> [usize; 2] {
+        let [free, _, state] = self.all.rows;
+        [free, state]
+    }
+
+    /// The rank of some rows of a variant, so far as the digits decide it; `None` where the singular values do not converge.
+    ///
+    /// # Complexity
+    /// One decomposition.
+    #[must_use]
+    pub fn range(&self, choices: &[usize], rows: Rows, digits: Digits) -> Option<RankRange> {
+        let values = singular_values(&self.matrix(choices, rows))?;
+        Some(RankRange::of(&values, digits))
+    }
+
+    fn matrix(&self, choices: &[usize], rows: Rows) -> Matrix {
+        let [free, kept, state] = self.all.rows;
+        let (from, to) = match rows {
+            Rows::Free => (0, free),
+            Rows::WithKept => (0, free + kept),
+            Rows::State => (free + kept, free + kept + state),
+        };
+        let chosen: Vec<&Vec<f64>> = self.all.chosen(choices).collect();
+        Matrix::from_fn(to - from, chosen.len(), |r, c| chosen[c][from + r])
+    }
+}

@@ -1,0 +1,135 @@
+//! The closure matrices of all variants at once: every choice's columns, written out in full, in any number system.
+
+use crate::closure::contour::{Contour, contour_basis};
+use crate::closure::tree::path_from_frame;
+use crate::geom::scalars::Scalars;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::search::question::conditions::Search;
+use crate::search::question::space::Variable;
+
+/// What a choice puts at each joint of its variable: twists, each with the joint's entries in the rows of its couplings
+/// behind it.
+pub type Spans<N> = Vec<Vec<Vec<N>>>;
+
+/// What the rows of the matrices are: contours and couplings of the free state, motions of the kept links, and contours and
+/// couplings of the searched state, all of them once more.
+pub(in crate::search) struct Layout<'a> {
+    mechanism: &'a Mechanism,
+    dim: usize,
+    free: Vec<Contour>,
+    coupled: Vec<usize>,
+    /// From the frame to each kept link.
+    paths: Vec<Vec<(JointId, bool)>>,
+    state: Vec<Contour>,
+    coupled_in_state: Vec<usize>,
+}
+
+impl Layout<'_> {
+    pub(in crate::search) fn new(search: &Search) -> Layout<'_> {
+        let mechanism = &*search.mechanism;
+        let kept = search.kept.0.iter();
+        let paths = kept.map(|&l| path_from_frame(mechanism, StateId::FREE, l));
+        // Couplings by index.
+        let coupled = |s: StateId| -> Vec<usize> {
+            let present =
+                |&q: &usize| mechanism.joints[mechanism.couplings[q].ends[0].joint].is_in(s);
+            (0..mechanism.couplings.len()).filter(present).collect()
+        };
+        let state = search.space.state;
+        Layout {
+            mechanism,
+            dim: search.space.dim,
+            free: contour_basis(mechanism, StateId::FREE),
+            coupled: coupled(StateId::FREE),
+            paths: paths.collect(),
+            state: state.map_or_else(Vec::new, |s| contour_basis(mechanism, s)),
+            coupled_in_state: state.map_or_else(Vec::new, coupled),
+        }
+    }
+
+    /// How many rows there are of each kind.
+    fn rows(&self) -> [usize; 3] {
+        [
+            self.free.len() * self.dim + self.coupled.len(),
+            self.paths.len() * self.dim,
+            self.state.len() * self.dim + self.coupled_in_state.len(),
+        ]
+    }
+
+    /// The column of a twist at a joint; behind it stand the joint's entries in the rows of its couplings.
+    pub(in crate::search) fn column<S: Scalars>(
+        &self,
+        s: &S,
+        j: JointId,
+        twist: &[S::Number],
+    ) -> Vec<S::Number> {
+        let zero = S::Number::default;
+        let (twist, rates) = twist.split_at(self.dim);
+        let block = |sign: Option<bool>| -> Vec<S::Number> {
+            match sign {
+                None => vec![zero(); self.dim],
+                Some(true) => twist.to_vec(),
+                Some(false) => twist.iter().map(|t| s.sub(zero(), t.clone())).collect(),
+            }
+        };
+        let coupling = |q: &usize| {
+            let at = self.mechanism.couplings_of(j).position(|(c, _)| c == *q);
+            at.map_or_else(zero, |i| rates[i].clone())
+        };
+        let of_path = |p: &Vec<(JointId, bool)>| p.iter().find(|(q, _)| *q == j).map(|(_, s)| *s);
+        let mut out = Vec::with_capacity(self.rows().iter().sum());
+        out.extend(self.free.iter().flat_map(|c| block(c.direction(j))));
+        out.extend(self.coupled.iter().map(coupling));
+        out.extend(self.paths.iter().flat_map(|p| block(of_path(p))));
+        out.extend(self.state.iter().flat_map(|c| block(c.direction(j))));
+        out.extend(self.coupled_in_state.iter().map(coupling));
+        out
+    }
+}
+
+/// Columns of every choice. Those of a variant, side by side, are its matrix: first the rows of the free state (contours,
+/// then couplings), then those of the kept links' motion, then those of the searched state.
+#[derive(Debug)]
+pub struct WrittenOut<N> {
+    /// How many rows there are of each kind.
+    pub rows: [usize; 3],
+    /// `columns[variable][choice]`.
+    columns: Vec<Vec<Vec<Vec<N>>>>,
+}
+
+impl<N: Clone + Default> WrittenOut<N> {
+    /// The columns of a search's space, from what each choice of each variable spans.
+    #[must_use]
+    pub(in crate::search) fn new<S: Scalars<Number = N>>(
+        s: &S,
+        search: &Search,
+        layout: &Layout<'_>,
+        spans: &[Vec<Spans<N>>],
+    ) -> WrittenOut<N> {
+        let of_choice = |joints: &[JointId], spans: &Spans<N>| {
+            let each = spans.iter().zip(joints);
+            each.flat_map(|(span, &j)| span.iter().map(move |t| layout.column(s, j, t)))
+                .collect()
+        };
+        let of_variable = |(v, choices): (&Variable, &Vec<Spans<N>>)| {
+            let columns = choices.iter().map(|spans| of_choice(&v.joints, spans));
+            columns.collect()
+        };
+        let variables = search.space.variables.iter();
+        WrittenOut {
+            rows: layout.rows(),
+            columns: variables.zip(spans).map(of_variable).collect(),
+        }
+    }
+
+    /// The columns of every choice, in one.
+    pub(in crate::search) fn columns(&self) -> impl Iterator<Item = &Vec<N>> {
+        self.columns.iter().flatten().flatten()
+    }
+
+    /// The columns of a variant.
+    pub fn chosen<'a>(&'a self, choices: &'a [usize]) -> impl Iterator<Item = &'a Vec<N>> {
+        let chosen = choices.iter().enumerate();
+        chosen.flat_map(|(v, &c)| &self.columns[v][c])
+    }
+}

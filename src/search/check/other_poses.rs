@@ -1,0 +1,217 @@
+//! Whether a variant is over the stroke what it is in the file's pose, or is so in that one lucky pose only.
+//!
+//! A redesign only adds freedoms, so whatever pose the present mechanism can take, each variant can take too. Poses are
+//! reached by Newton's method from steps along the present motion; a variant is put into each by the coordinates of the
+//! freedoms it shares with the present joints, closed again where its own freedoms are parametrised otherwise, and its
+//! rank is taken there by singular values.
+//!
+//! What luck there may be: rank is largest at generic poses, so a variant with σ = 0 has it almost everywhere, but an
+//! idle motion that leaves the outputs at rest in the file's pose may move them in others; and the file's pose may be a
+//! singular one, where more seems to move, and to bind, than does.
+
+use crate::closure::tree::path_from_frame;
+use crate::geom::exact::ExactError;
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::motion::pose::{FLAT, Pose};
+use crate::rank::finite::local_dimension::motions;
+use crate::rank::numeric::scaling::rank_of_values;
+use crate::search::answer::k_best::Assignment;
+use crate::search::question::conditions::Search;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
+use ozols_dense::{Matrix, singular_values};
+
+/// The largest coordinate of the first steps: radians, and fractions of the mechanism's size.
+const STEP: f64 = 0.2;
+/// How often a step that does not close is halved.
+const HALVINGS: u32 = 4;
+
+/// How far a joint's freedom has moved since the file's pose.
+type Coordinate = (JointId, Freedom, f64);
+
+/// Poses of the present mechanism besides the file's.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stroke {
+    /// Poses asked for.
+    pub asked: usize,
+    /// Those reached, with the dimension of the kept links' present motion there.
+    poses: Vec<(Vec<Coordinate>, Option<i64>)>,
+}
+
+impl Stroke {
+    /// Poses reached.
+    #[must_use]
+    pub fn reached(&self) -> usize {
+        self.poses.len()
+    }
+}
+
+/// Figures of a mechanism in a pose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Figures {
+    /// W.
+    pub mobility: i64,
+    /// σ.
+    pub redundant: i64,
+    /// Dimension of the kept links' motion, where that is a condition.
+    pub output: Option<i64>,
+}
+
+/// What other poses say of a variant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct OverStroke {
+    /// Poses the variant was put into.
+    pub poses: usize,
+    /// The figures at the first pose where they are not right, and the dimension of the kept links' present motion there.
+    pub other: Option<(Figures, Option<i64>)>,
+}
+
+impl OverStroke {
+    /// Whether the variant's figures hold in the file's pose only; `None` where no other pose was reached.
+    #[must_use]
+    pub fn lucky(&self) -> Option<bool> {
+        (self.poses > 0).then_some(self.other.is_some())
+    }
+}
+
+impl Search {
+    /// Reaches `count` generic poses along the present motion of the free state, both ways from the file's pose, as far
+    /// as it has one, and until `cancelled`.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value.
+    ///
+    /// # Complexity
+    /// Some closings of O((6k)² f) a pose.
+    pub fn stroke(
+        &self,
+        count: usize,
+        seed: u64,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Stroke, ExactError> {
+        let pose = Pose::of_file(&self.mechanism, StateId::FREE)?;
+        let span = motions(&pose);
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut poses = Vec::new();
+        for i in 0..if span.ncols() == 0 { 0 } else { count } {
+            if cancelled() {
+                break;
+            }
+            let weights: Vec<f64> = (0..span.ncols())
+                .map(|_| f64::from(random.next_u32()) / f64::from(u32::MAX) - 0.5)
+                .collect();
+            let along: Vec<f64> = (0..span.nrows())
+                .map(|r| (0..span.ncols()).map(|c| span[(r, c)] * weights[c]).sum())
+                .collect();
+            // There and back, a little farther each time, at odd places.
+            #[allow(clippy::cast_precision_loss, reason = "a small number of poses")]
+            let far = STEP * (1.0 + 0.37 * (i / 2) as f64) * if i % 2 == 0 { 1.0 } else { -1.0 };
+            if let Some(q) = pose.beside(&along, far, HALVINGS) {
+                let columns = pose.columns.iter().zip(&q);
+                let coordinates = columns.map(|(c, &x)| (c.joint, c.freedom, x)).collect();
+                let figures = self.figures_at(&self.mechanism, &pose.moved(&q));
+                poses.push((coordinates, figures.and_then(|f| f.output)));
+            }
+        }
+        Ok(Stroke {
+            asked: count,
+            poses,
+        })
+    }
+
+    /// Looks at a variant, realized as `m`, in the poses of a stroke.
+    #[must_use]
+    pub fn over(&self, stroke: &Stroke, variant: &Assignment, m: &Mechanism) -> OverStroke {
+        let mut out = OverStroke {
+            poses: 0,
+            other: None,
+        };
+        let Ok(pose) = Pose::of_file(m, StateId::FREE) else {
+            return out;
+        };
+        for (coordinates, output) in &stroke.poses {
+            let Some(figures) = self.figures(m, &pose, coordinates) else {
+                continue;
+            };
+            out.poses += 1;
+            let want = Figures {
+                mobility: self.mobility(variant.key),
+                redundant: i64::from(variant.key.internal()),
+                output: *output,
+            };
+            if figures != want && out.other.is_none() {
+                out.other = Some((figures, *output));
+            }
+        }
+        out
+    }
+
+    /// The figures of a variant in a pose of the present mechanism; `None` where it cannot be put there.
+    fn figures(&self, m: &Mechanism, pose: &Pose, at: &[Coordinate]) -> Option<Figures> {
+        let moved = |joint: JointId, freedom: Freedom| {
+            let of = |f: Freedom| at.iter().find(|(j, g, _)| (*j, *g) == (joint, f));
+            // A thread is a turn with a slide that goes with it.
+            let screw = || match (freedom, of(Freedom::Screw)?.2) {
+                (Freedom::Rz, q) => Some(q),
+                (Freedom::Tz, q) => {
+                    let pitch = self
+                        .mechanism
+                        .joints
+                        .get(joint.index())?
+                        .frame
+                        .pitch
+                        .to_f64();
+                    Some(q * pitch / pose.length)
+                }
+                _ => None,
+            };
+            of(freedom).map(|c| c.2).or_else(screw).unwrap_or(0.0)
+        };
+        // Unloading joints come after all joints of the file and stay as they are.
+        let q: Vec<f64> = pose
+            .columns
+            .iter()
+            .map(|c| moved(c.joint, c.freedom))
+            .collect();
+        let q = pose.close(q, &[]).ok()?;
+        self.figures_at(m, &pose.moved(&q))
+    }
+
+    /// The figures of a mechanism, the present one or a realized variant, in a pose of it.
+    fn figures_at(&self, m: &Mechanism, pose: &Pose) -> Option<Figures> {
+        let f = pose.columns.len();
+        let jacobian = pose.jacobian(&vec![0.0; f]);
+        let rank = rank(&jacobian)?;
+        let int = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
+        let mobility = int(f) - int(rank);
+        let redundant = int(pose.constraints(self.space.dim)) - int(rank);
+        if !self.conditions.keep_output {
+            return Some(Figures {
+                mobility,
+                redundant,
+                output: None,
+            });
+        }
+        let paths: Vec<Vec<(JointId, bool)>> = self
+            .kept
+            .0
+            .iter()
+            .map(|&l| path_from_frame(m, StateId::FREE, l))
+            .collect();
+        Some(Figures {
+            mobility,
+            redundant,
+            output: Some(
+                int(crate::search::check::other_poses::rank(
+                    &pose.jacobian_with(&paths),
+                )?) - int(rank),
+            ),
+        })
+    }
+}
+
+/// Rank by singular values.
+fn rank(matrix: &Matrix) -> Option<usize> {
+    Some(rank_of_values(singular_values(matrix)?, FLAT).rank)
+}

@@ -1,0 +1,264 @@
+//! A second opinion on the counts of a search whose coordinates were rounded: the ranks that exact arithmetic counts on are
+//! compared with those that singular values of the geometry in the file show, at the tolerance of its digits.
+//!
+//! The mechanism as it is, the variants listed, and a sample of the admissible ones and of all are looked at; and counts must
+//! keep a law: what only adds freedoms takes no mobility away. One contradiction, and no count is exact.
+
+use crate::geom::exact::ExactError;
+use crate::rank::numeric::Elimination;
+use crate::search::answer::counts::Counts;
+use crate::search::answer::k_best::Assignment;
+use crate::search::check::brute::Matrices;
+use crate::search::check::brute_float::{Approximate, Rows};
+use crate::search::numeric::at_tolerance::{below, choices};
+use crate::search::question::as_written::Written;
+use crate::search::question::conditions::Search;
+use crate::search::question::rounded_rank::{Digits, RankRange};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::SeedableRng;
+use num_bigint::BigUint;
+use num_traits::{ToPrimitive, Zero};
+use rayon::prelude::*;
+
+/// Variants drawn of each kind.
+pub const DRAWN: usize = 64;
+/// Spaces of no more variants than this are asked about whole.
+const WHOLE: u32 = 256;
+
+/// How singular values went with the ranks of some variants.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Asked {
+    /// Variants asked about.
+    pub asked: usize,
+    /// Those of which the digits do not decide a rank, and allow the exact one.
+    pub undecided: usize,
+    /// Those whose exact ranks the singular values contradict.
+    pub contradicted: usize,
+}
+
+/// A variant whose exact ranks singular values contradict.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contradiction {
+    /// The variant.
+    pub choices: Vec<usize>,
+    /// (W, σ) by exact arithmetic.
+    pub exact: (i64, i64),
+    /// The least (W, σ) that singular values allow, and the most.
+    pub numeric: [(i64, i64); 2],
+    /// Whether it is not these that differ, but how the kept links or the searched state move.
+    pub elsewhere: bool,
+    /// The smallest singular value kept, and the largest dropped, over the largest.
+    pub gap: (f64, f64),
+}
+
+/// Variants that have less mobility than the mechanism they are made of by adding freedoms.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BelowPresent {
+    /// How many.
+    pub variants: BigUint,
+    /// The mobility of the mechanism as it is, at least.
+    pub present: i64,
+}
+
+/// What singular values say of the counts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SecondOpinion {
+    /// What the digits tell.
+    pub digits: Digits,
+    /// The mechanism as it is, and those listed.
+    pub listed: Asked,
+    /// A sample of the admissible ones.
+    pub admissible: Asked,
+    /// A sample of all; of a small space all.
+    pub all: Asked,
+    /// The narrowest gap of a rank that is decided: the smallest value kept over the largest dropped.
+    pub narrowest: f64,
+    /// The first that is contradicted.
+    pub contradiction: Option<Contradiction>,
+    /// What breaks the law.
+    pub below_present: Option<BelowPresent>,
+    /// The least and the most (determinate, admissible) of scenes that the digits do not rule out, where they differ.
+    pub scenes: Option<[(BigUint, BigUint); 2]>,
+}
+
+impl SecondOpinion {
+    /// Whether nothing speaks against the counts.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.contradiction.is_none() && self.below_present.is_none()
+    }
+
+    /// Whether the counts may be called exact: nothing speaks against them, and it is decided what the digits mean.
+    #[must_use]
+    pub fn confirms(&self) -> bool {
+        self.agrees() && !self.digits.undecided && self.scenes.is_none()
+    }
+}
+
+/// What was expected of a variant: redundant constraints of the free state and of the searched one, and the dimension of the
+/// kept links' motion.
+struct Expected {
+    choices: Vec<usize>,
+    internal: usize,
+    motion: Option<usize>,
+    in_state: Option<usize>,
+}
+
+/// What one variant's singular values say.
+struct Said {
+    undecided: bool,
+    narrowest: f64,
+    against: Option<Contradiction>,
+}
+
+impl Search {
+    /// Asks singular values of a geometry about the variants `listed`, some that `admissible` gives and some drawn of all
+    /// from `seed`, and whether the counts keep the law.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value.
+    ///
+    /// # Complexity
+    /// Two or three decompositions a variant, in parallel.
+    pub fn second_opinion(
+        &self,
+        written: &Written,
+        (listed, admissible): (Vec<Assignment>, Vec<Assignment>),
+        determinate: &Counts,
+        seed: u64,
+    ) -> Result<SecondOpinion, ExactError> {
+        let digits = written.digits;
+        let of_file =
+            Approximate::of(self, &written.mechanism, Elimination::Svd, digits.tolerance)?;
+        let exact = Matrices::new(self);
+        let looked = |choices: Vec<usize>| {
+            let seen = exact.look(&choices);
+            let internal = seen.internal as usize;
+            let of_state = i64::from(seen.external) + i64::from(seen.internal);
+            Expected {
+                choices,
+                internal,
+                motion: Some(seen.motion),
+                in_state: self.conditions.state.and(usize::try_from(of_state).ok()),
+            }
+        };
+        let counted = |v: Assignment| {
+            let of_state = i64::from(v.key.external()) + i64::from(v.key.internal());
+            Expected {
+                choices: v.choices,
+                internal: v.key.internal() as usize,
+                motion: self.conditions.keep_output.then(|| self.present_motion()),
+                in_state: self.conditions.state.and(usize::try_from(of_state).ok()),
+            }
+        };
+        let nothing = vec![0; self.space.variables.len()];
+        let mut first = vec![looked(nothing.clone())];
+        first.extend(listed.into_iter().map(counted));
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let radix: Vec<usize> = self.steps.keys.iter().map(Vec::len).collect();
+        let mut one = || -> Vec<usize> { radix.iter().map(|&n| below(&mut random, n)).collect() };
+        let drawn: Vec<Vec<usize>> = match self.size().to_u32().filter(|n| *n <= WHOLE) {
+            Some(n) => (0..n).map(|number| choices(self, number)).collect(),
+            None => (0..DRAWN).map(|_| one()).collect(),
+        };
+        let kinds = [
+            first,
+            admissible.into_iter().map(counted).collect(),
+            drawn.into_par_iter().map(looked).collect(),
+        ];
+        let mut narrowest = f64::INFINITY;
+        let mut contradiction = None;
+        let asked = kinds.map(|all| {
+            let said: Vec<Said> = all
+                .into_par_iter()
+                .filter_map(|e| self.compare(&of_file, e, digits))
+                .collect();
+            let mut out = Asked {
+                asked: said.len(),
+                ..Asked::default()
+            };
+            for s in said {
+                out.undecided += usize::from(s.undecided);
+                out.contradicted += usize::from(s.against.is_some());
+                narrowest = narrowest.min(s.narrowest);
+                if contradiction.is_none() {
+                    contradiction = s.against;
+                }
+            }
+            out
+        });
+        let present = of_file.range(&nothing, Rows::Free, digits);
+        let below_present = present
+            .filter(|_| written.only_adds)
+            .and_then(|p| self.less_than_present(p, determinate));
+        let [listed, admissible, all] = asked;
+        Ok(SecondOpinion {
+            digits,
+            listed,
+            admissible,
+            all,
+            narrowest,
+            contradiction,
+            below_present,
+            scenes: None,
+        })
+    }
+
+    /// Freedoms of a variant in the free state.
+    fn freedoms(&self, choices: &[usize]) -> i64 {
+        let keys = self.steps.keys.iter().zip(choices);
+        keys.map(|(keys, &c)| i64::from(keys[c].freedoms())).sum()
+    }
+
+    /// The variants that break the law: options that only add freedoms take no mobility away.
+    fn less_than_present(&self, present: RankRange, counts: &Counts) -> Option<BelowPresent> {
+        let nothing = vec![0; self.space.variables.len()];
+        let had = self.freedoms(&nothing) - int(present.most);
+        let fewer = counts.by_mobility.range(..had).map(|(_, n)| n);
+        let variants: BigUint = fewer.sum();
+        (!variants.is_zero()).then_some(BelowPresent {
+            variants,
+            present: had,
+        })
+    }
+
+    /// What singular values say of a variant; `None` where they do not converge.
+    fn compare(&self, of_file: &Approximate, e: Expected, digits: Digits) -> Option<Said> {
+        let [rows, state_rows] = of_file.equations();
+        let free = of_file.range(&e.choices, Rows::Free, digits)?;
+        let rank = rows.saturating_sub(e.internal);
+        let mut all = vec![(free, rank)];
+        if let Some(motion) = e.motion.filter(|_| self.conditions.keep_output) {
+            let kept = of_file.range(&e.choices, Rows::WithKept, digits)?;
+            all.push((kept, rank + motion));
+        }
+        if let Some(redundant) = e.in_state {
+            let state = of_file.range(&e.choices, Rows::State, digits)?;
+            all.push((state, state_rows.saturating_sub(redundant)));
+        }
+        let decided = all.iter().filter(|(r, _)| r.is_decided());
+        let narrowest = decided
+            .map(|(r, _)| r.kept / r.dropped)
+            .fold(f64::INFINITY, f64::min);
+        let against = all.iter().find(|(r, rank)| !r.allows(*rank)).map(|(r, _)| {
+            let f = self.freedoms(&e.choices);
+            let figures = |rank: usize| (f - int(rank), int(rows) - int(rank));
+            Contradiction {
+                exact: figures(rank),
+                numeric: [figures(free.most), figures(free.least)],
+                elsewhere: free.allows(rank),
+                gap: (r.kept, r.dropped),
+                choices: e.choices.clone(),
+            }
+        });
+        Some(Said {
+            undecided: against.is_none() && all.iter().any(|(r, _)| !r.is_decided()),
+            narrowest,
+            against,
+        })
+    }
+}
+
+fn int(x: usize) -> i64 {
+    i64::try_from(x).unwrap_or(i64::MAX)
+}

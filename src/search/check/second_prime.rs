@@ -1,0 +1,205 @@
+//! The search over a second prime: what one prime says of the diagram, the other must say too.
+//!
+//! A rank modulo a prime falls short where the prime divides a nonzero minor. Near 2^61 that is next to impossible by
+//! chance, but a coordinate may hold the prime as a factor, and a proof is better than odds: both diagrams number their
+//! nodes in the order in which they are met, so agreement is equality edge by edge, and then every count, every list
+//! and every sample drawn from them is equal too.
+
+use crate::search::answer::counts::Counts;
+use crate::search::build::Diagrams;
+use crate::search::diagram::{Diagram, Progress, Stop};
+use crate::search::question::conditions::Search;
+use itertools::Itertools;
+use num_bigint::BigUint;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Display;
+use thiserror::Error;
+
+/// Differences told in a message at most.
+const TOLD: usize = 4;
+
+/// What the second prime says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// All counts and lists are equal.
+    Agree,
+    /// The search was interrupted, and where depends on the clock: there is nothing to compare.
+    Interrupted,
+}
+
+/// A search checked by a second prime.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PrimeCheck {
+    /// Both primes.
+    pub primes: [u64; 2],
+    /// What the second says.
+    pub verdict: Verdict,
+}
+
+impl PrimeCheck {
+    /// Whether the primes agree: neither yes nor no where the search was interrupted.
+    #[must_use]
+    pub fn agree(&self) -> Option<bool> {
+        (self.verdict == Verdict::Agree).then_some(true)
+    }
+}
+
+/// Two primes that give different answers.
+#[derive(Debug, Clone, Error)]
+#[error(
+    "two primes disagree, so neither answer is given. Modulo {}: {} determinate and {} admissible variants. Modulo {}: \
+     {} determinate and {} admissible variants. They differ in {differences}. One of the primes divides a minor of \
+     this geometry, perhaps a coordinate itself; give the coordinates in other units or with fewer digits",
+    primes[0], determinate[0], admissible[0], primes[1], determinate[1], admissible[1]
+)]
+pub struct Disagreement {
+    /// The primes.
+    pub primes: [u64; 2],
+    /// Determinate variants modulo each.
+    pub determinate: [BigUint; 2],
+    /// Admissible variants modulo each.
+    pub admissible: [BigUint; 2],
+    /// The first differences in words.
+    pub differences: String,
+}
+
+/// Builds the diagrams of a search and of its twin over another prime, in parallel.
+pub fn build_both(
+    searches: [&Search; 2],
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> (Diagrams, Diagrams) {
+    let [first, second] = searches;
+    let orders = first.orders();
+    rayon::join(
+        || first.build_in(&orders, cancelled, progress),
+        || second.build_in(&orders, cancelled, &mut |_| {}),
+    )
+}
+
+/// Compares a search with its twin over another prime: structure first, then all counts and the `top` best.
+///
+/// # Errors
+/// Where they differ, with both counts.
+///
+/// # Complexity
+/// O(edges) where the diagrams are equal, which they always were; counting both where they are not.
+pub fn compare(
+    searches: [&Search; 2],
+    diagrams: [&Diagrams; 2],
+    top: usize,
+) -> Result<Verdict, Box<Disagreement>> {
+    if diagrams.iter().any(|d| d.stop() == Stop::Interrupted) {
+        return Ok(Verdict::Interrupted);
+    }
+    let [a, b] = diagrams;
+    let equal = same(&a.determinate, &b.determinate)
+        && same(&a.admissible, &b.admissible)
+        && match (&a.cheapest, &b.cheapest) {
+            (Some(a), Some(b)) => a.cost_milli == b.cost_milli && same(&a.diagram, &b.diagram),
+            (a, b) => a.is_none() && b.is_none(),
+        }
+        && searches[0].steps.keys == searches[1].steps.keys;
+    if equal {
+        return Ok(Verdict::Agree);
+    }
+    let count = |i: usize| {
+        (
+            searches[i].counts(&diagrams[i].determinate, false),
+            searches[i].counts(&diagrams[i].admissible, true),
+        )
+    };
+    let best = |i: usize| {
+        let list = searches[i].cheapest(diagrams[i], top);
+        list.collect_vec()
+    };
+    compare_counts(searches, [&count(0), &count(1)])?;
+    let (one, two) = (best(0), best(1));
+    if one == two {
+        return Ok(Verdict::Agree);
+    }
+    let at = one.iter().zip(&two).take_while(|(a, b)| a == b).count();
+    let counts = count(0);
+    Err(Box::new(Disagreement {
+        primes: primes(searches),
+        determinate: [counts.0.total.clone(), counts.0.total],
+        admissible: [counts.1.total.clone(), counts.1.total],
+        differences: format!("the variant at position {} of the list", at + 1),
+    }))
+}
+
+/// Compares (determinate, admissible) counts that were made over the primes of two searches.
+///
+/// # Errors
+/// Where they differ, with both.
+pub fn compare_counts(
+    searches: [&Search; 2],
+    counts: [&(Counts, Counts); 2],
+) -> Result<Verdict, Box<Disagreement>> {
+    let [a, b] = counts;
+    if a == b {
+        return Ok(Verdict::Agree);
+    }
+    let mut told = differences("determinate", &a.0, &b.0);
+    told.extend(differences("admissible", &a.1, &b.1));
+    let more = told.len().saturating_sub(TOLD);
+    let mut text = told.iter().take(TOLD).join("; ");
+    if more > 0 {
+        text += &format!("; and {more} more");
+    }
+    Err(Box::new(Disagreement {
+        primes: primes(searches),
+        determinate: [a.0.total.clone(), b.0.total.clone()],
+        admissible: [a.1.total.clone(), b.1.total.clone()],
+        differences: text,
+    }))
+}
+
+/// The primes of two searches.
+#[must_use]
+pub fn primes(searches: [&Search; 2]) -> [u64; 2] {
+    searches.map(|s| s.exact.field().modulus())
+}
+
+/// Whether two diagrams have the same nodes, edges and terminals.
+fn same(a: &Diagram, b: &Diagram) -> bool {
+    a.terminals == b.terminals
+        && a.layers.len() == b.layers.len()
+        && a.layers
+            .iter()
+            .zip(&b.layers)
+            .all(|(a, b)| (a.variable, &a.edges) == (b.variable, &b.edges))
+}
+
+fn differences(what: &str, a: &Counts, b: &Counts) -> Vec<String> {
+    fn of<K: Ord + Clone>(
+        what: &str,
+        a: &BTreeMap<K, BigUint>,
+        b: &BTreeMap<K, BigUint>,
+        name: impl Fn(&K) -> String,
+    ) -> Vec<String> {
+        let keys: BTreeSet<&K> = a.keys().chain(b.keys()).collect();
+        let get = |m: &BTreeMap<K, BigUint>, k: &K| m.get(k).cloned().unwrap_or_default();
+        keys.into_iter()
+            .map(|k| (k, get(a, k), get(b, k)))
+            .filter(|(_, x, y)| x != y)
+            .map(|(k, x, y)| format!("{what} with {} ({x} and {y})", name(k)))
+            .collect()
+    }
+    fn number<K: Display>(symbol: &str) -> impl Fn(&K) -> String {
+        move |k| format!("{symbol} = {k}")
+    }
+    let mut out = of(what, &a.by_redundant, &b.by_redundant, number("σ"));
+    out.extend(of(what, &a.by_mobility, &b.by_mobility, number("W")));
+    out.extend(of(what, &a.by_freedoms, &b.by_freedoms, number("f")));
+    let changes = |k: &u32| format!("{k} changes");
+    out.extend(of(what, &a.by_changes, &b.by_changes, changes));
+    let both = |(w, c): &(i64, u32)| format!("W = {w} and {c} changes");
+    out.extend(of(
+        what,
+        &a.by_mobility_and_changes,
+        &b.by_mobility_and_changes,
+        both,
+    ));
+    out
+}

@@ -1,0 +1,260 @@
+//! A second opinion on single variants: each is built as a mechanism and analysed by singular values.
+//!
+//! Nothing of the diagram takes part: not its prime, not its order, not its merging of nodes, not its contours' steps.
+//! Only the options' frames and the contour basis are shared.
+
+use crate::closure::contour::{Contour, contour_basis};
+use crate::closure::matrix::Closure;
+use crate::geom::scalars::Reals;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::numeric::{self, NumericRank};
+use crate::search::answer::k_best::Assignment;
+use crate::search::check::other_poses::{OverStroke, Stroke};
+use crate::search::question::conditions::Search;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// Variants that get a second opinion by default.
+pub const CHECKED: usize = 1000;
+/// Variants whose conditioning is below this are nearly singular: small errors of manufacture may let them bind, or
+/// let them loose.
+pub const NEARLY_SINGULAR: f64 = 1e-4;
+
+/// What the singular values say of a variant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Opinion {
+    /// W in the free state.
+    pub mobility: i64,
+    /// σ in the free state.
+    pub redundant: i64,
+    /// σ that the searched state adds.
+    pub external: Option<i64>,
+    /// Dimension of the kept links' motion, where that is a condition.
+    pub output: Option<usize>,
+    /// The smallest kept singular value relative to the largest, in the worse of the states: how far the variant is
+    /// from a singular one.
+    pub conditioning: f64,
+    /// The largest dropped singular value relative to the largest; far below `conditioning` where the rank is certain.
+    pub dropped: f64,
+    /// Whether all figures are those of the diagram.
+    pub agree: bool,
+}
+
+/// A variant with what is known of it beyond the diagram.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Certified {
+    /// The variant.
+    pub variant: Assignment,
+    /// What its singular values say.
+    pub second: Second,
+    /// What other poses say, where that was asked.
+    pub stroke: Option<OverStroke>,
+}
+
+impl Certified {
+    /// A variant that nothing more is known of.
+    #[must_use]
+    pub fn unasked(variant: Assignment) -> Self {
+        Certified {
+            variant,
+            second: Second::Unasked,
+            stroke: None,
+        }
+    }
+
+    /// Whether other poses were looked at and give other figures.
+    #[must_use]
+    pub fn lucky(&self) -> bool {
+        self.stroke.is_some_and(|s| s.lucky() == Some(true))
+    }
+}
+
+/// A second opinion, or why there is none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Second {
+    /// None was asked for.
+    Unasked,
+    /// The singular values did not converge.
+    Failed,
+    /// The opinion.
+    Given(Opinion),
+}
+
+impl Second {
+    /// The opinion, where there is one.
+    #[must_use]
+    pub fn opinion(&self) -> Option<&Opinion> {
+        match self {
+            Second::Given(o) => Some(o),
+            Second::Unasked | Second::Failed => None,
+        }
+    }
+}
+
+/// How many opinions of a list say what.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Summary {
+    /// Variants given.
+    pub given: usize,
+    /// Those with an opinion.
+    pub checked: usize,
+    /// Those whose opinion differs from the diagram.
+    pub disagreeing: usize,
+    /// Those whose singular values did not converge.
+    pub failed: usize,
+    /// Those looked at in other poses too.
+    pub posed: usize,
+    /// Those whose figures differ in another pose.
+    pub lucky: usize,
+    /// Lucky ones left out.
+    pub dropped: usize,
+    /// How many of them, the first, are proven to be the cheapest; `None` where all are, or the list is not by cost.
+    pub proven: Option<usize>,
+}
+
+impl Summary {
+    /// Whether second opinions were asked for.
+    #[must_use]
+    pub fn is_asked(&self) -> bool {
+        self.checked + self.failed > 0
+    }
+
+    /// Counts one more.
+    pub fn add(&mut self, one: &Certified) {
+        self.given += 1;
+        self.posed += usize::from(one.stroke.is_some_and(|s| s.poses > 0));
+        self.lucky += usize::from(one.lucky());
+        match &one.second {
+            Second::Unasked => {}
+            Second::Failed => self.failed += 1,
+            Second::Given(o) => {
+                self.checked += 1;
+                self.disagreeing += usize::from(!o.agree);
+            }
+        }
+    }
+}
+
+/// Contours of the variants that have unloading joints at the same places.
+struct Shape {
+    free: Vec<Contour>,
+    locked: Option<Vec<Contour>>,
+    state: Option<(StateId, Vec<Contour>)>,
+}
+
+impl Search {
+    /// Analyses some variants by singular values, and in the poses of a stroke where one is given, in parallel; the first
+    /// of them alone where `cancelled`.
+    ///
+    /// # Complexity
+    /// Two or three decompositions of a 6k x f matrix a variant, and about two more for each pose.
+    #[must_use]
+    pub fn certify(
+        &self,
+        variants: Vec<Assignment>,
+        opinions: bool,
+        stroke: Option<&Stroke>,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Vec<Certified> {
+        let mut shapes: BTreeMap<Vec<bool>, Shape> = BTreeMap::new();
+        for v in variants.iter().filter(|_| opinions) {
+            shapes
+                .entry(self.inserted(&v.choices))
+                .or_insert_with(|| self.shape(&self.realize(&v.choices)));
+        }
+        let one = |variant: Assignment| {
+            let m = self.realize(&variant.choices);
+            let second = if opinions {
+                let shape = shapes.get(&self.inserted(&variant.choices));
+                let opinion = shape.and_then(|s| self.opinion(&variant, &m, s));
+                opinion.map_or(Second::Failed, Second::Given)
+            } else {
+                Second::Unasked
+            };
+            let stroke = stroke.map(|s| self.over(s, &variant, &m));
+            Certified {
+                variant,
+                second,
+                stroke,
+            }
+        };
+        let unless = |v| (!cancelled()).then(|| one(v));
+        let all = variants.into_par_iter().with_min_len(4).map(unless);
+        let all: Vec<Option<Certified>> = all.collect();
+        all.into_iter().map_while(|c| c).collect()
+    }
+
+    /// At which variables an unloading joint is inserted.
+    fn inserted(&self, choices: &[usize]) -> Vec<bool> {
+        let variables = self.space.variables.iter().zip(choices);
+        variables
+            .map(|(v, &c)| v.choices.get(c).is_some_and(|c| c.unloading.is_some()))
+            .collect()
+    }
+
+    fn shape(&self, realized: &Mechanism) -> Shape {
+        let lock = || contour_basis(&self.locked(realized), StateId::FREE);
+        let state = self.conditions.state.map(|s| s.state);
+        Shape {
+            free: contour_basis(realized, StateId::FREE),
+            locked: self.conditions.keep_output.then(lock),
+            state: state.map(|s| (s, contour_basis(realized, s))),
+        }
+    }
+
+    fn opinion(&self, variant: &Assignment, m: &Mechanism, shape: &Shape) -> Option<Opinion> {
+        let (free, f) = self.decompose(m, StateId::FREE, &shape.free)?;
+        let rows = |contours: &[Contour], state: StateId| {
+            int(contours.len() * self.space.dim + m.couplings_in(state).count())
+        };
+        let redundant = rows(&shape.free, StateId::FREE) - int(free.rank);
+        let output = match &shape.locked {
+            None => None,
+            Some(contours) => {
+                let (locked, _) = self.decompose(&self.locked(m), StateId::FREE, contours)?;
+                Some(locked.rank.saturating_sub(free.rank))
+            }
+        };
+        let (mut conditioning, mut dropped) = (free.kept, free.dropped);
+        let external = match &shape.state {
+            None => None,
+            Some((s, contours)) => {
+                let (state, _) = self.decompose(m, *s, contours)?;
+                conditioning = conditioning.min(state.kept);
+                dropped = dropped.max(state.dropped);
+                Some(rows(contours, *s) - int(state.rank) - redundant)
+            }
+        };
+        let key = variant.key;
+        let mobility = int(f) - int(free.rank);
+        let agree = mobility == self.mobility(key)
+            && redundant == i64::from(key.internal())
+            && external.is_none_or(|e| e == i64::from(key.external()))
+            && output.is_none_or(|o| o == self.present_motion());
+        Some(Opinion {
+            mobility,
+            redundant,
+            external,
+            output,
+            conditioning,
+            dropped,
+            agree,
+        })
+    }
+
+    /// Rank of J of a state by singular values, with the number of columns.
+    fn decompose(
+        &self,
+        m: &Mechanism,
+        state: StateId,
+        contours: &[Contour],
+    ) -> Option<(NumericRank, usize)> {
+        let closure = Closure::with_contours(&Reals, m, state, contours.to_vec()).ok()?;
+        let rank = numeric::rank_with_tolerance(&closure, self.conditions.tolerance).ok()?;
+        Some((rank, closure.columns.len()))
+    }
+}
+
+fn int(x: usize) -> i64 {
+    i64::try_from(x).unwrap_or(i64::MAX)
+}

@@ -1,0 +1,190 @@
+//! A layer of the diagram being put together: equal children become one node.
+
+use crate::linalg::modp::Residue;
+use crate::search::diagram::redundancy_so_far::Spent;
+use crate::search::diagram::stop::Stop;
+use crate::search::diagram::transition::Children;
+use hashbrown::HashTable;
+use std::collections::TryReserveError;
+
+/// A missing edge: the choice leads nowhere admissible.
+pub const DEAD: u32 = u32::MAX;
+
+/// Nodes a layer keeps at least, however small the budget, so that a search always reaches the end.
+pub(in crate::search) const CUT: usize = 256;
+
+/// Bytes of a node besides its matrix: what was spent, where the matrix starts, the least cost, and its place in the table.
+const NODE: usize = size_of::<Spent>() + 3 * size_of::<u64>() + 2 * size_of::<(u64, u32)>();
+
+/// The nodes of a layer while it is being built.
+pub(in crate::search) struct Nodes {
+    /// Redundancy so far.
+    pub(in crate::search) spent: Vec<Spent>,
+    /// Start of each node's matrix in `data`; one more at the end.
+    start: Vec<usize>,
+    data: Vec<Residue>,
+    /// Least cost of a way to the node.
+    pub(in crate::search) least: Vec<i64>,
+}
+
+impl Nodes {
+    /// The node before any choice, with redundant constraints that it has `already`.
+    pub(in crate::search) fn root(already: u32) -> Self {
+        Nodes {
+            spent: vec![Spent::within_mechanism(already)],
+            start: vec![0, 0],
+            data: Vec::new(),
+            least: vec![0],
+        }
+    }
+
+    pub(in crate::search) fn empty() -> Self {
+        Nodes {
+            spent: Vec::new(),
+            start: vec![0],
+            data: Vec::new(),
+            least: Vec::new(),
+        }
+    }
+
+    pub(in crate::search) fn len(&self) -> usize {
+        self.spent.len()
+    }
+
+    /// Bytes of the nodes, with the table that finds them while they are gathered.
+    pub(in crate::search) fn bytes(&self) -> usize {
+        size_of::<Residue>() * self.data.len() + NODE * self.len()
+    }
+
+    pub(in crate::search) fn matrix(&self, i: usize) -> &[Residue] {
+        &self.data[self.start[i]..self.start[i + 1]]
+    }
+
+    /// Makes room for a node whose matrix has so many numbers.
+    fn reserve(&mut self, numbers: usize) -> Result<(), TryReserveError> {
+        self.spent.try_reserve(1)?;
+        self.start.try_reserve(1)?;
+        self.least.try_reserve(1)?;
+        self.data.try_reserve(numbers)
+    }
+
+    /// Keeps the nodes listed, ascending, within the memory that they have.
+    pub(in crate::search) fn retain(&mut self, kept: &[usize]) {
+        let mut end = 0;
+        for (to, &from) in kept.iter().enumerate() {
+            let matrix = self.start[from]..self.start[from + 1];
+            self.spent.swap(to, from);
+            self.least[to] = self.least[from];
+            self.start[to] = end;
+            end += matrix.len();
+            self.data.copy_within(matrix.clone(), end - matrix.len());
+        }
+        self.spent.truncate(kept.len());
+        self.least.truncate(kept.len());
+        self.start.truncate(kept.len());
+        self.start.push(end);
+        self.data.truncate(end);
+    }
+
+    pub(in crate::search) fn push(&mut self, spent: Spent, matrix: &[Residue], least: i64) {
+        self.spent.push(spent);
+        self.data.extend_from_slice(matrix);
+        self.start.push(self.data.len());
+        self.least.push(least);
+    }
+}
+
+/// A layer being put together.
+pub(in crate::search) struct Merge {
+    /// New nodes allowed.
+    room: usize,
+    /// Bytes that they and the edges may take.
+    bytes: usize,
+    pub(in crate::search) stop: Stop,
+    /// Whether the system had no more memory, however much is allowed.
+    pub(in crate::search) refused: bool,
+    table: HashTable<(u64, u32)>,
+    pub(in crate::search) next: Nodes,
+    pub(in crate::search) edges: Vec<u32>,
+}
+
+impl Merge {
+    /// A layer that takes so many nodes and bytes, and whose edges are about as many as `edges`.
+    pub(in crate::search) fn new((room, bytes): (usize, usize), stop: Stop, edges: usize) -> Self {
+        Merge {
+            room,
+            bytes,
+            stop,
+            refused: false,
+            table: HashTable::new(),
+            next: Nodes::empty(),
+            edges: Vec::with_capacity(edges),
+        }
+    }
+
+    /// Takes few more nodes, and none where there are some: then the rest of `edges` in all lead nowhere.
+    pub(in crate::search) fn interrupt(&mut self, edges: usize) {
+        self.stop = Stop::Interrupted;
+        self.room = self.room.min(CUT);
+        if self.next.len() >= CUT {
+            self.edges.resize(edges, DEAD);
+        }
+    }
+
+    /// Takes the children of some nodes, those of the nodes before them having been taken, but for those that are out of
+    /// the question: said of what a child has spent, the size of its matrix, and the least cost of this way to it.
+    pub(in crate::search) fn take(
+        &mut self,
+        part: &Children,
+        parents: &Nodes,
+        cost: impl Fn(usize) -> i64,
+        mut out: impl FnMut(&Spent, usize, i64) -> bool,
+    ) {
+        let choices = part.choices;
+        if part.short {
+            self.refused = true;
+            self.stop = self.stop.or(Stop::Memory);
+        }
+        for child in &part.found {
+            let Some((hash, ref spent, start, end)) = *child else {
+                self.edges.push(DEAD);
+                continue;
+            };
+            let matrix = &part.data[start..end];
+            let at = self.edges.len();
+            let parent = at / choices;
+            let least = parents.least[parent] + cost(at % choices);
+            if out(spent, matrix.len(), least) {
+                self.edges.push(DEAD);
+                continue;
+            }
+            let next = &mut self.next;
+            let refused = next.reserve(matrix.len()).is_err()
+                || self.table.try_reserve(1, |&(h, _)| h).is_err();
+            self.refused |= refused;
+            let same = |&(h, i): &(u64, u32)| {
+                h == hash && next.spent[i as usize] == *spent && next.matrix(i as usize) == matrix
+            };
+            let index = match self.table.entry(hash, same, |&(h, _)| h) {
+                hashbrown::hash_table::Entry::Occupied(o) => o.get().1,
+                hashbrown::hash_table::Entry::Vacant(v) => {
+                    let taken = next.bytes() + size_of::<u32>() * self.edges.len();
+                    let full = refused || taken >= self.bytes && next.len() >= CUT;
+                    if full || next.len() >= self.room {
+                        let why = if full { Stop::Memory } else { Stop::NodeBudget };
+                        self.stop = self.stop.or(why);
+                        self.edges.push(DEAD);
+                        continue;
+                    }
+                    let index = u32::try_from(next.len()).expect("the node budget is below 2^32");
+                    v.insert((hash, index));
+                    next.push(spent.clone(), matrix, least);
+                    index
+                }
+            };
+            let known = &mut self.next.least[index as usize];
+            *known = (*known).min(least);
+            self.edges.push(index);
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! The smallest diagram with the same variants: nodes that lead on in the same way are one.
+//!
+//! # Sources
+//! Bryant, "Graph-based algorithms for Boolean function manipulation", IEEE Trans. Comput. C-35 (1986), section 4.2.
+
+use crate::search::diagram::redundancy_so_far::Redundancy;
+use crate::search::diagram::{DEAD, Diagram, Layer, Stop};
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+/// A whole diagram of such layers and terminals, minimal, its nodes numbered as they are met from the root.
+///
+/// # Complexity
+/// O(edges).
+pub(in crate::search) fn minimal(
+    mut layers: Vec<Layer>,
+    mut terminals: Vec<Redundancy>,
+) -> Diagram {
+    // From the end: what each node of the layer below is there now.
+    let mut known: HashMap<Redundancy, u32> = HashMap::new();
+    let mut different = Vec::new();
+    let mut named: Vec<u32> = Vec::new();
+    for r in terminals {
+        let number = index(different.len());
+        named.push(*known.entry(r).or_insert_with(|| {
+            different.push(r);
+            number
+        }));
+    }
+    terminals = different;
+    for (i, layer) in layers.iter_mut().enumerate().rev() {
+        let edges = layer.edges.iter_mut().filter(|e| **e != DEAD);
+        edges.for_each(|e| *e = named[*e as usize]);
+        let mut known: HashMap<&[u32], u32> = HashMap::new();
+        let mut kept = Vec::new();
+        named = Vec::with_capacity(layer.nodes);
+        for row in layer.edges.chunks_exact(layer.choices) {
+            if i > 0 && row.iter().all(|&e| e == DEAD) {
+                named.push(DEAD);
+                continue;
+            }
+            named.push(match known.entry(row) {
+                Entry::Occupied(o) => *o.get(),
+                Entry::Vacant(v) => {
+                    kept.extend_from_slice(row);
+                    *v.insert(index(kept.len() / layer.choices - 1))
+                }
+            });
+        }
+        layer.nodes = kept.len() / layer.choices;
+        layer.edges = kept;
+    }
+    number_from_the_root(&mut layers, &mut terminals);
+    let sizes = || layers.iter().map(|l| l.nodes).chain([terminals.len()]);
+    Diagram {
+        nodes: sizes().sum(),
+        largest_layer: sizes().max().unwrap_or(0),
+        stop: Stop::Exhausted,
+        layers,
+        terminals,
+    }
+}
+
+/// Numbers the nodes in the order in which they are met, and leaves out those that are not.
+fn number_from_the_root(layers: &mut [Layer], terminals: &mut Vec<Redundancy>) {
+    let mut met: Vec<u32> = vec![0];
+    for layer in layers {
+        let mut names: HashMap<u32, u32> = HashMap::new();
+        let mut below = Vec::new();
+        let mut edges = Vec::with_capacity(met.len() * layer.choices);
+        for &node in &met {
+            let start = node as usize * layer.choices;
+            for &e in &layer.edges[start..start + layer.choices] {
+                edges.push(match e {
+                    DEAD => DEAD,
+                    e => *names.entry(e).or_insert_with(|| {
+                        below.push(e);
+                        index(below.len() - 1)
+                    }),
+                });
+            }
+        }
+        (layer.nodes, layer.edges) = (met.len(), edges);
+        met = below;
+    }
+    *terminals = met.iter().map(|&i| terminals[i as usize]).collect();
+}
+
+fn index(i: usize) -> u32 {
+    u32::try_from(i).expect("no more nodes than edges can name")
+}

@@ -1,0 +1,167 @@
+//! Ways on from the mechanism that the free state and the searched one have in common.
+//!
+//! Once all joints present in both states are chosen, a node says all that either state needs. It is written out once for
+//! each *lane*, side by side in one space, and every joint to come is added in its own lanes with the twists it has there:
+//! - the free state's, where joints are present in it alone;
+//! - the searched state's;
+//! - one for each face that may take moments: there the faces carry friction only, which is to say that what they do not
+//!   carry moves freely. What is redundant in that lane is redundant by friction alone.
+
+use crate::linalg::modp::Residue;
+use crate::model::mechanism::{JointId, LinkId, Mechanism};
+use crate::search::diagram::frontier::{At, Step, plan};
+use crate::search::question::space::{Choice, Space};
+
+/// Where a joint is added, and where what it makes redundant counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Lane {
+    /// Both states.
+    Common,
+    /// The free state.
+    Free,
+    /// The searched state.
+    State,
+    /// The searched state under friction, by the number of the face that shows moments too.
+    Friction(usize),
+}
+
+/// A joint added in a lane.
+#[derive(Debug, Clone)]
+pub struct Move {
+    /// Position of the joint within its variable.
+    pub member: usize,
+    /// What it does to a node.
+    pub step: Step,
+    /// The lane.
+    pub lane: Lane,
+    /// Whether the joint is the face of its lane.
+    own: bool,
+}
+
+impl Move {
+    /// A joint of both states.
+    #[must_use]
+    pub fn common(member: usize, step: Step) -> Move {
+        Move {
+            member,
+            step,
+            lane: Lane::Common,
+            own: false,
+        }
+    }
+
+    /// The twists of a choice in this lane; `None` where the lane does not apply, as its face is none.
+    pub(in crate::search) fn span<'c>(&self, choice: &'c Choice) -> Option<&'c [Vec<Residue>]> {
+        let plain = &choice.spans[self.member];
+        let Lane::Friction(_) = self.lane else {
+            return Some(plain);
+        };
+        match choice.faces.get(self.member).and_then(Option::as_ref) {
+            Some(face) => Some(if self.own { &face.slides } else { &face.parts }),
+            None => (!self.own).then_some(plain),
+        }
+    }
+}
+
+/// What must be so at the end of the searched state: of each link that is to be held, the places of its twist and of the
+/// twists of what may hold it; `None` for the root, which rests.
+pub type Held = Vec<(Option<usize>, Vec<Option<usize>>)>;
+
+/// The stages after the common ones.
+#[derive(Debug)]
+pub(in crate::search) struct Ways {
+    /// How often a common node is written out.
+    pub(in crate::search) copies: usize,
+    /// For each variable, its moves.
+    pub(in crate::search) stages: Vec<(usize, Vec<Move>)>,
+    /// What must be held at the end.
+    pub(in crate::search) held: Held,
+}
+
+/// The ways on for the variables `alone` of the free state and `added` by the searched one, from a node with the live links
+/// `live` as (root, link); `kept` are links whose motion in the free state counts, and `held` the links to be held with those
+/// that may hold them.
+pub(in crate::search) fn ways(
+    mechanism: &Mechanism,
+    space: &Space,
+    (alone, added): (&[usize], &[usize]),
+    live: &[(LinkId, LinkId)],
+    kept: &[LinkId],
+    held: &[(LinkId, Vec<LinkId>)],
+) -> Ways {
+    let joints = |v: &usize| space.variables[*v].joints.iter().copied().enumerate();
+    let faces: Vec<JointId> = added
+        .iter()
+        .flat_map(|v| joints(v).map(move |(member, j)| (v, member, j)))
+        .filter(|(v, member, _)| {
+            let mut choices = space.variables[**v].choices.iter();
+            choices.any(|c| c.faces.get(*member).is_some_and(Option::is_some))
+        })
+        .map(|(.., j)| j)
+        .collect();
+    let free = (!alone.is_empty()).then_some(Lane::Free);
+    let lanes: Vec<Lane> = free
+        .into_iter()
+        .chain([Lane::State])
+        .chain((0..faces.len()).map(Lane::Friction))
+        .collect();
+    let state = usize::from(free.is_some());
+    let mut list: Vec<(usize, usize, JointId, usize)> = Vec::new();
+    for (variables, lanes) in [(alone, 0..state), (added, state..lanes.len())] {
+        for &v in variables {
+            for (member, j) in joints(&v) {
+                list.extend(lanes.clone().map(|lane| (v, member, j, lane)));
+            }
+        }
+    }
+    let at = |&(.., joint, lane): &(usize, usize, JointId, usize)| At { joint, lane };
+    let order: Vec<At> = list.iter().map(at).collect();
+    let n = mechanism.links.len();
+    let copy = |l: LinkId, lane: usize| LinkId::new(lane * n + l.index());
+    let mut components: Vec<Vec<LinkId>> = Vec::new();
+    for &(root, link) in live {
+        match components.iter_mut().find(|c| c[0] == root) {
+            Some(c) => c.push(link),
+            None => components.push(vec![root, link]),
+        }
+    }
+    let start: Vec<Vec<LinkId>> = (0..lanes.len())
+        .flat_map(|lane| {
+            let of = |c: &Vec<LinkId>| c.iter().map(|&l| copy(l, lane)).collect();
+            components.iter().map(of).collect::<Vec<_>>()
+        })
+        .collect();
+    let hold = held.iter().flat_map(|(l, by)| by.iter().chain([l]));
+    let kept = kept.iter().filter(|_| !alone.is_empty());
+    let pinned: Vec<LinkId> = hold
+        .map(|&l| copy(l, state))
+        .chain(kept.map(|&l| copy(l, 0)))
+        .collect();
+    let steps = plan(mechanism, &order, &pinned, &start).steps;
+    let end = steps.last().map_or(&[][..], |s| &s.live);
+    let place = |l: &LinkId| end.iter().position(|x| x.1 == copy(*l, state));
+    let held = held
+        .iter()
+        .map(|(l, by)| (place(l), by.iter().map(place).collect()))
+        .collect();
+    let mut stages: Vec<(usize, Vec<Move>)> = Vec::new();
+    for ((v, member, joint, lane), step) in list.into_iter().zip(steps.iter().cloned()) {
+        let lane = lanes[lane];
+        let own = matches!(lane, Lane::Friction(f) if faces[f] == joint);
+        let next = Move {
+            member,
+            step,
+            lane,
+            own,
+        };
+        match stages.last_mut() {
+            Some((known, moves)) if *known == v => moves.push(next),
+            _ => stages.push((v, vec![next])),
+        }
+    }
+    Ways {
+        copies: lanes.len(),
+        stages,
+        held,
+    }
+}

@@ -1,0 +1,156 @@
+//! What a searched state makes of a variant, by singular values: external and harmful redundant constraints, and whether
+//! bodies are held.
+
+use super::answer::Answer;
+use crate::closure::matrix::Closure;
+use crate::geom::scalars::Reals;
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::rank::numeric::scaling::{Scaling, scaled};
+use crate::search::question::conditions::{InState, Search};
+use crate::search::question::grasp::Grasp;
+use crate::search::question::rounded_rank::{Digits, RankRange};
+use ozols_dense::{Matrix, singular_values};
+
+/// All freedoms of a body.
+const ALL: [Freedom; 6] = [
+    Freedom::Rx,
+    Freedom::Ry,
+    Freedom::Rz,
+    Freedom::Tx,
+    Freedom::Ty,
+    Freedom::Tz,
+];
+
+/// What is seen of a variant in a state; the least and the most of each figure.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct InStateSeen {
+    external: [i32; 2],
+    harmful: [u32; 2],
+    held: Answer,
+}
+
+impl InStateSeen {
+    /// Of a variant as a mechanism; `None` where the arithmetic fails.
+    ///
+    /// A self-stress is harmless where it does no work in any motion that would take harm away: the ranks of J with these
+    /// motions added and without them differ by the number of harmful ones.
+    ///
+    /// # Complexity
+    /// A decomposition for each face, and one for each body to be held and each link that may hold it.
+    pub(super) fn of(
+        search: &Search,
+        realized: &Mechanism,
+        (state, external): (StateId, [i32; 2]),
+        digits: Digits,
+    ) -> Option<InStateSeen> {
+        let own = range(realized, state, digits)?;
+        let added: Vec<JointId> = realized.joints_added_in(state).collect();
+        let fixed = |j: &JointId| realized.joints[*j].joint_type == JointType::Fixed;
+        let faces: Vec<JointId> = added.iter().copied().filter(fixed).collect();
+        let with = |freed: &dyn Fn(JointId) -> Option<Vec<Freedom>>| {
+            let mut freer = realized.clone();
+            for &j in &added {
+                if let Some(freedoms) = freed(j) {
+                    freer.joints[j].joint_type = JointType::Custom(freedoms);
+                }
+            }
+            range(&freer, state, digits)
+        };
+        let all = if faces.is_empty() {
+            vec![with(&|_| Some(ALL.to_vec()))?]
+        } else {
+            let judged = |at: JointId| {
+                with(&|j| {
+                    faces.contains(&j).then(|| match j == at {
+                        true => vec![Freedom::Tz, Freedom::Rx, Freedom::Ry],
+                        false => vec![Freedom::Tz],
+                    })
+                })
+            };
+            faces.iter().map(|&f| judged(f)).collect::<Option<_>>()?
+        };
+        let int = |x: usize| u32::try_from(x).unwrap_or(u32::MAX);
+        let harmful = |least: bool| {
+            let of = |r: &RankRange| match least {
+                true => int(r.least.saturating_sub(own.most)),
+                false => int(r.most.saturating_sub(own.least)),
+            };
+            all.iter().map(of).min().unwrap_or(0)
+        };
+        let mut held = Answer::Yes;
+        for grasp in &search.grasps {
+            held = held.and(holds(realized, state, grasp, (own, digits))?);
+        }
+        Some(InStateSeen {
+            external,
+            harmful: [harmful(true), harmful(false)],
+            held,
+        })
+    }
+
+    /// Whether it is what is asked of variants in the state.
+    pub(super) fn meets(&self, asked: &InState) -> Answer {
+        let below = |[least, most]: [i64; 2], limit: Option<u32>| {
+            let fits = |x: i64| limit.is_none_or(|l| x <= i64::from(l));
+            // Of a range the figure itself is doubtful.
+            Answer::of(least == most && fits(most), fits(least))
+        };
+        below(self.external.map(i64::from), asked.max_external)
+            .and(below(self.harmful.map(i64::from), asked.max_harmful))
+            .and(self.held)
+    }
+
+    /// External and harmful redundant constraints, the least there may be.
+    pub(super) fn figures(&self) -> (i32, u32) {
+        (self.external[0], self.harmful[0])
+    }
+}
+
+fn range(m: &Mechanism, state: StateId, digits: Digits) -> Option<RankRange> {
+    let closure = Closure::new(&Reals, m, state).ok()?;
+    let values = singular_values(&scaled(&closure))?;
+    Some(RankRange::of(&values, digits))
+}
+
+/// Whether one of the links that may hold a body moves with it in every motion: rows of their relative motion add nothing to
+/// the rank.
+fn holds(
+    m: &Mechanism,
+    state: StateId,
+    (body, jaws): &Grasp,
+    (own, digits): (RankRange, Digits),
+) -> Option<Answer> {
+    let closure = Closure::new(&Reals, m, state).ok()?;
+    let (scaling, matrix) = (Scaling::of(&closure), scaled(&closure));
+    let rows = matrix.nrows();
+    let of_body = closure.link_motion(&Reals, m, *body);
+    let mut answer = Answer::No;
+    for &jaw in jaws {
+        let of_jaw = closure.link_motion(&Reals, m, jaw);
+        let relative = |(c, (a, b)): (usize, (&Vec<f64>, &Vec<f64>))| {
+            let twist: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
+            scaling.apply(c, &twist)
+        };
+        let relative: Vec<Vec<f64>> = of_body
+            .iter()
+            .zip(&of_jaw)
+            .enumerate()
+            .map(relative)
+            .collect();
+        let with = Matrix::from_fn(rows + closure.dim, relative.len(), |r, c| {
+            match r.checked_sub(rows) {
+                Some(r) => relative[c][r],
+                None => matrix[(r, c)],
+            }
+        });
+        let with = RankRange::of(&singular_values(&with)?, digits);
+        let sure = own.is_decided() && with.is_decided() && own.most == with.most;
+        match Answer::of(sure, with.least <= own.most) {
+            Answer::Yes => return Some(Answer::Yes),
+            Answer::Perhaps => answer = Answer::Perhaps,
+            Answer::No => {}
+        }
+    }
+    Some(answer)
+}

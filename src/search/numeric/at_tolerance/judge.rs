@@ -1,0 +1,181 @@
+//! One variant judged by its singular values.
+
+use super::answer::Answer;
+use super::in_state::InStateSeen;
+use crate::geom::exact::ExactError;
+use crate::rank::numeric::Elimination;
+use crate::search::answer::count_tables::Key;
+use crate::search::check::brute_float::{Approximate, Rows};
+use crate::search::diagram::redundancy_so_far::Redundancy;
+use crate::search::question::conditions::Search;
+use crate::search::question::rounded_rank::{Digits, RankRange};
+
+/// Whether a variant meets some conditions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Standing {
+    /// It does not.
+    No,
+    /// It does.
+    Sure(Key),
+    /// It may, and has this key if it does.
+    Doubtful(Key),
+}
+
+/// What is found of a variant.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Judged {
+    /// Whether it has few enough redundant constraints.
+    pub(super) determinate: Standing,
+    /// Whether it meets every condition.
+    pub(super) admissible: Standing,
+}
+
+/// Judges the variants of a search.
+pub(super) struct Judge<'s> {
+    search: &'s Search,
+    all: Approximate,
+    digits: Digits,
+    /// The closure equations' rank in the free state, of the mechanism as it is.
+    present: RankRange,
+    /// The least and the largest dimension that the kept links' motion may have there.
+    motion: [usize; 2],
+}
+
+impl<'s> Judge<'s> {
+    pub(super) fn new(search: &'s Search, digits: Digits) -> Result<Judge<'s>, ExactError> {
+        let all = Approximate::new(search, Elimination::Svd, digits.tolerance)?;
+        let nothing = vec![0; search.space.variables.len()];
+        let unknown = RankRange::of(&[], digits);
+        let present = all.range(&nothing, Rows::Free, digits).unwrap_or(unknown);
+        let kept = all.range(&nothing, Rows::WithKept, digits);
+        let motion = motion(present, kept.unwrap_or(unknown));
+        Ok(Judge {
+            search,
+            all,
+            digits,
+            present,
+            motion,
+        })
+    }
+
+    pub(super) fn digits(&self) -> Digits {
+        self.digits
+    }
+
+    pub(super) fn present(&self) -> RankRange {
+        self.present
+    }
+
+    /// The dimension of the kept links' present motion, the largest it may be.
+    pub(super) fn motion(&self) -> usize {
+        self.motion[1]
+    }
+
+    /// Judges a variant; one whose singular values do not converge may be anything.
+    ///
+    /// # Complexity
+    /// One decomposition where it has too many redundant constraints, two otherwise; with a state some more.
+    pub(super) fn judge(&self, choices: &[usize]) -> Judged {
+        let limit = self.search.conditions.max_redundant;
+        let doubtful = || {
+            let key = Standing::Doubtful(self.search.key(choices, Redundancy::default()));
+            Judged {
+                determinate: key,
+                admissible: key,
+            }
+        };
+        let Some(free) = self.all.range(choices, Rows::Free, self.digits) else {
+            return doubtful();
+        };
+        let int = |x: usize| u32::try_from(x).unwrap_or(u32::MAX);
+        let [rows, state_rows] = self.all.equations();
+        let (least, most) = (int(rows - free.most), int(rows - free.least));
+        if least > limit {
+            return Judged {
+                determinate: Standing::No,
+                admissible: Standing::No,
+            };
+        }
+        let sure = most <= limit;
+        let standing = |sure: bool, redundancy: Redundancy| {
+            let key = self.search.key(choices, redundancy);
+            match sure {
+                true => Standing::Sure(key),
+                false => Standing::Doubtful(key),
+            }
+        };
+        let within = Redundancy {
+            internal: least,
+            ..Redundancy::default()
+        };
+        // Of a range the figures are doubtful too.
+        let determinate = standing(sure && least == most, within);
+        let mut good = Answer::of(sure && least == most, true);
+        if self.search.conditions.keep_output {
+            let kept = self.all.range(choices, Rows::WithKept, self.digits);
+            let Some(kept) = kept else {
+                return Judged {
+                    determinate,
+                    admissible: standing(false, within),
+                };
+            };
+            let [from, to] = motion(free, kept);
+            let [had, at_most] = self.motion;
+            good = good.and(Answer::of(
+                from == to && had == at_most && from == had,
+                from <= at_most && had <= to,
+            ));
+        }
+        let wanted = |internal| {
+            let redundancy = Redundancy {
+                internal,
+                ..Redundancy::default()
+            };
+            self.search.wanted(self.search.key(choices, redundancy))
+        };
+        let mut which = least..=most.min(limit);
+        good = good.and(Answer::of(which.clone().all(wanted), which.any(wanted)));
+        let mut found = within;
+        if let Some(asked) = self.search.conditions.state.filter(|_| good != Answer::No) {
+            let realized = self.search.realize(choices);
+            let of_state = self.all.range(choices, Rows::State, self.digits);
+            let seen = of_state.and_then(|of_state| {
+                let surplus = |rank: usize| int32(state_rows) - int32(rank);
+                let external = [
+                    surplus(of_state.most) - int32(rows) + int32(free.least),
+                    surplus(of_state.least) - int32(rows) + int32(free.most),
+                ];
+                InStateSeen::of(self.search, &realized, (asked.state, external), self.digits)
+            });
+            let Some(seen) = seen else {
+                return Judged {
+                    determinate,
+                    admissible: standing(false, within),
+                };
+            };
+            good = good.and(seen.meets(&asked));
+            (found.external, found.harmful) = seen.figures();
+        }
+        Judged {
+            determinate,
+            admissible: match good {
+                Answer::No => Standing::No,
+                Answer::Perhaps => standing(false, found),
+                Answer::Yes => standing(true, found),
+            },
+        }
+    }
+}
+
+/// The least and the largest dimension of the kept links' motion, from the ranks of the closure equations and of these with
+/// that motion.
+fn motion(free: RankRange, kept: RankRange) -> [usize; 2] {
+    [
+        kept.least.saturating_sub(free.most),
+        kept.most.saturating_sub(free.least),
+    ]
+}
+
+fn int32(x: usize) -> i32 {
+    i32::try_from(x).unwrap_or(i32::MAX / 4)
+}

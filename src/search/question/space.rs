@@ -1,0 +1,259 @@
+//! The space of variants: for each joint, or all that are each other's images, the choices and what they do.
+
+use crate::closure::coupling::{coefficient, length_ratio};
+use crate::closure::twist::{MotionSpace, joint_twists};
+use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::scalars::Scalars;
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::Residue;
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
+use crate::search::question::cost::CostTable;
+use num_bigint::BigUint;
+
+/// What a choice puts at the joints of its variable.
+#[derive(Debug, Clone)]
+pub struct Choice {
+    /// Index into the joint's options; 0 is the present joint.
+    pub option: usize,
+    /// Index into the joint's unloading joints, where one is inserted.
+    pub unloading: Option<usize>,
+    /// For each joint of the variable, independent twists that span its motion, each with the joint's entry in the row of
+    /// every coupling it is in behind it.
+    pub spans: Vec<Vec<Vec<Residue>>>,
+    /// For each joint of the variable that is a face which the state adds, what it does under friction.
+    pub faces: Vec<Option<Face>>,
+    /// Freedoms the joints put here have in the free state, those of an unloading joint included.
+    pub freedoms: u32,
+    /// Number of changed joints and inserted unloading joints.
+    pub changes: u32,
+    /// Cost above the present joint's, in thousandths.
+    pub cost_milli: i64,
+}
+
+/// The motion of a face that carries friction only, its unloading joint and entries for couplings included.
+#[derive(Debug, Clone)]
+pub struct Face {
+    /// It may part: forces along it and any moment are carried.
+    pub parts: Vec<Vec<Residue>>,
+    /// It may part and tilt: forces along it and a moment about its normal are carried.
+    pub slides: Vec<Vec<Residue>>,
+}
+
+/// A joint to choose for, or joints that must be chosen alike.
+#[derive(Debug, Clone)]
+pub struct Variable {
+    /// The joints.
+    pub joints: Vec<JointId>,
+    /// The choices; the first is the present joint.
+    pub choices: Vec<Choice>,
+    /// Whether the joints are present only in the searched state beyond the free one (contacts).
+    pub external: bool,
+    /// Whether the joints are absent from the searched state.
+    pub alone: bool,
+}
+
+/// Everything a search chooses from.
+#[derive(Debug, Clone)]
+pub struct Space {
+    /// Components of a twist: 6, or 3 in a plane.
+    pub dim: usize,
+    /// The state whose additional joints take part, where external redundancy is searched too.
+    pub state: Option<StateId>,
+    /// The variables, in file order of their first joints.
+    pub variables: Vec<Variable>,
+}
+
+impl Space {
+    /// The space of a mechanism: all joints of the free state, and those that `state` adds where one is given.
+    /// With `symmetric`, joints that are each other's images become one variable.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    pub fn new(
+        exact: &ExactField,
+        mechanism: &Mechanism,
+        state: Option<StateId>,
+        symmetric: bool,
+        costs: &CostTable,
+    ) -> Result<Space, ExactError> {
+        let motion = MotionSpace::new(exact, &mechanism.mode)?;
+        let free: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
+        let added = state.into_iter().flat_map(|s| mechanism.joints_added_in(s));
+        let alone = |j: &JointId| state.is_some_and(|s| !mechanism.joints[*j].is_in(s));
+        let mut groups: Vec<(Vec<JointId>, bool)> = Vec::new();
+        for (j, external) in free
+            .iter()
+            .map(|&j| (j, false))
+            .chain(added.map(|j| (j, true)).collect::<Vec<_>>())
+        {
+            let image = |&j: &JointId| Some(mechanism.search.image(j)).filter(|_| symmetric);
+            let mut others = std::iter::successors(image(&j), image).take_while(|&i| i != j);
+            let found = others.find_map(|i| groups.iter().position(|(g, _)| g.contains(&i)));
+            match found.map(|at| &mut groups[at]) {
+                Some((group, _)) => group.push(j),
+                None => groups.push((vec![j], external)),
+            }
+        }
+        let mut variables = Vec::new();
+        for (joints, external) in groups {
+            let per_joint: Vec<Vec<Choice>> = joints
+                .iter()
+                .map(|&j| choices(exact, &motion, mechanism, j, (external, state), costs))
+                .collect::<Result<_, _>>()?;
+            let mut merged = per_joint[0].clone();
+            for other in &per_joint[1..] {
+                for (a, b) in merged.iter_mut().zip(other) {
+                    a.spans.extend(b.spans.iter().cloned());
+                    a.faces.extend(b.faces.iter().cloned());
+                    a.freedoms += b.freedoms;
+                    a.changes += b.changes;
+                    a.cost_milli += b.cost_milli;
+                }
+            }
+            variables.push(Variable {
+                alone: joints.iter().any(alone),
+                joints,
+                choices: merged,
+                external,
+            });
+        }
+        Ok(Space {
+            dim: motion.dim(),
+            state,
+            variables,
+        })
+    }
+
+    /// The number of variants.
+    #[must_use]
+    pub fn size(&self) -> BigUint {
+        self.variables
+            .iter()
+            .map(|v| BigUint::from(v.choices.len()))
+            .product()
+    }
+}
+
+fn choices(
+    exact: &ExactField,
+    motion: &MotionSpace<Residue>,
+    mechanism: &Mechanism,
+    id: JointId,
+    (external, state): (bool, Option<StateId>),
+    costs: &CostTable,
+) -> Result<Vec<Choice>, ExactError> {
+    let joint = &mechanism.joints[id];
+    let mut out = Vec::new();
+    // The present joint is offered always.
+    let offered =
+        |(i, o): &(usize, &JointOption)| *i == 0 || o.state.is_none_or(|s| state == Some(s));
+    let rates = mechanism.couplings_of(id).count();
+    let unloading = joint.unloading.iter().enumerate();
+    let unloading = unloading.filter(|(_, o)| o.state.is_none_or(|s| state == Some(s)));
+    for unloading in std::iter::once(None).chain(unloading.map(|(u, _)| Some(u))) {
+        for (i, option) in joint.options.iter().enumerate().filter(offered) {
+            let inserted = unloading.map(|u| &joint.unloading[u]);
+            let [mut columns, added] = columns(exact, motion, mechanism, id, (option, inserted))?;
+            // W is the free state's: a contact is absent there, its unloading joint is not.
+            let absent = if external { columns.len() } else { 0 };
+            columns.extend(added);
+            let freedoms = u32::try_from(columns.len() - absent).unwrap_or(u32::MAX);
+            let span = |more: &[Freedom]| -> Result<Vec<Vec<Residue>>, ExactError> {
+                let freed = JointType::Custom(more.to_vec());
+                let mut span = Echelon::new(exact.field());
+                columns.iter().for_each(|c| {
+                    span.insert(c);
+                });
+                for (_, mut t) in joint_twists(exact, motion, &option.frame, &freed)? {
+                    t.resize(t.len() + rates, 0);
+                    span.insert(&t);
+                }
+                Ok(span.reduced())
+            };
+            let face = external && motion.dim() == 6 && option.joint_type == JointType::Fixed;
+            let friction = || -> Result<Face, ExactError> {
+                Ok(Face {
+                    parts: span(&[Freedom::Tz])?,
+                    slides: span(&[Freedom::Tz, Freedom::Rx, Freedom::Ry])?,
+                })
+            };
+            out.push(Choice {
+                option: i,
+                unloading,
+                spans: vec![span(&[])?],
+                faces: vec![face.then(friction).transpose()?],
+                freedoms,
+                changes: u32::from(i != 0) + u32::from(unloading.is_some()),
+                cost_milli: costs.change(&joint.options[0], (i != 0).then_some(option), inserted),
+            });
+        }
+    }
+    Ok(out)
+}
+
+/// The twists of an option, and those of an unloading joint in series with it, one a freedom, each with the joint's entry in
+/// the row of every coupling it is in behind it.
+///
+/// # Errors
+/// Where a coordinate has no value in the number system.
+pub(in crate::search) fn columns<S: Scalars>(
+    s: &S,
+    motion: &MotionSpace<S::Number>,
+    mechanism: &Mechanism,
+    joint: JointId,
+    (option, inserted): (&JointOption, Option<&JointOption>),
+) -> Result<[Vec<Vec<S::Number>>; 2], ExactError> {
+    let twists = |o: &JointOption| joint_twists(s, motion, &o.frame, &o.joint_type);
+    let own = twists(option)?
+        .into_iter()
+        .map(|(f, t)| with_rates(s, mechanism, joint, option, f, t))
+        .collect::<Result<Vec<_>, _>>()?;
+    let rates = mechanism.couplings_of(joint).count();
+    let added = inserted.map_or_else(|| Ok(Vec::new()), twists)?;
+    let added = added.into_iter().map(|(_, mut t)| {
+        t.resize(t.len() + rates, S::Number::default());
+        t
+    });
+    Ok([own, added.collect()])
+}
+
+/// A twist of an option with its entries in the rows of the joint's couplings behind it.
+fn with_rates<S: Scalars>(
+    s: &S,
+    mechanism: &Mechanism,
+    joint: JointId,
+    option: &JointOption,
+    freedom: Freedom,
+    mut twist: Vec<S::Number>,
+) -> Result<Vec<S::Number>, ExactError> {
+    let present = &mechanism.joints[joint].frame;
+    for (q, end) in mechanism.couplings_of(joint) {
+        let coupling = &mechanism.couplings[q];
+        if coupling.ends[end].freedom != freedom {
+            twist.push(S::Number::default());
+            continue;
+        }
+        // An option may have its axis written in another length.
+        let mut entry = s.eval(&length_ratio((&option.frame, freedom), (present, freedom)))?;
+        if end == 0 {
+            entry = s.mul(entry, s.eval(&coefficient(mechanism, coupling))?);
+        }
+        twist.push(entry);
+    }
+    Ok(twist)
+}
+
+/// The name of what a choice puts at a joint, for people and programs.
+#[must_use]
+pub fn choice_name(mechanism: &Mechanism, joint: JointId, choice: &Choice) -> String {
+    let joint = &mechanism.joints[joint];
+    let base = joint
+        .options
+        .get(choice.option)
+        .map_or(JointType::Fixed.name(), |o| o.name.as_str());
+    match choice.unloading.and_then(|u| joint.unloading.get(u)) {
+        Some(u) => format!("{base} + unloading {}", u.name),
+        None => base.to_owned(),
+    }
+}

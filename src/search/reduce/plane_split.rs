@@ -1,0 +1,255 @@
+//! No more of a twist than the choices act on.
+//!
+//! Where every motion that a choice allows is one in a plane (a turn about its normal, slides along it) together with one out
+//! of it (tilts about lines of the plane, a slide along the normal), the closure equations fall apart into those in the plane
+//! and those out of it: ranks add up, and so do redundant constraints and the motions of links. If all choices of every joint
+//! do the same in the plane, as a hinge, a universal joint about it and a ball do, then what is in the plane is settled once,
+//! and the diagram is built of what is out of it, three rows a contour instead of six; or the other way round. Where choices
+//! differ in both, each part has a diagram, and the product of the two is that of the whole. Rows in which nothing ever moves
+//! are redundant in every contour, whatever is chosen.
+//!
+//! What a variant is, its freedoms, W and certificate are those of the whole mechanism.
+
+use crate::geom::exact::{ExactError, ExactField};
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::{Field, Residue};
+use crate::model::mechanism::Mechanism;
+use crate::rank::reduce::plane::{Rows, planes, seen};
+use crate::search::diagram;
+use crate::search::diagram::frontier::Plan;
+use crate::search::diagram::redundancy_so_far::Limits;
+use crate::search::diagram::stage::stages;
+use crate::search::question::space::{Choice, Space};
+
+/// Some rows of the closure equations.
+#[derive(Debug)]
+pub(in crate::search) struct Model {
+    /// The variables and their choices in these rows.
+    pub(in crate::search) space: Space,
+    /// The present motions of the kept links in these rows.
+    pub(in crate::search) kept: Vec<Vec<Residue>>,
+    /// The present joints in other rows, which choices are alike in; none where there are no such rows.
+    settled: Option<Space>,
+    /// Further rows of each contour, in which nothing moves.
+    idle: usize,
+}
+
+/// What the diagrams of a search are built of.
+#[derive(Debug)]
+pub(in crate::search) struct LeastModel {
+    /// All rows that choices differ in.
+    pub(in crate::search) whole: Model,
+    /// Its two parts, where it falls apart.
+    pub(in crate::search) parts: Option<[Model; 2]>,
+}
+
+impl LeastModel {
+    /// The least model of a space; `kept` are motions of links, six numbers each. With `whole_twists`
+    /// nothing is left out.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    ///
+    /// # Complexity
+    /// O(joints · options) eliminations of six by six numbers for each plane looked at.
+    pub(in crate::search) fn new(
+        exact: &ExactField,
+        mechanism: &Mechanism,
+        space: &Space,
+        kept: &[Vec<Residue>],
+        whole_twists: bool,
+    ) -> Result<LeastModel, ExactError> {
+        let f = exact.field();
+        let whole = |parts| LeastModel {
+            whole: Model {
+                space: space.clone(),
+                kept: kept.to_vec(),
+                settled: None,
+                idle: 0,
+            },
+            parts,
+        };
+        // Lanes of a searched state and rows of couplings have not been taken apart.
+        if whole_twists
+            || space.dim != 6
+            || space.state.is_some()
+            || !mechanism.couplings.is_empty()
+        {
+            return Ok(whole(None));
+        }
+        let present = space
+            .variables
+            .iter()
+            .flat_map(|v| v.joints.iter().copied());
+        for plane in planes(exact, mechanism, present)? {
+            let Some(parts) = plane.rows(exact) else {
+                continue;
+            };
+            let [inside, outside] = parts.map(|p| Seen::new(f, space, p));
+            if !falls_apart(space, [&inside, &outside]) {
+                continue;
+            }
+            let settled = [&inside, &outside].map(Seen::is_settled);
+            let (differing, settled) = match settled {
+                [true, _] => (outside, inside),
+                [false, true] => (inside, outside),
+                [false, false] => {
+                    let parts = [inside, outside].map(|part| part.model(f, space, kept, None));
+                    return Ok(whole(Some(parts)));
+                }
+            };
+            let settled = Some(settled.present(space));
+            return Ok(LeastModel {
+                whole: differing.model(f, space, kept, settled),
+                parts: None,
+            });
+        }
+        Ok(whole(None))
+    }
+}
+
+impl Model {
+    /// Redundant constraints that every variant has in rows that the diagrams leave out; a plan of the variables in an order.
+    pub(in crate::search) fn already(
+        &self,
+        exact: &ExactField,
+        order: &[usize],
+        plan: &Plan,
+    ) -> u32 {
+        let contours = plan.steps.iter().filter(|s| s.closing).count();
+        let idle = u32::try_from(self.idle * contours).unwrap_or(u32::MAX);
+        let Some(space) = &self.settled else {
+            return idle;
+        };
+        let stages = stages(space, order, plan);
+        let limits = Limits {
+            already: idle,
+            internal: u32::MAX,
+            external: None,
+            harmful: None,
+            nodes: usize::MAX,
+            bytes: usize::MAX,
+        };
+        // One choice a joint: one node a layer.
+        let path = diagram::build(
+            exact,
+            space,
+            &stages,
+            (&limits, None),
+            &|| false,
+            &mut |_| {},
+        );
+        path.terminals[0].internal
+    }
+}
+
+/// Independent twists.
+type Span = Vec<Vec<Residue>>;
+
+/// Choices seen in three rows only.
+struct Seen {
+    /// For each choice of each variable, what its joints may do: independent, in reduced form.
+    spans: Vec<Vec<Vec<Span>>>,
+    rows: Rows,
+}
+
+impl Seen {
+    fn new(f: Field, space: &Space, rows: Rows) -> Seen {
+        let of_joint = |span: &Span| {
+            let mut out = Echelon::new(f);
+            span.iter().for_each(|twist| {
+                out.insert(&seen(f, &rows, twist));
+            });
+            out.reduced()
+        };
+        let of_choice = |c: &Choice| c.spans.iter().map(of_joint).collect();
+        let variables = space.variables.iter();
+        Seen {
+            spans: variables
+                .map(|v| v.choices.iter().map(of_choice).collect())
+                .collect(),
+            rows,
+        }
+    }
+
+    /// Whether every choice does what the present joint does.
+    fn is_settled(&self) -> bool {
+        let alike = |choices: &Vec<Vec<Span>>| choices.iter().all(|c| *c == choices[0]);
+        self.spans.iter().all(alike)
+    }
+
+    /// Rows that tell all motions apart: the pivots of their span, or any one row where nothing moves.
+    fn used(&self, f: Field) -> Vec<usize> {
+        let mut all = Echelon::new(f);
+        let twists = self.spans.iter().flatten().flatten().flatten();
+        twists.for_each(|t| {
+            all.insert(t);
+        });
+        let used = all.pivots();
+        if used.is_empty() { vec![0] } else { used }
+    }
+
+    /// Motions of links, in rows that are used.
+    fn of_links(&self, f: Field, motions: &[Vec<Residue>], used: &[usize]) -> Vec<Vec<Residue>> {
+        let mut out = Echelon::new(f);
+        for motion in motions {
+            let links = motion.chunks_exact(6);
+            let of_link = |twist| {
+                let rows = seen(f, &self.rows, twist);
+                used.iter().map(move |&r| rows[r])
+            };
+            out.insert(&links.flat_map(of_link).collect::<Vec<_>>());
+        }
+        out.reduced()
+    }
+
+    /// The model of the rows that are used.
+    fn model(
+        self,
+        f: Field,
+        whole: &Space,
+        kept: &[Vec<Residue>],
+        settled: Option<Space>,
+    ) -> Model {
+        let used = self.used(f);
+        Model {
+            idle: 3 - used.len(),
+            kept: self.of_links(f, kept, &used),
+            space: self.space(whole, &used),
+            settled,
+        }
+    }
+
+    /// The space of all choices, in rows that are used.
+    fn space(self, whole: &Space, used: &[usize]) -> Space {
+        let mut out = whole.clone();
+        out.dim = used.len();
+        for (variable, choices) in out.variables.iter_mut().zip(self.spans) {
+            for (choice, spans) in variable.choices.iter_mut().zip(choices) {
+                let within = |t: Vec<Residue>| used.iter().map(|&r| t[r]).collect();
+                let of_joint = |span: Span| span.into_iter().map(within).collect();
+                choice.spans = spans.into_iter().map(of_joint).collect();
+            }
+        }
+        out
+    }
+
+    /// The space of the present joints.
+    fn present(self, whole: &Space) -> Space {
+        let mut out = self.space(whole, &[0, 1, 2]);
+        out.variables.iter_mut().for_each(|v| v.choices.truncate(1));
+        out
+    }
+}
+
+/// Whether each choice's motions are those of the two parts together.
+fn falls_apart(space: &Space, parts: [&Seen; 2]) -> bool {
+    space.variables.iter().enumerate().all(|(v, variable)| {
+        variable.choices.iter().enumerate().all(|(c, choice)| {
+            choice.spans.iter().enumerate().all(|(j, span)| {
+                let freedoms = parts.map(|p| p.spans[v][c][j].len());
+                span.len() == freedoms[0] + freedoms[1]
+            })
+        })
+    })
+}

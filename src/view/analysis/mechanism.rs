@@ -1,0 +1,150 @@
+//! What a mechanism file describes, in a few lines and without any analysis.
+
+use crate::format::number::{grouped, significant};
+use crate::format::phrase::plural;
+use crate::model::mechanism::{Mechanism, Mode, Role, StateId};
+use crate::view::analysis::mobility::Size;
+use itertools::Itertools;
+use num_bigint::BigUint;
+
+/// Names shown of a list.
+const SHOWN: usize = 12;
+
+/// The links, joints, states, options and workload of a mechanism, a line each; `across` is its size in the file's unit.
+#[must_use]
+pub fn describe(m: &Mechanism, across: f64) -> Vec<String> {
+    let mut out = vec![links(m, across), joints(m), states(m), search(m)];
+    out.extend(workload(m));
+    out
+}
+
+fn names<'a>(list: impl IntoIterator<Item = &'a str>) -> String {
+    let list = list.into_iter().collect_vec();
+    let more = match list.len().saturating_sub(SHOWN) {
+        0 => String::new(),
+        n => format!(" and {n} more"),
+    };
+    format!("{}{more}", list.iter().take(SHOWN).format(", "))
+}
+
+fn links(m: &Mechanism, across: f64) -> String {
+    let of = |role| {
+        let with = m.links.iter().filter(move |l| l.role == role);
+        with.map(|l| l.id.as_str()).collect_vec()
+    };
+    let mut roles = vec![m.frame_words()];
+    for (role, word) in [(Role::Output, "output"), (Role::Object, "object")] {
+        let with = of(role);
+        if !with.is_empty() {
+            let s = if with.len() == 1 { "" } else { "s" };
+            roles.push(format!("{word}{s} {}", names(with)));
+        }
+    }
+    let mode = match m.mode {
+        Mode::Spatial => "in space",
+        Mode::Planar { .. } => "in the plane",
+    };
+    format!(
+        "{} ({}), {mode}; joints {} {} across",
+        plural(m.links.len(), "link"),
+        roles.join("; "),
+        significant(across),
+        m.length_unit.symbol
+    )
+}
+
+fn joints(m: &Mechanism) -> String {
+    let types = m.joints.iter().map(|j| j.joint_type.name()).counts();
+    let types = types
+        .into_iter()
+        .sorted_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(b.0)))
+        .map(|(name, n)| format!("{n} {name}"));
+    let drives = m.joints.iter().filter(|j| j.drive);
+    let drives = names(drives.map(|j| j.id.as_str()));
+    let drives = match drives.as_str() {
+        "" => "no drive".to_owned(),
+        names => format!("driven at {names}"),
+    };
+    format!(
+        "{}: {}; {drives}",
+        plural(m.joints.len(), "joint"),
+        types.format(", ")
+    )
+}
+
+fn states(m: &Mechanism) -> String {
+    let one = |s: StateId| {
+        let k = usize::try_from(Size::of(m, s).contours).unwrap_or(0);
+        format!("{} with {}", m.states[s], plural(k, "contour"))
+    };
+    let states = m.state_ids().map(one).join(", ");
+    format!("{}: {states}", plural(m.states.len(), "state"))
+}
+
+fn search(m: &Mechanism) -> String {
+    let options = m
+        .joints_in(StateId::FREE)
+        .map(|j| m.joints[j].options.len());
+    let options = options.collect_vec();
+    let open = options.iter().copied().filter(|n| *n > 1).collect_vec();
+    let places = m.joints.iter().filter(|j| !j.unloading.is_empty()).count();
+    if open.is_empty() && places == 0 {
+        return "search: nothing to choose: no joint has an option with more freedoms than it has; list some under [search]"
+            .to_owned();
+    }
+    let variants: BigUint = options.into_iter().map(BigUint::from).product();
+    let mut parts = vec![match open.iter().minmax().into_option() {
+        None => "no joint to change".to_owned(),
+        Some((a, b)) if a == b => format!("{} with {a} options", plural(open.len(), "joint")),
+        Some((a, b)) => format!("{} with {a} to {b} options", plural(open.len(), "joint")),
+    }];
+    if places > 0 {
+        parts.push(plural(places, "place") + " for an unloading joint");
+    }
+    if !m.search.mirror.is_empty() {
+        parts.push(plural(m.search.mirror.len(), "mirror pair"));
+    }
+    if let Some(group) = m.search.turn.first() {
+        let what = match group.len() {
+            2 => "half-turn pair",
+            _ => "third-turn group",
+        };
+        parts.push(plural(m.search.turn.len(), what));
+    }
+    let joints = grouped(&variants.to_string());
+    format!("search: {}; {joints} choices of joints", parts.join(", "))
+}
+
+fn workload(m: &Mechanism) -> Option<String> {
+    let loads = &m.loads;
+    let masses = m.links.iter().filter(|l| l.mass.is_some()).count();
+    let counted = [
+        (masses, "link with mass", "links with mass"),
+        (loads.forces.len(), "force", "forces"),
+        (loads.moments.len(), "moment", "moments"),
+        (loads.stiffness.len(), "stiffness", "stiffnesses"),
+        (loads.misalignments.len(), "misalignment", "misalignments"),
+    ];
+    let mut parts = Vec::new();
+    if loads.gravity.is_some() {
+        parts.push("gravity".to_owned());
+    }
+    for (n, one, many) in counted {
+        match n {
+            0 => {}
+            1 => parts.push(format!("1 {one}")),
+            n => parts.push(format!("{n} {many}")),
+        }
+    }
+    if loads.drive_speeds.iter().any(|v| *v != 0.0) {
+        parts.push("drive speed".to_owned());
+    }
+    if let Some(stroke) = &loads.stroke {
+        parts.push(format!("a stroke of {}", plural(stroke.steps, "step")));
+    }
+    if let Some(ranking) = &m.ranking {
+        let terms = ranking.terms.iter().map(|(t, _)| t.name());
+        parts.push(format!("ranking by {}", terms.format(", ")));
+    }
+    (!parts.is_empty()).then(|| format!("workload: {}", parts.join(", ")))
+}

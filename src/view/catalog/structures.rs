@@ -1,0 +1,318 @@
+//! Structures of a catalogue for people, and as data: the keys are the columns of the database.
+
+use crate::catalog::store::{Store, StoreError};
+use crate::format::csv;
+use crate::format::number::{grouped, significant};
+use crate::format::plain::plain;
+use crate::view::terminal::layout::{fit, table};
+use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
+use serde_json::{Map, Value};
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// The answer to a question: as JSON a list of objects.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    /// The columns.
+    pub names: Vec<String>,
+    /// The rows.
+    pub rows: Vec<Vec<Value>>,
+}
+
+impl Serialize for Answer {
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        struct Row<'a>(&'a [String], &'a [Value]);
+        impl Serialize for Row<'_> {
+            fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+                let mut map = s.serialize_map(Some(self.0.len()))?;
+                for (name, value) in self.0.iter().zip(self.1) {
+                    map.serialize_entry(name, value)?;
+                }
+                map.end()
+            }
+        }
+        let mut list = s.serialize_seq(Some(self.rows.len()))?;
+        for row in &self.rows {
+            list.serialize_element(&Row(&self.names, row))?;
+        }
+        list.end()
+    }
+}
+
+/// A value as it is.
+fn bare(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(s) => s.clone(),
+        other => other.to_string(),
+    }
+}
+
+/// A value for people.
+fn cell(value: &Value) -> String {
+    match value {
+        Value::Null => "-".to_owned(),
+        Value::Number(n) if n.is_f64() => significant(n.as_f64().unwrap_or(f64::NAN)),
+        Value::Number(n) => grouped(&n.to_string()),
+        // A count beyond 63 bits.
+        Value::String(s) if s.len() > 18 && s.bytes().all(|b| b.is_ascii_digit()) => grouped(s),
+        // The database may be anybody's.
+        Value::String(s) => plain(s).into_owned(),
+        other => other.to_string(),
+    }
+}
+
+impl Answer {
+    /// As a table for people.
+    #[must_use]
+    pub fn text(&self, width: Option<u16>) -> String {
+        let heads: Vec<_> = self.names.iter().map(|n| plain(n)).collect();
+        let heads: Vec<&str> = heads.iter().map(AsRef::as_ref).collect();
+        let rows = self.rows.iter().map(|r| r.iter().map(cell).collect());
+        format!("{}\n", table(&heads, rows.collect(), width))
+    }
+
+    /// As CSV, numbers as they are.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let heads: Vec<&str> = self.names.iter().map(String::as_str).collect();
+        csv::table(
+            &heads,
+            self.rows
+                .iter()
+                .map(|r| r.iter().map(bare).collect::<Vec<_>>()),
+        )
+    }
+}
+
+/// What a catalogue knows of a structure.
+#[derive(Debug, Clone, serde::Serialize)]
+pub struct StructureData {
+    /// The row of `structures`, or of `drawn`.
+    pub structure: Map<String, Value>,
+    /// The row of `layouts`; `None` where it has no layout.
+    pub layout: Option<Map<String, Value>>,
+    /// The rows of `counts`.
+    pub counts: Vec<Map<String, Value>>,
+    /// The rows of `ideas`.
+    pub ideas: Vec<Map<String, Value>>,
+}
+
+impl StructureData {
+    /// Reads all that there is.
+    ///
+    /// # Errors
+    /// Where the database cannot be read.
+    pub fn read(store: &Store, id: &str) -> Result<StructureData, StoreError> {
+        let maps = |sql: &str| -> Result<Vec<Map<String, Value>>, StoreError> {
+            let (names, rows) = store.query(sql, Some(id))?;
+            let map = |row: Vec<Value>| names.iter().cloned().zip(row).collect();
+            Ok(rows.into_iter().map(map).collect())
+        };
+        let mut structure = maps("SELECT * FROM structures WHERE id = ?1")?;
+        structure.extend(maps("SELECT * FROM drawn WHERE id = ?1")?);
+        Ok(StructureData {
+            structure: structure.pop().unwrap_or_default(),
+            layout: maps("SELECT * FROM layouts WHERE structure = ?1")?.pop(),
+            counts: maps("SELECT * FROM counts WHERE structure = ?1 ORDER BY mobility, changes")?,
+            ideas: maps("SELECT * FROM ideas WHERE structure = ?1 ORDER BY place")?,
+        })
+    }
+}
+
+/// A value of a row for people; empty where there is none.
+fn of<'a>(row: &'a Map<String, Value>) -> impl Fn(&str) -> String + 'a {
+    move |key| row.get(key).map_or_else(String::new, cell)
+}
+
+/// The figures of a drawn mechanism.
+fn drawn_text(row: &Map<String, Value>) -> String {
+    let s = of(row);
+    format!(
+        "{}: {}, drawn ({})\n{}\n{} links, {} joints, {} contours; driver: {}\nAs built: W = {}, σ = {}; finite mobility {}\n\
+         Determinate variants ({}): {}, of these {} that keep the output motion and have no more mobility than that\n\n",
+        s("id"),
+        s("name"),
+        s("mode"),
+        s("description"),
+        s("links"),
+        s("joints"),
+        s("contours"),
+        s("input"),
+        s("mobility"),
+        s("redundant"),
+        s("finite"),
+        s("certainty"),
+        s("determinate"),
+        s("admissible"),
+    )
+}
+
+/// The figures of a structure with a layout, or why it has none.
+fn structure_text(d: &StructureData) -> String {
+    let s = of(&d.structure);
+    let mut out = format!("{}: {}\n", s("id"), s("name"));
+    // A third jaw, where there is one.
+    let third = |row: &Map<String, Value>, key: &str| row.get(key).is_some_and(|v| !v.is_null());
+    let (jaws, both) = match third(&d.structure, "jaw_c") {
+        false => (format!("{} and {}", s("jaw_a"), s("jaw_b")), ""),
+        true => (
+            format!("{}, {} and {}", s("jaw_a"), s("jaw_b"), s("jaw_c")),
+            " round the part",
+        ),
+    };
+    let _ = writeln!(
+        out,
+        "{} links, {} joints; frame {}, driver {} ({}), jaws {jaws}{both}, {} of them at the frame; laid out {}{}",
+        s("links"),
+        s("joints"),
+        s("frame"),
+        s("driver"),
+        s("input"),
+        s("jaws_at_frame"),
+        s("symmetry"),
+        if s("parallel") == "1" {
+            ", jaws on parallelograms"
+        } else {
+            ""
+        },
+    );
+    let Some(layout) = &d.layout else {
+        let _ = writeln!(out, "No layout: {}.", s("no_layout"));
+        return out;
+    };
+    let l = of(layout);
+    let slide = s("input") == "slide";
+    let _ = writeln!(
+        out,
+        "As built: W = {}, σ = {}; finite mobility {}",
+        l("mobility"),
+        l("redundant"),
+        l("finite"),
+    );
+    let _ = writeln!(
+        out,
+        "Jaws: {}, {} to {} mm apart for {} {} of the drive; they turn by {}° at most",
+        match third(layout, "jaw_c_motion") {
+            false => format!("{} and {}", l("jaw_a_motion"), l("jaw_b_motion")),
+            true => format!(
+                "{}, {} and {}",
+                l("jaw_a_motion"),
+                l("jaw_b_motion"),
+                l("jaw_c_motion")
+            ),
+        },
+        l("opening_min"),
+        l("opening_max"),
+        l("travel"),
+        if slide { "mm" } else { "rad" },
+        l("jaw_turn"),
+    );
+    let _ = writeln!(
+        out,
+        "Force of each jaw for {} of the drive, without friction: {} N ({} to {} over the stroke)",
+        if slide { "1 N" } else { "1 Nm" },
+        l("force_mean"),
+        l("force_min"),
+        l("force_max"),
+    );
+    let _ = writeln!(
+        out,
+        "Looks: links 1 : {}, worst transmission angle {}°, {} crossings",
+        l("link_ratio"),
+        l("transmission"),
+        l("crossings"),
+    );
+    let _ = writeln!(
+        out,
+        "Determinate variants ({}): {}, of these {} with W = 1{}\n",
+        l("certainty"),
+        l("determinate"),
+        l("determinate_w1"),
+        match s("symmetry").as_str() {
+            "generic" => String::new(),
+            symmetry => format!(", {} up to {symmetry} images", l("orbits_w1")),
+        },
+    );
+    out
+}
+
+/// What a catalogue knows of a structure, for people.
+#[must_use]
+pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
+    let is_drawn = d.structure.contains_key("mechanism");
+    let head = match is_drawn {
+        true => drawn_text(&d.structure),
+        false => structure_text(d),
+    };
+    let head = fit(&head, width);
+    if !is_drawn && d.layout.is_none() {
+        return head;
+    }
+    let s = of(&d.structure);
+    let heads = ["", "cost", "changes", "variants", "force", "moment", "adds"];
+    let keys = [
+        "place",
+        "cost",
+        "change_count",
+        "variants",
+        "peak_force",
+        "peak_moment",
+        "adds",
+    ];
+    let row = |i: &Map<String, Value>| {
+        keys.iter()
+            .map(|k| i.get(*k).map_or_else(String::new, cell))
+            .collect()
+    };
+    let searched = d.layout.as_ref().unwrap_or(&d.structure);
+    let (found, least) = match searched.get("certainty").and_then(Value::as_str) {
+        Some("exact") => ("", ""),
+        _ => (" found", "at least "),
+    };
+    let ideas = match d.ideas.len() {
+        0 => String::new(),
+        n => format!(
+            "{}{found}; each stands for {least}as many variants, of which the first is exported:\n\n{}\n",
+            if n == 1 {
+                "The cheapest idea".to_owned()
+            } else {
+                format!("The {n} cheapest ideas")
+            },
+            table(&heads, d.ideas.iter().map(row).collect(), width)
+        ),
+    };
+    let next = format!(
+        "\nozols catalog export {0} {1} -o gripper.toml               the mechanism\nozols catalog export {0} {1} --variant 1 -o redesign.toml  idea 1 carried out\n",
+        plain(&file.display().to_string()),
+        s("id"),
+    );
+    head + &ideas + &next
+}
+
+/// What a catalogue holds, for whoever has just built it.
+///
+/// # Errors
+/// Where the database cannot be read.
+pub fn built_text(
+    store: &Store,
+    file: &Path,
+    (added, what): (usize, &str),
+    width: Option<u16>,
+) -> Result<String, StoreError> {
+    let (names, rows) = store.query(
+        "SELECT links, input, symmetry || iif(parallel, ' parallel', '') AS layout, count(*) AS structures, \
+         sum(no_layout IS NULL) AS 'laid out', sum(determinate_w1) AS 'determinate, W = 1', min(best_cost) AS 'least cost' \
+         FROM structures LEFT JOIN layouts ON structure = id GROUP BY 1, 2, 3 \
+         UNION ALL SELECT links, input, 'drawn', count(*), NULL, sum(admissible), min(best_cost) FROM drawn GROUP BY 1, 2 \
+         ORDER BY 1, 2, 3",
+        None,
+    )?;
+    let table = Answer { names, rows }.text(width);
+    let n = grouped(&added.to_string());
+    let path = file.display().to_string();
+    let path = plain(&path);
+    Ok(format!(
+        "{table}\n{n} {what} added to {path}. Go on with\n\n  ozols catalog query {path}\n  ozols catalog page {path} -o grippers.html\n"
+    ))
+}

@@ -1,0 +1,3 @@
+//! What is told of robot descriptions.
+
+pub mod lint;

@@ -1,0 +1,15 @@
+//! A search for people and programs: text, JSON, CSV.
+
+pub mod conditions;
+#[cfg(feature = "cli")]
+pub mod costs;
+pub mod csv;
+pub mod data;
+pub mod json;
+pub mod numeric;
+pub mod ranking;
+pub mod second_opinion;
+pub mod stopped_early;
+pub(in crate::view) mod table;
+pub mod text;
+pub mod variant;

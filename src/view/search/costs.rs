@@ -1,0 +1,50 @@
+//! The table of costs, as a file that a search takes.
+
+use crate::format::number::cost;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::CostSpec;
+use crate::search::question::cost::CostTable;
+use crate::terms::PairWords;
+
+const HEAD: &str = "\
+# What a redesign costs, in revolute joints: the default costs, orders of
+# magnitude for machined parts. For each joint that it changes, a search adds
+# the cost of the new type less that of the present one, and `change`; for each
+# joint that it puts in series, the cost of its type, `link` and `change`.
+#
+#   ozols show costs > costs.toml
+#   ozols search FILE --costs costs.toml
+#
+# `report`, `watch`, `draw`, `export` and `fix` take it, too. A line that is
+# left out says nothing: [search.costs] of FILE holds, or the default. What
+# stands at one option of FILE stays. A custom joint costs a revolute joint, and
+# CUSTOM for each freedom beyond the first. Names of FILE's options may stand
+# here, too.
+";
+
+/// The default costs as TOML.
+#[must_use]
+pub fn toml() -> String {
+    let table = CostTable::new(&CostSpec::default());
+    let line =
+        |name: &str, milli: i64, what: &str| format!("\n# {what}\n{name} = {}\n", cost(milli));
+    let words = PairWords::builtin();
+    let types = JointType::NAMED.iter().map(|t| {
+        let about = words.get(t.name()).map_or("", |w| w.about.as_str());
+        let short = about.split([':', '.']).next().unwrap_or(about);
+        let what = format!("class {}: {short}", t.class());
+        line(t.name(), t.default_cost_milli(), &what)
+    });
+    let others = [
+        ("change", table.change, "changing a joint at all"),
+        ("link", table.link, "the extra link of a joint in series"),
+        (
+            "harmful",
+            table.harmful,
+            "each redundant constraint that loads clamping faces in a searched state",
+        ),
+    ];
+    let others = others.map(|(name, milli, what)| line(name, milli, what));
+    let head = HEAD.replace("CUSTOM", &cost(JointType::CUSTOM_FREEDOM));
+    head + &others.concat() + &types.collect::<String>()
+}

@@ -1,0 +1,249 @@
+//! The variants of a search as CSV, one a line, a column for each joint that has a choice.
+
+use crate::format::csv::encoded;
+use crate::format::number::cost;
+use crate::model::mechanism::JointId;
+use crate::score::outcome::Outcome;
+use crate::score::variant::Variant;
+use crate::score::variants::Variants;
+use crate::search::check::other_poses::OverStroke;
+use crate::search::diagram::Stop;
+use crate::search::question::conditions::Search;
+use crate::search::question::space::choice_name;
+use crate::view::search::numeric;
+use crate::view::search::second_opinion;
+use itertools::Itertools;
+use std::io::{self, Write};
+
+/// Columns before the joints.
+const FIGURES: [&str; 6] = [
+    "position",
+    "cost",
+    "mobility",
+    "redundant",
+    "external_redundant",
+    "changes",
+];
+/// Columns after them.
+const OPINIONS: [&str; 3] = ["conditioning", "agree", "lucky"];
+/// Columns at the end.
+const MORE: [&str; 2] = ["external_harmful", "redundant_by_contour"];
+/// Columns of a ranking.
+const SCORES: [&str; 8] = [
+    "by_cost",
+    "peak_force",
+    "peak_moment",
+    "singular_ratio",
+    "output_error",
+    "idle",
+    "total",
+    "front",
+];
+
+/// Writes the variants as they come, and gives what there is to say where they are not all that was asked for.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write(
+    out: &mut dyn Write,
+    outcome: &Outcome,
+    mut variants: Variants<'_>,
+) -> io::Result<Option<String>> {
+    rows(out, outcome, &mut variants)?;
+    if let Some(found) = &outcome.numeric {
+        let all = numeric::from_to(&found.admissible);
+        let lines = numeric::lines(outcome).join("; ");
+        return Ok(Some(format!("numeric: {all} admissible variants. {lines}")));
+    }
+    if !outcome.is_confirmed() {
+        let lines = second_opinion::lines(outcome).join("; ");
+        return Ok(Some(format!(
+            "not exact: {} admissible variants. {lines}",
+            outcome.admissible
+        )));
+    }
+    if variants.stop() == Stop::Exhausted {
+        return Ok(None);
+    }
+    let proven = match variants.summary().proven {
+        Some(n) if n > 0 => format!(", the first {n} proven the cheapest"),
+        _ => String::new(),
+    };
+    let (given, of) = (variants.summary().given, &outcome.admissible);
+    let least = if outcome.is_counted() {
+        ""
+    } else {
+        "at least "
+    };
+    let why = variants.stop().word();
+    Ok(Some(format!(
+        "stopped early ({why}): {given} of {least}{of} admissible variants given{proven}"
+    )))
+}
+
+fn rows(out: &mut dyn Write, outcome: &Outcome, variants: &mut Variants<'_>) -> io::Result<()> {
+    let search = &outcome.search;
+    let joints = columns(search);
+    let mut heads: Vec<&str> = FIGURES.to_vec();
+    let names = joints
+        .iter()
+        .map(|&(_, j)| search.mechanism.joints[j].id.as_str());
+    heads.extend(names);
+    heads.extend(OPINIONS);
+    if outcome.ranking.is_some() {
+        heads.extend(SCORES);
+    }
+    heads.extend(MORE);
+    writeln!(out, "{}", heads.into_iter().map(encoded).join(","))?;
+    let mut lines = Lines {
+        text: String::new(),
+        chosen: side_by_side(search, &joints),
+        cost: (0, cost(0)),
+        digits: itoa::Buffer::new(),
+    };
+    for v in variants {
+        lines.write(outcome, &v);
+        if lines.text.len() >= ROOM {
+            out.write_all(lines.text.as_bytes())?;
+            lines.text.clear();
+        }
+    }
+    out.write_all(lines.text.as_bytes())
+}
+
+/// Bytes of lines that are written at once.
+const ROOM: usize = 1 << 16;
+
+/// Some columns of choices side by side, and their text for each combination that was come to.
+struct SideBySide {
+    /// For each column the variable, and what its choices are called.
+    columns: Vec<(usize, Vec<String>)>,
+    /// By the number that the choices make; empty before it is asked for.
+    texts: Vec<String>,
+}
+
+/// Combinations of choices whose texts are kept, in columns side by side.
+const COMBINATIONS: usize = 4096;
+
+impl SideBySide {
+    /// ",a,b" for those chosen of the variables.
+    fn text(&mut self, choices: &[usize]) -> &str {
+        let number =
+            |n, (variable, cells): &(usize, Vec<String>)| n * cells.len() + choices[*variable];
+        let text = &mut self.texts[self.columns.iter().fold(0, number)];
+        if text.is_empty() {
+            for (variable, cells) in &self.columns {
+                text.push(',');
+                text.push_str(&cells[choices[*variable]]);
+            }
+        }
+        text
+    }
+}
+
+/// The columns of joints, in groups whose combinations are few.
+fn side_by_side(search: &Search, joints: &[(usize, JointId)]) -> Vec<SideBySide> {
+    let mut out: Vec<SideBySide> = Vec::new();
+    for &(variable, j) in joints {
+        let choices = search.space.variables[variable].choices.iter();
+        let cells: Vec<String> = choices
+            .map(|c| encoded(&choice_name(&search.mechanism, j, c)))
+            .collect();
+        match out.last_mut() {
+            Some(group) if group.texts.len() * cells.len() <= COMBINATIONS => {
+                group
+                    .texts
+                    .resize(group.texts.len() * cells.len(), String::new());
+                group.columns.push((variable, cells));
+            }
+            _ => out.push(SideBySide {
+                texts: vec![String::new(); cells.len()],
+                columns: vec![(variable, cells)],
+            }),
+        }
+    }
+    out
+}
+
+/// The lines of some variants, one after another.
+struct Lines {
+    text: String,
+    /// Most of a line is what was chosen, the same few words again and again.
+    chosen: Vec<SideBySide>,
+    /// The last cost, which is often that of the next variant, too.
+    cost: (i64, String),
+    digits: itoa::Buffer,
+}
+
+impl Lines {
+    fn write(&mut self, outcome: &Outcome, v: &Variant<'_>) {
+        self.text.push_str(self.digits.format(v.position()));
+        if self.cost.0 != v.cost_milli() {
+            self.cost = (v.cost_milli(), cost(v.cost_milli()));
+        }
+        self.text.push(',');
+        self.text.push_str(&self.cost.1);
+        self.number(v.mobility());
+        self.number(v.redundant());
+        self.some(v.external_redundant());
+        self.number(v.change_count());
+        let choices = &v.assignment().choices;
+        for columns in &mut self.chosen {
+            self.text.push_str(columns.text(choices));
+        }
+        let opinion = v.second().opinion();
+        self.some(opinion.map(|o| format!("{:e}", o.conditioning)));
+        self.some(opinion.map(|o| o.agree));
+        self.some(v.over_stroke().and_then(OverStroke::lucky));
+        if outcome.ranking.is_some() {
+            match v.ranked() {
+                Some(r) => {
+                    self.number(r.by_cost);
+                    self.some(Some(r.scores.force.utilisation));
+                    self.some(Some(r.scores.moment.utilisation));
+                    self.some(Some(r.scores.conditioning));
+                    self.some(Some(r.scores.output_error));
+                    self.number(r.scores.idle);
+                    self.some(r.total);
+                    self.some(r.front);
+                }
+                None => self.text.extend(SCORES.map(|_| ',')),
+            }
+        }
+        self.some(v.external_harmful());
+        self.text.push(',');
+        self.text.push_str(&encoded(&contours(v)));
+        self.text.push('\n');
+    }
+
+    fn number(&mut self, n: impl itoa::Integer) {
+        self.text.push(',');
+        self.text.push_str(self.digits.format(n));
+    }
+
+    fn some(&mut self, value: Option<impl ToString>) {
+        self.text.push(',');
+        if let Some(x) = value {
+            self.text.push_str(&x.to_string());
+        }
+    }
+}
+
+/// "0-1-2-3: 1 (0 to 1); 0-1-6-7: 0 (0 to 1)": σ of the contours that may have any, in the order they are added in.
+fn contours(v: &Variant<'_>) -> String {
+    let shares = v.redundant_by_contour().into_iter().flatten();
+    let some = shares.filter(|(_, s)| s.range.1 > 0);
+    some.map(|(name, s)| format!("{name}: {} ({} to {})", s.redundant, s.range.0, s.range.1))
+        .join("; ")
+}
+
+/// The joints that have a choice, in file order: (variable, joint).
+fn columns(search: &Search) -> Vec<(usize, JointId)> {
+    let variables = search.space.variables.iter().enumerate();
+    let choosing = variables.filter(|(_, v)| v.choices.len() > 1);
+    let mut out: Vec<_> = choosing
+        .flat_map(|(v, variable)| variable.joints.iter().map(move |&j| (v, j)))
+        .collect();
+    out.sort_by_key(|&(_, j)| j);
+    out
+}

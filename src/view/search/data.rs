@@ -1,0 +1,383 @@
+//! A search as data: the keys are a stable contract, in this order. Counts are strings, since they outgrow 2^53.
+
+use crate::format::number::cost;
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::rank::rounded::verdict::Verdict;
+use crate::score::outcome::Outcome;
+use crate::score::prepared::LooksRounded;
+use crate::score::variants::Variants;
+use crate::search::answer::why_none::{Hopeless, Relaxation};
+use crate::search::build::Diagrams;
+use crate::search::diagram::{Diagram, Stop};
+use crate::view::search::numeric::NumericData;
+use crate::view::search::ranking::RankingData;
+use crate::view::search::second_opinion::{SecondOpinionData, certainty};
+use crate::view::search::stopped_early::EstimateData;
+use num_bigint::BigUint;
+use serde::{Serialize, Serializer};
+use std::collections::BTreeMap;
+
+/// Counts by a property.
+#[derive(Debug)]
+struct By<'a, K>(&'a BTreeMap<K, BigUint>);
+
+impl<K: Serialize> Serialize for By<'_, K> {
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        s.collect_map(self.0.iter().map(|(k, n)| (k, n.to_string())))
+    }
+}
+
+/// Counts by W, each by number of changes.
+#[derive(Debug)]
+struct ByBoth<'a>(&'a BTreeMap<(i64, u32), BigUint>);
+
+impl Serialize for ByBoth<'_> {
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        let mut nested: BTreeMap<i64, BTreeMap<u32, String>> = BTreeMap::new();
+        for ((w, c), n) in self.0 {
+            nested.entry(*w).or_default().insert(*c, n.to_string());
+        }
+        nested.serialize(s)
+    }
+}
+
+/// Counts by cost, the cheapest first.
+#[derive(Debug)]
+struct ByCost(BTreeMap<i64, BigUint>);
+
+impl Serialize for ByCost {
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        s.collect_map(self.0.iter().map(|(c, n)| (cost(*c), n.to_string())))
+    }
+}
+
+/// Everything but the variants.
+#[derive(Debug, Serialize)]
+pub struct SearchData<'a> {
+    mechanism: &'a str,
+    space: String,
+    determinate: String,
+    determinate_exact: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    determinate_estimate: Option<EstimateData>,
+    by_mobility: By<'a, i64>,
+    by_mobility_and_changes: ByBoth<'a>,
+    by_redundant: By<'a, u32>,
+    by_changes: By<'a, u32>,
+    by_freedoms: By<'a, u32>,
+    admissible: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    admissible_estimate: Option<EstimateData>,
+    admissible_by_mobility: By<'a, i64>,
+    admissible_by_mobility_and_changes: ByBoth<'a>,
+    admissible_by_redundant: By<'a, u32>,
+    admissible_by_changes: By<'a, u32>,
+    admissible_by_freedoms: By<'a, u32>,
+    admissible_by_cost: ByCost,
+    largest_layer: Option<usize>,
+    nodes: Option<usize>,
+    /// Rows of the closure equations for each contour, in each part that has diagrams of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rows_per_contour: Option<Vec<usize>>,
+    determinate_diagram: Size,
+    admissible_diagram: Size,
+    stop: &'static str,
+    check: Option<Check>,
+    measured: Option<Measured<'a>>,
+    poses: Option<Poses>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ranking: Option<RankingData<'a>>,
+    exact: bool,
+    /// How sure counts are that are not exact, and not cut short.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certainty: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    numeric: Option<NumericData>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    second_opinion: Option<SecondOpinionData>,
+    /// Counts that would take more than the memory allowed.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    left_out: Vec<&'static str>,
+}
+
+#[derive(Debug, Serialize)]
+struct Size {
+    largest_layer: Option<usize>,
+    nodes: Option<usize>,
+}
+
+#[derive(Debug, Serialize)]
+struct Check {
+    primes: [String; 2],
+    agree: Option<bool>,
+}
+
+#[derive(Debug, Serialize)]
+struct Poses {
+    asked: usize,
+    reached: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct Measured<'a> {
+    coordinates: usize,
+    example: Example<'a>,
+    tolerance: f64,
+    agree: bool,
+    states: Vec<Ranks<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct Example<'a> {
+    place: &'a str,
+    value: &'a str,
+}
+
+#[derive(Debug, Serialize)]
+struct Ranks<'a> {
+    state: &'a str,
+    exact: Figures,
+    svd: Figures,
+    smallest_kept: f64,
+    largest_dropped: f64,
+    /// Which mechanism is meant, and so searched: "as written", "snapped", "near", "undecided".
+    meant: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct Figures {
+    mobility: usize,
+    redundant: usize,
+}
+
+impl<'a> SearchData<'a> {
+    /// Of an outcome.
+    #[must_use]
+    pub fn new(outcome: &'a Outcome) -> Self {
+        let (determinate, admissible) = (&outcome.determinate, &outcome.admissible);
+        let sizes = |of: fn(&Diagrams) -> &Diagram| {
+            let diagram = outcome.diagrams.as_ref().map(of);
+            Size {
+                largest_layer: diagram.map(|d| d.largest_layer),
+                nodes: diagram.map(|d| d.nodes),
+            }
+        };
+        let estimates = outcome.estimates();
+        let by_cost = outcome.admissible_by_cost();
+        let left_out = [
+            (determinate.only_total || admissible.only_total).then_some("counts by kind"),
+            by_cost.is_none().then_some("counts by cost"),
+        ];
+        let (first, second) = (sizes(|d| &d.determinate), sizes(|d| &d.admissible));
+        let mechanism = &outcome.search.mechanism;
+        SearchData {
+            mechanism: &mechanism.name,
+            space: outcome.search.size().to_string(),
+            determinate: determinate.to_string(),
+            determinate_exact: outcome.is_determinate_exact(),
+            determinate_estimate: estimates[0].map(EstimateData::from),
+            by_mobility: By(&determinate.by_mobility),
+            by_mobility_and_changes: ByBoth(&determinate.by_mobility_and_changes),
+            by_redundant: By(&determinate.by_redundant),
+            by_changes: By(&determinate.by_changes),
+            by_freedoms: By(&determinate.by_freedoms),
+            admissible: admissible.to_string(),
+            admissible_estimate: estimates[1].map(EstimateData::from),
+            admissible_by_mobility: By(&admissible.by_mobility),
+            admissible_by_mobility_and_changes: ByBoth(&admissible.by_mobility_and_changes),
+            admissible_by_redundant: By(&admissible.by_redundant),
+            admissible_by_changes: By(&admissible.by_changes),
+            admissible_by_freedoms: By(&admissible.by_freedoms),
+            admissible_by_cost: ByCost(by_cost.unwrap_or_default()),
+            largest_layer: first.largest_layer.max(second.largest_layer),
+            nodes: first.nodes.zip(second.nodes).map(|(a, b)| a + b),
+            rows_per_contour: outcome
+                .diagrams
+                .as_ref()
+                .map(|d| d.rows_per_contour.clone()),
+            determinate_diagram: first,
+            admissible_diagram: second,
+            stop: outcome.stop.word(),
+            check: outcome.check.map(|c| Check {
+                primes: c.primes.map(|p| p.to_string()),
+                // Two primes that agree on rounded digits prove nothing.
+                agree: c.agree().filter(|_| outcome.is_confirmed()),
+            }),
+            measured: outcome.measured.as_ref().map(Measured::new),
+            poses: outcome.stroke.as_ref().map(|s| Poses {
+                asked: s.asked,
+                reached: s.reached(),
+            }),
+            ranking: outcome
+                .ranking
+                .as_ref()
+                .map(|p| RankingData::new(mechanism, p)),
+            exact: outcome.is_exact(),
+            certainty: certainty(outcome),
+            numeric: outcome.numeric.as_ref().map(NumericData::new),
+            second_opinion: SecondOpinionData::new(outcome),
+            left_out: left_out.into_iter().flatten().collect(),
+        }
+    }
+}
+
+impl<'a> Measured<'a> {
+    fn new((why, verdicts): &'a LooksRounded) -> Self {
+        let figures = |(mobility, redundant)| Figures {
+            mobility,
+            redundant,
+        };
+        let states = verdicts.iter().map(|v| Ranks {
+            state: &v.state,
+            exact: figures(v.figures(v.as_written)),
+            svd: figures(v.figures(v.at_least())),
+            smallest_kept: v.numeric.unwrap_or_default().kept,
+            largest_dropped: v.numeric.unwrap_or_default().dropped,
+            meant: v.word(),
+        });
+        Measured {
+            coordinates: why.coordinates,
+            example: Example {
+                place: &why.place,
+                value: &why.value,
+            },
+            tolerance: verdicts.iter().fold(0.0, |a, v| a.max(v.tolerance)),
+            agree: verdicts.iter().all(Verdict::agrees),
+            states: states.collect(),
+        }
+    }
+}
+
+/// What follows the variants.
+#[derive(Debug, Serialize)]
+pub struct TailData<'a> {
+    variants_complete: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    variants_stop: Option<&'static str>,
+    /// How many, from the first on, are proven to be the cheapest, where the search ended early.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    variants_proven: Option<usize>,
+    variants_checked: usize,
+    variants_disagreeing: usize,
+    variants_check_failed: usize,
+    variants_posed: usize,
+    variants_lucky: usize,
+    variants_dropped: usize,
+    #[serde(flatten)]
+    none: Option<NoneData<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seconds: Option<f64>,
+}
+
+/// Where there is no variant: what easing would leave, and what stands in the way of all.
+#[derive(Debug, Serialize)]
+pub struct NoneData<'a> {
+    relaxations: Vec<EasedData>,
+    least_redundant: Option<usize>,
+    unchanged: Vec<&'a str>,
+    frozen: Vec<&'a str>,
+}
+
+impl<'a> NoneData<'a> {
+    /// Of an outcome without variants.
+    #[must_use]
+    pub fn new(m: &'a Mechanism, eased: &[(Relaxation, BigUint)], why: &Hopeless) -> Self {
+        let one = |(how, n): &(Relaxation, BigUint)| {
+            let (condition, to) = condition(*how);
+            EasedData {
+                condition,
+                to: to.map_or(Bound::Yes(true), Bound::Number),
+                admissible: n.to_string(),
+            }
+        };
+        let named = |joints: &[JointId]| {
+            let ids = joints.iter().map(|&j| m.joints[j].id.as_str());
+            ids.collect()
+        };
+        NoneData {
+            relaxations: eased.iter().map(one).collect(),
+            least_redundant: why.least_redundant,
+            unchanged: named(&why.unchanged),
+            frozen: named(&why.frozen),
+        }
+    }
+}
+
+#[derive(Debug, Serialize)]
+struct EasedData {
+    condition: &'static str,
+    to: Bound,
+    admissible: String,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Bound {
+    Number(i64),
+    Yes(bool),
+}
+
+impl<'a> TailData<'a> {
+    /// Of variants that were given, as far as it went; `seconds` is how long all of it took.
+    #[must_use]
+    pub fn new(variants: &Variants<'_>, none: Option<NoneData<'a>>, seconds: Option<f64>) -> Self {
+        let summary = variants.summary();
+        let stop = variants.cut_short();
+        TailData {
+            variants_complete: stop.is_none(),
+            variants_stop: stop.map(Stop::word),
+            variants_proven: summary.proven,
+            variants_checked: summary.checked,
+            variants_disagreeing: summary.disagreeing,
+            variants_check_failed: summary.failed,
+            variants_posed: summary.posed,
+            variants_lucky: summary.lucky,
+            variants_dropped: summary.dropped,
+            none,
+            seconds,
+        }
+    }
+}
+
+/// The last of some JSON lines, where the variants are not all that was asked for.
+#[derive(Debug, Serialize)]
+pub struct EndData {
+    stop: &'static str,
+    given: usize,
+    proven: usize,
+    admissible: String,
+    admissible_exact: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certainty: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    numeric: Option<NumericData>,
+}
+
+impl EndData {
+    /// Of variants that were given, as far as it went.
+    #[must_use]
+    pub fn new(outcome: &Outcome, variants: &Variants<'_>) -> Self {
+        EndData {
+            stop: variants.stop().word(),
+            given: variants.summary().given,
+            proven: variants.summary().proven.unwrap_or(0),
+            admissible: outcome.admissible.to_string(),
+            admissible_exact: outcome.is_exact(),
+            certainty: certainty(outcome),
+            numeric: outcome.numeric.as_ref().map(NumericData::new),
+        }
+    }
+}
+
+/// The flag of a condition that was eased, and the number it is eased to.
+pub(in crate::view) fn condition(how: Relaxation) -> (&'static str, Option<i64>) {
+    match how {
+        Relaxation::Redundant(n) => ("max-redundant", Some(i64::from(n))),
+        Relaxation::External(n) => ("max-external", Some(i64::from(n))),
+        Relaxation::Harmful(n) => ("max-harmful", Some(i64::from(n))),
+        Relaxation::Mobility(n) => ("max-mobility", Some(n)),
+        Relaxation::Changes(n) => ("max-changes", Some(i64::from(n))),
+        Relaxation::OutputChange => ("allow-output-change", None),
+        Relaxation::LooseObject => ("allow-loose-object", None),
+    }
+}

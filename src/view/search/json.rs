@@ -1,0 +1,62 @@
+//! A search as JSON, and its variants as JSON lines, written as they come.
+
+use crate::score::outcome::Outcome;
+use crate::score::variants::Variants;
+use crate::search::answer::why_none::{Hopeless, Relaxation};
+use crate::search::diagram::Stop;
+use crate::view::search::data::{EndData, NoneData, SearchData, TailData};
+use crate::view::search::variant::VariantData;
+use num_bigint::BigUint;
+use num_traits::Zero;
+use std::io::{self, Write};
+
+/// Writes an outcome with its variants as one value; `eased` is told where there is none, `seconds` where somebody has a
+/// clock, asked once all else is written. No other key differs between runs.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write(
+    out: &mut dyn Write,
+    outcome: &Outcome,
+    mut variants: Variants<'_>,
+    (eased, why): (&[(Relaxation, BigUint)], &Hopeless),
+    seconds: Option<&dyn Fn() -> f64>,
+) -> io::Result<()> {
+    // Variants stream: the closing brace of the header waits for them.
+    let text = serde_json::to_string_pretty(&SearchData::new(outcome))?;
+    let open = text.strip_suffix("\n}").unwrap_or(&text);
+    write!(out, "{open},\n  \"variants\": [")?;
+    for v in variants.by_ref() {
+        let comma = if v.position() == 1 { "" } else { "," };
+        write!(out, "{comma}\n    ")?;
+        serde_json::to_writer(&mut *out, &VariantData::new(outcome, &v))?;
+    }
+    let m = &outcome.search.mechanism;
+    let none = outcome.admissible.total.is_zero();
+    let none = none.then(|| NoneData::new(m, eased, why));
+    let seconds = seconds.map(|s| s());
+    let tail = TailData::new(&variants, none, seconds);
+    let text = serde_json::to_string_pretty(&tail)?;
+    let rest = text.strip_prefix("{\n").unwrap_or(&text);
+    writeln!(out, "\n  ],\n{rest}")
+}
+
+/// Writes the variants, one a line, and a last line that says why where they are not all that was asked for.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_lines(
+    out: &mut dyn Write,
+    outcome: &Outcome,
+    mut variants: Variants<'_>,
+) -> io::Result<()> {
+    for v in variants.by_ref() {
+        serde_json::to_writer(&mut *out, &VariantData::new(outcome, &v))?;
+        writeln!(out)?;
+    }
+    if variants.stop() != Stop::Exhausted || outcome.numeric.is_some() || !outcome.is_confirmed() {
+        serde_json::to_writer(&mut *out, &EndData::new(outcome, &variants))?;
+        writeln!(out)?;
+    }
+    Ok(())
+}

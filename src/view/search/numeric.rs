@@ -1,0 +1,197 @@
+//! A search by singular values: counts between what is sure and what may be, as text and as data.
+
+use crate::format::number::grouped;
+use crate::score::outcome::Outcome;
+use crate::search::answer::counts::Counts;
+use crate::search::numeric::at_tolerance::{AtTolerance, Bracket, Sampled, Share};
+use num_bigint::BigUint;
+use num_traits::Zero;
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+
+fn big(n: &BigUint) -> String {
+    grouped(&n.to_string())
+}
+
+/// "12", or "12 to 15".
+#[must_use]
+pub(in crate::view) fn from_to(bracket: &Bracket) -> String {
+    let from = &bracket.sure.total;
+    if bracket.is_narrow() {
+        return big(from);
+    }
+    format!("{} to {}", big(from), big(&bracket.most))
+}
+
+/// How many admissible variants there are: "12", or "12 to 15".
+#[must_use]
+pub fn admissible(outcome: &Outcome) -> String {
+    match &outcome.numeric {
+        Some(found) => from_to(&found.admissible),
+        None => big(&outcome.admissible.total),
+    }
+}
+
+/// The counts by mobility as a person reads them: "12", or "12 to 15".
+#[must_use]
+pub(in crate::view) fn by_mobility(bracket: &Bracket, of: &[i64]) -> String {
+    let sum = |c: &Counts| -> BigUint { of.iter().filter_map(|w| c.by_mobility.get(w)).sum() };
+    let (sure, doubtful) = (sum(&bracket.sure), sum(&bracket.doubtful));
+    match doubtful.is_zero() {
+        true => big(&sure),
+        false => format!("{} to {}", big(&sure), big(&(&sure + doubtful))),
+    }
+}
+
+/// The mobilities that some variant has or may have.
+pub(in crate::view) fn mobilities(found: &AtTolerance) -> BTreeSet<i64> {
+    let brackets = [&found.determinate, &found.admissible];
+    let counts = brackets.into_iter().flat_map(|b| [&b.sure, &b.doubtful]);
+    counts.flat_map(|c| c.by_mobility.keys().copied()).collect()
+}
+
+/// What is said of a search by singular values, a sentence a line; none of an exact one.
+#[must_use]
+pub fn lines(outcome: &Outcome) -> Vec<String> {
+    let Some(found) = &outcome.numeric else {
+        return Vec::new();
+    };
+    let tolerance = found.digits.tolerance;
+    let looked = grouped(&found.looked.to_string());
+    let mut out = vec![format!(
+        "Numeric, not exact: ranks by singular values at tolerance {tolerance:.0e}, {looked} variants looked at"
+    )];
+    if found.digits.undecided {
+        out.push(
+            "It is not decided what the mechanism is meant to be: small values may be zero or not"
+                .to_owned(),
+        );
+    }
+    let doubtful = &found.admissible.doubtful.total;
+    if !doubtful.is_zero() {
+        out.push(format!(
+            "Doubtful: the digits do not decide {} of them; these are counted in the upper figures and not listed",
+            big(doubtful)
+        ));
+    }
+    if let Some(s) = &found.sampled {
+        out.extend(sampled(s, outcome));
+    }
+    out
+}
+
+#[allow(clippy::cast_precision_loss, reason = "an estimate")]
+fn sampled(s: &Sampled, outcome: &Outcome) -> Vec<String> {
+    let size: f64 = outcome
+        .search
+        .size()
+        .to_string()
+        .parse()
+        .unwrap_or(f64::INFINITY);
+    let said = |share: Share, what: &str| {
+        format!(
+            "{what} {:.2e} ({:.2e} to {:.2e})",
+            share.mean * size,
+            share.low * size,
+            share.high * size
+        )
+    };
+    let mut out = vec![format!(
+        "Estimated from {} variants drawn at random (--seed {}), with 95 % confidence: {}, {}",
+        grouped(&s.drawn.to_string()),
+        s.seed,
+        said(s.admissible, "admissible"),
+        said(s.determinate, "determinate")
+    )];
+    let in_order = grouped(&s.in_order.to_string());
+    out.push(match s.all_below {
+        Some(milli) => format!(
+            "The list is of the {in_order} cheapest variants, which are all of a cost below {}",
+            crate::format::number::cost(milli)
+        ),
+        None => {
+            "Costs differ too finely to look at variants in their order: none is listed".to_owned()
+        }
+    });
+    out
+}
+
+/// A search by singular values as data.
+#[derive(Debug, Serialize)]
+pub(in crate::view) struct NumericData {
+    tolerance: f64,
+    undecided: bool,
+    looked_at: u64,
+    determinate: BracketData,
+    admissible: BracketData,
+    admissible_by_mobility: BTreeMap<i64, BracketData>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sample: Option<SampleData>,
+}
+
+#[derive(Debug, Serialize)]
+struct BracketData {
+    from: String,
+    to: String,
+    doubtful: String,
+}
+
+#[derive(Debug, Serialize)]
+struct SampleData {
+    drawn: usize,
+    seed: u64,
+    confidence: f64,
+    determinate_share: [f64; 3],
+    admissible_share: [f64; 3],
+    in_order: usize,
+    all_below_cost: Option<f64>,
+}
+
+impl NumericData {
+    pub(in crate::view) fn new(found: &AtTolerance) -> NumericData {
+        let bracket = |b: &Bracket| BracketData {
+            from: b.sure.total.to_string(),
+            to: b.most.to_string(),
+            doubtful: b.doubtful.total.to_string(),
+        };
+        let unseen = {
+            let b = &found.admissible;
+            &b.most - &b.sure.total - &b.doubtful.total
+        };
+        let of = |w: i64| {
+            let one = |c: &Counts| c.by_mobility.get(&w).cloned().unwrap_or_default();
+            let (sure, doubtful) = (one(&found.admissible.sure), one(&found.admissible.doubtful));
+            let data = BracketData {
+                to: (&sure + &doubtful + &unseen).to_string(),
+                from: sure.to_string(),
+                doubtful: doubtful.to_string(),
+            };
+            (w, data)
+        };
+        let admissible = [&found.admissible.sure, &found.admissible.doubtful];
+        let mobilities: BTreeSet<i64> = admissible
+            .into_iter()
+            .flat_map(|c| c.by_mobility.keys().copied())
+            .collect();
+        let share = |s: Share| [s.mean, s.low, s.high];
+        #[allow(clippy::cast_precision_loss, reason = "costs are small")]
+        let sample = found.sampled.as_ref().map(|s| SampleData {
+            drawn: s.drawn,
+            seed: s.seed,
+            confidence: 0.95,
+            determinate_share: share(s.determinate),
+            admissible_share: share(s.admissible),
+            in_order: s.in_order,
+            all_below_cost: s.all_below.map(|milli| milli as f64 / 1000.0),
+        });
+        NumericData {
+            tolerance: found.digits.tolerance,
+            undecided: found.digits.undecided,
+            looked_at: found.looked,
+            determinate: bracket(&found.determinate),
+            admissible: bracket(&found.admissible),
+            admissible_by_mobility: mobilities.into_iter().map(of).collect(),
+            sample,
+        }
+    }
+}

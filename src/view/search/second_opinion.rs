@@ -1,0 +1,205 @@
+//! What singular values of the coordinates in a file say of the counts of a search, as text and as data.
+
+use crate::format::number::grouped;
+use crate::score::outcome::Outcome;
+use crate::score::variant::{changes, in_words};
+use crate::search::answer::count_tables::Key;
+use crate::search::answer::k_best::Assignment;
+use crate::search::check::second_opinion::{Asked, Contradiction, SecondOpinion};
+use serde::Serialize;
+
+/// How sure counts are that are not exact though no budget cut them short.
+pub(in crate::view) fn certainty(outcome: &Outcome) -> Option<&'static str> {
+    match (&outcome.numeric, &outcome.second) {
+        (Some(_), _) => Some("numeric"),
+        (None, Some(s)) if !s.agrees() => Some("contradicted"),
+        (None, Some(s)) if !s.confirms() => Some("undecided"),
+        _ => None,
+    }
+}
+
+/// The changes of a variant in words.
+fn words(outcome: &Outcome, choices: &[usize]) -> String {
+    let search = &outcome.search;
+    let variant = Assignment {
+        choices: choices.to_vec(),
+        key: Key::default(),
+    };
+    in_words(search, &changes(search, &variant))
+}
+
+fn range([a, b]: [i64; 2]) -> String {
+    if a == b {
+        a.to_string()
+    } else {
+        format!("{a} to {b}")
+    }
+}
+
+fn contradicted(outcome: &Outcome, c: &Contradiction) -> String {
+    let [least, most] = c.numeric;
+    let what = if c.elsewhere {
+        "other motions of the kept links, or in the searched state".to_owned()
+    } else {
+        format!(
+            "W = {}, σ = {}",
+            range([least.0, most.0]),
+            range([least.1, most.1])
+        )
+    };
+    format!(
+        "singular values contradict at variant ({}): {what}, where W = {}, σ = {} is counted (smallest kept {:.1e}, largest \
+         dropped {:.1e})",
+        words(outcome, &c.choices),
+        c.exact.0,
+        c.exact.1,
+        c.gap.0,
+        c.gap.1
+    )
+}
+
+/// Why counts are not exact though everything was looked at, a sentence a line; nothing where they are.
+#[must_use]
+pub fn against(outcome: &Outcome) -> Vec<String> {
+    let Some(said) = &outcome.second else {
+        return Vec::new();
+    };
+    let mut out = Vec::new();
+    if let Some(c) = &said.contradiction {
+        let n = said.listed.contradicted + said.admissible.contradicted + said.all.contradicted;
+        let of = said.listed.asked + said.admissible.asked + said.all.asked;
+        let variant = contradicted(outcome, c);
+        out.push(format!(
+            "Not exact: {variant}; {} of {} asked about are contradicted",
+            grouped(&n.to_string()),
+            grouped(&of.to_string())
+        ));
+    }
+    if let Some(b) = &said.below_present {
+        out.push(format!(
+            "Not exact: {} variants have W below {}, which the mechanism has as it is, though options only add freedoms",
+            grouped(&b.variants.to_string()),
+            b.present
+        ));
+    }
+    if let Some([least, most]) = &said.scenes {
+        let range = |a: &num_bigint::BigUint, b: &num_bigint::BigUint| {
+            let [a, b] = [a, b].map(|x| grouped(&x.to_string()));
+            if a == b { a } else { format!("{a} to {b}") }
+        };
+        out.push(format!(
+            "Not exact: the digits allow scenes with {} determinate and {} admissible variants; give more digits, or state \
+             [tolerance]",
+            range(&least.0, &most.0),
+            range(&least.1, &most.1)
+        ));
+    }
+    if out.is_empty() && !said.confirms() {
+        out.push("Not exact: it is not decided what the digits of the file mean".to_owned());
+    }
+    out
+}
+
+/// What the second opinion is, a sentence a line; nothing where none was needed.
+#[must_use]
+pub fn lines(outcome: &Outcome) -> Vec<String> {
+    let mut out = against(outcome);
+    if let Some(said) = outcome.second.as_ref().filter(|s| s.agrees()) {
+        out.push(agreed(said));
+    }
+    out
+}
+
+fn agreed(said: &SecondOpinion) -> String {
+    let n = |n: usize| grouped(&n.to_string());
+    let undecided = [said.listed, said.admissible, said.all]
+        .iter()
+        .map(|a| a.undecided)
+        .sum::<usize>();
+    let open = match undecided {
+        0 => String::new(),
+        many => format!("; the digits do not decide {} of them", n(many)),
+    };
+    format!(
+        "Singular values of the coordinates in the file, at tolerance {:.0e}, contradict at none of {} listed, {} admissible and \
+         {} of all variants drawn (narrowest gap {:.0e}{open})",
+        said.digits.tolerance,
+        n(said.listed.asked),
+        n(said.admissible.asked),
+        n(said.all.asked),
+        said.narrowest
+    )
+}
+
+/// The second opinion as data.
+#[derive(Debug, Serialize)]
+pub(in crate::view) struct SecondOpinionData {
+    agree: bool,
+    undecided: bool,
+    tolerance: f64,
+    listed: AskedData,
+    admissible: AskedData,
+    all: AskedData,
+    /// None where no singular value was dropped.
+    narrowest_gap: Option<f64>,
+    contradiction: Option<ContradictionData>,
+    below_present: Option<String>,
+    /// The least and the most (determinate, admissible) of scenes that the digits do not rule out, where they differ.
+    scenes: Option<[[String; 2]; 2]>,
+}
+
+#[derive(Debug, Serialize)]
+struct AskedData {
+    asked: usize,
+    undecided: usize,
+    contradicted: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct ContradictionData {
+    changes: String,
+    mobility: i64,
+    redundant: i64,
+    svd_mobility: [i64; 2],
+    svd_redundant: [i64; 2],
+    smallest_kept: f64,
+    largest_dropped: f64,
+}
+
+impl SecondOpinionData {
+    pub(in crate::view) fn new(outcome: &Outcome) -> Option<SecondOpinionData> {
+        let said = outcome.second.as_ref()?;
+        let asked = |a: Asked| AskedData {
+            asked: a.asked,
+            undecided: a.undecided,
+            contradicted: a.contradicted,
+        };
+        let contradiction = said.contradiction.as_ref().map(|c| {
+            let [least, most] = c.numeric;
+            ContradictionData {
+                changes: words(outcome, &c.choices),
+                mobility: c.exact.0,
+                redundant: c.exact.1,
+                svd_mobility: [least.0, most.0],
+                svd_redundant: [least.1, most.1],
+                smallest_kept: c.gap.0,
+                largest_dropped: c.gap.1,
+            }
+        });
+        Some(SecondOpinionData {
+            agree: said.agrees(),
+            undecided: said.digits.undecided,
+            tolerance: said.digits.tolerance,
+            listed: asked(said.listed),
+            admissible: asked(said.admissible),
+            all: asked(said.all),
+            narrowest_gap: Some(said.narrowest).filter(|g| g.is_finite()),
+            contradiction,
+            below_present: said.below_present.as_ref().map(|b| b.variants.to_string()),
+            scenes: said
+                .scenes
+                .as_ref()
+                .map(|s| s.each_ref().map(|(a, b)| [a.to_string(), b.to_string()])),
+        })
+    }
+}

@@ -1,0 +1,448 @@
+//! A search for people.
+
+use crate::format::number::grouped;
+use crate::robots::is_description;
+use crate::score::outcome::Outcome;
+use crate::score::request::{List, Request};
+use crate::score::variant::Variant;
+use crate::score::variants::Variants;
+use crate::search::answer::why_none::{Hopeless, Relaxation};
+use crate::search::check::second_prime::Verdict;
+use crate::search::check::singular_values::{NEARLY_SINGULAR, Second, Summary};
+use crate::view::search::conditions::{hopeless, in_state};
+use crate::view::search::data::condition;
+use crate::view::search::numeric;
+use crate::view::search::ranking;
+use crate::view::search::second_opinion;
+use crate::view::search::stopped_early;
+use crate::view::search::table::{contours, variants};
+use crate::view::terminal::layout::{fit, table};
+use crate::view::terminal::next_commands::{self, Step, file_name};
+use itertools::Itertools;
+use num_bigint::BigUint;
+use num_traits::Zero;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::io;
+
+/// Rows of mobilities told at most; JSON and the page have them all.
+const MOBILITIES: usize = 12;
+/// Variants a table holds at most.
+const BLOCK: usize = 1000;
+
+/// Writes an outcome with its variants as they come, and what to do next; `eased` is told where there is none, and why there can be none. `file` is
+/// the argument that named the mechanism.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write(
+    out: &mut dyn io::Write,
+    outcome: &Outcome,
+    mut given: Variants<'_>,
+    (eased, why): (&[(Relaxation, BigUint)], &Hopeless),
+    file: &str,
+    width: Option<u16>,
+) -> io::Result<()> {
+    write!(out, "{}", counts(outcome, width))?;
+    let helps = why.least_redundant.and_then(|_| outcome.would_help());
+    let why = hopeless(&outcome.search.mechanism, why);
+    write!(out, "{}", fit(&why, width))?;
+    let sample = matches!(outcome.request.list, List::Sample(_));
+    let what = match &outcome.ranking {
+        Some(p) => ranking::head(p),
+        None if sample => "drawn at random".to_owned(),
+        None if outcome.request.distinct => {
+            "ideas, cheapest first, each by its first variant; it stands for all that give the same freedoms to the same joints in series".to_owned()
+        }
+        None => "cheapest first".to_owned(),
+    };
+    let (mut footnotes, mut changed) = (Vec::new(), false);
+    // A table is laid out as a whole, so a long list is given as several.
+    loop {
+        let block = given.by_ref().take(BLOCK).collect_vec();
+        let Some(first) = block.first() else { break };
+        if first.position() == 1 {
+            changed = first.cost_milli() > 0;
+            write!(out, "{}", fit(&format!("\n  {what}:\n"), width))?;
+        }
+        writeln!(out, "{}", variants(outcome, &block, width))?;
+        // Shares of contours are found in exact arithmetic.
+        if outcome.numeric.is_none() {
+            write!(out, "{}", contours(&block, width))?;
+        }
+        footnotes.extend(block.iter().filter_map(note));
+    }
+    let summary = given.summary();
+    let lines = notes(&summary).into_iter();
+    let notes = lines.chain(marked(footnotes)).map(|l| format!("  {l}\n"));
+    let gap = if summary.is_asked() || summary.proven.is_some_and(|n| n > 0) {
+        "\n"
+    } else {
+        ""
+    };
+    write!(out, "{gap}{}", fit(&notes.collect::<String>(), width))?;
+    if let Some(p) = &outcome.ranking {
+        let m = &outcome.search.mechanism;
+        let lines = ranking::notes(m, p).into_iter();
+        let notes = lines
+            .chain(ranking::reasons(m, p))
+            .map(|l| format!("\n  {l}"));
+        writeln!(out, "{}", fit(&notes.collect::<String>(), width))?;
+    }
+    if let Some(stop) = given.cut_short() {
+        let (why, given) = (stop.word(), summary.given);
+        writeln!(out, "\n  stopped early ({why}) after {given} variants")?;
+    }
+    // Numbers of a sample, or of a list with some left out, mean nothing to other commands.
+    let undecided = summary.given == 0 && outcome.admissible_may_be_more();
+    let steps = match outcome.request.generic_only || undecided {
+        true => Vec::new(),
+        false => next(
+            outcome,
+            (if sample { 0 } else { summary.given }, changed),
+            (eased, helps),
+            file,
+        ),
+    };
+    write!(out, "{}", next_commands::text(&steps, width))
+}
+
+/// The verdict, how it was checked, and the counts by mobility.
+#[must_use]
+fn counts(outcome: &Outcome, width: Option<u16>) -> String {
+    let mut out = String::new();
+    let big = |n: &BigUint| grouped(&n.to_string());
+    let at_least = |exact: bool| if exact { "" } else { "at least " };
+    let least = at_least(outcome.is_counted());
+    let conditions = &outcome.search.conditions;
+    let condition = if conditions.max_redundant == 0 {
+        "σ = 0".to_owned()
+    } else {
+        format!("σ ≤ {}", conditions.max_redundant)
+    };
+    let (mechanism, size) = (&outcome.search.mechanism.name, outcome.search.size());
+    let more = [
+        conditions
+            .keep_output
+            .then_some("keep the output motion".to_owned()),
+        conditions.max_mobility.map(|w| format!("have W ≤ {w}")),
+        conditions
+            .max_changes
+            .map(|c| format!("change at most {c} joints")),
+    ];
+    let more = more.into_iter().flatten();
+    let more = more.chain(in_state(&outcome.search, false)).collect_vec();
+    let all = match more.split_last() {
+        None => format!("have {condition}"),
+        Some((last, rest)) => {
+            let head = std::iter::once(format!("have {condition}")).chain(rest.iter().cloned());
+            format!("{} and {last}", head.collect_vec().join(", "))
+        }
+    };
+    let good = if let Some(found) = &outcome.numeric {
+        format!("numeric: {}", numeric::from_to(&found.admissible))
+    } else if outcome.admissible.total.is_zero() && least.is_empty() {
+        "none".to_owned()
+    } else if !outcome.is_confirmed() {
+        format!("not exact: {least}{}", big(&outcome.admissible.total))
+    } else {
+        format!("{least}{}", big(&outcome.admissible.total))
+    };
+    // Writing to a string cannot fail.
+    let _ = writeln!(out, "{mechanism}: {good} of {} variants {all}", big(&size));
+    if size == BigUint::from(1u8) {
+        let _ = writeln!(
+            out,
+            "  no joint has an option with more freedoms than it has: list some under [search], such as options = \
+             [\"cylindrical\", \"spherical\"]"
+        );
+    }
+    if !more.is_empty() {
+        let determinate = match &outcome.numeric {
+            Some(found) => numeric::from_to(&found.determinate),
+            None => {
+                at_least(outcome.is_determinate_counted()).to_owned()
+                    + &big(&outcome.determinate.total)
+            }
+        };
+        let _ = writeln!(
+            out,
+            "  {determinate} with {condition}, whatever else they do"
+        );
+    }
+    for line in numeric::lines(outcome) {
+        let _ = writeln!(out, "  {line}");
+    }
+    for line in second_opinion::lines(outcome) {
+        let _ = writeln!(out, "  {line}");
+    }
+    // Two primes that agree on rounded digits prove nothing.
+    if let Some(check) = outcome.check.filter(|_| outcome.is_confirmed()) {
+        let _ = match check.verdict {
+            Verdict::Agree => writeln!(out, "  Checked: modulo two primes the same"),
+            Verdict::Interrupted => writeln!(out, "  Not checked by a second prime: interrupted"),
+        };
+    }
+    let cut_short = outcome
+        .numeric
+        .is_none()
+        .then(|| stopped_early::stopped(outcome));
+    for line in cut_short
+        .flatten()
+        .into_iter()
+        .chain(stopped_early::estimated(outcome))
+    {
+        let _ = writeln!(out, "  {line}");
+    }
+    let exact = outcome.determinate.by_mobility.keys();
+    let exact = exact.chain(outcome.admissible.by_mobility.keys()).copied();
+    let mobilities: BTreeSet<i64> = match &outcome.numeric {
+        Some(found) => numeric::mobilities(found),
+        None => exact.collect(),
+    };
+    // Mobilities that no admissible variant has are of no use to a designer: they are told in one row.
+    let may = |w: &i64| {
+        let found = outcome.numeric.as_ref();
+        found.is_some_and(|f| f.admissible.doubtful.by_mobility.contains_key(w))
+    };
+    let (shown, rest): (Vec<i64>, Vec<i64>) = mobilities.iter().partition(|w| {
+        outcome.admissible.total.is_zero()
+            || outcome.admissible.by_mobility.contains_key(w)
+            || may(w)
+    });
+    let row = |name: String, of: &[i64]| {
+        let sum =
+            |m: &BTreeMap<i64, BigUint>| big(&of.iter().filter_map(|w| m.get(w)).sum::<BigUint>());
+        let (determinate, admissible) = (&outcome.determinate, &outcome.admissible);
+        if let Some(found) = &outcome.numeric {
+            let of = |b| numeric::by_mobility(b, of);
+            return vec![name, of(&found.determinate), of(&found.admissible)];
+        }
+        vec![
+            name,
+            sum(&determinate.by_mobility),
+            sum(&admissible.by_mobility),
+        ]
+    };
+    // Long tables are of robots with many joints; the least mobilities are those that let the least move idly.
+    let told = if shown.len() > MOBILITIES {
+        MOBILITIES - 1
+    } else {
+        shown.len()
+    };
+    let (told, folded) = shown.split_at(told);
+    let each = told.iter().map(|w| row(w.to_string(), &[*w]));
+    let folded = match folded {
+        [least, .., most] => Some(row(format!("{least} to {most}"), folded)),
+        _ => None,
+    };
+    let left_out = match (rest.first(), rest.last()) {
+        (Some(least), Some(most)) if least == most => Some(row(least.to_string(), &rest)),
+        (Some(least), Some(most)) => Some(row(format!("rest, {least} to {most}"), &rest)),
+        _ => None,
+    };
+    let rows = each.chain(folded).chain(left_out);
+    if !mobilities.is_empty() {
+        let _ = writeln!(
+            out,
+            "\n{}",
+            table(&["W", &condition, "admissible"], rows.collect(), width)
+        );
+    }
+    fit(&out, width)
+}
+
+/// The footnote of a marked variant.
+#[must_use]
+pub fn note(v: &Variant<'_>) -> Option<String> {
+    let position = v.position();
+    if let Some((f, present)) = v.over_stroke().and_then(|s| s.other) {
+        let output = match (f.output, present) {
+            (Some(o), Some(p)) if o != p => {
+                format!(", and outputs that move in {o} ways instead of {p}")
+            }
+            _ => String::new(),
+        };
+        return Some(format!(
+            "! {position}: in this pose only; another has W = {}, σ = {}{output}",
+            f.mobility, f.redundant
+        ));
+    }
+    match v.second() {
+        Second::Unasked => None,
+        Second::Failed => Some(format!(
+            "? {position}: the singular values did not converge"
+        )),
+        Second::Given(o) if !o.agree => {
+            let external = o.external.map_or(String::new(), |e| format!(" + {e}"));
+            let output = o
+                .output
+                .map_or(String::new(), |m| format!(", output mobility {m}"));
+            Some(format!(
+                "* {position}: by singular values W = {}, σ = {}{external}{output} (smallest kept {:.1e}, largest \
+                 dropped {:.1e}); do not trust either without a look at the geometry",
+                o.mobility, o.redundant, o.conditioning, o.dropped
+            ))
+        }
+        Second::Given(o) if o.conditioning < NEARLY_SINGULAR => Some(format!(
+            "~ {position}: nearly singular, smallest singular value {:.1e} of the largest: small errors of manufacture \
+             may change its figures",
+            o.conditioning
+        )),
+        Second::Given(_) => None,
+    }
+}
+
+/// Footnotes told at most.
+const NOTES: usize = 20;
+
+/// What second opinions and other poses say, a line each.
+#[must_use]
+pub fn notes(summary: &Summary) -> Vec<String> {
+    let mut out = Vec::new();
+    if summary.is_asked() {
+        out.push(opinions(summary));
+    }
+    out.extend(stopped_early::proven(summary));
+    let posed = grouped(&summary.posed.to_string());
+    match (summary.posed, summary.lucky, summary.dropped) {
+        (0, _, 0) => {}
+        (_, _, n) if n > 0 => out.push(format!(
+            "{n} left out: their figures are not the same at other poses"
+        )),
+        (_, 0, _) => out.push(format!("Figures the same at other poses: all {posed}")),
+        (_, n, _) => out.push(format!(
+            "Figures not the same at other poses: {n} of {posed}, marked !"
+        )),
+    }
+    out
+}
+
+/// The notes of marked variants, the first of them if there are many.
+fn marked(mut notes: Vec<String>) -> Vec<String> {
+    let more = notes.len().saturating_sub(NOTES);
+    notes.truncate(NOTES);
+    if more > 0 {
+        notes.push(format!("and {more} more marked"));
+    }
+    notes
+}
+
+/// What to do after a search: look at the first variant given, or ease a condition. `file` is the search's own, as
+/// are the flags, so that the commands are about the same list.
+fn next(
+    outcome: &Outcome,
+    (given, changed): (usize, bool),
+    (eased, helps): (&[(Relaxation, BigUint)], Option<Request>),
+    file: &str,
+) -> Vec<Step> {
+    // `--idea` says that ideas are meant.
+    let request = Request {
+        distinct: false,
+        ..outcome.request.clone()
+    };
+    let flags = &next_commands::flags(&outcome.search.mechanism, &request);
+    let number = match outcome.request.distinct {
+        true => "idea",
+        false => "variant",
+    };
+    let joined = |more: &str| format!("{flags} {more}").trim().to_owned();
+    let mechanism = &outcome.search.mechanism.name;
+    if given > 0 {
+        let svg = file_name(&format!("{mechanism}-{number}-1"), "svg");
+        let toml = file_name(&format!("{mechanism}-{number}-1"), "toml");
+        // Whose first variant changes nothing has nothing to mend.
+        let own = (changed && is_description(file)).then(|| {
+            Step::mend(
+                file,
+                &joined(&format!("--{number} 1")),
+                "the first of the list in your own file",
+            )
+        });
+        let steps = [
+            Step::new(
+                "draw",
+                file,
+                &joined(&format!("--{number} 1 -o {svg}")),
+                "the first of the list, its changes in colour",
+            ),
+            Step::new(
+                "export",
+                file,
+                &joined(&format!("--{number} 1 --to toml -o {toml}")),
+                "the first of the list as a mechanism file of its own",
+            ),
+        ];
+        return own.into_iter().chain(steps).collect();
+    }
+    if !outcome.admissible.total.is_zero() {
+        return vec![Step::new(
+            "search",
+            file,
+            &joined("--top 10"),
+            "the cheapest of them",
+        )];
+    }
+    let steps = eased.iter().map(|(how, n)| {
+        let (condition, to) = condition(*how);
+        let name = format!("--{condition}");
+        let flag = to.map_or_else(|| name.clone(), |n| format!("{name} {n}"));
+        let n = grouped(&n.to_string());
+        let least = match how {
+            Relaxation::OutputChange => {
+                format!("{n} variants, whose outputs move in other ways than now")
+            }
+            Relaxation::LooseObject => format!("{n} variants, none of which holds what it grips"),
+            _ => format!("{n} variants; no smaller number leaves any"),
+        };
+        // The flag replaces the one that was given.
+        let kept = without(flags, &name);
+        Step::new("search", file, format!("{kept} {flag}").trim(), &least)
+    });
+    let options = match helps {
+        Some(wider) => Step::new(
+            "search",
+            file,
+            &next_commands::flags(&outcome.search.mechanism, &wider),
+            "Offer more options: with these joint types there are variants, and with others there may be",
+        ),
+        None => Step {
+            command: "Offer more options under [search], or at the joints".to_owned(),
+            gives: "the search chooses from those in the file, and from joint types named in --options and --allow".to_owned(),
+        },
+    };
+    steps.chain([options]).collect()
+}
+
+/// Some flags without one of them and its value.
+fn without(flags: &str, flag: &str) -> String {
+    let mut words = flags.split(' ').peekable();
+    let mut kept = Vec::new();
+    while let Some(w) = words.next() {
+        if w == flag {
+            words.next_if(|v| !v.starts_with("--"));
+        } else {
+            kept.push(w);
+        }
+    }
+    kept.join(" ")
+}
+
+fn opinions(summary: &Summary) -> String {
+    let asked = grouped(&(summary.checked + summary.failed).to_string());
+    let which = if summary.given > summary.checked + summary.failed {
+        format!("the first {asked}; the rest was not asked about")
+    } else {
+        format!("all {asked}")
+    };
+    let wrong = summary.disagreeing + summary.failed;
+    let verdict = if wrong == 0 {
+        format!("Singular values agree on {which}")
+    } else {
+        format!(
+            "Singular values disagree on {wrong} of {}",
+            which.trim_start_matches("all ")
+        )
+    };
+    format!("{verdict} (cond.: the smallest over the largest)")
+}

@@ -1,0 +1,176 @@
+//! A variant as data, by the same contract as the search it is of.
+
+use crate::score::outcome::Outcome;
+use crate::score::variant::Variant;
+use crate::search::answer::freedom_patterns;
+use crate::search::check::other_poses::OverStroke;
+use crate::search::check::singular_values::Opinion;
+use crate::view::search::ranking::RankedData;
+use serde::Serialize;
+
+/// One variant.
+#[derive(Debug, Serialize)]
+pub struct VariantData<'a> {
+    position: usize,
+    cost: Cost,
+    mobility: i64,
+    redundant: u32,
+    external_redundant: Option<i32>,
+    external_harmful: Option<u32>,
+    per_contour: Vec<ContourData>,
+    changes: Vec<ChangeData<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    idea: Option<IdeaData>,
+    scores: ScoresData<'a>,
+    conditioning: Option<f64>,
+    agree: Option<bool>,
+    svd: Option<Svd>,
+    lucky: Option<bool>,
+    stroke: Option<OtherPoses>,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Cost {
+    Whole(i64),
+    Part(f64),
+}
+
+/// σ of a contour when they are added in the order given, with the range over all orders.
+#[derive(Debug, Serialize)]
+struct ContourData {
+    contour: String,
+    redundant: usize,
+    least: usize,
+    greatest: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct ChangeData<'a> {
+    joint: &'a str,
+    from: String,
+    to: String,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum ScoresData<'a> {
+    Ranked(Box<RankedData<'a>>),
+    Unranked {},
+}
+
+/// What the first variant of an idea stands for.
+#[derive(Debug, Serialize)]
+struct IdeaData {
+    /// A number of any size, as text.
+    variants: String,
+    /// Whether that is all of them; a lower bound otherwise.
+    exact: bool,
+    /// What all of them add, in words.
+    adds: String,
+}
+
+#[derive(Debug, Serialize)]
+struct Svd {
+    mobility: i64,
+    redundant: i64,
+    external_redundant: Option<i64>,
+    output_mobility: Option<usize>,
+    smallest_kept: f64,
+    largest_dropped: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct OtherPoses {
+    poses: usize,
+    other: Option<OtherPose>,
+}
+
+#[derive(Debug, Serialize)]
+struct OtherPose {
+    mobility: i64,
+    redundant: i64,
+    output_mobility: Option<i64>,
+    present_output_mobility: Option<i64>,
+}
+
+impl<'a> VariantData<'a> {
+    /// Of a variant of an outcome.
+    #[must_use]
+    pub fn new(outcome: &'a Outcome, v: &Variant<'a>) -> Self {
+        let mechanism = &outcome.search.mechanism;
+        let opinion = v.second().opinion();
+        let milli = v.cost_milli();
+        VariantData {
+            position: v.position(),
+            cost: match milli % 1000 {
+                0 => Cost::Whole(milli / 1000),
+                _ => Cost::Part(v.cost()),
+            },
+            mobility: v.mobility(),
+            redundant: v.redundant(),
+            external_redundant: v.external_redundant(),
+            external_harmful: v.external_harmful(),
+            per_contour: v
+                .redundant_by_contour()
+                .into_iter()
+                .flatten()
+                .map(|(contour, share)| ContourData {
+                    contour,
+                    redundant: share.redundant,
+                    least: share.range.0,
+                    greatest: share.range.1,
+                })
+                .collect(),
+            changes: v
+                .changes()
+                .into_iter()
+                .map(|c| ChangeData {
+                    joint: &mechanism.joints[c.joint].id,
+                    from: c.from,
+                    to: c.to,
+                })
+                .collect(),
+            idea: v.idea().map(|i| IdeaData {
+                variants: i.variants.to_string(),
+                exact: outcome.is_exact(),
+                adds: freedom_patterns::in_words(mechanism, &i.added),
+            }),
+            scores: v.ranked().map_or(ScoresData::Unranked {}, |r| {
+                ScoresData::Ranked(Box::new(RankedData::new(mechanism, r, v.reason())))
+            }),
+            conditioning: opinion.map(|o| o.conditioning),
+            agree: opinion.map(|o| o.agree),
+            svd: opinion.map(Svd::new),
+            lucky: v.over_stroke().and_then(OverStroke::lucky),
+            stroke: v.over_stroke().map(OtherPoses::new),
+        }
+    }
+}
+
+impl Svd {
+    fn new(o: &Opinion) -> Svd {
+        Svd {
+            mobility: o.mobility,
+            redundant: o.redundant,
+            external_redundant: o.external,
+            output_mobility: o.output,
+            smallest_kept: o.conditioning,
+            largest_dropped: o.dropped,
+        }
+    }
+}
+
+impl OtherPoses {
+    fn new(s: &OverStroke) -> OtherPoses {
+        OtherPoses {
+            poses: s.poses,
+            other: s.other.map(|(f, present)| OtherPose {
+                mobility: f.mobility,
+                redundant: f.redundant,
+                output_mobility: f.output,
+                present_output_mobility: present,
+            }),
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! What to do next: commands, with what each is for.
+
+use crate::model::mechanism::Mechanism;
+use crate::score::request::{JointOptions, List, POOL, Request};
+use crate::search::question::conditions::Symmetry;
+use crate::view::terminal::layout::fit;
+use itertools::Itertools;
+
+/// A command and what it gives.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Step {
+    /// The command, ready to be typed; a sentence where no command will do.
+    pub command: String,
+    /// What it gives.
+    pub gives: String,
+}
+
+impl Step {
+    /// The command that mends a robot description in the owner's own file.
+    #[must_use]
+    pub fn mend(file: &str, more: &str, gives: &str) -> Step {
+        let (stem, ending) = file.rsplit_once('.').unwrap_or((file, "xml"));
+        let out = format!("-o {}", word(&format!("{stem}-fixed.{ending}")));
+        Step::new("fix", file, format!("{more} {out}").trim(), gives)
+    }
+
+    /// A command of this program about a file.
+    #[must_use]
+    pub fn new(command: &str, file: &str, more: &str, gives: &str) -> Step {
+        let more = if more.is_empty() {
+            String::new()
+        } else {
+            format!(" {more}")
+        };
+        Step {
+            command: format!("ozols {command} {}{more}", word(file)),
+            gives: gives.to_owned(),
+        }
+    }
+}
+
+/// The steps as the end of a report, fitted to a terminal of `width` columns but for the commands: a command broken in two
+/// could not be copied. Nothing where there are none.
+#[must_use]
+pub fn text(steps: &[Step], width: Option<u16>) -> String {
+    if steps.is_empty() {
+        return String::new();
+    }
+    let lines = steps.iter().map(|s| {
+        format!(
+            "    {}\n{}\n",
+            s.command,
+            fit(&format!("      {}", s.gives), width)
+        )
+    });
+    format!("\n  Next:\n{}", lines.collect_vec().concat())
+}
+
+/// The flags that make a search's list what it is, as they are typed: those of `search`, `draw` and `export` are the same.
+#[must_use]
+pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
+    let joints = |rule: &JointOptions| match rule.names.as_slice() {
+        [] => rule.joint.clone(),
+        names => format!("{}={}", rule.joint, names.join(",")),
+    };
+    let some = |n: u32| (n > 0).then(|| n.to_string());
+    let list = |names: Vec<String>| (!names.is_empty()).then(|| names.join(","));
+    let state = r.state(mechanism).ok().flatten().is_some();
+    let state = r.state.as_ref().filter(|_| state).cloned();
+    let unloading = r.unloading.iter().map(|i| match i.joints.as_slice() {
+        [] => i.names.join(","),
+        joints => format!("{}={}", i.names.join(","), joints.join(",")),
+    });
+    let rank = r.rank.iter().map(|(term, weight)| match weight {
+        1.0 => term.name().to_owned(),
+        weight => format!("{}={weight}", term.name()),
+    });
+    // All variants are listed by cost, whatever ranking the file has.
+    let by_cost = r.list == List::All && r.rank.is_empty() && mechanism.ranking.is_some();
+    let rank = rank.chain(by_cost.then(|| "cost".to_owned()));
+    let pool = (r.pool != POOL).then(|| r.pool.to_string());
+    let valued = [
+        ("max-redundant", some(r.max_redundant)),
+        ("max-external", r.max_external.map(|n| n.to_string())),
+        ("max-harmful", r.max_harmful.map(|n| n.to_string())),
+        ("state", state),
+        ("max-mobility", r.max_mobility.map(|w| w.to_string())),
+        ("max-changes", r.max_changes.map(|c| c.to_string())),
+        ("rank", list(rank.collect())),
+        ("pool", pool),
+        ("costs", r.costs.as_ref().map(|c| c.name.clone())),
+    ]
+    .into_iter()
+    .chain(r.hold.iter().map(|l| ("hold", Some(l.clone()))))
+    .chain(unloading.map(|u| ("unloading", Some(u))))
+    .chain([("options", list(r.options.clone()))])
+    .chain(r.allow.iter().map(|j| ("allow", Some(joints(j)))))
+    .chain(r.forbid.iter().map(|j| ("forbid", Some(joints(j)))));
+    let switches = [
+        ("allow-output-change", r.allow_output_change),
+        ("allow-loose-object", r.allow_loose_object),
+        ("symmetric", r.symmetry == Symmetry::SymmetricOnly),
+        ("one-per-orbit", r.symmetry == Symmetry::OnePerOrbit),
+        ("distinct", r.distinct),
+        ("as-written", r.as_written),
+    ];
+    valued
+        .filter_map(|(flag, value)| Some(format!("--{flag} {}", word(&value?))))
+        .chain(
+            switches
+                .iter()
+                .filter(|(_, on)| *on)
+                .map(|(flag, _)| format!("--{flag}")),
+        )
+        .chain(r.snap.map(|t| format!("--snap {t}")))
+        .join(" ")
+}
+
+/// A word as a shell takes it; standard input cannot be read again, so it is FILE.
+#[must_use]
+pub fn word(text: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:@%".contains(c);
+    match text {
+        "-" => "FILE".to_owned(),
+        t if !t.is_empty() && t.chars().all(plain) => t.to_owned(),
+        t => format!("'{}'", t.replace('\'', "'\\''")),
+    }
+}
+
+/// A file name made of a mechanism's name.
+#[must_use]
+pub fn file_name(name: &str, ending: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
+    let stem: String = name
+        .chars()
+        .map(|c| if plain(c) { c } else { '-' })
+        .take(40)
+        .collect();
+    word(&format!("{}.{ending}", stem.trim_start_matches('-')))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_quoted_for_the_shell() {
+        assert_eq!(word("my hand.toml"), "'my hand.toml'");
+        assert_eq!(word("it's"), "'it'\\''s'");
+        assert_eq!(word("-"), "FILE");
+        assert_eq!(word("a/b-c.toml"), "a/b-c.toml");
+        assert_eq!(file_name("my hand", "svg"), "my-hand.svg");
+    }
+}
