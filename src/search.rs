@@ -14,3 +14,116 @@ pub mod numeric;
 pub mod order;
 pub mod question;
 mod reduce;
+
+use crate::geom::exact::{ExactError, ExactField};
+use crate::model::mechanism::Mechanism;
+use crate::search::answer::counts::{self, Counts};
+use crate::search::answer::freedom_patterns::{self, Idea};
+use crate::search::answer::k_best::Assignment;
+use crate::search::answer::variants_in_order;
+use crate::search::build::{Diagrams, Orders};
+use crate::search::diagram::{Diagram, Progress};
+use crate::search::numeric::at_tolerance::{self, AtTolerance};
+use crate::search::question::Question;
+use crate::search::question::conditions::{Conditions, SearchError};
+use crate::search::question::rounded_rank::Digits;
+use std::ops::Deref;
+use std::sync::Arc;
+
+/// A search: a question made ready, the diagrams that answer it, and what is read off them.
+#[derive(Debug)]
+pub struct Search {
+    question: Question,
+}
+
+/// What is asked can be looked at wherever the search is.
+impl Deref for Search {
+    type Target = Question;
+
+    fn deref(&self) -> &Question {
+        &self.question
+    }
+}
+
+impl Search {
+    /// Makes a search ready; a mechanism given by reference is copied.
+    ///
+    /// # Errors
+    /// Where the geometry has no exact image, or symmetry is asked of an unsymmetric file.
+    pub fn new(
+        exact: ExactField,
+        mechanism: impl Into<Arc<Mechanism>>,
+        conditions: Conditions,
+    ) -> Result<Search, SearchError> {
+        let question = Question::new(exact, mechanism, conditions)?;
+        Ok(Search { question })
+    }
+
+    /// The orders in which both diagrams take the variables; a twin over another prime may be given them.
+    #[must_use]
+    pub fn orders(&self) -> Orders {
+        build::orders(self)
+    }
+
+    /// Builds the diagrams of the determinate and of the admissible variants.
+    pub fn build(
+        &self,
+        cancelled: &(dyn Fn() -> bool + Sync),
+        progress: &mut (dyn FnMut(Progress) + Send),
+    ) -> Diagrams {
+        build::build(self, cancelled, progress)
+    }
+
+    /// The same in given orders.
+    pub fn build_in(
+        &self,
+        orders: &Orders,
+        cancelled: &(dyn Fn() -> bool + Sync),
+        progress: &mut (dyn FnMut(Progress) + Send),
+    ) -> Diagrams {
+        build::build_in(self, orders, cancelled, progress)
+    }
+
+    /// Counts the variants of a diagram; `filter` applies the conditions on mobility and changes too.
+    #[must_use]
+    pub fn counts(&self, diagram: &Diagram, filter: bool) -> Counts {
+        counts::counts(self, diagram, filter)
+    }
+
+    /// The admissible variants, cheapest first; `top` of them at most.
+    pub fn cheapest<'a>(
+        &'a self,
+        diagrams: &'a Diagrams,
+        top: usize,
+    ) -> impl Iterator<Item = Assignment> + 'a {
+        variants_in_order::cheapest(self, diagrams, top)
+    }
+
+    /// Draws admissible variants without end, each with the same chance.
+    pub fn sample<'a>(
+        &'a self,
+        diagrams: &'a Diagrams,
+        seed: u64,
+    ) -> impl Iterator<Item = Assignment> + 'a {
+        variants_in_order::sample(self, diagrams, seed)
+    }
+
+    /// Judges variants by singular values instead, where exact arithmetic does not have the mechanism that is meant: `list` of the
+    /// cheapest, and a sample drawn from `seed`, where there are too many to look at each.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value.
+    pub fn at_tolerance(
+        &mut self,
+        digits: Digits,
+        (list, seed): (usize, u64),
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Result<AtTolerance, ExactError> {
+        at_tolerance::at_tolerance(&mut self.question, digits, (list, seed), cancelled)
+    }
+
+    /// The first ideas, each of all variants that give the same freedoms to the same contours; `top` of them at most.
+    pub fn ideas(&self, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
+        freedom_patterns::ideas(self, diagrams, top)
+    }
+}

@@ -18,8 +18,9 @@ use ozols::chart::{Axis, Chart, Scale, Series, Style};
 use ozols::closure::contour::contour_basis;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::redundancy::analysis::exact_field;
+use ozols::search::Search;
 use ozols::search::diagram::Stop;
-use ozols::search::question::conditions::{Conditions, Search};
+use ozols::search::question::conditions::Conditions;
 use std::path::PathBuf;
 use std::time::Instant;
 

@@ -2,15 +2,16 @@
 
 use super::subject::Marks;
 use crate::model::mechanism::{JointId, Mechanism};
+use crate::search::Search;
 use crate::search::answer::k_best::Assignment;
-use crate::search::question::conditions::Search;
+use crate::search::check::variant_mechanism;
 use crate::search::question::space::choice_name;
 
 /// The mechanism that a variant is, with its changes marked for drawing.
 #[must_use]
 pub fn of_variant(search: &Search, variant: &Assignment, name: &str) -> (Mechanism, Marks) {
     let old = &search.mechanism;
-    let realized = search.realize(&variant.choices);
+    let realized = variant_mechanism::realize(search, &variant.choices);
     let mut changed: Vec<(JointId, String)> = Vec::new();
     for (v, &choice) in search.space.variables.iter().zip(&variant.choices) {
         if choice == 0 {

@@ -8,6 +8,7 @@ use crate::redundancy::analysis::AnalysisError;
 use crate::score::variant::Variant;
 use crate::search::answer::freedom_patterns;
 use crate::search::check::singular_values::CHECKED;
+use crate::search::check::variant_mechanism;
 use crate::search::question::space::{Variable, choice_name};
 use crate::view::search::text;
 use rayon::prelude::*;
@@ -79,7 +80,7 @@ fn further(r: &Redesigns<'_>) -> Result<Vec<Further>, AnalysisError> {
     let search = &r.found.search;
     let exact = search.field();
     let one = |(i, c): (usize, &Variant<'_>)| -> Result<Further, AnalysisError> {
-        let m = search.realize(&c.assignment().choices);
+        let m = variant_mechanism::realize(search, &c.assignment().choices);
         let states = m
             .state_ids()
             .skip(1)

@@ -3,8 +3,11 @@
 use crate::score::prepared::LooksRounded;
 use crate::score::ranking::RankedPool;
 use crate::score::request::Request;
+use crate::search::Search;
+use crate::search::answer::counts;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::estimate::Estimate;
+use crate::search::answer::why_none;
 use crate::search::answer::why_none::{Hopeless, Relaxation};
 use crate::search::build::Diagrams;
 use crate::search::check::other_poses::Stroke;
@@ -12,7 +15,7 @@ use crate::search::check::second_opinion::SecondOpinion;
 use crate::search::check::second_prime::PrimeCheck;
 use crate::search::diagram::Stop;
 use crate::search::numeric::at_tolerance::AtTolerance;
-use crate::search::question::conditions::{Search, SearchError, Symmetry};
+use crate::search::question::conditions::{SearchError, Symmetry};
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 use std::collections::BTreeMap;
@@ -164,7 +167,7 @@ impl Outcome {
         }
         match &self.diagrams {
             Some(d) if self.request.symmetry != Symmetry::OnePerOrbit => {
-                self.search.counts_by_cost(&d.admissible)
+                counts::counts_by_cost(&self.search, &d.admissible)
             }
             _ => Some(BTreeMap::new()),
         }
@@ -183,7 +186,7 @@ impl Outcome {
             return Ok(Vec::new());
         }
         let nodes = self.diagrams.as_ref().map_or(0, |d| d.admissible.nodes);
-        self.search.relaxations(nodes, &|| false)
+        why_none::relaxations(&self.search, nodes, &|| false)
     }
 
     /// What stands in the way of every variant, where nothing was found.
@@ -194,6 +197,6 @@ impl Outcome {
         if self.numeric.is_some() || !self.admissible.total.is_zero() {
             return Ok(Hopeless::default());
         }
-        Ok(self.search.hopeless()?)
+        Ok(why_none::hopeless(&self.search)?)
     }
 }

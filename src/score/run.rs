@@ -9,14 +9,19 @@ use crate::score::outcome::Outcome;
 use crate::score::prepared::LooksRounded;
 use crate::score::ranking::{Ranked, RankedPool, Ranker};
 use crate::score::request::{Check, List, Method, Request, RequestError};
-use crate::search::answer::counts::Counts;
+use crate::search::Search;
+use crate::search::answer::counts::{self, Counts};
 use crate::search::answer::k_best::Assignment;
 use crate::search::build::Diagrams;
+use crate::search::check::brute;
+use crate::search::check::other_poses;
+use crate::search::check::second_opinion;
 use crate::search::check::second_opinion::{DRAWN, SecondOpinion};
 use crate::search::check::second_prime::{self, Disagreement, PrimeCheck};
 use crate::search::check::singular_values::CHECKED;
 use crate::search::diagram::{Progress, Stop};
-use crate::search::question::conditions::{Conditions, Search, SearchError, Symmetry};
+use crate::search::question::Question;
+use crate::search::question::conditions::{Conditions, SearchError, Symmetry};
 use crate::search::question::rounded_rank::Digits;
 use num_bigint::BigUint;
 use std::sync::Arc;
@@ -130,7 +135,7 @@ pub fn answer(
         if search.size() > BRUTE_LIMIT.into() {
             return Err(RunError::TooMany(search.size()));
         }
-        let counts = search.brute()?;
+        let counts = brute::brute(&search)?;
         return Ok(Outcome::of_counts(
             search,
             request.clone(),
@@ -152,7 +157,7 @@ pub fn answer(
     let (diagrams, check) = match &twin {
         None => (search.build(should_cancel, progress), None),
         Some(twin) => {
-            let both = [&search, twin];
+            let both: [&Question; 2] = [&search, twin];
             let (first, second) = second_prime::build_both(both, should_cancel, progress);
             let compared = match request.list {
                 List::Top(k) => k,
@@ -198,7 +203,7 @@ pub fn answer(
         n => n,
     };
     let stroke = (poses > 0)
-        .then(|| search.stroke(poses, request.seed, should_cancel))
+        .then(|| other_poses::stroke(&search, poses, request.seed, should_cancel))
         .transpose()?;
     if stroke.as_ref().is_some_and(|s| s.reached() == 0) && !should_cancel() {
         tell(Event::Note(format!(
@@ -280,7 +285,13 @@ fn second_opinion(
         listed.extend(search.ideas(diagrams, k).into_iter().map(|i| i.first));
     }
     let drawn = search.sample(diagrams, request.seed).take(DRAWN).collect();
-    let said = search.second_opinion(written, (listed, drawn), determinate, request.seed)?;
+    let said = second_opinion::second_opinion(
+        search,
+        written,
+        (listed, drawn),
+        determinate,
+        request.seed,
+    )?;
     Ok(Some(said))
 }
 
@@ -381,7 +392,7 @@ fn orbits(
     stops: [Stop; 2],
     should_cancel: ShouldCancel<'_>,
 ) -> Result<((Counts, Counts), [Stop; 2]), RunError> {
-    let of = |s: &Search| s.orbits(all.clone(), should_cancel);
+    let of = |s: &Search| counts::orbit_counts(s, all.clone(), should_cancel);
     let (first, second) = rayon::join(|| of(search), || twin.map(of).transpose());
     let (first, second) = (first?, second?);
     let stops = [0, 1].map(|i| stops[i].or(first.1[i]));
@@ -443,7 +454,7 @@ fn ranked(
         (out.proven, out.proof, out.missing) = (false, "the search stopped early", None);
     }
     if let Some(missing) = out.missing.as_mut().filter(|_| exhausted) {
-        let by_cost = search.counts_by_cost(&diagrams.admissible);
+        let by_cost = counts::counts_by_cost(search, &diagrams.admissible);
         missing.cheaper = by_cost.map(|all| all.range(..missing.settled_at).map(|(_, n)| n).sum());
     }
     Ok(Some(out))

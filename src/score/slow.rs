@@ -9,6 +9,7 @@ use crate::score::evaluate::Load;
 use crate::score::joint_types::JointType;
 use crate::score::terms::{ErrorSum, Scores, axis_of};
 use crate::search::answer::k_best::Assignment;
+use crate::search::check::variant_mechanism;
 use crate::statics::reactions::follow::follow_to;
 use crate::statics::reactions::{Choice, JointReaction, Reactions, Unsolved};
 
@@ -42,7 +43,7 @@ impl Evaluator<'_> {
         variant: &Assignment,
         each: &mut dyn FnMut(Load),
     ) -> Result<Scores, Unsolved> {
-        let m = self.search.realize(&variant.choices);
+        let m = variant_mechanism::realize(self.search, &variant.choices);
         let types = self.realized_types(&variant.choices);
         let mut worst: Option<Scores> = None;
         let positions: Vec<f64> = self.cases.list.iter().map(|c| c.drive).collect();

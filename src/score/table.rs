@@ -9,7 +9,7 @@ use crate::motion::pose::Pose;
 use crate::score::cases::Case;
 use crate::score::joint_types::JointTypes;
 use crate::score::terms::axis_of;
-use crate::search::question::conditions::Search;
+use crate::search::Search;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::applied::link_loads;
 use crate::statics::reactions::drives::{Driven, period};

@@ -9,11 +9,12 @@ use crate::redundancy::share::{ContourShare, shares};
 use crate::score::outcome::Outcome;
 use crate::score::ranking::Ranked;
 use crate::score::terms::Scores;
+use crate::search::Search;
 use crate::search::answer::freedom_patterns::Idea;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::other_poses::OverStroke;
 use crate::search::check::singular_values::{Certified, Second};
-use crate::search::question::conditions::Search;
+use crate::search::check::variant_mechanism;
 use crate::search::question::space::choice_name;
 use itertools::Itertools;
 use std::fmt;
@@ -177,7 +178,7 @@ impl<'o> Variant<'o> {
             return Ok(Vec::new());
         }
         let state = search.conditions.state.map_or(StateId::FREE, |s| s.state);
-        let realized = search.realize(&self.assignment().choices);
+        let realized = variant_mechanism::realize(search, &self.assignment().choices);
         let closure = Closure::new(search.field(), &realized, state)?;
         let shares = shares(search.field(), &closure).into_iter();
         Ok(shares.map(|s| (s.contour.name(&realized), s)).collect())
@@ -208,7 +209,7 @@ impl fmt::Display for Variant<'_> {
 /// A choice of options as a mechanism of its own, named for its place in a list.
 #[must_use]
 pub fn mechanism(search: &Search, assignment: &Assignment, position: usize) -> Mechanism {
-    let mut out = search.realize(&assignment.choices);
+    let mut out = variant_mechanism::realize(search, &assignment.choices);
     out.description = format!(
         "Variant {position} of {}: {}",
         out.name,

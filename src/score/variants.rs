@@ -5,9 +5,11 @@ use crate::score::outcome::Outcome;
 use crate::score::request::{Check, List, Request, RequestError};
 use crate::score::run::ShouldCancel;
 use crate::score::variant::Variant;
+use crate::search::answer::freedom_patterns;
 use crate::search::answer::freedom_patterns::Idea;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::other_poses::Stroke;
+use crate::search::check::singular_values;
 use crate::search::check::singular_values::{CHECKED, Certified, Summary};
 use crate::search::diagram::Stop;
 use crate::search::question::conditions::Symmetry;
@@ -95,7 +97,7 @@ impl Outcome {
             if let Some(numeric) = &self.numeric {
                 if let (List::Top(k), true) = (list, distinct) {
                     let sure = numeric.list(&self.search);
-                    ideas = self.search.ideas_among(sure, k);
+                    ideas = freedom_patterns::ideas_among(&self.search, sure, k);
                 }
                 let firsts = ideas.iter().map(|i| i.first.clone()).collect_vec();
                 match list {
@@ -113,7 +115,8 @@ impl Outcome {
                         let found = match ranking {
                             Some(r) => {
                                 let list = r.list.iter().map(|r| &r.variant);
-                                let first = self.search.first_of_each(list, d).into_iter();
+                                let first = freedom_patterns::first_of_each(&self.search, list, d)
+                                    .into_iter();
                                 first
                                     .map(|(at, idea)| (Some(at), idea))
                                     .take(k)
@@ -272,7 +275,8 @@ impl Variants<'_> {
         };
         let (block, places): (Vec<_>, Vec<_>) = self.source.by_ref().take(size).unzip();
         let search = &self.outcome.search;
-        let certified = search.certify(block, self.opinions, self.stroke, self.cancelled);
+        let certified =
+            singular_values::certify(search, block, self.opinions, self.stroke, self.cancelled);
         self.ready = certified.into_iter().zip(places).collect_vec().into_iter();
         // Nothing is left out unseen, so a list of generic variants is looked at to its end.
         if !generic {

@@ -7,3 +7,210 @@ pub mod grasp;
 pub mod rounded_rank;
 pub mod space;
 pub mod symmetry;
+
+use crate::closure::contour::contour_basis;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::linalg::modp::Residue;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
+use crate::redundancy::motion::joint_motion;
+use crate::search::answer::count_tables::{Key, Steps};
+use crate::search::question::conditions::{Conditions, OPEN, SearchError, Symmetry};
+use crate::search::question::cost::CostTable;
+use crate::search::question::grasp::{Grasp, grasps, is_free, loose};
+use crate::search::question::space::{Space, Variable};
+use crate::search::reduce::biconnected::{Block, blocks};
+use crate::search::reduce::plane_split::LeastModel;
+use itertools::Itertools;
+use num_bigint::BigUint;
+use std::sync::Arc;
+
+/// What is asked, made ready: the space of variants, its costs, and what diagrams are built of.
+#[derive(Debug)]
+pub struct Question {
+    /// The mechanism.
+    pub mechanism: Arc<Mechanism>,
+    /// What variants must be like.
+    pub conditions: Conditions,
+    /// The space (with images of each other as one variable where only symmetric variants are wanted).
+    pub space: Space,
+    /// Its costs.
+    pub steps: Steps,
+    pub(in crate::search) exact: ExactField,
+    /// What its diagrams are built of.
+    pub(in crate::search) least: LeastModel,
+    /// Rows of J in the free state.
+    rows: i64,
+    /// Links whose motion is kept, with their present joint motion.
+    pub(in crate::search) kept: (Vec<LinkId>, Vec<Vec<Residue>>),
+    /// Dimension of that motion by singular values, where exact arithmetic has another mechanism than the one meant.
+    pub(in crate::search) present: Option<usize>,
+    /// What must be held in the searched state.
+    pub(in crate::search) grasps: Vec<Grasp>,
+    /// Links whose motion the diagram of admissible variants keeps to its end.
+    pub(in crate::search) pinned: Vec<LinkId>,
+    /// The blocks of the diagram of determinate variants, and of the other.
+    pub(in crate::search) blocks: [Vec<Block>; 2],
+}
+
+impl Question {
+    /// Makes a question ready; a mechanism given by reference is copied.
+    ///
+    /// # Errors
+    /// Where the geometry has no exact image, or symmetry is asked of an unsymmetric file.
+    pub fn new(
+        exact: ExactField,
+        mechanism: impl Into<Arc<Mechanism>>,
+        conditions: Conditions,
+    ) -> Result<Self, SearchError> {
+        let mechanism: Arc<Mechanism> = mechanism.into();
+        if conditions.symmetry != Symmetry::All {
+            symmetry::check(&exact, &mechanism, conditions.state.map(|s| s.state))?;
+        }
+        let costs = CostTable::new(&mechanism.search.costs);
+        let symmetric = conditions.symmetry == Symmetry::SymmetricOnly;
+        let space = Space::new(
+            &exact,
+            &mechanism,
+            conditions.state.map(|s| s.state),
+            symmetric,
+            &costs,
+        )?;
+        let steps = Steps::new(&space, &costs);
+        let outputs = mechanism
+            .link_ids()
+            .filter(|&l| mechanism.links[l].role == Role::Output);
+        let mut kept: Vec<LinkId> = outputs
+            .chain(mechanism.search.hold.iter().copied())
+            .filter(|&l| is_free(&mechanism, l))
+            .collect();
+        kept.sort_unstable();
+        kept.dedup();
+        let present = joint_motion(&exact, &mechanism, StateId::FREE, &kept)?;
+        let contours = contour_basis(&mechanism, StateId::FREE);
+        let closed = contours
+            .iter()
+            .flat_map(|c| &c.joints)
+            .map(|(j, _)| j)
+            .unique();
+        let open = mechanism.joints_in(StateId::FREE).count() - closed.count();
+        if open > OPEN {
+            return Err(SearchError::Open { open });
+        }
+        let rows = space.dim * contours.len() + mechanism.couplings_in(StateId::FREE).count();
+        let rows = i64::try_from(rows).unwrap_or(i64::MAX);
+        let searched = conditions.state.iter();
+        let grasps = searched.flat_map(|s| grasps(&mechanism, s.state, s.hold_objects));
+        let mut pinned = vec![mechanism.frame()];
+        pinned.extend(kept.iter().filter(|_| conditions.keep_output));
+        let later = space.variables.iter().filter(|v| v.alone || v.external);
+        let later = later.flat_map(|v| &v.joints);
+        pinned.extend(later.flat_map(|&j| mechanism.joints[j].links));
+        pinned.sort_unstable();
+        pinned.dedup();
+        let variables = |wanted: fn(&Variable) -> bool| -> Vec<usize> {
+            let all = 0..space.variables.len();
+            all.filter(|&v| wanted(&space.variables[v])).collect()
+        };
+        let free = variables(|v| !v.external);
+        let common = variables(|v| !v.external && !v.alone);
+        let blocks = [(free, &[][..]), (common, &pinned[..])]
+            .map(|(of, pinned)| blocks(&mechanism, &space, &of, pinned, &contours));
+        Ok(Question {
+            least: LeastModel::new(
+                &exact,
+                &mechanism,
+                &space,
+                &present,
+                conditions.whole_twists,
+            )?,
+            grasps: grasps.collect(),
+            pinned,
+            blocks,
+            mechanism,
+            conditions,
+            space,
+            steps,
+            exact,
+            rows,
+            kept: (kept, present),
+            present: None,
+        })
+    }
+
+    /// The bodies that must be held in the searched state.
+    pub fn held(&self) -> impl Iterator<Item = LinkId> + '_ {
+        self.grasps.iter().map(|(body, _)| *body)
+    }
+
+    /// The bodies that must be held and are not in the mechanism as it is, in a sentence each: no option takes a motion away,
+    /// so no variant holds them.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    pub fn already_loose(&self) -> Result<Vec<String>, ExactError> {
+        let Some(s) = self.conditions.state else {
+            return Ok(Vec::new());
+        };
+        let m = &self.mechanism;
+        let said = |l: LinkId| {
+            let (body, state) = (&m.links[l].id, &m.states[s.state]);
+            format!(
+                "warning: in state {state} something moves {body} against all that holds it, in the mechanism as it is \
+                 already, so that no variant can hold it; --allow-loose-object does not ask for that"
+            )
+        };
+        let loose = loose(&self.exact, m, s.state, &self.grasps)?;
+        Ok(loose.into_iter().map(said).collect())
+    }
+
+    /// Dimension of the kept links' present motion.
+    #[must_use]
+    pub fn present_motion(&self) -> usize {
+        self.present.unwrap_or(self.kept.1.len())
+    }
+
+    /// The prime field of the search.
+    #[must_use]
+    pub fn field(&self) -> &ExactField {
+        &self.exact
+    }
+
+    /// Number of variants asked about: of orbits, where one of each is wanted.
+    #[must_use]
+    pub fn size(&self) -> BigUint {
+        self.space.size()
+    }
+
+    /// W of a variant, from its key: f - rank = f - 6k + σ.
+    #[must_use]
+    pub fn mobility(&self, key: Key) -> i64 {
+        i64::from(key.freedoms()) - self.rows + i64::from(key.internal())
+    }
+
+    /// Whether a variant's key meets the conditions on mobility and changes.
+    #[must_use]
+    pub fn wanted(&self, key: Key) -> bool {
+        self.conditions
+            .max_mobility
+            .is_none_or(|m| self.mobility(key) <= m)
+            && self
+                .conditions
+                .max_changes
+                .is_none_or(|c| key.changes() <= c)
+    }
+
+    /// The choices of a variant's image.
+    #[must_use]
+    pub fn image(&self, choices: &[usize]) -> Vec<usize> {
+        let mut out = choices.to_vec();
+        let variables = &self.space.variables;
+        let of = |j: JointId| variables.iter().position(|v| v.joints == [j]);
+        for (v, &choice) in variables.iter().zip(choices) {
+            let [j] = v.joints[..] else { continue };
+            if let Some(to) = of(self.mechanism.search.image(j)) {
+                out[to] = choice;
+            }
+        }
+        out
+    }
+}

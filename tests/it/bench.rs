@@ -11,6 +11,7 @@ use ozols::file::text::mechanism_from_str;
 use ozols::rank::numeric::Elimination;
 use ozols::score::request::{Check, List, Request};
 use ozols::search::check::brute_float::Approximate;
+use ozols::search::check::singular_values;
 use serde_json::Value;
 use std::time::Duration;
 
@@ -108,7 +109,7 @@ fn floating_point_looks_at_the_same_matrices() {
         let drawn: Vec<_> = drawn.take(40).collect();
         for e in [Elimination::Lu, Elimination::Qr, Elimination::Svd] {
             let all = Approximate::new(search, e, e.default_tolerance()).unwrap();
-            for c in search.certify(drawn.clone(), true, None, &|| false) {
+            for c in singular_values::certify(search, drawn.clone(), true, None, &|| false) {
                 let seen = all.look(&c.variant.choices).unwrap();
                 let opinion = c.second.opinion().unwrap();
                 let by_itself = (i64::from(seen.internal), seen.motion);

@@ -4,9 +4,10 @@
 use crate::common::{ozols, text};
 use ozols::file::text::mechanism_from_str;
 use ozols::redundancy::analysis::exact_field;
+use ozols::search::Search;
 use ozols::search::answer::k_best::Assignment;
 use ozols::search::build::Diagrams;
-use ozols::search::question::conditions::{Conditions, Search};
+use ozols::search::question::conditions::Conditions;
 use proptest::prelude::*;
 use serde_json::Value;
 use std::fmt::Write;

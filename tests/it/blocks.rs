@@ -4,8 +4,10 @@
 use num_bigint::BigUint;
 use ozols::file::text::mechanism_from_str;
 use ozols::redundancy::analysis::exact_field;
+use ozols::search::Search;
 use ozols::search::build::Diagrams;
-use ozols::search::question::conditions::{Conditions, Search};
+use ozols::search::check::brute;
+use ozols::search::question::conditions::Conditions;
 use proptest::prelude::*;
 use std::fmt::Write;
 
@@ -112,7 +114,7 @@ proptest! {
             };
             prop_assert_eq!(up_to(&bounded, &proven), up_to(&s, &d));
         }
-        let brute = s.brute().unwrap();
+        let brute = brute::brute(&s).unwrap();
         for (found, expected) in [
             (s.counts(&d.determinate, false), brute.0),
             (s.counts(&d.admissible, true), brute.1),

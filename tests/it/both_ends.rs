@@ -3,11 +3,12 @@
 use crate::beyond_budget::{ladder, search};
 use crate::twin::look;
 use num_bigint::BigUint;
+use ozols::search::Search;
 use ozols::search::answer::counts::Counts;
 use ozols::search::answer::k_best::Assignment;
 use ozols::search::build::Diagrams;
 use ozols::search::diagram::{Diagram, Stop};
-use ozols::search::question::conditions::{Conditions, Search};
+use ozols::search::question::conditions::Conditions;
 use proptest::prelude::*;
 use std::fmt::Write;
 

@@ -4,8 +4,11 @@ use crate::common::{json, out, ozols};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::exact_field;
+use ozols::search::Search;
 use ozols::search::check::second_prime::{Verdict, build_both, compare, compare_counts, primes};
-use ozols::search::question::conditions::{Conditions, InState, Search};
+use ozols::search::check::singular_values;
+use ozols::search::question::Question;
+use ozols::search::question::conditions::{Conditions, InState};
 use serde_json::Value;
 use std::fs;
 
@@ -31,7 +34,7 @@ fn both(text: &str) -> Result<(Verdict, [u64; 2]), String> {
     let m = mechanism_from_str("it.toml", text).unwrap();
     let over = |nth| Search::new(exact_field(&m, nth).unwrap(), &m, Conditions::default()).unwrap();
     let (first, second) = (over(0), over(1));
-    let searches = [&first, &second];
+    let searches: [&Question; 2] = [&first, &second];
     let (a, b) = build_both(searches, &|| false, &mut |_| {});
     let counts = |s: &Search, d: &ozols::search::build::Diagrams| {
         (
@@ -114,7 +117,7 @@ fn singular_values_agree_on_the_best_of_every_built_in_mechanism() {
             let diagrams = search.build(&|| false, &mut |_| {});
             let mut list: Vec<_> = search.sample(&diagrams, 1).take(10).collect();
             list.extend(search.cheapest(&diagrams, 10));
-            for c in search.certify(list, true, None, &|| false) {
+            for c in singular_values::certify(&search, list, true, None, &|| false) {
                 let o = *c.second.opinion().unwrap();
                 assert!(o.agree, "{name}: {c:?}");
                 assert!(o.dropped < 1e-12 && o.conditioning > 1e-6, "{name}: {o:?}");
@@ -285,7 +288,7 @@ fn singular_values_see_a_tilted_plane_as_the_exact_ranks_do() {
     let diagrams = search.build(&|| false, &mut |_| {});
     let list: Vec<_> = search.sample(&diagrams, 1).take(20).collect();
     assert!(!list.is_empty());
-    for c in search.certify(list, true, None, &|| false) {
+    for c in singular_values::certify(&search, list, true, None, &|| false) {
         assert!(c.second.opinion().unwrap().agree, "{c:?}");
     }
 }

@@ -4,7 +4,8 @@ use crate::common::{changed, json, out, run, text};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::exact_field;
-use ozols::search::question::conditions::{Conditions, InState, Search};
+use ozols::search::Search;
+use ozols::search::question::conditions::{Conditions, InState};
 use std::fs;
 
 /// A folder with the table of costs, changed, and the path to it.

@@ -374,7 +374,8 @@ fn redesigns_of_a_geared_gripper() {
 #[test]
 fn couplings_have_mirror_images() {
     use ozols::redundancy::analysis::exact_field;
-    use ozols::search::question::conditions::{Conditions, Search, Symmetry};
+    use ozols::search::Search;
+    use ozols::search::question::conditions::{Conditions, Symmetry};
     let text = pair(
         TURN,
         TURN,

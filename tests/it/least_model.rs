@@ -7,10 +7,12 @@ use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
 use ozols::redundancy::analysis::exact_field;
+use ozols::search::Search;
 use ozols::search::answer::counts::Counts;
 use ozols::search::build::Diagrams;
+use ozols::search::check::brute::brute;
 use ozols::search::diagram::Stop;
-use ozols::search::question::conditions::{Conditions, Search};
+use ozols::search::question::conditions::Conditions;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 
@@ -161,7 +163,7 @@ proptest! {
         let found = counts(&least);
         prop_assert_eq!(&found, &counts(&of(true)));
         let [determinate, admissible] = found;
-        prop_assert_eq!((determinate.clone(), admissible), least.0.brute().unwrap());
+        prop_assert_eq!((determinate.clone(), admissible), brute(&least.0).unwrap());
         let mut seen: BTreeMap<(i64, u32), BigUint> = BTreeMap::new();
         for t in all.iter().map(|c| look(&m, false, c)).filter(|t| t.internal <= allowed) {
             *seen.entry((t.mobility, t.changes)).or_default() += 1u8;

@@ -5,7 +5,8 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::redundancy::analysis::exact_field;
-use ozols::search::question::conditions::{Conditions, Search};
+use ozols::search::Search;
+use ozols::search::question::conditions::Conditions;
 use toml_edit::{DocumentMut, Table};
 
 /// The same mechanism with its tables of links and of joints in another order.

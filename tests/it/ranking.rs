@@ -15,8 +15,9 @@ use ozols::score::evaluate::Evaluator;
 use ozols::score::joint_types::JointTypes;
 use ozols::score::pareto::{dominates, fronts};
 use ozols::score::ranking::{RankedPool, Ranker, compare, weighted};
+use ozols::search::Search;
 use ozols::search::answer::k_best::Assignment;
-use ozols::search::question::conditions::{Conditions, Search};
+use ozols::search::question::conditions::Conditions;
 use proptest::prelude::*;
 
 fn loaded() -> Mechanism {

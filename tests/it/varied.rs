@@ -6,9 +6,13 @@ use num_bigint::BigUint;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
 use ozols::redundancy::analysis::exact_field;
+use ozols::search::Search;
+use ozols::search::answer::counts;
 use ozols::search::answer::counts::Counts;
+use ozols::search::check::brute;
 use ozols::search::check::second_prime::{Verdict, build_both, compare};
-use ozols::search::question::conditions::{Conditions, Search, Symmetry};
+use ozols::search::check::singular_values;
+use ozols::search::question::conditions::{Conditions, Symmetry};
 use proptest::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -233,7 +237,7 @@ fn searched(
         }
         choices.push(of_joints);
     }
-    for c in search.certify(list, true, None, &|| false) {
+    for c in singular_values::certify(&search, list, true, None, &|| false) {
         let agree = c.second.opinion().is_some_and(|o| o.agree);
         prop_assert!(agree, "{:?}", c);
     }
@@ -276,7 +280,7 @@ proptest! {
             all.iter().zip(&seen).filter(|(_, t)| better(t)).map(|(c, _)| c).collect();
         prop_assert_eq!(want, list.iter().collect::<BTreeSet<_>>());
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
-        prop_assert_eq!((determinate, admissible), search.brute().unwrap());
+        prop_assert_eq!((determinate, admissible), brute::brute(&search).unwrap());
     }
 }
 
@@ -318,7 +322,7 @@ proptest! {
         let orbit = Conditions { symmetry: Symmetry::OnePerOrbit, ..request };
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, orbit.clone()).unwrap();
         let (determinate, admissible, list) = searched(&m, &orbit)?;
-        let ((determinate, admissible), _) = search.orbits((determinate, admissible), &|| false).unwrap();
+        let ((determinate, admissible), _) = counts::orbit_counts(&search, (determinate, admissible), &|| false).unwrap();
         let first = |c: &Choice| *c <= image(c);
         prop_assert_eq!(&determinate.by_mobility_and_changes, &of(&good, &first));
         prop_assert_eq!(&admissible.by_mobility_and_changes, &of(&better, &first));
@@ -365,7 +369,7 @@ proptest! {
         let one = Conditions { symmetry: Symmetry::OnePerOrbit, ..request };
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, one.clone()).unwrap();
         let (determinate, admissible, list) = searched(&m, &one)?;
-        let ((determinate, admissible), _) = search.orbits((determinate, admissible), &|| false).unwrap();
+        let ((determinate, admissible), _) = counts::orbit_counts(&search, (determinate, admissible), &|| false).unwrap();
         prop_assert_eq!(&determinate.by_mobility_and_changes, &of(&|c| orbit(c).first() == Some(c)));
         let orbits: BTreeSet<BTreeSet<Choice>> = list.iter().map(orbit).collect();
         prop_assert_eq!((orbits.len(), BigUint::from(list.len())), (list.len(), admissible.total));

@@ -2,10 +2,11 @@
 
 use crate::geom::exact::ExactError;
 use crate::score::outcome::Outcome;
+use crate::search::Search;
 use crate::search::answer::count_tables::Key;
 use crate::search::answer::k_best::Assignment;
+use crate::search::check::brute;
 use crate::search::check::brute::Seen;
-use crate::search::question::conditions::Search;
 use crate::search::question::space::Variable;
 use num_bigint::BigUint;
 use num_traits::ToPrimitive;
@@ -33,7 +34,7 @@ pub(super) fn judged(
     choices: &[usize],
     seen: Seen,
 ) -> Result<Option<Judged>, ExactError> {
-    let judged = search.judge(choices, seen)?;
+    let judged = brute::judge(search, choices, seen)?;
     Ok(judged.map(|(key, good)| Judged {
         key,
         admissible: good && search.wanted(key),
@@ -43,7 +44,7 @@ pub(super) fn judged(
 /// The judgement of a search's diagrams; `None` where the variant is not in that of the determinate ones.
 pub(super) fn by_diagram(outcome: &Outcome, choices: &[usize]) -> Option<Judged> {
     let (search, diagrams) = (&outcome.search, outcome.diagrams.as_ref()?);
-    let key = |redundancy| search.key(choices, redundancy);
+    let key = |redundancy| brute::key(search, choices, redundancy);
     let admissible = diagrams.admissible.end(choices).map(key);
     let key = match admissible {
         // The determinate ones' diagram does not ask what the state makes of a variant.

@@ -103,7 +103,8 @@ mod tests {
     use crate::file::text::mechanism_from_str;
     use crate::redundancy::analysis::exact_field;
     use crate::search::answer::k_best::Cheapest;
-    use crate::search::question::conditions::{Conditions, Search};
+    use crate::search::question::Question;
+    use crate::search::question::conditions::Conditions;
 
     /// Where there is room for few steps, they are forgotten again and again, and the list is the same.
     #[test]
@@ -111,8 +112,8 @@ mod tests {
         let text = crate::builtin::text("gripper-10").unwrap();
         let m = mechanism_from_str("gripper-10.toml", text).unwrap();
         let exact = exact_field(&m, 0).unwrap();
-        let search = Search::new(exact, &m, Conditions::default()).unwrap();
-        let found = search.build(&|| false, &mut |_| {});
+        let search = Question::new(exact, &m, Conditions::default()).unwrap();
+        let found = crate::search::build::build(&search, &|| false, &mut |_| {});
         let list = |room| {
             let mut all = Cheapest::<u128>::new(
                 &found.admissible,

@@ -1,8 +1,10 @@
 //! How many variants there are of each kind.
 
 use crate::search::answer::count_tables::{Count, Key, Kinds, totals};
+use crate::search::build::build;
 use crate::search::diagram::{Diagram, Stop};
-use crate::search::question::conditions::{Conditions, Search, SearchError, Symmetry};
+use crate::search::question::Question;
+use crate::search::question::conditions::{Conditions, SearchError, Symmetry};
 use num_bigint::BigUint;
 use num_traits::Zero;
 use std::collections::BTreeMap;
@@ -105,122 +107,120 @@ impl Counts {
     }
 }
 
-impl Search {
-    /// Counts the variants of a diagram; `filter` applies the conditions on mobility and changes too.
-    #[must_use]
-    pub fn counts(&self, diagram: &Diagram, filter: bool) -> Counts {
-        if self.fits() {
-            self.count_with::<u128>(diagram, filter)
-        } else {
-            self.count_with::<BigUint>(diagram, filter)
+/// Counts the variants of a diagram; `filter` applies the conditions on mobility and changes too.
+#[must_use]
+pub fn counts(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
+    if fits(question) {
+        count_with::<u128>(question, diagram, filter)
+    } else {
+        count_with::<BigUint>(question, diagram, filter)
+    }
+}
+
+/// Whether every count fits 128 bits.
+pub(in crate::search) fn fits(question: &Question) -> bool {
+    question.space.size().bits() <= 127
+}
+
+fn count_with<C: Count>(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
+    let all = Kinds {
+        freedoms: true,
+        changes: true,
+        cost: false,
+    };
+    let room = question.conditions.memory / 4;
+    let wanted = |key: &Key| !filter || question.wanted(*key);
+    let mut counts = Counts::default();
+    if let Some(totals) = totals::<C>(diagram, &question.steps.only(all), room) {
+        for (key, count) in totals.iter().filter(|(k, _)| wanted(k)) {
+            counts.add(question.mobility(*key), *key, &count.big());
         }
+        return counts;
     }
+    counts.only_total = true;
+    counts.total = total(question, diagram, filter);
+    counts
+}
 
-    /// Whether every count fits 128 bits.
-    pub(in crate::search) fn fits(&self) -> bool {
-        self.space.size().bits() <= 127
+/// What must be told apart to know whether a variant meets the conditions on mobility and changes.
+pub(in crate::search) fn limited(question: &Question) -> Kinds {
+    Kinds {
+        freedoms: question.conditions.max_mobility.is_some(),
+        changes: question.conditions.max_changes.is_some(),
+        cost: false,
     }
+}
 
-    fn count_with<C: Count>(&self, diagram: &Diagram, filter: bool) -> Counts {
-        let all = Kinds {
-            freedoms: true,
-            changes: true,
-            cost: false,
+/// How many variants a diagram has; `filter` applies the conditions on mobility and changes too. None that the memory there
+/// is does not suffice to count.
+pub(in crate::search) fn total(question: &Question, diagram: &Diagram, filter: bool) -> BigUint {
+    fn with<C: Count>(s: &Question, diagram: &Diagram, filter: bool) -> BigUint {
+        let needed = if filter { limited(s) } else { Kinds::default() };
+        let steps = s.steps.only(needed);
+        let totals = totals::<C>(diagram, &steps, s.conditions.memory / 4);
+        let wanted = |key: &Key| !filter || s.wanted(*key);
+        let all = totals.iter().flatten().filter(|(k, _)| wanted(k));
+        all.map(|(_, c)| c.big()).sum()
+    }
+    if fits(question) {
+        with::<u128>(question, diagram, filter)
+    } else {
+        with::<BigUint>(question, diagram, filter)
+    }
+}
+
+/// Counts by cost in thousandths of the variants of a diagram that meet every condition; `None` where they would take
+/// more than the memory there is.
+#[must_use]
+pub fn counts_by_cost(question: &Question, diagram: &Diagram) -> Option<BTreeMap<i64, BigUint>> {
+    fn with<C: Count>(s: &Question, diagram: &Diagram) -> Option<BTreeMap<i64, BigUint>> {
+        let kinds = Kinds {
+            cost: true,
+            ..limited(s)
         };
-        let room = self.conditions.memory / 4;
-        let wanted = |key: &Key| !filter || self.wanted(*key);
-        let mut counts = Counts::default();
-        if let Some(totals) = totals::<C>(diagram, &self.steps.only(all), room) {
-            for (key, count) in totals.iter().filter(|(k, _)| wanted(k)) {
-                counts.add(self.mobility(*key), *key, &count.big());
-            }
-            return counts;
+        let totals = totals::<C>(diagram, &s.steps.only(kinds), s.conditions.memory / 4)?;
+        let mut out = BTreeMap::new();
+        for (key, count) in totals.iter().filter(|(k, _)| s.wanted(*k)) {
+            *out.entry(s.steps.milli(key.cost()))
+                .or_insert_with(BigUint::zero) += count.big();
         }
-        counts.only_total = true;
-        counts.total = self.total(diagram, filter);
-        counts
+        Some(out)
     }
+    if fits(question) {
+        with::<u128>(question, diagram)
+    } else {
+        with::<BigUint>(question, diagram)
+    }
+}
 
-    /// What must be told apart to know whether a variant meets the conditions on mobility and changes.
-    pub(in crate::search) fn limited(&self) -> Kinds {
-        Kinds {
-            freedoms: self.conditions.max_mobility.is_some(),
-            changes: self.conditions.max_changes.is_some(),
-            cost: false,
-        }
-    }
-
-    /// How many variants a diagram has; `filter` applies the conditions on mobility and changes too. None that the memory there
-    /// is does not suffice to count.
-    pub(in crate::search) fn total(&self, diagram: &Diagram, filter: bool) -> BigUint {
-        fn with<C: Count>(s: &Search, diagram: &Diagram, filter: bool) -> BigUint {
-            let needed = if filter {
-                s.limited()
-            } else {
-                Kinds::default()
-            };
-            let steps = s.steps.only(needed);
-            let totals = totals::<C>(diagram, &steps, s.conditions.memory / 4);
-            let wanted = |key: &Key| !filter || s.wanted(*key);
-            let all = totals.iter().flatten().filter(|(k, _)| wanted(k));
-            all.map(|(_, c)| c.big()).sum()
-        }
-        if self.fits() {
-            with::<u128>(self, diagram, filter)
-        } else {
-            with::<BigUint>(self, diagram, filter)
-        }
-    }
-
-    /// Counts by cost in thousandths of the variants of a diagram that meet every condition; `None` where they would take
-    /// more than the memory there is.
-    #[must_use]
-    pub fn counts_by_cost(&self, diagram: &Diagram) -> Option<BTreeMap<i64, BigUint>> {
-        fn with<C: Count>(s: &Search, diagram: &Diagram) -> Option<BTreeMap<i64, BigUint>> {
-            let kinds = Kinds {
-                cost: true,
-                ..s.limited()
-            };
-            let totals = totals::<C>(diagram, &s.steps.only(kinds), s.conditions.memory / 4)?;
-            let mut out = BTreeMap::new();
-            for (key, count) in totals.iter().filter(|(k, _)| s.wanted(*k)) {
-                *out.entry(s.steps.milli(key.cost()))
-                    .or_insert_with(BigUint::zero) += count.big();
-            }
-            Some(out)
-        }
-        if self.fits() {
-            with::<u128>(self, diagram)
-        } else {
-            with::<BigUint>(self, diagram)
-        }
-    }
-
-    /// Counts of orbits from counts of all variants, by a search for the symmetric ones, and why that search ended.
-    ///
-    /// # Errors
-    /// As [`Search::new`].
-    pub fn orbits(
-        &self,
-        all: (Counts, Counts),
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Result<((Counts, Counts), [Stop; 2]), SearchError> {
-        let conditions = Conditions {
-            symmetry: Symmetry::SymmetricOnly,
-            cheapest: 0,
-            estimate: None,
-            ..self.conditions.clone()
-        };
-        let symmetric = Search::new(self.exact.clone(), self.mechanism.clone(), conditions)?;
-        let diagrams = symmetric.build(cancelled, &mut |_| {});
-        let order = self.mechanism.search.order();
-        let determinate = symmetric.counts(&diagrams.determinate, false);
-        let admissible = symmetric.counts(&diagrams.admissible, true);
-        let determinate = all.0.orbits(&determinate, order);
-        let admissible = all.1.orbits(&admissible, order);
-        let stops = [diagrams.determinate.stop, diagrams.admissible.stop];
-        Ok(((determinate, admissible), stops))
-    }
+/// Counts of orbits from counts of all variants, by a search for the symmetric ones, and why that search ended.
+///
+/// # Errors
+/// As [`Question::new`].
+pub fn orbit_counts(
+    question: &Question,
+    all: (Counts, Counts),
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Result<((Counts, Counts), [Stop; 2]), SearchError> {
+    let conditions = Conditions {
+        symmetry: Symmetry::SymmetricOnly,
+        cheapest: 0,
+        estimate: None,
+        ..question.conditions.clone()
+    };
+    let symmetric = Question::new(
+        question.exact.clone(),
+        question.mechanism.clone(),
+        conditions,
+    )?;
+    let diagrams = build(&symmetric, cancelled, &mut |_| {});
+    let order = question.mechanism.search.order();
+    let determinate = counts(&symmetric, &diagrams.determinate, false);
+    let admissible = counts(&symmetric, &diagrams.admissible, true);
+    let determinate = all.0.orbits(&determinate, order);
+    let admissible = all.1.orbits(&admissible, order);
+    let stops = [diagrams.determinate.stop, diagrams.admissible.stop];
+    Ok(((determinate, admissible), stops))
 }
 
 #[cfg(test)]

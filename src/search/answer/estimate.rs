@@ -10,13 +10,14 @@
 //! of Mathematical Statistics 20 (1949).
 
 use crate::search::answer::count_tables::Key;
+use crate::search::answer::counts::limited;
 use crate::search::diagram::choice_inclusion::grown;
 use crate::search::diagram::completion::Missing;
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::diagram::stage::Stage;
 use crate::search::diagram::{DEAD, Stop, expand, passing, retain};
-use crate::search::question::conditions::Search;
+use crate::search::question::Question;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
@@ -40,119 +41,124 @@ pub struct Estimate {
     pub seed: u64,
 }
 
-impl Search {
-    /// Estimates how many variants the diagram of some stages has; `filter` applies the conditions on mobility and changes
-    /// too. `None` where it was cancelled, where memory does not suffice, and where no cut has any variant, or too many for a
-    /// floating-point number.
-    ///
-    /// # Complexity
-    /// That of a diagram of half as many nodes as the limits allow.
-    pub(in crate::search) fn estimate(
-        &self,
-        (stages, limits): (&[Stage], &Limits),
-        missing: &Missing,
-        (seed, filter): (u64, bool),
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Estimate> {
-        let keep = (limits.nodes / 2 / CUTS / stages.len().max(1)).max(FEWEST);
-        let cuts = (0..CUTS).into_par_iter().map(|cut| {
-            let random = ChaCha8Rng::seed_from_u64(seed.rotate_left(16) ^ cut as u64);
-            let cut = self.one_cut((stages, limits), missing, (keep, random), filter, cancelled)?;
-            cut.is_finite().then_some(cut)
-        });
-        let sums: Vec<f64> = cuts.collect::<Option<_>>()?;
-        #[allow(clippy::cast_precision_loss, reason = "cuts are few")]
-        let n = CUTS as f64;
-        let mean = sums.iter().sum::<f64>() / n;
-        let spread: f64 = sums.iter().map(|x| (x / mean - 1.0).powi(2)).sum();
-        (mean > 0.0).then_some(Estimate {
-            mean,
-            standard_error: mean * (spread / (n * (n - 1.0))).sqrt(),
-            cuts: CUTS,
-            seed,
-        })
-    }
+/// Estimates how many variants the diagram of some stages has; `filter` applies the conditions on mobility and changes
+/// too. `None` where it was cancelled, where memory does not suffice, and where no cut has any variant, or too many for a
+/// floating-point number.
+///
+/// # Complexity
+/// That of a diagram of half as many nodes as the limits allow.
+pub(in crate::search) fn estimate(
+    question: &Question,
+    (stages, limits): (&[Stage], &Limits),
+    missing: &Missing,
+    (seed, filter): (u64, bool),
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Option<Estimate> {
+    let keep = (limits.nodes / 2 / CUTS / stages.len().max(1)).max(FEWEST);
+    let cuts = (0..CUTS).into_par_iter().map(|cut| {
+        let random = ChaCha8Rng::seed_from_u64(seed.rotate_left(16) ^ cut as u64);
+        let cut = one_cut(
+            question,
+            (stages, limits),
+            missing,
+            (keep, random),
+            filter,
+            cancelled,
+        )?;
+        cut.is_finite().then_some(cut)
+    });
+    let sums: Vec<f64> = cuts.collect::<Option<_>>()?;
+    #[allow(clippy::cast_precision_loss, reason = "cuts are few")]
+    let n = CUTS as f64;
+    let mean = sums.iter().sum::<f64>() / n;
+    let spread: f64 = sums.iter().map(|x| (x / mean - 1.0).powi(2)).sum();
+    (mean > 0.0).then_some(Estimate {
+        mean,
+        standard_error: mean * (spread / (n * (n - 1.0))).sqrt(),
+        cuts: CUTS,
+        seed,
+    })
+}
 
-    /// The weighted number of variants of one random cut.
-    fn one_cut(
-        &self,
-        (stages, limits): (&[Stage], &Limits),
-        missing: &Missing,
-        (keep, mut random): (usize, ChaCha8Rng),
-        filter: bool,
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Option<f64> {
-        let (field, space) = (self.exact.field(), &self.least.whole.space);
-        let kinds = if filter {
-            self.limited()
-        } else {
-            <_>::default()
-        };
-        let steps = self.steps.only(kinds);
-        let mut nodes = Nodes::root(limits.already);
-        // By node and what is told apart of the ways to it, their number.
-        let mut ways = vec![BTreeMap::from([(Key::default(), 1.0)])];
-        for (done, stage) in stages.iter().enumerate() {
-            if cancelled() {
-                return None;
-            }
-            let choices = space.variables[stage.variable].choices.len();
-            let room = (usize::MAX, limits.bytes / CUTS);
-            let mut merge = Merge::new(room, Stop::Exhausted, nodes.len() * choices);
-            let growth = grown(field, space, stage);
-            for part in expand(
-                field,
-                space,
-                (stage, &growth),
-                limits,
-                &nodes,
-                0..nodes.len(),
-            ) {
-                let fails = |spent: &_, size, _| missing.least(done + 1, spent, size).is_none();
-                merge.take(&part, &nodes, |_| 0, fails);
-            }
-            if merge.stop != Stop::Exhausted {
-                return None;
-            }
-            let (mut next, mut edges) = (merge.next, merge.edges);
-            if let Some(test) = &stage.lookahead {
-                let passed = passing(field, space.dim, test, &next);
-                retain(&mut next, &passed, &mut edges);
-            }
-            let mut carried = vec![BTreeMap::new(); next.len()];
-            for (e, &to) in edges.iter().enumerate().filter(|(_, to)| **to != DEAD) {
-                let step = steps.keys[stage.variable][e % choices];
-                for (key, n) in &ways[e / choices] {
-                    *carried[to as usize]
-                        .entry(Key(key.0 + step.0))
-                        .or_insert(0.0) += n;
-                }
-            }
-            let size = |(i, ways): (usize, &BTreeMap<Key, f64>)| {
-                let share = missing.share(done + 1, &next.spent[i], next.matrix(i).len());
-                share * ways.values().sum::<f64>()
-            };
-            let sizes: Vec<f64> = carried.iter().enumerate().map(size).collect();
-            let drawn = draw(&sizes, keep, &mut random);
-            let kept: Vec<usize> = drawn.iter().map(|(i, _)| *i).collect();
-            retain(&mut next, &kept, &mut edges);
-            ways = drawn
-                .into_iter()
-                .map(|(i, chance)| {
-                    let mut ways = std::mem::take(&mut carried[i]);
-                    ways.values_mut().for_each(|n| *n /= chance);
-                    ways
-                })
-                .collect();
-            nodes = next;
+/// The weighted number of variants of one random cut.
+fn one_cut(
+    question: &Question,
+    (stages, limits): (&[Stage], &Limits),
+    missing: &Missing,
+    (keep, mut random): (usize, ChaCha8Rng),
+    filter: bool,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Option<f64> {
+    let (field, space) = (question.exact.field(), &question.least.whole.space);
+    let kinds = if filter {
+        limited(question)
+    } else {
+        <_>::default()
+    };
+    let steps = question.steps.only(kinds);
+    let mut nodes = Nodes::root(limits.already);
+    // By node and what is told apart of the ways to it, their number.
+    let mut ways = vec![BTreeMap::from([(Key::default(), 1.0)])];
+    for (done, stage) in stages.iter().enumerate() {
+        if cancelled() {
+            return None;
         }
-        let ends = nodes.spent.iter().zip(&ways).flat_map(|(spent, ways)| {
-            let end = self.steps.redundancy(spent.redundancy()).0;
-            ways.iter().map(move |(key, n)| (Key(key.0 + end), n))
-        });
-        let wanted = ends.filter(|(key, _)| !filter || self.wanted(*key));
-        Some(wanted.map(|(_, n)| n).sum())
+        let choices = space.variables[stage.variable].choices.len();
+        let room = (usize::MAX, limits.bytes / CUTS);
+        let mut merge = Merge::new(room, Stop::Exhausted, nodes.len() * choices);
+        let growth = grown(field, space, stage);
+        for part in expand(
+            field,
+            space,
+            (stage, &growth),
+            limits,
+            &nodes,
+            0..nodes.len(),
+        ) {
+            let fails = |spent: &_, size, _| missing.least(done + 1, spent, size).is_none();
+            merge.take(&part, &nodes, |_| 0, fails);
+        }
+        if merge.stop != Stop::Exhausted {
+            return None;
+        }
+        let (mut next, mut edges) = (merge.next, merge.edges);
+        if let Some(test) = &stage.lookahead {
+            let passed = passing(field, space.dim, test, &next);
+            retain(&mut next, &passed, &mut edges);
+        }
+        let mut carried = vec![BTreeMap::new(); next.len()];
+        for (e, &to) in edges.iter().enumerate().filter(|(_, to)| **to != DEAD) {
+            let step = steps.keys[stage.variable][e % choices];
+            for (key, n) in &ways[e / choices] {
+                *carried[to as usize]
+                    .entry(Key(key.0 + step.0))
+                    .or_insert(0.0) += n;
+            }
+        }
+        let size = |(i, ways): (usize, &BTreeMap<Key, f64>)| {
+            let share = missing.share(done + 1, &next.spent[i], next.matrix(i).len());
+            share * ways.values().sum::<f64>()
+        };
+        let sizes: Vec<f64> = carried.iter().enumerate().map(size).collect();
+        let drawn = draw(&sizes, keep, &mut random);
+        let kept: Vec<usize> = drawn.iter().map(|(i, _)| *i).collect();
+        retain(&mut next, &kept, &mut edges);
+        ways = drawn
+            .into_iter()
+            .map(|(i, chance)| {
+                let mut ways = std::mem::take(&mut carried[i]);
+                ways.values_mut().for_each(|n| *n /= chance);
+                ways
+            })
+            .collect();
+        nodes = next;
     }
+    let ends = nodes.spent.iter().zip(&ways).flat_map(|(spent, ways)| {
+        let end = question.steps.redundancy(spent.redundancy()).0;
+        ways.iter().map(move |(key, n)| (Key(key.0 + end), n))
+    });
+    let wanted = ends.filter(|(key, _)| !filter || question.wanted(*key));
+    Some(wanted.map(|(_, n)| n).sum())
 }
 
 /// Some of a number of things, ascending, each with its chance of being drawn: in proportion to its size, or 1 where that

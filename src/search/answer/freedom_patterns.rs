@@ -9,10 +9,13 @@ use crate::geom::vector::{across, cross, real, unit};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
 use crate::search::answer::count_tables::Key;
+use crate::search::answer::counts::limited;
+use crate::search::answer::counts::total;
 use crate::search::answer::k_best::Assignment;
+use crate::search::answer::variants_in_order::distinct;
 use crate::search::build::Diagrams;
 use crate::search::diagram::{DEAD, Diagram};
-use crate::search::question::conditions::Search;
+use crate::search::question::Question;
 use crate::search::question::symmetry;
 use itertools::Itertools;
 use num_bigint::BigUint;
@@ -205,188 +208,200 @@ fn added(present: &JointOption, option: &JointOption) -> Vec<String> {
     all
 }
 
-impl Search {
-    fn patterns(&self) -> Patterns {
-        let m = &self.mechanism;
-        let state = self.conditions.state.map_or(StateId::FREE, |s| s.state);
-        let mut series = series(m, state);
-        series.extend(
-            m.joints_in(StateId::FREE)
-                .filter(|&j| !m.joints[j].is_in(state))
-                .map(|j| (j, vec![j])),
-        );
-        let mut items: BTreeSet<Item> = BTreeSet::new();
-        let mut raw: Vec<Vec<Vec<Item>>> = Vec::new();
-        for v in &self.space.variables {
-            let mut choices = Vec::new();
-            for choice in &v.choices {
-                let mut here = Vec::new();
-                for &j in &v.joints {
-                    let joint = &m.joints[j];
-                    let mut words = added(&joint.options[0], &joint.options[choice.option]);
-                    if let Some(u) = choice.unloading {
-                        words.extend(freedoms(&joint.unloading[u]));
-                    }
-                    here.extend(words.into_iter().map(|w| (series[&j].clone(), w)));
+fn patterns(question: &Question) -> Patterns {
+    let m = &question.mechanism;
+    let state = question.conditions.state.map_or(StateId::FREE, |s| s.state);
+    let mut series = series(m, state);
+    series.extend(
+        m.joints_in(StateId::FREE)
+            .filter(|&j| !m.joints[j].is_in(state))
+            .map(|j| (j, vec![j])),
+    );
+    let mut items: BTreeSet<Item> = BTreeSet::new();
+    let mut raw: Vec<Vec<Vec<Item>>> = Vec::new();
+    for v in &question.space.variables {
+        let mut choices = Vec::new();
+        for choice in &v.choices {
+            let mut here = Vec::new();
+            for &j in &v.joints {
+                let joint = &m.joints[j];
+                let mut words = added(&joint.options[0], &joint.options[choice.option]);
+                if let Some(u) = choice.unloading {
+                    words.extend(freedoms(&joint.unloading[u]));
                 }
-                items.extend(here.iter().cloned());
-                choices.push(here);
+                here.extend(words.into_iter().map(|w| (series[&j].clone(), w)));
             }
-            raw.push(choices);
+            items.extend(here.iter().cloned());
+            choices.push(here);
         }
-        let items: Vec<Item> = items.into_iter().collect();
-        let at = |x: &Item| items.binary_search(x).ok();
-        let pattern = |here: &Vec<Item>| {
-            let mut out = vec![0; items.len()];
-            here.iter().filter_map(at).for_each(|i| out[i] += 1);
-            out
-        };
-        let of = raw
-            .iter()
-            .map(|c| c.iter().map(pattern).collect())
-            .collect();
-        let image = |(joints, word): &Item| {
-            let joints = joints.iter().map(|&j| m.search.image(j)).sorted().collect();
-            at(&(joints, word.clone()))
-        };
-        let searched = self.conditions.state.map(|s| s.state);
-        // A third of a turn makes of a freedom about x one that is about no axis of another's words.
-        let symmetric = m.search.order() == 2 && symmetry::check(&self.exact, m, searched).is_ok();
-        let mirrored = symmetric
-            .then(|| items.iter().map(image).collect())
-            .flatten();
-        Patterns {
-            items,
-            of,
-            mirrored,
-        }
+        raw.push(choices);
     }
+    let items: Vec<Item> = items.into_iter().collect();
+    let at = |x: &Item| items.binary_search(x).ok();
+    let pattern = |here: &Vec<Item>| {
+        let mut out = vec![0; items.len()];
+        here.iter().filter_map(at).for_each(|i| out[i] += 1);
+        out
+    };
+    let of = raw
+        .iter()
+        .map(|c| c.iter().map(pattern).collect())
+        .collect();
+    let image = |(joints, word): &Item| {
+        let joints = joints.iter().map(|&j| m.search.image(j)).sorted().collect();
+        at(&(joints, word.clone()))
+    };
+    let searched = question.conditions.state.map(|s| s.state);
+    // A third of a turn makes of a freedom about x one that is about no axis of another's words.
+    let symmetric = m.search.order() == 2 && symmetry::check(&question.exact, m, searched).is_ok();
+    let mirrored = symmetric
+        .then(|| items.iter().map(image).collect())
+        .flatten();
+    Patterns {
+        items,
+        of,
+        mirrored,
+    }
+}
 
-    /// The first ideas among the admissible variants, in the order of [`Search::cheapest`]; `top` of them at most.
-    ///
-    /// # Complexity
-    /// Of the variants up to the last idea's cost only as much of each as differs in its pattern; then for each idea a
-    /// pass over the part of the diagram that it uses.
-    pub fn ideas(&self, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
-        let patterns = self.patterns();
-        let order: Vec<usize> = diagrams
-            .admissible
-            .layers
-            .iter()
-            .map(|l| l.variable)
-            .collect();
-        let mut at_least = top.saturating_mul(64);
-        loop {
-            let mut entered: BTreeSet<(usize, usize, Key, Pattern)> = BTreeSet::new();
-            let enter = |depth: usize, node: usize, rest: Key, choices: &[usize]| {
-                let chosen = order[..depth].iter().map(|&v| (v, choices[v]));
-                entered.insert((depth, node, rest, patterns.sum(chosen)))
-            };
-            let mut seen = BTreeSet::new();
-            let found: Vec<Assignment> = self
-                .distinct(&diagrams.admissible, at_least, Box::new(enter))
+/// The first ideas among the admissible variants, in the order of [`Question::cheapest`]; `top` of them at most.
+///
+/// # Complexity
+/// Of the variants up to the last idea's cost only as much of each as differs in its pattern; then for each idea a
+/// pass over the part of the diagram that it uses.
+pub fn ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
+    let patterns = patterns(question);
+    let order: Vec<usize> = diagrams
+        .admissible
+        .layers
+        .iter()
+        .map(|l| l.variable)
+        .collect();
+    let mut at_least = top.saturating_mul(64);
+    loop {
+        let mut entered: BTreeSet<(usize, usize, Key, Pattern)> = BTreeSet::new();
+        let enter = |depth: usize, node: usize, rest: Key, choices: &[usize]| {
+            let chosen = order[..depth].iter().map(|&v| (v, choices[v]));
+            entered.insert((depth, node, rest, patterns.sum(chosen)))
+        };
+        let mut seen = BTreeSet::new();
+        let found: Vec<Assignment> =
+            distinct(question, &diagrams.admissible, at_least, Box::new(enter))
                 .filter(|v| seen.insert(patterns.idea(v)))
                 .take(top)
                 .collect();
-            // All that were asked for, or all there are: otherwise more variants must be let in.
-            let all = || BigUint::from(at_least) >= self.total(&diagrams.admissible, true);
-            if found.len() == top || all() {
-                let idea = |first| self.idea(diagrams, &patterns, first);
-                return found.into_iter().map(idea).collect();
-            }
-            at_least = at_least.saturating_mul(64);
+        // All that were asked for, or all there are: otherwise more variants must be let in.
+        let all = || BigUint::from(at_least) >= total(question, &diagrams.admissible, true);
+        if found.len() == top || all() {
+            let idea = |first| idea(question, diagrams, &patterns, first);
+            return found.into_iter().map(idea).collect();
         }
+        at_least = at_least.saturating_mul(64);
     }
+}
 
-    /// The first of each idea in a list of variants, with its place in the list.
-    pub fn first_of_each<'a>(
-        &self,
-        list: impl Iterator<Item = &'a Assignment>,
-        diagrams: &Diagrams,
-    ) -> Vec<(usize, Idea)> {
-        let patterns = self.patterns();
-        let mut seen = BTreeSet::new();
-        list.enumerate()
-            .filter(|(_, v)| seen.insert(patterns.idea(v)))
-            .map(|(place, v)| (place, self.idea(diagrams, &patterns, v.clone())))
-            .collect()
-    }
+/// The first of each idea in a list of variants, with its place in the list.
+pub fn first_of_each<'a>(
+    question: &Question,
+    list: impl Iterator<Item = &'a Assignment>,
+    diagrams: &Diagrams,
+) -> Vec<(usize, Idea)> {
+    let patterns = patterns(question);
+    let mut seen = BTreeSet::new();
+    list.enumerate()
+        .filter(|(_, v)| seen.insert(patterns.idea(v)))
+        .map(|(place, v)| (place, idea(question, diagrams, &patterns, v.clone())))
+        .collect()
+}
 
-    /// The first ideas in a list of all variants in order, and how many of the list each stands for; `top` of them at most.
-    ///
-    /// # Complexity
-    /// O(list · variables · log).
-    pub fn ideas_among(&self, list: impl Iterator<Item = Assignment>, top: usize) -> Vec<Idea> {
-        let patterns = self.patterns();
-        let mut at: BTreeMap<Pattern, Option<usize>> = BTreeMap::new();
-        let mut out: Vec<Idea> = Vec::new();
-        for v in list {
-            let place = at.entry(patterns.idea(&v)).or_insert_with(|| {
-                (out.len() < top).then(|| {
-                    out.push(Idea {
-                        added: patterns.added(&patterns.of_variant(&v)),
-                        variants: BigUint::from(0u8),
-                        first: v.clone(),
-                    });
-                    out.len() - 1
-                })
-            });
-            if let Some(idea) = place.and_then(|i| out.get_mut(i)) {
-                idea.variants += 1u8;
-            }
-        }
-        out
-    }
-
-    /// The idea that a variant is the first of.
-    fn idea(&self, diagrams: &Diagrams, patterns: &Patterns, first: Assignment) -> Idea {
-        let pattern = patterns.of_variant(&first);
-        Idea {
-            added: patterns.added(&pattern),
-            variants: self.variants_of(diagrams, patterns, &pattern),
-            first,
-        }
-    }
-
-    /// How many admissible variants have a pattern, or its mirror image.
-    fn variants_of(&self, diagrams: &Diagrams, patterns: &Patterns, pattern: &Pattern) -> BigUint {
-        let image = patterns.image(pattern);
-        let own = self.with_pattern(diagrams, patterns, pattern);
-        if image == *pattern {
-            own
-        } else {
-            own + self.with_pattern(diagrams, patterns, &image)
-        }
-    }
-
-    fn with_pattern(&self, diagrams: &Diagrams, patterns: &Patterns, pattern: &Pattern) -> BigUint {
-        let diagram = &diagrams.admissible;
-        let steps = self.steps.only(self.limited());
-        let to_come = patterns.to_come(diagram);
-        let mut here: BTreeMap<(usize, Pattern, Key), BigUint> = BTreeMap::new();
-        here.insert((0, pattern.clone(), Key::default()), BigUint::from(1u8));
-        for (layer, to_come) in diagram.layers.iter().zip(&to_come) {
-            let mut next: BTreeMap<(usize, Pattern, Key), BigUint> = BTreeMap::new();
-            for ((node, left, key), n) in here {
-                for choice in 0..layer.choices {
-                    let to = layer.edges[node * layer.choices + choice];
-                    let takes = &patterns.of[layer.variable][choice];
-                    // No more than is left, and no less than what comes later can take.
-                    let mut all = left.iter().zip(takes).zip(to_come);
-                    if to == DEAD || !all.all(|((a, b), most)| b <= a && a - b <= *most) {
-                        continue;
-                    }
-                    let left = left.iter().zip(takes).map(|(a, b)| a - b).collect();
-                    let key = Key(key.0 + steps.keys[layer.variable][choice].0);
-                    *next.entry((to as usize, left, key)).or_default() += &n;
-                }
-            }
-            here = next;
-        }
-        let whole = here.into_iter().filter(|((node, left, key), _)| {
-            let key = Key(key.0 + steps.redundancy(diagram.terminals[*node]).0);
-            left.iter().all(|n| *n == 0) && self.wanted(key)
+/// The first ideas in a list of all variants in order, and how many of the list each stands for; `top` of them at most.
+///
+/// # Complexity
+/// O(list · variables · log).
+pub fn ideas_among(
+    question: &Question,
+    list: impl Iterator<Item = Assignment>,
+    top: usize,
+) -> Vec<Idea> {
+    let patterns = patterns(question);
+    let mut at: BTreeMap<Pattern, Option<usize>> = BTreeMap::new();
+    let mut out: Vec<Idea> = Vec::new();
+    for v in list {
+        let place = at.entry(patterns.idea(&v)).or_insert_with(|| {
+            (out.len() < top).then(|| {
+                out.push(Idea {
+                    added: patterns.added(&patterns.of_variant(&v)),
+                    variants: BigUint::from(0u8),
+                    first: v.clone(),
+                });
+                out.len() - 1
+            })
         });
-        whole.map(|(_, n)| n).sum()
+        if let Some(idea) = place.and_then(|i| out.get_mut(i)) {
+            idea.variants += 1u8;
+        }
     }
+    out
+}
+
+/// The idea that a variant is the first of.
+fn idea(question: &Question, diagrams: &Diagrams, patterns: &Patterns, first: Assignment) -> Idea {
+    let pattern = patterns.of_variant(&first);
+    Idea {
+        added: patterns.added(&pattern),
+        variants: variants_of(question, diagrams, patterns, &pattern),
+        first,
+    }
+}
+
+/// How many admissible variants have a pattern, or its mirror image.
+fn variants_of(
+    question: &Question,
+    diagrams: &Diagrams,
+    patterns: &Patterns,
+    pattern: &Pattern,
+) -> BigUint {
+    let image = patterns.image(pattern);
+    let own = with_pattern(question, diagrams, patterns, pattern);
+    if image == *pattern {
+        own
+    } else {
+        own + with_pattern(question, diagrams, patterns, &image)
+    }
+}
+
+fn with_pattern(
+    question: &Question,
+    diagrams: &Diagrams,
+    patterns: &Patterns,
+    pattern: &Pattern,
+) -> BigUint {
+    let diagram = &diagrams.admissible;
+    let steps = question.steps.only(limited(question));
+    let to_come = patterns.to_come(diagram);
+    let mut here: BTreeMap<(usize, Pattern, Key), BigUint> = BTreeMap::new();
+    here.insert((0, pattern.clone(), Key::default()), BigUint::from(1u8));
+    for (layer, to_come) in diagram.layers.iter().zip(&to_come) {
+        let mut next: BTreeMap<(usize, Pattern, Key), BigUint> = BTreeMap::new();
+        for ((node, left, key), n) in here {
+            for choice in 0..layer.choices {
+                let to = layer.edges[node * layer.choices + choice];
+                let takes = &patterns.of[layer.variable][choice];
+                // No more than is left, and no less than what comes later can take.
+                let mut all = left.iter().zip(takes).zip(to_come);
+                if to == DEAD || !all.all(|((a, b), most)| b <= a && a - b <= *most) {
+                    continue;
+                }
+                let left = left.iter().zip(takes).map(|(a, b)| a - b).collect();
+                let key = Key(key.0 + steps.keys[layer.variable][choice].0);
+                *next.entry((to as usize, left, key)).or_default() += &n;
+            }
+        }
+        here = next;
+    }
+    let whole = here.into_iter().filter(|((node, left, key), _)| {
+        let key = Key(key.0 + steps.redundancy(diagram.terminals[*node]).0);
+        left.iter().all(|n| *n == 0) && question.wanted(key)
+    });
+    whole.map(|(_, n)| n).sum()
 }

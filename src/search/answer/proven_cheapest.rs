@@ -8,9 +8,10 @@
 //! raised so that each step about doubles the work: Sarkar, Chakrabarti, Ghose, De Sarkar, "Reducing reexpansions in
 //! iterative-deepening search by controlling cutoff bounds", Artificial Intelligence 50 (1991).
 
+use crate::search::answer::counts::counts_by_cost;
 use crate::search::diagram::completion::{Ceiling, Missing};
 use crate::search::diagram::{Diagram, Stop};
-use crate::search::question::conditions::Search;
+use crate::search::question::Question;
 use num_bigint::BigUint;
 use num_traits::Zero;
 
@@ -29,65 +30,63 @@ pub(in crate::search) struct Proof {
     pub(in crate::search) stop: Stop,
 }
 
-impl Search {
-    /// A diagram of all variants up to the cost of the `most` cheapest, or up to as high a cost as the budget allows. `known`
-    /// is the cost of that many variants known before, where there are so many.
-    pub(in crate::search) fn up_to(
-        &self,
-        missing: &Missing,
-        (most, known): (&BigUint, Option<i64>),
-        build: &mut dyn FnMut(&mut Ceiling<'_>) -> Diagram,
-    ) -> Proof {
-        let (mut up_to, mut known) = (None, known);
-        let mut next = missing.root();
-        while let Some(cost) = next {
-            let mut ceiling = Ceiling::new(missing, cost);
-            let diagram = build(&mut ceiling);
-            if diagram.stop != Stop::Exhausted {
-                let stop = diagram.stop;
-                return Proof { up_to, stop };
-            }
-            let Some(found) = self.cost_of(&diagram, most) else {
-                let stop = Stop::Memory;
-                return Proof { up_to, stop };
-            };
-            // Each ceiling lets through what was left out under the one before, about as much again as there was.
-            let mut more = 0;
-            let raised = ceiling.beyond.iter().find(|(_, n)| {
-                more += **n;
-                more >= diagram.nodes
-            });
-            let raised = raised.or(ceiling.beyond.last_key_value()).map(|(c, _)| *c);
-            known = known.into_iter().chain(found).min();
-            next = raised.map(|raised| known.map_or(raised, |k| raised.min(k)));
-            let cost_milli = if raised.is_some() { cost } else { i64::MAX };
-            up_to = Some(UpTo {
-                diagram,
-                cost_milli,
-            });
-            if known.is_some_and(|k| k <= cost) {
-                break;
-            }
+/// A diagram of all variants up to the cost of the `most` cheapest, or up to as high a cost as the budget allows. `known`
+/// is the cost of that many variants known before, where there are so many.
+pub(in crate::search) fn up_to(
+    question: &Question,
+    missing: &Missing,
+    (most, known): (&BigUint, Option<i64>),
+    build: &mut dyn FnMut(&mut Ceiling<'_>) -> Diagram,
+) -> Proof {
+    let (mut up_to, mut known) = (None, known);
+    let mut next = missing.root();
+    while let Some(cost) = next {
+        let mut ceiling = Ceiling::new(missing, cost);
+        let diagram = build(&mut ceiling);
+        if diagram.stop != Stop::Exhausted {
+            let stop = diagram.stop;
+            return Proof { up_to, stop };
         }
-        Proof {
-            up_to,
-            stop: Stop::Exhausted,
-        }
-    }
-
-    /// The cost in thousandths up to which a diagram has so many variants; the inner `None` where it has not as many, the
-    /// outer one where memory does not suffice to say.
-    pub(in crate::search) fn cost_of(
-        &self,
-        diagram: &Diagram,
-        most: &BigUint,
-    ) -> Option<Option<i64>> {
-        let by_cost = self.counts_by_cost(diagram)?;
-        let mut sum = BigUint::zero();
-        let reached = by_cost.iter().find(|(_, n)| {
-            sum += *n;
-            sum >= *most
+        let Some(found) = cost_of(question, &diagram, most) else {
+            let stop = Stop::Memory;
+            return Proof { up_to, stop };
+        };
+        // Each ceiling lets through what was left out under the one before, about as much again as there was.
+        let mut more = 0;
+        let raised = ceiling.beyond.iter().find(|(_, n)| {
+            more += **n;
+            more >= diagram.nodes
         });
-        Some(reached.map(|(cost, _)| *cost))
+        let raised = raised.or(ceiling.beyond.last_key_value()).map(|(c, _)| *c);
+        known = known.into_iter().chain(found).min();
+        next = raised.map(|raised| known.map_or(raised, |k| raised.min(k)));
+        let cost_milli = if raised.is_some() { cost } else { i64::MAX };
+        up_to = Some(UpTo {
+            diagram,
+            cost_milli,
+        });
+        if known.is_some_and(|k| k <= cost) {
+            break;
+        }
     }
+    Proof {
+        up_to,
+        stop: Stop::Exhausted,
+    }
+}
+
+/// The cost in thousandths up to which a diagram has so many variants; the inner `None` where it has not as many, the
+/// outer one where memory does not suffice to say.
+pub(in crate::search) fn cost_of(
+    question: &Question,
+    diagram: &Diagram,
+    most: &BigUint,
+) -> Option<Option<i64>> {
+    let by_cost = counts_by_cost(question, diagram)?;
+    let mut sum = BigUint::zero();
+    let reached = by_cost.iter().find(|(_, n)| {
+        sum += *n;
+        sum >= *most
+    });
+    Some(reached.map(|(cost, _)| *cost))
 }

@@ -1,11 +1,14 @@
 //! The admissible variants of a finished diagram: the cheapest in order, or some at random.
 
 use crate::search::answer::count_tables::{Count, Key, Tally};
+use crate::search::answer::counts::fits;
+use crate::search::answer::counts::limited;
 use crate::search::answer::k_best::{Assignment, Cheapest, Enter, Sample};
 use crate::search::answer::proven_cheapest::UpTo;
 use crate::search::build::Diagrams;
 use crate::search::diagram::Diagram;
-use crate::search::question::conditions::{Search, Symmetry};
+use crate::search::question::Question;
+use crate::search::question::conditions::Symmetry;
 use num_bigint::BigUint;
 
 /// Refuses nothing.
@@ -13,122 +16,122 @@ fn every<'a>() -> Enter<'a> {
     Box::new(|_, _, _, _| true)
 }
 
-impl Search {
-    /// The admissible variants, cheapest first, then by W, then by changes, then in the order of the diagram's variables;
-    /// `top` of them at most.
-    pub fn cheapest<'a>(
-        &'a self,
-        diagrams: &'a Diagrams,
-        top: usize,
-    ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-        // Of two or three images the first is kept, so that so many times more always suffice.
-        let enough = match self.conditions.symmetry {
-            Symmetry::OnePerOrbit => top.saturating_mul(self.mechanism.search.order()),
-            Symmetry::All | Symmetry::SymmetricOnly => top,
-        };
-        Box::new(self.in_order(diagrams, enough).take(top))
-    }
+/// The admissible variants, cheapest first, then by W, then by changes, then in the order of the diagram's variables;
+/// `top` of them at most.
+pub fn cheapest<'a>(
+    question: &'a Question,
+    diagrams: &'a Diagrams,
+    top: usize,
+) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+    // Of two or three images the first is kept, so that so many times more always suffice.
+    let enough = match question.conditions.symmetry {
+        Symmetry::OnePerOrbit => top.saturating_mul(question.mechanism.search.order()),
+        Symmetry::All | Symmetry::SymmetricOnly => top,
+    };
+    Box::new(in_order(question, diagrams, enough).take(top))
+}
 
-    /// Those up to the cost to which all are known, and then the dearer ones that happen to be known; of `top` variants those
-    /// that are asked about.
-    fn in_order<'a>(
-        &'a self,
-        diagrams: &'a Diagrams,
-        top: usize,
-    ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-        let between = move |diagram: &'a Diagram, costs| {
-            let all = self.between(diagram, top, costs, every());
-            all.filter(move |v| self.is_first_image(diagram, v))
-        };
-        let all = &diagrams.admissible;
-        let Some(UpTo {
-            diagram,
-            cost_milli,
-        }) = &diagrams.cheapest
-        else {
-            return Box::new(between(all, (i64::MIN, i64::MAX)));
-        };
-        let first = between(diagram, (i64::MIN, *cost_milli));
-        let dearer =
-            std::iter::once_with(move || between(all, (cost_milli.saturating_add(1), i64::MAX)));
-        Box::new(first.chain(dearer.flatten()))
-    }
+/// Those up to the cost to which all are known, and then the dearer ones that happen to be known; of `top` variants those
+/// that are asked about.
+fn in_order<'a>(
+    question: &'a Question,
+    diagrams: &'a Diagrams,
+    top: usize,
+) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+    let between = move |diagram: &'a Diagram, costs| {
+        let all = between(question, diagram, top, costs, every());
+        all.filter(move |v| is_first_image(question, diagram, v))
+    };
+    let all = &diagrams.admissible;
+    let Some(UpTo {
+        diagram,
+        cost_milli,
+    }) = &diagrams.cheapest
+    else {
+        return Box::new(between(all, (i64::MIN, i64::MAX)));
+    };
+    let first = between(diagram, (i64::MIN, *cost_milli));
+    let dearer =
+        std::iter::once_with(move || between(all, (cost_milli.saturating_add(1), i64::MAX)));
+    Box::new(first.chain(dearer.flatten()))
+}
 
-    /// Whether a variant comes before its images, which have the same properties, in the order of a diagram's variables; always
-    /// where images are not taken together.
-    fn is_first_image(&self, diagram: &Diagram, v: &Assignment) -> bool {
-        if self.conditions.symmetry != Symmetry::OnePerOrbit {
-            return true;
-        }
-        let by_layer = |choices: &Vec<usize>| -> Vec<usize> {
-            diagram.layers.iter().map(|l| choices[l.variable]).collect()
-        };
-        let own = by_layer(&v.choices);
-        let images = std::iter::successors(Some(self.image(&v.choices)), |c| Some(self.image(c)));
-        let mut others = images.take(self.mechanism.search.order() - 1);
-        others.all(|image| by_layer(&image) >= own)
+/// Whether a variant comes before its images, which have the same properties, in the order of a diagram's variables; always
+/// where images are not taken together.
+fn is_first_image(question: &Question, diagram: &Diagram, v: &Assignment) -> bool {
+    if question.conditions.symmetry != Symmetry::OnePerOrbit {
+        return true;
     }
+    let by_layer = |choices: &Vec<usize>| -> Vec<usize> {
+        diagram.layers.iter().map(|l| choices[l.variable]).collect()
+    };
+    let own = by_layer(&v.choices);
+    let images = std::iter::successors(Some(question.image(&v.choices)), |c| {
+        Some(question.image(c))
+    });
+    let mut others = images.take(question.mechanism.search.order() - 1);
+    others.all(|image| by_layer(&image) >= own)
+}
 
-    /// The admissible variants of a diagram in order, but for those whose beginnings `enter` refuses.
-    pub(in crate::search) fn distinct<'a>(
-        &'a self,
-        diagram: &'a Diagram,
-        top: usize,
-        enter: Enter<'a>,
-    ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-        self.between(diagram, top, (i64::MIN, i64::MAX), enter)
-    }
+/// The admissible variants of a diagram in order, but for those whose beginnings `enter` refuses.
+pub(in crate::search) fn distinct<'a>(
+    question: &'a Question,
+    diagram: &'a Diagram,
+    top: usize,
+    enter: Enter<'a>,
+) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+    between(question, diagram, top, (i64::MIN, i64::MAX), enter)
+}
 
-    /// The variants of a diagram with costs in thousandths from one to another, but for those whose beginnings `enter`
-    /// refuses.
-    fn between<'a>(
-        &'a self,
-        diagram: &'a Diagram,
-        top: usize,
-        (least, most): (i64, i64),
-        enter: Enter<'a>,
-    ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-        let rank = |k: Key| (self.mobility(k), k.changes());
-        let costs = |k: Key| (least..=most).contains(&self.steps.milli(k.cost()));
-        let wanted = |k: Key| self.wanted(k) && costs(k);
-        let (steps, room) = (&self.steps, self.conditions.memory / 4);
-        let range = (top, self.steps.above(most));
-        if self.fits() {
-            Box::new(Cheapest::<u128>::new(
-                diagram, steps, range, wanted, rank, room, enter,
-            ))
-        } else {
-            Box::new(Cheapest::<BigUint>::new(
-                diagram, steps, range, wanted, rank, room, enter,
-            ))
-        }
+/// The variants of a diagram with costs in thousandths from one to another, but for those whose beginnings `enter`
+/// refuses.
+fn between<'a>(
+    question: &'a Question,
+    diagram: &'a Diagram,
+    top: usize,
+    (least, most): (i64, i64),
+    enter: Enter<'a>,
+) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+    let rank = |k: Key| (question.mobility(k), k.changes());
+    let costs = |k: Key| (least..=most).contains(&question.steps.milli(k.cost()));
+    let wanted = |k: Key| question.wanted(k) && costs(k);
+    let (steps, room) = (&question.steps, question.conditions.memory / 4);
+    let range = (top, question.steps.above(most));
+    if fits(question) {
+        Box::new(Cheapest::<u128>::new(
+            diagram, steps, range, wanted, rank, room, enter,
+        ))
+    } else {
+        Box::new(Cheapest::<BigUint>::new(
+            diagram, steps, range, wanted, rank, room, enter,
+        ))
     }
+}
 
-    /// Draws admissible variants, or orbits, without end, each with the same chance; none where what it takes to draw is more than the
-    /// memory there is.
-    pub fn sample<'a>(
-        &'a self,
-        diagrams: &'a Diagrams,
-        seed: u64,
-    ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-        if self.fits() {
-            self.sample_with::<u128>(&diagrams.admissible, seed)
-        } else {
-            self.sample_with::<BigUint>(&diagrams.admissible, seed)
-        }
+/// Draws admissible variants, or orbits, without end, each with the same chance; none where what it takes to draw is more than the
+/// memory there is.
+pub fn sample<'a>(
+    question: &'a Question,
+    diagrams: &'a Diagrams,
+    seed: u64,
+) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+    if fits(question) {
+        sample_with::<u128>(question, &diagrams.admissible, seed)
+    } else {
+        sample_with::<BigUint>(question, &diagrams.admissible, seed)
     }
+}
 
-    fn sample_with<'a, C: Count + 'a>(
-        &'a self,
-        diagram: &'a Diagram,
-        seed: u64,
-    ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-        let keys = self.steps.only(self.limited());
-        let tally = Tally::<C>::new(diagram, &keys, None, self.conditions.memory / 4);
-        let wanted = |k: Key| self.wanted(k);
-        let drawn = tally.map(|t| Sample::new(diagram, &self.steps, (keys, t), seed, wanted));
-        // Each orbit has one variant that comes first, and so the same chance.
-        let all = drawn.into_iter().flatten();
-        Box::new(all.filter(move |v| self.is_first_image(diagram, v)))
-    }
+fn sample_with<'a, C: Count + 'a>(
+    question: &'a Question,
+    diagram: &'a Diagram,
+    seed: u64,
+) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+    let keys = question.steps.only(limited(question));
+    let tally = Tally::<C>::new(diagram, &keys, None, question.conditions.memory / 4);
+    let wanted = |k: Key| question.wanted(k);
+    let drawn = tally.map(|t| Sample::new(diagram, &question.steps, (keys, t), seed, wanted));
+    // Each orbit has one variant that comes first, and so the same chance.
+    let all = drawn.into_iter().flatten();
+    Box::new(all.filter(move |v| is_first_image(question, diagram, v)))
 }

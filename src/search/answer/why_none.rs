@@ -5,9 +5,12 @@ use crate::geom::exact::ExactError;
 use crate::model::mechanism::{JointId, StateId};
 use crate::redundancy::motion::motions;
 use crate::search::answer::counts::Counts;
+use crate::search::answer::counts::counts;
+use crate::search::build::build;
 use crate::search::check::brute::Matrices;
 use crate::search::diagram::Stop;
-use crate::search::question::conditions::{Conditions, InState, Search, SearchError};
+use crate::search::question::Question;
+use crate::search::question::conditions::{Conditions, InState, SearchError};
 use num_bigint::BigUint;
 use num_traits::Zero;
 
@@ -47,136 +50,134 @@ const NODES: usize = 20_000;
 /// How many times the question's nodes, where those are more.
 const MORE: usize = 4;
 
-impl Search {
-    /// What stands in the way of every variant.
-    ///
-    /// # Errors
-    /// Where a coordinate has no value in the field.
-    pub fn hopeless(&self) -> Result<Hopeless, ExactError> {
-        let m = &*self.mechanism;
-        let (least, unchanged) = Matrices::new(self).freest();
-        let most = usize::try_from(self.conditions.max_redundant).unwrap_or(usize::MAX);
-        let closure = Closure::new(&self.exact, m, StateId::FREE)?;
-        let kernel = motions(&self.exact, &closure);
-        let moves = |j: JointId| {
-            let columns = closure.columns.iter().enumerate();
-            let mut own = columns.filter(|(_, c)| c.joint == j);
-            own.any(|(at, _)| kernel.iter().any(|speeds| speeds[at] != 0))
-        };
-        let driven = m.joints_in(StateId::FREE).filter(|&j| m.joints[j].drive);
-        Ok(Hopeless {
-            frozen: driven.filter(|&j| !moves(j)).collect(),
-            least_redundant: (least > most).then_some(least),
-            unchanged: if least > most { unchanged } else { Vec::new() },
-        })
-    }
+/// What stands in the way of every variant.
+///
+/// # Errors
+/// Where a coordinate has no value in the field.
+pub fn hopeless(question: &Question) -> Result<Hopeless, ExactError> {
+    let m = &*question.mechanism;
+    let (least, unchanged) = Matrices::new(question).freest();
+    let most = usize::try_from(question.conditions.max_redundant).unwrap_or(usize::MAX);
+    let closure = Closure::new(&question.exact, m, StateId::FREE)?;
+    let kernel = motions(&question.exact, &closure);
+    let moves = |j: JointId| {
+        let columns = closure.columns.iter().enumerate();
+        let mut own = columns.filter(|(_, c)| c.joint == j);
+        own.any(|(at, _)| kernel.iter().any(|speeds| speeds[at] != 0))
+    };
+    let driven = m.joints_in(StateId::FREE).filter(|&j| m.joints[j].drive);
+    Ok(Hopeless {
+        frozen: driven.filter(|&j| !moves(j)).collect(),
+        least_redundant: (least > most).then_some(least),
+        unchanged: if least > most { unchanged } else { Vec::new() },
+    })
+}
 
-    /// The conditions that, eased alone, leave some variants, with how many; a condition whose search would take too many
-    /// nodes is passed over. `nodes` are those that the question took.
-    ///
-    /// # Errors
-    /// As [`Search::new`].
-    ///
-    /// # Complexity
-    /// One search for each condition, and for redundancies one for each bit of the least that is enough, or two.
-    pub fn relaxations(
-        &self,
-        nodes: usize,
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
-        let conditions = &self.conditions;
-        let most = nodes.saturating_mul(MORE).max(NODES);
-        let counted = |change: &dyn Fn(&mut Conditions)| -> Result<Option<Counts>, SearchError> {
-            let mut eased = conditions.clone();
-            eased.nodes = eased.nodes.min(most);
-            (eased.cheapest, eased.counted, eased.estimate) = (0, true, None);
-            change(&mut eased);
-            let search = Search::new(self.exact.clone(), self.mechanism.clone(), eased)?;
-            let diagrams = search.build(cancelled, &mut |_| {});
-            let whole = diagrams.stop() == Stop::Exhausted;
-            let counts = whole.then(|| search.counts(&diagrams.admissible, true));
-            Ok(counts.filter(|c| !c.total.is_zero()))
-        };
-        let mut out = Vec::new();
-        // No variant has more redundant constraints than rows.
-        let rows = u32::try_from(6 * self.mechanism.joints.len()).unwrap_or(u32::MAX);
-        // Diagrams grow with what is allowed, so a little more is tried first: twice as much more each time.
-        let further = |allowed: u32| {
-            let more = std::iter::successors(Some(1u32), |m| m.checked_mul(2));
-            let bounds = more.map(move |m| allowed.saturating_add(m));
-            bounds.take_while(move |b| *b < 2 * rows)
-        };
-        for bound in further(conditions.max_redundant) {
-            if let Some(c) = counted(&|r| r.max_redundant = bound)? {
-                let least = c.by_redundant.iter().next();
-                out.extend(least.map(|(least, n)| (Relaxation::Redundant(*least), n.clone())));
-                break;
-            }
+/// The conditions that, eased alone, leave some variants, with how many; a condition whose search would take too many
+/// nodes is passed over. `nodes` are those that the question took.
+///
+/// # Errors
+/// As [`Question::new`].
+///
+/// # Complexity
+/// One search for each condition, and for redundancies one for each bit of the least that is enough, or two.
+pub fn relaxations(
+    question: &Question,
+    nodes: usize,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
+    let conditions = &question.conditions;
+    let most = nodes.saturating_mul(MORE).max(NODES);
+    let counted = |change: &dyn Fn(&mut Conditions)| -> Result<Option<Counts>, SearchError> {
+        let mut eased = conditions.clone();
+        eased.nodes = eased.nodes.min(most);
+        (eased.cheapest, eased.counted, eased.estimate) = (0, true, None);
+        change(&mut eased);
+        let _search = Question::new(question.exact.clone(), question.mechanism.clone(), eased)?;
+        let diagrams = build(question, cancelled, &mut |_| {});
+        let whole = diagrams.stop() == Stop::Exhausted;
+        let counts = whole.then(|| counts(question, &diagrams.admissible, true));
+        Ok(counts.filter(|c| !c.total.is_zero()))
+    };
+    let mut out = Vec::new();
+    // No variant has more redundant constraints than rows.
+    let rows = u32::try_from(6 * question.mechanism.joints.len()).unwrap_or(u32::MAX);
+    // Diagrams grow with what is allowed, so a little more is tried first: twice as much more each time.
+    let further = |allowed: u32| {
+        let more = std::iter::successors(Some(1u32), |m| m.checked_mul(2));
+        let bounds = more.map(move |m| allowed.saturating_add(m));
+        bounds.take_while(move |b| *b < 2 * rows)
+    };
+    for bound in further(conditions.max_redundant) {
+        if let Some(c) = counted(&|r| r.max_redundant = bound)? {
+            let least = c.by_redundant.iter().next();
+            out.extend(least.map(|(least, n)| (Relaxation::Redundant(*least), n.clone())));
+            break;
         }
-        // The least bound that is enough, doubling what is allowed and then halving the gap.
-        let least = |allowed: u32, set: &dyn Fn(&mut InState, u32)| -> Result<_, SearchError> {
-            let with = |most: u32| {
-                counted(&|r: &mut Conditions| {
-                    if let Some(s) = &mut r.state {
-                        set(s, most);
-                    }
-                })
-            };
-            let mut few = allowed;
-            for bound in further(allowed) {
-                let Some(mut found) = with(bound)? else {
-                    few = bound;
-                    continue;
-                };
-                let mut enough = bound;
-                while enough - few > 1 {
-                    let middle = few + (enough - few) / 2;
-                    match with(middle)? {
-                        Some(c) => (enough, found) = (middle, c),
-                        None => few = middle,
-                    }
-                }
-                return Ok(Some((enough, found.total)));
-            }
-            Ok(None)
-        };
-        if let Some(state) = conditions.state {
-            if let Some(allowed) = state.max_external {
-                let found = least(allowed, &|s, most| s.max_external = Some(most))?;
-                out.extend(found.map(|(n, total)| (Relaxation::External(n), total)));
-            }
-            if let Some(allowed) = state.max_harmful {
-                let found = least(allowed, &|s, most| s.max_harmful = Some(most))?;
-                out.extend(found.map(|(n, total)| (Relaxation::Harmful(n), total)));
-            }
-            let loose = |r: &mut Conditions| {
-                if let Some(s) = &mut r.state {
-                    s.hold_objects = false;
-                }
-            };
-            if state.hold_objects
-                && let Some(c) = counted(&loose)?
-            {
-                out.push((Relaxation::LooseObject, c.total));
-            }
-        }
-        if conditions.max_mobility.is_some()
-            && let Some(c) = counted(&|r| r.max_mobility = None)?
-            && let Some((least, n)) = c.by_mobility.iter().next()
-        {
-            out.push((Relaxation::Mobility(*least), n.clone()));
-        }
-        if conditions.max_changes.is_some()
-            && let Some(c) = counted(&|r| r.max_changes = None)?
-            && let Some((least, n)) = c.by_changes.iter().next()
-        {
-            out.push((Relaxation::Changes(*least), n.clone()));
-        }
-        if conditions.keep_output
-            && let Some(c) = counted(&|r| r.keep_output = false)?
-        {
-            out.push((Relaxation::OutputChange, c.total));
-        }
-        Ok(out)
     }
+    // The least bound that is enough, doubling what is allowed and then halving the gap.
+    let least = |allowed: u32, set: &dyn Fn(&mut InState, u32)| -> Result<_, SearchError> {
+        let with = |most: u32| {
+            counted(&|r: &mut Conditions| {
+                if let Some(s) = &mut r.state {
+                    set(s, most);
+                }
+            })
+        };
+        let mut few = allowed;
+        for bound in further(allowed) {
+            let Some(mut found) = with(bound)? else {
+                few = bound;
+                continue;
+            };
+            let mut enough = bound;
+            while enough - few > 1 {
+                let middle = few + (enough - few) / 2;
+                match with(middle)? {
+                    Some(c) => (enough, found) = (middle, c),
+                    None => few = middle,
+                }
+            }
+            return Ok(Some((enough, found.total)));
+        }
+        Ok(None)
+    };
+    if let Some(state) = conditions.state {
+        if let Some(allowed) = state.max_external {
+            let found = least(allowed, &|s, most| s.max_external = Some(most))?;
+            out.extend(found.map(|(n, total)| (Relaxation::External(n), total)));
+        }
+        if let Some(allowed) = state.max_harmful {
+            let found = least(allowed, &|s, most| s.max_harmful = Some(most))?;
+            out.extend(found.map(|(n, total)| (Relaxation::Harmful(n), total)));
+        }
+        let loose = |r: &mut Conditions| {
+            if let Some(s) = &mut r.state {
+                s.hold_objects = false;
+            }
+        };
+        if state.hold_objects
+            && let Some(c) = counted(&loose)?
+        {
+            out.push((Relaxation::LooseObject, c.total));
+        }
+    }
+    if conditions.max_mobility.is_some()
+        && let Some(c) = counted(&|r| r.max_mobility = None)?
+        && let Some((least, n)) = c.by_mobility.iter().next()
+    {
+        out.push((Relaxation::Mobility(*least), n.clone()));
+    }
+    if conditions.max_changes.is_some()
+        && let Some(c) = counted(&|r| r.max_changes = None)?
+        && let Some((least, n)) = c.by_changes.iter().next()
+    {
+        out.push((Relaxation::Changes(*least), n.clone()));
+    }
+    if conditions.keep_output
+        && let Some(c) = counted(&|r| r.keep_output = false)?
+    {
+        out.push((Relaxation::OutputChange, c.total));
+    }
+    Ok(out)
 }

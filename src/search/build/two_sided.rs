@@ -16,7 +16,7 @@ use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
 use crate::search::diagram::stage::Stage;
 use crate::search::diagram::{DEAD, Diagram, Layer, Progress, Stop, next, passing, retain};
-use crate::search::question::conditions::Search;
+use crate::search::question::Question;
 use crate::search::reduce::plane_split::Model;
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -63,132 +63,137 @@ impl<'a> Side<'a> {
     }
 }
 
-impl Search {
-    /// The whole diagram of a question whose variants have no redundant constraints but those that all have, from the stages
-    /// of both directions, part by part; none where it does not fit the limits either, or where it is cancelled.
-    ///
-    /// # Complexity
-    /// O(n·m) joins for n and m nodes where the halves meet, which are about as many as half of the joints need.
-    pub(in crate::search) fn two_sided(
-        &self,
-        model: &Model,
-        parts: &[[Vec<Stage>; 2]],
-        (limits, keep_output): (&Limits, bool),
-        cancelled: &(dyn Fn() -> bool + Sync),
-        progress: &mut (dyn FnMut(Progress) + Send),
-    ) -> Option<Diagram> {
-        let kept = Kept {
-            links: &self.kept.0,
-            dimension: model.kept.len(),
+/// The whole diagram of a question whose variants have no redundant constraints but those that all have, from the stages
+/// of both directions, part by part; none where it does not fit the limits either, or where it is cancelled.
+///
+/// # Complexity
+/// O(n·m) joins for n and m nodes where the halves meet, which are about as many as half of the joints need.
+pub(in crate::search) fn two_sided(
+    question: &Question,
+    model: &Model,
+    parts: &[[Vec<Stage>; 2]],
+    (limits, keep_output): (&Limits, bool),
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> Option<Diagram> {
+    let kept = Kept {
+        links: &question.kept.0,
+        dimension: model.kept.len(),
+    };
+    let of = parts.iter().map(|[front, _]| front.len()).sum();
+    let mut layers: Vec<Layer> = Vec::new();
+    let mut total = 1;
+    for (i, part) in parts.iter().enumerate() {
+        let kept = Some(&kept).filter(|_| keep_output && i + 1 == parts.len());
+        let done = layers.len();
+        let mut told = |more: usize, layer: usize| {
+            progress(Progress {
+                done: done + more,
+                of,
+                nodes: total + layer,
+                layer,
+            });
         };
-        let of = parts.iter().map(|[front, _]| front.len()).sum();
-        let mut layers: Vec<Layer> = Vec::new();
-        let mut total = 1;
-        for (i, part) in parts.iter().enumerate() {
-            let kept = Some(&kept).filter(|_| keep_output && i + 1 == parts.len());
-            let done = layers.len();
-            let mut told = |more: usize, layer: usize| {
-                progress(Progress {
-                    done: done + more,
-                    of,
-                    nodes: total + layer,
-                    layer,
-                });
-            };
-            let found = self.halves(model, part, (limits, kept), cancelled, &mut told)?;
-            total += found.iter().map(|l| l.nodes).sum::<usize>();
-            if total > limits.nodes {
-                return None;
-            }
-            layers.extend(found);
-        }
-        let end = Spent::within_mechanism(limits.already).redundancy();
-        let last = layers.last().into_iter().flat_map(|l| &l.edges);
-        let terminals = usize::from(last.into_iter().any(|&e| e != DEAD));
-        Some(minimal(layers, vec![end; terminals]))
-    }
-
-    /// The layers of a part, to one node at the end; `told` hears how many are done and how large the present one is.
-    fn halves(
-        &self,
-        model: &Model,
-        directions: &[Vec<Stage>; 2],
-        (limits, kept): (&Limits, Option<&Kept<'_>>),
-        cancelled: &(dyn Fn() -> bool + Sync),
-        told: &mut dyn FnMut(usize, usize),
-    ) -> Option<Vec<Layer>> {
-        let sides = directions.each_ref();
-        let [mut front, mut back] = sides.map(|stages| Side::new(stages, limits.already));
-        let mut total = 2;
-        for done in 0..directions[0].len() {
-            let effort = |side: &Side<'_>| {
-                let choices = &model.space.variables[side.ahead().variable].choices;
-                side.nodes.len() * choices.len()
-            };
-            let (side, other) = match effort(&front) <= effort(&back) {
-                true => (&mut front, &back),
-                false => (&mut back, &front),
-            };
-            let room = limits.nodes.checked_sub(total)?;
-            let bytes = limits.bytes.checked_sub(side.bytes() + other.bytes())?;
-            let told = &mut |layer: usize| told(done, layer);
-            self.advance(model, side, (limits, room, bytes), cancelled, told)?;
-            total += side.nodes.len();
-        }
-        let pairs = front.nodes.len().checked_mul(back.nodes.len())?;
-        let left = limits.bytes.checked_sub(front.bytes() + back.bytes())?;
-        if pairs / PAIRS > limits.nodes || pairs / 8 > left / 4 {
+        let found = halves(question, model, part, (limits, kept), cancelled, &mut told)?;
+        total += found.iter().map(|l| l.nodes).sum::<usize>();
+        if total > limits.nodes {
             return None;
         }
-        let sets = join(
-            (self.exact.field(), model.space.dim),
-            [&front.half(), &back.half()],
-            self.mechanism.frame(),
-            kept,
-            cancelled,
-        )?;
-        put_together(front.layers, &back.layers, sets, limits.nodes)
+        layers.extend(found);
     }
+    let end = Spent::within_mechanism(limits.already).redundancy();
+    let last = layers.last().into_iter().flat_map(|l| &l.edges);
+    let terminals = usize::from(last.into_iter().any(|&e| e != DEAD));
+    Some(minimal(layers, vec![end; terminals]))
+}
 
-    /// Carries a side over its next stage.
-    fn advance(
-        &self,
-        model: &Model,
-        side: &mut Side<'_>,
-        (limits, room, bytes): (&Limits, usize, usize),
-        cancelled: &(dyn Fn() -> bool + Sync),
-        told: &mut dyn FnMut(usize),
-    ) -> Option<()> {
-        let stage = side.ahead();
-        let choices = model.space.variables[stage.variable].choices.len();
-        let edges = side.nodes.len() * choices;
-        let merge = next(
-            (self.exact.field(), &model.space),
-            stage,
-            (limits, bytes),
-            &side.nodes,
-            Merge::new((room, bytes), Stop::Exhausted, edges),
-            |_, _, _| false,
+/// The layers of a part, to one node at the end; `told` hears how many are done and how large the present one is.
+fn halves(
+    question: &Question,
+    model: &Model,
+    directions: &[Vec<Stage>; 2],
+    (limits, kept): (&Limits, Option<&Kept<'_>>),
+    cancelled: &(dyn Fn() -> bool + Sync),
+    told: &mut dyn FnMut(usize, usize),
+) -> Option<Vec<Layer>> {
+    let sides = directions.each_ref();
+    let [mut front, mut back] = sides.map(|stages| Side::new(stages, limits.already));
+    let mut total = 2;
+    for done in 0..directions[0].len() {
+        let effort = |side: &Side<'_>| {
+            let choices = &model.space.variables[side.ahead().variable].choices;
+            side.nodes.len() * choices.len()
+        };
+        let (side, other) = match effort(&front) <= effort(&back) {
+            true => (&mut front, &back),
+            false => (&mut back, &front),
+        };
+        let room = limits.nodes.checked_sub(total)?;
+        let bytes = limits.bytes.checked_sub(side.bytes() + other.bytes())?;
+        let told = &mut |layer: usize| told(done, layer);
+        advance(
+            question,
+            model,
+            side,
+            (limits, room, bytes),
             cancelled,
             told,
-        );
-        if merge.stop != Stop::Exhausted {
-            return None;
-        }
-        let (mut nodes, mut edges) = (merge.next, merge.edges);
-        if let Some(test) = &stage.lookahead {
-            let passed = passing(self.exact.field(), model.space.dim, test, &nodes);
-            retain(&mut nodes, &passed, &mut edges);
-        }
-        side.layers.push(Layer {
-            variable: stage.variable,
-            nodes: side.nodes.len(),
-            choices,
-            edges,
-        });
-        side.nodes = nodes;
-        Some(())
+        )?;
+        total += side.nodes.len();
     }
+    let pairs = front.nodes.len().checked_mul(back.nodes.len())?;
+    let left = limits.bytes.checked_sub(front.bytes() + back.bytes())?;
+    if pairs / PAIRS > limits.nodes || pairs / 8 > left / 4 {
+        return None;
+    }
+    let sets = join(
+        (question.exact.field(), model.space.dim),
+        [&front.half(), &back.half()],
+        question.mechanism.frame(),
+        kept,
+        cancelled,
+    )?;
+    put_together(front.layers, &back.layers, sets, limits.nodes)
+}
+
+/// Carries a side over its next stage.
+fn advance(
+    question: &Question,
+    model: &Model,
+    side: &mut Side<'_>,
+    (limits, room, bytes): (&Limits, usize, usize),
+    cancelled: &(dyn Fn() -> bool + Sync),
+    told: &mut dyn FnMut(usize),
+) -> Option<()> {
+    let stage = side.ahead();
+    let choices = model.space.variables[stage.variable].choices.len();
+    let edges = side.nodes.len() * choices;
+    let merge = next(
+        (question.exact.field(), &model.space),
+        stage,
+        (limits, bytes),
+        &side.nodes,
+        Merge::new((room, bytes), Stop::Exhausted, edges),
+        |_, _, _| false,
+        cancelled,
+        told,
+    );
+    if merge.stop != Stop::Exhausted {
+        return None;
+    }
+    let (mut nodes, mut edges) = (merge.next, merge.edges);
+    if let Some(test) = &stage.lookahead {
+        let passed = passing(question.exact.field(), model.space.dim, test, &nodes);
+        retain(&mut nodes, &passed, &mut edges);
+    }
+    side.layers.push(Layer {
+        variable: stage.variable,
+        nodes: side.nodes.len(),
+        choices,
+        edges,
+    });
+    side.nodes = nodes;
+    Some(())
 }
 
 /// The front's layers, and from there on layers of the sets of nodes of the back that complete what was chosen; none where they

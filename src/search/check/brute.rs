@@ -8,8 +8,9 @@ use crate::redundancy::stress::harmful_count;
 use crate::search::answer::count_tables::Key;
 use crate::search::answer::counts::Counts;
 use crate::search::check::full_matrices::{Layout, WrittenOut};
+use crate::search::check::variant_mechanism::realize;
 use crate::search::diagram::redundancy_so_far::Redundancy;
-use crate::search::question::conditions::Search;
+use crate::search::question::Question;
 use crate::search::question::grasp::loose;
 use num_bigint::BigUint;
 use rayon::prelude::*;
@@ -54,27 +55,27 @@ pub struct Matrices {
 impl Matrices {
     /// Writes the columns of a search's space out.
     #[must_use]
-    pub fn new(search: &Search) -> Matrices {
-        let (f, variables) = (search.field().field(), &search.space.variables);
+    pub fn new(question: &Question) -> Matrices {
+        let (f, variables) = (question.field().field(), &question.space.variables);
         let spans: Vec<_> = variables
             .iter()
             .map(|v| v.choices.iter().map(|c| c.spans.clone()).collect())
             .collect();
-        let layout = Layout::new(search);
+        let layout = Layout::new(question);
         let fixed = variables.iter().filter(|v| v.choices.len() == 1);
         let whole = fixed.flat_map(|v| &v.joints).map(|&j| {
-            let rates = search.mechanism.couplings_of(j).count();
-            let every = (0..search.space.dim).map(|c| {
-                let mut twist = vec![0; search.space.dim + rates];
+            let rates = question.mechanism.couplings_of(j).count();
+            let every = (0..question.space.dim).map(|c| {
+                let mut twist = vec![0; question.space.dim + rates];
                 twist[c] = f.one();
-                layout.column(search.field(), j, &twist)
+                layout.column(question.field(), j, &twist)
             });
             (j, every.collect())
         });
         Matrices {
             field: f,
             whole: whole.collect(),
-            all: WrittenOut::new(search.field(), search, &layout, &spans),
+            all: WrittenOut::new(question.field(), question, &layout, &spans),
         }
     }
 
@@ -135,107 +136,112 @@ fn eliminate(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> {
     pivots
 }
 
-impl Search {
-    /// Counts by looking at every variant: (determinate, admissible). What the searched state makes of a variant is asked of
-    /// the mechanism that the variant is.
-    ///
-    /// # Errors
-    /// Where a coordinate has no value in the field.
-    ///
-    /// # Complexity
-    /// One elimination a variant, in parallel over the choices of the first variables, and with a state some more for those
-    /// that meet the other conditions.
-    pub fn brute(&self) -> Result<(Counts, Counts), ExactError> {
-        let matrices = Matrices::new(self);
-        let (mut all, mut good) = (Counts::default(), Counts::default());
-        for ((key, admissible), count) in self.count(&matrices)? {
-            let count = BigUint::from(count);
-            all.add(self.mobility(key), key, &count);
-            if admissible && self.wanted(key) {
-                good.add(self.mobility(key), key, &count);
-            }
+/// Counts by looking at every variant: (determinate, admissible). What the searched state makes of a variant is asked of
+/// the mechanism that the variant is.
+///
+/// # Errors
+/// Where a coordinate has no value in the field.
+///
+/// # Complexity
+/// One elimination a variant, in parallel over the choices of the first variables, and with a state some more for those
+/// that meet the other conditions.
+pub fn brute(question: &Question) -> Result<(Counts, Counts), ExactError> {
+    let matrices = Matrices::new(question);
+    let (mut all, mut good) = (Counts::default(), Counts::default());
+    for ((key, admissible), count) in count(question, &matrices)? {
+        let count = BigUint::from(count);
+        all.add(question.mobility(key), key, &count);
+        if admissible && question.wanted(key) {
+            good.add(question.mobility(key), key, &count);
         }
-        Ok((all, good))
     }
+    Ok((all, good))
+}
 
-    /// Every variant with few enough redundant constraints, by its properties and whether it is admissible but for mobility
-    /// and changes.
-    fn count(&self, matrices: &Matrices) -> Result<BTreeMap<(Key, bool), u128>, ExactError> {
-        let steps = &self.steps;
-        let radix: Vec<usize> = steps.keys.iter().map(Vec::len).collect();
-        let head = radix
-            .iter()
-            .scan(1usize, |p, &r| {
-                *p = p.saturating_mul(r);
-                Some(*p)
-            })
-            .take_while(|&p| p <= 4096)
-            .count();
-        let heads: usize = radix[..head].iter().product();
-        let from = |h: usize| {
-            let mut counts: BTreeMap<(Key, bool), u128> = BTreeMap::new();
-            let mut choices = vec![0; radix.len()];
-            let mut rest = h;
-            for (c, r) in choices.iter_mut().zip(&radix[..head]) {
-                (*c, rest) = (rest % r, rest / r);
-            }
-            loop {
-                if let Some((key, admissible)) = self.judge(&choices, matrices.look(&choices))? {
-                    *counts.entry((key, admissible)).or_insert(0) += 1;
-                }
-                let Some(v) = (head..radix.len()).find(|&v| choices[v] + 1 < radix[v]) else {
-                    return Ok(counts);
-                };
-                choices[head..v].fill(0);
-                choices[v] += 1;
-            }
-        };
-        let merge = |mut a: BTreeMap<_, u128>, b: BTreeMap<_, u128>| {
-            for (k, c) in b {
-                *a.entry(k).or_insert(0) += c;
-            }
-            Ok(a)
-        };
-        (0..heads)
-            .into_par_iter()
-            .map(from)
-            .try_reduce(BTreeMap::new, merge)
-    }
-
-    /// The properties of a variant, from its choices and its redundant constraints.
-    #[must_use]
-    pub fn key(&self, choices: &[usize], redundancy: Redundancy) -> Key {
-        let keys = self.steps.keys.iter().zip(choices);
-        let sum: u128 = keys.map(|(keys, &c)| keys[c].0).sum();
-        Key(sum + self.steps.redundancy(redundancy).0)
-    }
-
-    /// The properties of a variant of which this was seen, and whether it is admissible but for W and changes, which
-    /// [`Search::wanted`] knows; `None` where it is not determinate. What the searched state makes of it is asked of the
-    /// mechanism that the variant is.
-    ///
-    /// # Errors
-    /// Where a coordinate has no value in the field.
-    pub fn judge(&self, choices: &[usize], seen: Seen) -> Result<Option<(Key, bool)>, ExactError> {
-        if seen.internal > self.conditions.max_redundant {
-            return Ok(None);
+/// Every variant with few enough redundant constraints, by its properties and whether it is admissible but for mobility
+/// and changes.
+fn count(
+    question: &Question,
+    matrices: &Matrices,
+) -> Result<BTreeMap<(Key, bool), u128>, ExactError> {
+    let steps = &question.steps;
+    let radix: Vec<usize> = steps.keys.iter().map(Vec::len).collect();
+    let head = radix
+        .iter()
+        .scan(1usize, |p, &r| {
+            *p = p.saturating_mul(r);
+            Some(*p)
+        })
+        .take_while(|&p| p <= 4096)
+        .count();
+    let heads: usize = radix[..head].iter().product();
+    let from = |h: usize| {
+        let mut counts: BTreeMap<(Key, bool), u128> = BTreeMap::new();
+        let mut choices = vec![0; radix.len()];
+        let mut rest = h;
+        for (c, r) in choices.iter_mut().zip(&radix[..head]) {
+            (*c, rest) = (rest % r, rest / r);
         }
-        let mut found = Redundancy {
-            internal: seen.internal,
-            external: seen.external,
-            harmful: 0,
-        };
-        let mut good = !self.conditions.keep_output || seen.motion == self.kept.1.len();
-        if let Some(s) = self.conditions.state.filter(|_| good) {
-            let realized = self.realize(choices);
-            let closure = Closure::new(&self.exact, &realized, s.state)?;
-            let harmful = harmful_count(&self.exact, &realized, &closure)?;
-            found.harmful = u32::try_from(harmful).unwrap_or(u32::MAX);
-            let beyond = |x: i64, limit: Option<u32>| limit.is_some_and(|l| x > i64::from(l));
-            good = !beyond(seen.external.into(), s.max_external)
-                && !beyond(found.harmful.into(), s.max_harmful)
-                && loose(&self.exact, &realized, s.state, &self.grasps)?.is_empty();
+        loop {
+            if let Some((key, admissible)) = judge(question, &choices, matrices.look(&choices))? {
+                *counts.entry((key, admissible)).or_insert(0) += 1;
+            }
+            let Some(v) = (head..radix.len()).find(|&v| choices[v] + 1 < radix[v]) else {
+                return Ok(counts);
+            };
+            choices[head..v].fill(0);
+            choices[v] += 1;
         }
-        Ok(Some((self.key(choices, found), good)))
+    };
+    let merge = |mut a: BTreeMap<_, u128>, b: BTreeMap<_, u128>| {
+        for (k, c) in b {
+            *a.entry(k).or_insert(0) += c;
+        }
+        Ok(a)
+    };
+    (0..heads)
+        .into_par_iter()
+        .map(from)
+        .try_reduce(BTreeMap::new, merge)
+}
+
+/// The properties of a variant, from its choices and its redundant constraints.
+#[must_use]
+pub fn key(question: &Question, choices: &[usize], redundancy: Redundancy) -> Key {
+    let keys = question.steps.keys.iter().zip(choices);
+    let sum: u128 = keys.map(|(keys, &c)| keys[c].0).sum();
+    Key(sum + question.steps.redundancy(redundancy).0)
+}
+
+/// The properties of a variant of which this was seen, and whether it is admissible but for W and changes, which
+/// [`Question::wanted`] knows; `None` where it is not determinate. What the searched state makes of it is asked of the
+/// mechanism that the variant is.
+///
+/// # Errors
+/// Where a coordinate has no value in the field.
+pub fn judge(
+    question: &Question,
+    choices: &[usize],
+    seen: Seen,
+) -> Result<Option<(Key, bool)>, ExactError> {
+    if seen.internal > question.conditions.max_redundant {
+        return Ok(None);
     }
+    let mut found = Redundancy {
+        internal: seen.internal,
+        external: seen.external,
+        harmful: 0,
+    };
+    let mut good = !question.conditions.keep_output || seen.motion == question.kept.1.len();
+    if let Some(s) = question.conditions.state.filter(|_| good) {
+        let realized = realize(question, choices);
+        let closure = Closure::new(&question.exact, &realized, s.state)?;
+        let harmful = harmful_count(&question.exact, &realized, &closure)?;
+        found.harmful = u32::try_from(harmful).unwrap_or(u32::MAX);
+        let beyond = |x: i64, limit: Option<u32>| limit.is_some_and(|l| x > i64::from(l));
+        good = !beyond(seen.external.into(), s.max_external)
+            && !beyond(found.harmful.into(), s.max_harmful)
+            && loose(&question.exact, &realized, s.state, &question.grasps)?.is_empty();
+    }
+    Ok(Some((key(question, choices, found), good)))
 }

@@ -9,7 +9,7 @@ use crate::rank::numeric::Elimination;
 use crate::rank::numeric::scaling::Scaling;
 use crate::search::check::brute::Seen;
 use crate::search::check::full_matrices::{Layout, Spans, WrittenOut};
-use crate::search::question::conditions::Search;
+use crate::search::question::Question;
 use crate::search::question::rounded_rank::{Digits, RankRange};
 use crate::search::question::space::{Choice, columns};
 use ozols_dense::{Matrix, singular_values};
@@ -40,11 +40,11 @@ impl Approximate {
     /// # Errors
     /// None where the search has an exact image already.
     pub fn new(
-        search: &Search,
+        question: &Question,
         elimination: Elimination,
         tolerance: f64,
     ) -> Result<Approximate, ExactError> {
-        Approximate::of(search, &search.mechanism, elimination, tolerance)
+        Approximate::of(question, &question.mechanism, elimination, tolerance)
     }
 
     /// The same of a mechanism with the links, joints and options of the searched one in other places, such as those that a
@@ -53,13 +53,13 @@ impl Approximate {
     /// # Errors
     /// Where a coordinate has no value.
     pub fn of(
-        search: &Search,
+        question: &Question,
         mechanism: &Mechanism,
         elimination: Elimination,
         tolerance: f64,
     ) -> Result<Approximate, ExactError> {
         let motion = MotionSpace::new(&Reals, &mechanism.mode)?;
-        let state = search.space.state.unwrap_or(StateId::FREE);
+        let state = question.space.state.unwrap_or(StateId::FREE);
         let present = Closure::new(&Reals, mechanism, state)?;
         let scaling = (elimination == Elimination::Svd).then(|| Scaling::of(&present));
         let of_joint = |choice: &Choice, j: JointId| {
@@ -73,7 +73,7 @@ impl Approximate {
             Ok(columns)
         };
         let mut spans: Vec<Vec<Spans<f64>>> = Vec::new();
-        for v in &search.space.variables {
+        for v in &question.space.variables {
             let of_choice = |c| v.joints.iter().map(|&j| of_joint(c, j)).collect();
             spans.push(
                 v.choices
@@ -85,7 +85,7 @@ impl Approximate {
         Ok(Approximate {
             elimination,
             tolerance,
-            all: WrittenOut::new(&Reals, search, &Layout::new(search), &spans),
+            all: WrittenOut::new(&Reals, question, &Layout::new(question), &spans),
         })
     }
 

@@ -4,7 +4,7 @@ use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::path_from_frame;
 use crate::geom::scalars::Scalars;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::search::question::conditions::Search;
+use crate::search::question::Question;
 use crate::search::question::space::Variable;
 
 /// What a choice puts at each joint of its variable: twists, each with the joint's entries in the rows of its couplings
@@ -25,9 +25,9 @@ pub(in crate::search) struct Layout<'a> {
 }
 
 impl Layout<'_> {
-    pub(in crate::search) fn new(search: &Search) -> Layout<'_> {
-        let mechanism = &*search.mechanism;
-        let kept = search.kept.0.iter();
+    pub(in crate::search) fn new(question: &Question) -> Layout<'_> {
+        let mechanism = &*question.mechanism;
+        let kept = question.kept.0.iter();
         let paths = kept.map(|&l| path_from_frame(mechanism, StateId::FREE, l));
         // Couplings by index.
         let coupled = |s: StateId| -> Vec<usize> {
@@ -35,10 +35,10 @@ impl Layout<'_> {
                 |&q: &usize| mechanism.joints[mechanism.couplings[q].ends[0].joint].is_in(s);
             (0..mechanism.couplings.len()).filter(present).collect()
         };
-        let state = search.space.state;
+        let state = question.space.state;
         Layout {
             mechanism,
-            dim: search.space.dim,
+            dim: question.space.dim,
             free: contour_basis(mechanism, StateId::FREE),
             coupled: coupled(StateId::FREE),
             paths: paths.collect(),
@@ -102,7 +102,7 @@ impl<N: Clone + Default> WrittenOut<N> {
     #[must_use]
     pub(in crate::search) fn new<S: Scalars<Number = N>>(
         s: &S,
-        search: &Search,
+        question: &Question,
         layout: &Layout<'_>,
         spans: &[Vec<Spans<N>>],
     ) -> WrittenOut<N> {
@@ -115,7 +115,7 @@ impl<N: Clone + Default> WrittenOut<N> {
             let columns = choices.iter().map(|spans| of_choice(&v.joints, spans));
             columns.collect()
         };
-        let variables = search.space.variables.iter();
+        let variables = question.space.variables.iter();
         WrittenOut {
             rows: layout.rows(),
             columns: variables.zip(spans).map(of_variable).collect(),

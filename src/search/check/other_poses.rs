@@ -17,7 +17,7 @@ use crate::motion::pose::{FLAT, Pose};
 use crate::rank::finite::local_dimension::motions;
 use crate::rank::numeric::scaling::rank_of_values;
 use crate::search::answer::k_best::Assignment;
-use crate::search::question::conditions::Search;
+use crate::search::question::Question;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use ozols_dense::{Matrix, singular_values};
@@ -75,140 +75,143 @@ impl OverStroke {
     }
 }
 
-impl Search {
-    /// Reaches `count` generic poses along the present motion of the free state, both ways from the file's pose, as far
-    /// as it has one, and until `cancelled`.
-    ///
-    /// # Errors
-    /// Where a coordinate has no value.
-    ///
-    /// # Complexity
-    /// Some closings of O((6k)² f) a pose.
-    pub fn stroke(
-        &self,
-        count: usize,
-        seed: u64,
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Stroke, ExactError> {
-        let pose = Pose::of_file(&self.mechanism, StateId::FREE)?;
-        let span = motions(&pose);
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let mut poses = Vec::new();
-        for i in 0..if span.ncols() == 0 { 0 } else { count } {
-            if cancelled() {
-                break;
-            }
-            let weights: Vec<f64> = (0..span.ncols())
-                .map(|_| f64::from(random.next_u32()) / f64::from(u32::MAX) - 0.5)
-                .collect();
-            let along: Vec<f64> = (0..span.nrows())
-                .map(|r| (0..span.ncols()).map(|c| span[(r, c)] * weights[c]).sum())
-                .collect();
-            // There and back, a little farther each time, at odd places.
-            #[allow(clippy::cast_precision_loss, reason = "a small number of poses")]
-            let far = STEP * (1.0 + 0.37 * (i / 2) as f64) * if i % 2 == 0 { 1.0 } else { -1.0 };
-            if let Some(q) = pose.beside(&along, far, HALVINGS) {
-                let columns = pose.columns.iter().zip(&q);
-                let coordinates = columns.map(|(c, &x)| (c.joint, c.freedom, x)).collect();
-                let figures = self.figures_at(&self.mechanism, &pose.moved(&q));
-                poses.push((coordinates, figures.and_then(|f| f.output)));
-            }
+/// Reaches `count` generic poses along the present motion of the free state, both ways from the file's pose, as far
+/// as it has one, and until `cancelled`.
+///
+/// # Errors
+/// Where a coordinate has no value.
+///
+/// # Complexity
+/// Some closings of O((6k)² f) a pose.
+pub fn stroke(
+    question: &Question,
+    count: usize,
+    seed: u64,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Result<Stroke, ExactError> {
+    let pose = Pose::of_file(&question.mechanism, StateId::FREE)?;
+    let span = motions(&pose);
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut poses = Vec::new();
+    for i in 0..if span.ncols() == 0 { 0 } else { count } {
+        if cancelled() {
+            break;
         }
-        Ok(Stroke {
-            asked: count,
-            poses,
-        })
-    }
-
-    /// Looks at a variant, realized as `m`, in the poses of a stroke.
-    #[must_use]
-    pub fn over(&self, stroke: &Stroke, variant: &Assignment, m: &Mechanism) -> OverStroke {
-        let mut out = OverStroke {
-            poses: 0,
-            other: None,
-        };
-        let Ok(pose) = Pose::of_file(m, StateId::FREE) else {
-            return out;
-        };
-        for (coordinates, output) in &stroke.poses {
-            let Some(figures) = self.figures(m, &pose, coordinates) else {
-                continue;
-            };
-            out.poses += 1;
-            let want = Figures {
-                mobility: self.mobility(variant.key),
-                redundant: i64::from(variant.key.internal()),
-                output: *output,
-            };
-            if figures != want && out.other.is_none() {
-                out.other = Some((figures, *output));
-            }
-        }
-        out
-    }
-
-    /// The figures of a variant in a pose of the present mechanism; `None` where it cannot be put there.
-    fn figures(&self, m: &Mechanism, pose: &Pose, at: &[Coordinate]) -> Option<Figures> {
-        let moved = |joint: JointId, freedom: Freedom| {
-            let of = |f: Freedom| at.iter().find(|(j, g, _)| (*j, *g) == (joint, f));
-            // A thread is a turn with a slide that goes with it.
-            let screw = || match (freedom, of(Freedom::Screw)?.2) {
-                (Freedom::Rz, q) => Some(q),
-                (Freedom::Tz, q) => {
-                    let pitch = self
-                        .mechanism
-                        .joints
-                        .get(joint.index())?
-                        .frame
-                        .pitch
-                        .to_f64();
-                    Some(q * pitch / pose.length)
-                }
-                _ => None,
-            };
-            of(freedom).map(|c| c.2).or_else(screw).unwrap_or(0.0)
-        };
-        // Unloading joints come after all joints of the file and stay as they are.
-        let q: Vec<f64> = pose
-            .columns
-            .iter()
-            .map(|c| moved(c.joint, c.freedom))
+        let weights: Vec<f64> = (0..span.ncols())
+            .map(|_| f64::from(random.next_u32()) / f64::from(u32::MAX) - 0.5)
             .collect();
-        let q = pose.close(q, &[]).ok()?;
-        self.figures_at(m, &pose.moved(&q))
-    }
-
-    /// The figures of a mechanism, the present one or a realized variant, in a pose of it.
-    fn figures_at(&self, m: &Mechanism, pose: &Pose) -> Option<Figures> {
-        let f = pose.columns.len();
-        let jacobian = pose.jacobian(&vec![0.0; f]);
-        let rank = rank(&jacobian)?;
-        let int = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
-        let mobility = int(f) - int(rank);
-        let redundant = int(pose.constraints(self.space.dim)) - int(rank);
-        if !self.conditions.keep_output {
-            return Some(Figures {
-                mobility,
-                redundant,
-                output: None,
-            });
-        }
-        let paths: Vec<Vec<(JointId, bool)>> = self
-            .kept
-            .0
-            .iter()
-            .map(|&l| path_from_frame(m, StateId::FREE, l))
+        let along: Vec<f64> = (0..span.nrows())
+            .map(|r| (0..span.ncols()).map(|c| span[(r, c)] * weights[c]).sum())
             .collect();
-        Some(Figures {
+        // There and back, a little farther each time, at odd places.
+        #[allow(clippy::cast_precision_loss, reason = "a small number of poses")]
+        let far = STEP * (1.0 + 0.37 * (i / 2) as f64) * if i % 2 == 0 { 1.0 } else { -1.0 };
+        if let Some(q) = pose.beside(&along, far, HALVINGS) {
+            let columns = pose.columns.iter().zip(&q);
+            let coordinates = columns.map(|(c, &x)| (c.joint, c.freedom, x)).collect();
+            let figures = figures_at(question, &question.mechanism, &pose.moved(&q));
+            poses.push((coordinates, figures.and_then(|f| f.output)));
+        }
+    }
+    Ok(Stroke {
+        asked: count,
+        poses,
+    })
+}
+
+/// Looks at a variant, realized as `m`, in the poses of a stroke.
+#[must_use]
+pub fn over(
+    question: &Question,
+    stroke: &Stroke,
+    variant: &Assignment,
+    m: &Mechanism,
+) -> OverStroke {
+    let mut out = OverStroke {
+        poses: 0,
+        other: None,
+    };
+    let Ok(pose) = Pose::of_file(m, StateId::FREE) else {
+        return out;
+    };
+    for (coordinates, output) in &stroke.poses {
+        let Some(figures) = figures(question, m, &pose, coordinates) else {
+            continue;
+        };
+        out.poses += 1;
+        let want = Figures {
+            mobility: question.mobility(variant.key),
+            redundant: i64::from(variant.key.internal()),
+            output: *output,
+        };
+        if figures != want && out.other.is_none() {
+            out.other = Some((figures, *output));
+        }
+    }
+    out
+}
+
+/// The figures of a variant in a pose of the present mechanism; `None` where it cannot be put there.
+fn figures(question: &Question, m: &Mechanism, pose: &Pose, at: &[Coordinate]) -> Option<Figures> {
+    let moved = |joint: JointId, freedom: Freedom| {
+        let of = |f: Freedom| at.iter().find(|(j, g, _)| (*j, *g) == (joint, f));
+        // A thread is a turn with a slide that goes with it.
+        let screw = || match (freedom, of(Freedom::Screw)?.2) {
+            (Freedom::Rz, q) => Some(q),
+            (Freedom::Tz, q) => {
+                let pitch = question
+                    .mechanism
+                    .joints
+                    .get(joint.index())?
+                    .frame
+                    .pitch
+                    .to_f64();
+                Some(q * pitch / pose.length)
+            }
+            _ => None,
+        };
+        of(freedom).map(|c| c.2).or_else(screw).unwrap_or(0.0)
+    };
+    // Unloading joints come after all joints of the file and stay as they are.
+    let q: Vec<f64> = pose
+        .columns
+        .iter()
+        .map(|c| moved(c.joint, c.freedom))
+        .collect();
+    let q = pose.close(q, &[]).ok()?;
+    figures_at(question, m, &pose.moved(&q))
+}
+
+/// The figures of a mechanism, the present one or a realized variant, in a pose of it.
+fn figures_at(question: &Question, m: &Mechanism, pose: &Pose) -> Option<Figures> {
+    let f = pose.columns.len();
+    let jacobian = pose.jacobian(&vec![0.0; f]);
+    let rank = rank(&jacobian)?;
+    let int = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
+    let mobility = int(f) - int(rank);
+    let redundant = int(pose.constraints(question.space.dim)) - int(rank);
+    if !question.conditions.keep_output {
+        return Some(Figures {
             mobility,
             redundant,
-            output: Some(
-                int(crate::search::check::other_poses::rank(
-                    &pose.jacobian_with(&paths),
-                )?) - int(rank),
-            ),
-        })
+            output: None,
+        });
     }
+    let paths: Vec<Vec<(JointId, bool)>> = question
+        .kept
+        .0
+        .iter()
+        .map(|&l| path_from_frame(m, StateId::FREE, l))
+        .collect();
+    Some(Figures {
+        mobility,
+        redundant,
+        output: Some(
+            int(crate::search::check::other_poses::rank(
+                &pose.jacobian_with(&paths),
+            )?) - int(rank),
+        ),
+    })
 }
 
 /// Rank by singular values.

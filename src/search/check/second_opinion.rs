@@ -11,8 +11,8 @@ use crate::search::answer::k_best::Assignment;
 use crate::search::check::brute::Matrices;
 use crate::search::check::brute_float::{Approximate, Rows};
 use crate::search::numeric::at_tolerance::{below, choices};
+use crate::search::question::Question;
 use crate::search::question::as_written::Written;
-use crate::search::question::conditions::Search;
 use crate::search::question::rounded_rank::{Digits, RankRange};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::SeedableRng;
@@ -111,152 +111,172 @@ struct Said {
     against: Option<Contradiction>,
 }
 
-impl Search {
-    /// Asks singular values of a geometry about the variants `listed`, some that `admissible` gives and some drawn of all
-    /// from `seed`, and whether the counts keep the law.
-    ///
-    /// # Errors
-    /// Where a coordinate has no value.
-    ///
-    /// # Complexity
-    /// Two or three decompositions a variant, in parallel.
-    pub fn second_opinion(
-        &self,
-        written: &Written,
-        (listed, admissible): (Vec<Assignment>, Vec<Assignment>),
-        determinate: &Counts,
-        seed: u64,
-    ) -> Result<SecondOpinion, ExactError> {
-        let digits = written.digits;
-        let of_file =
-            Approximate::of(self, &written.mechanism, Elimination::Svd, digits.tolerance)?;
-        let exact = Matrices::new(self);
-        let looked = |choices: Vec<usize>| {
-            let seen = exact.look(&choices);
-            let internal = seen.internal as usize;
-            let of_state = i64::from(seen.external) + i64::from(seen.internal);
-            Expected {
-                choices,
-                internal,
-                motion: Some(seen.motion),
-                in_state: self.conditions.state.and(usize::try_from(of_state).ok()),
-            }
-        };
-        let counted = |v: Assignment| {
-            let of_state = i64::from(v.key.external()) + i64::from(v.key.internal());
-            Expected {
-                choices: v.choices,
-                internal: v.key.internal() as usize,
-                motion: self.conditions.keep_output.then(|| self.present_motion()),
-                in_state: self.conditions.state.and(usize::try_from(of_state).ok()),
-            }
-        };
-        let nothing = vec![0; self.space.variables.len()];
-        let mut first = vec![looked(nothing.clone())];
-        first.extend(listed.into_iter().map(counted));
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let radix: Vec<usize> = self.steps.keys.iter().map(Vec::len).collect();
-        let mut one = || -> Vec<usize> { radix.iter().map(|&n| below(&mut random, n)).collect() };
-        let drawn: Vec<Vec<usize>> = match self.size().to_u32().filter(|n| *n <= WHOLE) {
-            Some(n) => (0..n).map(|number| choices(self, number)).collect(),
-            None => (0..DRAWN).map(|_| one()).collect(),
-        };
-        let kinds = [
-            first,
-            admissible.into_iter().map(counted).collect(),
-            drawn.into_par_iter().map(looked).collect(),
-        ];
-        let mut narrowest = f64::INFINITY;
-        let mut contradiction = None;
-        let asked = kinds.map(|all| {
-            let said: Vec<Said> = all
-                .into_par_iter()
-                .filter_map(|e| self.compare(&of_file, e, digits))
-                .collect();
-            let mut out = Asked {
-                asked: said.len(),
-                ..Asked::default()
-            };
-            for s in said {
-                out.undecided += usize::from(s.undecided);
-                out.contradicted += usize::from(s.against.is_some());
-                narrowest = narrowest.min(s.narrowest);
-                if contradiction.is_none() {
-                    contradiction = s.against;
-                }
-            }
-            out
-        });
-        let present = of_file.range(&nothing, Rows::Free, digits);
-        let below_present = present
-            .filter(|_| written.only_adds)
-            .and_then(|p| self.less_than_present(p, determinate));
-        let [listed, admissible, all] = asked;
-        Ok(SecondOpinion {
-            digits,
-            listed,
-            admissible,
-            all,
-            narrowest,
-            contradiction,
-            below_present,
-            scenes: None,
-        })
-    }
-
-    /// Freedoms of a variant in the free state.
-    fn freedoms(&self, choices: &[usize]) -> i64 {
-        let keys = self.steps.keys.iter().zip(choices);
-        keys.map(|(keys, &c)| i64::from(keys[c].freedoms())).sum()
-    }
-
-    /// The variants that break the law: options that only add freedoms take no mobility away.
-    fn less_than_present(&self, present: RankRange, counts: &Counts) -> Option<BelowPresent> {
-        let nothing = vec![0; self.space.variables.len()];
-        let had = self.freedoms(&nothing) - int(present.most);
-        let fewer = counts.by_mobility.range(..had).map(|(_, n)| n);
-        let variants: BigUint = fewer.sum();
-        (!variants.is_zero()).then_some(BelowPresent {
-            variants,
-            present: had,
-        })
-    }
-
-    /// What singular values say of a variant; `None` where they do not converge.
-    fn compare(&self, of_file: &Approximate, e: Expected, digits: Digits) -> Option<Said> {
-        let [rows, state_rows] = of_file.equations();
-        let free = of_file.range(&e.choices, Rows::Free, digits)?;
-        let rank = rows.saturating_sub(e.internal);
-        let mut all = vec![(free, rank)];
-        if let Some(motion) = e.motion.filter(|_| self.conditions.keep_output) {
-            let kept = of_file.range(&e.choices, Rows::WithKept, digits)?;
-            all.push((kept, rank + motion));
+/// Asks singular values of a geometry about the variants `listed`, some that `admissible` gives and some drawn of all
+/// from `seed`, and whether the counts keep the law.
+///
+/// # Errors
+/// Where a coordinate has no value.
+///
+/// # Complexity
+/// Two or three decompositions a variant, in parallel.
+pub fn second_opinion(
+    question: &Question,
+    written: &Written,
+    (listed, admissible): (Vec<Assignment>, Vec<Assignment>),
+    determinate: &Counts,
+    seed: u64,
+) -> Result<SecondOpinion, ExactError> {
+    let digits = written.digits;
+    let of_file = Approximate::of(
+        question,
+        &written.mechanism,
+        Elimination::Svd,
+        digits.tolerance,
+    )?;
+    let exact = Matrices::new(question);
+    let looked = |choices: Vec<usize>| {
+        let seen = exact.look(&choices);
+        let internal = seen.internal as usize;
+        let of_state = i64::from(seen.external) + i64::from(seen.internal);
+        Expected {
+            choices,
+            internal,
+            motion: Some(seen.motion),
+            in_state: question
+                .conditions
+                .state
+                .and(usize::try_from(of_state).ok()),
         }
-        if let Some(redundant) = e.in_state {
-            let state = of_file.range(&e.choices, Rows::State, digits)?;
-            all.push((state, state_rows.saturating_sub(redundant)));
+    };
+    let counted = |v: Assignment| {
+        let of_state = i64::from(v.key.external()) + i64::from(v.key.internal());
+        Expected {
+            choices: v.choices,
+            internal: v.key.internal() as usize,
+            motion: question
+                .conditions
+                .keep_output
+                .then(|| question.present_motion()),
+            in_state: question
+                .conditions
+                .state
+                .and(usize::try_from(of_state).ok()),
         }
-        let decided = all.iter().filter(|(r, _)| r.is_decided());
-        let narrowest = decided
-            .map(|(r, _)| r.kept / r.dropped)
-            .fold(f64::INFINITY, f64::min);
-        let against = all.iter().find(|(r, rank)| !r.allows(*rank)).map(|(r, _)| {
-            let f = self.freedoms(&e.choices);
-            let figures = |rank: usize| (f - int(rank), int(rows) - int(rank));
-            Contradiction {
-                exact: figures(rank),
-                numeric: [figures(free.most), figures(free.least)],
-                elsewhere: free.allows(rank),
-                gap: (r.kept, r.dropped),
-                choices: e.choices.clone(),
+    };
+    let nothing = vec![0; question.space.variables.len()];
+    let mut first = vec![looked(nothing.clone())];
+    first.extend(listed.into_iter().map(counted));
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let radix: Vec<usize> = question.steps.keys.iter().map(Vec::len).collect();
+    let mut one = || -> Vec<usize> { radix.iter().map(|&n| below(&mut random, n)).collect() };
+    let drawn: Vec<Vec<usize>> = match question.size().to_u32().filter(|n| *n <= WHOLE) {
+        Some(n) => (0..n).map(|number| choices(question, number)).collect(),
+        None => (0..DRAWN).map(|_| one()).collect(),
+    };
+    let kinds = [
+        first,
+        admissible.into_iter().map(counted).collect(),
+        drawn.into_par_iter().map(looked).collect(),
+    ];
+    let mut narrowest = f64::INFINITY;
+    let mut contradiction = None;
+    let asked = kinds.map(|all| {
+        let said: Vec<Said> = all
+            .into_par_iter()
+            .filter_map(|e| compare(question, &of_file, e, digits))
+            .collect();
+        let mut out = Asked {
+            asked: said.len(),
+            ..Asked::default()
+        };
+        for s in said {
+            out.undecided += usize::from(s.undecided);
+            out.contradicted += usize::from(s.against.is_some());
+            narrowest = narrowest.min(s.narrowest);
+            if contradiction.is_none() {
+                contradiction = s.against;
             }
-        });
-        Some(Said {
-            undecided: against.is_none() && all.iter().any(|(r, _)| !r.is_decided()),
-            narrowest,
-            against,
-        })
+        }
+        out
+    });
+    let present = of_file.range(&nothing, Rows::Free, digits);
+    let below_present = present
+        .filter(|_| written.only_adds)
+        .and_then(|p| less_than_present(question, p, determinate));
+    let [listed, admissible, all] = asked;
+    Ok(SecondOpinion {
+        digits,
+        listed,
+        admissible,
+        all,
+        narrowest,
+        contradiction,
+        below_present,
+        scenes: None,
+    })
+}
+
+/// Freedoms of a variant in the free state.
+fn freedoms(question: &Question, choices: &[usize]) -> i64 {
+    let keys = question.steps.keys.iter().zip(choices);
+    keys.map(|(keys, &c)| i64::from(keys[c].freedoms())).sum()
+}
+
+/// The variants that break the law: options that only add freedoms take no mobility away.
+fn less_than_present(
+    question: &Question,
+    present: RankRange,
+    counts: &Counts,
+) -> Option<BelowPresent> {
+    let nothing = vec![0; question.space.variables.len()];
+    let had = freedoms(question, &nothing) - int(present.most);
+    let fewer = counts.by_mobility.range(..had).map(|(_, n)| n);
+    let variants: BigUint = fewer.sum();
+    (!variants.is_zero()).then_some(BelowPresent {
+        variants,
+        present: had,
+    })
+}
+
+/// What singular values say of a variant; `None` where they do not converge.
+fn compare(
+    question: &Question,
+    of_file: &Approximate,
+    e: Expected,
+    digits: Digits,
+) -> Option<Said> {
+    let [rows, state_rows] = of_file.equations();
+    let free = of_file.range(&e.choices, Rows::Free, digits)?;
+    let rank = rows.saturating_sub(e.internal);
+    let mut all = vec![(free, rank)];
+    if let Some(motion) = e.motion.filter(|_| question.conditions.keep_output) {
+        let kept = of_file.range(&e.choices, Rows::WithKept, digits)?;
+        all.push((kept, rank + motion));
     }
+    if let Some(redundant) = e.in_state {
+        let state = of_file.range(&e.choices, Rows::State, digits)?;
+        all.push((state, state_rows.saturating_sub(redundant)));
+    }
+    let decided = all.iter().filter(|(r, _)| r.is_decided());
+    let narrowest = decided
+        .map(|(r, _)| r.kept / r.dropped)
+        .fold(f64::INFINITY, f64::min);
+    let against = all.iter().find(|(r, rank)| !r.allows(*rank)).map(|(r, _)| {
+        let f = freedoms(question, &e.choices);
+        let figures = |rank: usize| (f - int(rank), int(rows) - int(rank));
+        Contradiction {
+            exact: figures(rank),
+            numeric: [figures(free.most), figures(free.least)],
+            elsewhere: free.allows(rank),
+            gap: (r.kept, r.dropped),
+            choices: e.choices.clone(),
+        }
+    });
+    Some(Said {
+        undecided: against.is_none() && all.iter().any(|(r, _)| !r.is_decided()),
+        narrowest,
+        against,
+    })
 }
 
 fn int(x: usize) -> i64 {

@@ -6,9 +6,12 @@
 //! and every sample drawn from them is equal too.
 
 use crate::search::answer::counts::Counts;
+use crate::search::answer::counts::counts;
+use crate::search::answer::variants_in_order::cheapest;
 use crate::search::build::Diagrams;
+use crate::search::build::{build_in, orders};
 use crate::search::diagram::{Diagram, Progress, Stop};
-use crate::search::question::conditions::Search;
+use crate::search::question::Question;
 use itertools::Itertools;
 use num_bigint::BigUint;
 use std::collections::{BTreeMap, BTreeSet};
@@ -65,15 +68,15 @@ pub struct Disagreement {
 
 /// Builds the diagrams of a search and of its twin over another prime, in parallel.
 pub fn build_both(
-    searches: [&Search; 2],
+    questions: [&Question; 2],
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> (Diagrams, Diagrams) {
-    let [first, second] = searches;
-    let orders = first.orders();
+    let [first, second] = questions;
+    let orders = orders(first);
     rayon::join(
-        || first.build_in(&orders, cancelled, progress),
-        || second.build_in(&orders, cancelled, &mut |_| {}),
+        || build_in(first, &orders, cancelled, progress),
+        || build_in(second, &orders, cancelled, &mut |_| {}),
     )
 }
 
@@ -85,7 +88,7 @@ pub fn build_both(
 /// # Complexity
 /// O(edges) where the diagrams are equal, which they always were; counting both where they are not.
 pub fn compare(
-    searches: [&Search; 2],
+    questions: [&Question; 2],
     diagrams: [&Diagrams; 2],
     top: usize,
 ) -> Result<Verdict, Box<Disagreement>> {
@@ -99,21 +102,21 @@ pub fn compare(
             (Some(a), Some(b)) => a.cost_milli == b.cost_milli && same(&a.diagram, &b.diagram),
             (a, b) => a.is_none() && b.is_none(),
         }
-        && searches[0].steps.keys == searches[1].steps.keys;
+        && questions[0].steps.keys == questions[1].steps.keys;
     if equal {
         return Ok(Verdict::Agree);
     }
     let count = |i: usize| {
         (
-            searches[i].counts(&diagrams[i].determinate, false),
-            searches[i].counts(&diagrams[i].admissible, true),
+            counts(questions[i], &diagrams[i].determinate, false),
+            counts(questions[i], &diagrams[i].admissible, true),
         )
     };
     let best = |i: usize| {
-        let list = searches[i].cheapest(diagrams[i], top);
+        let list = cheapest(questions[i], diagrams[i], top);
         list.collect_vec()
     };
-    compare_counts(searches, [&count(0), &count(1)])?;
+    compare_counts(questions, [&count(0), &count(1)])?;
     let (one, two) = (best(0), best(1));
     if one == two {
         return Ok(Verdict::Agree);
@@ -121,19 +124,19 @@ pub fn compare(
     let at = one.iter().zip(&two).take_while(|(a, b)| a == b).count();
     let counts = count(0);
     Err(Box::new(Disagreement {
-        primes: primes(searches),
+        primes: primes(questions),
         determinate: [counts.0.total.clone(), counts.0.total],
         admissible: [counts.1.total.clone(), counts.1.total],
         differences: format!("the variant at position {} of the list", at + 1),
     }))
 }
 
-/// Compares (determinate, admissible) counts that were made over the primes of two searches.
+/// Compares (determinate, admissible) counts that were made over the primes of two questions.
 ///
 /// # Errors
 /// Where they differ, with both.
 pub fn compare_counts(
-    searches: [&Search; 2],
+    questions: [&Question; 2],
     counts: [&(Counts, Counts); 2],
 ) -> Result<Verdict, Box<Disagreement>> {
     let [a, b] = counts;
@@ -148,17 +151,17 @@ pub fn compare_counts(
         text += &format!("; and {more} more");
     }
     Err(Box::new(Disagreement {
-        primes: primes(searches),
+        primes: primes(questions),
         determinate: [a.0.total.clone(), b.0.total.clone()],
         admissible: [a.1.total.clone(), b.1.total.clone()],
         differences: text,
     }))
 }
 
-/// The primes of two searches.
+/// The primes of two questions.
 #[must_use]
-pub fn primes(searches: [&Search; 2]) -> [u64; 2] {
-    searches.map(|s| s.exact.field().modulus())
+pub fn primes(questions: [&Question; 2]) -> [u64; 2] {
+    questions.map(|s| s.exact.field().modulus())
 }
 
 /// Whether two diagrams have the same nodes, edges and terminals.

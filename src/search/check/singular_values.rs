@@ -9,8 +9,11 @@ use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::numeric::{self, NumericRank};
 use crate::search::answer::k_best::Assignment;
+use crate::search::check::other_poses::over;
 use crate::search::check::other_poses::{OverStroke, Stroke};
-use crate::search::question::conditions::Search;
+use crate::search::check::variant_mechanism::locked;
+use crate::search::check::variant_mechanism::realize;
+use crate::search::question::Question;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -142,117 +145,120 @@ struct Shape {
     state: Option<(StateId, Vec<Contour>)>,
 }
 
-impl Search {
-    /// Analyses some variants by singular values, and in the poses of a stroke where one is given, in parallel; the first
-    /// of them alone where `cancelled`.
-    ///
-    /// # Complexity
-    /// Two or three decompositions of a 6k x f matrix a variant, and about two more for each pose.
-    #[must_use]
-    pub fn certify(
-        &self,
-        variants: Vec<Assignment>,
-        opinions: bool,
-        stroke: Option<&Stroke>,
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Vec<Certified> {
-        let mut shapes: BTreeMap<Vec<bool>, Shape> = BTreeMap::new();
-        for v in variants.iter().filter(|_| opinions) {
-            shapes
-                .entry(self.inserted(&v.choices))
-                .or_insert_with(|| self.shape(&self.realize(&v.choices)));
+/// Analyses some variants by singular values, and in the poses of a stroke where one is given, in parallel; the first
+/// of them alone where `cancelled`.
+///
+/// # Complexity
+/// Two or three decompositions of a 6k x f matrix a variant, and about two more for each pose.
+#[must_use]
+pub fn certify(
+    question: &Question,
+    variants: Vec<Assignment>,
+    opinions: bool,
+    stroke: Option<&Stroke>,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Vec<Certified> {
+    let mut shapes: BTreeMap<Vec<bool>, Shape> = BTreeMap::new();
+    for v in variants.iter().filter(|_| opinions) {
+        shapes
+            .entry(inserted(question, &v.choices))
+            .or_insert_with(|| shape(question, &realize(question, &v.choices)));
+    }
+    let one = |variant: Assignment| {
+        let m = realize(question, &variant.choices);
+        let second = if opinions {
+            let shape = shapes.get(&inserted(question, &variant.choices));
+            let opinion = shape.and_then(|s| opinion(question, &variant, &m, s));
+            opinion.map_or(Second::Failed, Second::Given)
+        } else {
+            Second::Unasked
+        };
+        let stroke = stroke.map(|s| over(question, s, &variant, &m));
+        Certified {
+            variant,
+            second,
+            stroke,
         }
-        let one = |variant: Assignment| {
-            let m = self.realize(&variant.choices);
-            let second = if opinions {
-                let shape = shapes.get(&self.inserted(&variant.choices));
-                let opinion = shape.and_then(|s| self.opinion(&variant, &m, s));
-                opinion.map_or(Second::Failed, Second::Given)
-            } else {
-                Second::Unasked
-            };
-            let stroke = stroke.map(|s| self.over(s, &variant, &m));
-            Certified {
-                variant,
-                second,
-                stroke,
-            }
-        };
-        let unless = |v| (!cancelled()).then(|| one(v));
-        let all = variants.into_par_iter().with_min_len(4).map(unless);
-        let all: Vec<Option<Certified>> = all.collect();
-        all.into_iter().map_while(|c| c).collect()
-    }
+    };
+    let unless = |v| (!cancelled()).then(|| one(v));
+    let all = variants.into_par_iter().with_min_len(4).map(unless);
+    let all: Vec<Option<Certified>> = all.collect();
+    all.into_iter().map_while(|c| c).collect()
+}
 
-    /// At which variables an unloading joint is inserted.
-    fn inserted(&self, choices: &[usize]) -> Vec<bool> {
-        let variables = self.space.variables.iter().zip(choices);
-        variables
-            .map(|(v, &c)| v.choices.get(c).is_some_and(|c| c.unloading.is_some()))
-            .collect()
-    }
+/// At which variables an unloading joint is inserted.
+fn inserted(question: &Question, choices: &[usize]) -> Vec<bool> {
+    let variables = question.space.variables.iter().zip(choices);
+    variables
+        .map(|(v, &c)| v.choices.get(c).is_some_and(|c| c.unloading.is_some()))
+        .collect()
+}
 
-    fn shape(&self, realized: &Mechanism) -> Shape {
-        let lock = || contour_basis(&self.locked(realized), StateId::FREE);
-        let state = self.conditions.state.map(|s| s.state);
-        Shape {
-            free: contour_basis(realized, StateId::FREE),
-            locked: self.conditions.keep_output.then(lock),
-            state: state.map(|s| (s, contour_basis(realized, s))),
+fn shape(question: &Question, realized: &Mechanism) -> Shape {
+    let lock = || contour_basis(&locked(question, realized), StateId::FREE);
+    let state = question.conditions.state.map(|s| s.state);
+    Shape {
+        free: contour_basis(realized, StateId::FREE),
+        locked: question.conditions.keep_output.then(lock),
+        state: state.map(|s| (s, contour_basis(realized, s))),
+    }
+}
+
+fn opinion(
+    question: &Question,
+    variant: &Assignment,
+    m: &Mechanism,
+    shape: &Shape,
+) -> Option<Opinion> {
+    let (free, f) = decompose(question, m, StateId::FREE, &shape.free)?;
+    let rows = |contours: &[Contour], state: StateId| {
+        int(contours.len() * question.space.dim + m.couplings_in(state).count())
+    };
+    let redundant = rows(&shape.free, StateId::FREE) - int(free.rank);
+    let output = match &shape.locked {
+        None => None,
+        Some(contours) => {
+            let (locked, _) = decompose(question, &locked(question, m), StateId::FREE, contours)?;
+            Some(locked.rank.saturating_sub(free.rank))
         }
-    }
+    };
+    let (mut conditioning, mut dropped) = (free.kept, free.dropped);
+    let external = match &shape.state {
+        None => None,
+        Some((s, contours)) => {
+            let (state, _) = decompose(question, m, *s, contours)?;
+            conditioning = conditioning.min(state.kept);
+            dropped = dropped.max(state.dropped);
+            Some(rows(contours, *s) - int(state.rank) - redundant)
+        }
+    };
+    let key = variant.key;
+    let mobility = int(f) - int(free.rank);
+    let agree = mobility == question.mobility(key)
+        && redundant == i64::from(key.internal())
+        && external.is_none_or(|e| e == i64::from(key.external()))
+        && output.is_none_or(|o| o == question.present_motion());
+    Some(Opinion {
+        mobility,
+        redundant,
+        external,
+        output,
+        conditioning,
+        dropped,
+        agree,
+    })
+}
 
-    fn opinion(&self, variant: &Assignment, m: &Mechanism, shape: &Shape) -> Option<Opinion> {
-        let (free, f) = self.decompose(m, StateId::FREE, &shape.free)?;
-        let rows = |contours: &[Contour], state: StateId| {
-            int(contours.len() * self.space.dim + m.couplings_in(state).count())
-        };
-        let redundant = rows(&shape.free, StateId::FREE) - int(free.rank);
-        let output = match &shape.locked {
-            None => None,
-            Some(contours) => {
-                let (locked, _) = self.decompose(&self.locked(m), StateId::FREE, contours)?;
-                Some(locked.rank.saturating_sub(free.rank))
-            }
-        };
-        let (mut conditioning, mut dropped) = (free.kept, free.dropped);
-        let external = match &shape.state {
-            None => None,
-            Some((s, contours)) => {
-                let (state, _) = self.decompose(m, *s, contours)?;
-                conditioning = conditioning.min(state.kept);
-                dropped = dropped.max(state.dropped);
-                Some(rows(contours, *s) - int(state.rank) - redundant)
-            }
-        };
-        let key = variant.key;
-        let mobility = int(f) - int(free.rank);
-        let agree = mobility == self.mobility(key)
-            && redundant == i64::from(key.internal())
-            && external.is_none_or(|e| e == i64::from(key.external()))
-            && output.is_none_or(|o| o == self.present_motion());
-        Some(Opinion {
-            mobility,
-            redundant,
-            external,
-            output,
-            conditioning,
-            dropped,
-            agree,
-        })
-    }
-
-    /// Rank of J of a state by singular values, with the number of columns.
-    fn decompose(
-        &self,
-        m: &Mechanism,
-        state: StateId,
-        contours: &[Contour],
-    ) -> Option<(NumericRank, usize)> {
-        let closure = Closure::with_contours(&Reals, m, state, contours.to_vec()).ok()?;
-        let rank = numeric::rank_with_tolerance(&closure, self.conditions.tolerance).ok()?;
-        Some((rank, closure.columns.len()))
-    }
+/// Rank of J of a state by singular values, with the number of columns.
+fn decompose(
+    question: &Question,
+    m: &Mechanism,
+    state: StateId,
+    contours: &[Contour],
+) -> Option<(NumericRank, usize)> {
+    let closure = Closure::with_contours(&Reals, m, state, contours.to_vec()).ok()?;
+    let rank = numeric::rank_with_tolerance(&closure, question.conditions.tolerance).ok()?;
+    Some((rank, closure.columns.len()))
 }
 
 fn int(x: usize) -> i64 {

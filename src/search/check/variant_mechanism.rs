@@ -4,100 +4,97 @@ use crate::model::joint_type::JointType;
 use crate::model::mechanism::{
     Joint, JointId, JointOption, Link, LinkId, Mechanism, Role, StateId,
 };
-use crate::search::question::conditions::Search;
+use crate::search::question::Question;
 
-impl Search {
-    /// The mechanism that a variant is. Joints keep their places in the list; unloading joints and their links come
-    /// after all others. An unloading joint of a contact is there in every state, as its link is.
-    #[must_use]
-    pub fn realize(&self, choices: &[usize]) -> Mechanism {
-        let old = &self.mechanism;
-        let mut chosen: Vec<(usize, Option<usize>, bool)> =
-            vec![(0, None, false); old.joints.len()];
-        for (variable, &choice) in self.space.variables.iter().zip(choices) {
-            if let Some(c) = variable.choices.get(choice) {
-                for &j in &variable.joints {
-                    chosen[j] = (c.option, c.unloading, variable.external);
-                }
+/// The mechanism that a variant is. Joints keep their places in the list; unloading joints and their links come
+/// after all others. An unloading joint of a contact is there in every state, as its link is.
+#[must_use]
+pub fn realize(question: &Question, choices: &[usize]) -> Mechanism {
+    let old = &question.mechanism;
+    let mut chosen: Vec<(usize, Option<usize>, bool)> = vec![(0, None, false); old.joints.len()];
+    for (variable, &choice) in question.space.variables.iter().zip(choices) {
+        if let Some(c) = variable.choices.get(choice) {
+            for &j in &variable.joints {
+                chosen[j] = (c.option, c.unloading, variable.external);
             }
         }
-        let stays = |l| {
-            old.joints_in(StateId::FREE)
-                .any(|j| old.joints[j].links.contains(&l))
-        };
-        let mut links = old.links.clone();
-        let mut contours = old.contours.clone();
-        let (mut joints, mut inserted) = (Vec::with_capacity(old.joints.len()), Vec::new());
-        for (joint, &(option, unloading, external)) in old.joints.iter().zip(&chosen) {
-            let mut here = replaced(joint, joint.options.get(option));
-            if let Some(u) = unloading.and_then(|u| joint.unloading.get(u)) {
-                let pad = LinkId::new(links.len());
-                let mut series = replaced(joint, Some(u));
-                series.id = format!("{} unloading", joint.id);
-                series.drive = false;
-                if external {
-                    series.states = None;
-                }
-                // The pad stays on the mechanism when the body it held is gone.
-                let [a, b] = joint.links.map(&stays);
-                let end = usize::from(external && b && !a);
-                series.links[end] = joint.links[end];
-                series.links[1 - end] = pad;
-                here.links[end] = pad;
-                links.push(Link {
-                    id: format!("{} pad", joint.id),
-                    role: Role::Inner,
-                    mass: None,
-                });
-                let at = JointId::new(old.joints.len() + inserted.len());
-                let before = JointId::new(joints.len());
-                for contour in contours.iter_mut().filter(|c| c.contains(&before)) {
-                    contour.push(at);
-                }
-                inserted.push(series);
+    }
+    let stays = |l| {
+        old.joints_in(StateId::FREE)
+            .any(|j| old.joints[j].links.contains(&l))
+    };
+    let mut links = old.links.clone();
+    let mut contours = old.contours.clone();
+    let (mut joints, mut inserted) = (Vec::with_capacity(old.joints.len()), Vec::new());
+    for (joint, &(option, unloading, external)) in old.joints.iter().zip(&chosen) {
+        let mut here = replaced(joint, joint.options.get(option));
+        if let Some(u) = unloading.and_then(|u| joint.unloading.get(u)) {
+            let pad = LinkId::new(links.len());
+            let mut series = replaced(joint, Some(u));
+            series.id = format!("{} unloading", joint.id);
+            series.drive = false;
+            if external {
+                series.states = None;
             }
-            joints.push(here);
+            // The pad stays on the mechanism when the body it held is gone.
+            let [a, b] = joint.links.map(&stays);
+            let end = usize::from(external && b && !a);
+            series.links[end] = joint.links[end];
+            series.links[1 - end] = pad;
+            here.links[end] = pad;
+            links.push(Link {
+                id: format!("{} pad", joint.id),
+                role: Role::Inner,
+                mass: None,
+            });
+            let at = JointId::new(old.joints.len() + inserted.len());
+            let before = JointId::new(joints.len());
+            for contour in contours.iter_mut().filter(|c| c.contains(&before)) {
+                contour.push(at);
+            }
+            inserted.push(series);
         }
-        joints.extend(inserted);
-        Mechanism {
-            name: old.name.clone(),
-            description: old.description.clone(),
-            sources: old.sources.clone(),
-            length_unit: old.length_unit,
-            mode: old.mode.clone(),
-            links,
-            joints,
-            couplings: old.couplings.clone(),
-            states: old.states.clone(),
-            contours,
-            search: Default::default(),
-            loads: old.loads.clone(),
-            ranking: old.ranking.clone(),
-            joint_types: old.joint_types.clone(),
-            points: old.points.clone(),
-            expected: Vec::new(),
-        }
+        joints.push(here);
     }
+    joints.extend(inserted);
+    Mechanism {
+        name: old.name.clone(),
+        description: old.description.clone(),
+        sources: old.sources.clone(),
+        length_unit: old.length_unit,
+        mode: old.mode.clone(),
+        links,
+        joints,
+        couplings: old.couplings.clone(),
+        states: old.states.clone(),
+        contours,
+        search: Default::default(),
+        loads: old.loads.clone(),
+        ranking: old.ranking.clone(),
+        joint_types: old.joint_types.clone(),
+        points: old.points.clone(),
+        expected: Vec::new(),
+    }
+}
 
-    /// A realized variant with its kept links fixed to the frame: what its contours lock beyond the variant's own is
-    /// the kept links' motion.
-    #[must_use]
-    pub fn locked(&self, realized: &Mechanism) -> Mechanism {
-        let mut out = realized.clone();
-        let frame = realized.frame();
-        let Some(any) = realized.joints.first() else {
-            return out;
-        };
-        for &link in self.kept.0.iter().filter(|l| **l != frame) {
-            let mut lock = replaced(any, None);
-            lock.id = format!("lock {}", realized.links[link].id);
-            lock.links = [frame, link];
-            lock.joint_type = JointType::Fixed;
-            lock.states = None;
-            out.joints.push(lock);
-        }
-        out
+/// A realized variant with its kept links fixed to the frame: what its contours lock beyond the variant's own is
+/// the kept links' motion.
+#[must_use]
+pub fn locked(question: &Question, realized: &Mechanism) -> Mechanism {
+    let mut out = realized.clone();
+    let frame = realized.frame();
+    let Some(any) = realized.joints.first() else {
+        return out;
+    };
+    for &link in question.kept.0.iter().filter(|l| **l != frame) {
+        let mut lock = replaced(any, None);
+        lock.id = format!("lock {}", realized.links[link].id);
+        lock.links = [frame, link];
+        lock.joint_type = JointType::Fixed;
+        lock.states = None;
+        out.joints.push(lock);
     }
+    out
 }
 
 /// A joint with another type and frame, and nothing to choose.

@@ -2,8 +2,8 @@
 
 use crate::format::phrase::list;
 use crate::model::mechanism::{JointId, Mechanism};
+use crate::search::Search;
 use crate::search::answer::why_none::Hopeless;
-use crate::search::question::conditions::Search;
 use itertools::Itertools;
 
 /// "hold a in state clamped" and "have external σ ≤ 2, harmful ≤ 0 in it"; of `one` variant, "holds" and "has".

@@ -10,7 +10,8 @@ use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::geom::vector::real;
 use ozols::model::mechanism::Mechanism;
 use ozols::redundancy::analysis::exact_field;
-use ozols::search::question::conditions::{Conditions, Search};
+use ozols::search::Search;
+use ozols::search::question::conditions::Conditions;
 use std::collections::{BTreeMap, BTreeSet};
 use tempfile::tempdir;
 

@@ -9,8 +9,9 @@ use ozols::model::ranking::{ClearanceSum, Term};
 use ozols::redundancy::analysis::exact_field;
 use ozols::score::elimination::Scratch;
 use ozols::score::evaluate::Evaluator;
+use ozols::search::Search;
 use ozols::search::answer::k_best::Assignment;
-use ozols::search::question::conditions::{Conditions, Search};
+use ozols::search::question::conditions::Conditions;
 use serde_json::Value;
 
 fn pool(s: &Search, n: usize) -> Vec<Assignment> {

@@ -5,7 +5,8 @@ use crate::common::{changed, count, run};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::redundancy::analysis::exact_field;
-use ozols::search::question::conditions::{Conditions, Search, Symmetry};
+use ozols::search::Search;
+use ozols::search::question::conditions::{Conditions, Symmetry};
 
 fn gripper() -> String {
     builtin::text("gripper-10").unwrap().to_owned()

@@ -6,6 +6,7 @@ use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Method, analyse};
+use ozols::search::check::variant_mechanism::realize;
 
 fn refused(args: &[&str]) -> String {
     let o = run(args);
@@ -241,7 +242,8 @@ fn where_no_option_can_help_that_is_said() {
 fn pads_stay_on_their_jaws_when_the_part_is_gone() {
     use ozols::model::mechanism::StateId;
     use ozols::redundancy::analysis::{Method, analyse, exact_field};
-    use ozols::search::question::conditions::{Conditions, InState, Search};
+    use ozols::search::Search;
+    use ozols::search::question::conditions::{Conditions, InState};
     let m = ozols::Mechanism::builtin("tongs").unwrap();
     let state = StateId::new(1);
     let conditions = Conditions {
@@ -252,7 +254,7 @@ fn pads_stay_on_their_jaws_when_the_part_is_gone() {
     let diagrams = s.build(&|| false, &mut |_| {});
     let mut padded = 0;
     for v in s.cheapest(&diagrams, 100) {
-        let variant = s.realize(&v.choices);
+        let variant = realize(&s, &v.choices);
         let found = analyse(&variant, &[StateId::FREE, state], Method::Modular).unwrap();
         let external = found[1].external.unwrap();
         assert_eq!(found[0].mobility as i64, s.mobility(v.key));

@@ -8,7 +8,9 @@ use crate::cli::terminal::output;
 use crate::model::mechanism::Mechanism;
 use crate::page::catalogue::catalogue;
 use crate::redundancy::analysis::exact_field;
-use crate::search::question::conditions::{Conditions, Search};
+use crate::search::Search;
+use crate::search::check::variant_mechanism;
+use crate::search::question::conditions::Conditions;
 use crate::view::catalog::structures::{Answer, StructureData, show_text};
 use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueHint};
@@ -148,7 +150,7 @@ pub(super) fn export(a: &Export) -> anyhow::Result<Done> {
             let mechanism = Mechanism::from_toml(&text)?;
             let field = exact_field(&mechanism, 0)?;
             let search = Search::new(field, mechanism, Conditions::default())?;
-            let mut made = search.realize(&choices);
+            let mut made = variant_mechanism::realize(&search, &choices);
             made.name = format!("{id}-idea-{k}");
             crate::cli::command::export::text(&made, &a.to, None)?
         }

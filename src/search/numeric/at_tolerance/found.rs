@@ -5,7 +5,7 @@ use crate::search::answer::count_tables::Key;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::k_best::Assignment;
 use crate::search::diagram::Stop;
-use crate::search::question::conditions::Search;
+use crate::search::question::Question;
 use crate::search::question::rounded_rank::{Digits, RankRange};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -74,10 +74,10 @@ impl AtTolerance {
 
     /// The sure admissible variants, cheapest first, then by W, then by changes; of a space not looked at whole the first of
     /// them.
-    pub fn list<'a>(&'a self, search: &'a Search) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+    pub fn list<'a>(&'a self, question: &'a Question) -> Box<dyn Iterator<Item = Assignment> + 'a> {
         match &self.list {
             List::Numbers(all) => Box::new(all.iter().map(|&(key, number)| Assignment {
-                choices: choices(search, number),
+                choices: choices(question, number),
                 key,
             })),
             List::Variants(all) => Box::new(all.iter().cloned()),
@@ -88,7 +88,7 @@ impl AtTolerance {
     /// are the cheap ones.
     pub fn drawn<'a>(
         &'a self,
-        search: &'a Search,
+        question: &'a Question,
         seed: u64,
     ) -> impl Iterator<Item = Assignment> + 'a {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -96,7 +96,7 @@ impl AtTolerance {
             List::Numbers(all) if !all.is_empty() => {
                 let (key, number) = all[below(&mut random, all.len())];
                 Some(Assignment {
-                    choices: choices(search, number),
+                    choices: choices(question, number),
                     key,
                 })
             }
@@ -109,10 +109,10 @@ impl AtTolerance {
 }
 
 /// The choices of a variant from its number: the last variable's change first.
-pub(in crate::search) fn choices(search: &Search, number: u32) -> Vec<usize> {
+pub(in crate::search) fn choices(question: &Question, number: u32) -> Vec<usize> {
     let mut rest = number as usize;
-    let mut out: Vec<usize> = Vec::with_capacity(search.steps.keys.len());
-    for keys in search.steps.keys.iter().rev() {
+    let mut out: Vec<usize> = Vec::with_capacity(question.steps.keys.len());
+    for keys in question.steps.keys.iter().rev() {
         out.push(rest % keys.len());
         rest /= keys.len();
     }
@@ -158,10 +158,10 @@ impl Met {
     }
 
     /// Brackets of the determinate and of the admissible, among `size` variants.
-    pub(super) fn brackets(&self, search: &Search, size: &BigUint) -> [Bracket; 2] {
+    pub(super) fn brackets(&self, question: &Question, size: &BigUint) -> [Bracket; 2] {
         let unseen = size - BigUint::from(self.looked).min(size.clone());
         [&self.determinate, &self.admissible].map(|[sure, doubtful]| {
-            let [sure, doubtful] = [sure, doubtful].map(|all| counts(search, all));
+            let [sure, doubtful] = [sure, doubtful].map(|all| counts(question, all));
             Bracket {
                 most: &sure.total + &doubtful.total + &unseen,
                 sure,
@@ -170,26 +170,26 @@ impl Met {
         })
     }
 
-    pub(super) fn by_cost(&self, search: &Search) -> BTreeMap<i64, BigUint> {
+    pub(super) fn by_cost(&self, question: &Question) -> BTreeMap<i64, BigUint> {
         let mut out: BTreeMap<i64, BigUint> = BTreeMap::new();
         for (key, n) in &self.admissible[0] {
-            *out.entry(search.steps.milli(key.cost())).or_default() += *n;
+            *out.entry(question.steps.milli(key.cost())).or_default() += *n;
         }
         out
     }
 }
 
-fn counts(search: &Search, all: &BTreeMap<Key, u64>) -> Counts {
+fn counts(question: &Question, all: &BTreeMap<Key, u64>) -> Counts {
     let mut out = Counts::default();
     for (key, n) in all {
-        out.add(search.mobility(*key), *key, &BigUint::from(*n));
+        out.add(question.mobility(*key), *key, &BigUint::from(*n));
     }
     out
 }
 
 /// The order of lists: cheapest first, then by W, then by changes.
-pub(super) fn order(search: &Search, key: Key) -> (u64, i64, u32, Key) {
-    (key.cost(), search.mobility(key), key.changes(), key)
+pub(super) fn order(question: &Question, key: Key) -> (u64, i64, u32, Key) {
+    (key.cost(), question.mobility(key), key.changes(), key)
 }
 
 /// A share of the variants, from a sample.

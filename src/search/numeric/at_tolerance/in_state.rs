@@ -7,7 +7,8 @@ use crate::geom::scalars::Reals;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::numeric::scaling::{Scaling, scaled};
-use crate::search::question::conditions::{InState, Search};
+use crate::search::question::Question;
+use crate::search::question::conditions::InState;
 use crate::search::question::grasp::Grasp;
 use crate::search::question::rounded_rank::{Digits, RankRange};
 use ozols_dense::{Matrix, singular_values};
@@ -39,7 +40,7 @@ impl InStateSeen {
     /// # Complexity
     /// A decomposition for each face, and one for each body to be held and each link that may hold it.
     pub(super) fn of(
-        search: &Search,
+        question: &Question,
         realized: &Mechanism,
         (state, external): (StateId, [i32; 2]),
         digits: Digits,
@@ -79,7 +80,7 @@ impl InStateSeen {
             all.iter().map(of).min().unwrap_or(0)
         };
         let mut held = Answer::Yes;
-        for grasp in &search.grasps {
+        for grasp in &question.grasps {
             held = held.and(holds(realized, state, grasp, (own, digits))?);
         }
         Some(InStateSeen {

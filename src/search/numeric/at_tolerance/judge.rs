@@ -5,9 +5,11 @@ use super::in_state::InStateSeen;
 use crate::geom::exact::ExactError;
 use crate::rank::numeric::Elimination;
 use crate::search::answer::count_tables::Key;
+use crate::search::check::brute;
 use crate::search::check::brute_float::{Approximate, Rows};
+use crate::search::check::variant_mechanism;
 use crate::search::diagram::redundancy_so_far::Redundancy;
-use crate::search::question::conditions::Search;
+use crate::search::question::Question;
 use crate::search::question::rounded_rank::{Digits, RankRange};
 
 /// Whether a variant meets some conditions.
@@ -30,9 +32,9 @@ pub(super) struct Judged {
     pub(super) admissible: Standing,
 }
 
-/// Judges the variants of a search.
+/// Judges the variants of a question.
 pub(super) struct Judge<'s> {
-    search: &'s Search,
+    question: &'s Question,
     all: Approximate,
     digits: Digits,
     /// The closure equations' rank in the free state, of the mechanism as it is.
@@ -42,15 +44,15 @@ pub(super) struct Judge<'s> {
 }
 
 impl<'s> Judge<'s> {
-    pub(super) fn new(search: &'s Search, digits: Digits) -> Result<Judge<'s>, ExactError> {
-        let all = Approximate::new(search, Elimination::Svd, digits.tolerance)?;
-        let nothing = vec![0; search.space.variables.len()];
+    pub(super) fn new(question: &'s Question, digits: Digits) -> Result<Judge<'s>, ExactError> {
+        let all = Approximate::new(question, Elimination::Svd, digits.tolerance)?;
+        let nothing = vec![0; question.space.variables.len()];
         let unknown = RankRange::of(&[], digits);
         let present = all.range(&nothing, Rows::Free, digits).unwrap_or(unknown);
         let kept = all.range(&nothing, Rows::WithKept, digits);
         let motion = motion(present, kept.unwrap_or(unknown));
         Ok(Judge {
-            search,
+            question,
             all,
             digits,
             present,
@@ -76,9 +78,9 @@ impl<'s> Judge<'s> {
     /// # Complexity
     /// One decomposition where it has too many redundant constraints, two otherwise; with a state some more.
     pub(super) fn judge(&self, choices: &[usize]) -> Judged {
-        let limit = self.search.conditions.max_redundant;
+        let limit = self.question.conditions.max_redundant;
         let doubtful = || {
-            let key = Standing::Doubtful(self.search.key(choices, Redundancy::default()));
+            let key = Standing::Doubtful(brute::key(self.question, choices, Redundancy::default()));
             Judged {
                 determinate: key,
                 admissible: key,
@@ -98,7 +100,7 @@ impl<'s> Judge<'s> {
         }
         let sure = most <= limit;
         let standing = |sure: bool, redundancy: Redundancy| {
-            let key = self.search.key(choices, redundancy);
+            let key = brute::key(self.question, choices, redundancy);
             match sure {
                 true => Standing::Sure(key),
                 false => Standing::Doubtful(key),
@@ -111,7 +113,7 @@ impl<'s> Judge<'s> {
         // Of a range the figures are doubtful too.
         let determinate = standing(sure && least == most, within);
         let mut good = Answer::of(sure && least == most, true);
-        if self.search.conditions.keep_output {
+        if self.question.conditions.keep_output {
             let kept = self.all.range(choices, Rows::WithKept, self.digits);
             let Some(kept) = kept else {
                 return Judged {
@@ -131,13 +133,19 @@ impl<'s> Judge<'s> {
                 internal,
                 ..Redundancy::default()
             };
-            self.search.wanted(self.search.key(choices, redundancy))
+            self.question
+                .wanted(brute::key(self.question, choices, redundancy))
         };
         let mut which = least..=most.min(limit);
         good = good.and(Answer::of(which.clone().all(wanted), which.any(wanted)));
         let mut found = within;
-        if let Some(asked) = self.search.conditions.state.filter(|_| good != Answer::No) {
-            let realized = self.search.realize(choices);
+        if let Some(asked) = self
+            .question
+            .conditions
+            .state
+            .filter(|_| good != Answer::No)
+        {
+            let realized = variant_mechanism::realize(self.question, choices);
             let of_state = self.all.range(choices, Rows::State, self.digits);
             let seen = of_state.and_then(|of_state| {
                 let surplus = |rank: usize| int32(state_rows) - int32(rank);
@@ -145,7 +153,12 @@ impl<'s> Judge<'s> {
                     surplus(of_state.most) - int32(rows) + int32(free.least),
                     surplus(of_state.least) - int32(rows) + int32(free.most),
                 ];
-                InStateSeen::of(self.search, &realized, (asked.state, external), self.digits)
+                InStateSeen::of(
+                    self.question,
+                    &realized,
+                    (asked.state, external),
+                    self.digits,
+                )
             });
             let Some(seen) = seen else {
                 return Judged {

@@ -5,7 +5,7 @@ use super::judge::{Judge, Standing};
 use crate::search::answer::k_best::Assignment;
 use crate::search::diagram::Stop;
 use crate::search::numeric::in_order::InOrder;
-use crate::search::question::conditions::Search;
+use crate::search::question::Question;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::SeedableRng;
 use rayon::prelude::*;
@@ -22,7 +22,7 @@ const NORMAL_95: f64 = 1.959_963_985;
 
 /// Looks for the `list` cheapest admissible variants in order, and at a sample.
 pub(super) fn search(
-    search: &Search,
+    question: &Question,
     judge: &Judge<'_>,
     (wanted, seed): (usize, u64),
     cancelled: &(dyn Fn() -> bool + Sync),
@@ -40,12 +40,12 @@ pub(super) fn search(
         all.collect::<Vec<_>>().into_iter().flatten().collect()
     };
     let cost = |choices: &[usize]| {
-        let chosen = search.steps.keys.iter().zip(choices);
+        let chosen = question.steps.keys.iter().zip(choices);
         chosen.map(|(keys, &c)| keys[c].cost()).sum::<u64>()
     };
     // The cost of the first variant not looked at.
     let mut next_cost = None;
-    if let Some(all) = InOrder::new(&search.steps) {
+    if let Some(all) = InOrder::new(&question.steps) {
         let mut all = all.peekable();
         while list.len() < wanted && (met.looked as usize) < IN_ORDER && !cancelled() {
             let block: Vec<Vec<usize>> = all.by_ref().take(AT_ONCE).collect();
@@ -63,10 +63,10 @@ pub(super) fn search(
     }
     let visited = usize::try_from(met.looked).unwrap_or(usize::MAX);
     list.sort_by(|a, b| {
-        (order(search, a.key), &a.choices).cmp(&(order(search, b.key), &b.choices))
+        (order(question, a.key), &a.choices).cmp(&(order(question, b.key), &b.choices))
     });
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let radix: Vec<usize> = search.steps.keys.iter().map(Vec::len).collect();
+    let radix: Vec<usize> = question.steps.keys.iter().map(Vec::len).collect();
     let mut one = || -> Vec<usize> { radix.iter().map(|&n| below(&mut random, n)).collect() };
     let drawn = look((0..DRAWN).map(|_| one()).collect());
     let mut seen = BTreeSet::new();
@@ -91,9 +91,9 @@ pub(super) fn search(
         determinate,
         admissible,
         in_order: visited,
-        all_below: next_cost.map(|next| search.steps.milli(next)),
+        all_below: next_cost.map(|next| question.steps.milli(next)),
     };
-    let [determinate, admissible] = met.brackets(search, &search.size());
+    let [determinate, admissible] = met.brackets(question, &question.size());
     AtTolerance {
         digits: judge.digits(),
         present: judge.present(),
