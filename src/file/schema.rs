@@ -9,6 +9,8 @@ mod tolerance;
 mod words;
 mod workload;
 
+use crate::format::phrase::disjunction;
+use crate::model::joint_type::JointType;
 pub use drive::DriveEntry;
 pub use grip::{DiameterSteps, Diameters, Gravity, GripEntry};
 pub use number::{Coordinate, Quantities, Quantity};
@@ -113,8 +115,9 @@ pub struct JointEntry {
     pub id: String,
     /// The two links.
     pub links: [String; 2],
-    /// Type: revolute, prismatic, helical, cylindrical, universal, slotted, spherical, planar, cylindrical-universal,
-    /// sphere-in-cylinder, cylinder-on-plane, sphere-on-plane, fixed or custom.
+    // What the types are called stands with them.
+    #[schemars(description = format!("Type: {}.", disjunction(JointType::words())))]
+    #[schemars(extend("enum" = JointType::words().collect::<Vec<_>>()))]
     #[serde(rename = "type")]
     pub kind: String,
     /// Freedoms of a custom joint: rx, ry, rz, tx, ty, tz, screw.

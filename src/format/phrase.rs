@@ -5,6 +5,15 @@ pub(crate) fn plural(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
+/// "a, b or c".
+pub(crate) fn disjunction<'a>(of: impl IntoIterator<Item = &'a str>) -> String {
+    let mut all: Vec<&str> = of.into_iter().collect();
+    match (all.pop(), all.is_empty()) {
+        (Some(last), false) => format!("{} or {last}", all.join(", ")),
+        (last, _) => last.unwrap_or_default().to_owned(),
+    }
+}
+
 /// "a", "a and b", "a, b and c".
 pub(crate) fn list<T: AsRef<str>>(of: &[T]) -> String {
     match of {

@@ -132,6 +132,13 @@ impl JointType {
         JointType::Fixed,
     ];
 
+    /// The words of all types in files.
+    pub fn words() -> impl Iterator<Item = &'static str> {
+        let custom = JointType::Custom(Vec::new()).known().0;
+        let named = JointType::NAMED.iter().map(JointType::name);
+        named.chain([custom])
+    }
+
     /// The one list of what is known of each type: its word, its freedoms in the joint's frame, and its default cost.
     fn known(&self) -> (&'static str, &[Freedom], i64) {
         use Freedom::{Rx, Ry, Rz, Screw, Tx, Ty, Tz};

@@ -1,5 +1,6 @@
 //! The page "How to add": its files exist, and its lists are the only ones.
 
+use ozols::model::joint_type::JointType;
 use ozols::model::ranking::Term;
 use ozols::rank::method::registry;
 use std::fs;
@@ -87,6 +88,24 @@ fn ranking_terms_are_listed_in_their_three_files() {
             );
         }
     }
+}
+
+/// Editors complete from the schema, people from the help: both have each word.
+#[test]
+fn the_schema_and_the_help_have_every_term_and_joint_type() {
+    let schema = ozols::file::schema::json_schema();
+    let words = |of: &str, key: &str| -> Vec<String> {
+        let listed = &schema["$defs"][of]["properties"][key]["enum"];
+        serde_json::from_value(listed.clone()).unwrap()
+    };
+    let terms = Term::ALL.map(Term::name);
+    assert_eq!(words("TermEntry", "term"), terms);
+    assert_eq!(words("LimitEntry", "term"), terms);
+    assert!(JointType::words().eq(words("JointEntry", "type")));
+    let help = crate::common::run(&["search", "--help"]);
+    let help = crate::common::text(&help.stdout).replace('\n', " ");
+    let help: Vec<&str> = help.split([' ', ',', ';', '.']).collect();
+    assert!(terms.iter().all(|t| help.contains(t)), "{help:?}");
 }
 
 #[test]

@@ -44,9 +44,7 @@ pub(in crate::cli) struct Which {
     /// Most changes allowed.
     #[arg(long, value_name = "N")]
     max_changes: Option<u32>,
-    /// Rank under the workload by these terms, in place of the file's [ranking] terms: peak-force=1,cost=0.5. Terms:
-    /// peak-force, peak-moment, conditioning, output-error, changes, cost, idle, harmful; weight 1 where none stands.
-    #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',')]
+    #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',', help = rank_help())]
     rank: Vec<String>,
     /// How many of the cheapest variants a ranking scores at most; it ends before where the best are proven.
     #[arg(long, value_name = "K", default_value_t = POOL)]
@@ -223,4 +221,13 @@ impl Checked {
             ..self.which.request(self.state.as_deref())?
         })
     }
+}
+
+/// The help of `--rank`.
+fn rank_help() -> String {
+    format!(
+        "Rank under the workload by these terms, in place of the file's [ranking] terms: peak-force=1,cost=0.5. Terms: {}; weight \
+         1 where none stands",
+        Term::ALL.map(Term::name).join(", ")
+    )
 }

@@ -1,5 +1,7 @@
 //! `[ranking]` and `[joint_types]`.
 
+use crate::format::phrase::disjunction;
+use crate::model::ranking::Term;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -29,7 +31,9 @@ pub struct RankingEntry {
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TermEntry {
-    /// peak-force, peak-moment, conditioning, output-error, changes, cost or idle.
+    // What the terms are called stands with them.
+    #[schemars(description = format!("{}.", disjunction(Term::ALL.map(Term::name))))]
+    #[schemars(extend("enum" = Term::ALL.map(Term::name)))]
     pub term: String,
     /// Its weight, 1 by default.
     #[serde(default)]
@@ -41,6 +45,7 @@ pub struct TermEntry {
 #[serde(deny_unknown_fields)]
 pub struct LimitEntry {
     /// The term.
+    #[schemars(extend("enum" = Term::ALL.map(Term::name)))]
     pub term: String,
     /// Not below.
     #[serde(default)]
