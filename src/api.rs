@@ -59,8 +59,8 @@ impl Mechanism {
         Ok(mechanism_from_str(&format!("{name}.toml"), text)?)
     }
 
-    /// Reads a mechanism file (JSON where its name ends in .json, else TOML) or a robot description (URDF, MJCF, SDF, by
-    /// the ending). What was approximated in a description is in the report of [`import`].
+    /// Reads a mechanism file (JSON where its name ends in .json, else TOML) or a robot description or CAD assembly (URDF,
+    /// MJCF, SDF, FCStd, ASMT, by the ending). What was approximated in a description is in the report of [`import`].
     ///
     /// # Errors
     /// Where the file cannot be read, and every problem in it, each with its place.
@@ -98,7 +98,7 @@ pub(crate) fn bytes(path: &Path, limit: usize) -> Result<Vec<u8>, Error> {
     })
 }
 
-/// Imports a robot description, with a report of what was approximated; files it includes are read from its folder and
+/// Imports a robot description or CAD assembly, with a report of what was approximated; files it includes are read from its folder and
 /// from the folders of models that the options name, and nowhere else.
 ///
 /// # Errors

@@ -2,7 +2,7 @@
 //!
 //! Start with [`first_hour`]. Then one chapter for each system: [`structure`] (redundant constraints and the search for
 //! redesigns), [`grip`], [`kinetostatics`], [`drive`]; and one each for [`ranking`] under a workload, [`mobility`] where
-//! formulas and numbers fail, [`robots`] (import and export), [`beside`] other tools, [`catalog`] (structures
+//! formulas and numbers fail, [`robots`] (import and export), [`assemblies`] of CAD programs, [`beside`] other tools, [`catalog`] (structures
 //! that nobody has drawn yet), [`sweep`] (parameters of a file over a grid or at random), and [`speed`]. For programs: [`rust`] and [`python`]. Who carries the program
 //! on reads [`architecture`] and [`adding`]; what changed is in the [`changelog`].
 //!
@@ -31,6 +31,9 @@ pub mod mobility {}
 
 #[doc = include_str!("guide/robots.md")]
 pub mod robots {}
+
+#[doc = include_str!("guide/assemblies.md")]
+pub mod assemblies {}
 
 #[doc = include_str!("guide/beside.md")]
 pub mod beside {}

@@ -1,11 +1,14 @@
-//! Robot descriptions (URDF, MJCF, SDF) read as mechanisms, and mechanisms written for other programs.
+//! Robot descriptions (URDF, MJCF, SDF) and CAD assemblies (FreeCAD, OndselSolver) read as mechanisms, and mechanisms written for other programs.
 
+mod asmt;
 mod build;
+mod cad;
 mod close;
 mod coupling;
 mod digits;
 mod edit;
 mod emit;
+mod fcstd;
 mod fix;
 pub mod formats;
 mod graph;
@@ -34,4 +37,4 @@ pub use import::{Imported, import};
 pub use options::{Options, Reader};
 pub use origin::{Origin, Place};
 pub use problem::ExportError;
-pub use warning::{Kept, Note, Report};
+pub use warning::{Count, Kept, Note, Report};

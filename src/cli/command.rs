@@ -22,5 +22,6 @@ pub(in crate::cli) mod report;
 pub(in crate::cli) mod search;
 pub(in crate::cli) mod statics;
 pub(in crate::cli) mod sweep;
+pub(in crate::cli) mod types;
 pub(in crate::cli) mod verify;
 pub(in crate::cli) mod watch;

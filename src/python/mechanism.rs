@@ -50,6 +50,7 @@ impl Mechanism {
         assemble: bool,
         open: bool,
         models: Vec<PathBuf>,
+        assembly: Option<String>,
         frame: Option<String>,
         outputs: Vec<String>,
     ) -> PyResult<(Self, String)> {
@@ -60,6 +61,7 @@ impl Mechanism {
             assemble,
             open,
             models,
+            assembly,
             frame,
             outputs,
         };

@@ -134,6 +134,7 @@ pub(crate) fn close_loops(
         return Ok(());
     }
     let size = size(robot);
+    let unit = robot.unit.symbol();
     let first = worst(&gaps(robot, tree), size);
     let n = tree.loops.len();
     let loops = if n == 1 {
@@ -143,7 +144,7 @@ pub(crate) fn close_loops(
     };
     if first <= CLOSED * size {
         robot.report.pose.push(format!(
-            "{loops} closed in the pose of the file, to {first:.1e} m"
+            "{loops} closed in the pose of the file, to {first:.1e} {unit}"
         ));
         return Ok(());
     }
@@ -156,7 +157,7 @@ pub(crate) fn close_loops(
     if left <= CLOSED * size || (left <= ROUNDED * size && !options.open) {
         if left > CLOSED * size {
             let what = format!(
-                "open by {left:.1e} m wherever the joints are, as rounded coordinates leave it; taken as closed"
+                "open by {left:.1e} {unit} wherever the joints are, as rounded coordinates leave it; taken as closed"
             );
             robot.report.approximate(&loops, what);
         }
@@ -181,7 +182,7 @@ pub(crate) fn close_loops(
             n => format!("; {n} outside their limits"),
         };
         robot.report.moved(format!(
-            "{loops} open by {first:.1e} m in the pose of the file, closed to {left:.1e} m by moving joints{moved}{limits}"
+            "{loops} open by {first:.1e} {unit} in the pose of the file, closed to {left:.1e} {unit} by moving joints{moved}{limits}"
         ));
         return Ok(());
     }
@@ -194,7 +195,7 @@ pub(crate) fn close_loops(
         let p = &robot.joints[g.joint];
         let [a, b] = p.links.map(|l| robot.links[l].as_str());
         format!(
-            "\"{}\" between {a} and {b} by {:.2e} m and {:.2e} rad",
+            "\"{}\" between {a} and {b} by {:.2e} {unit} and {:.2e} rad",
             p.id, g.shift, g.turn
         )
     });
@@ -208,6 +209,21 @@ pub(crate) fn close_loops(
             "the loops do not close, the widest is {what}; give a pose nearby with --pose joint=value, or take it as it is with --open"
         ),
     })
+}
+
+/// The joints of the tree that loops go through, and those that close them.
+fn in_loops(robot: &Robot, tree: &Tree) -> BTreeSet<usize> {
+    let mut out: BTreeSet<usize> = tree.loops.iter().copied().collect();
+    for &j in &tree.loops {
+        let way = |link: usize| {
+            std::iter::successors(tree.into[link], |&s| tree.into[tree.steps[s].from])
+                .map(|s| tree.steps[s].joint)
+                .collect::<BTreeSet<usize>>()
+        };
+        let [a, b] = robot.joints[j].links.map(way);
+        out.extend(a.symmetric_difference(&b));
+    }
+    out
 }
 
 /// A mechanism file and what its parts are of the robot.
@@ -233,7 +249,12 @@ pub(crate) fn entries(
     options: &Options,
 ) -> Result<Entries, RobotProblem> {
     let places = places(robot, tree);
-    let fixed = |j: usize| robot.joints[j].joint_type == JointType::Fixed;
+    let kept = if robot.assembly {
+        in_loops(robot, tree)
+    } else {
+        BTreeSet::new()
+    };
+    let fixed = |j: usize| robot.joints[j].joint_type == JointType::Fixed && !kept.contains(&j);
     let rigid = tree
         .steps
         .iter()

@@ -70,11 +70,16 @@ pub(crate) fn tolerance(root: Element<'_>, (size, across): (f64, f64)) -> Option
     };
     let shift = length.max(turn * size).max(LEAST * size).min(most);
     let turned = direction.max(turn).min(MOST);
+    stated([shift, if turned > 0.0 { turned.max(LEAST) } else { 0.0 }])
+}
+
+/// What is stated where places are known to a length and directions to an angle in radians, none where that is 0.
+pub(crate) fn stated([shift, turned]: [f64; 2]) -> Option<ToleranceEntry> {
     // Two digits of an uncertainty are enough.
     let entry = |x: f64| Some(Coordinate::Decimal(format!("{x:.1e}").parse().ok()?));
     Some(ToleranceEntry {
         length: entry(shift),
-        direction: (turned > 0.0).then(|| entry(turned.max(LEAST))).flatten(),
+        direction: (turned > 0.0).then(|| entry(turned)).flatten(),
     })
 }
 

@@ -92,10 +92,11 @@ impl Content<'_> {
 pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
     let mut comments = Vec::new();
     let one_line = |s: &str| s.chars().filter(|c| !c.is_control()).collect::<String>();
-    let left_out = if c.robot.report.coupling_rows > 0 {
-        " Some couplings of joints are left out."
-    } else {
-        ""
+    let report = &c.robot.report;
+    let left_out = match (report.coupling_rows, report.constraint_rows) {
+        (0, 0) => "",
+        (_, 0) => " Some couplings of joints are left out.",
+        _ => " Some joints are left out.",
     };
     let left_behind = c.robot.report.left_behind();
     let left_behind = left_behind.map_or(String::new(), |t| format!(" {}", one_line(&t)));
@@ -147,7 +148,7 @@ pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
     };
     let what = "What a search may put in place of a joint; edit freely.";
     comments.push(Comment::new("search", 0, what));
-    let options = ["revolute", "cylindrical", "universal", "spherical"];
+    let options = c.robot.options.iter().map(|t| t.name().to_owned());
     let file = MechanismFile {
         name: one_line(&c.robot.name),
         description: format!(
@@ -155,12 +156,12 @@ pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
             one_line(c.file),
             c.format
         ),
-        length_unit: Some("m".to_owned()),
+        length_unit: Some(c.robot.unit.symbol().to_owned()),
         link: links,
         joint: joints,
         coupling: c.couplings.iter().map(coupling).collect(),
         search: SearchEntry {
-            options: options.map(|o| OptionEntry::Word(o.to_owned())).to_vec(),
+            options: options.map(OptionEntry::Word).collect(),
             ..SearchEntry::default()
         },
         ..MechanismFile::default()
@@ -207,6 +208,7 @@ fn joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, String>) -
         };
         z.map(number)
     };
+    let second = || Some(place.direction(p.second));
     let ball = matches!(p.joint_type, JointType::Spherical | JointType::Fixed);
     let universal = p.joint_type == JointType::Universal;
     let screws = p.joint_type.freedoms().contains(&Freedom::Screw);
@@ -222,6 +224,7 @@ fn joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, String>) -
         axis: (!ball).then(axis),
         reference: about(&[Freedom::Rx])
             .filter(|_| universal)
+            .or_else(|| second().filter(|_| p.joint_type.has_second_axis()))
             .map(|x| direction(x).map(number)),
         lead: None,
         pitch: screws.then(|| number(p.pitch)),

@@ -3,6 +3,7 @@
 use crate::file::problem::ImportError;
 use crate::geom::vector::Vector;
 use crate::redundancy::release::Release;
+use crate::robots::cad::retype;
 use crate::robots::edit::{Edits, Freeing};
 use crate::robots::import::Imported;
 use crate::robots::origin::Origin;
@@ -12,12 +13,21 @@ use crate::robots::single_freedoms::comment;
 use crate::robots::{mjcf, sdf, urdf};
 use std::collections::BTreeMap;
 
-/// The text of the description with releases made: joints added in series, and couplings left out. All else stays as it is,
-/// byte for byte; comments say why.
+/// The description with releases made: joints added in series, and couplings left out. All else stays as it is,
+/// byte for byte; comments say why. In an assembly of a CAD program joints get another type, one that the program has; all other
+/// members of an archive stay as they are.
 ///
 /// # Errors
 /// Where the format cannot say a release at the place it is asked for.
-pub fn fix(imported: &Imported, releases: &[(Release, String)]) -> Result<String, ImportError> {
+pub fn fix(imported: &Imported, releases: &[(Release, String)]) -> Result<Vec<u8>, ImportError> {
+    if imported.origin.is_assembly() {
+        return retype::retype(imported, releases);
+    }
+    Ok(in_series(imported, releases)?.into_bytes())
+}
+
+/// The text of the description with joints added in series.
+fn in_series(imported: &Imported, releases: &[(Release, String)]) -> Result<String, ImportError> {
     let origin = &imported.origin;
     let mut edits = Edits::new(origin);
     let mut freed: BTreeMap<usize, Vec<(bool, Vector, String)>> = BTreeMap::new();

@@ -7,7 +7,7 @@ use crate::robots::options::{Options, Reader};
 use crate::robots::parts::Robot;
 use crate::robots::problem::ExportError;
 use crate::robots::xml::Document;
-use crate::robots::{graph, mjcf, sdf, urdf};
+use crate::robots::{asmt, fcstd, graph, mjcf, sdf, urdf};
 
 /// A format of files.
 #[derive(Debug)]
@@ -46,7 +46,7 @@ impl From<String> for Written {
 }
 
 /// All formats: with the root element of what is read, and the writer of what is written.
-static FORMATS: [Format; 7] = [
+static FORMATS: [Format; 9] = [
     Format {
         word: "toml",
         name: "TOML",
@@ -88,6 +88,22 @@ static FORMATS: [Format; 7] = [
         write: Some(|m| Ok(sdf::write::sdf(m))),
     },
     Format {
+        word: "fcstd",
+        name: "FreeCAD",
+        about: "FILE, a FreeCAD document, with joints of other types",
+        endings: &["fcstd"],
+        read: Some(("Document", fcstd::read::read)),
+        write: Some(|_| own("FreeCAD")),
+    },
+    Format {
+        word: "asmt",
+        name: "OndselSolver",
+        about: "FILE, an assembly of FreeCAD's solver, with joints of other types",
+        endings: &["asmt"],
+        read: Some(("Assembly", asmt::read::read)),
+        write: Some(|_| own("OndselSolver")),
+    },
+    Format {
         word: "dot",
         name: "DOT",
         about: "Graphviz",
@@ -104,6 +120,17 @@ static FORMATS: [Format; 7] = [
         write: Some(|m| Ok(graph::graphml(m).into())),
     },
 ];
+
+/// Shapes and references are those of the owner's document: a mechanism alone is none.
+fn own(format: &'static str) -> Result<Written, ExportError> {
+    Err(ExportError::Own { format })
+}
+
+/// Whether only files read in a format are written in it, with joints changed.
+#[must_use]
+pub fn is_own(word: &str) -> bool {
+    ["fcstd", "asmt"].contains(&word)
+}
 
 /// The formats a mechanism can be written in.
 pub fn written() -> impl Iterator<Item = &'static Format> {
@@ -188,6 +215,9 @@ mod tests {
 
     #[test]
     fn root_elements_are_listed() {
-        assert_eq!(roots(), "<robot> (URDF), <mujoco> (MJCF) and <sdf> (SDF)");
+        assert_eq!(
+            roots(),
+            "<robot> (URDF), <mujoco> (MJCF), <sdf> (SDF), <Document> (FreeCAD) and <Assembly> (OndselSolver)"
+        );
     }
 }

@@ -12,10 +12,13 @@ use crate::file::text::mechanism_from_str;
 use crate::file::write::{self, Comment};
 use crate::geom::extent::diagonal;
 use crate::model::mechanism::Mechanism;
+use crate::robots::asmt;
 use crate::robots::build::{Entries, apply_pose, close_loops, entries, held, root_link};
+use crate::robots::cad::archive::Archive;
 use crate::robots::close::size;
 use crate::robots::coupling;
 use crate::robots::digits;
+use crate::robots::fcstd::DOCUMENT;
 use crate::robots::formats::{Format, of_root, roots};
 use crate::robots::kinematics::spanning_tree;
 use crate::robots::loops;
@@ -52,6 +55,29 @@ impl Imported {
     }
 }
 
+/// Reads the root element of a description: of XML, of the document in an archive, or of lines laid out by tabs.
+fn root(
+    document: &mut Document,
+    name: &str,
+    bytes: &[u8],
+    archive: Option<&Archive>,
+) -> Result<usize, ImportError> {
+    let Some(archive) = archive else {
+        let text = xml::utf8(name, bytes)?;
+        return match asmt::read::is_one(text.as_bytes()) {
+            true => asmt::read::document(document, name, text),
+            false => document.read(name, text),
+        };
+    };
+    let name = format!("{name}/{DOCUMENT}");
+    let Some(found) = archive.member(DOCUMENT)? else {
+        let message =
+            format!("there is no {DOCUMENT} in the archive; it is no document of FreeCAD");
+        return Err(RobotProblem::Whole { message }.at(&name, "", None));
+    };
+    document.read(&name, xml::utf8(&name, &found)?)
+}
+
 /// Imports a description. `read` gives the files it includes.
 ///
 /// # Errors
@@ -63,7 +89,15 @@ pub fn import(
     options: &Options,
 ) -> Result<Imported, ImportError> {
     let mut document = Document::default();
-    let root = document.read(name, xml::utf8(name, bytes)?)?;
+    let archive = Archive::of(name, bytes);
+    let root = root(&mut document, name, bytes, archive.as_ref())?;
+    // What is in the archive goes before what stands beside it.
+    let packed = archive.clone();
+    let inner = |member: &str| match packed.as_ref().map(|a| a.member(member)) {
+        Some(Ok(Some(found))) => Ok(found),
+        _ => read(member),
+    };
+    let read: Reader<'_> = &inner;
     let found = document.element(root).name().to_owned();
     let Some((format, description)) = of_root(&found) else {
         let known = roots();
@@ -103,7 +137,10 @@ pub fn import(
         places[part.links[0]].then(&part.sides[0]).translation
     };
     let sizes = (size(&robot), diagonal(joints.iter().map(place)));
-    file.tolerance = digits::tolerance(document.element(root), sizes);
+    file.tolerance = match robot.known_to {
+        Some(known) => digits::stated(known),
+        None => digits::tolerance(document.element(root), sizes),
+    };
     // Problems are shown in the text that would be written.
     let mechanism = build(&file).or_else(|_| {
         let text = write::toml(&file, &comments).unwrap_or_default();
@@ -128,6 +165,7 @@ pub fn import(
         comments,
         origin: Origin {
             document,
+            archive,
             root,
             robot,
             places,

@@ -3,6 +3,8 @@
 use crate::geom::rigid::Motion;
 use crate::model::mechanism::JointId;
 use crate::motion::pose::Pose;
+use crate::robots::cad::archive::Archive;
+use crate::robots::cad::assembly;
 use crate::robots::parts::{Part, Robot};
 use crate::robots::xml::{Document, Element};
 
@@ -10,6 +12,8 @@ use crate::robots::xml::{Document, Element};
 #[derive(Debug, Clone)]
 pub struct Origin {
     pub(super) document: Document,
+    /// The archive that it is a member of.
+    pub(super) archive: Option<Archive>,
     /// The root element.
     pub(super) root: usize,
     pub(super) robot: Robot,
@@ -74,7 +78,7 @@ impl Origin {
                 return true;
             };
             let unit = match c.freedom.slides() {
-                true => pose.length * metres,
+                true => pose.length * metres / self.robot.unit.metres(),
                 false => 1.0,
             };
             // Limits are often where the joint stands.
@@ -83,9 +87,35 @@ impl Origin {
         })
     }
 
-    /// Whether a joint can be given freedoms where it stands.
+    /// Whether it is an assembly of a CAD program: joints are changed to one of its types, not by one freedom.
     #[must_use]
-    pub fn can_be_freed(&self, joint: JointId) -> bool {
+    pub fn is_assembly(&self) -> bool {
+        self.robot.assembly
+    }
+
+    /// Whether the mechanism is that of this pose alone: joints are open, or have freedoms that no joint has.
+    #[must_use]
+    pub fn is_of_this_pose(&self) -> bool {
+        self.robot.here_only
+    }
+
+    /// How far the two frames of a joint of an assembly are apart in what it holds: a length in the mechanism's unit, and
+    /// radians. None where the file places one frame only.
+    #[must_use]
+    pub fn misfit(&self, joint: JointId) -> Option<[f64; 2]> {
+        self.part(joint).misfit
+    }
+
+    /// The same in words, where it is more than rounding.
+    #[must_use]
+    pub fn open_by(&self, joint: JointId) -> Option<String> {
+        let misfit = self.misfit(joint)?;
+        let told = misfit.iter().any(|x| *x > 1e-6);
+        told.then(|| assembly::words(misfit, self.robot.unit))
+    }
+
+    /// Whether a joint can be given more joints in series where it stands.
+    pub(super) fn takes_joints(&self, joint: JointId) -> bool {
         let element = self.part(joint).element.map(|e| self.element(e).name());
         element.is_some_and(|e| ["joint", "connect", "weld", "loop_joint"].contains(&e))
     }

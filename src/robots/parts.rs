@@ -1,4 +1,4 @@
-//! What the three formats have in common: links, joints with a place on either side, named frames.
+//! What the formats have in common: links, joints with a place on either side, named frames.
 
 use crate::geom::rigid::{Motion, perpendicular};
 use crate::geom::vector::{Vector, X, Z, cross};
@@ -38,6 +38,8 @@ pub(crate) struct Part {
     pub(super) comment: Option<String>,
     /// The element that says so; none where a file beside the description does.
     pub(super) element: Option<usize>,
+    /// How far its two sides are apart in what it holds, where the file places both: a length in the robot's unit, and radians.
+    pub(super) misfit: Option<[f64; 2]>,
 }
 
 impl Part {
@@ -64,6 +66,7 @@ impl Part {
             limits: None,
             comment: None,
             element: None,
+            misfit: None,
         }
     }
 
@@ -138,8 +141,51 @@ pub(crate) struct Robot {
     pub(super) frames: BTreeMap<String, (usize, Motion)>,
     /// Places of links in the file, for those that nothing else places.
     pub(super) places: Vec<Motion>,
+    /// The unit of its lengths.
+    pub(super) unit: Unit,
+    /// How well places are known, in its unit and in radians, where that is known better than by the digits of its numbers.
+    pub(super) known_to: Option<[f64; 2]>,
+    /// Whether a joint has freedoms that are right at this pose only.
+    pub(super) here_only: bool,
+    /// Whether it is an assembly of a CAD program: joints have one of a few types, and fixed joints of a loop are joints like
+    /// others; else what is fixed is one body.
+    pub(super) assembly: bool,
+    /// What a search may put in place of a joint.
+    pub(super) options: &'static [JointType],
     pub(super) report: Report,
 }
+
+/// A unit of lengths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Unit {
+    Metre,
+    Millimetre,
+}
+
+impl Unit {
+    /// As mechanism files write it.
+    pub(crate) fn symbol(self) -> &'static str {
+        match self {
+            Unit::Metre => "m",
+            Unit::Millimetre => "mm",
+        }
+    }
+
+    pub(crate) fn metres(self) -> f64 {
+        match self {
+            Unit::Metre => 1.0,
+            Unit::Millimetre => 1e-3,
+        }
+    }
+}
+
+/// What a search may put in place of a joint where a format has no list of its own.
+const OPTIONS: [JointType; 4] = [
+    JointType::Revolute,
+    JointType::Cylindrical,
+    JointType::Universal,
+    JointType::Spherical,
+];
 
 impl Robot {
     pub(crate) fn new(name: &str) -> Robot {
@@ -153,6 +199,11 @@ impl Robot {
             shown: BTreeSet::new(),
             frames: BTreeMap::new(),
             places: Vec::new(),
+            unit: Unit::Metre,
+            known_to: None,
+            here_only: false,
+            assembly: false,
+            options: &OPTIONS,
             report: Report::default(),
         }
     }

@@ -112,6 +112,14 @@ pub enum ExportError {
         /// What to do.
         remedy: &'static str,
     },
+    /// The format is written only of files that were read in it.
+    #[error(
+        "a mechanism alone cannot be written for {format}: give a document of it, whose joints get other types"
+    )]
+    Own {
+        /// The format.
+        format: &'static str,
+    },
     /// No such format is written.
     #[error("unknown format \"{word}\"; known: {known}")]
     Unknown {

@@ -1,5 +1,6 @@
 //! What an import mapped, approximated and dropped.
 
+use crate::format::phrase::plural;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -26,6 +27,24 @@ pub struct Kept {
     pub mobility: Option<(usize, usize)>,
 }
 
+/// What a CAD program counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Count {
+    /// Parts that are not the ground.
+    pub parts: usize,
+    /// Constraints of all joints.
+    pub constraints: usize,
+}
+
+impl Count {
+    /// Six a part less all constraints: W less σ.
+    #[must_use]
+    pub fn freedoms(self) -> i64 {
+        let signed = |n: usize| i64::try_from(n).unwrap_or(i64::MAX);
+        6 * signed(self.parts) - signed(self.constraints)
+    }
+}
+
 /// What became of a file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Report {
@@ -39,6 +58,10 @@ pub struct Report {
     pub kept: Option<Kept>,
     /// Rows of constraints between joint values that are left out.
     pub coupling_rows: usize,
+    /// Rows of constraints of joints that are left out.
+    pub constraint_rows: usize,
+    /// What a CAD program would count, of an assembly.
+    pub count: Option<Count>,
     /// How the pose was found and how well the loops close.
     pub pose: Vec<String>,
     /// Those of these that make the mechanism another than is drawn: joints moved, loops taken open, bases that float.
@@ -161,6 +184,14 @@ impl Report {
             };
             let what = format!(
                 "{n} coupling {rows} between joint values: W is up to {n} too high without {them}, σ may be too low"
+            );
+            line(&mut out, "left out", &what);
+        }
+        if self.constraint_rows > 0 {
+            let n = self.constraint_rows;
+            let what = format!(
+                "{} of joints: W is up to {n} too high, σ may be too low",
+                plural(n, "row")
             );
             line(&mut out, "left out", &what);
         }

@@ -36,7 +36,7 @@ struct Attribute {
 
 #[derive(Debug, Clone)]
 pub(crate) struct Node {
-    name: String,
+    pub(super) name: String,
     attributes: Vec<Attribute>,
     text: String,
     pub(super) children: Vec<usize>,
@@ -58,6 +58,28 @@ impl Node {
         if let Some(a) = self.attributes.iter_mut().find(|a| a.name == "name") {
             a.value = name;
         }
+    }
+
+    /// A node without attributes: a line of a file that is no XML.
+    pub(super) fn line(name: &str, source: usize, span: Range<usize>) -> Node {
+        Node {
+            name: name.to_owned(),
+            attributes: Vec::new(),
+            text: String::new(),
+            children: Vec::new(),
+            source,
+            close: span.end..span.end,
+            span,
+            copy: false,
+        }
+    }
+
+    /// Adds a line to the text.
+    pub(super) fn say(&mut self, line: &str) {
+        if !self.text.is_empty() {
+            self.text.push('\n');
+        }
+        self.text.push_str(line);
     }
 
     /// A copy with an end to its name.
@@ -294,16 +316,8 @@ fn node(
             },
         });
     }
-    Ok(Node {
-        name: tag.name().as_ref().to_owned(),
-        attributes,
-        text: String::new(),
-        children: Vec::new(),
-        source,
-        close: span.end..span.end,
-        span,
-        copy: false,
-    })
+    let node = Node::line(tag.name().as_ref(), source, span);
+    Ok(Node { attributes, ..node })
 }
 
 impl<'a> Element<'a> {

@@ -4,6 +4,7 @@
 //! on standard output, or on standard error where it prints nothing else, must be what follows it there, `...` standing for
 //! lines left out and `[..]` for part of a line. A block marked with a name, as `xml NAME`, is a file in that folder.
 
+use crate::assemblies::make;
 use assert_cmd::Command;
 use snapbox::Assert;
 use snapbox::assert::Action;
@@ -53,6 +54,11 @@ fn run(document: &str) -> (usize, Vec<String>) {
     let folder = tempfile::tempdir().unwrap();
     for (name, body) in files(&text) {
         fs::write(folder.path().join(name), body).unwrap();
+    }
+    // FreeCAD's documents are archives, which no block can show.
+    if text.contains("four-bar.FCStd") {
+        let made = make::fcstd(&make::four_bar(make::HINGES));
+        fs::write(folder.path().join("four-bar.FCStd"), made).unwrap();
     }
     let found = examples(&text);
     let mut wrong = Vec::new();

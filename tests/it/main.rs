@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod adding;
+mod assemblies;
 mod bench;
 mod beyond_budget;
 mod blocks;

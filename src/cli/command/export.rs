@@ -1,16 +1,22 @@
 //! `ozols export`.
 
 use crate::cli::Done;
+use crate::cli::command::import::description;
+use crate::cli::command::types::changed;
 use crate::cli::option::args::{Args, File};
 use crate::cli::option::load;
 use crate::cli::option::request::Which;
 use crate::cli::option::variant;
-use crate::cli::option::variant::Chosen;
+use crate::cli::option::variant::{Chosen, tell};
 use crate::cli::terminal::output;
 use crate::cli::terminal::progress::note;
 use crate::model::mechanism::Mechanism;
+use crate::redundancy::release::Release;
 use crate::robots::formats::{self, Format, Written};
+use crate::robots::{self, Options};
+use crate::view::robots::lint::words;
 use crate::view::terminal::layout::fit;
+use anyhow::ensure;
 use clap::Args as ClapArgs;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use std::path::PathBuf;
@@ -43,6 +49,9 @@ fn written() -> PossibleValuesParser {
 }
 
 pub(in crate::cli) fn run(_: &Args, a: &Export) -> anyhow::Result<Done> {
+    if formats::is_own(&a.to) {
+        return own(a);
+    }
     let (mut m, left_behind) = load::with_what_is_left_behind(&a.file.file)?;
     let request = a.chosen.of(a.which.request(a.state.as_deref())?);
     if let Some(k) = a.chosen.place() {
@@ -54,6 +63,32 @@ pub(in crate::cli) fn run(_: &Args, a: &Export) -> anyhow::Result<Done> {
     let text = text(&m, &a.to, left_behind)?;
     output::to(a.output.as_deref(), |out| {
         write!(out, "{text}")?;
+        Ok(Done::Found)
+    })
+}
+
+/// An assembly of a CAD program, in its own document: with the joint types of what is chosen.
+fn own(a: &Export) -> anyhow::Result<Done> {
+    let imported = description(a.file.file.path(), &Options::default())?;
+    ensure!(
+        imported.format.word == a.to,
+        "--to {} writes a document of {} with other joint types; {} is none",
+        a.to,
+        formats::written()
+            .find(|f| f.word == a.to)
+            .map_or("", |f| f.name),
+        a.file.file
+    );
+    let m = &imported.mechanism;
+    let request = a.chosen.of(a.which.request(a.state.as_deref())?);
+    let releases = match a.chosen.place() {
+        Some(k) => changed(m, request, k, tell)?.releases,
+        None => Vec::new(),
+    };
+    let told: Vec<(Release, String)> = releases.into_iter().map(|r| (r, words(m, &r))).collect();
+    let written = robots::fix(&imported, &told)?;
+    output::to(a.output.as_deref(), |out| {
+        out.write_all(&written)?;
         Ok(Done::Found)
     })
 }

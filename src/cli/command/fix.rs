@@ -4,17 +4,19 @@ use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::cli::Done;
 use crate::cli::command::import::{Reading, description};
 use crate::cli::command::lint;
+use crate::cli::command::types;
+use crate::cli::command::types::{Plan, changed};
 use crate::cli::option::request::Which;
-use crate::cli::option::variant;
 use crate::cli::option::variant::Chosen;
+use crate::cli::option::variant::tell;
 use crate::cli::terminal::output;
 use crate::cli::terminal::progress::note;
 use crate::format::phrase::plural;
-use crate::model::mechanism::JointId;
+use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::StateAnalysis;
-use crate::redundancy::release::{Release, added};
+use crate::redundancy::release::Release;
 use crate::robots::{self, Imported};
-use crate::view::robots::lint::words;
+use crate::view::robots::lint::{Change, words};
 use crate::view::terminal::layout::fit;
 use anyhow::{Context, bail, ensure};
 use clap::{Args as ClapArgs, ValueHint};
@@ -22,7 +24,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Fix {
-    /// A robot description: URDF, MJCF or SDF.
+    /// A robot description (URDF, MJCF or SDF), or a CAD assembly (FreeCAD, OndselSolver), whose joints get other types.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     file: PathBuf,
     #[command(flatten)]
@@ -39,13 +41,6 @@ pub(in crate::cli) struct Fix {
     output: Option<PathBuf>,
 }
 
-/// What is to be done, and the W and σ that are to come of it.
-struct Plan {
-    releases: Vec<Release>,
-    mobility: usize,
-    redundant: usize,
-}
-
 pub(in crate::cli) fn run(a: &Fix) -> anyhow::Result<Done> {
     let options = a.reading.options()?;
     let imported = description(&a.file, &options)?;
@@ -53,19 +48,18 @@ pub(in crate::cli) fn run(a: &Fix) -> anyhow::Result<Done> {
     let bytes = api::bytes(&a.file, MAX_DESCRIPTION_BYTES)?;
     let (before, plan) = match a.chosen.place() {
         Some(k) => of_search(&imported, a, k)?,
+        None if imported.origin.is_assembly() => other_types(&imported, a)?,
         None => cheapest(&imported, &a.at)?,
     };
     let told = |release: &Release| (*release, words(m, release));
     let releases: Vec<(Release, String)> = plan.releases.iter().map(told).collect();
     let edited = robots::fix(&imported, &releases)?;
+    let retyped = types::named(m, &imported.origin, &plan.releases);
     // The byte order mark is no part of the text.
-    let mark = if bytes.starts_with("\u{feff}".as_bytes()) {
-        "\u{feff}"
-    } else {
-        ""
-    };
-    let text = format!("{mark}{edited}");
-    let again = api::description_of(&a.file, text.as_bytes(), &options).context(
+    let mark = "\u{feff}".as_bytes();
+    let mark = if bytes.starts_with(mark) { mark } else { b"" };
+    let text = [mark, &edited].concat();
+    let again = api::description_of(&a.file, &text, &options).context(
         "the edited file cannot be read again; nothing is written; report this with the file",
     )?;
     let found = lint::look(&again.mechanism, Some(&again.origin))?;
@@ -83,15 +77,30 @@ pub(in crate::cli) fn run(a: &Fix) -> anyhow::Result<Done> {
         "read again, the edited file has {lasting} redundant over its motion; nothing is written; look at another pose (--pose)"
     );
     output::to(a.output.as_deref(), |out| {
-        out.write_all(text.as_bytes())?;
+        out.write_all(&text)?;
         Ok(Done::Found)
     })?;
-    let mut lines = summary(&a.file, &releases, [&before, &after]);
+    let told = match retyped {
+        Some(all) => all.iter().map(Change::words).collect(),
+        None => releases
+            .into_iter()
+            .map(|(_, words)| words)
+            .collect::<Vec<_>>(),
+    };
+    let what = if imported.origin.is_assembly() {
+        "new joint type"
+    } else {
+        "release"
+    };
+    let mut lines = summary(&a.file, (&told, what), [&before, &after]);
     if after.redundant > lasting && after.at_most().is_none() {
         lines += &format!(
             "  {} redundant at this pose only, where the model is in a special place\n",
             after.redundant - lasting
         );
+    }
+    if imported.origin.is_of_this_pose() {
+        lines += "  figures are of the pose of the file alone, where joints are open or taken as they are there; `ozols lint OUT --assemble` closes them\n";
     }
     if let Some((_, most)) = after.at_most() {
         lines += &format!(
@@ -104,11 +113,11 @@ pub(in crate::cli) fn run(a: &Fix) -> anyhow::Result<Done> {
 
 fn summary(
     file: &Path,
-    releases: &[(Release, String)],
+    (told, what): (&[String], &str),
     [before, after]: [&StateAnalysis; 2],
 ) -> String {
     let file = file.display();
-    if releases.is_empty() {
+    if told.is_empty() {
         let (w, sure) = (before.mobility, before.certainty.word());
         let redundant = match before.redundant {
             0 => "nothing is redundant".to_owned(),
@@ -116,8 +125,9 @@ fn summary(
         };
         return format!("{file}: {redundant} (W = {w}, {sure}); written as it is\n");
     }
-    let mut out = format!("{file}: {}\n", plural(releases.len(), "release"));
-    for (_, words) in releases {
+    let n = told.len();
+    let mut out = format!("{file}: {}\n", plural(n, what));
+    for words in told {
         out += &format!("  {words}\n");
     }
     let row = |name: &str, s: &StateAnalysis| {
@@ -133,9 +143,8 @@ fn summary(
     out + &row("before:", before) + &row("after:", after)
 }
 
-/// The cheapest releases that remove all redundant constraints.
-fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis, Plan)> {
-    let m = &imported.mechanism;
+/// Whether all that may be changed is there.
+fn known(m: &Mechanism, at: &[String]) -> anyhow::Result<()> {
     let coupled = |q: usize| m.couplings[q].name(m);
     for name in at {
         let known = m.joints.iter().any(|j| j.id == *name)
@@ -145,6 +154,14 @@ fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis
             "--at {name}: there is no such joint, loop or coupling; `ozols lint` names them"
         );
     }
+    Ok(())
+}
+
+/// The cheapest releases that remove all redundant constraints.
+fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis, Plan)> {
+    let m = &imported.mechanism;
+    let coupled = |q: usize| m.couplings[q].name(m);
+    known(m, at)?;
     let wanted = |r: &Release| match *r {
         Release::Coupling(q) => at.is_empty() || at.contains(&coupled(q)),
         Release::Freedom { joint, .. } if at.is_empty() => {
@@ -202,33 +219,32 @@ fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAna
         };
         return Ok((before, plan));
     }
-    // What is added is told against the mechanism as it is meant, which is the one that was searched.
-    let (before_it, changed, w, sigma) = variant::kth(m.clone(), request, k, |v| {
-        let searched = v.outcome().search.mechanism.clone();
-        (searched, v.mechanism(), v.mobility(), v.redundant())
-    })?;
-    ensure!(
-        changed.joints.len() == before_it.joints.len(),
-        "variant {k} puts in joints that are not of one joint's kind; choose another"
-    );
-    let mut releases = Vec::new();
-    for (i, (old, new)) in before_it.joints.iter().zip(&changed.joints).enumerate() {
-        let all = added((&old.frame, &old.joint_type), (&new.frame, &new.joint_type))?;
-        ensure!(
-            old.joint_type.freedoms().len() + all.len() == new.joint_type.freedoms().len(),
-            "variant {k} puts a joint in the place of \"{}\" that has not all of its freedoms; choose another",
-            old.id
-        );
-        releases.extend(all.into_iter().map(|(slides, direction)| Release::Freedom {
-            joint: JointId::new(i),
-            slides,
-            direction,
-        }));
+    Ok((before, changed(m, request, k, tell)?))
+}
+
+/// The first idea of the search among the types that the CAD program has, at the joints that may be changed.
+fn other_types(imported: &Imported, a: &Fix) -> anyhow::Result<(StateAnalysis, Plan)> {
+    let mut m = imported.mechanism.clone();
+    let before = api::analyze(&m)?.remove(0);
+    if before.redundant == 0 && before.at_most().is_none() {
+        let plan = Plan {
+            releases: Vec::new(),
+            mobility: before.mobility,
+            redundant: 0,
+        };
+        return Ok((before, plan));
     }
-    let plan = Plan {
-        releases,
-        mobility: usize::try_from(w)?,
-        redundant: usize::try_from(sigma)?,
-    };
+    known(&m, &a.at)?;
+    for joint in m
+        .joints
+        .iter_mut()
+        .filter(|j| !a.at.is_empty() && !a.at.contains(&j.id))
+    {
+        joint.options.truncate(1);
+    }
+    let request = a.which.request(None)?;
+    let plan = types::first(&m, request, tell).context(
+        "no choice of joint types removes all that is redundant and keeps the working motion; `ozols search` tells what stands in the way",
+    )?;
     Ok((before, plan))
 }

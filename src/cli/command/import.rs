@@ -37,12 +37,16 @@ pub(in crate::cli) struct Reading {
     /// lead.
     #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
     models: Vec<PathBuf>,
-    /// SDF drawn in parts: every joint puts the frame that is its parent onto its child.
+    /// SDF drawn in parts: every joint puts the frame that is its parent onto its child. CAD assemblies: joints that are open in
+    /// the file are closed.
     #[arg(long)]
     assemble: bool,
     /// Take loops that are open in the given pose as they are.
     #[arg(long)]
     open: bool,
+    /// The assembly of a FreeCAD document; the one with most joints by default.
+    #[arg(long, value_name = "NAME")]
+    assembly: Option<String>,
     /// The fixed link; the root by default.
     #[arg(long, value_name = "LINK")]
     frame: Option<String>,
@@ -53,7 +57,7 @@ pub(in crate::cli) struct Reading {
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Import {
-    /// A robot description: URDF, MJCF or SDF, by its root element.
+    /// A robot description (URDF, MJCF or SDF, by its root element) or a CAD assembly (FreeCAD's .FCStd, OndselSolver's .asmt).
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     file: Named,
     #[command(flatten)]
@@ -74,6 +78,7 @@ impl Reading {
             assemble: self.assemble,
             models: self.models.clone(),
             open: self.open,
+            assembly: self.assembly.clone(),
             frame: self.frame.clone(),
             outputs: self.working_link.clone(),
             ..Options::default()
@@ -95,6 +100,7 @@ impl Reading {
             ("--loops", self.loops.iter().map(path).collect()),
             ("--pose", self.pose.clone()),
             ("--models", self.models.iter().map(path).collect()),
+            ("--assembly", self.assembly.iter().cloned().collect()),
             ("--frame", self.frame.iter().cloned().collect()),
             ("--working-link", self.working_link.clone()),
         ];
@@ -161,7 +167,7 @@ pub(in crate::cli) fn description(
 ) -> anyhow::Result<robots::Imported> {
     ensure!(
         path.is_file(),
-        "{} is not a file; give the path of a URDF, MJCF or SDF file",
+        "{} is not a file; give the path of a URDF, MJCF, SDF, FreeCAD or OndselSolver file",
         path.display()
     );
     Ok(api::import(path, options)?)

@@ -2,6 +2,7 @@
 
 use crate::cli::Done;
 use crate::cli::command::import::{Reading, description};
+use crate::cli::command::types;
 use crate::cli::option::load;
 use crate::cli::option::named::Named;
 use crate::cli::terminal::colour::{Tone, toned};
@@ -10,10 +11,12 @@ use crate::file::problem::ImportError;
 use crate::file::text::mechanism_from_bytes;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::motion::pose::Pose;
+use crate::rank::method::Certainty;
 use crate::redundancy::held_twice::{HeldTwice, held_twice};
+use crate::redundancy::over_motion::Where;
 use crate::redundancy::release::Release;
 use crate::robots::{self, Origin};
-use crate::view::robots::lint::{self, Lint as Found, PassedOver};
+use crate::view::robots::lint::{self, Lint as Found, PassedOver, sarif};
 use crate::view::terminal::layout::fit;
 use crate::view::terminal::next_commands::{self, Step};
 use clap::{Args as ClapArgs, ValueEnum, ValueHint};
@@ -29,7 +32,7 @@ enum LintFormat {
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Lint {
-    /// Robot descriptions (URDF, MJCF, SDF), or mechanism files.
+    /// Robot descriptions (URDF, MJCF, SDF), CAD assemblies (FreeCAD, OndselSolver), or mechanism files.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath, required = true)]
     files: Vec<Named>,
     #[command(flatten)]
@@ -86,7 +89,7 @@ pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
                 write!(out, "{}", next_commands::text(&steps, width))?;
             }
             LintFormat::Json => output::json(out, &lint::json(&found, &others))?,
-            LintFormat::Sarif => output::json(out, &lint::sarif(&found, &others))?,
+            LintFormat::Sarif => output::json(out, &sarif::sarif(&found, &others))?,
         }
         Ok(match found.iter().all(|l| l.is_clean()) {
             _ if failed => Done::Partly,
@@ -106,7 +109,16 @@ fn one(file: &Named, options: &robots::Options) -> anyhow::Result<Found> {
         (mechanism_from_bytes(&name, &bytes)?, None)
     };
     let found = look(&mechanism, imported.as_ref().map(|i| &i.origin))?;
-    Ok(Found::new(file, &mechanism, imported.as_ref(), &found))
+    let out = Found::new(file, &mechanism, imported.as_ref(), &found);
+    let exact = !matches!(
+        found.analysis.certainty,
+        Certainty::Numeric { .. } | Certainty::Undecided { .. }
+    );
+    let assembly = imported.map(|i| i.origin).filter(Origin::is_assembly);
+    Ok(match assembly {
+        Some(origin) if !out.is_clean() => out.changing(types::changes(&mechanism, &origin, exact)),
+        _ => out,
+    })
 }
 
 /// A file that is passed over, said at once where something is wrong with it.
@@ -140,10 +152,19 @@ pub(in crate::cli) fn look_at(
 ) -> anyhow::Result<HeldTwice> {
     let closes = |j: JointId| origin.is_some_and(|o| o.closes(j));
     let written = |r: &Release| match *r {
-        Release::Freedom { joint, .. } => origin.is_none_or(|o| o.can_be_freed(joint)),
-        Release::Coupling(_) => true,
+        Release::Freedom {
+            joint,
+            slides,
+            direction,
+        } => origin.is_none_or(|o| o.can_be_freed(joint, (slides, direction))),
+        Release::Coupling(_) => origin.is_none_or(|o| !o.is_assembly()),
     };
     let inside = |pose: &Pose| origin.is_none_or(|o| o.is_inside(pose, m.length_unit.metres));
     let may = |r: &Release| written(r) && wanted(r);
-    Ok(held_twice(m, &closes, &may, Some(&inside))?)
+    if !origin.is_some_and(Origin::is_of_this_pose) {
+        return Ok(held_twice(m, &closes, &may, Some(&inside))?);
+    }
+    let mut found = held_twice(m, &closes, &may, None)?;
+    found.over = (found.lasting > 0).then_some(Where::Unknown);
+    Ok(found)
 }

@@ -43,16 +43,29 @@ pub(in crate::cli) fn kth<T>(
     k: usize,
     with: impl FnOnce(&Variant<'_>) -> T,
 ) -> anyhow::Result<T> {
+    kth_telling(mechanism, request, k, &mut { tell }, with)
+}
+
+/// Says the notes of a search on standard error.
+pub(in crate::cli) fn tell(event: Event) {
+    if let Event::Note(text) = event {
+        note(text);
+    }
+}
+
+/// The same, with what is to be told in other hands.
+pub(in crate::cli) fn kth_telling<T>(
+    mechanism: Mechanism,
+    request: Request,
+    k: usize,
+    tell: &mut (dyn FnMut(Event) + Send),
+    with: impl FnOnce(&Variant<'_>) -> T,
+) -> anyhow::Result<T> {
     ensure!(k > 0, "variants are numbered from 1");
     let request = Request {
         list: List::Top(k),
         check: Check::None,
         ..request
-    };
-    let tell = &mut |event| {
-        if let Event::Note(text) = event {
-            note(text);
-        }
     };
     let outcome = run(mechanism, &request, &|| false, tell)?;
     let last = outcome.variants().last();

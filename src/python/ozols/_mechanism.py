@@ -126,16 +126,17 @@ class Mechanism:
         assemble: bool = False,
         open: bool = False,
         models: Iterable[str | os.PathLike[str]] = (),
+        assembly: str | None = None,
         frame: str | None = None,
         outputs: Iterable[str] = (),
     ) -> Mechanism:
-        """A robot description: URDF, MJCF or SDF, by its root element. The options are those of ``ozols import``.
+        """A robot description (URDF, MJCF or SDF, by its root element) or a CAD assembly. The options are those of ``ozols import``.
 
         ``pose`` gives joints values in radians and metres. Warns of what is left in doubt.
         """
         side = None if loops is None else (os.fspath(loops), Path(loops).read_bytes())
         values = [(k, [v] if isinstance(v, (int, float)) else list(v)) for k, v in (pose or {}).items()]
-        options = (side, values, floating, assemble, open, list(models), frame, _names(outputs))
+        options = (side, values, floating, assemble, open, list(models), assembly, frame, _names(outputs))
         return cls._doubtful(_native.Mechanism.from_robot(path, *options))
 
     from_urdf = from_mjcf = from_sdf = from_robot

@@ -57,6 +57,7 @@ class Mechanism:
         assemble: bool,
         open: bool,
         models: Sequence[_Path],
+        assembly: str | None,
         frame: str | None,
         outputs: Sequence[str],
     ) -> tuple[Mechanism, str]: ...

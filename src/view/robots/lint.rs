@@ -1,8 +1,13 @@
 //! What robot descriptions hold twice: text, JSON, and SARIF for code scanning.
 
+mod assembly;
 mod passed_over;
+pub mod sarif;
 
+pub use assembly::{Change, Misfit};
 pub use passed_over::PassedOver;
+
+use assembly::{count, then};
 
 use crate::format::number::{brief, cost};
 use crate::format::phrase::plural;
@@ -10,7 +15,7 @@ use crate::geom::vector::Vector;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::redundancy::held_twice::HeldTwice;
 use crate::redundancy::release::{Duplicate, Release, becomes};
-use crate::robots::{Imported, Origin, Place};
+use crate::robots::{Count, Imported, Origin, Place};
 use itertools::Itertools;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -21,6 +26,11 @@ const REMEDIES: usize = 3;
 const NOTES: usize = 6;
 /// Joints named in a line.
 const JOINTS: usize = 8;
+
+/// How sure what is found in an open assembly is.
+const NUMERIC: &str = "numeric";
+const OF_THIS_POSE: &str =
+    "of the pose of the file alone, where joints are open or taken as they are there";
 
 /// What was found in one file.
 #[derive(Debug, Serialize)]
@@ -53,6 +63,12 @@ pub struct Lint {
     pub findings: Vec<Finding>,
     /// The cheapest releases that remove them all and let nothing move; none where there are not enough.
     pub cheapest: Vec<String>,
+    /// What a CAD program counts as freedoms, six a part less all constraints, where the file is one of its assemblies.
+    pub counted: Option<i64>,
+    /// Which joints to give another type, where they are those of a CAD program.
+    pub changes: Vec<Change>,
+    /// W then: more than now where a part may turn or slide without anything else moving.
+    pub mobility_then: Option<usize>,
     /// Whether the file is a robot description, which can be mended.
     #[serde(skip)]
     pub from_description: bool,
@@ -77,6 +93,8 @@ pub struct Finding {
     pub contours: Vec<String>,
     /// What an inexact part makes.
     pub assembly: String,
+    /// How far the two frames of its joint are apart, where a CAD assembly places both.
+    pub misfit: Option<Misfit>,
     /// The cheapest releases that remove it.
     pub remedies: Vec<String>,
     /// Whether it is redundant over the motion, as far as is known: else at this pose only, which is no fault.
@@ -95,17 +113,22 @@ impl Lint {
         let words = Words { m, found };
         let finding = |(i, d): (usize, &Duplicate)| words.finding(d, i < found.lasting, origin);
         let whole = found.cheapest.len() == found.lasting;
+        let certainty = &found.analysis.certainty;
+        let sure = match origin.is_some_and(Origin::is_of_this_pose) && most == least {
+            true => (NUMERIC, OF_THIS_POSE.to_owned()),
+            false => (certainty.word(), certainty.describe()),
+        };
         Lint {
             file: file.to_owned(),
             mobility: found.analysis.mobility,
             redundant: least,
             redundant_at_most: most,
             redundant_over_motion: found.lasting,
-            certainty_kind: found.analysis.certainty.word(),
-            certainty: found.analysis.certainty.describe(),
+            certainty_kind: sure.0,
+            certainty: sure.1,
             over_motion_kind: found.over.map(|o| o.word()),
             over_motion: found.over.map(|o| o.describe()),
-            left_out: report.map_or(0, |r| r.coupling_rows),
+            left_out: report.map_or(0, |r| r.coupling_rows + r.constraint_rows),
             approximated: report.map_or(Vec::new(), |r| {
                 let notes = r.approximated.iter();
                 notes
@@ -115,11 +138,28 @@ impl Lint {
             moved: report.map_or(Vec::new(), |r| r.moved.clone()),
             findings: found.list.iter().enumerate().map(finding).collect(),
             cheapest: match whole {
-                true => found.cheapest.iter().map(|&i| words.remedy(i)).collect(),
+                true => found
+                    .cheapest
+                    .iter()
+                    .map(|&i| words.remedy(i, origin))
+                    .collect(),
                 false => Vec::new(),
             },
+            counted: report.and_then(|r| r.count).map(Count::freedoms),
+            changes: Vec::new(),
+            mobility_then: None,
             from_description: read.is_some(),
         }
+    }
+
+    /// The same with the types that joints are to get, and W then: they go before single freedoms.
+    #[must_use]
+    pub fn changing(mut self, found: Option<(Vec<Change>, usize)>) -> Lint {
+        if let Some((changes, mobility)) = found {
+            self.cheapest = changes.iter().map(Change::words).collect();
+            (self.changes, self.mobility_then) = (changes, Some(mobility));
+        }
+        self
     }
 
     /// Whether nothing is redundant, for sure, or at this pose only.
@@ -145,8 +185,9 @@ impl Lint {
         let Lint { file, mobility, .. } = self;
         if self.redundant_at_most == 0 {
             return format!(
-                "{file}: nothing is redundant (σ = 0, W = {mobility}){}\n{}",
+                "{file}: nothing is redundant (σ = 0, W = {mobility}){}\n{}{}",
                 self.left_out(),
+                count(self.counted.filter(|_| self.left_out == 0), self.mobility),
                 self.told()
             );
         }
@@ -161,6 +202,7 @@ impl Lint {
         if passing > 0 && !self.is_clean() {
             out += &format!("  {passing} of them at this pose only\n");
         }
+        out += &count(self.counted.filter(|_| self.left_out == 0), self.mobility);
         if let Some(over) = &self.over_motion {
             let what = match self.is_decided() {
                 true => "redundant",
@@ -185,9 +227,10 @@ impl Lint {
         }
         if !self.cheapest.is_empty() {
             out += &format!(
-                "\n  cheapest that removes all{}: {}\n",
+                "\n  cheapest that removes all{}: {}{}\n",
                 if passing > 0 { " that last" } else { "" },
-                self.cheapest.join("; ")
+                self.cheapest.join("; "),
+                then(self.mobility, self.mobility_then)
             );
         }
         out
@@ -308,14 +351,27 @@ impl Words<'_> {
                 format!("{constraint}, {row_words} duplicates {shown}{more} at this pose only")
             }
         };
+        let of_joint = match d.row {
+            Release::Freedom { joint, .. } => Some(joint),
+            Release::Coupling(_) => None,
+        };
+        let apart = origin.and_then(|o| o.misfit(of_joint?));
+        let metres = self.m.length_unit.metres;
+        let misfit = apart.map(|[shift, turn]| Misfit {
+            millimetres: shift * metres * 1e3,
+            degrees: turn.to_degrees(),
+        });
+        let open = origin.and_then(|o| o.open_by(of_joint?));
+        let open = open.map_or(String::new(), |o| format!("; its frames are {o} apart"));
         Finding {
-            message,
+            message: message + &open,
+            misfit,
             lasts,
             file: place.as_ref().map(|p| p.file.clone()),
             line: place.as_ref().map(|p| p.at[0]),
             column: place.as_ref().map(|p| p.at[1]),
             contours: contours.map(|c| c.contour.name(self.m)).collect(),
-            remedies: remedies.map(|&i| self.remedy(i)).collect(),
+            remedies: remedies.map(|&i| self.remedy(i, origin)).collect(),
             constraint,
             row,
             duplicates,
@@ -323,10 +379,12 @@ impl Words<'_> {
         }
     }
 
-    /// "slide hinge along y: revolute -> cylindrical (cost 1.5)".
-    fn remedy(&self, i: usize) -> String {
+    /// "slide hinge along y: revolute -> cylindrical (cost 1.5)"; of an assembly, "hinge: Revolute -> Cylindrical (cost 1.5)".
+    fn remedy(&self, i: usize, origin: Option<&Origin>) -> String {
         let (milli, release) = &self.found.releases[i];
-        format!("{} (cost {})", words(self.m, release), cost(*milli))
+        let other = origin.and_then(|o| Change::of(self.m, o, release));
+        let words = other.map_or_else(|| words(self.m, release), |c| c.words());
+        format!("{words} (cost {})", cost(*milli))
     }
 }
 
@@ -372,54 +430,5 @@ fn name(d: Vector) -> String {
 pub fn json(all: &[&Lint], passed_over: &[PassedOver]) -> Value {
     let mut out = json!({ "files": all });
     passed_over::in_json(&mut out, passed_over);
-    out
-}
-
-/// What was found in some files as SARIF 2.1.0, and which were passed over.
-#[must_use]
-pub fn sarif(all: &[&Lint], passed_over: &[PassedOver]) -> Value {
-    let result = |lint: &Lint, f: &Finding| {
-        let mut place = json!({
-            "artifactLocation": { "uri": f.file.as_ref().unwrap_or(&lint.file) },
-        });
-        if let (Some(line), Some(column)) = (f.line, f.column) {
-            place["region"] = json!({ "startLine": line, "startColumn": column });
-        }
-        let more = match f.remedies.first() {
-            Some(r) => format!(". Remedy: {r}"),
-            None => String::new(),
-        };
-        json!({
-            "ruleId": "redundant-constraint",
-            "level": if lint.is_decided() && f.lasts { "warning" } else { "note" },
-            "message": { "text": format!("{}{more}", f.message) },
-            "locations": [{ "physicalLocation": place }],
-        })
-    };
-    let results: Vec<Value> = all
-        .iter()
-        .flat_map(|l| l.findings.iter().map(move |f| (*l, f)))
-        .map(|(l, f)| result(l, f))
-        .collect();
-    let mut out = json!({
-        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
-        "version": "2.1.0",
-        "runs": [{
-            "tool": { "driver": {
-                "name": "ozols",
-                "version": env!("CARGO_PKG_VERSION"),
-                "rules": [{
-                    "id": "redundant-constraint",
-                    "shortDescription": { "text": "A loop holds a motion twice" },
-                    "fullDescription": { "text": "Its constraint Jacobian is rank deficient: parts out of true are forced together, and solvers divide the forces as they like." },
-                }],
-            } },
-            "results": results,
-        }],
-    });
-    let notes = all
-        .iter()
-        .flat_map(|l| l.notes().map(|(id, n)| (l.file.as_str(), id, n)));
-    passed_over::in_sarif(&mut out, passed_over, notes);
     out
 }

@@ -1,0 +1,3 @@
+//! OndselSolver's assemblies: `.asmt`.
+
+pub(crate) mod read;

@@ -1,0 +1,118 @@
+//! What a joint of an assembly holds of its two frames, I and J.
+
+/// What must meet. Lengths are in the assembly's unit; d is the way from I's origin to J's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Holds {
+    /// All.
+    Fixed,
+    /// Origins, and z with z.
+    Revolute,
+    /// All but the way along z.
+    Translational,
+    /// The lines along z.
+    Cylindrical,
+    /// Origins.
+    Spherical,
+    /// Origins, and the two z at a right angle.
+    Universal,
+    /// Origins, and as far as I is turned about its axis, so far J about its own.
+    ConstantVelocity,
+    /// The xy planes, so far apart along z of I.
+    Planar(f64),
+    /// J's origin with a plane parallel to I's xy plane, so far along z.
+    PointInPlane(f64),
+    /// J's line along z with that plane.
+    LineInPlane(f64),
+    /// J's origin with I's line along z.
+    PointInLine,
+    /// The directions of z.
+    ParallelAxes,
+    /// All directions.
+    NoRotation,
+    /// The cosine of the angle between the two z.
+    Angle(f64),
+    /// The distance of the origins.
+    PointPoint(f64),
+    /// The distance of J's origin from I's line along z.
+    PointLine(f64),
+    /// The distance of the two lines along z, which are parallel.
+    LineLine(f64),
+    /// The same, and nothing slides along them.
+    Hinges(f64),
+    /// Radii of I's and J's gear; the second is negative for a belt.
+    Gear([f64; 2]),
+    /// Pitch radius of the pinion J, whose rack slides along x of I.
+    RackPinion(f64),
+    /// Travel along z a turn.
+    Screw(f64),
+}
+
+/// Distances below this are none.
+const NONE: f64 = 1e-9;
+
+impl Holds {
+    /// A distance of 0 has no gradient: what is meant is that points and lines meet.
+    pub(crate) fn settled(self) -> Holds {
+        match self {
+            Holds::PointPoint(d) if d.abs() < NONE => Holds::Spherical,
+            Holds::PointLine(d) if d.abs() < NONE => Holds::PointInLine,
+            Holds::LineLine(d) if d.abs() < NONE => Holds::Cylindrical,
+            Holds::Hinges(d) if d.abs() < NONE => Holds::Revolute,
+            other => other,
+        }
+    }
+
+    /// How many constraints it is.
+    pub(crate) fn rows(self) -> usize {
+        match self {
+            Holds::Fixed => 6,
+            Holds::Revolute | Holds::Translational => 5,
+            Holds::Cylindrical | Holds::Universal | Holds::ConstantVelocity | Holds::Hinges(_) => 4,
+            Holds::Spherical | Holds::Planar(_) | Holds::NoRotation | Holds::LineLine(_) => 3,
+            Holds::LineInPlane(_) | Holds::PointInLine | Holds::ParallelAxes => 2,
+            Holds::PointInPlane(_)
+            | Holds::Angle(_)
+            | Holds::PointPoint(_)
+            | Holds::PointLine(_)
+            | Holds::Gear(_)
+            | Holds::RackPinion(_)
+            | Holds::Screw(_) => 1,
+        }
+    }
+
+    /// Whether it couples the motions of two other joints.
+    pub(crate) fn couples(self) -> bool {
+        matches!(
+            self,
+            Holds::Gear(_) | Holds::RackPinion(_) | Holds::Screw(_)
+        )
+    }
+
+    /// In words, for reports.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Holds::Fixed => "fixed",
+            Holds::Revolute => "revolute",
+            Holds::Translational => "slider",
+            Holds::Cylindrical => "cylindrical",
+            Holds::Spherical => "ball",
+            Holds::Universal => "universal",
+            Holds::ConstantVelocity => "constant velocity",
+            Holds::Planar(_) => "plane on plane",
+            Holds::PointInPlane(_) => "point in plane",
+            Holds::LineInPlane(_) => "line in plane",
+            Holds::PointInLine => "point on line",
+            Holds::ParallelAxes => "parallel",
+            Holds::NoRotation => "no rotation",
+            Holds::Angle(_) => "angle",
+            Holds::PointPoint(_) => "distance of points",
+            Holds::PointLine(_) => "distance of point and line",
+            Holds::LineLine(_) => "distance of lines",
+            Holds::Hinges(_) => "distance of hinges",
+            Holds::Gear([_, r]) if r < 0.0 => "belt",
+            Holds::Gear(_) => "gears",
+            Holds::RackPinion(_) => "rack and pinion",
+            Holds::Screw(_) => "screw",
+        }
+    }
+}

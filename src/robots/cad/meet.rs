@@ -1,0 +1,340 @@
+//! A joint of an assembly at a pose: its type, its frame as I has it and as J has it. The two differ by the misfit.
+
+use crate::geom::rigid::{Motion, perpendicular, towards};
+use crate::geom::vector::{Vector, add, add_scaled, cross, dot, length, scale, sub};
+use crate::model::joint_type::{Freedom, JointType};
+use crate::robots::cad::holds::Holds;
+
+/// Sines and ways below this have no direction.
+const FLAT: f64 = 1e-6;
+
+/// A joint where it stands, in the world.
+#[derive(Debug, Clone)]
+pub(crate) struct Meeting {
+    pub(super) kind: JointType,
+    /// The joint's frame by I.
+    pub(super) near: Motion,
+    /// The same by J: where all fits, the same place.
+    pub(super) far: Motion,
+    /// Translation per radian of a screw.
+    pub(super) pitch: f64,
+    /// Whether the type is right at this pose only: what is held turns or wanders as the parts move.
+    pub(super) here_only: bool,
+}
+
+/// A frame at a point, with a z and an x made square to it.
+fn frame(point: Vector, z: Vector, x: Vector) -> Motion {
+    let z = towards(z);
+    let x = sub(x, scale(z, dot(x, z)));
+    let x = match length(x) > FLAT {
+        true => towards(x),
+        false => perpendicular(z),
+    };
+    let y = cross(z, x);
+    Motion {
+        rotation: [0, 1, 2].map(|i| [x[i], y[i], z[i]]),
+        translation: point,
+    }
+}
+
+fn axis(m: &Motion, k: usize) -> Vector {
+    m.rotation.map(|row| row[k])
+}
+
+/// A frame leant over by the least turn so that its z is another.
+fn leaning(m: &Motion, z: Vector) -> Motion {
+    let from = axis(m, 2);
+    let about = cross(from, z);
+    let turn = match length(about) {
+        sine if sine > 0.0 => Motion::turn(about, sine.atan2(dot(from, z))),
+        _ => Motion::IDENTITY,
+    };
+    let turned = Motion {
+        translation: [0.0; 3],
+        ..*m
+    };
+    Motion {
+        translation: m.translation,
+        ..turn.then(&turned)
+    }
+}
+
+/// The turn of J that is nearest I among those that lie along the same lines: a cosine that must be 0 is so of a flipped part.
+fn nearest(i: &Motion, j: &Motion) -> [Vector; 3] {
+    let [x, y] = [0, 1].map(|k| {
+        let a = axis(j, k);
+        scale(a, dot(a, axis(i, k)).signum())
+    });
+    frame([0.0; 3], cross(x, y), x).rotation
+}
+
+/// What a joint is at the pose of its frames, given in the world.
+///
+/// # Errors
+/// Why it holds nothing that can be told at this pose, in words.
+pub(crate) fn meeting(holds: Holds, i: &Motion, j: &Motion) -> Result<Meeting, &'static str> {
+    let (x, z) = (axis(i, 0), axis(i, 2));
+    let (oi, oj) = (i.translation, j.translation);
+    let d = sub(oj, oi);
+    let along = dot(d, z);
+    let foot = add_scaled(d, -along, z);
+    // J's z in the sense of I's.
+    let zj = axis(j, 2);
+    let zj = scale(zj, if dot(zj, z) < 0.0 { -1.0 } else { 1.0 });
+    let at = |point| frame(point, z, x);
+    let tilted = |point| leaning(&at(point), zj);
+    let as_j = |point| Motion {
+        rotation: nearest(i, j),
+        translation: point,
+    };
+    let simple = Meeting::new;
+    Ok(match holds {
+        Holds::Fixed => simple(JointType::Fixed, at(oi), as_j(oj)),
+        Holds::Revolute => simple(JointType::Revolute, at(oi), tilted(oj)),
+        Holds::Translational => simple(JointType::Prismatic, at(oi), as_j(add(oi, foot))),
+        Holds::Cylindrical => simple(JointType::Cylindrical, at(oi), tilted(add(oi, foot))),
+        Holds::Spherical => simple(JointType::Spherical, at(oi), at(oj)),
+        Holds::PointInLine => simple(JointType::SphereInCylinder, at(sub(oj, foot)), at(oj)),
+        Holds::ParallelAxes => simple(parallel(), at(oi), tilted(oi)),
+        Holds::NoRotation => simple(three_slides(), at(oi), as_j(oi)),
+        Holds::Planar(offset) => {
+            let meets_at = add_scaled(oj, offset - along, z);
+            simple(JointType::Planar, at(meets_at), tilted(oj))
+        }
+        Holds::PointInPlane(offset) => {
+            let meets_at = add_scaled(oj, offset - along, z);
+            simple(JointType::SphereOnPlane, at(meets_at), at(oj))
+        }
+        Holds::Universal | Holds::LineInPlane(_) => square(holds, i, j)?,
+        Holds::ConstantVelocity => bisected(i, j)?,
+        Holds::Angle(cosine) => angle(i, j, cosine)?,
+        Holds::PointPoint(_) | Holds::PointLine(_) | Holds::LineLine(_) | Holds::Hinges(_) => {
+            apart(holds, i, j)?
+        }
+        Holds::Gear(radii) => gear(i, j, radii)?,
+        Holds::RackPinion(radius) => {
+            // The teeth meet where the pinion's pitch circle touches the rack's line.
+            let point = add_scaled(oj, -radius, axis(i, 1));
+            let there = frame(point, x, z);
+            here(Meeting::new(JointType::SphereOnPlane, there, there))
+        }
+        Holds::Screw(lead) => {
+            use Freedom::{Rx, Ry, Screw, Tx, Ty};
+            let kind = JointType::Custom(vec![Screw, Rx, Ry, Tx, Ty]);
+            Meeting {
+                pitch: lead / std::f64::consts::TAU,
+                ..here(Meeting::new(kind, at(oj), at(oj)))
+            }
+        }
+    })
+}
+
+impl Meeting {
+    /// A joint that is the same at any pose.
+    pub(super) fn new(kind: JointType, near: Motion, far: Motion) -> Meeting {
+        Meeting {
+            kind,
+            near,
+            far,
+            pitch: 0.0,
+            here_only: false,
+        }
+    }
+}
+
+fn here(m: Meeting) -> Meeting {
+    Meeting {
+        here_only: true,
+        ..m
+    }
+}
+
+/// What holds a direction alone.
+pub(crate) fn parallel() -> JointType {
+    use Freedom::{Rz, Tx, Ty, Tz};
+    JointType::Custom(vec![Rz, Tx, Ty, Tz])
+}
+
+fn three_slides() -> JointType {
+    use Freedom::{Tx, Ty, Tz};
+    JointType::Custom(vec![Tx, Ty, Tz])
+}
+
+/// The two z at a right angle, and the origins together or J's line in a plane: z is I's, x is J's z.
+fn square(holds: Holds, i: &Motion, j: &Motion) -> Result<Meeting, &'static str> {
+    let (z, line, oj) = (axis(i, 2), axis(j, 2), j.translation);
+    if length(cross(z, line)) < FLAT {
+        return Err("its two axes are parallel where they are to be at a right angle");
+    }
+    // J's frame has its own x, and z as near I's as that lets it be.
+    let across = cross(line, cross(z, line));
+    let far = frame(oj, across, line);
+    Ok(match holds {
+        Holds::LineInPlane(offset) => {
+            let gap = offset - dot(sub(oj, i.translation), z);
+            let near = frame(add_scaled(oj, gap, z), z, line);
+            Meeting::new(JointType::CylinderOnPlane, near, far)
+        }
+        _ => Meeting::new(JointType::Universal, frame(i.translation, z, line), far),
+    })
+}
+
+/// Ix·Jy + Iy·Jx = 0 holds the turn about one line, which goes round as the joint turns.
+fn bisected(i: &Motion, j: &Motion) -> Result<Meeting, &'static str> {
+    let n = add(cross(axis(j, 1), axis(i, 0)), cross(axis(j, 0), axis(i, 1)));
+    if length(n) < FLAT {
+        return Err("its two shafts stand so that it holds no turn");
+    }
+    let sum = dot(axis(i, 0), axis(j, 1)) + dot(axis(i, 1), axis(j, 0));
+    let near = frame(i.translation, n, axis(i, 0));
+    let off = Motion::turn(n, sum / length(n)).then(&Motion {
+        translation: [0.0; 3],
+        ..near
+    });
+    let far = Motion {
+        translation: j.translation,
+        ..off
+    };
+    let kind = JointType::Custom(vec![Freedom::Rx, Freedom::Ry]);
+    Ok(here(Meeting::new(kind, near, far)))
+}
+
+/// The angle between the two z is held by a turn about what is square to both.
+fn angle(i: &Motion, j: &Motion, cosine: f64) -> Result<Meeting, &'static str> {
+    use Freedom::{Rx, Ry, Tx, Ty, Tz};
+    let (a, b) = (axis(i, 2), axis(j, 2));
+    let n = cross(a, b);
+    if length(n) < FLAT {
+        return Err(
+            "its two axes are parallel here, where an angle between them holds nothing to first order",
+        );
+    }
+    let off = length(n).atan2(dot(a, b)) - cosine.clamp(-1.0, 1.0).acos();
+    let near = frame(i.translation, n, a);
+    let far = Motion {
+        translation: i.translation,
+        ..Motion::turn(n, off).then(&Motion {
+            translation: [0.0; 3],
+            ..near
+        })
+    };
+    let kind = JointType::Custom(vec![Rx, Ry, Tx, Ty, Tz]);
+    Ok(here(Meeting::new(kind, near, far)))
+}
+
+/// A distance of points or of lines: held along the way from one to the other.
+fn apart(holds: Holds, i: &Motion, j: &Motion) -> Result<Meeting, &'static str> {
+    use Freedom::{Rz, Ty, Tz};
+    let (z, oj) = (axis(i, 2), j.translation);
+    let d = sub(oj, i.translation);
+    let along = dot(d, z);
+    let (way, wanted) = match holds {
+        Holds::PointPoint(r) => (d, r),
+        Holds::PointLine(r) | Holds::LineLine(r) | Holds::Hinges(r) => {
+            (add_scaled(d, -along, z), r)
+        }
+        _ => return Err("it is no distance"),
+    };
+    if length(way) < FLAT {
+        return Err("what is to be apart is in one place, so that the distance has no direction");
+    }
+    let u = towards(way);
+    let gap = length(way) - wanted.abs();
+    let point = add_scaled(oj, -gap, u);
+    let zj = axis(j, 2);
+    let zj = scale(zj, if dot(zj, z) < 0.0 { -1.0 } else { 1.0 });
+    let lines = |kind, slip: f64| {
+        let near = frame(add_scaled(point, -slip, z), z, u);
+        let far = Motion {
+            translation: oj,
+            ..leaning(&near, zj)
+        };
+        Meeting::new(kind, near, far)
+    };
+    Ok(here(match holds {
+        Holds::LineLine(_) => lines(JointType::Custom(vec![Rz, Ty, Tz]), 0.0),
+        Holds::Hinges(_) => lines(JointType::Custom(vec![Rz, Ty]), along),
+        _ => Meeting::new(
+            JointType::SphereOnPlane,
+            frame(point, u, z),
+            frame(oj, u, z),
+        ),
+    }))
+}
+
+/// Two gears touch at the pitch point of the line of centres and do not slip there across that line; so does a belt, whose
+/// pitch point is outside.
+fn gear(i: &Motion, j: &Motion, [a, b]: [f64; 2]) -> Result<Meeting, &'static str> {
+    use Freedom::{Rx, Ry, Tx, Ty, Tz};
+    let z = axis(i, 2);
+    let d = sub(j.translation, i.translation);
+    let d = sub(d, scale(z, dot(d, z)));
+    if length(d) < FLAT {
+        return Err("its two axes are one line, where there is no line of centres");
+    }
+    if (a + b).abs() < FLAT * a.abs() {
+        // A belt on equal wheels: both turn alike.
+        let there = frame(i.translation, z, d);
+        let kind = JointType::Custom(vec![Rx, Ry, Tx, Ty, Tz]);
+        return Ok(here(Meeting::new(kind, there, there)));
+    }
+    let point = add_scaled(i.translation, a / (a + b), d);
+    let there = frame(point, cross(z, d), z);
+    Ok(here(Meeting::new(JointType::SphereOnPlane, there, there)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::vector::{X, Y, Z};
+
+    fn misfit(m: &Meeting) -> [f64; 2] {
+        let apart = m.near.inverse().then(&m.far);
+        [length(apart.translation), apart.angle()]
+    }
+
+    #[test]
+    fn a_hinge_that_is_turned_and_flipped_still_fits() {
+        let i = Motion::shift([1.0, 2.0, 3.0]);
+        let flipped = i.then(&Motion::turn(X, std::f64::consts::PI));
+        let j = flipped.then(&Motion::turn(Z, 0.7));
+        let m = meeting(Holds::Revolute, &i, &j).unwrap_or_else(|e| panic!("{e}"));
+        assert!(misfit(&m).iter().all(|x| *x < 1e-12), "{m:?}");
+        // A slider holds the turn, too: so much is it out.
+        let m = meeting(Holds::Translational, &i, &j).unwrap_or_else(|e| panic!("{e}"));
+        assert!((misfit(&m)[1] - 0.7).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_tilted_hinge_is_out_by_its_tilt_and_its_way() {
+        let j = Motion::shift([0.0, 0.3, 0.4]).then(&Motion::turn(Y, 0.02));
+        for (holds, wanted) in [
+            (Holds::Revolute, [0.5, 0.02]),
+            (Holds::Cylindrical, [0.3, 0.02]),
+            (Holds::Spherical, [0.5, 0.0]),
+            (Holds::Planar(0.1), [0.3, 0.02]),
+            (Holds::PointInPlane(0.4), [0.0, 0.0]),
+            (Holds::PointInLine, [0.3, 0.0]),
+            (Holds::ParallelAxes, [0.0, 0.02]),
+            (Holds::PointPoint(0.2), [0.3, 0.0]),
+            (Holds::LineLine(0.3), [0.0, 0.02]),
+            (Holds::Hinges(0.3), [0.4, 0.02]),
+        ] {
+            let m = meeting(holds, &Motion::IDENTITY, &j).unwrap_or_else(|e| panic!("{e}"));
+            let found = misfit(&m);
+            for k in 0..2 {
+                assert!((found[k] - wanted[k]).abs() < 1e-9, "{holds:?} {found:?}");
+            }
+            assert_eq!(m.kind.freedoms().len(), 6 - holds.rows(), "{holds:?}");
+        }
+    }
+
+    #[test]
+    fn an_angle_between_parallel_axes_holds_nothing() {
+        let i = Motion::IDENTITY;
+        assert!(meeting(Holds::Angle(0.9), &i, &i).is_err());
+        let j = Motion::turn(Y, 0.5);
+        let m = meeting(Holds::Angle(0.3_f64.cos()), &i, &j).unwrap_or_else(|e| panic!("{e}"));
+        assert!((misfit(&m)[1] - 0.2).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,236 @@
+//! Joints of an assembly of a CAD program changed to another of its types.
+
+use crate::file::problem::ImportError;
+use crate::geom::rigid::towards;
+use crate::geom::vector::{Vector, add_scaled, cross, dot, length};
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::JointId;
+use crate::redundancy::release::Release;
+use crate::robots::edit::Edits;
+use crate::robots::fcstd::DOCUMENT;
+use crate::robots::import::Imported;
+use crate::robots::origin::Origin;
+use crate::robots::parts::Part;
+use crate::robots::problem::RobotProblem;
+use crate::robots::xml::Element;
+use std::collections::BTreeMap;
+
+/// Sines below this are none.
+const SAME: f64 = 1e-4;
+
+/// The types that a joint can be changed to where it stands, without another element or figure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Simple {
+    Fixed,
+    Revolute,
+    Slider,
+    Cylindrical,
+    Ball,
+    Parallel,
+}
+
+impl Simple {
+    /// As FreeCAD calls it.
+    pub(crate) fn freecad(self) -> &'static str {
+        match self {
+            Simple::Fixed => "Fixed",
+            Simple::Revolute => "Revolute",
+            Simple::Slider => "Slider",
+            Simple::Cylindrical => "Cylindrical",
+            Simple::Ball => "Ball",
+            Simple::Parallel => "Parallel",
+        }
+    }
+
+    /// As OndselSolver does.
+    fn ondsel(self) -> &'static str {
+        match self {
+            Simple::Fixed => "FixedJoint",
+            Simple::Revolute => "RevoluteJoint",
+            Simple::Slider => "TranslationalJoint",
+            Simple::Cylindrical => "CylindricalJoint",
+            Simple::Ball => "SphericalJoint",
+            Simple::Parallel => "ParallelAxesJoint",
+        }
+    }
+}
+
+/// Which turns, or which slides, a joint leaves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Left {
+    None,
+    Along,
+    All,
+    Other,
+}
+
+/// What directions span, beside an axis.
+fn span(all: &[Vector], axis: Vector) -> Left {
+    let mut square: Vec<Vector> = Vec::new();
+    for d in all {
+        let rest = square
+            .iter()
+            .fold(towards(*d), |v, s| add_scaled(v, -dot(v, *s), *s));
+        if length(rest) > SAME {
+            square.push(towards(rest));
+        }
+    }
+    match square[..] {
+        [] => Left::None,
+        [d] if length(cross(d, axis)) < SAME => Left::Along,
+        [_, _, _] => Left::All,
+        _ => Left::Other,
+    }
+}
+
+impl Origin {
+    /// The type of the CAD program that a joint becomes with more freedoms, each a slide or a turn and its direction; none where
+    /// it has no such type.
+    #[must_use]
+    pub fn becomes(&self, joint: JointId, more: &[(bool, Vector)]) -> Option<&'static str> {
+        becomes(self, joint, more).map(Simple::freecad)
+    }
+
+    /// Whether a joint can be given a freedom where it stands: whether it slides, and along or about which direction.
+    #[must_use]
+    pub fn can_be_freed(&self, joint: JointId, freedom: (bool, Vector)) -> bool {
+        match self.is_assembly() {
+            true => becomes(self, joint, &[freedom]).is_some(),
+            false => self.takes_joints(joint),
+        }
+    }
+}
+
+/// What a joint becomes with more freedoms, each a slide or a turn and its direction in the world; none where there is no such
+/// type.
+pub(crate) fn becomes(origin: &Origin, joint: JointId, more: &[(bool, Vector)]) -> Option<Simple> {
+    let part = origin.part(joint);
+    let frame = origin.places[part.links[0]].then(&part.sides[0]);
+    let axis = frame.direction(part.axis);
+    let own = part.joint_type.freedoms().iter();
+    let own: Vec<(bool, Vector)> = own
+        .filter(|f| **f != Freedom::Screw)
+        .map(|&f| (f.slides(), frame.direction(part.direction(f))))
+        .collect();
+    if own.len() < part.joint_type.freedoms().len() {
+        return None;
+    }
+    let left = |slides: bool| {
+        let all = own.iter().chain(more).filter(|(s, _)| *s == slides);
+        let all: Vec<Vector> = all.map(|(_, d)| *d).collect();
+        span(&all, axis)
+    };
+    match (left(false), left(true)) {
+        (Left::None, Left::None) => Some(Simple::Fixed),
+        (Left::Along, Left::None) => Some(Simple::Revolute),
+        (Left::None, Left::Along) => Some(Simple::Slider),
+        (Left::Along, Left::Along) => Some(Simple::Cylindrical),
+        (Left::All, Left::None) => Some(Simple::Ball),
+        (Left::Along, Left::All) => Some(Simple::Parallel),
+        _ => None,
+    }
+}
+
+/// The file with joints of the types that releases make of them.
+///
+/// # Errors
+/// Where there is no such type, or a coupling is to be left out.
+pub(crate) fn retype(
+    imported: &Imported,
+    releases: &[(Release, String)],
+) -> Result<Vec<u8>, ImportError> {
+    let origin = &imported.origin;
+    let mut edits = Edits::new(origin);
+    for (joint, more) in by_joint(origin, releases)? {
+        let part = origin.part(joint);
+        let Some(element) = part.element.map(|e| origin.element(e)) else {
+            continue;
+        };
+        let Some(simple) = becomes(origin, joint, &more) else {
+            let why = format!(
+                "{} has no joint type with the freedoms that it would have",
+                imported.format.name
+            );
+            return Err(cannot(part, element, why));
+        };
+        match imported.format.word {
+            "asmt" => edits.replace(
+                element,
+                element.node().span.clone(),
+                simple.ondsel().to_owned(),
+            ),
+            _ => enumerated(origin, part, element, simple, &mut edits)?,
+        }
+    }
+    let text = edits.apply()?;
+    match &origin.archive {
+        Some(archive) => archive.with(DOCUMENT, text.as_bytes()),
+        None => Ok(text.into_bytes()),
+    }
+}
+
+fn cannot(part: &Part, element: Element<'_>, why: String) -> ImportError {
+    let problem = RobotProblem::Unsupported {
+        element: format!("joint \"{}\"", part.id),
+        why,
+        remedy: "choose another joint (--at)".to_owned(),
+    };
+    element.fail(None, problem)
+}
+
+/// The freedoms that each joint gets.
+fn by_joint(
+    origin: &Origin,
+    releases: &[(Release, String)],
+) -> Result<BTreeMap<JointId, Vec<(bool, Vector)>>, ImportError> {
+    let mut out: BTreeMap<JointId, Vec<(bool, Vector)>> = BTreeMap::new();
+    for (release, _) in releases {
+        match *release {
+            Release::Freedom {
+                joint,
+                slides,
+                direction,
+            } => out.entry(joint).or_default().push((slides, direction)),
+            Release::Coupling(q) => {
+                let element = origin.element(origin.couplings[q]);
+                let remedy =
+                    "suppress the joint in the CAD program, or choose another joint (--at)";
+                return Err(element.unsupported("it couples joints, and has no other type", remedy));
+            }
+        }
+    }
+    Ok(out)
+}
+
+/// FreeCAD writes a type as its place in the list beside it.
+fn enumerated(
+    origin: &Origin,
+    part: &Part,
+    property: Element<'_>,
+    simple: Simple,
+    edits: &mut Edits<'_>,
+) -> Result<(), ImportError> {
+    let word = simple.freecad();
+    let list = property.child("CustomEnumList");
+    let mut words = list.iter().flat_map(|l| l.named("Enum"));
+    let place = words.position(|e| e.attribute("value") == Some(word));
+    let (Some(integer), Some(place)) = (property.child("Integer"), place) else {
+        let why = format!("this version of FreeCAD has no joint type {word}");
+        return Err(cannot(part, property, why));
+    };
+    edits.set(integer, "value", &place.to_string())?;
+    // So that FreeCAD solves the assembly anew when it opens the file.
+    let root = origin.element(origin.root);
+    let has = |o: &Element<'_>| {
+        let all = o.child("Properties");
+        all.is_some_and(|p| p.children().any(|c| c.id == property.id))
+    };
+    let data = root.child("ObjectData");
+    let name = data.and_then(|d| d.named("Object").find(has)?.attribute("name"));
+    let listed = root.child("Objects");
+    let listed = listed.and_then(|l| l.named("Object").find(|o| o.attribute("name") == name));
+    if let Some(object) = listed.filter(|o| o.attribute("Touched") != Some("1")) {
+        edits.set(object, "Touched", "1")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,168 @@
+//! The kinds of surfaces and curves in a shape written as text, by the names that faces and edges have in FreeCAD.
+
+/// What an element of a shape is. Lengths in mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Kind {
+    Vertex,
+    Line,
+    Circle(f64),
+    Curve,
+    Plane,
+    Cylinder(f64),
+    Cone,
+    Sphere(f64),
+    Torus(f64),
+    Surface,
+}
+
+/// The kind of an element, such as `Face3`; none where the shape does not tell.
+pub(crate) fn kind(shape: &str, element: &str) -> Option<Kind> {
+    let number = |prefix: &str| element.strip_prefix(prefix)?.parse::<usize>().ok();
+    let (tag, place) = match (number("Face"), number("Edge")) {
+        (Some(n), _) => ("Fa", n),
+        (_, Some(n)) => ("Ed", n),
+        _ => return None,
+    };
+    let shapes = shapes(shape)?;
+    let at = nth(&shapes, tag, place)?;
+    let geometry = shapes.get(at)?.geometry?;
+    let section = if tag == "Fa" { "Surfaces" } else { "Curves" };
+    of_geometry(section, geometry_line(shape, section, geometry)?)
+}
+
+/// A shape of the list: its tag, the shapes it is made of, and the surface or curve it lies on.
+struct Shape<'a> {
+    tag: &'a str,
+    parts: Vec<usize>,
+    geometry: Option<usize>,
+}
+
+/// The lines behind a heading that says how many of something follow.
+fn section<'a>(text: &'a str, heading: &str) -> Option<(usize, &'a str)> {
+    let mut from = 0;
+    loop {
+        let at = from + text.get(from..)?.find(heading)?;
+        let starts = at == 0 || text.as_bytes()[at - 1] == b'\n';
+        let rest = &text[at + heading.len()..];
+        let (line, below) = rest.split_once('\n')?;
+        if let (true, Some(count)) = (starts && line.starts_with(' '), line.trim().parse().ok()) {
+            return Some((count, below));
+        }
+        from = at + heading.len();
+    }
+}
+
+/// The shapes in the order of the file: parts come before what they are part of, and are called by their place from the end.
+fn shapes(text: &str) -> Option<Vec<Shape<'_>>> {
+    let (count, body) = section(text, "TShapes")?;
+    // Each takes three lines at least.
+    if count > body.len() / 3 {
+        return None;
+    }
+    let mut out: Vec<Shape<'_>> = Vec::new();
+    let mut lines = body.lines();
+    while out.len() < count {
+        let tag = lines.next()?.trim();
+        if tag.is_empty() {
+            continue;
+        }
+        let mut geometry = None;
+        // The geometry ends with seven flags in a line of their own.
+        for line in lines.by_ref() {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            if matches!(words[..], [flags] if flags.len() == 7 && flags.bytes().all(|b| b"01".contains(&b)))
+            {
+                break;
+            }
+            let index = match (tag, &words[..]) {
+                ("Fa", [_, _, surface, _]) => surface.parse().ok(),
+                ("Ed", ["1", curve, _, _, _]) => curve.parse().ok(),
+                _ => None,
+            };
+            geometry = geometry.or(index);
+        }
+        let mut parts = Vec::new();
+        'parts: for line in lines.by_ref() {
+            for word in line.split_whitespace() {
+                if word == "*" {
+                    break 'parts;
+                }
+                // +12, -12: the way it is turned; a number without a sign is a place.
+                if let Some(from_end) = word.strip_prefix(['+', '-', 'i', 'e']) {
+                    parts.push(count.checked_sub(from_end.parse().ok()?)?);
+                }
+            }
+        }
+        out.push(Shape {
+            tag,
+            parts,
+            geometry,
+        });
+    }
+    Some(out)
+}
+
+/// The place of the n-th shape of a tag, from 1, as they are met from the whole down, each once.
+fn nth(shapes: &[Shape<'_>], tag: &str, n: usize) -> Option<usize> {
+    let mut met = vec![false; shapes.len()];
+    let mut stack = vec![shapes.len().checked_sub(1)?];
+    let mut left = n;
+    while let Some(at) = stack.pop() {
+        if std::mem::replace(met.get_mut(at)?, true) {
+            continue;
+        }
+        if shapes[at].tag == tag {
+            left = left.checked_sub(1)?;
+            if left == 0 {
+                return Some(at);
+            }
+        }
+        stack.extend(shapes[at].parts.iter().rev());
+    }
+    None
+}
+
+/// The line that a surface or curve of simple kind is.
+fn geometry_line<'a>(text: &'a str, heading: &str, n: usize) -> Option<&'a str> {
+    let (count, body) = section(text, heading)?;
+    if n == 0 || n > count {
+        return None;
+    }
+    // Simple kinds take a line; others take more, and where one stands before, lines cannot be counted.
+    let mut lines = body.lines();
+    for _ in 1..n {
+        let kind: usize = lines.next()?.split_whitespace().next()?.parse().ok()?;
+        let simple = match heading {
+            "Surfaces" => (1..=5).contains(&kind),
+            _ => (1..=5).contains(&kind),
+        };
+        if !simple {
+            return None;
+        }
+    }
+    lines.next()
+}
+
+fn of_geometry(heading: &str, line: &str) -> Option<Kind> {
+    let words: Vec<f64> = line
+        .split_whitespace()
+        .filter_map(|w| w.parse().ok())
+        .collect();
+    let last = words.last().copied()?;
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "a small whole number or none"
+    )]
+    let kind = *words.first()? as i64;
+    Some(match (heading, kind) {
+        ("Surfaces", 1) => Kind::Plane,
+        ("Surfaces", 2) => Kind::Cylinder(last),
+        ("Surfaces", 3) => Kind::Cone,
+        ("Surfaces", 4) => Kind::Sphere(last),
+        ("Surfaces", 5) => Kind::Torus(last),
+        ("Surfaces", _) => Kind::Surface,
+        (_, 1) => Kind::Line,
+        (_, 2) => Kind::Circle(last),
+        _ => Kind::Curve,
+    })
+}

@@ -1,0 +1,150 @@
+//! What a distance joint holds, by the kinds of the two elements it stands between.
+
+use crate::geom::rigid::Motion;
+use crate::geom::vector::{add_scaled, cross, dot, length, sub};
+use crate::robots::cad::holds::Holds;
+use crate::robots::fcstd::brep::Kind;
+
+/// Below this two directions are one, and a line lies in a plane.
+const SINE: f64 = 1e-3;
+
+/// A distance joint read: what it holds, whether the two sides change places, and what is not known for sure.
+#[derive(Debug)]
+pub(crate) struct Distance {
+    pub(crate) holds: Holds,
+    pub(crate) swap: bool,
+    pub(crate) doubt: Option<&'static str>,
+}
+
+/// The kind of an element by its name and that of the object it is of, where its shape does not tell.
+pub(crate) fn by_name(element: &str, object: &str) -> Option<Kind> {
+    if element.starts_with("Vertex") {
+        return Some(Kind::Vertex);
+    }
+    let flat = ["App::Plane", "PartDesign::Plane", "Part::DatumPlane"];
+    let straight = ["App::Line", "PartDesign::Line", "Part::DatumLine"];
+    let point = ["App::Point", "PartDesign::Point", "Part::DatumPoint"];
+    let is = |list: [&str; 3]| element.is_empty() && list.contains(&object);
+    match () {
+        () if is(flat) => Some(Kind::Plane),
+        () if is(straight) => Some(Kind::Line),
+        () if is(point) => Some(Kind::Vertex),
+        () => None,
+    }
+}
+
+/// What is held between two kinds, at frames in the assembly and with the distance of the joint.
+pub(crate) fn distance(kinds: [Option<Kind>; 2], frames: &[Motion; 2], value: f64) -> Distance {
+    use Kind::{Circle, Cone, Curve, Cylinder, Line, Plane, Sphere, Surface, Torus, Vertex};
+    let [a, b] = kinds.map(|k| k.unwrap_or(Surface));
+    let one = |swap: bool, holds: Holds| Distance {
+        holds,
+        swap,
+        doubt: None,
+    };
+    // A distance from a plane may be on either side of it.
+    let off = |swap: bool, more: f64| {
+        let [plane, other] = if swap {
+            [&frames[1], &frames[0]]
+        } else {
+            [&frames[0], &frames[1]]
+        };
+        let z = plane.rotation.map(|row| row[2]);
+        let there = dot(sub(other.translation, plane.translation), z);
+        (value.abs() + more).copysign(there)
+    };
+    let found = match (a, b) {
+        (Vertex, Vertex) => one(false, Holds::PointPoint(value)),
+        (Line | Circle(_), Line | Circle(_)) => {
+            let more = radius(a) + radius(b);
+            one(false, Holds::LineLine(value + more))
+        }
+        (Plane, Plane) => one(false, Holds::Planar(off(false, 0.0))),
+        (Plane, Cylinder(r)) => one(false, Holds::LineInPlane(off(false, r))),
+        (Cylinder(r), Plane) => one(true, Holds::LineInPlane(off(true, r))),
+        (Plane, Line) => one(false, Holds::LineInPlane(off(false, 0.0))),
+        (Line, Plane) => one(true, Holds::LineInPlane(off(true, 0.0))),
+        (Plane, Sphere(r)) => one(false, Holds::PointInPlane(off(false, r))),
+        (Sphere(r), Plane) => one(true, Holds::PointInPlane(off(true, r))),
+        (Plane, Vertex) => one(false, Holds::PointInPlane(off(false, 0.0))),
+        (Vertex, Plane) => one(true, Holds::PointInPlane(off(true, 0.0))),
+        (Line, Vertex) => one(false, Holds::PointLine(value)),
+        (Vertex, Line) => one(true, Holds::PointLine(value)),
+        (Curve | Circle(_), Vertex) => one(false, Holds::PointInPlane(off(false, 0.0))),
+        (Vertex, Curve | Circle(_)) => one(true, Holds::PointInPlane(off(true, 0.0))),
+        (Cylinder(r), Cylinder(s) | Torus(s)) | (Torus(r), Cylinder(s)) => {
+            one(false, Holds::LineLine(value + r + s))
+        }
+        (Cylinder(r), Sphere(s)) | (Torus(r), Sphere(s)) => {
+            one(false, Holds::PointLine(value + r + s))
+        }
+        (Sphere(r), Cylinder(s) | Torus(s)) => one(true, Holds::PointLine(value + r + s)),
+        (Cylinder(r), Vertex) => one(false, Holds::PointLine(value + r)),
+        (Vertex, Cylinder(r)) => one(true, Holds::PointLine(value + r)),
+        (Sphere(r), Sphere(s)) => one(false, Holds::PointPoint(value + r + s)),
+        (Sphere(r), Vertex) | (Vertex, Sphere(r)) => one(false, Holds::PointPoint(value + r)),
+        (
+            Curve | Circle(_) | Line | Cone | Surface | Plane | Vertex | Torus(_) | Sphere(_)
+            | Cylinder(_),
+            _,
+        ) => one(false, Holds::Planar(off(false, 0.0))),
+    };
+    match kinds {
+        [Some(_), Some(_)] => found,
+        _ => unknown(kinds, frames, found),
+    }
+}
+
+fn radius(k: Kind) -> f64 {
+    match k {
+        Kind::Circle(r) => r,
+        _ => 0.0,
+    }
+}
+
+/// Where a shape does not tell what a face is: at a solved pose the directions of the two frames do, as far as they can.
+fn unknown(kinds: [Option<Kind>; 2], frames: &[Motion; 2], found: Distance) -> Distance {
+    let [a, b] = frames;
+    let [z, line] = [a, b].map(|m| m.rotation.map(|row| row[2]));
+    let there = |swap: bool| {
+        let (plane, other) = if swap { (b, a) } else { (a, b) };
+        let z = plane.rotation.map(|row| row[2]);
+        dot(sub(other.translation, plane.translation), z)
+    };
+    let swap = kinds[1] == Some(Kind::Plane);
+    if length(cross(z, line)) > 1.0 - SINE {
+        // A plane and a cylinder, the first of the two as the plane where nothing says otherwise.
+        return Distance {
+            holds: Holds::LineInPlane(there(swap)),
+            swap,
+            doubt: Some(
+                "the kinds of its faces are not known: by their directions they are taken as a plane and a cylinder",
+            ),
+        };
+    }
+    Distance {
+        doubt: Some("the kinds of its elements are not known: they are taken as planes"),
+        holds: match found.holds {
+            Holds::Planar(_) => Holds::Planar(there(false)),
+            other => other,
+        },
+        ..found
+    }
+}
+
+/// The frame of a rack, its x along the way that it slides and its y away from the pinion.
+pub(crate) fn rack(rack: &Motion, pinion: &Motion, slide: [f64; 3]) -> Motion {
+    let z = pinion.rotation.map(|row| row[2]);
+    let x = crate::geom::rigid::towards(add_scaled(slide, -dot(slide, z), z));
+    let y = cross(z, x);
+    let to_rack = sub(rack.translation, pinion.translation);
+    // The teeth are on the side of the pinion where the rack is.
+    let (x, y) = match dot(to_rack, y) > 0.0 {
+        true => (x.map(|c| -c), y.map(|c| -c)),
+        false => (x, y),
+    };
+    Motion {
+        rotation: [0, 1, 2].map(|i| [x[i], y[i], z[i]]),
+        translation: rack.translation,
+    }
+}

@@ -1,0 +1,237 @@
+//! The objects of a FreeCAD document and their properties.
+
+use crate::file::problem::ImportError;
+use crate::geom::rigid::Motion;
+use crate::robots::problem::RobotProblem;
+use crate::robots::xml::Element;
+use std::collections::BTreeMap;
+
+/// An object.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Object<'a> {
+    pub(crate) name: &'a str,
+    /// Its type: `Assembly::AssemblyObject`, `App::Link`.
+    pub(crate) kind: &'a str,
+    /// The element that lists it.
+    pub(crate) listed: Element<'a>,
+    /// The element of its properties.
+    data: Option<Element<'a>>,
+}
+
+/// The objects of a document, in its order.
+#[derive(Debug)]
+pub(crate) struct Objects<'a> {
+    list: Vec<Object<'a>>,
+    by_name: BTreeMap<&'a str, usize>,
+    /// The object that has another in its group.
+    above: BTreeMap<&'a str, &'a str>,
+}
+
+impl<'a> Objects<'a> {
+    /// Those below the root element of `Document.xml`.
+    pub(crate) fn of(root: Element<'a>) -> Result<Objects<'a>, ImportError> {
+        let data = root.child("ObjectData");
+        let data: BTreeMap<&str, Element<'a>> = data
+            .iter()
+            .flat_map(|d| d.named("Object"))
+            .filter_map(|e| Some((e.attribute("name")?, e)))
+            .collect();
+        let mut out = Objects {
+            list: Vec::new(),
+            by_name: BTreeMap::new(),
+            above: BTreeMap::new(),
+        };
+        let listed = root.child("Objects");
+        for e in listed.iter().flat_map(|l| l.named("Object")) {
+            let name = e.required("name")?;
+            let kind = e.attribute("type").unwrap_or("");
+            let object = Object {
+                name,
+                kind,
+                listed: e,
+                data: data.get(name).copied(),
+            };
+            if out.by_name.insert(name, out.list.len()).is_some() {
+                let element = e.label();
+                return Err(e.fail(Some("name"), RobotProblem::Duplicate { element }));
+            }
+            out.list.push(object);
+        }
+        for object in &out.list {
+            for child in object.links("Group") {
+                out.above.entry(child).or_insert(object.name);
+            }
+        }
+        Ok(out)
+    }
+
+    pub(crate) fn all(&self) -> impl Iterator<Item = &Object<'a>> {
+        self.list.iter()
+    }
+
+    pub(crate) fn get(&self, name: &str) -> Option<&Object<'a>> {
+        self.by_name.get(name).map(|&i| &self.list[i])
+    }
+
+    /// The object in whose group another is.
+    pub(crate) fn above(&self, name: &str) -> Option<&Object<'a>> {
+        self.get(self.above.get(name)?)
+    }
+}
+
+impl<'a> Object<'a> {
+    pub(crate) fn property(&self, name: &str) -> Option<Element<'a>> {
+        let all = self.data?.child("Properties")?;
+        all.named("Property")
+            .find(|p| p.attribute("name") == Some(name))
+    }
+
+    /// The first element below a property: its value.
+    fn value(&self, name: &str) -> Option<Element<'a>> {
+        self.property(name)?.children().next()
+    }
+
+    pub(crate) fn text(&self, name: &str) -> Option<&'a str> {
+        self.value(name)?.attribute("value")
+    }
+
+    /// What users see as its name.
+    pub(crate) fn label(&self) -> &'a str {
+        let label = self.text("Label").filter(|l| !l.trim().is_empty());
+        label.unwrap_or(self.name)
+    }
+
+    pub(crate) fn is_true(&self, name: &str) -> Option<bool> {
+        self.text(name).map(|v| v == "true")
+    }
+
+    pub(crate) fn number(&self, name: &str) -> Result<Option<f64>, ImportError> {
+        match self.value(name) {
+            Some(e) => Ok(e.numbers::<1>("value")?.map(|[x]| x)),
+            None => Ok(None),
+        }
+    }
+
+    /// The names of a list of links; of a link alone, that one.
+    pub(crate) fn links(&self, name: &str) -> Vec<&'a str> {
+        let Some(value) = self.value(name) else {
+            return Vec::new();
+        };
+        let all = match value.name() {
+            "LinkList" => value.named("Link").collect(),
+            _ => vec![value],
+        };
+        let name = |e: &Element<'a>| e.attribute("value").or_else(|| e.attribute("name"));
+        all.iter()
+            .filter_map(name)
+            .filter(|n| !n.is_empty())
+            .collect()
+    }
+
+    /// Its place within what it stands in.
+    ///
+    /// # Errors
+    /// Where numbers are no numbers, or the quaternion is none.
+    pub(crate) fn placement(&self, name: &str) -> Result<Option<Motion>, ImportError> {
+        let Some(e) = self.value(name) else {
+            return Ok(None);
+        };
+        let number = |k: &str| -> Result<f64, ImportError> {
+            e.required(k)?;
+            Ok(e.numbers::<1>(k)?.map_or(0.0, |[x]| x))
+        };
+        let translation = [number("Px")?, number("Py")?, number("Pz")?];
+        // The scalar part stands last.
+        let q = [number("Q3")?, number("Q0")?, number("Q1")?, number("Q2")?];
+        if q.iter().map(|x| x * x).sum::<f64>() < 1e-6 {
+            let problem = RobotProblem::BadValue {
+                element: format!("object \"{}\"", self.name),
+                what: format!("{name} (Q0 to Q3)"),
+                found: "0 0 0 0".to_owned(),
+                want: "write a rotation, 0 0 0 1 for none".to_owned(),
+            };
+            return Err(e.fail(Some("Q0"), problem));
+        }
+        Ok(Some(Motion::quaternion(translation, q)))
+    }
+
+    /// The word that an enumeration has, by the list that stands beside its index.
+    pub(crate) fn word(&self, name: &str) -> Result<Option<&'a str>, ImportError> {
+        let Some(property) = self.property(name) else {
+            return Ok(None);
+        };
+        let Some(index) = property.child("Integer") else {
+            return Ok(None);
+        };
+        let found = index.required("value")?;
+        let list = property.child("CustomEnumList");
+        let words: Vec<&str> = list
+            .iter()
+            .flat_map(|l| l.named("Enum"))
+            .filter_map(|e| e.attribute("value"))
+            .collect();
+        let at = found.parse::<usize>().ok();
+        at.and_then(|i| words.get(i).copied())
+            .map(Some)
+            .ok_or_else(|| {
+                let problem = RobotProblem::BadValue {
+                    element: format!("object \"{}\"", self.name),
+                    what: name.to_owned(),
+                    found: found.to_owned(),
+                    want: format!(
+                        "write the place of a word of its list, from 0 to {}",
+                        words.len().saturating_sub(1)
+                    ),
+                };
+                index.fail(Some("value"), problem)
+            })
+    }
+
+    /// Whether a type of object has others in a group that moves as they do, each by itself.
+    pub(crate) fn is_group(&self) -> bool {
+        self.kind.starts_with("App::DocumentObjectGroup") || self.is_flexible()
+    }
+
+    /// Whether it is a link to an assembly whose parts move by themselves.
+    pub(crate) fn is_flexible(&self) -> bool {
+        self.kind == "Assembly::AssemblyLink" && self.is_true("Rigid") == Some(false)
+    }
+
+    /// Whether it is a link that stands for many.
+    pub(crate) fn is_array(&self) -> bool {
+        let count = self
+            .text("ElementCount")
+            .and_then(|c| c.parse::<usize>().ok());
+        self.kind == "App::Link" && count.is_some_and(|c| c > 0)
+    }
+
+    /// Whether it is a point, line, plane or frame without a body.
+    pub(crate) fn is_datum(&self) -> bool {
+        const DATUMS: [&str; 9] = [
+            "App::Origin",
+            "App::Line",
+            "App::Plane",
+            "App::Point",
+            "App::LocalCoordinateSystem",
+            "Part::LocalCoordinateSystem",
+            "Part::Datum",
+            "PartDesign::Line",
+            "PartDesign::CoordinateSystem",
+        ];
+        DATUMS.iter().any(|d| self.kind.starts_with(d))
+            || ["PartDesign::Plane", "PartDesign::Point"].contains(&self.kind)
+    }
+
+    /// The file, beside this one, and name of the object that a link stands for.
+    pub(crate) fn linked(&self) -> Option<(&'a str, &'a str)> {
+        let e = self.value("LinkedObject")?;
+        let name = e.attribute("name").or_else(|| e.attribute("value"))?;
+        Some((e.attribute("file").unwrap_or(""), name))
+    }
+
+    /// The member of the archive that its shape is in.
+    pub(crate) fn shape(&self) -> Option<&'a str> {
+        let shape = self.property("Shape")?.child("Part")?;
+        shape.attribute("file").filter(|f| !f.is_empty())
+    }
+}

@@ -1,0 +1,233 @@
+//! What a joint refers to: the part that moves, the frame's place in it, and the element of its shape.
+
+use crate::file::problem::ImportError;
+use crate::geom::rigid::Motion;
+use crate::robots::fcstd::objects::{Object, Objects};
+use crate::robots::xml::Element;
+use std::collections::BTreeMap;
+
+/// The documents read: the first is the one with the assembly, the others those that it links to, by the name of their file.
+#[derive(Debug)]
+pub(crate) struct Documents<'a> {
+    pub(crate) main: Objects<'a>,
+    pub(crate) linked: BTreeMap<String, Objects<'a>>,
+}
+
+impl<'a> Documents<'a> {
+    fn of(&self, file: &str) -> Option<&Objects<'a>> {
+        match file {
+            "" => Some(&self.main),
+            file => self.linked.get(file),
+        }
+    }
+}
+
+/// Where a joint holds on to a part.
+#[derive(Debug, Clone)]
+pub(crate) struct Reference<'a> {
+    /// The name of the part below the assembly, or none where it is what stands still.
+    pub(crate) part: Option<&'a str>,
+    /// The place of the part in the assembly.
+    pub(crate) place: Motion,
+    /// The place in the part of the object that the frame is given in.
+    pub(crate) inner: Motion,
+    /// Why that is not known for sure.
+    pub(crate) doubt: Option<String>,
+    /// Member of the archive with the shape that the element is of.
+    pub(crate) shape: Option<&'a str>,
+    /// The kind of object where it is no shape.
+    pub(crate) object: &'a str,
+    /// The element: `Face3`, `Edge1`, `Vertex7`, or nothing.
+    pub(crate) element: &'a str,
+}
+
+/// Why a reference leads nowhere, in words.
+pub(crate) type Broken = String;
+
+/// The reference of a joint, `Reference1` or `Reference2`.
+///
+/// # Errors
+/// Where a number of a placement is none; why a reference leads nowhere is no error of the file.
+pub(crate) fn reference<'a>(
+    joint: &Object<'a>,
+    which: &str,
+    assembly: &Object<'a>,
+    documents: &Documents<'a>,
+) -> Result<Result<Reference<'a>, Broken>, ImportError> {
+    let Some(link) = joint.property(which).and_then(|p| p.child("XLink")) else {
+        return Ok(Err(format!("{which} is empty")));
+    };
+    let root = link.attribute("name").unwrap_or("");
+    if root.is_empty() {
+        return Ok(Err(format!("{which} is empty")));
+    }
+    if link.attribute("file").is_some_and(|f| !f.is_empty()) {
+        return Ok(Err(format!("{which} is an object of another document")));
+    }
+    if documents.main.get(root).is_none() {
+        let what = format!("{which} is broken: there is no object {root}");
+        return Ok(Err(what));
+    }
+    let path = path(link, root, assembly, &documents.main);
+    let Some((element, names)) = path.split_last() else {
+        return Ok(Err(format!("{which} names no element")));
+    };
+    follow(names, element, which, assembly, documents)
+}
+
+/// The names from below the assembly to the element, which is the last and may be empty.
+fn path<'a>(
+    link: Element<'a>,
+    root: &'a str,
+    assembly: &Object<'a>,
+    objects: &Objects<'a>,
+) -> Vec<&'a str> {
+    let sub = link.named("Sub").next().and_then(|s| s.attribute("value"));
+    let mut names: Vec<&str> = sub.unwrap_or("").split('.').collect();
+    // FreeCAD 1.0 begins at the assembly or above, 1.1 at the part or within a group.
+    if let Some(at) = names.iter().position(|n| *n == assembly.name) {
+        return names.split_off(at + 1);
+    }
+    if root != assembly.name {
+        let mut above = vec![root];
+        while let Some(o) = objects.above(above[0]).filter(|o| o.name != assembly.name) {
+            if above.contains(&o.name) {
+                break;
+            }
+            above.insert(0, o.name);
+        }
+        above.append(&mut names);
+        return above;
+    }
+    names
+}
+
+/// Whether objects below it are features of one shape, without a place of their own.
+fn is_body(o: &Object<'_>) -> bool {
+    o.kind.starts_with("PartDesign::")
+        || (o.kind.starts_with("Part::") && !o.kind.starts_with("Part::Part"))
+}
+
+fn follow<'a>(
+    names: &[&'a str],
+    element: &'a str,
+    which: &str,
+    assembly: &Object<'a>,
+    documents: &Documents<'a>,
+) -> Result<Result<Reference<'a>, Broken>, ImportError> {
+    let main = &documents.main;
+    let mut place = Motion::IDENTITY;
+    let mut array = false;
+    let mut rest = names.iter();
+    let part = loop {
+        let Some(&name) = rest.next() else {
+            return Ok(Err(format!(
+                "{which} names no part of {}",
+                assembly.label()
+            )));
+        };
+        let Some(o) = main.get(name) else {
+            let what = match array {
+                true => format!("{which} is element {name} of an array, whose place is not read"),
+                false => format!("{which} is broken: there is no object {name}"),
+            };
+            return Ok(Err(what));
+        };
+        let within = o.is_array() || (o.is_group() && rest.len() > 0);
+        if !within {
+            break o;
+        }
+        array = o.is_array();
+        place = place.then(&o.placement("Placement")?.unwrap_or(Motion::IDENTITY));
+    };
+    let mut out = Reference {
+        part: Some(part.name),
+        place: place.then(&part.placement("Placement")?.unwrap_or(Motion::IDENTITY)),
+        inner: Motion::IDENTITY,
+        doubt: None,
+        shape: part.shape(),
+        object: part.kind,
+        element,
+    };
+    if part.is_datum() {
+        // What is attached to nothing stands still.
+        out.part = None;
+        if ["AttachmentSupport", "Support"].iter().any(|p| {
+            part.property(p)
+                .is_some_and(|p| p.children().any(|c| c.children().next().is_some()))
+        }) {
+            out.doubt = Some("it is a datum that is attached, taken as standing still".to_owned());
+        }
+    }
+    let mut at = (*part, "");
+    for &name in rest {
+        at = resolved(at, documents, &mut out)?;
+        if is_body(&at.0) || name.is_empty() {
+            // Features of a body; the last that is there has the shape.
+            let feature = documents.of(at.1).and_then(|o| o.get(name));
+            out.shape = feature
+                .and_then(Object::shape)
+                .filter(|_| at.1.is_empty())
+                .or(out.shape);
+            continue;
+        }
+        match documents.of(at.1).and_then(|o| o.get(name)) {
+            Some(o) => {
+                let there = o.placement("Placement")?.unwrap_or(Motion::IDENTITY);
+                out.inner = out.inner.then(&there);
+                out.shape = o.shape().filter(|_| at.1.is_empty());
+                out.object = o.kind;
+                at = (*o, at.1);
+            }
+            None => {
+                out.doubt = Some(unknown(name, at.1));
+                out.shape = None;
+                break;
+            }
+        }
+    }
+    let (_, file) = resolved(at, documents, &mut out)?;
+    if !file.is_empty() {
+        out.shape = None;
+    }
+    Ok(Ok(out))
+}
+
+fn unknown(name: &str, file: &str) -> String {
+    let file = match file {
+        "" => "which is not in the document".to_owned(),
+        file => format!("which is an object of {file}, not read"),
+    };
+    format!(
+        "its frame is not known for sure: it is given in {name}, {file}, and taken as if that stood where its part does"
+    )
+}
+
+/// What a link stands for, in its file; a link that turns what it stands for along adds to the place.
+fn resolved<'a>(
+    (mut o, mut file): (Object<'a>, &'a str),
+    documents: &Documents<'a>,
+    out: &mut Reference<'a>,
+) -> Result<(Object<'a>, &'a str), ImportError> {
+    // A chain of links is short; a ring of them is none.
+    for _ in 0..16 {
+        let Some((in_file, name)) = o.linked() else {
+            break;
+        };
+        let to = if in_file.is_empty() { file } else { in_file };
+        let turns = o.is_true("LinkTransform") == Some(true);
+        let Some(&target) = documents.of(to).and_then(|d| d.get(name)) else {
+            if out.doubt.is_none() && !in_file.is_empty() {
+                file = to;
+            }
+            break;
+        };
+        if turns {
+            let there = target.placement("Placement")?.unwrap_or(Motion::IDENTITY);
+            out.inner = out.inner.then(&there);
+        }
+        out.shape = target.shape();
+        (o, file) = (target, to);
+    }
+    Ok((o, file))
+}

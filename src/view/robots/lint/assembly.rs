@@ -1,0 +1,85 @@
+//! What is said of joints of CAD assemblies besides: misfits and other types.
+
+use crate::geom::vector::Vector;
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::redundancy::release::Release;
+use crate::robots::Origin;
+use serde::Serialize;
+
+/// Another type for a joint of a CAD assembly.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Change {
+    /// The joint.
+    pub joint: String,
+    /// Its type, as the CAD program calls it.
+    pub from: String,
+    /// What it becomes.
+    pub to: String,
+}
+
+impl Change {
+    /// What a release makes of a joint of an assembly.
+    pub(super) fn of(m: &Mechanism, origin: &Origin, release: &Release) -> Option<Change> {
+        let Release::Freedom {
+            joint,
+            slides,
+            direction,
+        } = *release
+        else {
+            return None;
+        };
+        Change::at(m, origin, joint, &[(slides, direction)])
+    }
+
+    /// What more freedoms make of one; none where it is no assembly, or has no such type.
+    #[must_use]
+    pub fn at(
+        m: &Mechanism,
+        origin: &Origin,
+        joint: JointId,
+        more: &[(bool, Vector)],
+    ) -> Option<Change> {
+        if !origin.is_assembly() {
+            return None;
+        }
+        let now = origin.becomes(joint, &[]);
+        Some(Change {
+            joint: m.joints[joint].id.clone(),
+            from: now.unwrap_or(m.joints[joint].joint_type.name()).to_owned(),
+            to: origin.becomes(joint, more)?.to_owned(),
+        })
+    }
+
+    /// "Hinge: Revolute -> Ball".
+    #[must_use]
+    pub fn words(&self) -> String {
+        format!("{}: {} -> {}", self.joint, self.from, self.to)
+    }
+}
+
+/// How far the two frames of a joint are apart in what the joint holds.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Misfit {
+    /// In millimetres.
+    pub millimetres: f64,
+    /// In degrees.
+    pub degrees: f64,
+}
+
+/// W with other joint types in words, where it is more than it is now.
+pub(super) fn then(now: usize, then: Option<usize>) -> String {
+    match then {
+        Some(w) if w > now => format!(" (W = {w}: a part may turn or slide by itself)"),
+        _ => String::new(),
+    }
+}
+
+/// The freedoms as a CAD program counts them, in a line, where they are others.
+pub(super) fn count(counted: Option<i64>, mobility: usize) -> String {
+    match counted {
+        Some(n) if i64::try_from(mobility) != Ok(n) => format!(
+            "  six a part less all constraints would be {n}; the true number of freedoms is {mobility}\n"
+        ),
+        _ => String::new(),
+    }
+}

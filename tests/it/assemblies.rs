@@ -1,0 +1,32 @@
+//! CAD assemblies: what is read of FreeCAD's and OndselSolver's files, against an independent rank and by hand.
+
+pub(crate) mod make;
+mod ondsel;
+mod others;
+mod retyped;
+mod told;
+mod wrong;
+
+use ozols::model::mechanism::StateId;
+use ozols::redundancy::analysis::{Method, analyse};
+use ozols::robots::{Imported, Options, import};
+
+/// What is read of bytes under a name, with no files beside.
+pub(crate) fn read(name: &str, bytes: &[u8], options: &Options) -> Imported {
+    import(name, bytes, &crate::robots::none, options).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+/// The message of bytes that are refused.
+pub(crate) fn refused(name: &str, bytes: &[u8]) -> String {
+    let e = import(name, bytes, &crate::robots::none, &Options::default()).unwrap_err();
+    assert!(!e.render(false).is_empty());
+    e.to_string()
+}
+
+/// W and σ, as the commands have them.
+pub(crate) fn figures(i: &Imported) -> (usize, usize) {
+    let method = Method::Auto { tolerance: None };
+    let s = &analyse(&i.mechanism, &[StateId::FREE], method).unwrap()[0];
+    assert_eq!(s.at_most(), None, "σ is one number");
+    (s.mobility, s.redundant)
+}
