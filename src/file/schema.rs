@@ -115,7 +115,7 @@ pub struct JointEntry {
     pub id: String,
     /// The two links.
     pub links: [String; 2],
-    // What the types are called stands with them.
+    /// Its type, of those that [`JointType`] has.
     #[schemars(description = format!("Type: {}.", disjunction(JointType::words())))]
     #[schemars(extend("enum" = JointType::words().collect::<Vec<_>>()))]
     #[serde(rename = "type")]

@@ -31,7 +31,7 @@ pub struct RankingEntry {
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TermEntry {
-    // What the terms are called stands with them.
+    /// Its word, of those that [`Term`] has.
     #[schemars(description = format!("{}.", disjunction(Term::ALL.map(Term::name))))]
     #[schemars(extend("enum" = Term::ALL.map(Term::name)))]
     pub term: String,
