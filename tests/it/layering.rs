@@ -254,10 +254,20 @@ fn the_architecture_page_names_every_room_in_order() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let page = fs::read_to_string(root.join("src/guide/architecture.md")).unwrap();
     let rows = page.lines().filter_map(|l| l.strip_prefix("| `"));
-    let named: Vec<&str> = rows
+    let all: Vec<&str> = rows
         .flat_map(|l| l.split(" | ").next().unwrap().split(", "))
         .map(|room| room.trim_matches('`'))
         .collect();
+    let (inner, named): (Vec<&str>, Vec<&str>) = all.into_iter().partition(|r| r.contains("::"));
+    let folders = fs::read_dir(root.join("src/search")).unwrap();
+    let folders = folders.map(|e| e.unwrap().path()).filter(|p| p.is_dir());
+    let mut folders: Vec<String> = folders
+        .map(|p| format!("search::{}", p.file_name().unwrap().display()))
+        .collect();
+    let mut inner: Vec<String> = inner.into_iter().map(str::to_owned).collect();
+    folders.sort();
+    inner.sort();
+    assert_eq!(inner, folders);
     let layers: Vec<usize> = named.iter().map(|room| layer(room).unwrap()).collect();
     assert!(layers.is_sorted(), "{named:?}");
     assert_eq!(named.len(), LAYERS.concat().len());
