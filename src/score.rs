@@ -36,6 +36,7 @@ mod offers;
 pub mod outcome;
 pub mod pareto;
 pub mod prepared;
+mod ranked;
 pub mod ranking;
 pub mod request;
 mod request_error;

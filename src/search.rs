@@ -21,7 +21,8 @@ use crate::search::answer::counts::{self, Counts};
 use crate::search::answer::freedom_patterns::{self, Idea};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::variants_in_order;
-use crate::search::build::{Diagrams, Orders};
+use crate::search::build::Diagrams;
+use crate::search::build::orders::Orders;
 use crate::search::diagram::{Diagram, Progress};
 use crate::search::numeric::at_tolerance::{self, AtTolerance};
 use crate::search::question::Question;
@@ -62,7 +63,7 @@ impl Search {
     /// The orders in which both diagrams take the variables; a twin over another prime may be given them.
     #[must_use]
     pub fn orders(&self) -> Orders {
-        build::orders(self)
+        build::orders::orders(self)
     }
 
     /// Builds the diagrams of the determinate and of the admissible variants.

@@ -4,19 +4,20 @@
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::exact_field;
-use crate::score::evaluate::{Evaluator, ScoreError};
+use crate::score::evaluate::ScoreError;
 use crate::score::outcome::Outcome;
 use crate::score::prepared::LooksRounded;
-use crate::score::ranking::{Ranked, RankedPool, Ranker};
+use crate::score::ranked::ranked;
+use crate::score::ranking::RankedPool;
 use crate::score::request::{Check, List, Method, Request, RequestError};
 use crate::search::Search;
-use crate::search::answer::counts::{self, Counts};
+use crate::search::answer::counts::Counts;
 use crate::search::answer::k_best::Assignment;
+use crate::search::answer::orbit_counts;
 use crate::search::build::Diagrams;
 use crate::search::check::brute;
 use crate::search::check::other_poses;
-use crate::search::check::second_opinion;
-use crate::search::check::second_opinion::{DRAWN, SecondOpinion};
+use crate::search::check::second_opinion::{self, DRAWN, SecondOpinion};
 use crate::search::check::second_prime::{self, Disagreement, PrimeCheck};
 use crate::search::check::singular_values::CHECKED;
 use crate::search::diagram::{Progress, Stop};
@@ -211,7 +212,13 @@ pub fn answer(
             search.mechanism.name
         )));
     }
-    let ranking = ranked(&search, &diagrams, request, should_cancel)?;
+    let ranking = match request.ranking(&search.mechanism)? {
+        None => None,
+        Some(by) => ranked(&search, &diagrams, (request, &by), should_cancel).map_err(|why| {
+            let mechanism = search.mechanism.name.clone();
+            RunError::Score { mechanism, why }
+        })?,
+    };
     if ranking.is_some()
         && search
             .mechanism
@@ -392,7 +399,7 @@ fn orbits(
     stops: [Stop; 2],
     should_cancel: ShouldCancel<'_>,
 ) -> Result<((Counts, Counts), [Stop; 2]), RunError> {
-    let of = |s: &Search| counts::orbit_counts(s, all.clone(), should_cancel);
+    let of = |s: &Search| orbit_counts::orbit_counts(s, all.clone(), should_cancel);
     let (first, second) = rayon::join(|| of(search), || twin.map(of).transpose());
     let (first, second) = (first?, second?);
     let stops = [0, 1].map(|i| stops[i].or(first.1[i]));
@@ -404,58 +411,4 @@ fn orbits(
         second_prime::compare_counts([search, twin], [&first.0, &second.0])?;
     }
     Ok((first.0, stops))
-}
-
-/// Scores the cheapest variants and puts the best in order, where that was asked for.
-fn ranked(
-    search: &Search,
-    diagrams: &Diagrams,
-    request: &Request,
-    should_cancel: ShouldCancel<'_>,
-) -> Result<Option<RankedPool>, RunError> {
-    let List::Top(top) = request.list else {
-        return Ok(None);
-    };
-    let Some(ranking) = request.ranking(&search.mechanism)? else {
-        return Ok(None);
-    };
-    // Further poses may drop some of the best, so that others must stand by.
-    let standing = if request.generic_only {
-        request.pool
-    } else {
-        top
-    };
-    let evaluator =
-        Evaluator::in_states(search, ranking.clearance, &ranking.states).map_err(|why| {
-            RunError::Score {
-                mechanism: search.mechanism.name.clone(),
-                why,
-            }
-        })?;
-    // What may be kept of a variant: its scores, and its choices beside an allocation's own.
-    let each = size_of::<Ranked>() + 32 + size_of::<usize>() * search.space.variables.len();
-    let pool = request.pool.min(search.conditions.memory / 4 / each).max(1);
-    let mut ranker = Ranker::new(&evaluator, &ranking, pool, standing.min(pool));
-    let known = diagrams.known_up_to();
-    let (mut given, mut doubtful) = (0, known.is_none());
-    for v in search.cheapest(diagrams, pool + 1) {
-        given += 1;
-        doubtful |= known.is_none_or(|k| search.steps.milli(v.key.cost()) > k);
-        if should_cancel() || ranker.take(v).is_break() {
-            break;
-        }
-    }
-    let interrupted = should_cancel();
-    let exhausted = diagrams.stop() == Stop::Exhausted && !interrupted;
-    let mut out = ranker.finish(exhausted && given <= pool);
-    if interrupted && !out.proven {
-        (out.interrupted, out.proof, out.missing) = (true, "the ranking was interrupted", None);
-    } else if doubtful {
-        (out.proven, out.proof, out.missing) = (false, "the search stopped early", None);
-    }
-    if let Some(missing) = out.missing.as_mut().filter(|_| exhausted) {
-        let by_cost = counts::counts_by_cost(search, &diagrams.admissible);
-        missing.cheaper = by_cost.map(|all| all.range(..missing.settled_at).map(|(_, n)| n).sum());
-    }
-    Ok(Some(out))
 }

@@ -6,6 +6,7 @@ pub mod counts;
 pub mod estimate;
 pub mod freedom_patterns;
 pub mod k_best;
+pub mod orbit_counts;
 pub mod proven_cheapest;
 pub mod single_changes;
 pub mod variants_in_order;

@@ -2,6 +2,7 @@
 
 pub(in crate::search) mod budget;
 pub(in crate::search) mod complements;
+pub mod orders;
 pub(in crate::search) mod staging;
 pub(in crate::search) mod two_sided;
 
@@ -11,6 +12,7 @@ use crate::search::answer::estimate::estimate;
 use crate::search::answer::proven_cheapest::UpTo;
 use crate::search::answer::proven_cheapest::cost_of;
 use crate::search::answer::proven_cheapest::up_to;
+use crate::search::build::orders::{Orders, orders};
 use crate::search::build::staging::both_ends;
 use crate::search::build::staging::laid;
 use crate::search::build::two_sided::two_sided;
@@ -19,21 +21,10 @@ use crate::search::diagram::product::product;
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::diagram::stage::Stage;
 use crate::search::diagram::{self, Diagram, Progress, Stop};
-use crate::search::order::variable_order;
 use crate::search::question::Question;
-use crate::search::reduce::biconnected::Block;
 use crate::search::reduce::plane_split::Model;
 use num_bigint::BigUint;
 use num_traits::Zero;
-
-/// The orders in which diagrams take the variables.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Orders {
-    /// Those of the free state, for the determinate variants.
-    pub determinate: Vec<usize>,
-    /// Those that the free state and the searched one have in common, for the admissible variants.
-    pub common: Vec<usize>,
-}
 
 /// Diagrams of one question.
 #[derive(Debug)]
@@ -80,35 +71,6 @@ const AT_ONCE: usize = 200_000;
 /// Whether a diagram is cut down to its limits.
 fn is_cut(stop: Stop) -> bool {
     matches!(stop, Stop::NodeBudget | Stop::Memory)
-}
-
-/// Finds the orders of both diagrams; they do not depend on the prime, and a twin over another may be given them.
-#[must_use]
-pub fn orders(question: &Question) -> Orders {
-    let order = |blocks: &[Block]| {
-        variable_order(
-            &question.exact,
-            &question.mechanism,
-            &question.least.whole.space,
-            blocks,
-            question.conditions.max_redundant,
-        )
-    };
-    let [determinate, common] = &question.blocks;
-    let determinate = order(determinate);
-    let common = match one_diagram(question) {
-        true => determinate.clone(),
-        false => order(common),
-    };
-    Orders {
-        determinate,
-        common,
-    }
-}
-
-/// Whether nothing is asked of variants but what makes them determinate.
-pub(in crate::search) fn one_diagram(question: &Question) -> bool {
-    !question.conditions.keep_output && question.conditions.state.is_none()
 }
 
 /// Builds both diagrams.

@@ -9,6 +9,7 @@ use ozols::redundancy::analysis::exact_field;
 use ozols::search::Search;
 use ozols::search::answer::counts;
 use ozols::search::answer::counts::Counts;
+use ozols::search::answer::orbit_counts;
 use ozols::search::check::brute;
 use ozols::search::check::second_prime::{Verdict, build_both, compare};
 use ozols::search::check::singular_values;
@@ -322,7 +323,7 @@ proptest! {
         let orbit = Conditions { symmetry: Symmetry::OnePerOrbit, ..request };
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, orbit.clone()).unwrap();
         let (determinate, admissible, list) = searched(&m, &orbit)?;
-        let ((determinate, admissible), _) = counts::orbit_counts(&search, (determinate, admissible), &|| false).unwrap();
+        let ((determinate, admissible), _) = orbit_counts::orbit_counts(&search, (determinate, admissible), &|| false).unwrap();
         let first = |c: &Choice| *c <= image(c);
         prop_assert_eq!(&determinate.by_mobility_and_changes, &of(&good, &first));
         prop_assert_eq!(&admissible.by_mobility_and_changes, &of(&better, &first));
@@ -369,7 +370,7 @@ proptest! {
         let one = Conditions { symmetry: Symmetry::OnePerOrbit, ..request };
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, one.clone()).unwrap();
         let (determinate, admissible, list) = searched(&m, &one)?;
-        let ((determinate, admissible), _) = counts::orbit_counts(&search, (determinate, admissible), &|| false).unwrap();
+        let ((determinate, admissible), _) = orbit_counts::orbit_counts(&search, (determinate, admissible), &|| false).unwrap();
         prop_assert_eq!(&determinate.by_mobility_and_changes, &of(&|c| orbit(c).first() == Some(c)));
         let orbits: BTreeSet<BTreeSet<Choice>> = list.iter().map(orbit).collect();
         prop_assert_eq!((orbits.len(), BigUint::from(list.len())), (list.len(), admissible.total));

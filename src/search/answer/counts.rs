@@ -1,10 +1,8 @@
 //! How many variants there are of each kind.
 
 use crate::search::answer::count_tables::{Count, Key, Kinds, totals};
-use crate::search::build::build;
-use crate::search::diagram::{Diagram, Stop};
+use crate::search::diagram::Diagram;
 use crate::search::question::Question;
-use crate::search::question::conditions::{Conditions, SearchError, Symmetry};
 use num_bigint::BigUint;
 use num_traits::Zero;
 use std::collections::BTreeMap;
@@ -81,7 +79,7 @@ impl Counts {
     }
 
     /// Orbits of a symmetry, from all variants and the symmetric ones, as [`orbits`] has it.
-    fn orbits(mut self, symmetric: &Counts, order: usize) -> Counts {
+    pub(in crate::search) fn orbits(mut self, symmetric: &Counts, order: usize) -> Counts {
         let part = |n: &BigUint, kept: &BigUint| orbits(n, kept, order);
         fn each<K: Ord>(
             all: &mut BTreeMap<K, BigUint>,
@@ -191,36 +189,6 @@ pub fn counts_by_cost(question: &Question, diagram: &Diagram) -> Option<BTreeMap
     } else {
         with::<BigUint>(question, diagram)
     }
-}
-
-/// Counts of orbits from counts of all variants, by a search for the symmetric ones, and why that search ended.
-///
-/// # Errors
-/// As [`Question::new`].
-pub fn orbit_counts(
-    question: &Question,
-    all: (Counts, Counts),
-    cancelled: &(dyn Fn() -> bool + Sync),
-) -> Result<((Counts, Counts), [Stop; 2]), SearchError> {
-    let conditions = Conditions {
-        symmetry: Symmetry::SymmetricOnly,
-        cheapest: 0,
-        estimate: None,
-        ..question.conditions.clone()
-    };
-    let symmetric = Question::new(
-        question.exact.clone(),
-        question.mechanism.clone(),
-        conditions,
-    )?;
-    let diagrams = build(&symmetric, cancelled, &mut |_| {});
-    let order = question.mechanism.search.order();
-    let determinate = counts(&symmetric, &diagrams.determinate, false);
-    let admissible = counts(&symmetric, &diagrams.admissible, true);
-    let determinate = all.0.orbits(&determinate, order);
-    let admissible = all.1.orbits(&admissible, order);
-    let stops = [diagrams.determinate.stop, diagrams.admissible.stop];
-    Ok(((determinate, admissible), stops))
 }
 
 #[cfg(test)]

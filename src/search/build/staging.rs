@@ -3,8 +3,8 @@
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId};
-use crate::search::build::Orders;
-use crate::search::build::one_diagram;
+use crate::search::build::orders::Orders;
+use crate::search::build::orders::one_diagram;
 use crate::search::diagram::frontier::{At, plan};
 use crate::search::diagram::output_motion::lookahead;
 use crate::search::diagram::redundancy_so_far::Limits;
