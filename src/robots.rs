@@ -4,6 +4,7 @@ mod asmt;
 mod build;
 mod cad;
 mod close;
+pub mod convert;
 mod coupling;
 mod digits;
 mod edit;

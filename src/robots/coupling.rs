@@ -26,7 +26,7 @@ pub(crate) struct Usable {
 /// go into the file.
 pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
     let mut out: Vec<Usable> = Vec::new();
-    for coupling in std::mem::take(&mut robot.couplings) {
+    for coupling in robot.couplings.clone() {
         let found = coupling
             .joints
             .each_ref()

@@ -33,12 +33,47 @@ const LEAST: f64 = 1e-12;
 /// Nor is a place said to be known worse than to this part of the size of the mechanism, and a direction to so many radians.
 const MOST: f64 = 0.09;
 
+/// Begins the comment by which a converted file says how well its places are known: its numbers have all digits, those that they
+/// were calculated from had not.
+const KNOWN: &str = "<!-- ozols: places are known to ";
+
+/// That comment, and nothing where every number was exact.
+pub(crate) fn comment(known: Option<&ToleranceEntry>) -> String {
+    let number = |c: &Option<Coordinate>| match c {
+        Some(Coordinate::Decimal(x)) => *x,
+        _ => 0.0,
+    };
+    known.map_or(String::new(), |t| {
+        let (length, direction) = (number(&t.length), number(&t.direction));
+        format!("{KNOWN}{length:e} m and {direction:e} rad by the digits of the file converted -->")
+    })
+}
+
+/// What such a comment of a text says.
+fn stated_in(text: &str) -> Option<ToleranceEntry> {
+    let (_, rest) = text.split_once(KNOWN)?;
+    let (length, rest) = rest.split_once(" m and ")?;
+    let (direction, _) = rest.split_once(" rad")?;
+    let entry = |word: &str| {
+        let known = word.parse().ok().filter(|x: &f64| *x > 0.0 && *x < 1e9)?;
+        Some(Coordinate::Decimal(known))
+    };
+    Some(ToleranceEntry {
+        length: Some(entry(length)?),
+        direction: entry(direction),
+    })
+}
+
 /// What is stated of a mechanism made from the elements under a root; nothing where no number there was rounded. The sizes are
 /// those of a robot and of the box round its joints in metres.
 ///
 /// Each place is taken to be known as well as the number that is known least, a turn moving what is as far away as the robot
 /// is large.
 pub(crate) fn tolerance(root: Element<'_>, (size, across): (f64, f64)) -> Option<ToleranceEntry> {
+    let source = &root.document.sources[root.node().source];
+    if let Some(known) = stated_in(&source.text) {
+        return Some(known);
+    }
     let mut found = Sources::default();
     let degrees = Expr::from_f64(1f64.to_radians()).ok()?;
     let mut unit = (root.name() == "mujoco").then(|| degrees.clone());

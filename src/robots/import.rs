@@ -7,7 +7,7 @@
 
 use crate::file::problem::ImportError;
 use crate::file::read::build;
-use crate::file::schema::MechanismFile;
+use crate::file::schema::{MechanismFile, ToleranceEntry};
 use crate::file::text::mechanism_from_str;
 use crate::file::write::{self, Comment};
 use crate::geom::extent::diagonal;
@@ -25,6 +25,7 @@ use crate::robots::loops;
 use crate::robots::offers;
 use crate::robots::options::{Options, Reader};
 use crate::robots::origin::Origin;
+use crate::robots::parts::Robot;
 use crate::robots::problem::{ExportError, RobotProblem};
 use crate::robots::warning::Report;
 use crate::robots::xml::{self, Document};
@@ -76,6 +77,22 @@ fn root(
         return Err(RobotProblem::Whole { message }.at(&name, "", None));
     };
     document.read(&name, xml::utf8(&name, &found)?)
+}
+
+/// The mechanism of a robot in its pose, seen from the link that stands still; as well known as what it was made from.
+pub(crate) fn mechanism(
+    mut robot: Robot,
+    frame: usize,
+    known: Option<ToleranceEntry>,
+) -> Result<Mechanism, ImportError> {
+    let tree = spanning_tree(&robot, frame);
+    let found = entries(&mut robot, &tree, "", "", &Options::default());
+    let mut file = found.map_err(|p| p.at("", "", None))?.file;
+    file.tolerance = known;
+    build(&file).or_else(|_| {
+        let text = write::toml(&file, &[]).unwrap_or_default();
+        mechanism_from_str("the mechanism with another closure", &text)
+    })
 }
 
 /// Imports a description. `read` gives the files it includes.
@@ -168,6 +185,7 @@ pub fn import(
             archive,
             root,
             robot,
+            frame,
             places,
             joints,
             couplings,

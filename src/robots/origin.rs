@@ -17,6 +17,8 @@ pub struct Origin {
     /// The root element.
     pub(super) root: usize,
     pub(super) robot: Robot,
+    /// The link that stands still.
+    pub(super) frame: usize,
     /// Places of the robot's links in the pose found.
     pub(super) places: Vec<Motion>,
     /// The robot's joints that the mechanism's are.

@@ -83,6 +83,11 @@ impl Part {
         self
     }
 
+    /// Whether it is what holds a body that has no joints, and is called as that.
+    pub(crate) fn is_nameless(&self, robot: &Robot) -> bool {
+        self.joint_type == JointType::Fixed && robot.links.get(self.links[1]) == Some(&self.id)
+    }
+
     /// The direction of a freedom in the joint's own frame.
     pub(crate) fn direction(&self, freedom: Freedom) -> Vector {
         match freedom {
@@ -152,6 +157,8 @@ pub(crate) struct Robot {
     pub(super) assembly: bool,
     /// What a search may put in place of a joint.
     pub(super) options: &'static [JointType],
+    /// The links that elements are.
+    pub(super) said: BTreeMap<usize, usize>,
     pub(super) report: Report,
 }
 
@@ -204,6 +211,7 @@ impl Robot {
             here_only: false,
             assembly: false,
             options: &OPTIONS,
+            said: BTreeMap::new(),
             report: Report::default(),
         }
     }
@@ -215,6 +223,11 @@ impl Robot {
         self.places.push(place);
         self.frames.insert(name.to_owned(), (l, Motion::IDENTITY));
         l
+    }
+
+    /// Notes the element that a link is; those of links in between are none.
+    pub(crate) fn said_by(&mut self, link: usize, e: Element<'_>) {
+        self.said.insert(e.id, link);
     }
 
     /// The link or frame of a name.

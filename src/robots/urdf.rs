@@ -1,5 +1,6 @@
 //! URDF, read, mended and written.
 
 pub(super) mod fix;
+pub(super) mod payload;
 pub(super) mod read;
 pub(super) mod write;

@@ -367,6 +367,12 @@ impl<'a> Element<'a> {
             .map(|a| a.value.as_str())
     }
 
+    /// Names and values of all attributes.
+    pub(crate) fn attributes(self) -> impl Iterator<Item = (&'a str, &'a str)> {
+        let all = self.node().attributes.iter();
+        all.map(|a| (a.name.as_str(), a.value.as_str()))
+    }
+
     /// How the element is called in messages.
     pub(crate) fn label(self) -> String {
         match self.attribute("name") {

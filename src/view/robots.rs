@@ -1,3 +1,4 @@
 //! What is told of robot descriptions.
 
+pub mod convert;
 pub mod lint;

@@ -49,6 +49,7 @@ mod ranking;
 mod reactions;
 mod reactions_cycle;
 mod report_page;
+mod robot_convert;
 mod robot_fix;
 mod robot_ideas;
 mod robot_lasting;

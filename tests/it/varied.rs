@@ -7,7 +7,6 @@ use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::Search;
-use ozols::search::answer::counts;
 use ozols::search::answer::counts::Counts;
 use ozols::search::answer::orbit_counts;
 use ozols::search::check::brute;

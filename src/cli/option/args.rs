@@ -6,6 +6,7 @@ use crate::cli::command::bench;
 use crate::cli::command::catalog;
 use crate::cli::command::check;
 use crate::cli::command::completions;
+use crate::cli::command::convert;
 use crate::cli::command::draw;
 use crate::cli::command::drive;
 use crate::cli::command::explain;
@@ -77,6 +78,9 @@ pub(in crate::cli) enum Command {
     /// Make a mechanism file of a robot description: URDF, MJCF or SDF.
     #[command(after_help = examples::IMPORT)]
     Import(import::Import),
+    /// Carry a robot description over to another format, loops and all: MJCF, SDF, URDF, Drake's tags.
+    #[command(after_help = examples::CONVERT)]
+    Convert(convert::Convert),
     /// Name each redundant constraint of robot descriptions, with its line and what removes it.
     #[command(after_help = examples::LINT)]
     Lint(lint::Lint),

@@ -41,6 +41,7 @@ pub(crate) fn read(
     let world = robot.link("world", Motion::IDENTITY);
     robot.world = Some(world);
     for w in root.named("worldbody") {
+        robot.said_by(world, w);
         let start = Waiting {
             element: w,
             link: world,
@@ -126,6 +127,7 @@ fn bodies<'a>(
                 "body" => {
                     let place = w.place.then(&context.compiler.place(e)?);
                     let link = body(e, w.link, place, inner(0, place).class, context, robot)?;
+                    robot.said_by(link, e);
                     here.push(inner(link, Motion::IDENTITY));
                 }
                 "frame" => {

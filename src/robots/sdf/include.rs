@@ -56,11 +56,13 @@ pub(super) fn expand(
     Ok(Expanded { old, scenery })
 }
 
+/// Whether the version is before 1.5; 1.11 comes after 1.9.
 fn is_old(root: Element<'_>) -> bool {
-    let version = root
-        .attribute("version")
-        .and_then(|v| v.parse::<f64>().ok());
-    version.is_some_and(|v| v < 1.5)
+    let version = root.attribute("version").and_then(|v| {
+        let (major, minor) = v.trim().split_once('.').unwrap_or((v, "0"));
+        Some((major.parse::<u32>().ok()?, minor.parse::<u32>().ok()?))
+    });
+    version.is_some_and(|v| v < (1, 5))
 }
 
 /// The model that an include names, with what the include says of it; none where it is a light or the floor. And the name.

@@ -133,7 +133,7 @@ pub(crate) fn read(
 }
 
 /// The pose child: numbers, what it is relative to, and in which unit.
-fn pose(e: Element<'_>) -> Result<(Motion, Option<&str>), ImportError> {
+pub(crate) fn pose(e: Element<'_>) -> Result<(Motion, Option<&str>), ImportError> {
     let Some(p) = e.child("pose") else {
         return Ok((Motion::IDENTITY, None));
     };
@@ -222,9 +222,11 @@ fn model<'a>(
                         return Err(e.unsupported(why, "remove its pose, or give it another name"));
                     }
                     robot.report.map("link that is the world");
+                    robot.said_by(0, e);
                     continue;
                 }
                 let link = robot.link(&name, Motion::IDENTITY);
+                robot.said_by(link, e);
                 let to = relative.map_or_else(|| own.clone(), |r| absolute(scope, r));
                 insert(scene, name.clone(), placed(e, to, raw, name, Some(link)))?;
                 for c in e.children().filter(|c| c.name() != "pose") {

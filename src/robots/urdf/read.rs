@@ -2,7 +2,7 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
-use crate::geom::vector::{Vector, X, length};
+use crate::geom::vector::{Vector, X, Y, length};
 use crate::model::joint_type::JointType;
 use crate::robots::options::{Options, Reader};
 use crate::robots::parts::{Part, Ratio, Robot, free};
@@ -32,6 +32,7 @@ pub(crate) fn read(
             ));
         }
         let l = robot.link(name, Motion::IDENTITY);
+        robot.said_by(l, link);
         for c in link.children() {
             if ["visual", "collision"].contains(&c.name()) {
                 robot.shown.insert(l);
@@ -52,7 +53,7 @@ pub(crate) fn read(
         e.room("joints", robot.joints.len())?;
         match e.name() {
             "link" => {}
-            "joint" => joint(e, &mut robot)?,
+            "joint" | "drake:joint" => joint(e, &mut robot)?,
             "loop_joint" => loop_joint(e, &mut robot)?,
             "drake:ball_constraint" => ball_constraint(e, &mut robot)?,
             "transmission" => {}
@@ -81,7 +82,7 @@ pub(crate) fn read(
     Ok(robot)
 }
 
-fn origin(e: Element<'_>) -> Result<Motion, ImportError> {
+pub(crate) fn origin(e: Element<'_>) -> Result<Motion, ImportError> {
     let Some(o) = e.child("origin") else {
         return Ok(Motion::IDENTITY);
     };
@@ -157,11 +158,17 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
         "fixed" => JointType::Fixed,
         "planar" => JointType::Planar,
         "floating" => free(),
+        // Drake's own; its universal joint turns about x of the parent, then about y.
+        "ball" if e.name() == "drake:joint" => JointType::Spherical,
+        "universal" if e.name() == "drake:joint" => JointType::Universal,
         _ => return Err(unknown_type(e, word, TYPES)),
     };
     let mut part = Part::new(name, links, sides, joint_type).said_by(e);
     if matches!(word, "revolute" | "continuous" | "prismatic" | "planar") {
         part = part.about(axis(e)?);
+    }
+    if part.joint_type == JointType::Universal {
+        (part.axis, part.second) = (X, Y);
     }
     if let Some(l) = e.child("limit")
         && word != "continuous"

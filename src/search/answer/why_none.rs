@@ -93,10 +93,10 @@ pub fn relaxations(
         eased.nodes = eased.nodes.min(most);
         (eased.cheapest, eased.counted, eased.estimate) = (0, true, None);
         change(&mut eased);
-        let _search = Question::new(question.exact.clone(), question.mechanism.clone(), eased)?;
-        let diagrams = build(question, cancelled, &mut |_| {});
+        let other = Question::new(question.exact.clone(), question.mechanism.clone(), eased)?;
+        let diagrams = build(&other, cancelled, &mut |_| {});
         let whole = diagrams.stop() == Stop::Exhausted;
-        let counts = whole.then(|| counts(question, &diagrams.admissible, true));
+        let counts = whole.then(|| counts(&other, &diagrams.admissible, true));
         Ok(counts.filter(|c| !c.total.is_zero()))
     };
     let mut out = Vec::new();

@@ -1,0 +1,139 @@
+//! Links of an SDF file: place, weight and shapes.
+
+use crate::geom::rigid::Motion;
+use crate::robots::convert::payload::{Shape, Solid, Use};
+use crate::robots::convert::text::pose;
+use crate::robots::convert::to_sdf::Writer;
+use crate::robots::single_freedoms::{Names, escape, number, numbers};
+use std::fmt::Write;
+
+impl Writer<'_> {
+    pub(super) fn link(&mut self, l: usize) {
+        let scene = self.scene;
+        let mut inside = String::new();
+        let mut names = Names::default();
+        if self.links[&l] == "world" {
+            if scene.shapes(l).is_empty() {
+                return;
+            }
+            // The world has no shapes in a model: what stands still has them.
+            let name = self.names.fit("ground");
+            for s in scene.shapes(l) {
+                self.shape(l, s, &mut names, &mut inside);
+            }
+            let _ = write!(
+                self.head,
+                "    <link name=\"{}\">\n{inside}    </link>\n",
+                escape(&name)
+            );
+            let joint = self.names.fit(&format!("world-{name}"));
+            self.put(
+                &joint,
+                "fixed",
+                &["world".to_owned(), name],
+                &Motion::IDENTITY,
+                "",
+            );
+            return;
+        }
+        let at = &scene.places[l];
+        if *at != Motion::IDENTITY {
+            let _ = writeln!(inside, "      <pose>{}</pose>", pose(at));
+        }
+        match scene.weight(l) {
+            Some(w) => {
+                let (w, _) = scene.admitted(l, w, true, &mut self.out.lost);
+                let [xx, yy, zz, xy, xz, yz] = w.tensor.map(number);
+                let _ = writeln!(
+                    inside,
+                    "      <inertial><pose>{}</pose><mass>{}</mass><inertia><ixx>{xx}</ixx><iyy>{yy}</iyy><izz>{zz}</izz><ixy>{xy}</ixy><ixz>{xz}</ixz><iyz>{yz}</iyz></inertia></inertial>",
+                    pose(&w.place),
+                    w.mass
+                );
+            }
+            None => {
+                let _ = writeln!(inside, "      {}", scene.light.sdf());
+                if !self
+                    .out
+                    .told
+                    .iter()
+                    .any(|t| t.starts_with("links without mass"))
+                {
+                    self.out.told.push(
+                        "links without mass weigh next to nothing: SDF takes 1 kg for granted"
+                            .to_owned(),
+                    );
+                }
+            }
+        }
+        for s in scene.shapes(l) {
+            self.shape(l, s, &mut names, &mut inside);
+        }
+        let name = escape(&self.links[&l]);
+        let _ = write!(
+            self.head,
+            "    <link name=\"{name}\">\n{inside}    </link>\n"
+        );
+    }
+
+    fn shape(&mut self, l: usize, s: &Shape, names: &mut Names, out: &mut String) {
+        if !s.words.is_empty() {
+            self.out.lost.no_word(
+                "contact settings of a shape",
+                s.name.as_deref().or(Some(&self.scene.robot.links[l])),
+            );
+        }
+        let geometry = match &s.solid {
+            Solid::Box(edges) => format!("<box><size>{}</size></box>", numbers(*edges)),
+            Solid::Sphere(r) => format!("<sphere><radius>{}</radius></sphere>", number(*r)),
+            Solid::Cylinder(r, l) => round("cylinder", *r, *l),
+            Solid::Capsule(r, l) => round("capsule", *r, *l),
+            Solid::Ellipsoid(half) => {
+                format!("<ellipsoid><radii>{}</radii></ellipsoid>", numbers(*half))
+            }
+            Solid::Plane([x, y]) => {
+                format!(
+                    "<plane><normal>0 0 1</normal><size>{} {}</size></plane>",
+                    number(*x),
+                    number(*y)
+                )
+            }
+            Solid::Mesh(file, scale) => {
+                format!(
+                    "<mesh><uri>{}</uri><scale>{}</scale></mesh>",
+                    escape(file),
+                    numbers(*scale)
+                )
+            }
+        };
+        let tags: &[&str] = match s.use_ {
+            Use::Seen => &["visual"],
+            Use::Touched => &["collision"],
+            Use::Both => &["visual", "collision"],
+        };
+        for tag in tags {
+            let wanted = s.name.clone().unwrap_or_else(|| (*tag).to_owned());
+            let name = escape(&names.fit(&wanted));
+            let colour = match (s.colour, *tag) {
+                (Some(c), "visual") => {
+                    let c = c.map(|x| number(x).to_string()).join(" ");
+                    format!("<material><ambient>{c}</ambient><diffuse>{c}</diffuse></material>")
+                }
+                _ => String::new(),
+            };
+            let _ = writeln!(
+                out,
+                "      <{tag} name=\"{name}\"><pose>{}</pose><geometry>{geometry}</geometry>{colour}</{tag}>",
+                pose(&s.place)
+            );
+        }
+    }
+}
+
+fn round(word: &str, r: f64, l: f64) -> String {
+    format!(
+        "<{word}><radius>{}</radius><length>{}</length></{word}>",
+        number(r),
+        number(l)
+    )
+}

@@ -1,0 +1,230 @@
+//! Joints of the tree of a URDF.
+
+use crate::geom::rigid::Motion;
+use crate::model::joint_type::{Freedom, JointType};
+use crate::robots::convert::payload::Dynamics;
+use crate::robots::convert::plan::{Branch, Moves, Single};
+use crate::robots::convert::scene::{limits, name_of};
+use crate::robots::convert::text::xyz_rpy;
+use crate::robots::convert::to_urdf::{ENDLESS, Loops, Writer};
+use crate::robots::single_freedoms::{escape, number, numbers};
+use std::fmt::Write;
+
+impl Writer<'_> {
+    /// The joints that hold a link.
+    pub(super) fn branch(&mut self, b: &Branch) {
+        let part = self.scene.part(b.joint);
+        let at = self.frames[&b.from].inverse().then(&b.near);
+        let ends = [self.names[&b.from].clone(), self.names[&b.link].clone()];
+        let id = self.id(b.joint);
+        let drakes = self.loops == Loops::Drake && part.joint_type == JointType::Spherical;
+        let whole = match part.joint_type {
+            _ if b.singles.is_empty() => Some("fixed"),
+            _ if b.is_free() => Some("floating"),
+            JointType::Spherical if drakes => Some("ball"),
+            JointType::Planar if !b.backward => Some("planar"),
+            _ => None,
+        };
+        if let Some(kind) = whole {
+            let axis = match kind {
+                "planar" => format!(
+                    "    <axis xyz=\"{}\"/>\n",
+                    numbers(part.direction(Freedom::Rz))
+                ),
+                _ => String::new(),
+            };
+            let damping = self.scene.payload.of(b.joint, 0).damping;
+            let axis = axis
+                + &if drakes && damping != 0.0 {
+                    format!("    <dynamics damping=\"{damping}\"/>\n")
+                } else {
+                    String::new()
+                };
+            let tag = if drakes { "drake:joint" } else { "joint" };
+            self.put(tag, &id, kind, &ends, &at, &axis);
+            return;
+        }
+        if part.joint_type == JointType::Spherical {
+            let why = "three hinges in series stand for it";
+            self.out
+                .lost
+                .one("ball joint of the tree", Some(&part.id), why);
+        }
+        self.series(b.joint, &b.singles, at, ends);
+    }
+
+    /// Freedoms in series between two links, through light links.
+    pub(super) fn series(
+        &mut self,
+        joint: usize,
+        all: &[Single],
+        at: Motion,
+        [from, to]: [String; 2],
+    ) {
+        let (mut from, mut at) = (from, at);
+        for (i, s) in all.iter().enumerate() {
+            let name = match self.single.get(&(joint, s.freedom)) {
+                Some(n) => n.clone(),
+                None => self.joints.fit(&name_of(&self.id(joint), i)),
+            };
+            let last = i + 1 == all.len();
+            let screws = matches!(s.moves, Moves::Screw(_));
+            let held = match last && !screws {
+                true => to.clone(),
+                false => self.between(&name),
+            };
+            let kind = if s.moves == Moves::Slide {
+                "prismatic"
+            } else {
+                "continuous"
+            };
+            let alone = all.len() == 1;
+            self.single(joint, s, (&name, kind), &[from, held.clone()], &at, alone);
+            (from, at) = (held, Motion::IDENTITY);
+            if let Moves::Screw(pitch) = s.moves {
+                let thread = self.joints.fit(&format!("{name}~thread"));
+                let held = if last {
+                    to.clone()
+                } else {
+                    self.between(&thread)
+                };
+                self.mimics
+                    .insert(thread.clone(), (name.clone(), pitch, 0.0));
+                let slide = Single {
+                    moves: Moves::Slide,
+                    ..*s
+                };
+                self.single(
+                    usize::MAX,
+                    &slide,
+                    (&thread, "prismatic"),
+                    &[from, held.clone()],
+                    &at,
+                    false,
+                );
+                from = held;
+            }
+        }
+    }
+
+    /// A light link.
+    pub(super) fn between(&mut self, joint: &str) -> String {
+        let name = self.links.fit(&format!("{joint}~link"));
+        let _ = writeln!(
+            self.head,
+            "  <link name=\"{}\">{}</link>",
+            escape(&name),
+            self.scene.light.urdf()
+        );
+        name
+    }
+
+    fn single(
+        &mut self,
+        joint: usize,
+        s: &Single,
+        (name, kind): (&str, &str),
+        ends: &[String; 2],
+        at: &Motion,
+        alone: bool,
+    ) {
+        let mut more = format!("    <axis xyz=\"{}\"/>\n", numbers(s.axis));
+        let d = self.scene.payload.of(joint, s.freedom);
+        let limits = (alone && joint != usize::MAX)
+            .then(|| limits(self.scene, joint))
+            .flatten();
+        let bound = |x: f64| if x.is_finite() { x } else { ENDLESS };
+        let (mut kind, ends_at) = (kind, limits.unwrap_or((-ENDLESS, ENDLESS)));
+        if kind == "continuous" && limits.is_some() {
+            kind = "revolute";
+        }
+        let bounded = alone && (d.effort.is_finite() || d.velocity.is_finite());
+        if kind != "continuous" || bounded {
+            let place = match kind {
+                "continuous" => String::new(),
+                _ => format!(
+                    " lower=\"{}\" upper=\"{}\"",
+                    number(ends_at.0),
+                    number(ends_at.1)
+                ),
+            };
+            let (effort, velocity) = if alone {
+                (bound(d.effort), bound(d.velocity))
+            } else {
+                (ENDLESS, ENDLESS)
+            };
+            let _ = writeln!(
+                more,
+                "    <limit{place} effort=\"{effort}\" velocity=\"{velocity}\"/>"
+            );
+        }
+        if d.damping != 0.0 || d.friction != 0.0 {
+            let _ = writeln!(
+                more,
+                "    <dynamics damping=\"{}\" friction=\"{}\"/>",
+                number(d.damping),
+                number(d.friction)
+            );
+        }
+        if let Some((leads, ratio, offset)) = self.mimics.get(name) {
+            let _ = writeln!(
+                more,
+                "    <mimic joint=\"{}\" multiplier=\"{}\" offset=\"{}\"/>",
+                escape(leads),
+                number(*ratio),
+                number(*offset)
+            );
+        }
+        if joint != usize::MAX {
+            self.unsaid(joint, &d);
+        }
+        self.put("joint", name, kind, ends, at, &more);
+    }
+
+    /// What resists a joint and has no word here.
+    fn unsaid(&mut self, joint: usize, d: &Dynamics) {
+        let id = self.scene.part(joint).id.clone();
+        let lost = &mut self.out.lost;
+        let driven = self
+            .scene
+            .payload
+            .actuators
+            .iter()
+            .any(|a| a.joint == joint);
+        if d.armature != 0.0 && !(self.loops == Loops::Drake && driven) {
+            lost.no_word("armature of a joint", Some(&id));
+        }
+        if d.stiffness != 0.0 {
+            lost.no_word("spring of a joint", Some(&id));
+        }
+        if !d.words.is_empty() {
+            lost.no_word("solver settings of a joint", Some(&id));
+        }
+        if self.scene.part(joint).zero != 0.0 {
+            lost.one(
+                "reference of a joint's value",
+                Some(&id),
+                "it counts from the pose drawn",
+            );
+        }
+    }
+
+    /// A joint of the tree.
+    pub(super) fn put(
+        &mut self,
+        tag: &str,
+        name: &str,
+        kind: &str,
+        [parent, child]: &[String; 2],
+        at: &Motion,
+        more: &str,
+    ) {
+        let [parent, child] = [parent, child].map(|l| escape(l));
+        let _ = write!(
+            self.body,
+            "  <{tag} name=\"{}\" type=\"{kind}\">\n    <parent link=\"{parent}\"/>\n    <child link=\"{child}\"/>\n    <origin {}/>\n{more}  </{tag}>\n",
+            escape(name),
+            xyz_rpy(at),
+        );
+    }
+}

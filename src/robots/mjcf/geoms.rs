@@ -1,0 +1,217 @@
+//! The shapes of MJCF.
+
+use crate::file::problem::ImportError;
+use crate::geom::rigid::Motion;
+use crate::geom::vector::{Vector, add, length, scale, sub};
+use crate::robots::convert::payload::{Payload, Shape, Solid, Use, Weight};
+use crate::robots::convert::solid::filled;
+use crate::robots::mjcf::context::Context;
+use crate::robots::mjcf::defaults::Lookup;
+use crate::robots::xml::Element;
+use std::collections::BTreeMap;
+
+/// Words that say how a shape touches.
+const TOUCH: [&str; 12] = [
+    "contype",
+    "conaffinity",
+    "condim",
+    "group",
+    "priority",
+    "friction",
+    "solmix",
+    "solref",
+    "solimp",
+    "margin",
+    "gap",
+    "fluidshape",
+];
+/// What shapes are coloured that say nothing.
+const GREY: [f64; 4] = [0.5, 0.5, 0.5, 1.0];
+/// kg/m³ where nothing is said.
+const WATER: f64 = 1000.0;
+
+/// What shapes refer to.
+pub(super) struct Geoms<'a> {
+    /// Files and scales of meshes, by name.
+    meshes: BTreeMap<String, (String, Vector)>,
+    /// Colours of materials.
+    colours: BTreeMap<&'a str, [f64; 4]>,
+    /// Groups of shapes that say what bodies weigh.
+    groups: [f64; 2],
+}
+
+impl<'a> Geoms<'a> {
+    pub(super) fn of(root: Element<'a>) -> Result<Geoms<'a>, ImportError> {
+        let mut out = Geoms {
+            meshes: BTreeMap::new(),
+            colours: BTreeMap::new(),
+            groups: [0.0, 5.0],
+        };
+        let mut folder = String::new();
+        for c in root.named("compiler") {
+            if let Some(d) = c.attribute("meshdir").or(c.attribute("assetdir")) {
+                folder = d.trim_end_matches('/').to_owned();
+            }
+            out.groups = c.numbers::<2>("inertiagrouprange")?.unwrap_or(out.groups);
+        }
+        for a in root
+            .named("asset")
+            .flat_map(|s| s.children().collect::<Vec<_>>())
+        {
+            match (a.name(), a.attribute("name")) {
+                ("material", Some(name)) => {
+                    if let Some(c) = a.numbers::<4>("rgba")? {
+                        out.colours.insert(name, c);
+                    }
+                }
+                ("mesh", name) => {
+                    let Some(file) = a.attribute("file") else {
+                        continue;
+                    };
+                    let stem = std::path::Path::new(file).file_stem();
+                    let stem = stem.map(|s| s.to_string_lossy().into_owned());
+                    let name = name.map(str::to_owned).or(stem).unwrap_or_default();
+                    let path = match folder.is_empty() || file.starts_with('/') {
+                        true => file.to_owned(),
+                        false => format!("{folder}/{file}"),
+                    };
+                    out.meshes
+                        .insert(name, (path, a.vector("scale", [1.0; 3])?));
+                }
+                _ => {}
+            }
+        }
+        Ok(out)
+    }
+}
+
+/// A shape, and what it weighs, NaN where only its file says so; none of a kind that is not carried over, which is noted.
+pub(super) fn geom<'a>(
+    e: Element<'a>,
+    look: &Lookup<'a>,
+    (context, geoms): (&Context<'a>, &Geoms<'a>),
+    out: &mut Payload,
+) -> Result<Option<(Shape, Option<Weight>)>, ImportError> {
+    let name = e.attribute("name");
+    let word = look.attribute("type").map(|a| a.1);
+    let word = word.unwrap_or(if look.attribute("mesh").is_some() {
+        "mesh"
+    } else {
+        "sphere"
+    });
+    let sizes: Vec<f64> = match look.attribute("size") {
+        Some((_, text)) => text
+            .split_whitespace()
+            .filter_map(|w| w.parse().ok())
+            .collect(),
+        None => Vec::new(),
+    };
+    let size = |i: usize| sizes.get(i).copied().unwrap_or(0.0);
+    let mut place = Motion {
+        translation: look.vector("pos", [0.0; 3])?,
+        ..orientation(look, context)?
+    };
+    let mut half = size(1);
+    if let Some([a, b, c, d, f, g]) = look.numbers::<6>("fromto")? {
+        let (from, to) = ([a, b, c], [d, f, g]);
+        half = length(sub(to, from)) / 2.0;
+        place = Motion {
+            translation: scale(add(from, to), 0.5),
+            ..Motion::z_to(sub(from, to))
+        };
+    }
+    let third = |own: f64| {
+        if look.attribute("fromto").is_some() {
+            half
+        } else {
+            own
+        }
+    };
+    let solid = match word {
+        "sphere" => Solid::Sphere(size(0)),
+        "capsule" => Solid::Capsule(size(0), 2.0 * half),
+        "cylinder" => Solid::Cylinder(size(0), 2.0 * half),
+        "ellipsoid" => Solid::Ellipsoid([size(0), size(1), third(size(2))]),
+        "box" => Solid::Box([2.0 * size(0), 2.0 * size(1), 2.0 * third(size(2))]),
+        "plane" => Solid::Plane([2.0 * size(0), 2.0 * size(1)]),
+        "mesh" => match look
+            .attribute("mesh")
+            .and_then(|(_, m)| geoms.meshes.get(m))
+        {
+            Some((file, scale)) => Solid::Mesh(file.clone(), *scale),
+            None => {
+                out.lost.not_read("mesh that is no file", name);
+                return Ok(None);
+            }
+        },
+        other => {
+            out.lost
+                .not_read(&format!("geometry of kind {other}"), name);
+            return Ok(None);
+        }
+    };
+    let weight = weigh(&solid, place, look, geoms)?;
+    let number = |k: &str| look.attribute(k).map(|(_, v)| v.trim() == "0");
+    let through = number("contype") == Some(true) && number("conaffinity") == Some(true);
+    let material = look
+        .attribute("material")
+        .and_then(|(_, m)| geoms.colours.get(m))
+        .copied();
+    // MuJoCo takes its own grey for "as the material says".
+    let stated = look.numbers::<4>("rgba")?;
+    let colour = stated.filter(|c| *c != GREY);
+    let words = TOUCH.iter().filter_map(|k| {
+        look.attribute(k)
+            .map(|(_, v)| ((*k).to_owned(), v.to_owned()))
+    });
+    Ok(Some((
+        Shape {
+            name: name.map(str::to_owned),
+            solid,
+            place,
+            colour: colour.or(material).or(stated),
+            use_: if through { Use::Seen } else { Use::Both },
+            words: words.collect(),
+        },
+        weight,
+    )))
+}
+
+/// The turn that one of the five ways stands for, of the element or of its class.
+fn orientation<'a>(look: &Lookup<'a>, context: &Context<'a>) -> Result<Motion, ImportError> {
+    let ways = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
+    match ways.iter().find_map(|w| look.attribute(w)) {
+        Some((e, _)) => context.compiler.turned(e),
+        None => Ok(Motion::IDENTITY),
+    }
+}
+
+fn weigh(
+    solid: &Solid,
+    place: Motion,
+    look: &Lookup<'_>,
+    geoms: &Geoms<'_>,
+) -> Result<Option<Weight>, ImportError> {
+    let group = look.numbers::<1>("group")?.map_or(0.0, |[g]| g);
+    let stated = look.numbers::<1>("mass")?.map(|[m]| m);
+    if group < geoms.groups[0] || group > geoms.groups[1] || matches!(solid, Solid::Plane(_)) {
+        return Ok(None);
+    }
+    let Some((volume, [x, y, z])) = filled(solid) else {
+        // Known only to those who read its file.
+        let unknown = Weight {
+            mass: f64::NAN,
+            place,
+            tensor: [0.0; 6],
+        };
+        return Ok((stated != Some(0.0)).then_some(unknown));
+    };
+    let density = look.numbers::<1>("density")?.map_or(WATER, |[d]| d);
+    let mass = stated.unwrap_or(density * volume);
+    let tensor = [x * mass, y * mass, z * mass, 0.0, 0.0, 0.0];
+    Ok((mass > 0.0).then_some(Weight {
+        mass,
+        place,
+        tensor,
+    }))
+}
