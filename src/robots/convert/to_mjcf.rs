@@ -5,9 +5,10 @@ mod body;
 mod closing;
 mod geom;
 
+use crate::model::joint_type::JointType;
 use crate::robots::convert::payload::{Actuator, Command};
 use crate::robots::convert::plan::Moves;
-use crate::robots::convert::scene::{Scene, Text};
+use crate::robots::convert::scene::{Scene, Text, name_of};
 use crate::robots::convert::text::attributes;
 use crate::robots::parts::Ratio;
 use crate::robots::single_freedoms::{Names, escape, number};
@@ -83,21 +84,14 @@ impl Writer<'_> {
     /// Names of all freedoms, in the order of the robot's joints, so that the first of a name keeps it.
     fn name_joints(&mut self) {
         for (j, part) in self.scene.robot.joints.iter().enumerate() {
-            let n = part.joint_type.freedoms().len();
+            // What closes a loop as a point has no joint of its own.
             let closes = self.scene.plan.loops.contains(&j);
-            if n == 0
-                || closes
-                    && part.joint_type.freedoms().len() == 3
-                    && part.joint_type.name() == "spherical"
-            {
+            if closes && part.joint_type == JointType::Spherical {
                 continue;
             }
-            let mut next = 0;
-            for f in 0..n {
-                let wanted = crate::robots::convert::scene::name_of(&part.id, next);
-                let name = self.joints.fit(&wanted);
+            for f in 0..part.joint_type.freedoms().len() {
+                let name = self.joints.fit(&name_of(&part.id, f));
                 self.single.insert((j, f), name);
-                next += 1;
             }
         }
     }

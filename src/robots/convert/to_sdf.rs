@@ -326,9 +326,9 @@ impl Writer<'_> {
             let (Some(on), free) = (self.links.get(link).cloned(), self.names.fit(name)) else {
                 continue;
             };
-            let _ = write!(
+            let _ = writeln!(
                 frames,
-                "    <frame name=\"{}\" attached_to=\"{}\"><pose>{}</pose></frame>\n",
+                "    <frame name=\"{}\" attached_to=\"{}\"><pose>{}</pose></frame>",
                 escape(&free),
                 escape(&on),
                 pose(at)
