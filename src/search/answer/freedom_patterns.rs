@@ -264,7 +264,7 @@ fn patterns(question: &Question) -> Patterns {
     }
 }
 
-/// The first ideas among the admissible variants, in the order of [`Question::cheapest`]; `top` of them at most.
+/// The first ideas among the admissible variants, in the order of [`crate::search::Search::cheapest`]; `top` of them at most.
 ///
 /// # Complexity
 /// Of the variants up to the last idea's cost only as much of each as differs in its pattern; then for each idea a
