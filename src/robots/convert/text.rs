@@ -8,7 +8,8 @@ use crate::robots::single_freedoms::{escape, number, numbers};
 pub(crate) fn roll_pitch_yaw(m: &Motion) -> Vector {
     let r = &m.rotation;
     let level = r[0][0].hypot(r[1][0]);
-    let yaw = if level > 1e-12 {
+    // Below the rounding of the entries any yaw will do, and none is the plainest; above it, leaving it out would turn by as much.
+    let yaw = if level > 1e-15 {
         r[1][0].atan2(r[0][0])
     } else {
         0.0
