@@ -27,7 +27,15 @@ pub struct Format {
 /// Reads the robot below the root element of a document; the files it includes are given by the reader.
 pub(crate) type Describe =
     fn(&mut Document, usize, Reader<'_>, &Options) -> Result<Robot, ImportError>;
-type Writer = fn(&Mechanism) -> Result<Written, ExportError>;
+
+/// How a format is written.
+#[derive(Debug, Clone, Copy)]
+enum Writer {
+    /// From a mechanism alone.
+    Mechanism(fn(&Mechanism) -> Result<Written, ExportError>),
+    /// Into the owner's document alone, joints changed: shapes and references are there and in no mechanism.
+    Own,
+}
 
 /// A mechanism in a format.
 #[derive(Debug)]
@@ -53,7 +61,9 @@ static FORMATS: [Format; 9] = [
         about: "The mechanism file, every joint with its own options",
         endings: &[],
         read: None,
-        write: Some(|m| Ok(write::toml(&mechanism_file(m), &[])?.into())),
+        write: Some(Writer::Mechanism(|m| {
+            Ok(write::toml(&mechanism_file(m), &[])?.into())
+        })),
     },
     Format {
         word: "json",
@@ -61,7 +71,9 @@ static FORMATS: [Format; 9] = [
         about: "The same as JSON",
         endings: &[],
         read: None,
-        write: Some(|m| Ok(format!("{:#}\n", mechanism_file(m).json()).into())),
+        write: Some(Writer::Mechanism(|m| {
+            Ok(format!("{:#}\n", mechanism_file(m).json()).into())
+        })),
     },
     Format {
         word: "urdf",
@@ -69,7 +81,7 @@ static FORMATS: [Format; 9] = [
         about: "A spanning tree, loops as <loop_joint>",
         endings: &["urdf", "xml"],
         read: Some(("robot", urdf::read::read)),
-        write: Some(urdf::write::urdf),
+        write: Some(Writer::Mechanism(urdf::write::urdf)),
     },
     Format {
         word: "mjcf",
@@ -77,7 +89,7 @@ static FORMATS: [Format; 9] = [
         about: "Bodies; loops as connect and weld",
         endings: &["mjcf", "xml"],
         read: Some(("mujoco", mjcf::read::read)),
-        write: Some(mjcf::write::mjcf),
+        write: Some(Writer::Mechanism(mjcf::write::mjcf)),
     },
     Format {
         word: "sdf",
@@ -85,7 +97,7 @@ static FORMATS: [Format; 9] = [
         about: "Loops closed by joints",
         endings: &["sdf", "world", "xml"],
         read: Some(("sdf", sdf::read::read)),
-        write: Some(|m| Ok(sdf::write::sdf(m))),
+        write: Some(Writer::Mechanism(|m| Ok(sdf::write::sdf(m)))),
     },
     Format {
         word: "fcstd",
@@ -93,7 +105,7 @@ static FORMATS: [Format; 9] = [
         about: "FILE, a FreeCAD document, with joints of other types",
         endings: &["fcstd"],
         read: Some(("Document", fcstd::read::read)),
-        write: Some(|_| own("FreeCAD")),
+        write: Some(Writer::Own),
     },
     Format {
         word: "asmt",
@@ -101,7 +113,7 @@ static FORMATS: [Format; 9] = [
         about: "FILE, an assembly of FreeCAD's solver, with joints of other types",
         endings: &["asmt"],
         read: Some(("Assembly", asmt::read::read)),
-        write: Some(|_| own("OndselSolver")),
+        write: Some(Writer::Own),
     },
     Format {
         word: "dot",
@@ -109,7 +121,7 @@ static FORMATS: [Format; 9] = [
         about: "Graphviz",
         endings: &[],
         read: None,
-        write: Some(|m| Ok(graph::dot(m).into())),
+        write: Some(Writer::Mechanism(|m| Ok(graph::dot(m).into()))),
     },
     Format {
         word: "graphml",
@@ -117,19 +129,14 @@ static FORMATS: [Format; 9] = [
         about: "GraphML, for graph programs",
         endings: &[],
         read: None,
-        write: Some(|m| Ok(graph::graphml(m).into())),
+        write: Some(Writer::Mechanism(|m| Ok(graph::graphml(m).into()))),
     },
 ];
-
-/// Shapes and references are those of the owner's document: a mechanism alone is none.
-fn own(format: &'static str) -> Result<Written, ExportError> {
-    Err(ExportError::Own { format })
-}
 
 /// Whether only files read in a format are written in it, with joints changed.
 #[must_use]
 pub fn is_own(word: &str) -> bool {
-    ["fcstd", "asmt"].contains(&word)
+    written().any(|f| f.word == word && matches!(f.write, Some(Writer::Own)))
 }
 
 /// The formats a mechanism can be written in.
@@ -151,8 +158,9 @@ pub fn write(m: &Mechanism, word: &str) -> Result<String, ExportError> {
 /// As [`write()`].
 pub fn export(m: &Mechanism, word: &str) -> Result<Written, ExportError> {
     let format = written().find(|f| f.word == word);
-    match format.and_then(|f| f.write) {
-        Some(write) => write(m),
+    match format.and_then(|f| Some((f.name, f.write?))) {
+        Some((_, Writer::Mechanism(write))) => write(m),
+        Some((format, Writer::Own)) => Err(ExportError::Own { format }),
         None => Err(ExportError::Unknown {
             word: word.to_owned(),
             known: written().map(|f| f.word).collect::<Vec<_>>().join(", "),

@@ -109,8 +109,7 @@ pub fn import(
     let archive = Archive::of(name, bytes);
     let root = root(&mut document, name, bytes, archive.as_ref())?;
     // What is in the archive goes before what stands beside it.
-    let packed = archive.clone();
-    let inner = |member: &str| match packed.as_ref().map(|a| a.member(member)) {
+    let inner = |member: &str| match archive.as_ref().map(|a| a.member(member)) {
         Some(Ok(Some(found))) => Ok(found),
         _ => read(member),
     };

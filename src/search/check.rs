@@ -1,4 +1,4 @@
-//! Twins and second opinions: every variant looked at, another prime, singular values, other poses. The engine uses none of it.
+//! Twins and second opinions: every variant looked at, another prime, singular values, other poses. No diagram is built with any of it.
 
 pub mod brute;
 pub mod brute_float;

@@ -45,6 +45,17 @@ pub(crate) enum Use {
     Both,
 }
 
+impl Use {
+    /// The elements that URDF and SDF have for it.
+    pub(crate) fn tags(self) -> &'static [&'static str] {
+        match self {
+            Use::Seen => &["visual"],
+            Use::Touched => &["collision"],
+            Use::Both => &["visual", "collision"],
+        }
+    }
+}
+
 /// A shape on a link.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Shape {

@@ -2,7 +2,7 @@
 //!
 //! A diagram cut down to a budget keeps the cheapest nodes of each layer, and a larger budget, spent in the early layers, may
 //! keep others that lead to fewer variants. So the search is made again within each smaller round budget (1, 2 or 5 times a power of
-//! ten), and the best of them stands: a larger budget has all the questions of a smaller one, and more.
+//! ten), and the best of them stands: a larger budget has all the searches of a smaller one, and more.
 
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::diagram::{Diagram, Stop};

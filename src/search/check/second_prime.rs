@@ -132,7 +132,7 @@ pub fn compare(
     }))
 }
 
-/// Compares (determinate, admissible) counts that were made over the primes of two questions.
+/// Compares (determinate, admissible) counts that were made over the primes of two searches.
 ///
 /// # Errors
 /// Where they differ, with both.
@@ -159,7 +159,7 @@ pub fn compare_counts(
     }))
 }
 
-/// The primes of two questions.
+/// The primes of two searches.
 #[must_use]
 pub fn primes(questions: [&Question; 2]) -> [u64; 2] {
     questions.map(|s| s.exact.field().modulus())

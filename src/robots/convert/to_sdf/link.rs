@@ -1,7 +1,7 @@
 //! Links of an SDF file: place, weight and shapes.
 
 use crate::geom::rigid::Motion;
-use crate::robots::convert::payload::{Shape, Solid, Use};
+use crate::robots::convert::payload::{Shape, Solid};
 use crate::robots::convert::text::pose;
 use crate::robots::convert::to_sdf::Writer;
 use crate::robots::single_freedoms::{Names, escape, number, numbers};
@@ -106,12 +106,7 @@ impl Writer<'_> {
                 )
             }
         };
-        let tags: &[&str] = match s.use_ {
-            Use::Seen => &["visual"],
-            Use::Touched => &["collision"],
-            Use::Both => &["visual", "collision"],
-        };
-        for tag in tags {
+        for tag in s.use_.tags() {
             let wanted = s.name.clone().unwrap_or_else(|| (*tag).to_owned());
             let name = escape(&names.fit(&wanted));
             let colour = match (s.colour, *tag) {

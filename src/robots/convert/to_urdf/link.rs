@@ -1,7 +1,7 @@
 //! Links of a URDF: weight and shapes.
 
 use crate::geom::rigid::Motion;
-use crate::robots::convert::payload::{Shape, Solid, Use};
+use crate::robots::convert::payload::{Shape, Solid};
 use crate::robots::convert::text::xyz_rpy;
 use crate::robots::convert::to_urdf::{Loops, Writer};
 use crate::robots::single_freedoms::{escape, number, numbers};
@@ -103,11 +103,7 @@ impl Writer<'_> {
                 )]
             }
         };
-        let tags: &[&str] = match s.use_ {
-            Use::Seen => &["visual"],
-            Use::Touched => &["collision"],
-            Use::Both => &["visual", "collision"],
-        };
+        let tags = s.use_.tags();
         for (i, (at, shape)) in parts.iter().enumerate() {
             let named = name.as_ref().filter(|_| i == 0);
             let named = named.map_or(String::new(), |n| format!(" name=\"{}\"", escape(n)));
