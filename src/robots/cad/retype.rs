@@ -115,8 +115,16 @@ pub(crate) fn becomes(origin: &Origin, joint: JointId, more: &[(bool, Vector)]) 
     if own.len() < part.joint_type.freedoms().len() {
         return None;
     }
+    let whole: Vec<(bool, Vector)> = own.iter().chain(more).copied().collect();
+    // A direction that the joint has already, but for rounding, makes it no other type.
+    let other = |then: &Simple| more.is_empty() || simple(&own, axis) != Some(*then);
+    simple(&whole, axis).filter(other)
+}
+
+/// The type with these freedoms, each a slide or a turn and its direction, about an axis.
+fn simple(freedoms: &[(bool, Vector)], axis: Vector) -> Option<Simple> {
     let left = |slides: bool| {
-        let all = own.iter().chain(more).filter(|(s, _)| *s == slides);
+        let all = freedoms.iter().filter(|(s, _)| *s == slides);
         let all: Vec<Vector> = all.map(|(_, d)| *d).collect();
         span(&all, axis)
     };

@@ -155,3 +155,19 @@ fn asmt_files_get_other_labels() {
         "{e}"
     );
 }
+
+// A hinge has the turn about its own axis already: an axis some digits off is no other type, while a square one is.
+#[test]
+fn a_freedom_that_a_joint_has_but_for_rounding_changes_no_type() {
+    let i = read("x.FCStd", &fcstd(&four_bar(HINGES)), &Options::default());
+    for joint in i.mechanism.joint_ids() {
+        for off in [0.0, 1e-9, 3e-5] {
+            let turn = (false, [0.0, off, 1.0]);
+            assert_eq!(i.origin.becomes(joint, &[turn]), None);
+            assert!(!i.origin.can_be_freed(joint, turn));
+            let slide = (true, [0.0, off, 1.0]);
+            assert_eq!(i.origin.becomes(joint, &[turn, slide]), Some("Cylindrical"));
+        }
+        assert_eq!(i.origin.becomes(joint, &[]), Some("Revolute"));
+    }
+}
