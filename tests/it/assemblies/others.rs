@@ -77,3 +77,23 @@ fn as_many_are_redundant_as_the_solver_takes_away() {
         assert_eq!(sigma as u64, removed, "{name}");
     }
 }
+
+// The guide's table beside FreeCAD: its count and what the solver takes away as stored, W and σ as found here.
+#[test]
+fn the_guide_says_what_each_finds() {
+    let guide = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/guide/beside.md");
+    let guide = std::fs::read_to_string(guide).unwrap();
+    for (name, bytes, v) in expected() {
+        let solver = &v["OndselSolver"];
+        let Some(dof) = solver["dof_as_freecad_counts"].as_i64() else {
+            continue;
+        };
+        let (w, sigma) = figures(&read(&name, &bytes, &Options::default()));
+        let (_, file) = name.split_once('/').unwrap();
+        let row = format!(
+            "| {file} | {} | {} | {dof} | {} | {w} | {sigma} |",
+            v["bodies"], v["constraints"], solver["removed"]
+        );
+        assert!(guide.contains(&row), "not in the guide: {row}");
+    }
+}
