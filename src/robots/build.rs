@@ -3,6 +3,7 @@
 use crate::file::read::limits::LIMITS;
 use crate::file::schema::MechanismFile;
 use crate::file::write::Comment;
+use crate::format::phrase::plural;
 use crate::geom::rigid::Motion;
 use crate::model::joint_type::JointType;
 use crate::robots::close::{self, CLOSED, ROUNDED, close, gaps, size, worst};
@@ -125,6 +126,7 @@ pub(crate) fn held(robot: &Robot, tree: &Tree) -> Result<(), RobotProblem> {
     })
 }
 
+/// Closes the loops of a robot: as they stand, by moving joints, or not at all where the options say so.
 pub(crate) fn close_loops(
     robot: &mut Robot,
     tree: &Tree,
@@ -136,78 +138,73 @@ pub(crate) fn close_loops(
     let size = size(robot);
     let unit = robot.unit.symbol();
     let first = worst(&gaps(robot, tree), size);
-    let n = tree.loops.len();
-    let loops = if n == 1 {
-        "1 loop".to_owned()
-    } else {
-        format!("{n} loops")
-    };
+    let loops = plural(tree.loops.len(), "loop");
     if first <= CLOSED * size {
         robot.report.pose.push(format!(
             "{loops} closed in the pose of the file, to {first:.1e} {unit}"
         ));
         return Ok(());
     }
-    let before: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
-    let (left, outside) = if options.open {
-        (first, 0)
-    } else {
-        close(robot, tree)
-    };
-    if left <= CLOSED * size || (left <= ROUNDED * size && !options.open) {
-        if left > CLOSED * size {
-            let what = format!(
-                "open by {left:.1e} {unit} wherever the joints are, as rounded coordinates leave it; taken as closed"
-            );
-            robot.report.approximate(&loops, what);
-        }
-        let largest = robot
-            .joints
-            .iter()
-            .zip(&before)
-            .enumerate()
-            .filter(|(j, _)| !tree.loops.contains(j))
-            .flat_map(|(_, (j, b))| {
-                j.values
-                    .iter()
-                    .zip(b)
-                    .map(move |(v, b)| ((v - b).abs(), &j.id))
-            })
-            .max_by(|a, b| a.0.total_cmp(&b.0));
-        let moved = largest.map_or(String::new(), |(v, id)| {
-            format!("; {id} moved most, by {v:.3}")
-        });
-        let limits = match outside {
-            0 => String::new(),
-            n => format!("; {n} outside their limits"),
-        };
-        robot.report.moved(format!(
-            "{loops} open by {first:.1e} {unit} in the pose of the file, closed to {left:.1e} {unit} by moving joints{moved}{limits}"
-        ));
+    if options.open {
+        let widest = widest(robot, tree, size);
+        let note = format!("loops open, the widest {widest}; the figures are those of that pose");
+        robot.report.moved(note);
         return Ok(());
     }
-    let gaps = gaps(robot, tree);
-    let most = gaps.iter().max_by(|a, b| {
-        let by = |g: &close::Gap| g.shift.max(g.turn * size);
-        by(a).total_cmp(&by(b))
+    let before: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
+    let (left, outside) = close(robot, tree);
+    if left > ROUNDED * size {
+        let widest = widest(robot, tree, size);
+        return Err(RobotProblem::Whole {
+            message: format!(
+                "the loops do not close, the widest is {widest}; give a pose nearby with --pose joint=value, or take it as it is with --open"
+            ),
+        });
+    }
+    if left > CLOSED * size {
+        let what = format!(
+            "open by {left:.1e} {unit} wherever the joints are, as rounded coordinates leave it; taken as closed"
+        );
+        robot.report.approximate(&loops, what);
+    }
+    let moved = moved_most(robot, tree, &before);
+    let limits = match outside {
+        0 => String::new(),
+        n => format!("; {n} outside their limits"),
+    };
+    robot.report.moved(format!(
+        "{loops} open by {first:.1e} {unit} in the pose of the file, closed to {left:.1e} {unit} by moving joints{moved}{limits}"
+    ));
+    Ok(())
+}
+
+/// Which joint of the tree moved most from the values before, in words; nothing where none has a value.
+fn moved_most(robot: &Robot, tree: &Tree, before: &[Vec<f64>]) -> String {
+    let joints = robot.joints.iter().zip(before).enumerate();
+    let in_tree = joints.filter(|(j, _)| !tree.loops.contains(j));
+    let by = in_tree.flat_map(|(_, (j, before))| {
+        let values = j.values.iter().zip(before);
+        values.map(move |(v, b)| ((v - b).abs(), &j.id))
     });
-    let what = most.map_or(String::new(), |g| {
+    let largest = by.max_by(|a, b| a.0.total_cmp(&b.0));
+    largest.map_or(String::new(), |(v, id)| {
+        format!("; {id} moved most, by {v:.3}")
+    })
+}
+
+/// The loop that is open widest, in words.
+fn widest(robot: &Robot, tree: &Tree, size: f64) -> String {
+    let unit = robot.unit.symbol();
+    let by = |g: &close::Gap| g.shift.max(g.turn * size);
+    let gaps = gaps(robot, tree);
+    let most = gaps.iter().max_by(|a, b| by(a).total_cmp(&by(b)));
+    most.map_or(String::new(), |g| {
         let p = &robot.joints[g.joint];
         let [a, b] = p.links.map(|l| robot.links[l].as_str());
         format!(
             "\"{}\" between {a} and {b} by {:.2e} {unit} and {:.2e} rad",
             p.id, g.shift, g.turn
         )
-    });
-    if options.open {
-        let note = format!("loops open, the widest {what}; the figures are those of that pose");
-        robot.report.moved(note);
-        return Ok(());
-    }
-    Err(RobotProblem::Whole {
-        message: format!(
-            "the loops do not close, the widest is {what}; give a pose nearby with --pose joint=value, or take it as it is with --open"
-        ),
     })
 }
 
@@ -249,37 +246,7 @@ pub(crate) fn entries(
     options: &Options,
 ) -> Result<Entries, RobotProblem> {
     let places = places(robot, tree);
-    let kept = if robot.assembly {
-        in_loops(robot, tree)
-    } else {
-        BTreeSet::new()
-    };
-    let fixed = |j: usize| robot.joints[j].joint_type == JointType::Fixed && !kept.contains(&j);
-    let rigid = tree
-        .steps
-        .iter()
-        .filter(|s| fixed(s.joint))
-        .map(|s| (s.from, s.link));
-    let bodies = Bodies::new(robot.links.len(), rigid);
-    let in_tree: BTreeSet<usize> = tree.steps.iter().map(|s| s.joint).collect();
-    let mut joints = Vec::new();
-    let mut within = Vec::new();
-    for (j, p) in robot.joints.iter().enumerate() {
-        let [a, b] = p.links.map(|l| bodies.of[l]);
-        if a == b && !(in_tree.contains(&j) && fixed(j)) {
-            within.push(p.id.clone());
-        } else if a != b {
-            joints.push(j);
-        }
-    }
-    for id in within {
-        let what = "both ends are on one rigid body; left out, with all its rows redundant";
-        robot.report.approximate(&format!("joint \"{id}\""), what);
-    }
-    if joints.is_empty() {
-        let links = robot.links.len();
-        return Err(RobotProblem::Rigid { links });
-    }
+    let (bodies, joints) = rigid_bodies(robot, tree)?;
     let couplings = coupling::usable(robot, &joints);
     let frame = bodies.of[tree.roots[0]];
     let outputs = outputs::of(robot, &bodies, &joints, frame, options)?;
@@ -293,18 +260,7 @@ pub(crate) fn entries(
         .flat_map(|&j| robot.joints[j].links.map(|l| bodies.of[l]))
         .collect();
     report.size = (used.len(), joints.len());
-    for (what, count, limit) in [
-        ("links", used.len(), LIMITS.0),
-        ("joints", joints.len(), LIMITS.1),
-    ] {
-        if count > limit {
-            return Err(RobotProblem::Whole {
-                message: format!(
-                    "after merging what is rigidly joined there are {count} {what}, more than the {limit} of a mechanism file; import a part of the robot"
-                ),
-            });
-        }
-    }
+    within_limits(report.size)?;
     let limited = robot.joints.iter().filter(|j| j.limits.is_some());
     limited.for_each(|j| report.drop("limit of a joint", Some(&j.id)));
     robot.report = report;
@@ -327,4 +283,49 @@ pub(crate) fn entries(
         joints,
         couplings: couplings.iter().map(|u| u.said_by).collect(),
     })
+}
+
+/// What is rigidly joined as one body, and the joints between these; those within a body are told and left out.
+fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), RobotProblem> {
+    let kept = match robot.assembly {
+        true => in_loops(robot, tree),
+        false => BTreeSet::new(),
+    };
+    let fixed = |j: usize| robot.joints[j].joint_type == JointType::Fixed && !kept.contains(&j);
+    let rigid = tree.steps.iter().filter(|s| fixed(s.joint));
+    let bodies = Bodies::new(robot.links.len(), rigid.map(|s| (s.from, s.link)));
+    let in_tree: BTreeSet<usize> = tree.steps.iter().map(|s| s.joint).collect();
+    let mut joints = Vec::new();
+    let mut within = Vec::new();
+    for (j, p) in robot.joints.iter().enumerate() {
+        let [a, b] = p.links.map(|l| bodies.of[l]);
+        if a == b && !(in_tree.contains(&j) && fixed(j)) {
+            within.push(p.id.clone());
+        } else if a != b {
+            joints.push(j);
+        }
+    }
+    for id in within {
+        let what = "both ends are on one rigid body; left out, with all its rows redundant";
+        robot.report.approximate(&format!("joint \"{id}\""), what);
+    }
+    match joints.is_empty() {
+        true => Err(RobotProblem::Rigid {
+            links: robot.links.len(),
+        }),
+        false => Ok((bodies, joints)),
+    }
+}
+
+/// No more links and joints than a mechanism file may have.
+fn within_limits((links, joints): (usize, usize)) -> Result<(), RobotProblem> {
+    let all = [("links", links, LIMITS.0), ("joints", joints, LIMITS.1)];
+    match all.iter().find(|(_, count, limit)| count > limit) {
+        None => Ok(()),
+        Some((what, count, limit)) => Err(RobotProblem::Whole {
+            message: format!(
+                "after merging what is rigidly joined there are {count} {what}, more than the {limit} of a mechanism file; import a part of the robot"
+            ),
+        }),
+    }
 }

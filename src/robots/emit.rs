@@ -91,48 +91,7 @@ impl Content<'_> {
 /// The entries of the file and what is to be said above them.
 pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
     let mut comments = Vec::new();
-    let one_line = |s: &str| s.chars().filter(|c| !c.is_control()).collect::<String>();
-    let report = &c.robot.report;
-    let left_out = match (report.coupling_rows, report.constraint_rows) {
-        (0, 0) => "",
-        (_, 0) => " Some couplings of joints are left out.",
-        _ => " Some joints are left out.",
-    };
-    let left_behind = c.robot.report.left_behind();
-    let left_behind = left_behind.map_or(String::new(), |t| format!(" {}", one_line(&t)));
-    let mut merged: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
-    for (l, &b) in c.bodies.of.iter().enumerate() {
-        if l != b {
-            merged.entry(b).or_default().push(&c.robot.links[l]);
-        }
-    }
-    let used: BTreeSet<usize> = c
-        .joints
-        .iter()
-        .flat_map(|&j| c.robot.joints[j].links.map(|l| c.bodies.of[l]))
-        .collect();
-    let order = std::iter::once(c.frame).chain(used.into_iter().filter(|&b| b != c.frame));
-    let (mut names, mut ids, mut links) = (Names::default(), BTreeMap::new(), Vec::new());
-    for b in order {
-        let id = names.fit(&c.robot.links[b]);
-        let role = if b == c.frame {
-            Some("frame")
-        } else {
-            c.outputs.contains(&b).then_some("output")
-        };
-        if let Some(with) = merged.get(&b) {
-            let text = format!("with {}, fixed to it", with.join(", "));
-            comments.push(Comment::new("link", links.len(), &text));
-        }
-        ids.insert(b, id.clone());
-        links.push(LinkEntry {
-            id,
-            role: role.map(str::to_owned),
-            mass: None,
-            centre: None,
-            inertia: None,
-        });
-    }
+    let (links, ids) = links(c, &mut comments);
     let (mut names, mut joint_ids, mut joints) = (Names::default(), BTreeMap::new(), Vec::new());
     for &j in c.joints {
         let id = names.fit(&c.robot.joints[j].id);
@@ -151,11 +110,7 @@ pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
     let options = c.robot.options.iter().map(|t| t.name().to_owned());
     let file = MechanismFile {
         name: one_line(&c.robot.name),
-        description: format!(
-            "Imported from {} ({}).{left_out}{left_behind}",
-            one_line(c.file),
-            c.format
-        ),
+        description: description(c),
         length_unit: Some(c.robot.unit.symbol().to_owned()),
         link: links,
         joint: joints,
@@ -167,6 +122,61 @@ pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
         ..MechanismFile::default()
     };
     (file, comments)
+}
+
+fn one_line(s: &str) -> String {
+    s.chars().filter(|c| !c.is_control()).collect()
+}
+
+/// Where the mechanism comes from, and what was left out on the way.
+fn description(c: &Content<'_>) -> String {
+    let report = &c.robot.report;
+    let left_out = match (report.coupling_rows, report.constraint_rows) {
+        (0, 0) => "",
+        (_, 0) => " Some couplings of joints are left out.",
+        _ => " Some joints are left out.",
+    };
+    let left_behind = report.left_behind();
+    let left_behind = left_behind.map_or(String::new(), |t| format!(" {}", one_line(&t)));
+    let (file, format) = (one_line(c.file), c.format);
+    format!("Imported from {file} ({format}).{left_out}{left_behind}")
+}
+
+/// The links, the frame first, with the names of the bodies that they are.
+fn links(
+    c: &Content<'_>,
+    comments: &mut Vec<Comment>,
+) -> (Vec<LinkEntry>, BTreeMap<usize, String>) {
+    let mut merged: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
+    for (l, &b) in c.bodies.of.iter().enumerate() {
+        if l != b {
+            merged.entry(b).or_default().push(&c.robot.links[l]);
+        }
+    }
+    let ends = |&j: &usize| c.robot.joints[j].links.map(|l| c.bodies.of[l]);
+    let used: BTreeSet<usize> = c.joints.iter().flat_map(ends).collect();
+    let order = std::iter::once(c.frame).chain(used.into_iter().filter(|&b| b != c.frame));
+    let (mut names, mut ids, mut links) = (Names::default(), BTreeMap::new(), Vec::new());
+    for b in order {
+        let id = names.fit(&c.robot.links[b]);
+        let role = match b == c.frame {
+            true => Some("frame"),
+            false => c.outputs.contains(&b).then_some("output"),
+        };
+        if let Some(with) = merged.get(&b) {
+            let text = format!("with {}, fixed to it", with.join(", "));
+            comments.push(Comment::new("link", links.len(), &text));
+        }
+        ids.insert(b, id.clone());
+        links.push(LinkEntry {
+            id,
+            role: role.map(str::to_owned),
+            mass: None,
+            centre: None,
+            inertia: None,
+        });
+    }
+    (links, ids)
 }
 
 /// A number as it is written: rounding errors around multiples of 1e-9 are taken off.

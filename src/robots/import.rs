@@ -114,25 +114,8 @@ pub fn import(
         _ => read(member),
     };
     let read: Reader<'_> = &inner;
-    let found = document.element(root).name().to_owned();
-    let Some((format, description)) = of_root(&found) else {
-        let known = roots();
-        let element = document.element(root);
-        return Err(element.fail(None, RobotProblem::Format { found, known }));
-    };
-    let mut robot = description(&mut document, root, read, options)?;
+    let (format, mut robot) = described(&mut document, root, read, options)?;
     let fail = |p: RobotProblem| p.at(name, "", None);
-    if robot.links.is_empty() {
-        let element = document.element(root);
-        let what = "links".to_owned();
-        return Err(element.fail(
-            None,
-            RobotProblem::Missing {
-                element: element.label(),
-                what,
-            },
-        ));
-    }
     if let Some((side, bytes)) = &options.loops {
         loops::add(side, bytes, &mut robot)?;
     }
@@ -157,21 +140,8 @@ pub fn import(
         Some(known) => digits::stated(known),
         None => digits::tolerance(document.element(root), sizes),
     };
-    // Problems are shown in the text that would be written.
-    let mechanism = build(&file).or_else(|_| {
-        let text = write::toml(&file, &comments).unwrap_or_default();
-        mechanism_from_str("the imported mechanism", &text)
-    })?;
     let closes: Vec<bool> = joints.iter().map(|&j| robot.joints[j].closes).collect();
-    let mut offered = file.clone();
-    let mechanism =
-        match offers::at_loops(&mechanism, &closes, &mut offered).then(|| build(&offered)) {
-            Some(Ok(m)) => {
-                file = offered;
-                m
-            }
-            _ => mechanism,
-        };
+    let mechanism = with_offers(&mut file, &comments, &closes)?;
     robot.report.kept = coupling::kept(&mechanism);
     Ok(Imported {
         mechanism,
@@ -190,4 +160,47 @@ pub fn import(
             couplings,
         },
     })
+}
+
+/// The robot as the reader of its root element finds it.
+fn described(
+    document: &mut Document,
+    root: usize,
+    read: Reader<'_>,
+    options: &Options,
+) -> Result<(&'static Format, Robot), ImportError> {
+    let found = document.element(root).name().to_owned();
+    let Some((format, describe)) = of_root(&found) else {
+        let known = roots();
+        let element = document.element(root);
+        return Err(element.fail(None, RobotProblem::Format { found, known }));
+    };
+    let robot = describe(document, root, read, options)?;
+    if robot.links.is_empty() {
+        let root = document.element(root);
+        let (element, what) = (root.label(), "links".to_owned());
+        return Err(root.fail(None, RobotProblem::Missing { element, what }));
+    }
+    Ok((format, robot))
+}
+
+/// The mechanism of a file, to which searches are offered what joints that close loops may become where that can be said.
+fn with_offers(
+    file: &mut MechanismFile,
+    comments: &[Comment],
+    closes: &[bool],
+) -> Result<Mechanism, ImportError> {
+    // Problems are shown in the text that would be written.
+    let mechanism = build(file).or_else(|_| {
+        let text = write::toml(file, comments).unwrap_or_default();
+        mechanism_from_str("the imported mechanism", &text)
+    })?;
+    let mut offered = file.clone();
+    if offers::at_loops(&mechanism, closes, &mut offered)
+        && let Ok(m) = build(&offered)
+    {
+        *file = offered;
+        return Ok(m);
+    }
+    Ok(mechanism)
 }

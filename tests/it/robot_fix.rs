@@ -197,6 +197,46 @@ fn fix_puts_links_in_between() {
     }
 }
 
+// SDF 1.10 and later come after 1.9: axes are given in the joint's frame, here a quarter turn from the model's.
+#[test]
+fn sdf_of_two_digit_versions_has_axes_in_the_joint() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = |name: &str| dir.path().join(name).display().to_string();
+    let link = |id: &str, at: &str| {
+        format!("<link name='{id}'><pose>{at} 1.5707963267948966 0 0</pose></link>")
+    };
+    let hinge = |id: &str, ends: [&str; 2], pose: &str| {
+        let [a, b] = ends;
+        format!(
+            "<joint name='{id}' type='revolute'>{pose}<parent>{a}</parent><child>{b}</child><axis><xyz>0 0 1</xyz></axis></joint>"
+        )
+    };
+    let links = [link("a", "0 0 0"), link("b", "0 0 1"), link("c", "2 0 0")].concat();
+    let joints = [
+        hinge("j1", ["world", "a"], ""),
+        hinge("j2", ["a", "b"], ""),
+        hinge("j3", ["world", "c"], ""),
+        hinge("j4", ["b", "c"], "<pose>0 0.5 0 0 0 0</pose>"),
+    ];
+    let fixed = ["1.9", "1.10", "1.11"].map(|version| {
+        let text = format!(
+            "<sdf version='{version}'><model name='m'>{links}{}</model></sdf>",
+            joints.concat()
+        );
+        let (file, out) = (path("m.sdf"), path("fixed.sdf"));
+        std::fs::write(&file, text).unwrap();
+        assert_eq!(figures(&file, &[]), (1, 3), "{version}");
+        let (code, _, told) = run(&["fix", &file, "-o", &out]);
+        assert_eq!(code, Some(0), "{version}: {told}");
+        assert_eq!(figures(&out, &[]), (1, 0), "{version}");
+        std::fs::read_to_string(out)
+            .unwrap()
+            .replace(version, "1.9")
+    });
+    assert_eq!(fixed[1], fixed[0]);
+    assert_eq!(fixed[2], fixed[0]);
+}
+
 // What is included is another file, which is not written.
 #[test]
 fn fix_refuses_what_it_cannot_write() {

@@ -103,17 +103,7 @@ pub(super) fn judge(imported: &Imported, wanted: &Wanted) -> Result<Outcome, Imp
         .iter()
         .map(|&j| robot.joints[j].id.clone())
         .collect();
-    for (name, _) in &wanted.each {
-        if !names.contains(name) {
-            let problem = RobotProblem::UnknownName {
-                element: "the command line".to_owned(),
-                what: "loop closure",
-                name: name.clone(),
-                known: known("loop closures", names.iter().map(String::as_str)),
-            };
-            return Err(problem.at("--closure", "", None));
-        }
-    }
+    every_name_is_known(wanted, &names)?;
     let asked = |name: &String| {
         let own = wanted.each.iter().find(|(n, _)| n == name);
         own.map(|(_, c)| *c).or(wanted.all)
@@ -139,18 +129,7 @@ pub(super) fn judge(imported: &Imported, wanted: &Wanted) -> Result<Outcome, Imp
             continue;
         };
         let options = options(&robot, imported, (j, &closing), &given)?;
-        let chosen = match choice {
-            Some(closure) => options.iter().position(|o| o.0.closure == closure),
-            None => {
-                let key = |i: &usize| {
-                    let o = &options[*i].0;
-                    let other = o.motion != Motions::Same || o.figures.0 != given.figures.0;
-                    (other, o.figures.1, *i)
-                };
-                (0..options.len()).min_by_key(key)
-            }
-        };
-        let chosen = chosen.unwrap_or(0);
+        let chosen = taken(choice, &options, given.figures.0);
         figures = options[chosen].2.then_some(options[chosen].0.figures);
         let joint = robot.joints[j].id.clone();
         robot = options[chosen].1.clone();
@@ -166,6 +145,33 @@ pub(super) fn judge(imported: &Imported, wanted: &Wanted) -> Result<Outcome, Imp
         closures,
         figures,
     })
+}
+
+fn every_name_is_known(wanted: &Wanted, names: &[String]) -> Result<(), ImportError> {
+    let unknown = wanted.each.iter().find(|(n, _)| !names.contains(n));
+    let Some((name, _)) = unknown else {
+        return Ok(());
+    };
+    let problem = RobotProblem::UnknownName {
+        element: "the command line".to_owned(),
+        what: "loop closure",
+        name: name.clone(),
+        known: known("loop closures", names.iter().map(String::as_str)),
+    };
+    Err(problem.at("--closure", "", None))
+}
+
+/// The option that is asked for; where the best is, one that keeps the motion and W, then the one with least σ.
+fn taken(choice: Option<Closure>, options: &[(Judgement, Robot, bool)], mobility: usize) -> usize {
+    let place = match choice {
+        Some(closure) => options.iter().position(|o| o.0.closure == closure),
+        None => (0..options.len()).min_by_key(|&i| {
+            let o = &options[i].0;
+            let other = o.motion != Motions::Same || o.figures.0 != mobility;
+            (other, o.figures.1, i)
+        }),
+    };
+    place.unwrap_or(0)
 }
 
 /// W and σ of a mechanism, where its digits decide them.

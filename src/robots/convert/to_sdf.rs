@@ -77,6 +77,30 @@ pub(crate) fn sdf(scene: &Scene<'_>) -> Text {
     w.whole()
 }
 
+/// A joint of SDF that has all of a joint's freedoms, with its axes; none where they need links in between.
+fn as_one(joint_type: &JointType, all: &[Single]) -> Option<(&'static str, Vec<Vector>)> {
+    match (joint_type, all) {
+        (_, []) => Some(("fixed", Vec::new())),
+        (JointType::Spherical, _) => Some(("ball", Vec::new())),
+        (JointType::Universal, [x, y]) => {
+            // The frame of the first link's end as the second link sees it: turned back by all that the joint has done.
+            let moved = x.displacement().then(&y.displacement());
+            Some(("universal", vec![moved.inverse().direction(x.axis), y.axis]))
+        }
+        (_, [s]) => Some((kind(s), vec![s.axis])),
+        _ => None,
+    }
+}
+
+/// How far a screw goes in a turn, where it is one.
+fn thread(s: &Single) -> String {
+    let Moves::Screw(pitch) = s.moves else {
+        return String::new();
+    };
+    let turn = number(pitch * TAU);
+    format!("      <screw_thread_pitch>{turn}</screw_thread_pitch>\n")
+}
+
 impl Writer<'_> {
     /// A name that no other link or joint has; what SDF keeps for itself is changed.
     fn fit(&mut self, wanted: &str) -> String {
@@ -116,37 +140,14 @@ impl Writer<'_> {
         }
         let name = self.joints[&j].clone();
         let far = part.sides[second];
-        // The frame of the first link's end as the second link sees it: turned back by all that the joint has done.
-        let moved = all
-            .iter()
-            .fold(Motion::IDENTITY, |m, s| m.then(&s.displacement()));
-        let known: Option<(&str, Vec<Vector>)> = match (&part.joint_type, &all[..]) {
-            (_, []) => Some(("fixed", Vec::new())),
-            (JointType::Spherical, _) => Some(("ball", Vec::new())),
-            (JointType::Universal, [x, y]) => {
-                Some(("universal", vec![moved.inverse().direction(x.axis), y.axis]))
-            }
-            (_, [s]) => Some((kind(s), vec![s.axis])),
-            _ => None,
-        };
-        if let Some((kind, axes)) = known {
+        if let Some((kind, axes)) = as_one(&part.joint_type, &all) {
             let mut more = String::new();
             for (i, axis) in axes.iter().enumerate() {
                 let alone = axes.len() == 1;
                 more += &self.axis(j, i, *axis, alone);
             }
-            if let [
-                Single {
-                    moves: Moves::Screw(pitch),
-                    ..
-                },
-            ] = all[..]
-            {
-                let turn = number(pitch * TAU);
-                let _ = writeln!(
-                    more,
-                    "      <screw_thread_pitch>{turn}</screw_thread_pitch>"
-                );
+            if let [s] = &all[..] {
+                more += &thread(s);
             }
             if kind == "ball" && self.scene.payload.of(j, 0).damping != 0.0 {
                 self.out
@@ -194,13 +195,7 @@ impl Writer<'_> {
             };
             let far = if last { end } else { Motion::IDENTITY };
             let mut more = self.axis(j, s.freedom, s.axis, false);
-            if let Moves::Screw(pitch) = s.moves {
-                let _ = writeln!(
-                    more,
-                    "      <screw_thread_pitch>{}</screw_thread_pitch>",
-                    number(pitch * TAU)
-                );
-            }
+            more += &thread(s);
             self.put(&own, kind(s), &[from, held.clone()], &far, &more);
             from = held;
         }

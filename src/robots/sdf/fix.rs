@@ -5,6 +5,8 @@ use crate::geom::rigid::Motion;
 use crate::robots::edit::{Edits, Freeing};
 use crate::robots::light::Light;
 use crate::robots::origin::Origin;
+use crate::robots::parts::Part;
+use crate::robots::sdf::include::is_old;
 use crate::robots::single_freedoms::{escape, numbers};
 use crate::robots::xml::Element;
 
@@ -29,32 +31,7 @@ pub(crate) fn free(
         let Some(link) = model.named("link").find(named) else {
             return Err(e.unsupported("its child is no link of its own model", remedy));
         };
-        // A joint with two axes that are not square is two parts; its child hangs on the last.
-        let last = origin
-            .robot
-            .joints
-            .iter()
-            .rev()
-            .find(|p| p.element == Some(e.id));
-        let last = last.unwrap_or(part);
-        let to = last.links[1];
-        let version = origin.element(origin.root).attribute("version");
-        let old = version
-            .and_then(|v| v.parse::<f64>().ok())
-            .is_some_and(|v| v < 1.5);
-        // Before SDF 1.5 axes are given in the model's frame, later in the joint's.
-        let frame = if old {
-            let back = origin.robot.places[to].then(&origin.places[to].inverse());
-            let turned = model
-                .child("pose")
-                .map(|p| p.text_numbers::<6>())
-                .transpose()?;
-            let [_, _, _, roll, pitch, yaw] = turned.unwrap_or_default();
-            let model = Motion::roll_pitch_yaw([0.0; 3], [roll, pitch, yaw]);
-            back.inverse().then(&model)
-        } else {
-            origin.places[to].then(&last.sides[1])
-        };
+        let frame = axes_frame(origin, model, (part, e))?;
         let pose = |e: Element<'_>| e.child("pose").map_or("", |p| edits.raw(p)).to_owned();
         let (link_pose, joint_pose) = (pose(link), pose(e));
         let mut lines = Vec::new();
@@ -89,4 +66,24 @@ pub(crate) fn free(
         edits.after(e, &lines);
     }
     Ok(())
+}
+
+/// The frame, in the world, in which axes of a joint's followers are given: of the joint, or of its model before SDF 1.5.
+fn axes_frame(
+    origin: &Origin,
+    model: Element<'_>,
+    (part, e): (&Part, Element<'_>),
+) -> Result<Motion, ImportError> {
+    // A joint with two axes that are not square is two parts; its child hangs on the last.
+    let mut parts = origin.robot.joints.iter().rev();
+    let last = parts.find(|p| p.element == Some(e.id)).unwrap_or(part);
+    let to = last.links[1];
+    if !is_old(origin.element(origin.root)) {
+        return Ok(origin.places[to].then(&last.sides[1]));
+    }
+    let back = origin.robot.places[to].then(&origin.places[to].inverse());
+    let pose = model.child("pose").map(|p| p.text_numbers::<6>());
+    let [_, _, _, roll, pitch, yaw] = pose.transpose()?.unwrap_or_default();
+    let model = Motion::roll_pitch_yaw([0.0; 3], [roll, pitch, yaw]);
+    Ok(back.inverse().then(&model))
 }

@@ -57,7 +57,7 @@ pub(super) fn expand(
 }
 
 /// Whether the version is before 1.5; 1.11 comes after 1.9.
-fn is_old(root: Element<'_>) -> bool {
+pub(super) fn is_old(root: Element<'_>) -> bool {
     let version = root.attribute("version").and_then(|v| {
         let (major, minor) = v.trim().split_once('.').unwrap_or((v, "0"));
         Some((major.parse::<u32>().ok()?, minor.parse::<u32>().ok()?))
@@ -74,84 +74,83 @@ fn included(
     old: &mut Vec<bool>,
 ) -> Result<(Option<usize>, String), ImportError> {
     let e = document.element(id);
-    let uri = e
-        .child("uri")
-        .map(|u| u.text().to_owned())
-        .filter(|u| !u.is_empty());
-    let Some(uri) = uri else {
+    let uri = e.child("uri").map(|u| u.text().to_owned());
+    let Some(uri) = uri.filter(|u| !u.is_empty()) else {
         let (element, what) = (e.label(), "<uri>".to_owned());
         return Err(e.fail(None, RobotProblem::Missing { element, what }));
     };
-    let refuse = |e: Element<'_>, why: &str, remedy: &str| {
-        let element = format!("<include> of {uri}");
-        let (why, remedy) = (why.to_owned(), remedy.to_owned());
-        e.fail(
-            None,
-            RobotProblem::Unsupported {
-                element,
-                why,
-                remedy,
-            },
-        )
-    };
-    if open.contains(&uri) {
-        return Err(refuse(
-            e,
-            "the file includes itself",
-            "remove one of the includes",
-        ));
-    }
-    if open.len() >= LIMITS.0 || count > LIMITS.1 {
-        let why = format!("more than {} files deep or {} in all", LIMITS.0, LIMITS.1);
-        return Err(refuse(e, &why, "put the files together"));
-    }
-    if e.attribute("merge").is_some_and(|m| m == "true") || e.child("placement_frame").is_some() {
-        let why = "it merges models or places them by a frame";
-        return Err(refuse(
-            e,
-            why,
-            "expand the file first, for example with `gz sdf -p`",
-        ));
-    }
+    may_be_included(e, &uri, open, count)?;
     let bytes = match read(&uri) {
         Ok(bytes) => bytes,
         Err(_) if SCENERY.contains(&uri.trim_end_matches('/')) => return Ok((None, uri)),
         Err(error) => {
             let why = format!("it cannot be read ({error})");
-            return Err(refuse(
-                e,
-                &why,
-                "name the folder that its model is in with --models",
-            ));
+            let remedy = "name the folder that its model is in with --models";
+            return Err(refuse(e, &uri, &why, remedy));
         }
     };
     let total: usize = document.sources.iter().map(|s| s.text.len()).sum();
     if total + bytes.len() > MAX_BYTES {
         let why = format!("the files have more than {MAX_BYTES} bytes together");
-        return Err(refuse(e, &why, "remove what is not kinematics"));
+        return Err(refuse(e, &uri, &why, "remove what is not kinematics"));
     }
     let text = xml::utf8(&uri, &bytes)?;
     let inner = document.read(&uri, text)?;
-    old.push(is_old(document.element(inner)));
-    let (e, found) = (document.element(id), document.element(inner));
+    let found = document.element(inner);
+    old.push(is_old(found));
     let models: Vec<usize> = found.named("model").map(|m| m.id).collect();
     if models.is_empty() && found.child("light").is_some() {
         return Ok((None, uri));
     }
     let [model] = models[..] else {
-        return Err(refuse(
-            e,
-            "the file has not one <model>",
-            "name a file that has",
-        ));
+        let (e, why) = (document.element(id), "the file has not one <model>");
+        return Err(refuse(e, &uri, why, "name a file that has"));
     };
+    said_by_include(document, id, model);
+    Ok((Some(model), uri))
+}
+
+fn refuse(e: Element<'_>, uri: &str, why: &str, remedy: &str) -> ImportError {
+    let element = format!("<include> of {uri}");
+    let (why, remedy) = (why.to_owned(), remedy.to_owned());
+    let problem = RobotProblem::Unsupported {
+        element,
+        why,
+        remedy,
+    };
+    e.fail(None, problem)
+}
+
+/// No file within itself, none too deep, not too many, and nothing that changes what is in the model.
+fn may_be_included(
+    e: Element<'_>,
+    uri: &str,
+    open: &[String],
+    count: usize,
+) -> Result<(), ImportError> {
+    if open.iter().any(|o| o == uri) {
+        let remedy = "remove one of the includes";
+        return Err(refuse(e, uri, "the file includes itself", remedy));
+    }
+    if open.len() >= LIMITS.0 || count > LIMITS.1 {
+        let why = format!("more than {} files deep or {} in all", LIMITS.0, LIMITS.1);
+        return Err(refuse(e, uri, &why, "put the files together"));
+    }
+    if e.attribute("merge").is_some_and(|m| m == "true") || e.child("placement_frame").is_some() {
+        let why = "it merges models or places them by a frame";
+        let remedy = "expand the file first, for example with `gz sdf -p`";
+        return Err(refuse(e, uri, why, remedy));
+    }
+    Ok(())
+}
+
+/// Gives a model the pose, the name and the hold that its include says in place of its own.
+fn said_by_include(document: &mut Document, include: usize, model: usize) {
+    let e = document.element(include);
     let own = |tag: &str| e.child(tag).map(|c| c.id);
-    let (name, place, fixed) = (
-        e.child("name").map(|n| n.text().to_owned()),
-        own("pose"),
-        own("static"),
-    );
-    for (tag, new) in [("pose", place), ("static", fixed)] {
+    let placed = [("pose", own("pose")), ("static", own("static"))];
+    let name = e.child("name").map(|n| n.text().to_owned());
+    for (tag, new) in placed {
         let Some(new) = new else { continue };
         let mut children = document.nodes[model].children.clone();
         children.retain(|&c| !document.nodes[c].is_called(tag));
@@ -161,5 +160,4 @@ fn included(
     if let Some(name) = name.filter(|n| !n.is_empty()) {
         document.nodes[model].rename(name);
     }
-    Ok((Some(model), uri))
 }

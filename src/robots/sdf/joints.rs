@@ -82,16 +82,7 @@ pub(crate) fn joint(
     }
     let world = of_joint(scene, e, &name).unwrap_or(Motion::IDENTITY);
     let local = |d: Vector| world.inverse().direction(d);
-    let joint_type = match word {
-        "revolute" | "continuous" | "hinge" => JointType::Revolute,
-        "prismatic" => JointType::Prismatic,
-        "screw" => JointType::Helical,
-        "universal" | "revolute2" => JointType::Universal,
-        "ball" => JointType::Spherical,
-        "fixed" => JointType::Fixed,
-        "floating" => free(),
-        _ => return Err(unknown_type(e, word, TYPES)),
-    };
+    let joint_type = joint_type(e, word)?;
     // A parent that is a frame away from the joint: by the specification the frame only names its link, and the model is
     // as drawn; where it is drawn in parts, the joint is to put the frame onto the child.
     let is_frame = scene
@@ -113,27 +104,7 @@ pub(crate) fn joint(
     ];
     let mut part = Part::new(&name, [parent, child], sides, joint_type).said_by(e);
     robot.report.map(word);
-    let known = [
-        "pose",
-        "parent",
-        "child",
-        "axis",
-        "axis2",
-        "screw_thread_pitch",
-        "thread_pitch",
-    ];
-    let axes = e
-        .children()
-        .filter(|c| ["axis", "axis2"].contains(&c.name()));
-    let within = ["xyz", "limit", "mimic", "use_parent_model_frame"];
-    let besides = axes.flat_map(|a| a.children().filter(|c| !within.contains(&c.name())));
-    let besides = e
-        .children()
-        .filter(|c| !known.contains(&c.name()))
-        .chain(besides);
-    for c in besides.collect::<Vec<_>>() {
-        robot.report.drop(c.name(), Some(&name));
-    }
+    left_out(e, &name, robot);
     match word {
         "ball" | "fixed" | "floating" => {}
         "universal" | "revolute2" => {
@@ -150,19 +121,57 @@ pub(crate) fn joint(
     part.limits = limits(e)?.filter(|_| ["revolute", "prismatic"].contains(&word));
     if apart {
         let d = length(sub(parent_world.translation, world.translation));
-        let done = if scene.assemble {
-            "put together"
-        } else {
-            "taken as drawn, as SDF has it (--assemble puts them together)"
-        };
-        let what = format!("its parent frame and the joint are {d:.3} m apart in the file; {done}");
-        robot.report.approximate(&e.label(), what);
+        told_apart(e, d, scene.assemble, robot);
     }
     if let Some(leader) = mimic(e, &name, scope, robot)? {
         part.comment = Some(format!("mimics {leader}"));
     }
     robot.joints.push(part);
     Ok(())
+}
+
+fn joint_type(e: Element<'_>, word: &str) -> Result<JointType, ImportError> {
+    Ok(match word {
+        "revolute" | "continuous" | "hinge" => JointType::Revolute,
+        "prismatic" => JointType::Prismatic,
+        "screw" => JointType::Helical,
+        "universal" | "revolute2" => JointType::Universal,
+        "ball" => JointType::Spherical,
+        "fixed" => JointType::Fixed,
+        "floating" => free(),
+        _ => return Err(unknown_type(e, word, TYPES)),
+    })
+}
+
+/// Tells what a joint says besides what is read.
+fn left_out(e: Element<'_>, name: &str, robot: &mut Robot) {
+    let known = [
+        "pose",
+        "parent",
+        "child",
+        "axis",
+        "axis2",
+        "screw_thread_pitch",
+        "thread_pitch",
+    ];
+    let within = ["xyz", "limit", "mimic", "use_parent_model_frame"];
+    let own = e.children().filter(|c| !known.contains(&c.name()));
+    let axes = e.children();
+    let axes = axes.filter(|c| ["axis", "axis2"].contains(&c.name()));
+    let of_axes = axes.flat_map(Element::children);
+    for c in own.chain(of_axes.filter(|c| !within.contains(&c.name()))) {
+        robot.report.drop(c.name(), Some(name));
+    }
+}
+
+/// Tells how far, in metres, a joint is from the frame that is its parent.
+fn told_apart(e: Element<'_>, far: f64, assembled: bool, robot: &mut Robot) {
+    let done = match assembled {
+        true => "put together",
+        false => "taken as drawn, as SDF has it (--assemble puts them together)",
+    };
+    let what = format!("its parent frame and the joint are {far:.3} m apart in the file; {done}");
+    robot.report.approximate(&e.label(), what);
 }
 
 /// Notes the coupling of a joint whose axis follows that of another, which it gives the name of.

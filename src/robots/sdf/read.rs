@@ -24,54 +24,62 @@ pub(crate) fn read(
     options: &Options,
 ) -> Result<Robot, ImportError> {
     let Expanded { old, scenery } = include::expand(document, root, inner)?;
-    let (root, assemble) = (document.element(root), options.assemble);
-    let mut models: Vec<(Element<'_>, bool)> = root.named("model").map(|m| (m, false)).collect();
+    let root = document.element(root);
     let mut robot = Robot::new("robot");
     for uri in &scenery {
         robot.report.drop("include of a light or floor", Some(uri));
     }
-    let mut among = Vec::new();
-    for w in root.named("world") {
-        models.extend(w.named("model").map(|m| (m, false)));
-        for e in w
-            .children()
-            .filter(|e| !["model", "joint", "frame"].contains(&e.name()))
-        {
-            robot.report.drop(e.name(), e.attribute("name"));
-        }
-        among.extend(
-            w.children()
-                .filter(|e| ["joint", "frame"].contains(&e.name())),
-        );
-    }
-    let Some(first) = models.first() else {
-        let what = "<model>".to_owned();
-        return Err(root.fail(
-            None,
-            RobotProblem::Missing {
-                element: root.label(),
-                what,
-            },
-        ));
-    };
-    first
-        .0
-        .attribute("name")
-        .unwrap_or("robot")
-        .clone_into(&mut robot.name);
     robot.world = Some(robot.link("world", Motion::IDENTITY));
     robot.floats = true;
     let mut scene = Scene {
         old_axes: old,
-        assemble,
+        assemble: options.assemble,
         ..Scene::default()
     };
-    let alone = models.len() == 1 && among.is_empty();
-    models.reverse();
-    let mut stack: Vec<(Element<'_>, String, bool)> = models
-        .into_iter()
-        .map(|(m, inner)| (m, String::new(), inner))
-        .collect();
+    let among = of_worlds(root, &mut robot);
+    models(root, among.is_empty(), &mut scene, &mut robot)?;
+    // Those of the world name what is in its models by the models' names.
+    for e in among {
+        named_place(e, "", "world", false, &mut scene)?;
+    }
+    resolve(&mut scene)?;
+    place_links(&scene, &mut robot);
+    joints(scene, &mut robot)?;
+    Ok(robot)
+}
+
+/// Joints and frames that stand in worlds, beside their models; all else there is told and left out.
+fn of_worlds<'a>(root: Element<'a>, robot: &mut Robot) -> Vec<Element<'a>> {
+    let mut among = Vec::new();
+    for e in root.named("world").flat_map(|w| w.children()) {
+        match e.name() {
+            "model" => {}
+            "joint" | "frame" => among.push(e),
+            other => robot.report.drop(other, e.attribute("name")),
+        }
+    }
+    among
+}
+
+/// Takes in all models, those within others after them.
+fn models<'a>(
+    root: Element<'a>,
+    nothing_else: bool,
+    scene: &mut Scene<'a>,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    let of_worlds = root.named("world").flat_map(|w| w.named("model"));
+    let models: Vec<Element<'_>> = root.named("model").chain(of_worlds).collect();
+    let Some(first) = models.first() else {
+        let (element, what) = (root.label(), "<model>".to_owned());
+        return Err(root.fail(None, RobotProblem::Missing { element, what }));
+    };
+    let name = first.attribute("name").unwrap_or("robot");
+    name.clone_into(&mut robot.name);
+    let alone = models.len() == 1 && nothing_else;
+    let outermost = models.into_iter().rev();
+    let mut stack: Vec<(Element<'_>, String, bool)> =
+        outermost.map(|m| (m, String::new(), false)).collect();
     while let Some((m, outer, inner)) = stack.pop() {
         let own = m.required("name")?;
         // The one model's names stand as they are; others are prefixed, as SDF does it for nested models.
@@ -80,15 +88,15 @@ pub(crate) fn read(
         } else {
             String::new()
         };
-        model(m, &outer, &scope, &mut scene, &mut robot)?;
+        model(m, &outer, &scope, scene, robot)?;
         let nested: Vec<_> = m.named("model").map(|n| (n, scope.clone(), true)).collect();
         stack.extend(nested.into_iter().rev());
     }
-    // Those of the world name what is in its models by the models' names.
-    for e in among {
-        named_place(e, "", "world", false, &mut scene)?;
-    }
-    resolve(&mut scene)?;
+    Ok(())
+}
+
+/// Places of links and frames in the world, and a fixed joint for each link of a static model.
+fn place_links(scene: &Scene<'_>, robot: &mut Robot) {
     for p in scene.placed.values() {
         if let (Some(l), Some(w)) = (p.link, p.world) {
             robot.places[l] = w;
@@ -97,39 +105,38 @@ pub(crate) fn read(
     for &link in &scene.fixed {
         let id = format!("static-{}", robot.links[link]);
         let sides = [robot.places[link], Motion::IDENTITY];
-        robot
-            .joints
-            .push(Part::new(&id, [0, link], sides, JointType::Fixed));
+        let fixed = Part::new(&id, [0, link], sides, JointType::Fixed);
+        robot.joints.push(fixed);
     }
-    let names: Vec<String> = scene.placed.keys().cloned().collect();
-    for name in names {
-        if let Ok((link, world)) = moves_with(&scene, &name) {
+    for name in scene.placed.keys() {
+        if let Ok((link, world)) = moves_with(scene, name) {
             let on = robot.places[link].inverse().then(&world);
-            robot.frames.insert(name, (link, on));
+            robot.frames.insert(name.clone(), (link, on));
         }
     }
-    let size = scene
-        .placed
-        .values()
-        .map(|p| length(p.raw.translation))
-        .fold(1e-3, f64::max);
+}
+
+/// All joints, what couples them, and Drake's constraints.
+fn joints(mut scene: Scene<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+    let far = |p: &Placed<'_>| length(p.raw.translation);
+    let size = scene.placed.values().map(far).fold(1e-3, f64::max);
     let is_gearbox = |e: &Element<'_>| e.attribute("type") == Some("gearbox");
-    let joints = std::mem::take(&mut scene.joints).into_iter();
-    let (gearboxes, joints): (Vec<_>, Vec<_>) = joints.partition(|(e, _)| is_gearbox(e));
+    let all = std::mem::take(&mut scene.joints).into_iter();
+    let (gearboxes, joints): (Vec<_>, Vec<_>) = all.partition(|(e, _)| is_gearbox(e));
     for (e, scope) in joints {
-        joint(e, &scope, &scene, size, &mut robot)?;
+        joint(e, &scope, &scene, size, robot)?;
     }
     // These couple joints that are read by now.
     for (e, scope) in gearboxes {
-        gearbox(e, &scope, &scene, &mut robot)?;
+        gearbox(e, &scope, &scene, robot)?;
     }
     for (e, scope) in std::mem::take(&mut scene.constraints) {
         match e.name() {
-            "drake:weld_constraint" => weld(e, &scope, &scene, &mut robot)?,
-            _ => ball_constraint(e, &mut robot)?,
+            "drake:weld_constraint" => weld(e, &scope, &scene, robot)?,
+            _ => ball_constraint(e, robot)?,
         }
     }
-    Ok(robot)
+    Ok(())
 }
 
 /// The pose child: numbers, what it is relative to, and in which unit.
@@ -171,74 +178,12 @@ fn model<'a>(
     scene: &mut Scene<'a>,
     robot: &mut Robot,
 ) -> Result<(), ImportError> {
-    let static_model = m
-        .child("static")
-        .is_some_and(|s| ["true", "1"].contains(&s.text()));
-    let (raw, relative) = pose(m)?;
-    // The model's own frame is called __model__ within it; nested models are also known by name.
-    let own = format!("{scope}__model__");
-    let relative_to = match relative {
-        Some(r) => format!("{outer}{r}"),
-        None if outer.is_empty() => "world".to_owned(),
-        None => format!("{outer}__model__"),
-    };
-    let canonical = m
-        .attribute("canonical_link")
-        .or_else(|| m.child("link").and_then(|l| l.attribute("name")));
-    let attached_to = canonical.map_or_else(|| "world".to_owned(), |c| format!("{scope}{c}"));
-    let placed = |element, relative_to, raw, attached_to: String, link| Placed {
-        element,
-        relative_to,
-        raw,
-        attached_to,
-        world: None,
-        link,
-    };
-    insert(
-        scene,
-        own.clone(),
-        placed(m, relative_to, raw, attached_to, None),
-    )?;
-    if !scope.is_empty() {
-        let alias = scope.trim_end_matches("::").to_owned();
-        insert(
-            scene,
-            alias,
-            placed(m, own.clone(), Motion::IDENTITY, own.clone(), None),
-        )?;
-    }
+    let own = own_frame(m, outer, scope, scene)?;
+    let is_static = m.child("static");
+    let is_static = is_static.is_some_and(|s| ["true", "1"].contains(&s.text()));
     for e in m.children() {
-        let named =
-            |e: Element<'a>| Ok::<_, ImportError>(format!("{scope}{}", e.required("name")?));
         match e.name() {
-            "link" => {
-                e.room("links", robot.links.len())?;
-                let name = named(e)?;
-                let (raw, relative) = pose(e)?;
-                if name == "world" {
-                    // Joints that name it mean the world.
-                    if raw != Motion::IDENTITY {
-                        let why = "a link that is the world is not in its place";
-                        return Err(e.unsupported(why, "remove its pose, or give it another name"));
-                    }
-                    robot.report.map("link that is the world");
-                    robot.said_by(0, e);
-                    continue;
-                }
-                let link = robot.link(&name, Motion::IDENTITY);
-                robot.said_by(link, e);
-                let to = relative.map_or_else(|| own.clone(), |r| absolute(scope, r));
-                insert(scene, name.clone(), placed(e, to, raw, name, Some(link)))?;
-                for c in e.children().filter(|c| c.name() != "pose") {
-                    if ["visual", "collision"].contains(&c.name()) {
-                        robot.shown.insert(link);
-                    }
-                    robot.report.drop(c.name(), None);
-                }
-                if static_model {
-                    scene.fixed.push(link);
-                }
-            }
+            "link" => link(e, scope, &own, is_static, scene, robot)?,
             "frame" => named_place(e, scope, &own, false, scene)?,
             "joint" => {
                 let wanted = e.attribute("name");
@@ -266,6 +211,74 @@ fn model<'a>(
     Ok(())
 }
 
+/// The model's own frame, which is called `__model__` within it; nested models are also known by name.
+fn own_frame<'a>(
+    m: Element<'a>,
+    outer: &str,
+    scope: &str,
+    scene: &mut Scene<'a>,
+) -> Result<String, ImportError> {
+    let (raw, relative) = pose(m)?;
+    let own = format!("{scope}__model__");
+    let relative_to = match relative {
+        Some(r) => format!("{outer}{r}"),
+        None if outer.is_empty() => "world".to_owned(),
+        None => format!("{outer}__model__"),
+    };
+    let canonical = m
+        .attribute("canonical_link")
+        .or_else(|| m.child("link").and_then(|l| l.attribute("name")));
+    let attached_to = canonical.map_or_else(|| "world".to_owned(), |c| format!("{scope}{c}"));
+    let frame = Placed::new(m, relative_to, raw, attached_to);
+    insert(scene, own.clone(), frame)?;
+    if !scope.is_empty() {
+        let alias = scope.trim_end_matches("::").to_owned();
+        let frame = Placed::new(m, own.clone(), Motion::IDENTITY, own.clone());
+        insert(scene, alias, frame)?;
+    }
+    Ok(own)
+}
+
+/// A link of a model whose own frame is `own`.
+fn link<'a>(
+    e: Element<'a>,
+    scope: &str,
+    own: &str,
+    is_static: bool,
+    scene: &mut Scene<'a>,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    e.room("links", robot.links.len())?;
+    let name = format!("{scope}{}", e.required("name")?);
+    let (raw, relative) = pose(e)?;
+    if name == "world" {
+        // Joints that name it mean the world.
+        if raw != Motion::IDENTITY {
+            let why = "a link that is the world is not in its place";
+            return Err(e.unsupported(why, "remove its pose, or give it another name"));
+        }
+        robot.report.map("link that is the world");
+        robot.said_by(0, e);
+        return Ok(());
+    }
+    let link = robot.link(&name, Motion::IDENTITY);
+    robot.said_by(link, e);
+    let to = relative.map_or_else(|| own.to_owned(), |r| absolute(scope, r));
+    let mut placed = Placed::new(e, to, raw, name.clone());
+    placed.link = Some(link);
+    insert(scene, name, placed)?;
+    for c in e.children().filter(|c| c.name() != "pose") {
+        if ["visual", "collision"].contains(&c.name()) {
+            robot.shown.insert(link);
+        }
+        robot.report.drop(c.name(), None);
+    }
+    if is_static {
+        scene.fixed.push(link);
+    }
+    Ok(())
+}
+
 /// Takes in a frame or joint, whose place is relative to `own` where nothing is said; a joint that shares its name has its
 /// frame beside it.
 fn named_place<'a>(
@@ -289,13 +302,5 @@ fn named_place<'a>(
         to.map_or_else(|| own.to_owned(), |a| absolute(scope, a))
     };
     let relative_to = relative.map_or_else(|| attached_to.clone(), |r| absolute(scope, r));
-    let placed = Placed {
-        element: e,
-        relative_to,
-        raw,
-        attached_to,
-        world: None,
-        link: None,
-    };
-    insert(scene, name, placed)
+    insert(scene, name, Placed::new(e, relative_to, raw, attached_to))
 }

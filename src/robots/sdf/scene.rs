@@ -20,6 +20,25 @@ pub(crate) struct Placed<'a> {
     pub(super) link: Option<usize>,
 }
 
+impl<'a> Placed<'a> {
+    /// What is no link, its place in the world not known yet.
+    pub(super) fn new(
+        element: Element<'a>,
+        relative_to: String,
+        raw: Motion,
+        attached_to: String,
+    ) -> Placed<'a> {
+        Placed {
+            element,
+            relative_to,
+            raw,
+            attached_to,
+            world: None,
+            link: None,
+        }
+    }
+}
+
 #[derive(Default)]
 pub(crate) struct Scene<'a> {
     pub(super) placed: BTreeMap<String, Placed<'a>>,

@@ -11,51 +11,87 @@ use crate::robots::single_freedoms::{
 };
 use std::fmt::Write;
 
+/// What a file collects.
+struct Writer<'a> {
+    m: &'a Mechanism,
+    names: Names,
+    /// Names of the links that joints connect, and of the joints.
+    links: Vec<Option<String>>,
+    ids: Vec<String>,
+    follows: Vec<Option<Follows>>,
+    /// A link without a mass of its own.
+    light: String,
+    head: String,
+    body: String,
+}
+
+const WORLD: &str = "world";
+
 /// The mechanism's free state as SDF 1.9. All links have the global axes; joints of several freedoms that SDF does not
 /// know become joints in series through light links.
 pub(crate) fn sdf(m: &Mechanism) -> Written {
-    // Mimic joints are of 1.11.
-    let version = if m.couplings_in(StateId::FREE).next().is_some() {
-        "1.11"
-    } else {
-        "1.9"
-    };
-    let mut out = format!("<?xml version=\"1.0\"?>\n<sdf version=\"{version}\">\n");
-    let _ = writeln!(
-        out,
-        "  <model name=\"{}\">",
-        escape(&m.name.replace("::", ":"))
-    );
     let joints: Vec<JointId> = m.joints_in(StateId::FREE).collect();
     let written: Vec<bool> = m.joint_ids().map(|j| joints.contains(&j)).collect();
     let (follows, unsaid) = mimics(m, &written);
-    let light = Light::in_mechanism(m).sdf();
     let mut told = left_out(m);
     told.extend(unsaid);
     if m.links.iter().any(|l| l.mass.is_none()) {
         told.push("links without a mass weigh 1 kg, as SDF has it".to_owned());
     }
-    out += &head(m, "    ", &told);
-    let mut ids = vec![String::new(); m.joints.len()];
-    let mut names = Names::default();
-    let world = names.fit("world");
-    let mut links: Vec<Option<String>> = vec![None; m.links.len()];
-    for (l, link) in m.links_with_ids() {
-        if joints.iter().any(|&j| m.joints[j].links.contains(&l)) {
-            links[l] = Some(if link.role == Role::Frame && link.id == world {
-                world.clone()
-            } else {
-                names.fit(&link.id)
-            });
+    let mut w = Writer {
+        m,
+        names: Names::default(),
+        links: vec![None; m.links.len()],
+        ids: vec![String::new(); m.joints.len()],
+        follows,
+        light: Light::in_mechanism(m).sdf(),
+        head: String::new(),
+        body: String::new(),
+    };
+    w.name_links(&joints);
+    for l in m.link_ids() {
+        w.link(l);
+    }
+    for &j in &joints {
+        w.joint(j);
+    }
+    // Mimic joints are of 1.11.
+    let version = match m.couplings_in(StateId::FREE).next() {
+        Some(_) => "1.11",
+        None => "1.9",
+    };
+    // Joints may follow later ones, whose names were not settled yet.
+    let body = settled(&w.body, |j| escape(&w.ids[j]));
+    let name = escape(&m.name.replace("::", ":"));
+    let above = head(m, "    ", &told);
+    let links = w.head;
+    let text = format!(
+        "<?xml version=\"1.0\"?>\n<sdf version=\"{version}\">\n  <model name=\"{name}\">\n{above}{links}{body}  </model>\n</sdf>\n"
+    );
+    Written { text, told }
+}
+
+impl Writer<'_> {
+    fn name_links(&mut self, joints: &[JointId]) {
+        let m = self.m;
+        self.names.fit(WORLD);
+        for (l, link) in m.links_with_ids() {
+            if joints.iter().any(|&j| m.joints[j].links.contains(&l)) {
+                let is_world = link.role == Role::Frame && link.id == WORLD;
+                self.links[l] = Some(match is_world {
+                    true => WORLD.to_owned(),
+                    false => self.names.fit(&link.id),
+                });
+            }
         }
     }
-    let name = |l: LinkId| links[l].as_deref().unwrap_or("world");
-    let mut body = String::new();
-    for (l, link) in m.links_with_ids() {
-        let Some(n) = links[l].as_deref().filter(|n| *n != world) else {
-            continue;
+
+    fn link(&mut self, l: LinkId) {
+        let link = &self.m.links[l];
+        let Some(n) = self.links[l].clone().filter(|n| n != WORLD) else {
+            return;
         };
-        let stated = link.mass.as_ref().map(|_| moving(m, l, [0.0; 3]));
+        let stated = link.mass.as_ref().map(|_| moving(self.m, l, [0.0; 3]));
         let weight = stated.map_or("/>".to_owned(), |i| {
             let [xx, yy, zz, xy, xz, yz] = i.tensor.map(number);
             format!(
@@ -64,77 +100,80 @@ pub(crate) fn sdf(m: &Mechanism) -> Written {
                 i.mass
             )
         });
-        let _ = writeln!(out, "    <link name=\"{}\"{weight}", escape(n));
+        let _ = writeln!(self.head, "    <link name=\"{}\"{weight}", escape(&n));
         if link.role == Role::Frame {
-            let ends = [world.as_str(), n];
-            write_joint(
-                &mut body,
-                &names.fit(&format!("world-{n}")),
-                "fixed",
-                ends,
-                [0.0; 3],
-                "",
-            );
+            let held = self.names.fit(&format!("world-{n}"));
+            let ends = [WORLD, n.as_str()];
+            write_joint(&mut self.body, &held, "fixed", ends, [0.0; 3], "");
         }
     }
-    for &j in &joints {
-        let joint = &m.joints[j];
-        let mut p = place(m, joint);
-        let id = names.fit(&joint.id);
-        ids[j].clone_from(&id);
+
+    fn joint(&mut self, j: JointId) {
+        let joint = &self.m.joints[j];
+        let mut p = place(self.m, joint);
+        let id = self.names.fit(&joint.id);
+        self.ids[j].clone_from(&id);
         if joint.drive {
-            let _ = writeln!(body, "    <!-- {} is driven -->", comment(&id));
+            let _ = writeln!(self.body, "    <!-- {} is driven -->", comment(&id));
         }
-        let mut ends = joint.links.map(name);
+        let name = |l: LinkId| self.links[l].clone().unwrap_or_else(|| WORLD.to_owned());
+        let [mut a, mut b] = joint.links.map(name);
         // The world is nobody's child: passed from the other end, a joint moves the other way about what comes last.
-        let back = ends[1] == world;
+        let back = b == WORLD;
         if back {
-            ends.reverse();
+            (a, b) = (b, a);
             p.axes = p.axes.map(|a| a.map(|x| -x));
         }
         if let Some((kind, more)) = known(&joint.joint_type, &p, back) {
-            let more = match follows[j] {
-                Some(f) => more.replacen("</axis>", &format!("{}</axis>", follow(f)), 1),
-                None => more,
-            };
-            write_joint(&mut body, &id, kind, ends, p.point, &more);
-            continue;
+            let more = self.following(j, more);
+            write_joint(&mut self.body, &id, kind, [&a, &b], p.point, &more);
+            return;
         }
         let mut all = singles(&joint.joint_type, &p);
         if back {
             all.reverse();
         }
-        let mut from = ends[0].to_owned();
+        self.series(j, &all, [a, b], p.point);
+    }
+
+    /// Freedoms in series, through light links; a fixed joint where there are none.
+    fn series(&mut self, j: JointId, all: &[Single], [mut from, end]: [String; 2], at: [f64; 3]) {
+        let id = self.ids[j].clone();
+        if all.is_empty() {
+            write_joint(&mut self.body, &id, "fixed", [&from, &end], at, "");
+        }
         for (i, single) in all.iter().enumerate() {
-            let last = i + 1 == all.len();
-            let to = if last {
-                ends[1].to_owned()
-            } else {
-                names.fit(&format!("{id}~{}", i + 1))
+            let to = match i + 1 == all.len() {
+                true => end.clone(),
+                false => {
+                    let to = self.names.fit(&format!("{id}~{}", i + 1));
+                    let light = &self.light;
+                    let _ = writeln!(
+                        self.head,
+                        "    <link name=\"{}\">{light}</link>",
+                        escape(&to)
+                    );
+                    to
+                }
             };
-            if !last {
-                let _ = writeln!(out, "    <link name=\"{}\">{light}</link>", escape(&to));
-            }
-            let part = if i == 0 {
-                id.clone()
-            } else {
-                names.fit(&format!("{id}~joint{}", i + 1))
+            let part = match i {
+                0 => id.clone(),
+                _ => self.names.fit(&format!("{id}~joint{}", i + 1)),
             };
-            let (kind, mut more) = elementary(*single);
-            if let Some(f) = follows[j] {
-                more = more.replacen("</axis>", &format!("{}</axis>", follow(f)), 1);
-            }
-            write_joint(&mut body, &part, kind, [&from, &to], p.point, &more);
+            let (kind, more) = elementary(*single);
+            let more = self.following(j, more);
+            write_joint(&mut self.body, &part, kind, [&from, &to], at, &more);
             from = to;
         }
-        if all.is_empty() {
-            write_joint(&mut body, &id, "fixed", ends, p.point, "");
+    }
+
+    /// An axis with what it follows, where it does.
+    fn following(&self, j: JointId, axis: String) -> String {
+        match self.follows[j] {
+            Some(f) => axis.replacen("</axis>", &format!("{}</axis>", follow(f)), 1),
+            None => axis,
         }
     }
-    // Joints may follow later ones, whose names were not settled yet.
-    out.push_str(&settled(&body, |j| escape(&ids[j])));
-    out.push_str("  </model>\n</sdf>\n");
-    Written { text: out, told }
 }
 
 fn follow(f: Follows) -> String {

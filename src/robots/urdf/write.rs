@@ -1,9 +1,9 @@
 //! URDF: a spanning tree of the free state; the joints that close loops are `<loop_joint>`s.
 
-use crate::closure::tree::spanning_tree;
+use crate::closure::tree::{Step, spanning_tree};
 use crate::geom::vector::sub;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, StateId};
 use crate::robots::formats::Written;
 use crate::robots::light::Light;
 use crate::robots::mimic::{mimics, settled, stand_in};
@@ -14,27 +14,59 @@ use crate::robots::single_freedoms::{
 };
 use std::fmt::Write;
 
+/// What a file collects.
+struct Writer<'a> {
+    m: &'a Mechanism,
+    /// A link without a mass of its own.
+    light: String,
+    links: Names,
+    joints: Names,
+    /// Name of each link that is written, and where its frame is.
+    placed: Vec<Option<(String, [f64; 3])>>,
+    /// Names of the joints.
+    ids: Vec<String>,
+    /// Which joints are one joint of the tree.
+    single: Vec<bool>,
+    head: String,
+    body: String,
+}
+
 /// The mechanism's free state as URDF. Every link's frame is at the joint that holds it, with the global axes.
 ///
 /// # Errors
 /// Where a joint screws: URDF has no such joint.
 pub(crate) fn urdf(m: &Mechanism) -> Result<Written, ExportError> {
-    let joints: Vec<JointId> = m.joints_in(StateId::FREE).collect();
-    let mut names = Names::default();
-    let mut links: Vec<Option<(String, [f64; 3])>> = vec![None; m.links.len()];
-    let mut head = String::new();
-    let mut body = String::new();
-    let mut used = vec![false; m.joints.len()];
-    let mut ids = vec![String::new(); m.joints.len()];
-    let mut single = vec![false; m.joints.len()];
-    let frame = m.frame();
-    let light = Light::in_mechanism(m).urdf();
-    let link = |l: LinkId, at: [f64; 3], head: &mut String, names: &mut Names| {
-        let n = names.fit(&m.links[l].id);
+    let mut w = Writer {
+        m,
+        light: Light::in_mechanism(m).urdf(),
+        links: Names::default(),
+        joints: Names::default(),
+        placed: vec![None; m.links.len()],
+        ids: vec![String::new(); m.joints.len()],
+        single: vec![false; m.joints.len()],
+        head: String::new(),
+        body: String::new(),
+    };
+    w.link(m.frame(), [0.0; 3]);
+    let tree = spanning_tree(m, StateId::FREE);
+    for step in &tree {
+        w.branch(step)?;
+    }
+    let in_tree = |j: JointId| tree.iter().any(|s| s.joint == j);
+    for j in m.joints_in(StateId::FREE).filter(|&j| !in_tree(j)) {
+        w.closing(j)?;
+    }
+    Ok(w.whole())
+}
+
+impl Writer<'_> {
+    /// A link with its frame at a point; its name.
+    fn link(&mut self, l: LinkId, at: [f64; 3]) -> String {
+        let name = self.links.fit(&self.m.links[l].id);
         // What stands still needs no mass, and some readers want none of it.
-        let weight = match l == frame {
-            true => inertial(m, l, at),
-            false => Some(moving(m, l, at)),
+        let weight = match l == self.m.frame() {
+            true => inertial(self.m, l, at),
+            false => Some(moving(self.m, l, at)),
         };
         let weight = weight.map_or("/>".to_owned(), |i| {
             let [xx, yy, zz, xy, xz, yz] = i.tensor.map(number);
@@ -44,85 +76,98 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<Written, ExportError> {
                 i.mass
             )
         });
-        let _ = writeln!(head, "  <link name=\"{}\"{weight}", escape(&n));
-        n
-    };
-    links[frame] = Some((link(frame, [0.0; 3], &mut head, &mut names), [0.0; 3]));
-    let mut joint_names = Names::default();
-    for step in spanning_tree(m, StateId::FREE) {
-        let (j, from, to) = (step.joint, step.from, step.link);
-        let joint = &m.joints[j];
-        used[j] = true;
-        let (parent, origin) = links[from].clone().unwrap_or_default();
-        let p = place(m, joint);
-        let at = sub(p.point, origin);
-        let id = joint_names.fit(&joint.id);
-        ids[j].clone_from(&id);
-        let child = link(to, p.point, &mut head, &mut names);
+        let _ = writeln!(self.head, "  <link name=\"{}\"{weight}", escape(&name));
+        self.placed[l] = Some((name.clone(), at));
+        name
+    }
+
+    /// A light link between the freedoms of a joint; its name.
+    fn between(&mut self, id: &str, place: usize) -> String {
+        let name = self.links.fit(&format!("{id}~{place}~link"));
+        let light = &self.light;
+        let _ = writeln!(
+            self.head,
+            "  <link name=\"{}\">{light}</link>",
+            escape(&name)
+        );
+        name
+    }
+
+    fn id(&mut self, j: JointId) -> String {
+        let id = self.joints.fit(&self.m.joints[j].id);
+        self.ids[j].clone_from(&id);
+        id
+    }
+
+    fn driven(&mut self, j: JointId, id: &str) {
+        if self.m.joints[j].drive {
+            let _ = writeln!(self.body, "  <!-- {} is driven -->", comment(id));
+        }
+    }
+
+    /// A joint of the tree with the link that hangs on it.
+    fn branch(&mut self, step: &Step) -> Result<(), ExportError> {
+        let j = step.joint;
+        let (mut holder, origin) = self.placed[step.from].clone().unwrap_or_default();
+        let p = place(self.m, &self.m.joints[j]);
+        let mut at = sub(p.point, origin);
+        let id = self.id(j);
+        let child = self.link(step.link, p.point);
         // The child moves the other way where the joint is passed backwards.
         let sign = if step.forward { 1.0 } else { -1.0 };
-        let parts = kinds(m, j, sign)?;
-        single[j] = parts.len() == 1;
-        let (mut holder, mut origin) = (parent, at);
+        let parts = kinds(self.m, j, sign)?;
+        self.single[j] = parts.len() == 1;
         for (i, (kind, axis)) in parts.iter().enumerate() {
-            let last = i + 1 == parts.len();
-            let held = if last {
-                child.clone()
-            } else {
-                let between = names.fit(&format!("{id}~{}~link", i + 1));
-                let _ = writeln!(head, "  <link name=\"{}\">{light}</link>", escape(&between));
-                between
+            let held = match i + 1 == parts.len() {
+                true => child.clone(),
+                false => self.between(&id, i + 1),
             };
-            let part = if i == 0 {
-                id.clone()
-            } else {
-                joint_names.fit(&format!("{id}~{}", i + 1))
+            let part = match i {
+                0 => id.clone(),
+                _ => self.joints.fit(&format!("{id}~{}", i + 1)),
             };
             let ends = [holder.as_str(), held.as_str()];
-            body.push_str(&tree_joint(&part, kind, ends, origin, *axis, &stand_in(j)));
-            (holder, origin) = (held, [0.0; 3]);
+            self.body += &tree_joint(&part, kind, ends, at, *axis, &stand_in(j));
+            (holder, at) = (held, [0.0; 3]);
         }
-        if joint.drive {
-            let _ = writeln!(body, "  <!-- {} is driven -->", comment(&id));
-        }
-        links[to] = Some((child, p.point));
+        self.driven(j, &id);
+        Ok(())
     }
-    for &j in joints.iter().filter(|&&j| !used[j]) {
-        let (joint, p) = (&m.joints[j], place(m, &m.joints[j]));
-        let id = joint_names.fit(&joint.id);
-        let [(mut a, mut from), (b, to)] =
-            joint.links.map(|l| links[l].clone().unwrap_or_default());
-        // All but the last of its freedoms are joints of the tree; a ball, and what is rigid, close the loop alone.
+
+    /// A joint that closes a loop: all but the last of its freedoms are joints of the tree; a ball, and what is rigid, close it
+    /// alone.
+    fn closing(&mut self, j: JointId) -> Result<(), ExportError> {
+        let joint = &self.m.joints[j];
+        let p = place(self.m, joint);
+        let id = self.id(j);
+        let [(mut a, mut from), (b, to)] = joint
+            .links
+            .map(|l| self.placed[l].clone().unwrap_or_default());
         let mut parts = match joint.joint_type {
             JointType::Spherical => vec![("spherical", None)],
-            _ => kinds(m, j, 1.0)?,
+            _ => kinds(self.m, j, 1.0)?,
         };
         let closes = parts.pop().unwrap_or(("fixed", None));
         if ["planar", "floating"].contains(&closes.0) {
-            let (joint, kind) = (joint.id.clone(), closes.0.to_owned());
-            let remedy = "write MJCF instead";
-            let format = "URDF's <loop_joint>";
             return Err(ExportError::Joint {
-                joint,
-                kind,
-                format,
-                remedy,
+                joint: joint.id.clone(),
+                kind: closes.0.to_owned(),
+                format: "URDF's <loop_joint>",
+                remedy: "write MJCF instead",
             });
         }
         for (i, (kind, axis)) in parts.iter().enumerate() {
-            let between = names.fit(&format!("{id}~{}~link", i + 1));
-            let _ = writeln!(head, "  <link name=\"{}\">{light}</link>", escape(&between));
-            let part = joint_names.fit(&format!("{id}~{}", i + 1));
+            let between = self.between(&id, i + 1);
+            let part = self.joints.fit(&format!("{id}~{}", i + 1));
             let ends = [a.as_str(), between.as_str()];
-            let text = tree_joint(&part, kind, ends, sub(p.point, from), *axis, "");
-            body.push_str(&text);
+            self.body += &tree_joint(&part, kind, ends, sub(p.point, from), *axis, "");
             (a, from) = (between, p.point);
         }
         let axis = closes.1.map_or(String::new(), |d| {
             format!("    <axis xyz=\"{}\"/>\n", numbers(d))
         });
         let _ = write!(
-            body,
+            self.body,
             "  <loop_joint name=\"{}\" type=\"{}\">\n    <link1 link=\"{}\" xyz=\"{}\" rpy=\"0 0 0\"/>\n    <link2 link=\"{}\" xyz=\"{}\" rpy=\"0 0 0\"/>\n{axis}  </loop_joint>\n",
             escape(&id),
             closes.0,
@@ -131,33 +176,38 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<Written, ExportError> {
             escape(&b),
             numbers(sub(p.point, to)),
         );
-        if joint.drive {
-            let _ = writeln!(body, "  <!-- {} is driven -->", comment(&id));
+        self.driven(j, &id);
+        Ok(())
+    }
+
+    fn whole(self) -> Written {
+        let m = self.m;
+        let (follows, unsaid) = mimics(m, &self.single);
+        let mut told = left_out(m);
+        told.extend(unsaid);
+        let frame = m.frame();
+        let weightless = |(l, link): (LinkId, &Link)| l != frame && link.mass.is_none();
+        if m.links_with_ids().any(weightless) {
+            told.push(GRAM.to_owned());
         }
+        if self.body.contains(LIMIT) {
+            told.push("what slides has limits of 1 m that are made up: URDF wants some".to_owned());
+        }
+        // Only now is it known which joints are of the tree, and what they are called.
+        let body = settled(&self.body, |j| {
+            follows[j].map_or(String::new(), |f| {
+                let leader = escape(&self.ids[f.leader]);
+                let ratio = number(f.ratio);
+                format!("    <mimic joint=\"{leader}\" multiplier=\"{ratio}\" offset=\"0\"/>\n")
+            })
+        });
+        let (name, above) = (escape(&m.name), physical::head(m, "  ", &told));
+        let head = self.head;
+        let text = format!(
+            "<?xml version=\"1.0\"?>\n<robot name=\"{name}\">\n{above}{head}{body}</robot>\n"
+        );
+        Written { text, told }
     }
-    let (follows, unsaid) = mimics(m, &single);
-    let mut told = left_out(m);
-    told.extend(unsaid);
-    if m.links_with_ids()
-        .any(|(l, k)| l != frame && k.mass.is_none())
-    {
-        told.push(GRAM.to_owned());
-    }
-    if body.contains(LIMIT) {
-        told.push("what slides has limits of 1 m that are made up: URDF wants some".to_owned());
-    }
-    // Only now is it known which joints are of the tree, and what they are called.
-    let body = settled(&body, |j| {
-        follows[j].map_or(String::new(), |f| {
-            let leader = escape(&ids[f.leader]);
-            let ratio = number(f.ratio);
-            format!("    <mimic joint=\"{leader}\" multiplier=\"{ratio}\" offset=\"0\"/>\n")
-        })
-    });
-    let (name, above) = (escape(&m.name), physical::head(m, "  ", &told));
-    let text =
-        format!("<?xml version=\"1.0\"?>\n<robot name=\"{name}\">\n{above}{head}{body}</robot>\n");
-    Ok(Written { text, told })
 }
 
 /// URDF wants limits of what slides; the mechanism has none.

@@ -9,33 +9,13 @@ use std::fmt::Write;
 
 impl Writer<'_> {
     pub(super) fn link(&mut self, l: usize) {
+        if self.links[&l] == "world" {
+            self.ground(l);
+            return;
+        }
         let scene = self.scene;
         let mut inside = String::new();
         let mut names = Names::default();
-        if self.links[&l] == "world" {
-            if scene.shapes(l).is_empty() {
-                return;
-            }
-            // The world has no shapes in a model: what stands still has them.
-            let name = self.names.fit("ground");
-            for s in scene.shapes(l) {
-                self.shape(l, s, &mut names, &mut inside);
-            }
-            let _ = write!(
-                self.head,
-                "    <link name=\"{}\">\n{inside}    </link>\n",
-                escape(&name)
-            );
-            let joint = self.names.fit(&format!("world-{name}"));
-            self.put(
-                &joint,
-                "fixed",
-                &["world".to_owned(), name],
-                &Motion::IDENTITY,
-                "",
-            );
-            return;
-        }
         let at = &scene.places[l];
         if *at != Motion::IDENTITY {
             let _ = writeln!(inside, "      <pose>{}</pose>", pose(at));
@@ -53,16 +33,9 @@ impl Writer<'_> {
             }
             None => {
                 let _ = writeln!(inside, "      {}", scene.light.sdf());
-                if !self
-                    .out
-                    .told
-                    .iter()
-                    .any(|t| t.starts_with("links without mass"))
-                {
-                    self.out.told.push(
-                        "links without mass weigh next to nothing: SDF takes 1 kg for granted"
-                            .to_owned(),
-                    );
+                let why = "links without mass weigh next to nothing: SDF takes 1 kg for granted";
+                if !self.out.told.iter().any(|t| t == why) {
+                    self.out.told.push(why.to_owned());
                 }
             }
         }
@@ -74,6 +47,28 @@ impl Writer<'_> {
             self.head,
             "    <link name=\"{name}\">\n{inside}    </link>\n"
         );
+    }
+
+    /// The world has no shapes in a model: a link that stands still has them.
+    fn ground(&mut self, world: usize) {
+        let scene = self.scene;
+        if scene.shapes(world).is_empty() {
+            return;
+        }
+        let mut inside = String::new();
+        let mut names = Names::default();
+        for s in scene.shapes(world) {
+            self.shape(world, s, &mut names, &mut inside);
+        }
+        let name = self.names.fit("ground");
+        let _ = write!(
+            self.head,
+            "    <link name=\"{}\">\n{inside}    </link>\n",
+            escape(&name)
+        );
+        let joint = self.names.fit(&format!("world-{name}"));
+        let ends = ["world".to_owned(), name];
+        self.put(&joint, "fixed", &ends, &Motion::IDENTITY, "");
     }
 
     fn shape(&mut self, l: usize, s: &Shape, names: &mut Names, out: &mut String) {

@@ -2,7 +2,7 @@
 
 use crate::geom::rigid::Motion;
 use crate::geom::vector::{Vector, X, Y, Z, scale};
-use crate::robots::convert::plan::{Moves, ending};
+use crate::robots::convert::plan::{Moves, Single, ending};
 use crate::robots::convert::text::xyz_rpy;
 use crate::robots::convert::to_urdf::{Loops, Writer};
 use crate::robots::single_freedoms::{escape, numbers};
@@ -53,27 +53,30 @@ impl Writer<'_> {
             });
         }
         match self.loops {
-            Loops::LoopJoint => {
-                let kind = match last.map(|s| s.moves) {
-                    Some(Moves::Slide) => "prismatic",
-                    Some(_) => "continuous",
-                    None if end.point => "spherical",
-                    None => "fixed",
-                };
-                let axis = last.map_or(String::new(), |s| {
-                    format!("    <axis xyz=\"{}\"/>\n", numbers(s.axis))
-                });
-                let [a, b] = [&ends[0], &ends[1]]
-                    .map(|(l, at)| format!("link=\"{}\" {}", escape(l), xyz_rpy(at)));
-                let _ = write!(
-                    self.body,
-                    "  <loop_joint name=\"{}\" type=\"{kind}\">\n    <link1 {a}/>\n    <link2 {b}/>\n{axis}  </loop_joint>\n",
-                    escape(&id)
-                );
-            }
+            Loops::LoopJoint => self.loop_joint(&id, &ends, last, end.point),
             Loops::Beside => self.pair(&id, &ends, end.point),
             Loops::Drake => self.balls(&part.id, &ends, last.map(|s| s.axis), end.point),
         }
+    }
+
+    /// `<loop_joint>`, the last freedom its own.
+    fn loop_joint(&mut self, id: &str, ends: &[End], last: Option<Single>, point: bool) {
+        let kind = match last.map(|s| s.moves) {
+            Some(Moves::Slide) => "prismatic",
+            Some(_) => "continuous",
+            None if point => "spherical",
+            None => "fixed",
+        };
+        let axis = last.map_or(String::new(), |s| {
+            format!("    <axis xyz=\"{}\"/>\n", numbers(s.axis))
+        });
+        let [a, b] =
+            [&ends[0], &ends[1]].map(|(l, at)| format!("link=\"{}\" {}", escape(l), xyz_rpy(at)));
+        let _ = write!(
+            self.body,
+            "  <loop_joint name=\"{}\" type=\"{kind}\">\n    <link1 {a}/>\n    <link2 {b}/>\n{axis}  </loop_joint>\n",
+            escape(id)
+        );
     }
 
     /// Two links that coincide, each fixed where its end of the loop is.

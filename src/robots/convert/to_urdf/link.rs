@@ -43,71 +43,17 @@ impl Writer<'_> {
     }
 
     fn shape(&mut self, l: usize, s: &Shape, back: &Motion, out: &mut String) {
-        let name = s.name.clone();
-        let called = name.clone().or(Some(self.scene.robot.links[l].clone()));
+        let called = s.name.as_deref().unwrap_or(&self.scene.robot.links[l]);
         if !s.words.is_empty() {
             self.out
                 .lost
-                .no_word("contact settings of a shape", called.as_deref());
+                .no_word("contact settings of a shape", Some(called));
         }
-        let place = back.then(&s.place);
-        let beside = |z: f64| place.then(&Motion::shift([0.0, 0.0, z]));
-        let drake = self.loops == Loops::Drake;
-        let parts: Vec<(Motion, String)> = match &s.solid {
-            Solid::Box(edges) => vec![(place, format!("<box size=\"{}\"/>", numbers(*edges)))],
-            Solid::Sphere(r) => vec![(place, format!("<sphere radius=\"{}\"/>", number(*r)))],
-            Solid::Cylinder(r, l) => vec![(place, cylinder(*r, *l))],
-            Solid::Capsule(r, l) if drake => {
-                vec![(
-                    place,
-                    format!(
-                        "<drake:capsule radius=\"{}\" length=\"{}\"/>",
-                        number(*r),
-                        number(*l)
-                    ),
-                )]
-            }
-            Solid::Capsule(r, l) => {
-                let why = "a cylinder and two balls stand for it";
-                self.out.lost.one("capsule", called.as_deref(), why);
-                let ball = format!("<sphere radius=\"{}\"/>", number(*r));
-                let ends = [l / 2.0, -l / 2.0].map(|z| (beside(z), ball.clone()));
-                std::iter::once((place, cylinder(*r, *l)))
-                    .chain(ends)
-                    .collect()
-            }
-            Solid::Ellipsoid([a, b, c]) if drake => {
-                let [a, b, c] = [a, b, c].map(|x| number(*x));
-                vec![(
-                    place,
-                    format!("<drake:ellipsoid a=\"{a}\" b=\"{b}\" c=\"{c}\"/>"),
-                )]
-            }
-            Solid::Ellipsoid(_) | Solid::Plane(_) => {
-                let kind = if matches!(s.solid, Solid::Plane(_)) {
-                    "plane"
-                } else {
-                    "ellipsoid"
-                };
-                self.out.lost.no_word(kind, called.as_deref());
-                Vec::new()
-            }
-            Solid::Mesh(file, scale) => {
-                vec![(
-                    place,
-                    format!(
-                        "<mesh filename=\"{}\" scale=\"{}\"/>",
-                        escape(file),
-                        numbers(*scale)
-                    ),
-                )]
-            }
-        };
-        let tags = s.use_.tags();
+        let parts = self.solids(&s.solid, back.then(&s.place), called);
         for (i, (at, shape)) in parts.iter().enumerate() {
-            let named = name.as_ref().filter(|_| i == 0);
+            let named = s.name.as_ref().filter(|_| i == 0);
             let named = named.map_or(String::new(), |n| format!(" name=\"{}\"", escape(n)));
-            for tag in tags {
+            for tag in s.use_.tags() {
                 let colour = match (s.colour, *tag) {
                     (Some(c), "visual") => {
                         let c = c.map(|x| number(x).to_string()).join(" ");
@@ -123,12 +69,49 @@ impl Writer<'_> {
             }
         }
     }
+
+    /// What stands for a solid: one shape that URDF or Drake has, a few in its place, or none, which is told.
+    fn solids(&mut self, solid: &Solid, place: Motion, called: &str) -> Vec<(Motion, String)> {
+        let drake = self.loops == Loops::Drake;
+        let lost = &mut self.out.lost;
+        let one = match solid {
+            Solid::Box(edges) => format!("<box size=\"{}\"/>", numbers(*edges)),
+            Solid::Sphere(r) => ball(*r),
+            Solid::Cylinder(r, l) => round("cylinder", *r, *l),
+            Solid::Capsule(r, l) if drake => round("drake:capsule", *r, *l),
+            Solid::Capsule(r, l) => {
+                let why = "a cylinder and two balls stand for it";
+                lost.one("capsule", Some(called), why);
+                let end = |z: f64| (place.then(&Motion::shift([0.0, 0.0, z])), ball(*r));
+                let middle = (place, round("cylinder", *r, *l));
+                return vec![middle, end(l / 2.0), end(-l / 2.0)];
+            }
+            Solid::Ellipsoid(half) if drake => {
+                let [a, b, c] = half.map(number);
+                format!("<drake:ellipsoid a=\"{a}\" b=\"{b}\" c=\"{c}\"/>")
+            }
+            Solid::Ellipsoid(_) => {
+                lost.no_word("ellipsoid", Some(called));
+                return Vec::new();
+            }
+            Solid::Plane(_) => {
+                lost.no_word("plane", Some(called));
+                return Vec::new();
+            }
+            Solid::Mesh(file, scale) => {
+                let (file, scale) = (escape(file), numbers(*scale));
+                format!("<mesh filename=\"{file}\" scale=\"{scale}\"/>")
+            }
+        };
+        vec![(place, one)]
+    }
 }
 
-fn cylinder(r: f64, l: f64) -> String {
-    format!(
-        "<cylinder radius=\"{}\" length=\"{}\"/>",
-        number(r),
-        number(l)
-    )
+fn ball(r: f64) -> String {
+    format!("<sphere radius=\"{}\"/>", number(r))
+}
+
+fn round(tag: &str, r: f64, l: f64) -> String {
+    let (r, l) = (number(r), number(l));
+    format!("<{tag} radius=\"{r}\" length=\"{l}\"/>")
 }

@@ -133,31 +133,11 @@ impl Writer<'_> {
         let limits = (alone && joint != usize::MAX)
             .then(|| limits(self.scene, joint))
             .flatten();
-        let bound = |x: f64| if x.is_finite() { x } else { ENDLESS };
-        let (mut kind, ends_at) = (kind, limits.unwrap_or((-ENDLESS, ENDLESS)));
-        if kind == "continuous" && limits.is_some() {
-            kind = "revolute";
-        }
-        let bounded = alone && (d.effort.is_finite() || d.velocity.is_finite());
-        if kind != "continuous" || bounded {
-            let place = match kind {
-                "continuous" => String::new(),
-                _ => format!(
-                    " lower=\"{}\" upper=\"{}\"",
-                    number(ends_at.0),
-                    number(ends_at.1)
-                ),
-            };
-            let (effort, velocity) = if alone {
-                (bound(d.effort), bound(d.velocity))
-            } else {
-                (ENDLESS, ENDLESS)
-            };
-            let _ = writeln!(
-                more,
-                "    <limit{place} effort=\"{effort}\" velocity=\"{velocity}\"/>"
-            );
-        }
+        let kind = match (kind, limits) {
+            ("continuous", Some(_)) => "revolute",
+            (kind, _) => kind,
+        };
+        more += &limit(kind, limits, alone.then_some(&d));
         if d.damping != 0.0 || d.friction != 0.0 {
             let _ = writeln!(
                 more,
@@ -227,4 +207,21 @@ impl Writer<'_> {
             xyz_rpy(at),
         );
     }
+}
+
+/// `<limit>` where a kind wants one or an actuator has bounds: ends in m or rad, effort in N or N m, velocity in m/s or rad/s.
+fn limit(kind: &str, ends: Option<(f64, f64)>, actuator: Option<&Dynamics>) -> String {
+    let bounded = actuator.is_some_and(|d| d.effort.is_finite() || d.velocity.is_finite());
+    if kind == "continuous" && !bounded {
+        return String::new();
+    }
+    let (low, high) = ends.unwrap_or((-ENDLESS, ENDLESS));
+    let place = match kind {
+        "continuous" => String::new(),
+        _ => format!(" lower=\"{}\" upper=\"{}\"", number(low), number(high)),
+    };
+    let bound = |x: f64| if x.is_finite() { x } else { ENDLESS };
+    let (effort, velocity) =
+        actuator.map_or((ENDLESS, ENDLESS), |d| (bound(d.effort), bound(d.velocity)));
+    format!("    <limit{place} effort=\"{effort}\" velocity=\"{velocity}\"/>\n")
 }
