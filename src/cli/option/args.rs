@@ -30,9 +30,9 @@ use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum, ValueHint};
 
 /// A search engine for statically determinate mechanisms.
 ///
-/// FILE is a path to a mechanism file (TOML, or JSON with the ending .json) or to a robot description (.urdf, .xml,
-/// .sdf; see `ozols import` for more control), `-` for standard input, or the name of a built-in mechanism (see `ozols
-/// list`).
+/// FILE is a path to a mechanism file (TOML, or JSON with the ending .json), to a robot description (.urdf, .xml, .sdf) or
+/// to a CAD assembly (FreeCAD's .FCStd, OndselSolver's .asmt; see `ozols import` for more control), `-` for standard input,
+/// or the name of a built-in mechanism (see `ozols list`).
 #[derive(Debug, Parser)]
 #[command(
     name = "ozols",
@@ -75,16 +75,16 @@ pub(in crate::cli) enum Command {
     /// Confirm the certificates of rank that `ozols analyze --certificate` wrote.
     #[command(after_help = examples::VERIFY)]
     Verify(verify::Verify),
-    /// Make a mechanism file of a robot description: URDF, MJCF or SDF.
+    /// Make a mechanism file of a robot description (URDF, MJCF, SDF) or a CAD assembly (.FCStd, .asmt).
     #[command(after_help = examples::IMPORT)]
     Import(import::Import),
     /// Carry a robot description over to another format, loops and all: MJCF, SDF, URDF, Drake's tags.
     #[command(after_help = examples::CONVERT)]
     Convert(convert::Convert),
-    /// Name each redundant constraint of robot descriptions, with its line and what removes it.
+    /// Name each redundant constraint of robot descriptions and CAD assemblies, with its line and what removes it.
     #[command(after_help = examples::LINT)]
     Lint(lint::Lint),
-    /// Let the redundant constraints of a robot description go, in its own file.
+    /// Let the redundant constraints of a robot description or a CAD assembly go, in its own file.
     #[command(after_help = examples::FIX)]
     Fix(fix::Fix),
     /// Draw the structural or the kinematic scheme as SVG.
@@ -96,7 +96,7 @@ pub(in crate::cli) enum Command {
     /// Write the report anew whenever FILE changes, until Ctrl-C: a page to keep open beside an editor.
     #[command(after_help = examples::WATCH)]
     Watch(watch::Watch),
-    /// Write a mechanism in another format: TOML, JSON, URDF, MJCF, SDF, Graphviz DOT, GraphML.
+    /// Write a mechanism in another format: TOML, JSON, URDF, MJCF, SDF, Graphviz DOT, GraphML; assemblies in their own.
     #[command(after_help = examples::EXPORT)]
     Export(export::Export),
     /// How right and how fast each method is on every built-in mechanism, and where its numbers fail.
