@@ -22,6 +22,8 @@ struct Writer<'a> {
     names: Names,
     links: BTreeMap<usize, String>,
     joints: BTreeMap<usize, String>,
+    /// The link that carries what stands on the world.
+    ground: Option<String>,
     mimics: BTreeMap<usize, Follows>,
     head: String,
     body: String,
@@ -37,6 +39,7 @@ pub(crate) fn sdf(scene: &Scene<'_>) -> Text {
         names: Names::default(),
         links: BTreeMap::new(),
         joints: BTreeMap::new(),
+        ground: None,
         mimics: BTreeMap::new(),
         head: String::new(),
         body: String::new(),
@@ -292,6 +295,29 @@ impl Writer<'_> {
         );
     }
 
+    /// Frames of links by name. A model's frames hang on its links: those of the world on what stands on it.
+    fn frames(&mut self) -> String {
+        let mut frames = String::new();
+        for (name, link, at) in &self.scene.payload.frames {
+            let on = match self.links.get(link) {
+                Some(on) if on == "world" => self.ground.as_ref(),
+                on => on,
+            };
+            let Some(on) = on else {
+                let why = "nothing stands there that it could hang on";
+                self.out.lost.one("frame of the world", Some(name), why);
+                continue;
+            };
+            let (free, on) = (escape(&self.names.fit(name)), escape(on));
+            let at = pose(at);
+            let _ = writeln!(
+                frames,
+                "    <frame name=\"{free}\" attached_to=\"{on}\"><pose>{at}</pose></frame>"
+            );
+        }
+        frames
+    }
+
     fn whole(mut self) -> Text {
         let payload = self.scene.payload;
         for a in &payload.actuators {
@@ -316,19 +342,7 @@ impl Writer<'_> {
                 "values and limits of {n} joints count from the drawn pose there: they are shifted"
             )),
         }
-        let mut frames = String::new();
-        for (name, link, at) in &payload.frames {
-            let (Some(on), free) = (self.links.get(link).cloned(), self.names.fit(name)) else {
-                continue;
-            };
-            let _ = writeln!(
-                frames,
-                "    <frame name=\"{}\" attached_to=\"{}\"><pose>{}</pose></frame>",
-                escape(&free),
-                escape(&on),
-                pose(at)
-            );
-        }
+        let frames = self.frames();
         let version = if self.mimics.is_empty() {
             "1.9"
         } else {

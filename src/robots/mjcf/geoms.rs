@@ -111,28 +111,23 @@ pub(super) fn geom<'a>(
         translation: look.vector("pos", [0.0; 3])?,
         ..orientation(look, context)?
     };
-    let mut half = size(1);
+    // Between two points a shape is round, or as deep as it is wide, and as long as they are apart.
+    let (mut half, mut deep, mut long) = (size(1), size(1), size(2));
     if let Some([a, b, c, d, f, g]) = look.numbers::<6>("fromto")? {
         let (from, to) = ([a, b, c], [d, f, g]);
         half = length(sub(to, from)) / 2.0;
+        (deep, long) = (size(0), half);
         place = Motion {
             translation: scale(add(from, to), 0.5),
             ..Motion::z_to(sub(from, to))
         };
     }
-    let third = |own: f64| {
-        if look.attribute("fromto").is_some() {
-            half
-        } else {
-            own
-        }
-    };
     let solid = match word {
         "sphere" => Solid::Sphere(size(0)),
         "capsule" => Solid::Capsule(size(0), 2.0 * half),
         "cylinder" => Solid::Cylinder(size(0), 2.0 * half),
-        "ellipsoid" => Solid::Ellipsoid([size(0), size(1), third(size(2))]),
-        "box" => Solid::Box([2.0 * size(0), 2.0 * size(1), 2.0 * third(size(2))]),
+        "ellipsoid" => Solid::Ellipsoid([size(0), deep, long]),
+        "box" => Solid::Box([2.0 * size(0), 2.0 * deep, 2.0 * long]),
         "plane" => Solid::Plane([2.0 * size(0), 2.0 * size(1)]),
         "mesh" => match look
             .attribute("mesh")

@@ -184,6 +184,48 @@ fn an_sdf_has_what_it_has_words_for() {
     }
 }
 
+// MuJoCo takes the first size alone of a box between two points, for both sides of it; sites of the world hang on what stands there.
+#[test]
+fn a_box_between_points_and_a_site_of_the_world() {
+    let text = |ground: &str| {
+        format!(
+            r#"<mujoco><worldbody>{ground}<site name="mark" pos="0 0 1"/><body name="a"><joint name="j"/>
+            <geom name="beam" type="box" size="0.2" fromto="0 0 0 0 -2 0"/>
+            <geom name="egg" type="ellipsoid" size="0.1 0.3 0.5" fromto="0 0 0 0 0 4"/></body></worldbody></mujoco>"#
+        )
+    };
+    let ground = r#"<geom name="floor" type="plane" size="1 1 1"/>"#;
+    let i = taken("m.xml", &text(ground));
+    let mjcf = to(&i, Target::Mjcf).text;
+    assert!(
+        mjcf.contains(r#"name="beam" type="box" size="0.2 0.2 1""#),
+        "{mjcf}"
+    );
+    assert!(
+        mjcf.contains(r#"name="egg" type="ellipsoid" size="0.1 0.1 2""#),
+        "{mjcf}"
+    );
+    let mass: f64 = tags(&mjcf, "inertial")[0]["mass"].parse().unwrap();
+    let egg = 4.0 / 3.0 * std::f64::consts::PI * 0.1 * 0.1 * 2.0;
+    assert!(
+        (mass - 1000.0 * (0.4 * 0.4 * 2.0 + egg)).abs() < 1e-9,
+        "{mass}"
+    );
+    let sdf = to(&i, Target::Sdf);
+    assert!(
+        sdf.text
+            .contains(r#"<frame name="mark" attached_to="ground">"#),
+        "{}",
+        sdf.text
+    );
+    let alone = to(&taken("m.xml", &text("")), Target::Sdf);
+    assert!(!alone.text.contains("mark"), "{}", alone.text);
+    assert_eq!(
+        alone.lost.kinds["frame of the world"].example.as_deref(),
+        Some("mark")
+    );
+}
+
 /// A four-bar whose sites are apart where its joints are at zero: the rocker has to turn.
 const OPEN: &str = r#"<mujoco><compiler angle="radian"/><worldbody>
     <body name="crank"><joint name="a" range="-2 2"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>

@@ -67,6 +67,7 @@ impl Writer<'_> {
             escape(&name)
         );
         let joint = self.names.fit(&format!("world-{name}"));
+        self.ground = Some(name.clone());
         let ends = ["world".to_owned(), name];
         self.put(&joint, "fixed", &ends, &Motion::IDENTITY, "");
     }
