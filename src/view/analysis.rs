@@ -98,10 +98,15 @@ pub struct Contour<'a> {
     pub joints: Vec<&'a str>,
     /// σ in the order reported.
     pub redundant: usize,
-    /// The least σ over all orders.
+    /// The least σ over all orders of these contours, and over all bases that it is part of.
     pub least: usize,
-    /// The greatest.
+    /// The greatest over all orders of these contours.
     pub greatest: usize,
+    /// The greatest over all bases of contours that it is part of.
+    pub greatest_over_bases: usize,
+    /// What no basis exceeds, where that is more than is known to be reached.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub greatest_over_bases_at_most: Option<usize>,
 }
 
 /// The redundant constraint that a coupling is, or not.
@@ -313,6 +318,8 @@ impl<'a> Contour<'a> {
             redundant: c.redundant,
             least: c.range.0,
             greatest: c.range.1,
+            greatest_over_bases: c.over_bases.0,
+            greatest_over_bases_at_most: Some(c.over_bases.1).filter(|&m| m > c.over_bases.0),
         }
     }
 }

@@ -77,7 +77,13 @@ impl State<'_> {
             .chain(self.per_coupling.iter().map(Coupling::row))
             .collect_vec();
         if !shares.is_empty() {
-            let head = ["contour", "joints", "σ in this order", "σ over all orders"];
+            let head = [
+                "contour",
+                "joints",
+                "σ in this order",
+                "in any order",
+                "in any basis",
+            ];
             writeln!(out, "\n{}", table(&head, shares, width))?;
         }
         if let Some(e) = &self.external {
@@ -200,10 +206,20 @@ fn range(least: usize, greatest: usize) -> String {
 }
 
 impl Contour<'_> {
-    /// σ over all orders.
+    /// σ over all orders of these contours.
     #[must_use]
     pub fn range(&self) -> String {
         range(self.least, self.greatest)
+    }
+
+    /// σ over all bases of contours that it is part of.
+    #[must_use]
+    pub fn over_bases(&self) -> String {
+        let reached = range(self.least, self.greatest_over_bases);
+        match self.greatest_over_bases_at_most {
+            Some(most) => format!("{reached} or more, at most {most}"),
+            None => reached,
+        }
     }
 
     fn row(&self) -> Vec<String> {
@@ -212,6 +228,7 @@ impl Contour<'_> {
             self.joints.join(", "),
             self.redundant.to_string(),
             self.range(),
+            self.over_bases(),
         ]
     }
 }
@@ -222,6 +239,7 @@ impl Coupling<'_> {
             "coupling".to_owned(),
             self.coupling.to_owned(),
             self.redundant.to_string(),
+            range(self.least, self.greatest),
             range(self.least, self.greatest),
         ]
     }
