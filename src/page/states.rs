@@ -95,10 +95,10 @@ fn figures(s: &State<'_>) -> Markup {
                 "mobility = {} freedoms - rank {}; working {}, idle {}",
                 s.freedoms, s.rank, s.working_mobility, s.local_mobility
             )))
-            @if s.finite_mobility != s.mobility {
-                (row("", int(s.finite_mobility), match s.finite_mobility_at_most {
-                    Some(_) => "finite mobility, at least",
-                    None => "finite mobility",
+            @if s.finite_mobility != Some(s.mobility) {
+                (row("", int(s.finite_mobility_at_least), &match s.finite_mobility {
+                    Some(_) => "finite mobility".to_owned(),
+                    None => format!("finite mobility at least, {} at most", s.finite_mobility_at_most),
                 }))
             }
             @if s.counting_is_wrong() {

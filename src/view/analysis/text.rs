@@ -141,13 +141,8 @@ impl State<'_> {
     /// The finite mobility and how it is known.
     #[must_use]
     pub fn finite(&self) -> String {
-        let most = self.finite_mobility_at_most;
-        format!(
-            "finite mobility {}{}: {}",
-            self.finite_mobility,
-            most.map_or(String::new(), |most| format!(" to {most}")),
-            self.finite_certainty
-        )
+        let [figure, certainty] = &self.finite;
+        format!("finite mobility {figure}: {certainty}")
     }
 
     /// Whether Malyshev's formula gives another mobility than the rank.
