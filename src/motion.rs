@@ -4,3 +4,4 @@ pub mod close;
 pub mod follow;
 pub mod pose;
 pub mod way;
+pub mod working;

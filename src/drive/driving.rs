@@ -221,10 +221,7 @@ pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
             profile,
         }
     });
-    let mut used: Vec<usize> = run.swings().map(|(disc, _)| disc).collect();
-    used.sort_unstable();
-    used.dedup();
-    let endurance = module.endurance(&used)?;
+    let endurance = module.endurance(&spec.programme)?;
     let radius = spec.payload.map(|p| p.radius);
     let design = Design {
         bar,

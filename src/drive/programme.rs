@@ -54,12 +54,12 @@ pub struct Run {
     pub angles: [f64; 2],
 }
 
-/// What comes of swings without end.
+/// What comes of a programme repeated without end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Endurance {
-    /// They go on, each caught this far short of its latch. `[rad]`
+    /// They go on, each caught no farther short of its latch. `[rad]`
     Lasts {
-        /// How far short, in the long run.
+        /// How far short at most, in the long run.
         missing: f64,
     },
     /// A latch is missed.
@@ -76,6 +76,8 @@ pub enum Endurance {
 
 /// Swings after which a drift is no longer followed.
 pub const PATIENCE: usize = 10_000;
+/// Places that differ by a smaller share of φ0 are the same.
+const SAME: f64 = 1e-12;
 
 /// A moment of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -118,6 +120,14 @@ struct Standing {
     places: [i32; 2],
     /// From the grooves to where the discs are. `[rad]`
     offsets: [f64; 2],
+}
+
+impl Standing {
+    /// The offsets as seen by whom the second disc stands ahead: a state and its mirror image go on alike.
+    fn seen_ahead(&self) -> [f64; 2] {
+        let way = f64::from(self.places[1] - self.places[0]);
+        self.offsets.map(|x| way * x)
+    }
 }
 
 impl Module {
@@ -204,35 +214,52 @@ impl Module {
         Ok(run)
     }
 
-    /// Lets the discs named take turns until a round leaves them as it found them or a latch is missed.
+    /// Repeats a programme as it is written until a round leaves the discs as some round before it did, or a latch is missed.
+    ///
+    /// Rounds are held against one that was marked, the mark being set anew after 1, 2, 4, ... rounds [Brent 1980], so that
+    /// swings that repeat after several rounds are seen to repeat, and a slow drift is not taken for rest.
     ///
     /// # Errors
     /// As [`Module::run`].
-    pub fn endurance(&self, discs: &[usize]) -> Result<Endurance, SwingError> {
+    ///
+    /// # Complexity
+    /// At most [`PATIENCE`] swings, and those of one round more.
+    pub fn endurance(&self, programme: &[Step]) -> Result<Endurance, SwingError> {
+        let discs: Vec<usize> = programme
+            .iter()
+            .filter_map(|s| match s {
+                Step::Swing(disc) => Some(*disc),
+                Step::Dwell(_) => None,
+            })
+            .collect();
+        if discs.is_empty() {
+            return Ok(Endurance::Lasts { missing: 0.0 });
+        }
         let mut now = Self::START;
-        let short = |now: &Standing| now.offsets.map(f64::abs);
-        let mut before = [f64::NAN; 2];
-        for n in 0..PATIENCE {
-            let Some(&disc) = discs.get(n % discs.len().max(1)) else {
-                break;
-            };
-            let swing = self.swing(&mut now, disc)?;
-            if matches!(swing.end, End::Missed { .. } | End::Stuck) {
-                return Ok(Endurance::Fails { after: n });
-            }
-            if (n + 1) % discs.len() == 0 {
-                let after = short(&now);
-                let still = |d: usize| (after[d] - before[d]).abs() <= 1e-12 * self.latch.at;
-                if still(0) && still(1) {
-                    return Ok(Endurance::Lasts {
-                        missing: after[0].max(after[1]),
-                    });
+        let mut marked = (now.seen_ahead(), 0.0f64);
+        let (mut swings, mut until, mut since) = (0, 1, 0);
+        while swings < PATIENCE {
+            for &disc in &discs {
+                let swing = self.swing(&mut now, disc)?;
+                if matches!(swing.end, End::Missed { .. } | End::Stuck) {
+                    return Ok(Endurance::Fails { after: swings });
                 }
-                before = after;
+                swings += 1;
+                marked.1 = marked.1.max(now.offsets[disc].abs());
+            }
+            let after = now.seen_ahead();
+            let still = |d: usize| (after[d] - marked.0[d]).abs() <= SAME * self.latch.at;
+            if still(0) && still(1) {
+                return Ok(Endurance::Lasts { missing: marked.1 });
+            }
+            since += 1;
+            if since == until {
+                marked = (after, 0.0);
+                (until, since) = (2 * until, 0);
             }
         }
-        let [a, b] = short(&now);
-        Ok(Endurance::Drifts { missing: a.max(b) })
+        let missing = now.offsets[0].abs().max(now.offsets[1].abs());
+        Ok(Endurance::Drifts { missing })
     }
 
     /// The run at moments `per_swing` to a swing, for charts.

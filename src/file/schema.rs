@@ -140,9 +140,10 @@ pub struct JointEntry {
     /// The point is within so much of what is meant, in the file's unit of length; 0 where it is exact.
     #[serde(default)]
     pub tolerance: Option<Coordinate>,
-    /// Whether the mechanism is driven here; a driven joint is not changed unless it has options of its own.
+    /// Whether the mechanism is driven here: true, or the freedom that is driven, such as "tz", where the joint has several. A
+    /// driven joint is not changed unless it has options of its own.
     #[serde(default)]
-    pub drive: bool,
+    pub drive: DriveWord,
     /// The state, or list of states, in which the joint is present; all where left out.
     #[serde(default)]
     pub state: Option<Words>,
@@ -155,6 +156,25 @@ pub struct JointEntry {
     /// Joints that may be inserted here in series: true for those of `[search]`, or a list.
     #[serde(default)]
     pub unloading: Option<Unloading>,
+}
+
+/// Whether a joint is driven, and where.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(
+    untagged,
+    expecting = "expected true, false or the freedom that is driven, such as \"tz\""
+)]
+pub enum DriveWord {
+    /// In its only freedom, or in the one that takes the greatest part in the motion of the outputs.
+    Driven(bool),
+    /// In this one: rx, ry, rz, tx, ty, tz, screw.
+    Freedom(String),
+}
+
+impl Default for DriveWord {
+    fn default() -> Self {
+        DriveWord::Driven(false)
+    }
 }
 
 /// Whether and what unloading joints may be inserted.

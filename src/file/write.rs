@@ -9,10 +9,10 @@ mod tolerance;
 
 use crate::file::read::resolve::motion_name;
 use crate::file::schema::{
-    ContactEntry, ContourEntry, Coordinate, CouplingEntry, ExpectedEntry, ForceEntry, InertiaEntry,
-    JointEntry, LinkEntry, MechanismFile, MisalignmentEntry, MomentEntry, OptionEntry, OptionTable,
-    PointEntry, Quantities, Quantity, SearchEntry, StiffnessEntry, StrokeEntry, ToleranceEntry,
-    Unloading, Words, WorkloadEntry,
+    ContactEntry, ContourEntry, Coordinate, CouplingEntry, DriveWord, ExpectedEntry, ForceEntry,
+    InertiaEntry, JointEntry, LinkEntry, MechanismFile, MisalignmentEntry, MomentEntry,
+    OptionEntry, OptionTable, PointEntry, Quantities, Quantity, SearchEntry, StiffnessEntry,
+    StrokeEntry, ToleranceEntry, Unloading, Words, WorkloadEntry,
 };
 use crate::file::write::number::{component, coordinate, ratio};
 use crate::geom::expr::Expr;
@@ -223,7 +223,10 @@ fn joint(m: &Mechanism, j: &Joint, stated: Option<&ToleranceEntry>) -> JointEntr
         lead: None,
         pitch: screws(&j.joint_type).then(|| coordinate(&j.frame.pitch)),
         tolerance: tolerance::of_point(&j.frame.point, stated),
-        drive: j.drive,
+        drive: match j.drive_freedom {
+            Some(freedom) => DriveWord::Freedom(freedom.name().to_owned()),
+            None => DriveWord::Driven(j.drive),
+        },
         state: states(m, j.states.as_ref()),
         options,
         forbid: Vec::new(),
@@ -353,15 +356,22 @@ fn workload(m: &Mechanism) -> WorkloadEntry {
         (name.clone(), entry)
     };
     let misalignment = loads.misalignments.iter().flat_map(|x| {
+        let none = x.turn == [0.0; 3] && x.shift == [0.0; 3];
+        let entry = |axis: &str, angle, length| MisalignmentEntry {
+            joint: m.joints[x.joint].id.clone(),
+            angle,
+            length,
+            axis: axis.to_owned(),
+        };
         let turned = ["x", "y", "z"].into_iter().zip(x.turn);
-        let none = x.turn == [0.0; 3];
-        turned
+        let turned = turned
             .filter(move |(axis, turn)| *turn != 0.0 || none && *axis == "x")
-            .map(|(axis, turn)| MisalignmentEntry {
-                joint: m.joints[x.joint].id.clone(),
-                angle: Quantity::Number(turn),
-                axis: axis.to_owned(),
-            })
+            .map(|(axis, turn)| entry(axis, Some(Quantity::Number(turn)), None));
+        let shifted = ["x", "y", "z"].into_iter().zip(x.shift);
+        let shifted = shifted
+            .filter(|(_, shift)| *shift != 0.0)
+            .map(|(axis, shift)| entry(axis, None, Some(shift / m.length_unit.metres)));
+        turned.chain(shifted).collect::<Vec<_>>()
     });
     WorkloadEntry {
         gravity: loads.gravity.as_ref().map(vector),

@@ -308,7 +308,8 @@ impl Gripping {
             }
             held.push(column);
         }
-        let drive = (0..pose.columns.len()).find(|&c| m.joints[pose.columns[c].joint].drive);
+        let drive = (0..pose.columns.len())
+            .find(|&c| m.joints[pose.columns[c].joint].drives(pose.columns[c].freedom));
         let position = drive.map(|c| {
             let scale = if slides(&pose, c) { pose.length } else { 1.0 };
             pose.columns[c].moved * scale

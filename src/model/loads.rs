@@ -89,13 +89,15 @@ pub struct Stiffness {
     pub angular: f64,
 }
 
-/// A joint made or mounted askew: its second link is turned by this against its first where nothing strains it.
+/// A joint made or mounted askew: its second link is turned and shifted by this against its first where nothing strains it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Misalignment {
     /// The joint.
     pub joint: JointId,
     /// The turn `[rad]` about x, y and z of the joint's own frame, small.
     pub turn: [f64; 3],
+    /// The shift `[m]` along them, small.
+    pub shift: [f64; 3],
 }
 
 /// A range of the first drive's position, from the pose of the file.

@@ -2,7 +2,7 @@
 
 use crate::geom::expr::Expr;
 use crate::model::coupling::Coupling;
-use crate::model::joint_type::JointType;
+use crate::model::joint_type::{Freedom, JointType};
 use crate::model::loads::{Loads, MassProperties};
 use crate::model::ranking::{Ranking, TypeOverride};
 use std::sync::Arc;
@@ -96,6 +96,8 @@ pub struct Joint {
     pub frame: Frame,
     /// Whether the mechanism is driven here.
     pub drive: bool,
+    /// The freedom that is driven, where the file names it; of a driven joint alone.
+    pub drive_freedom: Option<Freedom>,
     /// The states the joint is present in; `None` for all of them.
     pub states: Option<Vec<StateId>>,
     /// What a search may put here, the present joint first; only the present joint when it must stay.
@@ -109,6 +111,12 @@ impl Joint {
     #[must_use]
     pub fn is_in(&self, state: StateId) -> bool {
         self.states.as_ref().is_none_or(|s| s.contains(&state))
+    }
+
+    /// Whether the drive may be this freedom: the one named, or any where none is.
+    #[must_use]
+    pub fn drives(&self, freedom: Freedom) -> bool {
+        self.drive && self.drive_freedom.is_none_or(|named| named == freedom)
     }
 
     /// What a search may put here or insert here.

@@ -95,10 +95,10 @@ fn figures(s: &State<'_>) -> Markup {
                 "mobility = {} freedoms - rank {}; working {}, idle {}",
                 s.freedoms, s.rank, s.working_mobility, s.local_mobility
             )))
-            @if s.finite_mobility != s.mobility {
-                (row("", int(s.finite_mobility), match s.finite_mobility_at_most {
-                    Some(_) => "finite mobility, at least",
-                    None => "finite mobility",
+            @if s.finite_mobility != Some(s.mobility) {
+                (row("", int(s.finite_mobility_at_least), &match s.finite_mobility {
+                    Some(_) => "finite mobility".to_owned(),
+                    None => format!("finite mobility at least, {} at most", s.finite_mobility_at_most),
                 }))
             }
             @if s.counting_is_wrong() {
@@ -126,14 +126,16 @@ fn contours(s: &State<'_>) -> Markup {
             table.contours {
                 caption {
                     "Contours and the self-stresses in them: loads that parts out of true cause by themselves. σ of a contour \
-                     depends on the order in which contours are counted; the range is over all orders."
+                     depends on the order in which contours are counted, and on the basis they are of; the ranges are over all orders of \
+                     these contours, and over all bases that have the contour."
                 }
                 thead {
                     tr {
                         th scope="col" { "Contour" }
                         th scope="col" { "Joints" }
                         th.n scope="col" { "σ" }
-                        th.n scope="col" { "range" }
+                        th.n scope="col" { "in any order" }
+                        th.n scope="col" { "in any basis" }
                         th scope="col" { "Self-stresses: where each is simplest, as what there, and the share that each joint bears" }
                     }
                 }
@@ -155,6 +157,7 @@ fn contour(s: &State<'_>, i: usize, c: &Contour<'_>) -> Markup {
             td { (c.joints.join(", ")) }
             td.n { (c.redundant) }
             td.n { (c.range()) }
+            td.n { (c.over_bases()) }
             td { @if !ending.is_empty() { ul { @for t in &ending { (t) } } } }
         }
     }

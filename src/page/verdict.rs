@@ -93,13 +93,13 @@ fn state(s: &State<'_>) -> Vec<String> {
 
 fn moves(s: &State<'_>) -> String {
     let ways = |n: usize| plural(n, "way");
-    if let Some(most) = s.finite_mobility_at_most {
+    let Some(finite) = s.finite_mobility else {
         return format!(
-            "W = {} in this pose; how much of that is really there is undecided: between {} and {most}.",
-            s.mobility, s.finite_mobility
+            "W = {} in this pose; how much of that is really there is undecided: between {} and {}.",
+            s.mobility, s.finite_mobility_at_least, s.finite_mobility_at_most
         );
-    }
-    match (s.mobility, s.finite_mobility) {
+    };
+    match (s.mobility, finite) {
         (0, _) => "Nothing moves in this state.".to_owned(),
         (w, f) if w == f && s.local_mobility == 0 => format!("It moves in {} (W = {w}).", ways(w)),
         (w, f) if w == f => format!(

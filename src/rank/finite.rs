@@ -1,12 +1,16 @@
 //! Finite (full-cycle) mobility: the dimension of the motion that is really there, beside the instantaneous f - rank J.
 
+pub mod at_rest;
+pub mod bonds;
 pub mod coordinates;
 pub mod displacement_group;
 pub mod higher_order;
 pub mod independent_parts;
 pub mod local_dimension;
 mod mobility;
+mod multiplicity;
 pub(in crate::rank) mod power_series;
+mod regular;
 pub(in crate::rank) mod tangent_cone;
 
 use crate::closure::matrix::Closure;
@@ -20,10 +24,11 @@ use crate::rank::exact::modular;
 use crate::rank::finite::coordinates::{Coordinates, is_less};
 use crate::rank::finite::higher_order::HigherOrder;
 use crate::rank::finite::local_dimension::Traced;
+use crate::rank::finite::regular::{by_ranks, regular};
 use crate::rank::numeric::scaling::{rank_of_values, scaled};
 use ozols_dense::singular_values;
 
-pub use mobility::{Finite, How};
+pub use mobility::{Finite, How, Proof};
 
 /// Work of one closing, rows² · columns, up to which a pose is followed at all.
 const LARGEST: usize = 30_000_000;
@@ -35,6 +40,10 @@ const COARSE: f64 = 2e-9;
 const COARSE_ALONE: f64 = 1e-5;
 /// Singular values of parts below this share of the largest are zero: their geometry was moved until they were.
 const SEPARATE: f64 = 1e-9;
+/// The highest order that a motion is expanded to.
+const HIGHEST: usize = 600;
+/// Orders up to which coordinates may begin to move for following to be believed.
+const SEEN: usize = 8;
 /// Closings at most.
 const CLOSINGS: usize = 1_000;
 
@@ -66,7 +75,7 @@ pub fn finite_known(
     rank: usize,
     coordinates: Coordinates,
 ) -> Result<Finite, ExactError> {
-    if let Some(known) = without_motion(exact, mechanism, closure, rank)? {
+    if let Some(known) = by_ranks(exact, mechanism, closure, rank)? {
         return Ok(known);
     }
     let state = closure.state;
@@ -79,7 +88,7 @@ pub fn finite_known(
         let mut part = independent_parts::alone(mechanism, joints);
         let mut own = Closure::new(exact, &part, state)?;
         let mut rank = modular::rank(exact, &own);
-        if let Some(known) = without_motion(exact, &part, &own, rank)? {
+        if let Some(known) = by_ranks(exact, &part, &own, rank)? {
             total = total.and(known);
             continue;
         }
@@ -89,32 +98,13 @@ pub fn finite_known(
             own = Closure::new(exact, &part, state)?;
             rank = modular::rank(exact, &own);
         }
-        let found = match without_motion(exact, &part, &own, rank)? {
+        let found = match regular(exact, &part, &own, rank)? {
             Some(known) => known,
             None => moved(exact, &part, &own, rank, coordinates)?,
         };
         total = total.and(found);
     }
     Ok(total)
-}
-
-/// What ranks alone prove: that nothing moves, or that all instantaneous motions are motions.
-fn without_motion(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-    rank: usize,
-) -> Result<Option<Finite>, ExactError> {
-    let instantaneous = closure.columns.len() - rank;
-    if instantaneous == 0 {
-        return Ok(Some(Finite::new(0, How::Rigid)));
-    }
-    // Couplings are linear in the joints' coordinates, so those that depend on others do so all along the motion.
-    let mut dimension = displacement_group::coupling_rank(exact, closure);
-    for contour in &closure.contours {
-        dimension += displacement_group::group_dimension(exact, mechanism, contour)?;
-    }
-    Ok((rank == dimension).then_some(Finite::new(instantaneous, How::Submersion { dimension })))
 }
 
 /// A part whose motion ranks do not decide: by higher order, and by going there.
@@ -136,8 +126,9 @@ fn moved(
         return Ok(found);
     };
     let left = instantaneous - found.mobility;
-    let decided =
-        left == 0 || (!found.is_undecided() && is_less(&pose, instantaneous, left, accuracy));
+    let decided = matches!(found.how, How::Bound { .. })
+        || left == 0
+        || (!found.is_undecided() && is_less(&pose, instantaneous, left, accuracy));
     Ok(if decided {
         found
     } else {
@@ -156,7 +147,11 @@ fn exactly(
     let instantaneous = closure.columns.len() - rank;
     let series = HigherOrder::new(exact, mechanism, closure, pose, rank)?;
     let isolated = |m: usize| series.as_ref().and_then(|s| s.isolated(m));
-    let stopped = isolated(1);
+    let bound = multiplicity::bound(exact, mechanism, closure, instantaneous)?
+        .filter(|&order| order <= HIGHEST);
+    let order = bound.unwrap_or(0).max(higher_order::ORDER);
+    let line = series.as_ref().map(|s| s.line(order));
+    let stopped = line.and_then(|l| l.stopped);
     let proven = |order| {
         Finite::new(
             0,
@@ -169,11 +164,27 @@ fn exactly(
     if let (1, Some(order)) = (instantaneous, stopped) {
         return Ok(proven(order));
     }
+    if let (Some(line), Some(bound)) = (line, bound)
+        && line.stopped.is_none()
+        && line.order >= bound
+    {
+        let by = Proof::Multiplicity;
+        return Ok(Finite::new(
+            instantaneous,
+            How::Submersion {
+                dimension: rank,
+                by,
+            },
+        ));
+    }
     // Not everything that moves at first order moves, where series stop it in a random direction.
     let shaky = stopped.is_some();
     let Some(found) = pursued(pose, instantaneous, shaky) else {
-        return Ok(Finite::new(instantaneous - usize::from(shaky), How::Bound));
+        return Ok(too_large(instantaneous - usize::from(shaky)));
     };
+    // What begins to move with a high power of the way pushes, if at all, with one that doubles do not see.
+    let seen = line.is_none_or(|l| l.begun <= SEEN);
+    let found = if seen { found } else { unseen(found) };
     if found.regular {
         return Ok(of_pursuit(found));
     }
@@ -197,6 +208,20 @@ fn pursued(pose: &Pose, instantaneous: usize, shaky: bool) -> Option<Traced> {
     local_dimension::mobility(pose, instantaneous, shaky, budget)
 }
 
+/// What following shows where gaps may be too small to be seen: no more than what is excluded.
+fn unseen(found: Traced) -> Traced {
+    Traced {
+        mobility: 0,
+        regular: false,
+        ..found
+    }
+}
+
+/// What is not followed: at most what moves instantaneously.
+fn too_large(to: usize) -> Finite {
+    Finite::new(0, How::Bound { to })
+}
+
 /// What following the motion says.
 fn of_pursuit(found: Traced) -> Finite {
     let (from, to) = (found.mobility, found.at_most);
@@ -211,7 +236,7 @@ fn of_pursuit(found: Traced) -> Finite {
     Finite::new(from, how)
 }
 
-/// The finite mobility by following the motion alone; `instantaneous` where it is too large for that. `accuracy` is the
+/// The finite mobility by following the motion alone; at most `instantaneous` where it is too large for that. `accuracy` is the
 /// relative error of the coordinates, 0 where they are exact.
 ///
 /// # Errors
@@ -227,7 +252,7 @@ pub fn followed(
     }
     let pose = Pose::of_file(mechanism, state)?.with_accuracy(accuracy);
     let found = pursued(&pose, instantaneous, false);
-    Ok(found.map_or(Finite::new(instantaneous, How::Bound), of_pursuit))
+    Ok(found.map_or(too_large(instantaneous), of_pursuit))
 }
 
 /// By following the motion, unless coordinates with this relative error would hide what stops it.

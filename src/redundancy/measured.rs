@@ -5,7 +5,7 @@ use crate::geom::exact::ExactError;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::rank::numeric::scaling::{Scaling, scaled};
-use crate::redundancy::share::{ContourShare, CouplingShare};
+use crate::redundancy::share::{ContourShare, CouplingShare, over_bases};
 use ozols_dense::{Matrix, singular_values, svd};
 
 /// Ranks and motions of one J at one relative tolerance.
@@ -111,6 +111,29 @@ impl<'a> Measured<'a> {
         self.rank_of(&part)
     }
 
+    /// Rank of the rows of all couplings and of contours j less a multiple of contour i: what is left of J in a basis in which
+    /// contour i has these coefficients in the contours given.
+    fn rank_without(&self, i: usize, weights: &[i64]) -> usize {
+        let dim = self.closure.dim;
+        let first = self.closure.contour_rows();
+        let others: Vec<usize> = (0..self.matrix.nrows())
+            .filter(|&r| r >= first || r / dim != i)
+            .collect();
+        let part = Matrix::from_fn(others.len(), self.matrix.ncols(), |r, c| {
+            let row = others[r];
+            let own = self.matrix[(row, c)];
+            match weights.get(row / dim).filter(|_| row < first) {
+                // Rows of like size, so that what is zero stays below the floor.
+                Some(&w) => {
+                    let w = w as f64;
+                    (own - w * self.matrix[(dim * i + row % dim, c)]) / w.abs().max(1.0)
+                }
+                None => own,
+            }
+        });
+        self.rank_of(&part)
+    }
+
     /// σ_i of each contour in the order of the basis, and its range over all orders.
     ///
     /// # Complexity
@@ -127,13 +150,14 @@ impl<'a> Measured<'a> {
         all.iter()
             .map(|&i| {
                 let others: Vec<usize> = all.iter().copied().filter(|&j| j != i).collect();
+                let greatest = dim + self.rank_of_rows(&others, &couplings) - whole;
                 ContourShare {
                     contour: self.closure.contours[i].clone(),
                     redundant: dim + prefix[i] - prefix[i + 1],
-                    range: (
-                        dim - self.rank_of_rows(&[i], &[]),
-                        dim + self.rank_of_rows(&others, &couplings) - whole,
-                    ),
+                    range: (dim - self.rank_of_rows(&[i], &[]), greatest),
+                    over_bases: over_bases(&self.closure.contours, i, greatest, |weights| {
+                        (dim + self.rank_without(i, weights)).saturating_sub(whole)
+                    }),
                 }
             })
             .collect()

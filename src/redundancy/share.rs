@@ -15,8 +15,11 @@ pub struct ContourShare {
     pub contour: Contour,
     /// σ_i when contours are added in the order reported.
     pub redundant: usize,
-    /// Least and greatest σ_i over all orders.
+    /// Least and greatest σ_i over all orders of the contours given.
     pub range: (usize, usize),
+    /// The greatest σ_i over all bases of contours that this one is part of: what some basis reaches, and what none exceeds.
+    /// The least is that of `range`.
+    pub over_bases: (usize, usize),
 }
 
 /// The redundant constraint that a coupling is, or not.
@@ -112,11 +115,75 @@ pub fn shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShar
                 .flat_map(|&(j, _)| of_joint(j))
                 .map(|c| c.twist.as_slice());
             let mut carried = stresses.iter().map(|s| &s[i * dim..(i + 1) * dim]);
+            let greatest = ranks(&mut carried);
             ContourShare {
                 contour: contour.clone(),
                 redundant: ending[i],
-                range: (dim - ranks(&mut own), ranks(&mut carried)),
+                range: (dim - ranks(&mut own), greatest),
+                over_bases: over_bases(&closure.contours, i, greatest, |weights| {
+                    let mixed = stresses.iter().map(|s| combined(exact, s, weights, dim));
+                    let mixed: Vec<Vec<Residue>> = mixed.collect();
+                    ranks(&mut mixed.iter().map(Vec::as_slice))
+                }),
             }
         })
         .collect()
+}
+
+/// What a self-stress has in the contours' rows, times these weights and summed.
+fn combined(exact: &ExactField, stress: &[Residue], weights: &[i64], dim: usize) -> Vec<Residue> {
+    let field = exact.field();
+    let mut sum = vec![0; dim];
+    for (&w, part) in weights.iter().zip(stress.chunks(dim)) {
+        let w = field.from_i64(w);
+        for (x, &y) in sum.iter_mut().zip(part) {
+            *x = field.add(*x, field.mul(w, y));
+        }
+    }
+    sum
+}
+
+/// The greatest σ_i of a contour over all bases that it is part of: what one reaches, and what none exceeds. `greatest` is that
+/// of the basis given, and `carried` the dimension of what self-stresses have in a combination of the contours' rows.
+///
+/// In another basis with contour i, a self-stress has in the rows of i the sum of what it has in those of contour j times the
+/// coefficient of i in j. A joint of i gives such coefficients, 1, -1 or 0 as contour j passes it the same way, the other or
+/// not at all: those of the bases whose other contours leave it out, where σ_i is what the joint bears. Any coefficients at
+/// all, here random ones, give no less than those of any basis.
+///
+/// # Complexity
+/// At most one question for each joint of the contour, and one more.
+pub(crate) fn over_bases(
+    contours: &[Contour],
+    i: usize,
+    greatest: usize,
+    carried: impl Fn(&[i64]) -> usize,
+) -> (usize, usize) {
+    let any: Vec<i64> = (0..contours.len())
+        .map(|j| if j == i { 1 } else { scattered(j) })
+        .collect();
+    let most = carried(&any).max(greatest);
+    let mut reached = greatest;
+    let mut asked: Vec<Vec<i64>> = Vec::new();
+    for &(joint, forward) in &contours[i].joints {
+        if reached == most {
+            break;
+        }
+        let passes = |c: &Contour| {
+            c.direction(joint)
+                .map_or(0, |d| if d == forward { 1 } else { -1 })
+        };
+        let weights: Vec<i64> = contours.iter().map(passes).collect();
+        if !asked.contains(&weights) {
+            reached = reached.max(carried(&weights));
+            asked.push(weights);
+        }
+    }
+    (reached, most.max(reached))
+}
+
+/// Numbers that no geometry knows, of either sign and at most some thousand.
+fn scattered(n: usize) -> i64 {
+    let mixed = (n as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    i64::try_from(mixed >> 53).unwrap_or(1) - 1023
 }

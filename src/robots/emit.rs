@@ -1,7 +1,8 @@
 //! The entries of the mechanism file of a robot.
 
 use crate::file::schema::{
-    Coordinate, CouplingEntry, JointEntry, LinkEntry, MechanismFile, OptionEntry, SearchEntry,
+    Coordinate, CouplingEntry, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry,
+    SearchEntry,
 };
 use crate::file::write::Comment;
 use crate::geom::rigid::{Motion, towards};
@@ -239,7 +240,7 @@ fn joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, String>) -
         lead: None,
         pitch: screws.then(|| number(p.pitch)),
         tolerance: None,
-        drive: p.drive,
+        drive: DriveWord::Driven(p.drive),
         state: None,
         options: None,
         forbid: Vec::new(),

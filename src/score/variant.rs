@@ -163,7 +163,7 @@ impl<'o> Variant<'o> {
         mechanism(&self.outcome.search, self.assignment(), self.position)
     }
 
-    /// σ of each of its contours when they are added in this order, with the range over all orders: of the searched state,
+    /// σ of each of its contours when they are added in this order, with the range over all orders of these: of the searched state,
     /// whose own contours come last, or of the free one. Nothing where no contour has any.
     ///
     /// # Errors

@@ -2,8 +2,8 @@
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::file::schema::{
-    Coordinate, JointEntry, LinkEntry, MechanismFile, OptionEntry, PointEntry, SearchEntry,
-    Unloading, WorkloadEntry,
+    Coordinate, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry, PointEntry,
+    SearchEntry, Unloading, WorkloadEntry,
 };
 use crate::synthesis::coordinate::{number, point, turned};
 use crate::synthesis::layout::Layout;
@@ -118,7 +118,7 @@ pub fn mechanism_file(
             lead: None,
             pitch: None,
             tolerance: None,
-            drive: input,
+            drive: DriveWord::Driven(input),
             state: None,
             options: (thirds > 0).then(|| own(&menu.options)),
             forbid: Vec::new(),

@@ -48,15 +48,17 @@ pub struct State<'a> {
     /// The most it can be, where rounded coordinates leave that undecided.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mobility_at_most: Option<usize>,
-    pub finite_mobility: usize,
-    /// The most it can be, where that is undecided.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub finite_mobility_at_most: Option<usize>,
+    /// Nothing where it is undecided: then the bounds alone are known.
+    pub finite_mobility: Option<usize>,
+    /// The least it can be: what moves for certain.
+    pub finite_mobility_at_least: usize,
+    /// The most it can be.
+    pub finite_mobility_at_most: usize,
     pub finite_mobility_known_by: &'static str,
     pub finite_mobility_proven: bool,
-    /// How the finite mobility is known, in a sentence.
+    /// The finite mobility as a number or a range, and how it is known, in a sentence.
     #[serde(skip)]
-    pub finite_certainty: String,
+    pub finite: [String; 2],
     pub working_mobility: usize,
     pub local_mobility: usize,
     pub redundant: usize,
@@ -98,10 +100,15 @@ pub struct Contour<'a> {
     pub joints: Vec<&'a str>,
     /// σ in the order reported.
     pub redundant: usize,
-    /// The least σ over all orders.
+    /// The least σ over all orders of these contours, and over all bases that it is part of.
     pub least: usize,
-    /// The greatest.
+    /// The greatest over all orders of these contours.
     pub greatest: usize,
+    /// The greatest over all bases of contours that it is part of.
+    pub greatest_over_bases: usize,
+    /// What no basis exceeds, where that is more than is known to be reached.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub greatest_over_bases_at_most: Option<usize>,
 }
 
 /// The redundant constraint that a coupling is, or not.
@@ -233,12 +240,12 @@ impl<'a> State<'a> {
             rank: s.rank,
             mobility: s.mobility,
             mobility_at_most: most.map(|(w, _)| w),
-            finite_mobility: s.finite.mobility,
-            finite_mobility_at_most: Some(s.finite.at_most())
-                .filter(|&most| most > s.finite.mobility),
+            finite_mobility: Some(s.finite.mobility).filter(|_| !s.finite.is_undecided()),
+            finite_mobility_at_least: s.finite.mobility,
+            finite_mobility_at_most: s.finite.at_most(),
             finite_mobility_known_by: s.finite.word(),
             finite_mobility_proven: s.finite.is_proven(),
-            finite_certainty: s.finite.describe(),
+            finite: [s.finite.figure(), s.finite.describe()],
             working_mobility: s.working_mobility,
             local_mobility: s.local_mobility,
             redundant: s.redundant,
@@ -313,6 +320,8 @@ impl<'a> Contour<'a> {
             redundant: c.redundant,
             least: c.range.0,
             greatest: c.range.1,
+            greatest_over_bases: c.over_bases.0,
+            greatest_over_bases_at_most: Some(c.over_bases.1).filter(|&m| m > c.over_bases.0),
         }
     }
 }

@@ -106,7 +106,7 @@ pub struct Design {
     pub cam: Option<Cam>,
     /// Of each disc.
     pub motions: [Motion; 2],
-    /// What comes of swings without end.
+    /// What comes of the programme repeated without end.
     pub endurance: Endurance,
     /// How many swings ended in a latch.
     pub latched: usize,
@@ -245,7 +245,7 @@ pub struct Motion {
     pub acceleration: Option<f64>,
 }
 
-/// What comes of swings without end.
+/// What comes of the programme repeated without end.
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
 pub enum Endurance {

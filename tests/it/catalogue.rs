@@ -20,7 +20,7 @@ use ozols::chains::enumerate::chains;
 use ozols::chains::graph6;
 use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::chains::roles::Subject;
-use ozols::file::schema::Coordinate;
+use ozols::file::schema::{Coordinate, DriveWord};
 use ozols::geom::vector::real;
 use ozols::model::joint_type::JointType;
 use ozols::model::mechanism::Mechanism;
@@ -288,7 +288,9 @@ fn generic(s: &Structure, l: &layout::Layout, change_input: bool) -> Mechanism {
         let off = |k: usize| (((2 * i + k + 1) * 6_180_339) % 10_000_000) as i64;
         let exact = |whole: i32, k| format!("{whole} + {}/20000000", off(k));
         joint.point = [exact(*x, 0), exact(*y, 1), "0".to_owned()].map(Coordinate::Expression);
-        joint.drive &= !change_input;
+        if change_input {
+            joint.drive = DriveWord::default();
+        }
     }
     Mechanism::from_json(&file.json().to_string()).unwrap()
 }

@@ -1,5 +1,7 @@
 //! The contour basis is a minimum cycle basis: against a greedy choice among all cycles of small graphs.
 
+mod shares;
+
 use itertools::Itertools;
 use ozols::closure::contour::{closed_walk, contour_basis};
 use ozols::file::text::mechanism_from_str;

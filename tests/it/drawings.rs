@@ -9,6 +9,7 @@ mod places;
 mod random;
 mod reading;
 mod space;
+mod undriven;
 
 use self::reading::{collisions, covers, misread, outside, texts};
 use crate::common::{out, ozols};

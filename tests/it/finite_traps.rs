@@ -2,6 +2,8 @@
 
 #[path = "traps/all.rs"]
 mod all;
+#[path = "traps/beyond_doubles.rs"]
+mod beyond_doubles;
 
 use crate::common::run_on;
 use ozols::builtin;
@@ -53,7 +55,7 @@ fn no_trap_is_answered_wrong_and_sure() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Shakiness of any order up to 16 is proven, in space and in the plane, whatever hangs on it.
+/// Shakiness of any order up to 64 is proven, in space and in the plane, whatever hangs on it.
 #[test]
 fn shakiness_of_higher_order_is_proven() {
     for t in all::all() {

@@ -1,5 +1,7 @@
 //! Programmes of swings, and their long run.
 
+mod repeated;
+
 use crate::common::near;
 use ozols::drive::programme::{Endurance, Module};
 use ozols::drive::swing::{Disc, End, Feed, Latch};
@@ -104,10 +106,11 @@ fn the_long_run_tells_enough_from_too_little() {
         feed: Feed { energy, from: 0.0 },
         ..m
     };
+    let one = [Step::Swing(0)];
     assert!(
-        matches!(fed(1.001 * need).endurance(&[0]).unwrap(), Endurance::Lasts { missing } if missing == 0.0)
+        matches!(fed(1.001 * need).endurance(&one).unwrap(), Endurance::Lasts { missing } if missing == 0.0)
     );
-    let Endurance::Fails { after } = fed(0.97 * need).endurance(&[0]).unwrap() else {
+    let Endurance::Fails { after } = fed(0.97 * need).endurance(&one).unwrap() else {
         panic!()
     };
     // A run of as many swings is latched, and one more is not.
@@ -127,7 +130,7 @@ fn the_long_run_tells_enough_from_too_little() {
         ..module(0.05, 0.0, 0.3)
     };
     assert!(
-        matches!(soft.endurance(&[0]).unwrap(), Endurance::Lasts { missing } if missing > 0.02)
+        matches!(soft.endurance(&one).unwrap(), Endurance::Lasts { missing } if missing > 0.02)
     );
     // Two discs of different inertia that take turns end up repeating as well.
     let both = Module {
@@ -138,7 +141,7 @@ fn the_long_run_tells_enough_from_too_little() {
         ..m
     };
     assert!(matches!(
-        both.endurance(&[0, 1]).unwrap(),
+        both.endurance(&[0, 1].map(Step::Swing)).unwrap(),
         Endurance::Lasts { .. }
     ));
 }

@@ -2,6 +2,7 @@
 
 mod command;
 mod family;
+mod named_drives;
 mod point_masses;
 
 use ozols::builtin;

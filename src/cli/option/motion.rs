@@ -7,7 +7,8 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::follow::slides;
 use crate::motion::pose::Pose;
 use crate::motion::way::{Way, way};
-use crate::rank::stroke::request::{drive_or_any, lengths_where_it_slides, name_of};
+use crate::motion::working::working_way;
+use crate::rank::stroke::request::{AskedError, drive_or_any, lengths_where_it_slides, name_of};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::wiggle::{FAR, wiggle};
 use crate::view::analysis::idle;
@@ -35,7 +36,13 @@ impl Moving {
         named: Option<&str>,
     ) -> anyhow::Result<Moving> {
         let pose = Pose::of_file(m, state)?;
-        let (drive, held) = drive_or_any(m, &pose, state, named)?;
+        let (drive, held) = match drive_or_any(m, &pose, state, named) {
+            // Balls have no axes of their own to be driven about.
+            Err(AskedError::Still(_)) if range.is_none() => {
+                return Self::working(m, state, pose);
+            }
+            found => found?,
+        };
         let slide = slides(&pose, drive);
         let unit = if slide { pose.length } else { 1.0 };
         let asked = match range {
@@ -97,6 +104,18 @@ impl Moving {
             )
         };
         Ok(Moving { pose, way, words })
+    }
+
+    /// The working motion of a mechanism in which no joint can be a drive.
+    fn working(m: &Mechanism, state: StateId, pose: Pose) -> anyhow::Result<Moving> {
+        let way = working_way(m, state, &pose, STEPS)
+            .with_context(|| format!("{}: no output moves from the pose of the file", m.name))?;
+        let words = "the outputs' motion that is the largest for its size, no joint being a drive";
+        Ok(Moving {
+            pose,
+            way,
+            words: words.to_owned(),
+        })
     }
 
     /// To and fro along an idle freedom that the analysis of a state lists, counted from 0.

@@ -124,14 +124,26 @@ pub(crate) fn misalignments(
     let mut found = Vec::new();
     for (i, m) in entry.misalignment.iter().enumerate().take(MAX_FORCES) {
         let at = index(&key(at, "misalignment"), i);
-        let angle = quantity(
-            &m.angle,
-            position,
-            "angle",
-            "a number of radians, or an angle such as \"0.1deg\"",
-            &key(&at, "angle"),
-            out,
-        );
+        let angle = m.angle.as_ref().map(|angle| {
+            quantity(
+                angle,
+                position,
+                "angle",
+                "a number of radians, or an angle such as \"0.1deg\"",
+                &key(&at, "angle"),
+                out,
+            )
+        });
+        if angle.is_some() == m.length.is_some() {
+            out.add(
+                &at,
+                ProblemKind::BadQuantity {
+                    what: "misalignment",
+                    value: m.joint.clone(),
+                    allowed: "either an angle or a length",
+                },
+            );
+        }
         let axis = ["x", "y", "z"].iter().position(|a| *a == m.axis);
         if axis.is_none() {
             out.add(
@@ -145,9 +157,16 @@ pub(crate) fn misalignments(
         }
         let joint = joint_by_id(mechanism, &m.joint, &key(&at, "joint"), out);
         if let (Some(joint), Some(axis)) = (joint, axis) {
-            let mut turn = [0.0; 3];
-            turn[axis] = angle;
-            found.push(Misalignment { joint, turn });
+            let along = |size: Option<f64>| {
+                let mut of = [0.0; 3];
+                of[axis] = size.unwrap_or(0.0);
+                of
+            };
+            found.push(Misalignment {
+                joint,
+                turn: along(angle),
+                shift: along(m.length.map(|x| x * mechanism.length_unit.metres)),
+            });
         }
     }
     found

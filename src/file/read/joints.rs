@@ -8,7 +8,7 @@ use crate::file::read::names::{check_id, link_by_id};
 use crate::file::read::number::{direction, pitch, vector};
 use crate::file::read::options::options;
 use crate::file::read::resolve::{frame, joint_type, motion_name, option};
-use crate::file::schema::{JointEntry, MechanismFile, Unloading, Words};
+use crate::file::schema::{DriveWord, JointEntry, MechanismFile, Unloading, Words};
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, Joint, JointOption, Link, LinkId, StateId};
@@ -106,7 +106,8 @@ fn joint(
     let in_free = states_of
         .as_ref()
         .is_none_or(|s| s.contains(&StateId::FREE));
-    let changeable = in_free && !entry.drive && joint_type != JointType::Fixed;
+    let (drive, drive_freedom) = driven(&entry.drive, &joint_type, &at, out);
+    let changeable = in_free && !drive && joint_type != JointType::Fixed;
     let options = options(file, entry, &present, changeable, states, &at, out);
     let unloading = unloading(file, entry, &frame, states, &at, out);
     Some(Joint {
@@ -114,11 +115,39 @@ fn joint(
         links: ends,
         joint_type,
         frame,
-        drive: entry.drive,
+        drive,
+        drive_freedom,
         states: states_of,
         options,
         unloading,
     })
+}
+
+/// Whether a joint is driven, and in which freedom where the file names one.
+fn driven(
+    word: &DriveWord,
+    joint_type: &JointType,
+    at: &[Step],
+    out: &mut Findings,
+) -> (bool, Option<Freedom>) {
+    let word = match word {
+        DriveWord::Driven(drive) => return (*drive, None),
+        DriveWord::Freedom(word) => word,
+    };
+    let own = joint_type.freedoms();
+    let named = Freedom::from_name(word).filter(|f| own.contains(f));
+    if named.is_none() {
+        let known = own.iter().map(|f| f.name()).join(", ");
+        out.add(
+            &key(at, "drive"),
+            ProblemKind::UnknownWord {
+                what: "freedom to drive",
+                word: word.clone(),
+                known,
+            },
+        );
+    }
+    (true, named)
 }
 
 /// What may be inserted in series with a joint.

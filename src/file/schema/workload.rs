@@ -115,15 +115,19 @@ pub struct StiffnessEntry {
     pub angular: f64,
 }
 
-/// A joint whose second link is turned against its first where nothing strains it.
+/// A joint whose second link is turned or shifted against its first where nothing strains it: an angle or a length.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MisalignmentEntry {
     /// The joint.
     pub joint: String,
     /// Small turn: radians or "0.1deg".
-    pub angle: Quantity,
-    /// About x, y or z of the joint's own frame.
+    #[serde(default)]
+    pub angle: Option<Quantity>,
+    /// Small shift, in the file's unit of length.
+    #[serde(default)]
+    pub length: Option<f64>,
+    /// About or along x, y or z of the joint's own frame.
     pub axis: String,
 }
 

@@ -10,6 +10,10 @@
 //! nonzero minor, so both are proven where J has its true rank modulo the prime. With m = n nothing moves: for n = 1 that is
 //! shakiness of order d - 1, for d = 2 the second-order test of Connelly & Whiteley 1996.
 
+mod line;
+
+pub use line::Line;
+
 use crate::closure::matrix::Closure;
 use crate::closure::twist::MotionSpace;
 use crate::geom::exact::{ExactError, ExactField};
@@ -23,7 +27,9 @@ use crate::rank::finite::power_series::{Monomials, accumulate};
 const LARGEST: usize = 40_000;
 /// Products of numbers that one question may cost.
 const WORK: usize = 6_000_000;
-/// Degree up to which series are expanded.
+/// Order up to which one motion is expanded where no bound says how far to go.
+pub const ORDER: usize = 64;
+/// Degree up to which series of several variables are expanded.
 const DEGREE: usize = 16;
 
 /// A mechanism's contours in an exact field, solved for the coordinates that J determines.
@@ -136,31 +142,12 @@ impl HigherOrder {
     /// At most `WORK` products and as many again for the Macaulay matrices.
     #[must_use]
     pub fn isolated(&self, m: usize) -> Option<usize> {
-        let mut random = 0x9e37_79b9_7f4a_7c15_u64;
-        let mut any = || {
-            // xorshift64*: any numbers will do that the geometry does not know.
-            random ^= random >> 12;
-            random ^= random << 25;
-            random ^= random >> 27;
-            self.field
-                .from_i64((random.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 2) as i64)
-        };
+        if m == 1 {
+            return self.line(ORDER).stopped;
+        }
         let f = self.twists.len();
         let mut monomials = Monomials::new(m);
-        let mut q: Vec<Vec<Residue>> = vec![vec![0; m + 1]; f];
-        for (c, speeds) in &self.free {
-            #[allow(
-                clippy::needless_range_loop,
-                reason = "several rows are filled at once"
-            )]
-            for v in 1..=m {
-                let x = any();
-                q[*c][v] = x;
-                for (&p, &s) in self.pivots.iter().zip(speeds) {
-                    q[p][v] = self.field.add(q[p][v], self.field.mul(x, s));
-                }
-            }
-        }
+        let mut q = self.subspace(m);
         let mut g: Vec<Vec<Residue>> = vec![Vec::new(); self.solve.len() - self.pivots.len()];
         let mut work = 0;
         for degree in 2..=DEGREE {
@@ -197,6 +184,42 @@ impl HigherOrder {
             }
         }
         None
+    }
+
+    /// One motion alone, in a random direction, to an order that several together cannot be expanded to.
+    #[must_use]
+    pub fn line(&self, order: usize) -> Line {
+        let speeds: Vec<Residue> = self.subspace(1).iter().map(|q| q[1]).collect();
+        line::line(self, &speeds, order)
+    }
+
+    /// Coordinates to first order in `m` variables that span a random subspace of the instantaneous motions.
+    fn subspace(&self, m: usize) -> Vec<Vec<Residue>> {
+        let mut random = 0x9e37_79b9_7f4a_7c15_u64;
+        let mut any = || {
+            // xorshift64*: any numbers will do that the geometry does not know.
+            random ^= random >> 12;
+            random ^= random << 25;
+            random ^= random >> 27;
+            self.field
+                .from_i64((random.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 2) as i64)
+        };
+        let f = self.twists.len();
+        let mut q: Vec<Vec<Residue>> = vec![vec![0; m + 1]; f];
+        for (c, speeds) in &self.free {
+            #[allow(
+                clippy::needless_range_loop,
+                reason = "several rows are filled at once"
+            )]
+            for v in 1..=m {
+                let x = any();
+                q[*c][v] = x;
+                for (&p, &s) in self.pivots.iter().zip(speeds) {
+                    q[p][v] = self.field.add(q[p][v], self.field.mul(x, s));
+                }
+            }
+        }
+        q
     }
 
     /// The six gaps of a contour as series.

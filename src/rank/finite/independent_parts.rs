@@ -11,10 +11,11 @@
 use crate::closure::matrix::Closure;
 use crate::closure::tied::tied;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::linalg::echelon::{Echelon, relations};
+use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};
+use crate::rank::finite::bonds::common;
 use crate::rank::finite::displacement_group::{bracket, spatial_twists};
 
 /// The joints of each part, in file order; joints in no contour and no coupling are in none.
@@ -100,15 +101,15 @@ pub fn lock_idle(
         if others.is_empty() {
             continue;
         }
-        let common = others.iter().fold(first.clone(), |so_far, group| {
-            intersection(exact, &so_far, group)
-        });
-        if common.is_empty() {
+        let shared = others
+            .iter()
+            .fold(first.clone(), |so_far, group| common(exact, &so_far, group));
+        if shared.is_empty() {
             continue;
         }
         // Freedoms of the first joint that complete the common group to all of its own.
         let mut span = Echelon::new(exact.field());
-        common.iter().for_each(|t| {
+        shared.iter().for_each(|t| {
             span.insert(t);
         });
         let joint = &mut mechanism.joints[at[0]];
@@ -119,7 +120,7 @@ pub fn lock_idle(
             .collect();
         joint.joint_type = JointType::Custom(kept);
         whole[at[0]] = None;
-        locked += common.len();
+        locked += shared.len();
     }
     Ok(locked)
 }
@@ -133,22 +134,4 @@ fn is_group(exact: &ExactField, twists: &[Vec<Residue>]) -> bool {
                 .iter()
                 .all(|b| span.contains(&bracket(exact, a, b)))
         })
-}
-
-/// A basis of the common part of two spans, each given by independent vectors.
-fn intersection(exact: &ExactField, a: &[Vec<Residue>], b: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
-    let field = exact.field();
-    let both: Vec<Vec<Residue>> = a.iter().chain(b).cloned().collect();
-    relations(field, &both)
-        .into_iter()
-        .map(|combination| {
-            let mut sum = vec![0; 6];
-            for (&x, t) in combination.iter().zip(a) {
-                for (s, &y) in sum.iter_mut().zip(t) {
-                    *s = field.add(*s, field.mul(x, y));
-                }
-            }
-            sum
-        })
-        .collect()
 }

@@ -4,10 +4,13 @@
 //! at a distance at which shaky poses gape clearly. At a singular pose the set of closed poses is, near by, a cone over its
 //! section with a small sphere [Milnor 1968]. So branches are sought where the sphere is met: starts come from the tangent
 //! cone (`tangent_cone`), and a closed pose on a sphere counts only if it can be followed from sphere to sphere, in
-//! to the pose and out again. The largest dimension of the branches, each examined in the same way at its far end, is the
+//! to the pose and out again. What closes near by may be shaky all the same, the gap being a high power of the way; so a motion
+//! counts only where it goes on much farther (`continuation`). The largest dimension of the branches, each examined in the same way at its far end, is the
 //! local one [Wampler, Hauenstein & Sommese 2011].
 //!
 //! Numeric: nothing is proven, and the certainty says so. Random directions come from a fixed seed.
+
+mod continuation;
 
 use crate::motion::pose::Pose;
 use crate::rank::finite::tangent_cone::{self, Flat, Quadrics, norm};
@@ -211,7 +214,10 @@ impl Search {
             }
             if all {
                 // A gap this small at the longer step vanishes at the shorter one by a high order alone.
-                return Some(Some(open.is_none_or(|gap| gap > 1e5 * pose.closed())));
+                if open.is_some_and(|gap| gap <= 1e5 * pose.closed()) {
+                    return Some(Some(false));
+                }
+                return Some(self.all_go_on(pose, span)?.then_some(true));
             }
         }
         Some(
@@ -353,8 +359,19 @@ impl Search {
                 found => found,
             };
             let Some(Some(branch)) = found else { continue };
-            // A curve through the pose is a motion.
-            best = best.max(1);
+            // A curve through the pose is a motion, if it goes on.
+            if best == 0 {
+                let onward: Vec<f64> = branch
+                    .far
+                    .iter()
+                    .zip(&branch.near)
+                    .map(|(f, n)| f - n)
+                    .collect();
+                if self.goes_on(pose, &branch.far, &onward, 1) != Some(true) {
+                    continue;
+                }
+                best = 1;
+            }
             let there = pose.moved(&branch.far);
             let motions = Flat::new(&there, None).kernel.ncols();
             if motions >= n {

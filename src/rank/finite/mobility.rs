@@ -1,14 +1,29 @@
 //! A finite mobility, and how it is known.
 
+/// What proves a pose to be a regular one of its motion; of several, the one that asks for most comes last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Proof {
+    /// J has the full rank of the groups its contours move in and of its couplings.
+    Groups,
+    /// So it has with the freedoms locked that rest at first order, [`crate::rank::finite::at_rest`].
+    Resting,
+    /// Chains and legs come down to single joints, [`crate::rank::finite::bonds`].
+    Bonds,
+    /// A contour is not stopped up to the order beyond which nothing can stop it.
+    Multiplicity,
+}
+
 /// Why a finite mobility is what it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum How {
     /// Nothing moves even instantaneously.
     Rigid,
-    /// J has the full rank of the groups its contours move in and of its couplings: the motion is a manifold. Proven.
+    /// The motion is a manifold of all that moves instantaneously: the pose is a regular one. Proven.
     Submersion {
-        /// Σ of the dimensions of those groups, and the rank of the couplings.
+        /// The rank that was asked for.
         dimension: usize,
+        /// What proves it.
+        by: Proof,
     },
     /// Instantaneous motions are stopped by second or higher order: a shaky pose. Proven.
     Stopped {
@@ -36,14 +51,17 @@ pub enum How {
         /// The most that it can be.
         to: usize,
     },
-    /// Not followed, for it is too large: an upper bound, the instantaneous mobility.
-    Bound,
+    /// Not followed, for it is too large.
+    Bound {
+        /// The most that it can be: what moves instantaneously.
+        to: usize,
+    },
 }
 
 /// The finite mobility of a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Finite {
-    /// Dimension of the motion; the least it can be where that is undecided.
+    /// Dimension of the motion; the least it can be where that is undecided, what moves for certain.
     pub mobility: usize,
     /// How it is known.
     pub how: How,
@@ -68,7 +86,7 @@ impl Finite {
     /// Whether it is a range.
     #[must_use]
     pub fn is_undecided(&self) -> bool {
-        matches!(self.how, How::Undecided { .. } | How::Rounded { .. })
+        self.at_most() > self.mobility
     }
 
     /// The same with a rank that is a numeric one.
@@ -94,7 +112,7 @@ impl Finite {
     #[must_use]
     pub fn at_most(&self) -> usize {
         match self.how {
-            How::Undecided { to, .. } | How::Rounded { to } => to,
+            How::Undecided { to, .. } | How::Rounded { to } | How::Bound { to } => to,
             _ => self.mobility,
         }
     }
@@ -110,10 +128,9 @@ impl Finite {
     /// The figure for people: a number, or a range where that is undecided.
     #[must_use]
     pub fn figure(&self) -> String {
-        match self.how {
-            How::Undecided { from, to } => format!("{from} to {to}"),
-            How::Rounded { to } => format!("{} to {to}", self.mobility),
-            _ => self.mobility.to_string(),
+        match self.at_most() {
+            most if most > self.mobility => format!("{} to {most}", self.mobility),
+            mobility => mobility.to_string(),
         }
     }
 
@@ -126,9 +143,21 @@ impl Finite {
                     .to_owned()
             }
             How::Rigid => "nothing moves even instantaneously".to_owned(),
-            How::Submersion { dimension } => format!(
-                "J has the full rank {dimension} of the groups its contours move in, so this pose is a regular one"
-            ),
+            How::Submersion { dimension, by } => {
+                let why = match by {
+                    Proof::Groups => {
+                        format!("J has the full rank {dimension} of the groups its contours move in")
+                    }
+                    Proof::Resting => format!(
+                        "with what rests locked, J has the full rank {dimension} of the groups its contours move in"
+                    ),
+                    Proof::Bonds => "chains of joints move in whole groups of displacements".to_owned(),
+                    Proof::Multiplicity => {
+                        "nothing stops it up to the order beyond which nothing can".to_owned()
+                    }
+                };
+                format!("{why}, so this pose is a regular one")
+            }
             How::Stopped { order, motions } => {
                 let what = match motions {
                     1 => "the one instantaneous motion is",
@@ -150,13 +179,16 @@ impl Finite {
                 }
             ),
             How::Undecided { from, to } => format!(
-                "undecided: between {from} and {to}; the pose of the file is singular, and following branches from it does not decide"
+                "undecided: between {from} and {to}; neither proof nor following the motion far enough decides"
             ),
             How::Rounded { to } => format!(
                 "undecided: between {} and {to}; coordinates are rounded too coarsely to tell a motion from a shaky pose",
                 self.mobility
             ),
-            How::Bound => "an upper bound: too large to be followed".to_owned(),
+            How::Bound { to } => format!(
+                "undecided: between {} and {to}, what moves instantaneously; too large to be followed",
+                self.mobility
+            ),
         };
         match self.how {
             How::Rigid if self.numeric => format!("{line}, by the numeric rank"),
@@ -172,12 +204,16 @@ impl Finite {
         match self.how {
             How::Rigid if self.mobility > 0 => "free",
             How::Rigid => "rigid",
-            How::Submersion { .. } => "submersion",
+            How::Submersion { by, .. } => match by {
+                Proof::Groups | Proof::Resting => "submersion",
+                Proof::Bonds => "bonds",
+                Proof::Multiplicity => "multiplicity",
+            },
             How::Stopped { order: 2, .. } => "second-order",
             How::Stopped { .. } => "higher-order",
             How::Traced { .. } => "traced",
             How::Undecided { .. } | How::Rounded { .. } => "undecided",
-            How::Bound => "bound",
+            How::Bound { .. } => "bound",
         }
     }
 
@@ -193,10 +229,19 @@ impl Finite {
                 to: self.at_most() + other.at_most(),
             },
             (Rigid, how) | (how, Rigid) => how,
-            (Submersion { dimension: a }, Submersion { dimension: b }) => {
-                Submersion { dimension: a + b }
-            }
-            (Bound, _) | (_, Bound) => Bound,
+            (
+                Submersion { dimension, by },
+                Submersion {
+                    dimension: more,
+                    by: too,
+                },
+            ) => Submersion {
+                dimension: dimension + more,
+                by: by.max(too),
+            },
+            (Bound { .. }, _) | (_, Bound { .. }) => Bound {
+                to: self.at_most() + other.at_most(),
+            },
             (
                 Traced { poses, regular },
                 Traced {

@@ -256,12 +256,15 @@ fn drive(
                 name: m.name.clone(),
                 could: could(m, pose, &names),
             })?;
-            column(joint, None)?
+            column(joint, m.joints[joint].drive_freedom.map(Freedom::name))?
         }
     };
     let own = pose.columns[chosen].joint;
     let held = (0..pose.columns.len())
-        .filter(|&c| pose.columns[c].joint != own && driven(pose.columns[c].joint))
+        .filter(|&c| {
+            let column = &pose.columns[c];
+            column.joint != own && m.joints[column.joint].drives(column.freedom)
+        })
         .filter(|_| driven(own))
         .collect();
     Ok((chosen, held))

@@ -32,7 +32,7 @@ pub fn realize(question: &Question, choices: &[usize]) -> Mechanism {
             let pad = LinkId::new(links.len());
             let mut series = replaced(joint, Some(u));
             series.id = format!("{} unloading", joint.id);
-            series.drive = false;
+            (series.drive, series.drive_freedom) = (false, None);
             if external {
                 series.states = None;
             }
@@ -106,9 +106,12 @@ fn replaced(joint: &Joint, by: Option<&JointOption>) -> Joint {
     Joint {
         id: joint.id.clone(),
         links: joint.links,
-        joint_type,
         frame,
         drive: joint.drive,
+        drive_freedom: joint
+            .drive_freedom
+            .filter(|f| joint_type.freedoms().contains(f)),
+        joint_type,
         states: joint.states.clone(),
         options: Vec::new(),
         unloading: Vec::new(),

@@ -25,8 +25,8 @@ pub fn period(drives: &[Driven]) -> Option<f64> {
     first.map(|_| std::f64::consts::TAU)
 }
 
-/// The freedom of each driven joint that takes the greatest part in the motion of the outputs (of shifts and turns with
-/// equal parts, the shift): the slide of a slider that may also turn about its guide.
+/// The freedom of each driven joint that the file names, or else the one that takes the greatest part in the motion of the
+/// outputs (of shifts and turns with equal parts, the shift): the slide of a slider that may also turn about its guide.
 ///
 /// # Errors
 /// Where singular values do not converge.
@@ -34,8 +34,13 @@ pub fn period(drives: &[Driven]) -> Option<f64> {
 /// # Complexity
 /// O(f²·6k).
 pub fn driven(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Driven>, Unsolved> {
-    let of =
-        |j: JointId| (0..geometry.columns.len()).filter(move |&c| geometry.columns[c].joint == j);
+    let named = |c: usize| {
+        let column = &geometry.columns[c];
+        m.joints[column.joint].drives(column.freedom)
+    };
+    let of = |j: JointId| {
+        (0..geometry.columns.len()).filter(move |&c| geometry.columns[c].joint == j && named(c))
+    };
     let drives: Vec<JointId> = geometry
         .joints
         .iter()

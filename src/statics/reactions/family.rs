@@ -73,6 +73,7 @@ pub(crate) fn elastic(
             for (k, axis) in geometry.axes[j].iter().enumerate() {
                 for i in 0..3 {
                     off[i] += x.turn[k] * axis[i] / turn;
+                    off[3 + i] += x.shift[k] / geometry.size * axis[i] / shift;
                 }
             }
         }

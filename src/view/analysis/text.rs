@@ -77,7 +77,13 @@ impl State<'_> {
             .chain(self.per_coupling.iter().map(Coupling::row))
             .collect_vec();
         if !shares.is_empty() {
-            let head = ["contour", "joints", "σ in this order", "σ over all orders"];
+            let head = [
+                "contour",
+                "joints",
+                "σ in this order",
+                "in any order",
+                "in any basis",
+            ];
             writeln!(out, "\n{}", table(&head, shares, width))?;
         }
         if let Some(e) = &self.external {
@@ -135,13 +141,8 @@ impl State<'_> {
     /// The finite mobility and how it is known.
     #[must_use]
     pub fn finite(&self) -> String {
-        let most = self.finite_mobility_at_most;
-        format!(
-            "finite mobility {}{}: {}",
-            self.finite_mobility,
-            most.map_or(String::new(), |most| format!(" to {most}")),
-            self.finite_certainty
-        )
+        let [figure, certainty] = &self.finite;
+        format!("finite mobility {figure}: {certainty}")
     }
 
     /// Whether Malyshev's formula gives another mobility than the rank.
@@ -200,10 +201,20 @@ fn range(least: usize, greatest: usize) -> String {
 }
 
 impl Contour<'_> {
-    /// σ over all orders.
+    /// σ over all orders of these contours.
     #[must_use]
     pub fn range(&self) -> String {
         range(self.least, self.greatest)
+    }
+
+    /// σ over all bases of contours that it is part of.
+    #[must_use]
+    pub fn over_bases(&self) -> String {
+        let reached = range(self.least, self.greatest_over_bases);
+        match self.greatest_over_bases_at_most {
+            Some(most) => format!("{reached} or more, at most {most}"),
+            None => reached,
+        }
     }
 
     fn row(&self) -> Vec<String> {
@@ -212,6 +223,7 @@ impl Contour<'_> {
             self.joints.join(", "),
             self.redundant.to_string(),
             self.range(),
+            self.over_bases(),
         ]
     }
 }
@@ -222,6 +234,7 @@ impl Coupling<'_> {
             "coupling".to_owned(),
             self.coupling.to_owned(),
             self.redundant.to_string(),
+            range(self.least, self.greatest),
             range(self.least, self.greatest),
         ]
     }

@@ -212,7 +212,7 @@ fn losses(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result 
                 missing,
             } => writeln!(
                 out,
-                "  in the long run every swing is latched, {} short",
+                "  repeated as it stands, the programme latches every swing in the long run, at most {} short",
                 degrees(missing)
             )?,
             Endurance::Going {
@@ -220,12 +220,12 @@ fn losses(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result 
                 missing,
             } => writeln!(
                 out,
-                "  after {PATIENCE} more swings they still drift, {} short by then",
+                "  repeated as it stands, the programme still drifts after {PATIENCE} swings, {} short by then",
                 degrees(missing)
             )?,
             Endurance::Failing { after, .. } => writeln!(
                 out,
-                "  BUT NOT FOR LONG: swings fall ever shorter, and after {after} of them a latch is missed; the cam must give more"
+                "  BUT NOT FOR LONG: of the programme repeated as it stands, {after} swings are latched and the next one misses; the cam must give more"
             )?,
         }
     }

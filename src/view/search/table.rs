@@ -78,7 +78,8 @@ pub(in crate::view) fn contours(best: &[Variant<'_>], width: Option<u16>) -> Str
     {
         return "\n  σ by contour: none in any, in whatever order they are added\n".to_owned();
     }
-    let head = "\n  σ by contour, added in this order (range over all orders):\n".to_owned();
+    let head =
+        "\n  σ by contour, added in this order (range over all orders of these):\n".to_owned();
     let line = |(text, places): &(String, Vec<usize>)| {
         let text = if text.is_empty() { "none" } else { text };
         format!("  {}: {text}\n", runs(places))

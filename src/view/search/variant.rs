@@ -36,7 +36,7 @@ enum Cost {
     Part(f64),
 }
 
-/// σ of a contour when they are added in the order given, with the range over all orders.
+/// σ of a contour when they are added in the order given, with the range over all orders of these contours.
 #[derive(Debug, Serialize)]
 struct ContourData {
     contour: String,

@@ -130,7 +130,7 @@ fn variants_say_where_their_redundant_constraints_are() {
         out(&[&head[..], &question].concat())
     };
     let text = as_written("text");
-    let head = "σ by contour, added in this order (range over all orders):";
+    let head = "σ by contour, added in this order (range over all orders of these):";
     assert!(text.contains(head), "{text}");
     let csv = as_written("csv");
     let mut lines = csv.lines();

@@ -1,6 +1,7 @@
 //! Reactions that equilibrium leaves open: self-stresses, misalignment, stiffness.
 
 use super::{SOLVED, built_in, left_over, solve};
+use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::loads::{Misalignment, Stiffness};
 use ozols::model::mechanism::StateId;
@@ -87,6 +88,64 @@ axis = "z"
     assert!(s.reactions.iter().all(|r| r.force_size() < 1e-12));
 }
 
+/// The same bar, its end mounted beside where it belongs: along it by both joints' linear stiffness in series; across it the arm
+/// also turns the joints. By hand: 2m + F L = 0 turns neither end, L(m + F L)/ka + 2F/kl = δ.
+#[test]
+fn a_shifted_joint_strains_as_by_hand() {
+    for l in [2.0, 5.0, 0.3] {
+        for (axis, along) in [("x", 0), ("y", 1)] {
+            let text = format!(
+                "name = \"bar\"\nlength_unit = \"mm\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n\
+                 role = \"output\"\n[[joint]]\nid = \"a\"\nlinks = [\"0\", \"1\"]\ntype = \"fixed\"\npoint = [0, 0, 0]\n\
+                 [[joint]]\nid = \"b\"\nlinks = [\"0\", \"1\"]\ntype = \"fixed\"\npoint = [{}, 0, 0]\n\
+                 [workload.stiffness.default]\nlinear = 1000\nangular = 300\n\
+                 [[workload.misalignment]]\njoint = \"b\"\nlength = 10\naxis = \"{axis}\"\n",
+                1000.0 * l
+            );
+            let m = mechanism_from_str("bar.toml", &text).unwrap();
+            let elastic = solve(&m).elastic.unwrap();
+            assert!(left_over(&m, &elastic) < 1e-12);
+            let (ka, kl, delta) = (300.0, 1000.0, 0.01);
+            let force = if along == 0 {
+                delta * kl / 2.0
+            } else {
+                delta / (l * l / (2.0 * ka) + 2.0 / kl)
+            };
+            let found = elastic[1].global_force();
+            assert!(
+                (found[along] - force).abs() < 1e-9 * force,
+                "{l} {axis}: {found:?} {force}"
+            );
+        }
+    }
+}
+
+/// A misalignment is a turn or a shift: neither and both are refused, and a shift is written as it was read.
+#[test]
+fn a_misalignment_is_an_angle_or_a_length() {
+    use crate::common::run_on;
+    let text = builtin::text("gripper-10-loaded").unwrap();
+    let with = |what: &str| {
+        format!("{text}\n[[workload.misalignment]]\njoint = \"2-3\"\naxis = \"y\"\n{what}\n")
+    };
+    for what in ["", "angle = 0.1\nlength = 0.2"] {
+        let (code, _, complaint) = run_on("check", "g.toml", &with(what), &[]);
+        assert_eq!(code, Some(2));
+        assert!(
+            complaint.contains("either an angle or a length"),
+            "{complaint}"
+        );
+    }
+    let (code, said, _) = run_on(
+        "export",
+        "g.toml",
+        &with("length = 0.25"),
+        &["--to", "toml"],
+    );
+    assert_eq!(code, Some(0));
+    assert!(said.contains("length = 0.25"), "{said}");
+}
+
 #[test]
 fn stiffness_decides_among_the_family_and_equilibrium_stays() {
     let mut m = built_in("gripper-10-loaded");
@@ -101,6 +160,7 @@ fn stiffness_decides_among_the_family_and_equilibrium_stays() {
     m.loads.misalignments.push(Misalignment {
         joint: m.joint("2-3").unwrap(),
         turn: [0.001, 0.0, 0.0],
+        shift: [0.0; 3],
     });
     let askew = solve(&m).elastic.unwrap();
     assert!(left_over(&m, &askew) < 1e-9);

@@ -84,6 +84,7 @@ fn both(name: &str, seed: &[f64], speed: f64) -> [Mechanism; 2] {
                 joint_type: JointType::Fixed,
                 frame: frame.clone(),
                 drive: false,
+                drive_freedom: None,
                 states: None,
                 options: Vec::new(),
                 unloading: Vec::new(),

@@ -209,6 +209,33 @@ const MAXWELL: &str =
 const HUNT: &str = "K. H. Hunt, Kinematic Geometry of Mechanisms (1978): parallelogram and antiparallelogram meet in the \
     flat pose, each with one freedom";
 
+/// A row of toggles of order 2^levels alone.
+pub(crate) fn toggles(levels: usize, planar: bool) -> Trap {
+    let name = format!("cascade-order-{}", 1u64 << levels);
+    with(planar, |s| cascade(s, levels, 0.0, "k")).done(&name, 0, CASCADE)
+}
+
+/// Two rows of toggles whose first knees a bar joins.
+pub(crate) fn toggles_joined(levels: usize) -> Trap {
+    let two = |s: &mut Sketch| {
+        cascade(s, levels, 0.0, "k");
+        cascade(s, levels, 300.0, "m");
+        s.pin(["ka0", "bar"], 0.0, -1.0)
+            .pin(["bar", "bend"], 150.0, -20.0);
+        s.pin(["bend", "ma0"], 300.0, -1.0);
+    };
+    with(true, two).done("cascades-joined", 0, CASCADE)
+}
+
+/// A half folded Miura sheet of many panels.
+pub(crate) fn large_sheet(side: usize) -> Trap {
+    sheet(side, side, miura_folded).done(
+        "large-sheet",
+        1,
+        "K. Miura, ISAS Report 618 (1985): one freedom",
+    )
+}
+
 /// All of them.
 pub(crate) fn all() -> Vec<Trap> {
     let mut out = Vec::new();
@@ -235,7 +262,7 @@ pub(crate) fn all() -> Vec<Trap> {
     };
     for planar in [false, true] {
         let p = if planar { "-planar" } else { "" };
-        for levels in 1..=4 {
+        for levels in 1..=6 {
             let order = 1 << levels;
             let one = |s: &mut Sketch| cascade(s, levels, 0.0, "k");
             out.push(with(planar, one).done(&format!("cascade-order-{order}{p}"), 0, CASCADE));

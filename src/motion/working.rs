@@ -1,0 +1,112 @@
+//! The working motion where no joint is a drive: along the null vector of J that moves the outputs most.
+
+use crate::closure::tree::path_from_frame;
+use crate::model::mechanism::{JointId, Mechanism, Role, StateId};
+use crate::motion::pose::{FLAT, Pose};
+use crate::motion::way::Way;
+use ozols_dense::{Matrix, svd};
+
+/// How far it is followed to either side, by the coordinate that moves most from step to step: radians, or fractions of
+/// [`Pose::length`].
+pub const FAR: f64 = 0.9;
+/// A closed pose farther from where first order leads than this share of the step is another motion.
+const ASTRAY: f64 = 0.5;
+
+/// Follows the working motion from a pose to either side in so many steps of equal length, as far as poses close; none where
+/// the outputs move instantaneously at most.
+///
+/// # Complexity
+/// Two decompositions of J and a closing a step.
+#[must_use]
+pub fn working_way(m: &Mechanism, state: StateId, pose: &Pose, steps: usize) -> Option<Way> {
+    let outputs = m.link_ids().filter(|&l| m.links[l].role == Role::Output);
+    let paths = outputs.map(|l| path_from_frame(m, state, l));
+    let paths: Vec<Vec<(JointId, bool)>> = paths.filter(|p| !p.is_empty()).collect();
+    let half = (steps / 2).max(1);
+    let first = direction(pose, &paths, None)?;
+    let side = |sign: f64| {
+        let mut out = Vec::new();
+        let mut at = pose.clone();
+        let mut onward: Vec<f64> = first.iter().map(|x| sign * x).collect();
+        for _ in 0..half {
+            let Some((there, along)) = next(&at, &paths, &onward, FAR / half as f64) else {
+                break;
+            };
+            out.push(there.links.clone());
+            (at, onward) = (there, along);
+        }
+        out
+    };
+    let (mut before, after) = (side(-1.0), side(1.0));
+    let start = before.len();
+    let far = |i: usize| (i as f64 - start as f64) * FAR / half as f64;
+    before.reverse();
+    let links: Vec<_> = before
+        .into_iter()
+        .chain([pose.links.clone()])
+        .chain(after)
+        .collect();
+    (links.len() > 1).then(|| Way {
+        at: (0..links.len()).map(far).collect(),
+        links,
+        start,
+        closed: false,
+        ends: [None, None],
+    })
+}
+
+/// The next pose a step on, and the way it went.
+fn next(
+    at: &Pose,
+    paths: &[Vec<(JointId, bool)>],
+    onward: &[f64],
+    step: f64,
+) -> Option<(Pose, Vec<f64>)> {
+    let along = direction(at, paths, Some(onward))?;
+    let ahead: Vec<f64> = along.iter().map(|x| step * x).collect();
+    let q = at.close(ahead.clone(), &[]).ok()?;
+    let off: Vec<f64> = q.iter().zip(&ahead).map(|(a, b)| a - b).collect();
+    (largest(&off) <= ASTRAY * step).then(|| (at.moved(&q), q))
+}
+
+/// The motion, its largest coordinate 1, that moves the outputs most for its size; the one nearest to where it came from, where it
+/// is on its way. No idle freedom takes part.
+fn direction(
+    pose: &Pose,
+    paths: &[Vec<(JointId, bool)>],
+    onward: Option<&[f64]>,
+) -> Option<Vec<f64>> {
+    let f = pose.columns.len();
+    let all = pose.jacobian_with(paths);
+    let closure = svd(&pose.jacobian(&vec![0.0; f]))?;
+    let kernel = closure.null_space(closure.rank(FLAT));
+    let rows = pose.rows();
+    let outputs = Matrix::from_fn(all.nrows() - rows, f, |r, c| all[(rows + r, c)]);
+    let moved = svd(&outputs.times(&kernel))?;
+    let working = moved.values.iter().filter(|&&s| s > FLAT).count();
+    let motion = |i: usize| -> Vec<f64> {
+        let weights = (0..kernel.ncols()).map(|k| moved.v[(k, i)]);
+        let weights: Vec<f64> = weights.collect();
+        (0..f)
+            .map(|r| {
+                weights
+                    .iter()
+                    .enumerate()
+                    .map(|(k, w)| kernel[(r, k)] * w)
+                    .sum()
+            })
+            .collect()
+    };
+    let mut out = vec![0.0; f];
+    for i in 0..working.min(if onward.is_some() { working } else { 1 }) {
+        let own = motion(i);
+        let share = onward.map_or(1.0, |o| o.iter().zip(&own).map(|(a, b)| a * b).sum());
+        out.iter_mut().zip(&own).for_each(|(x, y)| *x += share * y);
+    }
+    let size = largest(&out);
+    (size > FLAT).then(|| out.into_iter().map(|x| x / size).collect())
+}
+
+fn largest(q: &[f64]) -> f64 {
+    q.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+}

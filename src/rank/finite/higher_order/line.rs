@@ -1,0 +1,261 @@
+//! One motion alone, to high order: power series of one variable, a coefficient after the other.
+//!
+//! A coefficient of a product of two series needs no later ones of its factors, and what the coordinates' coefficients of
+//! order d do to the gaps of that order is J times them. So each order costs one pass along the contours, and a series of
+//! order D some D² products, where expanding anew at every order costs D³.
+
+use crate::linalg::modp::{Field, Residue};
+use crate::rank::finite::higher_order::{HigherOrder, cross};
+
+/// Products of numbers that it may cost.
+const WORK: usize = 60_000_000;
+
+type Three = [Residue; 3];
+
+/// One freedom passed by a contour: the displacement before it, and its own functions of t, as series.
+struct Step {
+    column: usize,
+    forward: bool,
+    /// ω, v, ω × v and ω × (ω × v) of its twist.
+    twist: [Three; 4],
+    /// ω · ω.
+    square: Residue,
+    /// θ(t), sin θ, 1 - cos θ and θ - sin θ, for an axis that is no unit vector.
+    angle: Vec<Residue>,
+    sine: Vec<Residue>,
+    cosine: Vec<Residue>,
+    rest: Vec<Residue>,
+    /// Rows of the turn before it.
+    turn: [[Vec<Residue>; 3]; 3],
+    /// Those rows times v and times ω × (ω × v).
+    along: [[Vec<Residue>; 3]; 2],
+}
+
+/// A turn and a shift of one order.
+#[derive(Clone, Copy)]
+struct Term {
+    turn: [Three; 3],
+    shift: Three,
+}
+
+impl Step {
+    fn new(f: Field, twist: &[Residue], column: usize, forward: bool) -> Step {
+        let (w, v) = (
+            [twist[0], twist[1], twist[2]],
+            [twist[3], twist[4], twist[5]],
+        );
+        let once = cross(f, w, v);
+        Step {
+            column,
+            forward,
+            twist: [w, v, once, cross(f, w, once)],
+            square: dot(f, w, w),
+            angle: vec![0],
+            sine: vec![0],
+            cosine: vec![0],
+            rest: vec![0],
+            turn: [(); 3].map(|()| [(); 3].map(|()| Vec::new())),
+            along: [(); 2].map(|()| [(); 3].map(|()| Vec::new())),
+        }
+    }
+
+    /// Puts the displacement before it on record, of the next order.
+    fn enter(&mut self, f: Field, before: &Term) {
+        for (i, row) in before.turn.iter().enumerate() {
+            for (series, &x) in self.turn[i].iter_mut().zip(row) {
+                series.push(x);
+            }
+            self.along[0][i].push(dot(f, *row, self.twist[1]));
+            self.along[1][i].push(dot(f, *row, self.twist[3]));
+        }
+    }
+
+    /// Adds to the displacement before it what this freedom does to it at order `d`, its angle's coefficient being `x`.
+    fn pass(&mut self, f: Field, d: usize, x: Residue, at: &mut Term) {
+        let x = if self.forward { x } else { f.neg(x) };
+        self.angle.push(x);
+        let turns = self.twist[0] != [0; 3];
+        // From the derivatives: (sin θ)' = cos θ θ', (1 - cos θ)' = sin θ θ', (θ - sin θ)' = (1 - cos θ) θ'.
+        let part = f.inv(f.from_i64(d as i64));
+        let rates = |of: &[Residue]| {
+            let terms = (1..d).map(|k| {
+                let rate = f.mul(f.from_i64(k as i64), self.angle[k]);
+                f.mul(rate, of[d - k])
+            });
+            f.mul(part, terms.fold(0, |s, t| f.add(s, t)))
+        };
+        let (sine, cosine, rest) = if turns {
+            let bent = f.mul(self.square, rates(&self.cosine));
+            (f.sub(x, bent), rates(&self.sine), rates(&self.cosine))
+        } else {
+            (x, 0, 0)
+        };
+        self.sine.push(sine);
+        self.cosine.push(cosine);
+        self.rest.push(rest);
+        let of =
+            |a: &[Residue], b: &[Residue]| (1..=d).fold(0, |s, k| f.add(s, f.mul(a[k], b[d - k])));
+        let [w, _, once, _] = self.twist;
+        for i in 0..3 {
+            let mut moved = of(&self.angle, &self.along[0][i]);
+            if turns {
+                let by = |a: &[Residue]| [0, 1, 2].map(|j| of(a, &self.turn[i][j]));
+                let (sines, cosines) = (by(&self.sine), by(&self.cosine));
+                moved = f.add(moved, dot(f, cosines, once));
+                moved = f.add(moved, of(&self.rest, &self.along[1][i]));
+                // A row times ŵ is row × w.
+                let turned = cross(f, sines, w);
+                let twice = cross(f, cross(f, cosines, w), w);
+                for (j, entry) in at.turn[i].iter_mut().enumerate() {
+                    *entry = f.add(*entry, f.add(turned[j], twice[j]));
+                }
+            }
+            at.shift[i] = f.add(at.shift[i], moved);
+        }
+    }
+
+    /// What a coefficient of order `d` that was taken for 0 adds, here and to all that comes after.
+    fn mend(&mut self, f: Field, d: usize, x: Residue, at: &mut Term) {
+        let x = if self.forward { x } else { f.neg(x) };
+        for (i, row) in at.turn.iter().enumerate() {
+            for (series, &more) in self.turn[i].iter_mut().zip(row) {
+                series[d] = f.add(series[d], more);
+            }
+            for (series, by) in self.along.iter_mut().zip([self.twist[1], self.twist[3]]) {
+                series[i][d] = f.add(series[i][d], dot(f, *row, by));
+            }
+        }
+        self.angle[d] = f.add(self.angle[d], x);
+        self.sine[d] = f.add(self.sine[d], x);
+        let [w, v, ..] = self.twist;
+        for i in 0..3 {
+            // Row i of ŵ is e_i × w.
+            let mut axis = [0; 3];
+            axis[i] = f.one();
+            let hat = cross(f, axis, w);
+            for (entry, h) in at.turn[i].iter_mut().zip(hat) {
+                *entry = f.add(*entry, f.mul(x, h));
+            }
+            at.shift[i] = f.add(at.shift[i], f.mul(x, v[i]));
+        }
+    }
+}
+
+impl Term {
+    const ZERO: Term = Term {
+        turn: [[0; 3]; 3],
+        shift: [0; 3],
+    };
+
+    /// The six gaps.
+    fn gaps(&self, f: Field) -> [Residue; 6] {
+        let half = f.inv(f.from_i64(2));
+        let skew = |i: usize, j: usize| f.mul(half, f.sub(self.turn[i][j], self.turn[j][i]));
+        let [x, y, z] = self.shift;
+        [skew(2, 1), skew(0, 2), skew(1, 0), x, y, z]
+    }
+}
+
+/// What comes of a motion that begins with some speeds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Line {
+    /// The order at which it is stopped; none where it is not up to the order that it was expanded to.
+    pub stopped: Option<usize>,
+    /// The order up to which it was expanded, or that stops it.
+    pub order: usize,
+    /// The order by which all coordinates have begun to move that ever do up to that order.
+    pub begun: usize,
+}
+
+/// A motion that begins with these speeds, J x = 0, expanded until it is stopped, to an order or as far as the work allows.
+///
+/// # Complexity
+/// 12 D² products for each freedom that a contour passes, up to order D.
+pub(super) fn line(of: &HigherOrder, speeds: &[Residue], order: usize) -> Line {
+    let f = of.field;
+    let mut walks = at_rest(of);
+    let passed: usize = walks.iter().map(Vec::len).sum();
+    let mut work = 0;
+    let mut moves: Vec<bool> = speeds.iter().map(|&x| x != 0).collect();
+    let mut out = Line {
+        stopped: None,
+        order: 0,
+        begun: 1,
+    };
+    for d in 1..=order {
+        work += 30 * d * passed + of.solve.len() * of.solve.len();
+        if work > WORK {
+            return out;
+        }
+        out.order = d;
+        let gaps = pass(f, &mut walks, d, |c| if d == 1 { speeds[c] } else { 0 });
+        if d == 1 {
+            continue;
+        }
+        let mut more = vec![0; of.twists.len()];
+        for (i, row) in of.solve.iter().enumerate() {
+            // Couplings are linear: they have no gap of higher order.
+            let terms = row.iter().zip(&gaps);
+            let sum = terms.fold(0, |s, (&a, &g)| f.add(s, f.mul(a, g)));
+            match of.pivots.get(i) {
+                Some(&p) => more[p] = f.neg(sum),
+                None if sum != 0 => {
+                    out.stopped = Some(d);
+                    return out;
+                }
+                None => {}
+            }
+        }
+        for (known, _) in moves
+            .iter_mut()
+            .zip(&more)
+            .filter(|(m, x)| !**m && **x != 0)
+        {
+            (*known, out.begun) = (true, d);
+        }
+        for walk in &mut walks {
+            let mut at = Term::ZERO;
+            for step in walk {
+                step.mend(f, d, more[step.column], &mut at);
+            }
+        }
+    }
+    out
+}
+
+/// The contours before anything moves.
+fn at_rest(of: &HigherOrder) -> Vec<Vec<Step>> {
+    let f = of.field;
+    let mut at = Term::ZERO;
+    (0..3).for_each(|i| at.turn[i][i] = f.one());
+    let step = |&(c, forward): &(usize, bool)| {
+        let mut step = Step::new(f, &of.twists[c], c, forward);
+        step.enter(f, &at);
+        step
+    };
+    let walks = of.walks.iter();
+    walks.map(|walk| walk.iter().map(step).collect()).collect()
+}
+
+/// The gaps of order `d`, six a contour, with these coefficients of the coordinates.
+fn pass(
+    f: Field,
+    walks: &mut [Vec<Step>],
+    d: usize,
+    given: impl Fn(usize) -> Residue,
+) -> Vec<Residue> {
+    let mut gaps = Vec::with_capacity(6 * walks.len());
+    for walk in walks {
+        let mut at = Term::ZERO;
+        for step in walk {
+            step.enter(f, &at);
+            step.pass(f, d, given(step.column), &mut at);
+        }
+        gaps.extend(at.gaps(f));
+    }
+    gaps
+}
+
+fn dot(f: Field, a: Three, b: Three) -> Residue {
+    a.iter().zip(b).fold(0, |s, (&x, y)| f.add(s, f.mul(x, y)))
+}

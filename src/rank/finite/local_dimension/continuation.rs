@@ -1,0 +1,115 @@
+//! Whether a motion goes on, as far as what is shaky gapes.
+//!
+//! A shaky pose of order n leaves a gap that grows with the nth power of the way: 10^-23 at a fifth of a radian for order 32,
+//! which no double sees. At a radian and more all orders are seen alike. So a motion is followed by predictor and corrector
+//! [Allgower & Georg 1990, ch. 2] until some coordinate has gone that far, past dead points and back if the way leads there.
+//! Coordinates are counted from one pose, so that gaps do not add up unseen.
+
+use crate::motion::pose::{FLAT, Pose};
+use crate::rank::finite::local_dimension::{Search, along, norm};
+use ozols_dense::svd;
+
+/// How far a motion must go on, by the coordinate that moves most from step to step: radians, or fractions of the size.
+const REACH: f64 = 2.0;
+/// The longest step.
+const LONGEST: f64 = 0.12;
+/// A shorter step is none.
+const SHORTEST: f64 = 0.004;
+/// The largest correction, as a share of its step.
+const CORRECTION: f64 = 0.5;
+/// Directions tried from a pose before it counts as one that is not left.
+const TRIES: usize = 3;
+
+fn largest(q: &[f64]) -> f64 {
+    q.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+}
+
+impl Search {
+    /// Whether a motion in a random direction of some orthonormal columns, all being motions, goes on; `None` where the budget
+    /// is spent.
+    pub(super) fn all_go_on(&mut self, pose: &Pose, span: &ozols_dense::Matrix) -> Option<bool> {
+        let n = span.ncols();
+        let here = vec![0.0; span.nrows()];
+        for _ in 0..TRIES {
+            let direction = along(span, &self.direction(n));
+            if self.goes_on(pose, &here, &direction, n)? {
+                return Some(true);
+            }
+        }
+        Some(false)
+    }
+
+    /// Whether a motion goes on from closed coordinates in a direction, J leaving at least so many motions all along it;
+    /// `None` where the budget is spent.
+    ///
+    /// # Complexity
+    /// Some twenty closings and as many decompositions of J.
+    pub(super) fn goes_on(
+        &mut self,
+        pose: &Pose,
+        from: &[f64],
+        direction: &[f64],
+        least: usize,
+    ) -> Option<bool> {
+        let (mut q, mut onward) = (from.to_vec(), direction.to_vec());
+        let (mut way, mut step) = (0.0, LONGEST);
+        while way < REACH {
+            let Some(tangent) = tangent(pose, &q, &onward, least) else {
+                return Some(false);
+            };
+            let next = loop {
+                let guess: Vec<f64> = q.iter().zip(&tangent).map(|(q, t)| q + step * t).collect();
+                // Across the way one comes from alone: all else is corrected as little as possible.
+                let size = norm(&tangent);
+                let row: Vec<f64> = tangent.iter().map(|t| t / size).collect();
+                let beside = |x: &[f64]| {
+                    let ahead: f64 = x
+                        .iter()
+                        .zip(&guess)
+                        .zip(&row)
+                        .map(|((x, g), t)| (x - g) * t)
+                        .sum();
+                    vec![(ahead, row.clone())]
+                };
+                let (closed, gap) = self.close(pose, guess.clone(), &beside)?;
+                let corrected: Vec<f64> = closed.iter().zip(&guess).map(|(a, b)| a - b).collect();
+                if gap <= pose.closed() && largest(&corrected) <= CORRECTION * step {
+                    break closed;
+                }
+                step /= 2.0;
+                if step < SHORTEST {
+                    return Some(false);
+                }
+            };
+            onward = next.iter().zip(&q).map(|(a, b)| a - b).collect();
+            way += step;
+            step = (1.5 * step).min(LONGEST);
+            q = next;
+        }
+        Some(tangent(pose, &q, &onward, least).is_some())
+    }
+}
+
+/// The motion at some coordinates that is nearest to a direction, its largest coordinate 1; none where J leaves fewer motions
+/// than so many.
+fn tangent(pose: &Pose, q: &[f64], onward: &[f64], least: usize) -> Option<Vec<f64>> {
+    let svd = svd(&pose.jacobian(q))?;
+    let scale = svd.values.first().map_or(1.0, |s| s.max(1.0));
+    let flat = FLAT.max(10.0 * pose.accuracy()) * scale;
+    let kernel = svd.null_space(svd.values.iter().filter(|&&s| s > flat).count());
+    if kernel.ncols() < least {
+        return None;
+    }
+    let weights: Vec<f64> = (0..kernel.ncols())
+        .map(|c| {
+            onward
+                .iter()
+                .enumerate()
+                .map(|(r, x)| kernel[(r, c)] * x)
+                .sum()
+        })
+        .collect();
+    let tangent = along(&kernel, &weights);
+    let size = largest(&tangent);
+    (norm(&weights) > 0.0 && size > 0.0).then(|| tangent.iter().map(|t| t / size).collect())
+}

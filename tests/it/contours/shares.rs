@@ -1,0 +1,122 @@
+//! σ of a contour over all bases that it is part of, against every basis of simple closed walks.
+
+use itertools::Itertools;
+use ozols::builtin;
+use ozols::closure::contour::{Contour, closed_walk};
+use ozols::closure::matrix::Closure;
+use ozols::file::text::mechanism_from_str;
+use ozols::geom::exact::ExactField;
+use ozols::model::mechanism::{JointId, Mechanism, StateId};
+use ozols::rank::exact::field::field_of;
+use ozols::rank::exact::modular;
+use ozols::redundancy::measured::Measured;
+use ozols::redundancy::share::shares;
+
+/// Every closed walk that passes no link twice.
+fn walks(m: &Mechanism, joints: &[JointId]) -> Vec<Contour> {
+    let subsets = (1u32..1 << joints.len()).filter(|s| s.count_ones() > 1);
+    let chosen = |set: u32| -> Vec<JointId> {
+        (0..joints.len())
+            .filter(|i| set >> i & 1 == 1)
+            .map(|i| joints[i])
+            .collect()
+    };
+    subsets
+        .filter_map(|set| {
+            let own = chosen(set);
+            let degree = |l| {
+                own.iter()
+                    .filter(|&&j| m.joints[j].links.contains(l))
+                    .count()
+            };
+            if own
+                .iter()
+                .flat_map(|&j| &m.joints[j].links)
+                .any(|l| degree(l) != 2)
+            {
+                return None;
+            }
+            in_order(m, own)
+        })
+        .collect()
+}
+
+/// Joints put in the order of a walk; nothing where they are several.
+fn in_order(m: &Mechanism, mut left: Vec<JointId>) -> Option<Contour> {
+    let mut order = vec![left.remove(0)];
+    let mut at = m.joints[order[0]].links[1];
+    while let Some(next) = left.iter().position(|&j| m.joints[j].links.contains(&at)) {
+        let j = left.remove(next);
+        let [a, b] = m.joints[j].links;
+        at = if a == at { b } else { a };
+        order.push(j);
+    }
+    left.is_empty().then(|| closed_walk(m, &order))?
+}
+
+/// Whether walks are independent, by elimination of how they pass joints.
+fn independent(walks: &[&Contour], joints: &[JointId]) -> bool {
+    let row = |w: &&Contour| -> Vec<f64> {
+        let way = |j: &JointId| w.direction(*j).map_or(0.0, |d| if d { 1.0 } else { -1.0 });
+        joints.iter().map(way).collect()
+    };
+    let mut rows: Vec<Vec<f64>> = walks.iter().map(row).collect();
+    for i in 0..rows.len() {
+        let Some(c) = (0..joints.len()).find(|&c| rows[i][c].abs() > 1e-9) else {
+            return false;
+        };
+        let pivot = rows[i].clone();
+        for row in &mut rows[i + 1..] {
+            let by = row[c] / pivot[c];
+            row.iter_mut().zip(&pivot).for_each(|(x, p)| *x -= by * p);
+        }
+    }
+    true
+}
+
+fn redundant(exact: &ExactField, m: &Mechanism, of: Vec<Contour>) -> usize {
+    let closure = Closure::with_contours(exact, m, StateId::FREE, of).unwrap();
+    closure.rows() - modular::rank_dense(exact, &closure)
+}
+
+#[test]
+fn the_range_over_bases_is_that_of_every_basis() {
+    let (mut seen, mut wider) = (0, 0);
+    for name in builtin::names() {
+        let m = mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap();
+        let joints: Vec<JointId> = m.joints_in(StateId::FREE).collect();
+        let exact = field_of(&m, StateId::FREE, 0).unwrap();
+        let closure = Closure::new(&exact, &m, StateId::FREE).unwrap();
+        let k = closure.contours.len();
+        if !(2..=4).contains(&k) || joints.len() > 13 || !closure.couplings.is_empty() {
+            continue;
+        }
+        seen += 1;
+        let all = walks(&m, &joints);
+        let whole = redundant(&exact, &m, closure.contours.clone());
+        let measured = Measured::new(&m, StateId::FREE, 1e-9).unwrap().shares();
+        for (share, by_values) in shares(&exact, &closure).iter().zip(&measured) {
+            let others = all.iter().combinations(k - 1);
+            let last = others.filter_map(|rest| {
+                let mut basis = vec![&share.contour];
+                basis.extend(&rest);
+                independent(&basis, &joints)
+                    .then(|| whole - redundant(&exact, &m, rest.into_iter().cloned().collect()))
+            });
+            let greatest = last.max().unwrap();
+            let (reached, most) = share.over_bases;
+            let contour = share.contour.name(&m);
+            assert!(
+                (reached..=most).contains(&greatest),
+                "{name} {contour}: {greatest}, not {reached} to {most}"
+            );
+            assert!(
+                reached >= share.range.1 && share.range.0 <= share.redundant,
+                "{name}"
+            );
+            assert_eq!(by_values.over_bases, share.over_bases, "{name} {contour}");
+            wider += usize::from(reached > share.range.1);
+        }
+    }
+    assert!(seen >= 20 && wider >= 4, "{seen} {wider}");
+}

@@ -1,0 +1,62 @@
+//! Drives that name their freedom: what is held is what the file says, in every state.
+
+use crate::common::run_on;
+use ozols::builtin;
+use ozols::file::text::mechanism_from_str;
+use ozols::model::joint_type::Freedom;
+use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::motion::pose::Pose;
+use ozols::statics::reactions::drives::driven;
+use ozols::statics::reactions::geometry::Geometry;
+
+/// The gripper's slider, which slides along its guide and may turn about it.
+fn gripper(drive: &str) -> String {
+    let text = builtin::text("gripper-10").unwrap();
+    assert!(text.contains("drive = true"));
+    text.replacen("drive = true", &format!("drive = {drive}"), 1)
+}
+
+fn held(m: &Mechanism, state: StateId) -> Vec<Freedom> {
+    let pose = Pose::of_file(m, state).unwrap();
+    let drives = driven(m, &Geometry::new(m, state, &pose).unwrap()).unwrap();
+    drives.into_iter().map(|(_, f)| f).collect()
+}
+
+#[test]
+fn the_freedom_named_is_held_in_every_state() {
+    for (word, freedom) in [("\"tz\"", Freedom::Tz), ("\"rz\"", Freedom::Rz)] {
+        let m = mechanism_from_str("g.toml", &gripper(word)).unwrap();
+        assert!(m.states.len() > 1);
+        for state in 0..m.states.len() {
+            assert_eq!(held(&m, StateId::new(state)), [freedom], "{word} {state}");
+        }
+    }
+}
+
+/// A stroke goes along it, and the file keeps it when it is written anew.
+#[test]
+fn strokes_and_files_keep_it() {
+    let (code, said, _) = run_on(
+        "analyze",
+        "g.toml",
+        &gripper("\"tz\""),
+        &["--state", "free", "--stroke", "0:0.1:2"],
+    );
+    assert_eq!(code, Some(0));
+    assert!(said.contains("0-1:tz"), "{said}");
+    let (code, said, _) = run_on("export", "g.toml", &gripper("\"tz\""), &["--to", "toml"]);
+    assert_eq!(code, Some(0));
+    assert!(said.contains("drive = \"tz\""), "{said}");
+}
+
+#[test]
+fn a_freedom_that_the_joint_has_not_is_refused() {
+    for word in ["\"ty\"", "\"sideways\""] {
+        let (code, _, complaint) = run_on("check", "g.toml", &gripper(word), &[]);
+        assert_eq!(code, Some(2));
+        assert!(
+            complaint.contains("freedom to drive") && complaint.contains("rz, tz"),
+            "{complaint}"
+        );
+    }
+}
