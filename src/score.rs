@@ -48,4 +48,5 @@ pub mod terms;
 mod unlisted;
 pub mod variant;
 pub mod variants;
+pub mod why;
 mod would_help;

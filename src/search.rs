@@ -18,8 +18,9 @@ mod reduce;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::model::mechanism::Mechanism;
 use crate::search::answer::counts::{self, Counts};
-use crate::search::answer::freedom_patterns::{self, Idea};
+use crate::search::answer::ideas::{self, Idea};
 use crate::search::answer::k_best::Assignment;
+use crate::search::answer::least_freedoms;
 use crate::search::answer::variants_in_order;
 use crate::search::build::Diagrams;
 use crate::search::build::orders::Orders;
@@ -28,6 +29,7 @@ use crate::search::numeric::at_tolerance::{self, AtTolerance};
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, SearchError};
 use crate::search::question::rounded_rank::Digits;
+use num_bigint::BigUint;
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -123,8 +125,14 @@ impl Search {
         at_tolerance::at_tolerance(&mut self.question, digits, (list, seed), cancelled)
     }
 
-    /// The first ideas, each of all variants that give the same freedoms to the same contours; `top` of them at most.
+    /// How many admissible variants are minimal: no other has part of their freedoms. `None` where that is not counted.
+    #[must_use]
+    pub fn minimal(&self, diagrams: &Diagrams) -> Option<BigUint> {
+        least_freedoms::count(self, diagrams)
+    }
+
+    /// The first ideas, each of all minimal variants that give the same freedoms to the same contours; `top` of them at most.
     pub fn ideas(&self, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
-        freedom_patterns::ideas(self, diagrams, top)
+        ideas::ideas(self, diagrams, top)
     }
 }

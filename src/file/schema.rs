@@ -306,8 +306,8 @@ pub struct SearchEntry {
     /// half a turn, or groups of three by a third. Not beside mirror images.
     #[serde(default)]
     pub turn: Vec<Vec<String>>,
-    /// Costs by option or type name, and `change`, `link` and `harmful` (of each harmful redundant constraint that a searched
-    /// state adds).
+    /// Costs by option or type name, and `change`, `driven` (of changing a driven joint besides), `link` and `harmful` (of each
+    /// harmful redundant constraint that a searched state adds).
     #[serde(default)]
     pub costs: BTreeMap<String, f64>,
 }

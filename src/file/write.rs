@@ -293,6 +293,8 @@ fn search(m: &Mechanism) -> SearchEntry {
             .change_milli
             .map(|c| ("change".to_owned(), cost(c))),
     );
+    let driven = spec.costs.driven_milli;
+    costs.extend(driven.map(|c| ("driven".to_owned(), cost(c))));
     costs.extend(spec.costs.link_milli.map(|c| ("link".to_owned(), cost(c))));
     costs.extend(
         spec.costs

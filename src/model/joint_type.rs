@@ -152,7 +152,7 @@ impl JointType {
             JointType::Spherical => ("spherical", &[Rx, Ry, Rz], 2000),
             JointType::Planar => ("planar", &[Rz, Tx, Ty], 2500),
             JointType::CylindricalUniversal => ("cylindrical-universal", &[Rz, Rx, Tz], 3500),
-            JointType::SphereInCylinder => ("sphere-in-cylinder", &[Rx, Ry, Rz, Tz], 2500),
+            JointType::SphereInCylinder => ("sphere-in-cylinder", &[Rx, Ry, Rz, Tz], 4000),
             JointType::CylinderOnPlane => ("cylinder-on-plane", &[Rz, Rx, Tx, Ty], 2000),
             JointType::SphereOnPlane => ("sphere-on-plane", &[Rx, Ry, Rz, Tx, Ty], 1500),
             JointType::Fixed => ("fixed", &[], 500),

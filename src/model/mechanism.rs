@@ -176,6 +176,8 @@ pub struct CostSpec {
     pub change_milli: Option<i64>,
     /// Cost of the extra link of an unloading joint.
     pub link_milli: Option<i64>,
+    /// Cost of changing a driven joint besides.
+    pub driven_milli: Option<i64>,
     /// Cost of a harmful redundant constraint that a searched state adds.
     pub harmful_milli: Option<i64>,
 }

@@ -260,6 +260,7 @@ impl Variants {
                 let told = Variant {
                     outcome: outcome.clone(),
                     assignment: v.assignment().clone(),
+                    name: v.name(),
                     position: v.position(),
                     text: v.to_string(),
                     data: serde_json::to_string(&VariantData::new(&outcome, &v)).ok(),
@@ -308,6 +309,8 @@ impl Variants {
 pub(crate) struct Variant {
     outcome: Arc<ozols::Outcome>,
     assignment: Assignment,
+    /// "variant 3", or "idea 3" in a list of ideas.
+    name: String,
     #[pyo3(get)]
     position: usize,
     #[pyo3(get)]
@@ -320,13 +323,12 @@ pub(crate) struct Variant {
 impl Variant {
     fn mechanism(&self) -> Mechanism {
         let search = &self.outcome.search;
-        Mechanism(variant::mechanism(search, &self.assignment, self.position))
+        Mechanism(variant::mechanism(search, &self.assignment, &self.name))
     }
 
     fn draw(&self, py: Python<'_>, kind: &str, state: &str) -> PyResult<String> {
         py.detach(|| {
-            let name = format!("variant {}", self.position);
-            let (realized, marks) = of_variant(&self.outcome.search, &self.assignment, &name);
+            let (realized, marks) = of_variant(&self.outcome.search, &self.assignment, &self.name);
             drawn(&realized, kind, state, Some(marks))
         })
     }

@@ -22,6 +22,7 @@ impl Request {
             by_type_milli,
             change_milli: stated.change_milli.or(old.change_milli),
             link_milli: stated.link_milli.or(old.link_milli),
+            driven_milli: stated.driven_milli.or(old.driven_milli),
             harmful_milli: stated.harmful_milli.or(old.harmful_milli),
         };
         Ok(())

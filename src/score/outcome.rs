@@ -155,6 +155,17 @@ impl Outcome {
         self.diagrams.as_ref().map_or([None; 2], |d| d.estimates)
     }
 
+    /// How many of the admissible variants are minimal: no other of them has part of their freedoms. `None` where that is not
+    /// known exactly: the search ended early or is numeric, orbits are counted, or it takes too many nodes.
+    ///
+    /// # Complexity
+    /// That of a diagram of the minimal variants.
+    #[must_use]
+    pub fn minimal(&self) -> Option<BigUint> {
+        let found = self.diagrams.as_ref().filter(|_| self.is_exact());
+        self.search.minimal(found?)
+    }
+
     /// Counts of the admissible variants by cost in thousandths; none of orbits, and none by brute force. `None`
     /// where they would take more than the memory there is.
     ///

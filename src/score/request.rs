@@ -75,6 +75,11 @@ pub enum Method {
     Brute,
 }
 
+/// What a list of ideas has at each place.
+pub(in crate::score) const IDEA: &str = "idea";
+/// What a list of all variants has at each place.
+pub(in crate::score) const VARIANT: &str = "variant";
+
 /// What is asked of a search.
 ///
 /// The default is the main job: no redundant constraint within the mechanism, the motion of the outputs kept, the ten
@@ -189,6 +194,12 @@ impl Default for Request {
 }
 
 impl Request {
+    /// What the list that is asked for has, one at a place: "idea" or "variant". The third of each are different mechanisms.
+    #[must_use]
+    pub fn one(&self) -> &'static str {
+        if self.distinct { IDEA } else { VARIANT }
+    }
+
     /// Makes a mechanism ready. `tell` hears what was moved.
     ///
     /// # Errors

@@ -8,9 +8,10 @@ use crate::model::mechanism::{Joint, JointId, Mechanism, StateId};
 use crate::redundancy::share::{ContourShare, shares};
 use crate::score::outcome::Outcome;
 use crate::score::ranking::Ranked;
+use crate::score::request::{IDEA, VARIANT};
 use crate::score::terms::Scores;
 use crate::search::Search;
-use crate::search::answer::freedom_patterns::Idea;
+use crate::search::answer::ideas::Idea;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::other_poses::OverStroke;
 use crate::search::check::singular_values::{Certified, Second};
@@ -157,10 +158,17 @@ impl<'o> Variant<'o> {
         pool.reason(&self.outcome.search.mechanism, self.place? + 1)
     }
 
+    /// Its name: "idea 3" in a list of ideas, "variant 3" in one of all variants.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let one = if self.idea.is_some() { IDEA } else { VARIANT };
+        format!("{one} {}", self.position)
+    }
+
     /// The variant as a mechanism of its own, named for its place in the list.
     #[must_use]
     pub fn mechanism(&self) -> Mechanism {
-        mechanism(&self.outcome.search, self.assignment(), self.position)
+        mechanism(&self.outcome.search, self.assignment(), &self.name())
     }
 
     /// σ of each of its contours when they are added in this order, with the range over all orders of these: of the searched state,
@@ -206,18 +214,26 @@ impl fmt::Display for Variant<'_> {
     }
 }
 
-/// A choice of options as a mechanism of its own, named for its place in a list.
+/// A choice of options as a mechanism of its own, named for its place in a list: "variant 3".
 #[must_use]
-pub fn mechanism(search: &Search, assignment: &Assignment, position: usize) -> Mechanism {
+pub fn mechanism(search: &Search, assignment: &Assignment, name: &str) -> Mechanism {
     let mut out = variant_mechanism::realize(search, &assignment.choices);
     out.description = format!(
-        "Variant {position} of {}: {}",
+        "{} of {}: {}",
+        capital(name),
         out.name,
         in_words(search, &changes(search, assignment))
     );
-    out.name = format!("{}-variant-{position}", out.name);
+    out.name = format!("{}-{}", out.name, name.replace(' ', "-"));
     offer_again(search, assignment, &mut out);
     out
+}
+
+/// The same beginning a sentence.
+fn capital(name: &str) -> String {
+    let mut letters = name.chars();
+    let first = letters.next().map(char::to_uppercase);
+    first.into_iter().flatten().chain(letters).collect()
 }
 
 /// Puts back what a search may still choose, so that a variant can be searched again: what was offered at a joint and allows

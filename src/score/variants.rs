@@ -5,8 +5,8 @@ use crate::score::outcome::Outcome;
 use crate::score::request::{Check, List, Request, RequestError};
 use crate::score::run::ShouldCancel;
 use crate::score::variant::Variant;
-use crate::search::answer::freedom_patterns;
-use crate::search::answer::freedom_patterns::Idea;
+use crate::search::answer::ideas;
+use crate::search::answer::ideas::Idea;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::other_poses::Stroke;
 use crate::search::check::singular_values;
@@ -97,7 +97,7 @@ impl Outcome {
             if let Some(numeric) = &self.numeric {
                 if let (List::Top(k), true) = (list, distinct) {
                     let sure = numeric.list(&self.search);
-                    ideas = freedom_patterns::ideas_among(&self.search, sure, k);
+                    ideas = ideas::ideas_among(&self.search, sure, k);
                 }
                 let firsts = ideas.iter().map(|i| i.first.clone()).collect_vec();
                 match list {
@@ -115,8 +115,7 @@ impl Outcome {
                         let found = match ranking {
                             Some(r) => {
                                 let list = r.list.iter().map(|r| &r.variant);
-                                let first = freedom_patterns::first_of_each(&self.search, list, d)
-                                    .into_iter();
+                                let first = ideas::first_of_each(&self.search, list, d).into_iter();
                                 first
                                     .map(|(at, idea)| (Some(at), idea))
                                     .take(k)

@@ -4,6 +4,8 @@ pub mod as_written;
 pub mod conditions;
 pub mod cost;
 pub mod grasp;
+pub mod own_images;
+pub mod preference;
 pub mod rounded_rank;
 pub mod space;
 pub mod symmetry;

@@ -190,10 +190,10 @@ test("the first list is of ideas, and single variants are a choice away", async 
     assert.match(await text(tab, "#count"), /^200 ideas; they stand for [\d,]+ of 25,761,436/);
     assert.match((await column(tab, "list"))[0], /(turn about|slide along) [xyz].* at /s);
     assert.match(await text(tab, "#chosen"), /Idea 1/);
-    assert.match(await text(tab, "#chosen"), /ozols draw gripper-10 --idea 1 -o idea-1.svg/);
+    assert.match(await text(tab, "#chosen"), /ozols draw gripper-10 --idea 1 -o gripper-10-idea-1.svg/);
     await variants(tab);
     assert.match(await text(tab, "#chosen"), /Variant 1\n/);
-    assert.match(await text(tab, "#chosen"), /ozols draw gripper-10 --variant 1 -o variant-1.svg/);
+    assert.match(await text(tab, "#chosen"), /ozols draw gripper-10 --variant 1 -o gripper-10-variant-1.svg/);
   });
 });
 

@@ -33,9 +33,9 @@ fn a_type_that_is_dear_is_chosen_no_more() {
     };
     let has = |v: &serde_json::Value, t: &str| v["changes"].to_string().contains(t);
     let before = first(&[]);
-    let (_folder, path) = table("sphere-in-cylinder = 2.5", "sphere-in-cylinder = 90");
+    let (_folder, path) = table("\nspherical = 2\n", "\nspherical = 90\n");
     let after = first(&["--costs", &path]);
-    assert!(has(&before, "sphere-in-cylinder") && !has(&after, "sphere-in-cylinder"));
+    assert!(has(&before, "spherical") && !has(&after, "spherical"));
     assert_ne!(before["cost"], after["cost"]);
     // the page says how it was made
     let page = out(&["report", "four-bar", "--costs", &path]);

@@ -126,8 +126,8 @@ fn the_pictures_are_what_the_program_draws() {
     let pictures: [(&str, &[&str]); 2] = [
         ("gripper-10.svg", &["draw", "gripper-10"]),
         (
-            "gripper-10-variant-1.svg",
-            &["draw", "gripper-10", "--variant", "1"],
+            "gripper-10-idea-1.svg",
+            &["draw", "gripper-10", "--idea", "1"],
         ),
     ];
     for (name, command) in pictures {

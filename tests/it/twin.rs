@@ -1,5 +1,6 @@
 //! The search against a slow twin in rational arithmetic that shares no code with it, on random mechanisms.
 
+pub(crate) mod less;
 mod random;
 mod rational;
 
@@ -296,7 +297,7 @@ proptest! {
 }
 
 /// Whether a variant is what it must be in the searched state.
-fn suits(state: Option<InState>, t: &Twin) -> bool {
+pub(crate) fn suits(state: Option<InState>, t: &Twin) -> bool {
     state.is_none_or(|s| {
         s.max_external.is_none_or(|most| t.external <= most as i32)
             && s.max_harmful.is_none_or(|most| t.harmful <= most)
@@ -312,7 +313,6 @@ fn agrees(text: &str, allowed: u32, keep: bool, hold: bool) -> Result<(), TestCa
     // The clamped state asks for more eliminations of each.
     prop_assume!(all.len() <= if clamped { 24 } else { 64 });
     let present = look(&m, clamped, &vec![(0, None); m.joints.len()]);
-    // The analysis of the mechanism as it is.
     let states: Vec<StateId> = m.state_ids().collect();
     let found = analyse(&m, &states, Method::Modular).unwrap();
     prop_assert_eq!(found[0].redundant, present.internal as usize);

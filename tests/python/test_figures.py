@@ -174,7 +174,7 @@ def test_a_variant_is_a_mechanism_and_is_drawn_with_its_changes():
     redesign = first.mechanism()
     assert redesign.name == "gripper-10-variant-1"
     assert redesign.analyze("free").states[0].redundant == 0
-    assert str(first).startswith("1. cost 9.5, W = 1, σ = 0: 1-2, 3-0, ")
+    assert str(first).startswith("1. cost 11.5, W = 1, σ = 0: 1-2, 3-0, ")
 
 
 @pytest.mark.parametrize("format", ["toml", "json", "urdf", "mjcf", "sdf", "dot", "graphml"])

@@ -17,7 +17,7 @@ use crate::score::outcome::Outcome;
 use crate::score::request::{List, Request};
 use crate::score::variants::Variants;
 use crate::view::analysis::{Analysis, State};
-use crate::view::terminal::next_commands::{file_name, flags, word};
+use crate::view::terminal::next_commands::{file_name, flags, stem, word};
 use anyhow::ensure;
 use clap::Args as ClapArgs;
 use itertools::Itertools;
@@ -188,9 +188,13 @@ fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
     );
     let of_one = |name: &str| {
         let row_of = |what: &str, command: &str, rest: &str| {
-            let rest = rest.replace("NAME", name);
-            let number = if request.distinct { "idea" } else { name };
-            let number = format!("--{number} {{}}");
+            let one = if request.distinct {
+                request.one()
+            } else {
+                name
+            };
+            let rest = rest.replace("NAME", &format!("{}-{one}", stem(&mechanism.name)));
+            let number = format!("--{one} {{}}");
             let words = [command, &file, &plain, &number, &rest];
             row(what, words.iter().filter(|w| !w.is_empty()).join(" "))
         };

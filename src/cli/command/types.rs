@@ -31,6 +31,7 @@ pub(in crate::cli) fn changed(
     tell: fn(Event),
 ) -> anyhow::Result<Plan> {
     // What is added is told against the mechanism as it is meant, which is the one that was searched.
+    let one = request.one();
     let (before_it, changed, w, sigma) =
         variant::kth_telling(m.clone(), request, k, &mut { tell }, |v| {
             let searched = v.outcome().search.mechanism.clone();
@@ -38,14 +39,14 @@ pub(in crate::cli) fn changed(
         })?;
     ensure!(
         changed.joints.len() == before_it.joints.len(),
-        "variant {k} puts in joints that are not of one joint's kind; choose another"
+        "{one} {k} puts in joints that are not of one joint's kind; choose another"
     );
     let mut releases = Vec::new();
     for (i, (old, new)) in before_it.joints.iter().zip(&changed.joints).enumerate() {
         let all = added((&old.frame, &old.joint_type), (&new.frame, &new.joint_type))?;
         ensure!(
             old.joint_type.freedoms().len() + all.len() == new.joint_type.freedoms().len(),
-            "variant {k} puts a joint in the place of \"{}\" that has not all of its freedoms; choose another",
+            "{one} {k} puts a joint in the place of \"{}\" that has not all of its freedoms; choose another",
             old.id
         );
         releases.extend(all.into_iter().map(|(slides, direction)| Release::Freedom {

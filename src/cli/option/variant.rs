@@ -61,7 +61,8 @@ pub(in crate::cli) fn kth_telling<T>(
     tell: &mut (dyn FnMut(Event) + Send),
     with: impl FnOnce(&Variant<'_>) -> T,
 ) -> anyhow::Result<T> {
-    ensure!(k > 0, "variants are numbered from 1");
+    let one = request.one();
+    ensure!(k > 0, "{one}s are numbered from 1");
     let request = Request {
         list: List::Top(k),
         check: Check::None,
@@ -72,7 +73,7 @@ pub(in crate::cli) fn kth_telling<T>(
     let seen = last.as_ref().map_or(0, Variant::position);
     let variant = last.filter(|_| seen == k).with_context(|| {
         let name = &outcome.search.mechanism.name;
-        format!("{name} has no variant {k}: the search gives {seen}")
+        format!("{name} has no {one} {k}: the search gives {seen}")
     })?;
     Ok(with(&variant))
 }

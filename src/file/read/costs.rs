@@ -10,7 +10,7 @@ use itertools::Itertools;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What costs that are no joint's are called.
-const OTHERS: [&str; 3] = ["change", "link", "harmful"];
+const OTHERS: [&str; 4] = ["change", "driven", "link", "harmful"];
 
 pub(crate) fn costs(
     stated: &BTreeMap<String, f64>,
@@ -28,6 +28,7 @@ pub(crate) fn costs(
         };
         match name.as_str() {
             "change" => spec.change_milli = Some(milli),
+            "driven" => spec.driven_milli = Some(milli),
             "link" => spec.link_milli = Some(milli),
             "harmful" => spec.harmful_milli = Some(milli),
             n if JointType::from_name(n).is_some() || offered.contains(n) => {

@@ -117,7 +117,7 @@ function choose(i) {
     const changes = changesOf(i);
     byId("chosen-head").textContent = `${noun()} ${i + 1}`;
     byId("chosen-words").textContent = byIdeas()
-      ? `Adds ${found.adds[i] || "nothing"}; stands for ${found.exact ? "" : "at least "}${grouped(found.stands_for[i])} variants. This is the first of them: ${inWords(i).replace(/^[^:]*: /, "")}.`
+      ? `Adds ${found.adds[i] || "nothing"}; stands for ${found.exact ? "" : "at least "}${grouped(found.stands_for[i])} variants. Shown is the one that leaves most as it is: ${inWords(i).replace(/^[^:]*: /, "")}.`
       : `${inWords(i)}.`;
     byId("chosen-changes").replaceChildren(changeList(changes));
     const more = [figureTable(i), ...remarks(i), loadTable(i)];

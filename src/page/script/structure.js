@@ -38,7 +38,7 @@ function choose(c, from) {
   dialog.replaceChildren(head, two);
   const commands = text('pre', '');
   const tell = (idea) => {
-    const k = idea ? ` --variant ${idea.place}` : '';
+    const k = idea ? ` --idea ${idea.place}` : '';
     commands.textContent = `ozols catalog export ${data.file} ${c.id}${k} -o gripper.toml\nozols report gripper.toml -o gripper.html`;
   };
   if (c.ideas.length) {
@@ -61,7 +61,7 @@ function choose(c, from) {
     const room = document.createElement('div');
     room.className = 'wide';
     room.append(table);
-    dialog.append(text('h3', 'The cheapest ideas'), text('p', 'Each stands for as many variants as share out the same freedoms among joints in series; choose one to see the first of them.', { class: 'help' }), room);
+    dialog.append(text('h3', 'The cheapest ideas'), text('p', 'Each stands for as many variants as share out the same freedoms among joints in series; choose one to see it carried out.', { class: 'help' }), room);
   }
   tell(null);
   dialog.append(text('h3', 'Go on'), commands);

@@ -74,7 +74,7 @@ class Outcome(Sequence[Variant]):
     >>> import ozols
     >>> found = ozols.Mechanism.builtin("gripper-10").search(top=3)
     >>> found.admissible, len(found), found[0].cost
-    (25761436, 3, 9.5)
+    (25761436, 3, 11.5)
     >>> [v.redundant for v in found.sample(3, seed=7)]
     [0, 0, 0]
     >>> sum(1 for v, _ in zip(found.all(), range(1000)))

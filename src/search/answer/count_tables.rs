@@ -188,6 +188,25 @@ impl Steps {
         }
     }
 
+    /// The same with weights of changed variables after the cost: of equal cost those with less weight are cheaper. Costs are
+    /// then in a unit of their own.
+    #[must_use]
+    pub(in crate::search) fn then(&self, weights: &[u64]) -> Steps {
+        let many = weights.iter().sum::<u64>() + 1;
+        let key = |k: &Key, weight: u64| {
+            let weight = if k.changes() > 0 { weight } else { 0 };
+            Key::new(k.cost() * many + weight, k.freedoms(), k.changes())
+        };
+        let keys = self.keys.iter().zip(weights);
+        Steps {
+            keys: keys
+                .map(|(v, &w)| v.iter().map(|k| key(k, w)).collect())
+                .collect(),
+            harmful: self.harmful * many,
+            ..*self
+        }
+    }
+
     /// The largest cost part of a key that is no more than a cost in thousandths.
     #[must_use]
     pub fn above(&self, milli: i64) -> u64 {

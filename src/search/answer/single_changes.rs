@@ -105,7 +105,8 @@ pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestio
             tried += 1;
             let removes = columns.len() - own.len();
             if removes > 0 && gain(exact, &wrenches, &columns) == removes {
-                let cost_milli = costs.change(&present, to.as_ref(), unloading.as_ref());
+                let cost_milli =
+                    costs.change((&present, joint.drive), to.as_ref(), unloading.as_ref());
                 list.push(Suggestion {
                     joint: j,
                     to,

@@ -1,6 +1,6 @@
 //! The admissible variants of a finished diagram: the cheapest in order, or some at random.
 
-use crate::search::answer::count_tables::{Count, Key, Tally};
+use crate::search::answer::count_tables::{Count, Key, Steps, Tally};
 use crate::search::answer::counts::fits;
 use crate::search::answer::counts::limited;
 use crate::search::answer::k_best::{Assignment, Cheapest, Enter, Sample};
@@ -73,14 +73,17 @@ fn is_first_image(question: &Question, diagram: &Diagram, v: &Assignment) -> boo
     others.all(|image| by_layer(&image) >= own)
 }
 
-/// The admissible variants of a diagram in order, but for those whose beginnings `enter` refuses.
+/// The admissible variants of a diagram in the order of other steps than the question's, with keys of these, but for those whose
+/// beginnings `enter` refuses.
 pub(in crate::search) fn distinct<'a>(
     question: &'a Question,
     diagram: &'a Diagram,
+    steps: &'a Steps,
     top: usize,
     enter: Enter<'a>,
 ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-    between(question, diagram, top, (i64::MIN, i64::MAX), enter)
+    let wanted = |k: Key| question.wanted(k);
+    in_steps(question, diagram, steps, (top, u64::MAX), wanted, enter)
 }
 
 /// The variants of a diagram with costs in thousandths from one to another, but for those whose beginnings `enter`
@@ -92,11 +95,23 @@ fn between<'a>(
     (least, most): (i64, i64),
     enter: Enter<'a>,
 ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-    let rank = |k: Key| (question.mobility(k), k.changes());
     let costs = |k: Key| (least..=most).contains(&question.steps.milli(k.cost()));
     let wanted = |k: Key| question.wanted(k) && costs(k);
-    let (steps, room) = (&question.steps, question.conditions.memory / 4);
     let range = (top, question.steps.above(most));
+    in_steps(question, diagram, &question.steps, range, wanted, enter)
+}
+
+/// The variants of a diagram whose keys pass a test, in the order of some steps.
+fn in_steps<'a>(
+    question: &'a Question,
+    diagram: &'a Diagram,
+    steps: &'a Steps,
+    range: (usize, u64),
+    wanted: impl Fn(Key) -> bool,
+    enter: Enter<'a>,
+) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+    let rank = |k: Key| (question.mobility(k), k.changes());
+    let room = question.conditions.memory / 4;
     if fits(question) {
         Box::new(Cheapest::<u128>::new(
             diagram, steps, range, wanted, rank, room, enter,
@@ -106,6 +121,14 @@ fn between<'a>(
             diagram, steps, range, wanted, rank, room, enter,
         ))
     }
+}
+
+/// The properties of a variant of a diagram.
+pub(in crate::search) fn key(question: &Question, diagram: &Diagram, choices: &[usize]) -> Key {
+    let chosen = choices.iter().enumerate();
+    let sum: u128 = chosen.map(|(v, &c)| question.steps.keys[v][c].0).sum();
+    let end = diagram.end(choices).unwrap_or_default();
+    Key(sum + question.steps.redundancy(end).0)
 }
 
 /// Draws admissible variants, or orbits, without end, each with the same chance; none where what it takes to draw is more than the

@@ -1,6 +1,6 @@
 //! The additive cost of a redesign.
 //!
-//! cost(variant) = Σ over changed joints (cost of the new type - cost of the present type + change)
+//! cost(variant) = Σ over changed joints (cost of the new type - cost of the present type + change, and driven where a drive holds it)
 //!               + Σ over unloading joints (cost of their type + link + change)
 //!               + harmful redundant constraints that a searched state adds · harmful, 0 by default
 //!
@@ -12,6 +12,8 @@ use crate::model::mechanism::{CostSpec, JointOption};
 
 /// Default cost of changing a joint at all, in thousandths.
 pub const CHANGE: i64 = 1000;
+/// Default cost of changing a driven joint besides, in thousandths: its motor is mounted and guided anew.
+pub const DRIVEN: i64 = 2000;
 /// Default cost of the extra link of an unloading joint, in thousandths.
 pub const LINK: i64 = 1000;
 /// The costs in force for one mechanism, in thousandths.
@@ -21,6 +23,8 @@ pub struct CostTable {
     by_type: Vec<(String, i64)>,
     /// Cost of changing a joint at all.
     pub change: i64,
+    /// Cost of changing a driven joint besides.
+    pub driven: i64,
     /// Cost of an extra link.
     pub link: i64,
     /// Cost of a harmful redundant constraint that the searched state adds.
@@ -34,21 +38,23 @@ impl CostTable {
         CostTable {
             by_type: spec.by_type_milli.clone(),
             change: spec.change_milli.unwrap_or(CHANGE),
+            driven: spec.driven_milli.unwrap_or(DRIVEN),
             link: spec.link_milli.unwrap_or(LINK),
             harmful: spec.harmful_milli.unwrap_or(0),
         }
     }
 
-    /// The cost of a change above that of the present joint: another joint in its place, an unloading joint with its link
-    /// beside it, or both.
+    /// The cost of a change of a joint, driven or not, above that of the present one: another joint in its place, an unloading
+    /// joint with its link beside it, or both.
     #[must_use]
     pub fn change(
         &self,
-        present: &JointOption,
+        (present, drive): (&JointOption, bool),
         to: Option<&JointOption>,
         unloading: Option<&JointOption>,
     ) -> i64 {
-        let replaced = to.map_or(0, |o| self.option(o) - self.option(present) + self.change);
+        let change = self.change + if drive { self.driven } else { 0 };
+        let replaced = to.map_or(0, |o| self.option(o) - self.option(present) + change);
         let inserted = unloading.map_or(0, |u| self.option(u) + self.link + self.change);
         replaced + inserted
     }

@@ -185,7 +185,11 @@ fn choices(
                 faces: vec![face.then(friction).transpose()?],
                 freedoms,
                 changes: u32::from(i != 0) + u32::from(unloading.is_some()),
-                cost_milli: costs.change(&joint.options[0], (i != 0).then_some(option), inserted),
+                cost_milli: costs.change(
+                    (&joint.options[0], joint.drive),
+                    (i != 0).then_some(option),
+                    inserted,
+                ),
             });
         }
     }

@@ -283,7 +283,7 @@ pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
         ),
     };
     let next = format!(
-        "\nozols catalog export {0} {1} -o gripper.toml               the mechanism\nozols catalog export {0} {1} --variant 1 -o redesign.toml  idea 1 carried out\n",
+        "\nozols catalog export {0} {1} -o gripper.toml               the mechanism\nozols catalog export {0} {1} --idea 1 -o redesign.toml     idea 1 carried out\n",
         plain(&file.display().to_string()),
         s("id"),
     );

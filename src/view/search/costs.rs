@@ -9,8 +9,9 @@ use crate::terms::PairWords;
 const HEAD: &str = "\
 # What a redesign costs, in revolute joints: the default costs, orders of
 # magnitude for machined parts. For each joint that it changes, a search adds
-# the cost of the new type less that of the present one, and `change`; for each
-# joint that it puts in series, the cost of its type, `link` and `change`.
+# the cost of the new type less that of the present one, and `change`, and
+# `driven` where a drive holds the joint; for each joint that it puts in series,
+# the cost of its type, `link` and `change`.
 #
 #   ozols show costs > costs.toml
 #   ozols search FILE --costs costs.toml
@@ -37,6 +38,11 @@ pub fn toml() -> String {
     });
     let others = [
         ("change", table.change, "changing a joint at all"),
+        (
+            "driven",
+            table.driven,
+            "changing a driven joint, besides: its motor is mounted and guided anew",
+        ),
         ("link", table.link, "the extra link of a joint in series"),
         (
             "harmful",

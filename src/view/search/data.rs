@@ -74,6 +74,9 @@ pub struct SearchData<'a> {
     admissible_by_changes: By<'a, u32>,
     admissible_by_freedoms: By<'a, u32>,
     admissible_by_cost: ByCost,
+    /// Admissible variants of which no other has part of the freedoms, where these are counted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    minimal: Option<String>,
     largest_layer: Option<usize>,
     nodes: Option<usize>,
     /// Rows of the closure equations for each contour, in each part that has diagrams of its own.
@@ -189,6 +192,7 @@ impl<'a> SearchData<'a> {
             admissible_by_changes: By(&admissible.by_changes),
             admissible_by_freedoms: By(&admissible.by_freedoms),
             admissible_by_cost: ByCost(by_cost.unwrap_or_default()),
+            minimal: outcome.minimal().map(|n| n.to_string()),
             largest_layer: first.largest_layer.max(second.largest_layer),
             nodes: first.nodes.zip(second.nodes).map(|(a, b)| a + b),
             rows_per_contour: outcome

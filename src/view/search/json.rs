@@ -1,11 +1,13 @@
 //! A search as JSON, and its variants as JSON lines, written as they come.
 
 use crate::score::outcome::Outcome;
+use crate::score::variant::Variant;
 use crate::score::variants::Variants;
 use crate::search::answer::why_none::{Hopeless, Relaxation};
 use crate::search::diagram::Stop;
 use crate::view::search::data::{EndData, NoneData, SearchData, TailData};
 use crate::view::search::variant::VariantData;
+use crate::view::search::why::{self, WhyData};
 use num_bigint::BigUint;
 use num_traits::Zero;
 use std::io::{self, Write};
@@ -19,21 +21,32 @@ pub fn write(
     out: &mut dyn Write,
     outcome: &Outcome,
     mut variants: Variants<'_>,
-    (eased, why): (&[(Relaxation, BigUint)], &Hopeless),
+    (eased, hopeless): (&[(Relaxation, BigUint)], &Hopeless),
     seconds: Option<&dyn Fn() -> f64>,
 ) -> io::Result<()> {
     // Variants stream: the closing brace of the header waits for them.
     let text = serde_json::to_string_pretty(&SearchData::new(outcome))?;
     let open = text.strip_suffix("\n}").unwrap_or(&text);
     write!(out, "{open},\n  \"variants\": [")?;
-    for v in variants.by_ref() {
+    let mut each = |v: &Variant<'_>, why: Option<WhyData>| -> io::Result<()> {
         let comma = if v.position() == 1 { "" } else { "," };
         write!(out, "{comma}\n    ")?;
-        serde_json::to_writer(&mut *out, &VariantData::new(outcome, &v))?;
+        let data = VariantData::new(outcome, v).because(why);
+        Ok(serde_json::to_writer(&mut *out, &data)?)
+    };
+    if outcome.request.distinct {
+        let ideas: Vec<Variant<'_>> = variants.by_ref().collect();
+        let shown: Vec<_> = ideas.iter().map(Variant::assignment).collect();
+        let whys = why::data(outcome, &shown).into_iter();
+        for (v, why) in ideas.iter().zip(whys) {
+            each(v, Some(why))?;
+        }
+    } else {
+        variants.by_ref().try_for_each(|v| each(&v, None))?;
     }
     let m = &outcome.search.mechanism;
     let none = outcome.admissible.total.is_zero();
-    let none = none.then(|| NoneData::new(m, eased, why));
+    let none = none.then(|| NoneData::new(m, eased, hopeless));
     let seconds = seconds.map(|s| s());
     let tail = TailData::new(&variants, none, seconds);
     let text = serde_json::to_string_pretty(&tail)?;

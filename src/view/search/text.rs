@@ -11,11 +11,13 @@ use crate::search::check::second_prime::Verdict;
 use crate::search::check::singular_values::{NEARLY_SINGULAR, Second, Summary};
 use crate::view::search::conditions::{hopeless, in_state};
 use crate::view::search::data::condition;
+use crate::view::search::ideas;
 use crate::view::search::numeric;
 use crate::view::search::ranking;
 use crate::view::search::second_opinion;
 use crate::view::search::stopped_early;
 use crate::view::search::table::{contours, variants};
+use crate::view::search::why;
 use crate::view::terminal::layout::{fit, table};
 use crate::view::terminal::next_commands::{self, Step, file_name};
 use itertools::Itertools;
@@ -51,9 +53,7 @@ pub fn write(
     let what = match &outcome.ranking {
         Some(p) => ranking::head(p),
         None if sample => "drawn at random".to_owned(),
-        None if outcome.request.distinct => {
-            "ideas, cheapest first, each by its first variant; it stands for all that give the same freedoms to the same joints in series".to_owned()
-        }
+        None if outcome.request.distinct => ideas::HEAD.to_owned(),
         None => "cheapest first".to_owned(),
     };
     let (mut footnotes, mut changed) = (Vec::new(), false);
@@ -69,6 +69,10 @@ pub fn write(
         // Shares of contours are found in exact arithmetic.
         if outcome.numeric.is_none() {
             write!(out, "{}", contours(&block, width))?;
+        }
+        if outcome.request.distinct && first.position() == 1 {
+            let shown = block.iter().map(Variant::assignment).collect_vec();
+            write!(out, "{}", fit(&why::text(outcome, &shown), width))?;
         }
         footnotes.extend(block.iter().filter_map(note));
     }
@@ -170,10 +174,9 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
             "  {determinate} with {condition}, whatever else they do"
         );
     }
-    for line in numeric::lines(outcome) {
-        let _ = writeln!(out, "  {line}");
-    }
-    for line in second_opinion::lines(outcome) {
+    let minimal = ideas::minimal(outcome).into_iter();
+    let lines = minimal.chain(numeric::lines(outcome));
+    for line in lines.chain(second_opinion::lines(outcome)) {
         let _ = writeln!(out, "  {line}");
     }
     // Two primes that agree on rounded digits prove nothing.
@@ -342,10 +345,7 @@ fn next(
         ..outcome.request.clone()
     };
     let flags = &next_commands::flags(&outcome.search.mechanism, &request);
-    let number = match outcome.request.distinct {
-        true => "idea",
-        false => "variant",
-    };
+    let number = outcome.request.one();
     let joined = |more: &str| format!("{flags} {more}").trim().to_owned();
     let mechanism = &outcome.search.mechanism.name;
     if given > 0 {

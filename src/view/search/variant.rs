@@ -6,6 +6,7 @@ use crate::search::answer::freedom_patterns;
 use crate::search::check::other_poses::OverStroke;
 use crate::search::check::singular_values::Opinion;
 use crate::view::search::ranking::RankedData;
+use crate::view::search::why::WhyData;
 use serde::Serialize;
 
 /// One variant.
@@ -68,6 +69,9 @@ struct IdeaData {
     exact: bool,
     /// What all of them add, in words.
     adds: String,
+    /// Why it helps, where that was asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why: Option<WhyData>,
 }
 
 #[derive(Debug, Serialize)]
@@ -135,6 +139,7 @@ impl<'a> VariantData<'a> {
                 variants: i.variants.to_string(),
                 exact: outcome.is_exact(),
                 adds: freedom_patterns::in_words(mechanism, &i.added),
+                why: None,
             }),
             scores: v.ranked().map_or(ScoresData::Unranked {}, |r| {
                 ScoresData::Ranked(Box::new(RankedData::new(mechanism, r, v.reason())))
@@ -145,6 +150,17 @@ impl<'a> VariantData<'a> {
             lucky: v.over_stroke().and_then(OverStroke::lucky),
             stroke: v.over_stroke().map(OtherPoses::new),
         }
+    }
+}
+
+impl VariantData<'_> {
+    /// The same with why it helps, where it is an idea.
+    #[must_use]
+    pub(in crate::view) fn because(mut self, why: Option<WhyData>) -> Self {
+        if let Some(idea) = &mut self.idea {
+            idea.why = why;
+        }
+        self
     }
 }
 

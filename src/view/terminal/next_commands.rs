@@ -130,13 +130,19 @@ pub fn word(text: &str) -> String {
 /// A file name made of a mechanism's name.
 #[must_use]
 pub fn file_name(name: &str, ending: &str) -> String {
+    word(&format!("{}.{ending}", stem(name)))
+}
+
+/// The same without its ending, as it is.
+#[must_use]
+pub fn stem(name: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
     let stem: String = name
         .chars()
         .map(|c| if plain(c) { c } else { '-' })
         .take(40)
         .collect();
-    word(&format!("{}.{ending}", stem.trim_start_matches('-')))
+    stem.trim_start_matches('-').to_owned()
 }
 
 #[cfg(test)]

@@ -107,7 +107,7 @@ fn it_is_queried_shown_exported_and_drawn() {
     );
     // Every idea carried out is determinate, and of mobility 1.
     for k in ["1", "2", "3"] {
-        ok(&["catalog", "export", &db, id, "--variant", k, "-o", &toml]);
+        ok(&["catalog", "export", &db, id, "--idea", k, "-o", &toml]);
         let v: serde_json::Value =
             serde_json::from_str(&ok(&["analyze", &toml, "--format", "json"])).unwrap();
         let free = &v["states"][0];
@@ -265,7 +265,7 @@ fn drawn_mechanisms_stand_beside_the_structures() {
     let found = row.lines().nth(1).unwrap();
     assert_eq!(
         found,
-        "10,13,4,,1,11,\"1, followed\",6340592477,7150020,exact,9.5"
+        "10,13,4,,1,11,\"1, followed\",6340592477,7150020,exact,11.5"
     );
     // It takes in structures, and is taken in.
     let parts = at(&folder, "parts.db");
@@ -282,7 +282,7 @@ fn drawn_mechanisms_stand_beside_the_structures() {
     assert!(best.contains("tongs") && best.contains("mirror"), "{best}");
     let told = ok(&["catalog", "show", &merged, "gripper-10"]);
     assert!(
-        told.contains("6,340,592,477") && told.contains("--variant 1"),
+        told.contains("6,340,592,477") && told.contains("--idea 1"),
         "{told}"
     );
     let redesign = at(&folder, "redesign.toml");
@@ -291,7 +291,7 @@ fn drawn_mechanisms_stand_beside_the_structures() {
         "export",
         &merged,
         "gripper-10",
-        "--variant",
+        "--idea",
         "1",
         "-o",
         &redesign,
@@ -329,16 +329,7 @@ fn unloading_joints_are_on_the_menu() {
     let with = ok(&["catalog", "query", &file, sql, "--format", "csv"]);
     let (id, place) = with.lines().nth(1).unwrap().split_once(',').unwrap();
     let toml = at(&folder, "v.toml");
-    ok(&[
-        "catalog",
-        "export",
-        &file,
-        id,
-        "--variant",
-        place,
-        "-o",
-        &toml,
-    ]);
+    ok(&["catalog", "export", &file, id, "--idea", place, "-o", &toml]);
     let said: serde_json::Value =
         serde_json::from_str(&ok(&["analyze", &toml, "--format", "json"])).unwrap();
     let free = &said["states"][0];

@@ -248,7 +248,7 @@ fn the_command_takes_three_jaws() {
     );
     assert!(shown.contains("swinging, swinging and swinging"), "{shown}");
     let toml = folder.path().join("g.toml").display().to_string();
-    said(&["export", &db, &id, "--variant", "1", "-o", &toml], 0);
+    said(&["export", &db, &id, "--idea", "1", "-o", &toml], 0);
     let analysed = run(&["analyze", &toml, "--format", "json"]);
     let analysed: serde_json::Value = serde_json::from_slice(&analysed.stdout).unwrap();
     assert_eq!(

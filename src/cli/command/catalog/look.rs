@@ -125,9 +125,9 @@ pub(in crate::cli) struct Export {
     file: PathBuf,
     /// The structure: its id or the beginning of it, or its whole name.
     id: String,
-    /// Carry out the first variant of idea K.
-    #[arg(long, value_name = "K")]
-    variant: Option<usize>,
+    /// Carry out idea K.
+    #[arg(long, value_name = "K", alias = "variant")]
+    idea: Option<usize>,
     /// Format: toml, json, urdf, mjcf, sdf, dot or graphml.
     #[arg(long, value_name = "FORMAT", default_value = "toml")]
     to: String,
@@ -140,7 +140,7 @@ pub(super) fn export(a: &Export) -> anyhow::Result<Done> {
     let store = open(&a.file)?;
     let id = store.find(&a.id)?;
     let text = laid_out(&store, &a.file, &id)?;
-    let text = match a.variant {
+    let text = match a.idea {
         None if a.to == "toml" => text,
         None => crate::cli::command::export::text(&Mechanism::from_toml(&text)?, &a.to, None)?,
         Some(k) => {

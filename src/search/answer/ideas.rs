@@ -1,0 +1,209 @@
+//! Ideas: minimal variants that give the same freedoms to the same contours, as one, shown by the one that is preferred.
+//!
+//! Ideas come in order of cost; of equal cost those first that do the same to what is alike in the mechanism, then those that
+//! keep its drive and its pivots in the frame ([`preference`](crate::search::question::preference)), then those with less
+//! mobility and fewer changes.
+
+mod preferred;
+
+use crate::search::answer::count_tables::{Key, Steps};
+use crate::search::answer::counts::limited;
+use crate::search::answer::counts::total;
+use crate::search::answer::freedom_patterns::{Added, Pattern, Patterns, patterns};
+use crate::search::answer::k_best::Assignment;
+use crate::search::answer::least_freedoms::{self, Less};
+use crate::search::answer::variants_in_order::{distinct, key};
+use crate::search::build::Diagrams;
+use crate::search::diagram::{DEAD, Diagram};
+use crate::search::question::Question;
+use crate::search::question::preference::weights;
+use itertools::Itertools;
+use num_bigint::BigUint;
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Variants that differ only in which of some joints in series has which of the freedoms added.
+#[derive(Debug, Clone)]
+pub struct Idea {
+    /// The one of them that is shown.
+    pub first: Assignment,
+    /// What all of them add.
+    pub added: Vec<Added>,
+    /// How many there are, those included that the mechanism's own image makes of them.
+    pub variants: BigUint,
+}
+
+/// Ideas of one cost that are looked at together, to bring them in order.
+const TOGETHER: usize = 512;
+
+/// The minimal variants as a diagram, or all admissible ones where these are not known.
+fn minimal<'d>(question: &Question, diagrams: &'d Diagrams) -> Cow<'d, Diagram> {
+    match least_freedoms::diagram(question, diagrams, Less::Means) {
+        Some(least) => Cow::Owned(least),
+        None => Cow::Borrowed(&diagrams.admissible),
+    }
+}
+
+/// The first ideas among the admissible variants; `top` of them at most. A shorter list is the beginning of a longer one.
+///
+/// # Complexity
+/// That of the diagram of minimal variants; of the variants up to the last idea's cost only as much of each as differs in its
+/// pattern; then for each idea two passes over the part of the diagram that it uses.
+pub fn ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
+    let diagram = &*minimal(question, diagrams);
+    let patterns = patterns(question);
+    let weights = weights(&question.mechanism, &question.space);
+    let steps = question.steps.then(&weights);
+    let firsts = firsts(question, diagram, (&patterns, &steps), top);
+    let one = |first| {
+        let first = preferred::preferred(question, diagram, &patterns, &weights, first);
+        idea(question, diagram, &patterns, first)
+    };
+    firsts.into_iter().map(one).collect()
+}
+
+/// Of each of the first ideas a variant, the cheapest and of these the one with least weight.
+fn firsts(
+    question: &Question,
+    diagram: &Diagram,
+    (patterns, steps): (&Patterns, &Steps),
+    top: usize,
+) -> Vec<Assignment> {
+    let order = diagram.layers.iter().map(|l| l.variable).collect_vec();
+    let all = total(question, diagram, true);
+    let mut at_least = top.saturating_mul(64);
+    loop {
+        let mut entered: BTreeSet<(usize, usize, Key, Pattern)> = BTreeSet::new();
+        let enter = |depth: usize, node: usize, rest: Key, choices: &[usize]| {
+            let chosen = order[..depth].iter().map(|&v| (v, choices[v]));
+            entered.insert((depth, node, rest, patterns.sum(chosen)))
+        };
+        let mut seen = BTreeSet::new();
+        let mut found: Vec<((i64, usize), Assignment)> = Vec::new();
+        let mut ended = BigUint::from(at_least) >= all;
+        for v in distinct(question, diagram, steps, at_least, Box::new(enter)) {
+            if !seen.insert(patterns.idea(&v)) {
+                continue;
+            }
+            let v = Assignment {
+                key: key(question, diagram, &v.choices),
+                ..v
+            };
+            let cost = question.steps.milli(v.key.cost());
+            let before = found.iter().rev();
+            let before = before.take_while(|((c, _), _)| *c == cost).count();
+            let group = (cost, before / TOGETHER);
+            if found.len() >= top && top > 0 && group > found[top - 1].0 {
+                ended = true;
+                break;
+            }
+            found.push((group, v));
+        }
+        if ended || top == 0 {
+            found.sort_by_key(|(group, v)| {
+                let alike = patterns.of_variant(v) == patterns.of_image(v);
+                (*group, !alike)
+            });
+            found.truncate(top);
+            return found.into_iter().map(|(_, v)| v).collect();
+        }
+        at_least = at_least.saturating_mul(64);
+    }
+}
+
+/// The first of each idea in a list of variants, with its place in the list.
+pub fn first_of_each<'a>(
+    question: &Question,
+    list: impl Iterator<Item = &'a Assignment>,
+    diagrams: &Diagrams,
+) -> Vec<(usize, Idea)> {
+    let patterns = patterns(question);
+    let mut seen = BTreeSet::new();
+    list.enumerate()
+        .filter(|(_, v)| seen.insert(patterns.idea(v)))
+        .map(|(place, v)| {
+            let idea = idea(question, &diagrams.admissible, &patterns, v.clone());
+            (place, idea)
+        })
+        .collect()
+}
+
+/// The first ideas in a list of all variants in order, and how many of the list each stands for; `top` of them at most.
+///
+/// # Complexity
+/// O(list · variables · log).
+pub fn ideas_among(
+    question: &Question,
+    list: impl Iterator<Item = Assignment>,
+    top: usize,
+) -> Vec<Idea> {
+    let patterns = patterns(question);
+    let mut at: BTreeMap<Pattern, Option<usize>> = BTreeMap::new();
+    let mut out: Vec<Idea> = Vec::new();
+    for v in list {
+        let place = at.entry(patterns.idea(&v)).or_insert_with(|| {
+            (out.len() < top).then(|| {
+                out.push(Idea {
+                    added: patterns.added(&patterns.of_variant(&v)),
+                    variants: BigUint::from(0u8),
+                    first: v.clone(),
+                });
+                out.len() - 1
+            })
+        });
+        if let Some(idea) = place.and_then(|i| out.get_mut(i)) {
+            idea.variants += 1u8;
+        }
+    }
+    out
+}
+
+/// The idea of a variant, with how many of the diagram it stands for.
+fn idea(question: &Question, diagram: &Diagram, patterns: &Patterns, first: Assignment) -> Idea {
+    let [own, image] = [patterns.of_variant(&first), patterns.of_image(&first)];
+    let mut variants = with_pattern(question, diagram, patterns, &own);
+    if image != own {
+        variants += with_pattern(question, diagram, patterns, &image);
+    }
+    Idea {
+        added: patterns.added(&own),
+        variants,
+        first,
+    }
+}
+
+/// How many variants of a diagram have a pattern.
+fn with_pattern(
+    question: &Question,
+    diagram: &Diagram,
+    patterns: &Patterns,
+    pattern: &Pattern,
+) -> BigUint {
+    let steps = question.steps.only(limited(question));
+    let to_come = patterns.to_come(diagram);
+    let mut here: BTreeMap<(usize, Pattern, Key), BigUint> = BTreeMap::new();
+    here.insert((0, pattern.clone(), Key::default()), BigUint::from(1u8));
+    for (layer, to_come) in diagram.layers.iter().zip(&to_come) {
+        let mut next: BTreeMap<(usize, Pattern, Key), BigUint> = BTreeMap::new();
+        for ((node, left, key), n) in here {
+            for choice in 0..layer.choices {
+                let to = layer.edges[node * layer.choices + choice];
+                let takes = &patterns.of[layer.variable][choice];
+                // No more than is left, and no less than what comes later can take.
+                let mut all = left.iter().zip(takes).zip(to_come);
+                if to == DEAD || !all.all(|((a, b), most)| b <= a && a - b <= *most) {
+                    continue;
+                }
+                let left = left.iter().zip(takes).map(|(a, b)| a - b).collect();
+                let key = Key(key.0 + steps.keys[layer.variable][choice].0);
+                *next.entry((to as usize, left, key)).or_default() += &n;
+            }
+        }
+        here = next;
+    }
+    let whole = here.into_iter().filter(|((node, left, key), _)| {
+        let key = Key(key.0 + steps.redundancy(diagram.terminals[*node]).0);
+        left.iter().all(|n| *n == 0) && question.wanted(key)
+    });
+    whole.map(|(_, n)| n).sum()
+}

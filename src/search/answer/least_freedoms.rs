@@ -1,0 +1,228 @@
+//! Variants that do with the least: no other admissible one has part of their freedoms and all of their other choices.
+//!
+//! Along the way of a variant through its diagram those nodes are kept that variants with less have come to by then. It is
+//! minimal where none of them leads to an end by what remains of its choices, or by less. Where constraints of a searched state
+//! play no part, freedoms that are added never make a constraint redundant and those left out never let a link move, so that a
+//! variant with less at several joints has others between it and this one: it is enough to look at less at one joint.
+//!
+//! # Sources
+//! Minimal elements of a family of sets on a decision diagram: Coudert, "Two-level logic minimization: an overview",
+//! Integration 17 (1994); Knuth, The Art of Computer Programming 4A, section 7.1.4, "nonsub" and "nonsup".
+
+use crate::linalg::echelon::Echelon;
+use crate::search::answer::counts::total;
+use crate::search::build::Diagrams;
+use crate::search::diagram::minimize::minimal;
+use crate::search::diagram::{DEAD, Diagram, Layer, Stop};
+use crate::search::question::Question;
+use crate::search::question::conditions::Symmetry;
+use crate::search::question::space::{Choice, Variable};
+use num_bigint::BigUint;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+/// What another variant must not have more of, to make one with more freedoms idle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Less {
+    /// Freedoms alone: what is minimal then has none that can be left out.
+    Freedoms,
+    /// Freedoms, at joints that are no dearer and no more of them changed: a ball may stand where a universal joint would do,
+    /// and is dearer.
+    Means,
+}
+
+/// Nodes of a diagram of minimal variants at most.
+const MOST: usize = 1 << 18;
+
+/// How many admissible variants have no other among them with part of their freedoms; `None` where that was not counted: what
+/// is admissible is not all known, orbits are asked about, or it takes too many nodes.
+///
+/// # Complexity
+/// O(nodes of the diagram of minimal variants · choices²).
+#[must_use]
+pub fn count(question: &Question, diagrams: &Diagrams) -> Option<BigUint> {
+    let order = Order::new(question, Less::Freedoms);
+    // Fewer freedoms by more changes may be more than there may be.
+    let limited = question.conditions.max_changes.is_some() && !order.fewer_changes;
+    if limited || question.conditions.symmetry == Symmetry::OnePerOrbit {
+        return None;
+    }
+    let least = least(question, &diagrams.admissible, &order)?;
+    Some(total(question, &least, true))
+}
+
+/// The diagram of the minimal variants among the admissible; `None` where what is admissible is not all known, or where it takes
+/// too many nodes.
+pub(in crate::search) fn diagram(
+    question: &Question,
+    diagrams: &Diagrams,
+    less: Less,
+) -> Option<Diagram> {
+    let order = Order::new(question, less);
+    least(question, &diagrams.admissible, &order)
+}
+
+/// Which choices of each variable have less than another.
+#[derive(Debug)]
+pub(in crate::search) struct Order {
+    /// `[variable][choice]`: the others with no more, and whether they have less.
+    within: Vec<Vec<Vec<(usize, bool)>>>,
+    /// `[variable][choice]`: of those with less the ones with most.
+    next: Vec<Vec<Vec<usize>>>,
+    /// Whether what has less never changes more joints.
+    fewer_changes: bool,
+}
+
+impl Order {
+    /// Of the choices of a question.
+    pub(in crate::search) fn new(question: &Question, less: Less) -> Order {
+        let within = |v: &Variable| -> Vec<Vec<(usize, bool)>> {
+            let spans = v
+                .choices
+                .iter()
+                .map(|c| spans(question, c))
+                .collect::<Vec<_>>();
+            let has = |a: usize, b: usize| {
+                let members = v.choices[a].spans.iter().zip(&spans[b]);
+                members
+                    .into_iter()
+                    .all(|(rows, span)| rows.iter().all(|r| span.contains(r)))
+            };
+            let no_dearer = |a: &Choice, b: &Choice| {
+                less == Less::Freedoms || a.cost_milli <= b.cost_milli && a.changes <= b.changes
+            };
+            let of = |b: usize| {
+                let others = (0..v.choices.len()).filter(|&a| a != b && has(a, b));
+                let others = others.filter(|&a| no_dearer(&v.choices[a], &v.choices[b]));
+                others.map(|a| (a, !has(b, a))).collect()
+            };
+            (0..v.choices.len()).map(of).collect()
+        };
+        let within: Vec<_> = question.space.variables.iter().map(within).collect();
+        let next = |of: &Vec<Vec<(usize, bool)>>| -> Vec<Vec<usize>> {
+            let below = |b: usize| of[b].iter().filter(|(_, less)| *less).map(|(a, _)| *a);
+            let between = |a: usize, b: usize| below(b).any(|c| below(c).any(|x| x == a));
+            (0..of.len())
+                .map(|b| below(b).filter(|&a| !between(a, b)).collect())
+                .collect()
+        };
+        let fewer = |(v, of): (&Variable, &Vec<Vec<(usize, bool)>>)| {
+            let changes = |c: usize| v.choices[c].changes;
+            let mut all = of.iter().enumerate();
+            all.all(|(b, less)| less.iter().all(|&(a, _)| changes(a) <= changes(b)))
+        };
+        Order {
+            next: within.iter().map(next).collect(),
+            fewer_changes: question.space.variables.iter().zip(&within).all(fewer),
+            within,
+        }
+    }
+}
+
+/// The motion of each joint of a choice.
+fn spans(question: &Question, choice: &Choice) -> Vec<Echelon> {
+    let span = |rows: &Vec<Vec<_>>| {
+        let mut out = Echelon::new(question.exact.field());
+        rows.iter().for_each(|r| {
+            out.insert(r);
+        });
+        out
+    };
+    choice.spans.iter().map(span).collect()
+}
+
+/// A node, and those that variants with no more have come to: twice the number, and one more for those with less.
+type State = (u32, Vec<u32>);
+
+/// The variants of a diagram without others that have less.
+fn least(question: &Question, diagram: &Diagram, order: &Order) -> Option<Diagram> {
+    if diagram.stop != Stop::Exhausted {
+        return None;
+    }
+    let once = question.conditions.state.is_none();
+    let room = MOST.min(question.conditions.nodes);
+    let mut states: Vec<State> = vec![(0, Vec::new())];
+    let mut layers = Vec::with_capacity(diagram.layers.len());
+    let mut met = 1;
+    for (depth, layer) in diagram.layers.iter().enumerate() {
+        let last = depth + 1 == diagram.layers.len();
+        let mut known: HashMap<State, u32> = HashMap::new();
+        let mut below: Vec<State> = Vec::new();
+        let mut edges = Vec::with_capacity(states.len() * layer.choices);
+        for state in &states {
+            for choice in 0..layer.choices {
+                let Some(to) = carried(layer, order, once, state, choice, last) else {
+                    edges.push(DEAD);
+                    continue;
+                };
+                edges.push(match known.entry(to) {
+                    Entry::Occupied(o) => *o.get(),
+                    Entry::Vacant(v) => {
+                        let number = u32::try_from(below.len()).ok()?;
+                        below.push(v.key().clone());
+                        *v.insert(number)
+                    }
+                });
+            }
+            if met + below.len() > room {
+                return None;
+            }
+        }
+        met += below.len();
+        layers.push(Layer {
+            variable: layer.variable,
+            nodes: states.len(),
+            choices: layer.choices,
+            edges,
+        });
+        states = below;
+    }
+    let ends = states
+        .iter()
+        .map(|(end, _)| diagram.terminals.get(*end as usize).copied());
+    Some(minimal(layers, ends.collect::<Option<_>>()?))
+}
+
+/// Where a choice leads from a state; nowhere where a variant with less gets as far.
+fn carried(
+    layer: &Layer,
+    order: &Order,
+    once: bool,
+    (node, others): &State,
+    choice: usize,
+    last: bool,
+) -> Option<State> {
+    let edge = |node: u32, choice: usize| {
+        let to = layer.edges[node as usize * layer.choices + choice];
+        (to != DEAD).then_some(to)
+    };
+    let to = edge(*node, choice)?;
+    let within = &order.within[layer.variable][choice];
+    let mut out = Vec::with_capacity(others.len() + within.len());
+    let mut put = |to: Option<u32>, less: bool| out.extend(to.map(|t| t << 1 | u32::from(less)));
+    for other in others {
+        let (at, less) = (other >> 1, other & 1 == 1);
+        put(edge(at, choice), less);
+        if !once {
+            within
+                .iter()
+                .for_each(|&(c, l)| put(edge(at, c), less || l));
+        }
+    }
+    if once {
+        let next = &order.next[layer.variable][choice];
+        next.iter().for_each(|&c| put(edge(*node, c), true));
+    } else {
+        within.iter().for_each(|&(c, l)| put(edge(*node, c), l));
+    }
+    // All that follows is open to the one with less, too; and at the end nothing follows.
+    if out.contains(&(to << 1 | 1)) || last && out.iter().any(|o| o & 1 == 1) {
+        return None;
+    }
+    out.retain(|o| *o != to << 1);
+    out.sort_unstable();
+    out.dedup();
+    let less: Vec<u32> = out.iter().filter(|o| *o & 1 == 1).copied().collect();
+    out.retain(|o| o & 1 == 1 || less.binary_search(&(o | 1)).is_err());
+    Some((to, if last { Vec::new() } else { out }))
+}

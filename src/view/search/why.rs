@@ -1,0 +1,204 @@
+//! Why ideas help, in words of the shop, and as data.
+
+use crate::format::number::brief;
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::score::outcome::Outcome;
+use crate::score::terms::Peak;
+use crate::score::why::{LetGo, SIDE_LOAD, Why, Whys};
+use crate::search::answer::k_best::Assignment;
+use crate::terms::PairWords;
+use itertools::Itertools;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Ideas that a text says why of: the first. Data have all.
+const TOLD: usize = 3;
+
+/// Why an idea helps, as data.
+#[derive(Debug, Clone, Serialize)]
+pub struct WhyData {
+    /// One row for each change.
+    lets: Vec<LetData>,
+    /// Driven joints and pivots in the frame that stay as they are.
+    stays: Vec<String>,
+    /// What presses: "file", or the default side load in words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    under: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    peak_force: Option<PeakData>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    peak_moment: Option<PeakData>,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct LetData {
+    joint: String,
+    part: String,
+    /// "tilt both ways and float along its axis"
+    lets: String,
+    /// The usual part that is such a joint.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    hardware: Option<String>,
+    /// Directions in which forces, and moments, are still held.
+    holds_forces: usize,
+    holds_moments: usize,
+    /// Redundant constraints of the contours it is on, as built.
+    was: Vec<WasData>,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct WasData {
+    contour: Vec<String>,
+    redundant: usize,
+}
+
+/// In N or N·m, at a joint, and as part of what its type bears.
+#[derive(Debug, Clone, Serialize)]
+struct PeakData {
+    joint: String,
+    value: f64,
+    utilisation: f64,
+}
+
+/// Why each of some ideas helps.
+pub(in crate::view) fn data(outcome: &Outcome, ideas: &[&Assignment]) -> Vec<WhyData> {
+    let (m, whys) = (&outcome.search.mechanism, Whys::new(outcome));
+    let words = PairWords::builtin();
+    let under = match whys.is_side_load() {
+        true => format!("{SIDE_LOAD} N on each output, along its hinge"),
+        false => "the loads of the file".to_owned(),
+    };
+    let one = |w: &Why| WhyData {
+        lets: w.lets.iter().map(|l| LetData::new(m, l, &words)).collect(),
+        stays: ids(m, w.drives.iter().chain(&w.pivots)),
+        under: w.peaks.map(|_| under.clone()),
+        peak_force: w.peaks.map(|[force, _]| PeakData::new(m, &force)),
+        peak_moment: w.peaks.map(|[_, moment]| PeakData::new(m, &moment)),
+    };
+    whys.of(ideas).iter().map(one).collect()
+}
+
+fn ids<'a>(m: &Mechanism, joints: impl IntoIterator<Item = &'a JointId>) -> Vec<String> {
+    let id = |j: &JointId| m.joints[*j].id.clone();
+    joints.into_iter().map(id).collect()
+}
+
+impl LetData {
+    fn new(m: &Mechanism, l: &LetGo, words: &BTreeMap<String, PairWords>) -> LetData {
+        let part = &m.links[l.part].id;
+        let pair = l.to.as_ref().and_then(|t| words.get(t.name()));
+        LetData {
+            joint: m.joints[l.joint].id.clone(),
+            part: named(part, l.is_rod),
+            lets: motions(l),
+            hardware: pair.and_then(|p| p.hardware.first().cloned()),
+            holds_forces: l.holds.0,
+            holds_moments: l.holds.1,
+            was: l
+                .contours
+                .iter()
+                .map(|(joints, redundant)| WasData {
+                    contour: ids(m, joints),
+                    redundant: *redundant,
+                })
+                .collect(),
+        }
+    }
+}
+
+impl PeakData {
+    fn new(m: &Mechanism, p: &Peak) -> PeakData {
+        PeakData {
+            joint: m.joints[p.joint].id.clone(),
+            value: p.value,
+            utilisation: p.utilisation,
+        }
+    }
+}
+
+/// "rod 5"; the name alone where it says so itself.
+fn named(part: &str, is_rod: bool) -> String {
+    match (is_rod, part.to_lowercase().contains("rod")) {
+        (_, true) => part.to_owned(),
+        (true, _) => format!("rod {part}"),
+        (false, _) => format!("link {part}"),
+    }
+}
+
+/// What a part may do: "tilt both ways and float along its axis".
+fn motions(l: &LetGo) -> String {
+    let many = |n: usize, one: &str, two: &str| match n {
+        0 => None,
+        1 => Some(one.to_owned()),
+        _ => Some(two.to_owned()),
+    };
+    let all = [
+        many(l.tilts, "tilt one way", "tilt both ways"),
+        l.turns.then(|| "turn about its axis".to_owned()),
+        l.floats.then(|| "float along its axis".to_owned()),
+        many(l.shifts, "shift across one way", "shift across both ways"),
+    ];
+    let all = all.into_iter().flatten().collect_vec();
+    match all.split_last() {
+        None => "move as before".to_owned(),
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
+    }
+}
+
+/// The first ideas with what each lets go, its hardware, what was redundant there, what stays, and what joints bear.
+pub(in crate::view) fn text(outcome: &Outcome, ideas: &[&Assignment]) -> String {
+    let ideas = &ideas[..ideas.len().min(TOLD)];
+    let all = data(outcome, ideas).into_iter().enumerate();
+    all.filter(|(_, w)| !w.lets.is_empty())
+        .map(|(i, w)| w.lines(i + 1))
+        .collect()
+}
+
+/// Those of some rows that have something in common, together: "what: these, those; other: that".
+fn grouped<'a>(rows: impl Iterator<Item = (&'a str, String)>, between: &str) -> String {
+    let mut groups: Vec<(&str, Vec<String>)> = Vec::new();
+    for (what, one) in rows {
+        match groups.iter_mut().find(|(w, _)| *w == what) {
+            Some((_, all)) => all.push(one),
+            None => groups.push((what, vec![one])),
+        }
+    }
+    let mut lines = groups
+        .iter()
+        .map(|(what, all)| format!("{what}{between}{}", all.join(", ")));
+    lines.join("; ")
+}
+
+impl WhyData {
+    fn lines(&self, idea: usize) -> String {
+        let lets = self.lets.iter();
+        let lets = lets.map(|l| (l.lets.as_str(), format!("{} at {}", l.part, l.joint)));
+        let mut out = format!("\n  idea {idea} lets parts {}\n", grouped(lets, ": "));
+        let parts = self.lets.iter();
+        let parts = parts.filter_map(|l| Some((l.hardware.as_deref()?, l.joint.clone())));
+        let was = self.lets.iter().flat_map(|l| &l.was);
+        let was = was.map(|x| (x.redundant, x.contour.join(", "))).unique();
+        let was = was.map(|(n, joints)| format!("σ = {n} of {joints}"));
+        let peak = |p: &Option<PeakData>, unit: &str| {
+            let p = p.as_ref().filter(|p| p.value > 0.0)?;
+            Some(format!("{} {unit} at {}", brief(p.value), p.joint))
+        };
+        let peaks = [peak(&self.peak_force, "N"), peak(&self.peak_moment, "N·m")];
+        let under = self.under.as_deref().unwrap_or_default();
+        for (what, list) in [
+            ("hardware:", grouped(parts, " at ")),
+            ("takes what was out of true:", was.into_iter().join("; ")),
+            ("as they are:", self.stays.join(", ")),
+            (
+                &format!("hardest used under {under}:"),
+                peaks.into_iter().flatten().join(", "),
+            ),
+        ] {
+            if !list.is_empty() {
+                out += &format!("    {what} {list}\n");
+            }
+        }
+        out
+    }
+}

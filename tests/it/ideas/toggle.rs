@@ -1,0 +1,103 @@
+//! A toggle gripper: a plunger, two rods and two jaws. What its file does not say is that one finger is the other's image.
+
+use crate::common::{json, out};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+
+/// The file; fingers are each other's mirror image, or half a turn.
+pub(super) fn gripper(type_of_plunger: &str, turned: bool, options: &str) -> String {
+    let mut text = format!(
+        "name = \"toggle-gripper\"\nlength_unit = \"mm\"\n[search]\noptions = [{options}]\n\
+         [[joint]]\nid = \"P\"\nlinks = [\"0\", \"plunger\"]\ntype = \"{type_of_plunger}\"\npoint = [0, 0, 0]\naxis = [1, 0, 0]\n\
+         drive = true\noptions = []\n"
+    );
+    for (id, role) in [("0", "role = \"frame\""), ("plunger", "")] {
+        text += &format!("[[link]]\nid = \"{id}\"\n{role}\n");
+    }
+    for (k, side) in [(1, 1), (2, -1)] {
+        text +=
+            &format!("[[link]]\nid = \"rod-{k}\"\n[[link]]\nid = \"jaw-{k}\"\nrole = \"output\"\n");
+        for (id, links, x, y) in [
+            ("A", ["plunger".to_owned(), format!("rod-{k}")], 0, 8),
+            ("B", [format!("rod-{k}"), format!("jaw-{k}")], 6, 30),
+            ("C", [format!("jaw-{k}"), "0".to_owned()], 30, 25),
+        ] {
+            let axis = if turned { side } else { 1 };
+            text += &format!(
+                "[[joint]]\nid = \"{id}{k}\"\nlinks = {links:?}\ntype = \"revolute\"\npoint = [{x}, {}, 0]\naxis = [0, 0, {axis}]\n",
+                side * y
+            );
+        }
+    }
+    text
+}
+
+/// The changes of each idea, by joint.
+fn ideas(text: &str) -> Vec<BTreeMap<String, String>> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("toggle.toml");
+    fs::write(&path, text).unwrap();
+    let path = path.to_str().unwrap();
+    let found = json(&["search", path, "--distinct", "--format", "json"]);
+    let word = |v: &Value| v.as_str().unwrap().to_owned();
+    let changes = |v: &Value| {
+        let all = v["changes"].as_array().unwrap().iter();
+        all.map(|c| (word(&c["joint"]), word(&c["to"]))).collect()
+    };
+    found["variants"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(changes)
+        .collect()
+}
+
+#[test]
+fn the_first_idea_changes_the_rod_ends_of_both_fingers_alike() {
+    let all = "\"revolute\", \"cylindrical\", \"universal\", \"spherical\"";
+    for (options, turned) in [
+        (all, false),
+        (all, true),
+        ("\"revolute\", \"spherical\"", false),
+    ] {
+        let found = ideas(&gripper("prismatic", turned, options));
+        let ends: Vec<&str> = found[0].keys().map(String::as_str).collect();
+        assert_eq!(ends, ["A1", "A2", "B1", "B2"], "{options}");
+        assert_eq!(found[0]["A1"], found[0]["A2"]);
+        assert_eq!(found[0]["B1"], found[0]["B2"]);
+        // Rod ends of one kind, four of them, are an idea of their own.
+        let balls = found
+            .iter()
+            .position(|i| i.len() == 4 && i.values().all(|t| t == "spherical"));
+        assert!(balls.is_some_and(|k| k < 3), "{found:?}");
+        // No idea of the first three touches the drive or a pivot in the frame.
+        let kept = found.iter().take(3).flat_map(|i| i.keys());
+        assert!(
+            kept.into_iter()
+                .all(|j| !["P", "C1", "C2"].contains(&j.as_str()))
+        );
+    }
+}
+
+/// Where the plunger may turn, one finger has a freedom less to be given; the other joints are changed as their images all the same.
+#[test]
+fn fingers_differ_by_no_more_than_they_must() {
+    let options = "\"revolute\", \"cylindrical\", \"spherical\"";
+    let found = ideas(&gripper("cylindrical", false, options));
+    let first = &found[0];
+    let alone = first.keys().filter(|j| {
+        let image = j.replace(['1', '2'], if j.ends_with('1') { "2" } else { "1" });
+        first.get(*j) != first.get(&image)
+    });
+    assert_eq!(alone.count(), 1, "{first:?}");
+}
+
+#[test]
+fn the_text_says_how_many_are_minimal_and_lists_no_idle_additions() {
+    let text = out(&["search", "slider-crank-spatial", "--top", "100"]);
+    assert!(
+        text.contains("11 minimal; the other 1 only add idle motion"),
+        "{text}"
+    );
+}
