@@ -75,6 +75,9 @@ def still(model, lost=()):
     m.body_gravcomp[:] = 0
     if m.ntendon:
         m.tendon_stiffness[:], m.tendon_damping[:] = 0, 0
+    if "tendon of <equality>" in lost:
+        model.data.eq_active[m.eq_type == mujoco.mjtEq.mjEQ_TENDON] = 0
+        m.eq_active0[m.eq_type == mujoco.mjtEq.mjEQ_TENDON] = 0
     if "armature of a joint" in lost:
         m.dof_armature[:] = 0
     if "spring of a joint" in lost:
@@ -119,7 +122,7 @@ def moved(before, after, q, there, lost):
     pushed = fallen(before, q, PUSH)
     sure = [t for t in TIMES if t in own and t in pushed and apart(pushed, before, ours, t) < APART / 10]
     if not sure:
-        return 0.0, "MuJoCo does not hold the model as it was"
+        return None, "not judged: MuJoCo does not hold the model as it was"
     t = sure[-1]
     far = apart(other, after, theirs, t) if t in other else np.inf
     return far, None if t == last else f"compared over {t} s: the model as it was is chaotic beyond"
@@ -211,6 +214,8 @@ def through(way, ending, source, figures, direct):
     if first.model.body_mass[1:].max(initial=0) < LIGHT:
         return True, "it has no masses: only W and rows are compared"
     far, note = moved(before, after, q, there, lost)
+    if far is None:
+        return None, note
     if far > APART:
         return False, f"{far:.1e} m apart {note or 'after a second'}"
     return True, note
