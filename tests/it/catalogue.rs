@@ -283,14 +283,12 @@ fn gauss(columns: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
 fn generic(s: &Structure, l: &layout::Layout, change_input: bool) -> Mechanism {
     let mut file = mechanism_file(s, l, &Spec::default().menu().unwrap(), &Workload::default());
     for (i, (joint, at)) in file.joint.iter_mut().zip(&l.at).enumerate() {
-        let [x, y] = &at.whole;
         // The golden ratio's multiples are spread evenly.
         let off = |k: usize| (((2 * i + k + 1) * 6_180_339) % 10_000_000) as i64;
         let exact = |whole: i32, k| format!("{whole} + {}/20000000", off(k));
-        joint.point = [exact(*x, 0), exact(*y, 1), "0".to_owned()].map(Coordinate::Expression);
-        if change_input {
-            joint.drive = DriveWord::default();
-        }
+        let [x, y] = [0, 1].map(|k| exact(at.whole[k], k));
+        joint.point = [x, y, "0".to_owned()].map(Coordinate::Expression);
+        change_input.then(|| joint.drive = DriveWord::default());
     }
     Mechanism::from_json(&file.json().to_string()).unwrap()
 }

@@ -35,8 +35,8 @@ fn lint_names_each_redundant_row_with_its_line() {
         ])
     );
     assert_eq!(file["findings"][0]["assembly"], "force along y");
-    // Its coordinates are decimals: nothing is proven over the motion, which is followed as it is meant.
-    assert_eq!(file["over_motion_kind"], "followed");
+    // Its coordinates are decimals: what is proven over the motion is so of the geometry that is meant.
+    assert_eq!(file["over_motion_kind"], "proven");
     let remedies = file["findings"][0]["remedies"].as_array().unwrap();
     assert!(
         remedies[0]

@@ -21,6 +21,7 @@ use crate::geom::scalars::Scalars;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::Mechanism;
 use crate::motion::pose::Pose;
+use crate::rank::finite::higher_order::line::{Solved, cross};
 use crate::rank::finite::power_series::{Monomials, accumulate};
 
 /// Entries of J² up to which series are asked at all.
@@ -190,7 +191,14 @@ impl HigherOrder {
     #[must_use]
     pub fn line(&self, order: usize) -> Line {
         let speeds: Vec<Residue> = self.subspace(1).iter().map(|q| q[1]).collect();
-        line::line(self, &speeds, order)
+        let solved = Solved {
+            field: self.field,
+            twists: &self.twists,
+            walks: &self.walks,
+            solve: &self.solve,
+            pivots: &self.pivots,
+        };
+        line::line(&solved, &speeds, order)
     }
 
     /// Coordinates to first order in `m` variables that span a random subspace of the instantaneous motions.
@@ -350,11 +358,6 @@ fn in_space(exact: &ExactField, space: &MotionSpace<Residue>, twist: &[Residue])
 
 fn unit(f: Field, j: usize) -> [Residue; 3] {
     [0, 1, 2].map(|i| if i == j { f.one() } else { 0 })
-}
-
-fn cross(f: Field, a: [Residue; 3], b: [Residue; 3]) -> [Residue; 3] {
-    let minor = |i: usize, j: usize| f.sub(f.mul(a[i], b[j]), f.mul(a[j], b[i]));
-    [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
 /// Reduced row echelon form in place, by the first `width` columns; the pivots' columns, whose rows come first.

@@ -102,18 +102,7 @@ fn pins_in_a_plane(
         places.fold(0u32, |set, p| set | 1 << p)
     };
     let sets: Vec<u32> = rows.contours.iter().map(of).collect();
-    // What a contour adds to the rank, less the sum of its angles.
-    let columns = rows.dense(exact);
-    let mut span = Echelon::new(exact.field());
-    let mut added = Vec::new();
-    for k in 0..sets.len() {
-        let before = span.rank();
-        for r in 3 * k..3 * (k + 1) {
-            let row: Vec<Residue> = columns.iter().map(|c| c[r]).collect();
-            span.insert(&row);
-        }
-        added.push((span.rank() - before).saturating_sub(1));
-    }
+    let added = added_rank(exact, closure, &rows);
     let mut system: Vec<u32> = Vec::new();
     for (&set, &rank) in sets.iter().zip(&added) {
         system.extend(std::iter::repeat_n(set, rank));
@@ -125,6 +114,34 @@ fn pins_in_a_plane(
     let left = sets.iter().zip(&added).filter(|(_, rank)| **rank < 2);
     let bounds = left.map(|(&set, _)| permanent(&[&system[..], &[set]].concat(), n));
     Ok(bounds.max())
+}
+
+/// What each contour in its turn adds to the rank, with its rows in the plane, once the angles of all are known to close.
+fn added_rank(
+    exact: &ExactField,
+    closure: &Closure<Residue>,
+    rows: &Closure<Residue>,
+) -> Vec<usize> {
+    let row_of = |columns: &[Vec<Residue>], r: usize| -> Vec<Residue> {
+        columns.iter().map(|c| c[r]).collect()
+    };
+    // All turn about one direction, so that any component of it that is not 0 is the angle.
+    let first = closure.columns.first();
+    let turn = first.and_then(|c| c.twist.iter().position(|&x| x != 0));
+    let mut span = Echelon::new(exact.field());
+    let (whole, plane) = (closure.dense(exact), rows.dense(exact));
+    for k in 0..closure.contours.len() {
+        span.insert(&row_of(&whole, closure.dim * k + turn.unwrap_or(0)));
+    }
+    let contours = 0..rows.contours.len();
+    let added = contours.map(|k| {
+        let before = span.rank();
+        for r in rows.dim * k..rows.dim * (k + 1) {
+            span.insert(&row_of(&plane, r));
+        }
+        span.rank() - before
+    });
+    added.collect()
 }
 
 /// In how many ways each set can be given an element of its own, of as many as there are sets.

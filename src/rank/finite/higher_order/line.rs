@@ -5,12 +5,24 @@
 //! order D some D² products, where expanding anew at every order costs D³.
 
 use crate::linalg::modp::{Field, Residue};
-use crate::rank::finite::higher_order::{HigherOrder, cross};
 
 /// Products of numbers that it may cost.
 const WORK: usize = 60_000_000;
 
 type Three = [Residue; 3];
+
+/// Contours solved for the coordinates that J determines.
+pub(super) struct Solved<'a> {
+    pub(super) field: Field,
+    /// Twists (ω; v) of the columns.
+    pub(super) twists: &'a [Vec<Residue>],
+    /// Contours as columns with their directions.
+    pub(super) walks: &'a [Vec<(usize, bool)>],
+    /// Row operations that bring J to reduced echelon form.
+    pub(super) solve: &'a [Vec<Residue>],
+    /// Pivot columns, whose rows come first.
+    pub(super) pivots: &'a [usize],
+}
 
 /// One freedom passed by a contour: the displacement before it, and its own functions of t, as series.
 struct Step {
@@ -171,7 +183,7 @@ pub struct Line {
 ///
 /// # Complexity
 /// 12 D² products for each freedom that a contour passes, up to order D.
-pub(super) fn line(of: &HigherOrder, speeds: &[Residue], order: usize) -> Line {
+pub(super) fn line(of: &Solved<'_>, speeds: &[Residue], order: usize) -> Line {
     let f = of.field;
     let mut walks = at_rest(of);
     let passed: usize = walks.iter().map(Vec::len).sum();
@@ -224,7 +236,7 @@ pub(super) fn line(of: &HigherOrder, speeds: &[Residue], order: usize) -> Line {
 }
 
 /// The contours before anything moves.
-fn at_rest(of: &HigherOrder) -> Vec<Vec<Step>> {
+fn at_rest(of: &Solved<'_>) -> Vec<Vec<Step>> {
     let f = of.field;
     let mut at = Term::ZERO;
     (0..3).for_each(|i| at.turn[i][i] = f.one());
@@ -254,6 +266,12 @@ fn pass(
         gaps.extend(at.gaps(f));
     }
     gaps
+}
+
+/// The vector product.
+pub(super) fn cross(f: Field, a: Three, b: Three) -> Three {
+    let minor = |i: usize, j: usize| f.sub(f.mul(a[i], b[j]), f.mul(a[j], b[i]));
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
 fn dot(f: Field, a: Three, b: Three) -> Residue {
