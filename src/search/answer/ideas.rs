@@ -36,6 +36,9 @@ pub struct Idea {
 /// Ideas of one cost that are looked at together, to bring them in order.
 const TOGETHER: usize = 512;
 
+/// Weights of places that take part in the order of ideas, in all.
+const WEIGHED: u64 = 64;
+
 /// The minimal variants as a diagram, or all admissible ones where these are not known.
 fn minimal<'d>(question: &Question, diagrams: &'d Diagrams) -> Cow<'d, Diagram> {
     match least_freedoms::diagram(question, diagrams, Less::Means) {
@@ -53,7 +56,13 @@ pub fn ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> 
     let diagram = &*minimal(question, diagrams);
     let patterns = patterns(question);
     let weights = weights(&question.mechanism, &question.space);
-    let steps = question.steps.then(&weights);
+    // Many weights make many kinds of each cost; then they only choose among those that stand for the same.
+    let few = weights.iter().sum::<u64>() <= WEIGHED;
+    let steps = if few {
+        question.steps.then(&weights)
+    } else {
+        question.steps.clone()
+    };
     let firsts = firsts(question, diagram, (&patterns, &steps), top);
     let one = |first| {
         let first = preferred::preferred(question, diagram, &patterns, &weights, first);
