@@ -36,6 +36,8 @@ pub struct Idea {
 /// Ideas of one cost that are looked at together, to bring them in order.
 const TOGETHER: usize = 512;
 
+/// Joints whose ideas are brought in order: of more joints those of one cost are too many to see all before the first.
+const SORTED: usize = 24;
 /// Weights of places that take part in the order of ideas, in all.
 const WEIGHED: u64 = 64;
 
@@ -80,6 +82,7 @@ fn firsts(
 ) -> Vec<Assignment> {
     let order = diagram.layers.iter().map(|l| l.variable).collect_vec();
     let all = total(question, diagram, true);
+    let sorts = order.len() <= SORTED;
     let mut at_least = top.saturating_mul(64);
     loop {
         let mut entered: BTreeSet<(usize, usize, Key, Pattern)> = BTreeSet::new();
@@ -102,17 +105,19 @@ fn firsts(
             let before = found.iter().rev();
             let before = before.take_while(|((c, _), _)| *c == cost).count();
             let group = (cost, before / TOGETHER);
-            if found.len() >= top && top > 0 && group > found[top - 1].0 {
+            if found.len() >= top && top > 0 && (!sorts || group > found[top - 1].0) {
                 ended = true;
                 break;
             }
             found.push((group, v));
         }
         if ended || top == 0 {
-            found.sort_by_key(|(group, v)| {
-                let alike = patterns.of_variant(v) == patterns.of_image(v);
-                (*group, !alike)
-            });
+            if sorts {
+                found.sort_by_key(|(group, v)| {
+                    let alike = patterns.of_variant(v) == patterns.of_image(v);
+                    (*group, !alike)
+                });
+            }
             found.truncate(top);
             return found.into_iter().map(|(_, v)| v).collect();
         }
