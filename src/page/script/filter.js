@@ -127,7 +127,7 @@ function tellCount() {
   if (view.order.length < total) words = `${shown} of the ${listed} listed ${each} pass the filter`;
   else if (byIdeas()) {
     const stand = found.stands_for.reduce((sum, n) => sum + BigInt(n || 0), 0n);
-    words = `${listed} ideas; they stand for ${found.exact ? "" : "at least "}${grouped(stand)} of ${whole} admissible variants`;
+    words = `${total === 1 ? "One idea; it stands" : `${listed} ideas; they stand`} for ${found.exact ? "" : "at least "}${grouped(stand)} of ${whole} admissible variants`;
   } else if (total === Number(found.admissible)) words = total === 1 ? "The only admissible variant" : `All ${listed} admissible variants`;
   byId("count").textContent = words;
 }

@@ -36,6 +36,11 @@ pub struct Idea {
 /// Ideas of one cost that are looked at together, to bring them in order.
 const TOGETHER: usize = 512;
 
+/// Joints whose ideas are brought in order: of more joints those of one cost are too many to see all before the first.
+const SORTED: usize = 24;
+/// Weights of places that take part in the order of ideas, in all.
+const WEIGHED: u64 = 64;
+
 /// The minimal variants as a diagram, or all admissible ones where these are not known.
 fn minimal<'d>(question: &Question, diagrams: &'d Diagrams) -> Cow<'d, Diagram> {
     match least_freedoms::diagram(question, diagrams, Less::Means) {
@@ -53,7 +58,13 @@ pub fn ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> 
     let diagram = &*minimal(question, diagrams);
     let patterns = patterns(question);
     let weights = weights(&question.mechanism, &question.space);
-    let steps = question.steps.then(&weights);
+    // Many weights make many kinds of each cost; then they only choose among those that stand for the same.
+    let few = weights.iter().sum::<u64>() <= WEIGHED;
+    let steps = if few {
+        question.steps.then(&weights)
+    } else {
+        question.steps.clone()
+    };
     let firsts = firsts(question, diagram, (&patterns, &steps), top);
     let one = |first| {
         let first = preferred::preferred(question, diagram, &patterns, &weights, first);
@@ -71,6 +82,7 @@ fn firsts(
 ) -> Vec<Assignment> {
     let order = diagram.layers.iter().map(|l| l.variable).collect_vec();
     let all = total(question, diagram, true);
+    let sorts = order.len() <= SORTED;
     let mut at_least = top.saturating_mul(64);
     loop {
         let mut entered: BTreeSet<(usize, usize, Key, Pattern)> = BTreeSet::new();
@@ -93,17 +105,19 @@ fn firsts(
             let before = found.iter().rev();
             let before = before.take_while(|((c, _), _)| *c == cost).count();
             let group = (cost, before / TOGETHER);
-            if found.len() >= top && top > 0 && group > found[top - 1].0 {
+            if found.len() >= top && top > 0 && (!sorts || group > found[top - 1].0) {
                 ended = true;
                 break;
             }
             found.push((group, v));
         }
         if ended || top == 0 {
-            found.sort_by_key(|(group, v)| {
-                let alike = patterns.of_variant(v) == patterns.of_image(v);
-                (*group, !alike)
-            });
+            if sorts {
+                found.sort_by_key(|(group, v)| {
+                    let alike = patterns.of_variant(v) == patterns.of_image(v);
+                    (*group, !alike)
+                });
+            }
             found.truncate(top);
             return found.into_iter().map(|(_, v)| v).collect();
         }

@@ -13,7 +13,9 @@ use itertools::Itertools;
 /// Mirrors and turns that are proven or refused exactly, at most.
 const TRIED: usize = 12;
 /// Joints of a mechanism that is looked at, at most.
-const JOINTS: usize = 200;
+const JOINTS: usize = 60;
+/// Joints of one whose turns are looked for, at most: a pair of joints suggests one mirror and many turns.
+const TURNED: usize = 16;
 /// Joints one of which a symmetry moves: those that it leaves in place are on its axis or in its plane.
 const FIRST: usize = 6;
 /// How far off images may be before they are looked at exactly, in the mechanism's size.
@@ -59,7 +61,11 @@ pub fn own_images(
         let planes = planes
             .into_iter()
             .map(|(p, _)| (Box::new(p) as Box<dyn Carrier>, true));
-        let turns = Turn::of_groups(mechanism, &[vec![a, b]]).into_iter();
+        let turns = match mechanism.joints.len() {
+            ..=TURNED => Turn::of_groups(mechanism, &[vec![a, b]]),
+            _ => Vec::new(),
+        };
+        let turns = turns.into_iter();
         let turns = turns.map(|t| (Box::new(t) as Box<dyn Carrier>, false));
         for (carrier, mirrored) in planes.chain(turns) {
             let Some(pairs) = pairs(mechanism, &*carrier) else {

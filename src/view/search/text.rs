@@ -436,13 +436,14 @@ fn opinions(summary: &Summary) -> String {
         format!("all {asked}")
     };
     let wrong = summary.disagreeing + summary.failed;
-    let verdict = if wrong == 0 {
-        format!("Singular values agree on {which}")
-    } else {
-        format!(
+    let verdict = match (wrong, &*asked) {
+        (0, "1") => "Singular values agree".to_owned(),
+        (1, "1") => "Singular values disagree".to_owned(),
+        (0, _) => format!("Singular values agree on {which}"),
+        _ => format!(
             "Singular values disagree on {wrong} of {}",
             which.trim_start_matches("all ")
-        )
+        ),
     };
     format!("{verdict} (cond.: the smallest over the largest)")
 }
